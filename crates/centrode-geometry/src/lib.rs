@@ -1,0 +1,19 @@
+//! Plane curves, closed outlines, solids and meshes for machine parts.
+//!
+//! No gear word in this crate: it knows curves, not what they are for. Lengths are millimetres,
+//! angles radians, counter-clockwise positive.
+
+mod curve;
+mod outline;
+mod spline;
+mod tolerance;
+
+pub use curve::{Curve, Jet};
+pub use outline::{Arc, OpenOutline, Outline, Segment};
+pub use spline::{SegmentJet, Spline};
+pub use tolerance::{BadTolerance, Tolerance};
+
+/// A point of the plane, mm.
+pub type Point = nalgebra::Point2<f64>;
+/// A displacement or direction in the plane.
+pub type Vector = nalgebra::Vector2<f64>;

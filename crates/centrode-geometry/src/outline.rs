@@ -1,0 +1,158 @@
+use crate::{Point, Spline, Vector, spline::SegmentJet};
+
+/// A circular arc from `start` to `end`; `bulge` is the tangent of a quarter of the turned angle,
+/// positive counter-clockwise.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Arc {
+    /// First point.
+    pub start: Point,
+    /// Last point.
+    pub end: Point,
+    /// `tan(turn / 4)`, positive counter-clockwise.
+    pub bulge: f64,
+}
+
+impl Arc {
+    /// Turned angle, rad, positive counter-clockwise.
+    #[must_use]
+    pub fn sweep(&self) -> f64 {
+        4.0 * self.bulge.atan()
+    }
+
+    /// Radius, mm.
+    #[must_use]
+    pub fn radius(&self) -> f64 {
+        let b = self.bulge.abs();
+        (self.end - self.start).norm() * (1.0 + b * b) / (4.0 * b)
+    }
+
+    /// Center.
+    #[must_use]
+    pub fn center(&self) -> Point {
+        let chord = self.end - self.start;
+        let left = Vector::new(-chord.y, chord.x);
+        self.start + 0.5 * chord + left * ((1.0 - self.bulge * self.bulge) / (4.0 * self.bulge))
+    }
+}
+
+/// One smooth part of an [`Outline`], parametrised over `[-1, 1]`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Segment {
+    /// A straight line between two points.
+    Line(Point, Point),
+    /// A circular arc.
+    Arc(Arc),
+    /// A polynomial curve.
+    Spline(Spline),
+}
+
+impl From<Spline> for Segment {
+    fn from(spline: Spline) -> Self {
+        Self::Spline(spline)
+    }
+}
+
+impl Segment {
+    /// First point.
+    #[must_use]
+    pub fn start(&self) -> Point {
+        match self {
+            Self::Line(start, _) => *start,
+            Self::Arc(arc) => arc.start,
+            Self::Spline(spline) => spline.start(),
+        }
+    }
+
+    /// Last point.
+    #[must_use]
+    pub fn end(&self) -> Point {
+        match self {
+            Self::Line(_, end) => *end,
+            Self::Arc(arc) => arc.end,
+            Self::Spline(spline) => spline.end(),
+        }
+    }
+
+    /// Position and derivatives at `u` in `[-1, 1]`.
+    #[must_use]
+    pub fn at(&self, u: f64) -> SegmentJet {
+        match self {
+            Self::Line(start, end) => SegmentJet {
+                point: start + (end - start) * (0.5 * (1.0 + u)),
+                first: (end - start) * 0.5,
+                second: Vector::zeros(),
+            },
+            Self::Arc(arc) => {
+                let center = arc.center();
+                let half = 0.5 * arc.sweep();
+                let (sin, cos) = (half * (1.0 + u)).sin_cos();
+                let r = arc.start - center;
+                let turned = Vector::new(cos * r.x - sin * r.y, sin * r.x + cos * r.y);
+                SegmentJet {
+                    point: center + turned,
+                    first: Vector::new(-turned.y, turned.x) * half,
+                    second: -turned * (half * half),
+                }
+            }
+            Self::Spline(spline) => spline.at(u),
+        }
+    }
+
+    /// The same curve walked the other way.
+    #[must_use]
+    pub fn reversed(&self) -> Self {
+        match self {
+            Self::Line(start, end) => Self::Line(*end, *start),
+            Self::Arc(arc) => Self::Arc(Arc {
+                start: arc.end,
+                end: arc.start,
+                bulge: -arc.bulge,
+            }),
+            Self::Spline(spline) => Self::Spline(spline.reversed()),
+        }
+    }
+}
+
+/// A closed contour: segments joined end to start, the last to the first.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Outline {
+    segments: Vec<Segment>,
+}
+
+impl Outline {
+    /// Joins segments into a closed contour.
+    ///
+    /// # Errors
+    /// [`OpenOutline`] where a segment does not start exactly where the one before it ends.
+    pub fn new(segments: Vec<Segment>) -> Result<Self, OpenOutline> {
+        let mut before = segments.last().map_or(Point::origin(), Segment::end);
+        for (index, segment) in segments.iter().enumerate() {
+            if segment.start() != before {
+                return Err(OpenOutline {
+                    index,
+                    gap: (segment.start() - before).norm(),
+                });
+            }
+            before = segment.end();
+        }
+        Ok(Self { segments })
+    }
+
+    /// The segments in order.
+    #[must_use]
+    pub fn segments(&self) -> &[Segment] {
+        &self.segments
+    }
+}
+
+/// Segments that do not join into a closed contour.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[error(
+    "outline is open: segment {index} starts {gap:e} mm away from the end of the one before it"
+)]
+pub struct OpenOutline {
+    /// The segment that does not start where the one before it ends.
+    pub index: usize,
+    /// The distance between the two, mm.
+    pub gap: f64,
+}

@@ -1,0 +1,40 @@
+use thiserror::Error;
+
+/// The greatest distance, in millimetres, between a curve and what stands in for it.
+///
+/// Last argument of every approximating function. Scale a shape and its tolerance by the same
+/// factor and every output scales by that factor.
+#[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
+pub struct Tolerance(f64);
+
+/// A tolerance that is not a positive finite length.
+#[derive(Clone, Copy, Debug, Error, PartialEq)]
+#[error("tolerance must be a positive finite length in mm, not {0}")]
+pub struct BadTolerance(pub f64);
+
+impl Tolerance {
+    /// A tolerance of `mm` millimetres.
+    ///
+    /// # Errors
+    /// [`BadTolerance`] unless `mm` is positive and finite.
+    pub fn new(mm: f64) -> Result<Self, BadTolerance> {
+        if mm.is_finite() && mm > 0.0 {
+            Ok(Self(mm))
+        } else {
+            Err(BadTolerance(mm))
+        }
+    }
+
+    /// The tolerance in millimetres.
+    #[must_use]
+    pub fn mm(self) -> f64 {
+        self.0
+    }
+
+    /// This tolerance times a positive factor.
+    #[must_use]
+    pub fn scaled(self, factor: f64) -> Self {
+        debug_assert!(factor > 0.0, "a tolerance scales by a positive factor");
+        Self(self.0 * factor)
+    }
+}
