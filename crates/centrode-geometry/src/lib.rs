@@ -5,11 +5,15 @@
 
 mod curve;
 mod outline;
+mod primitive;
+mod roots;
 mod spline;
 mod tolerance;
 
 pub use curve::{Curve, Jet};
 pub use outline::{Arc, OpenOutline, Outline, Segment};
+pub use primitive::Primitive;
+pub use roots::{bracketed_minimum, bracketed_root};
 pub use spline::{SegmentJet, Spline};
 pub use tolerance::{BadTolerance, Tolerance};
 

@@ -85,8 +85,10 @@ impl Spline {
         let mut stack = vec![(t0, t1, 0_u32)];
         while let Some((a, b, depth)) = stack.pop() {
             let (mut spline, error) = Self::interpolate(&mut curve, a, b);
-            // Forty halvings reach the float limit of any parameter: a jump is then a jump.
-            if error <= tolerance.mm() || depth >= 40 {
+            // Below the rounding of the points no halving helps; nor does it at a jump.
+            let rounding =
+                32.0 * f64::EPSILON * spline.start.coords.amax().max(spline.end.coords.amax());
+            if error <= tolerance.mm().max(rounding) || depth >= 16 {
                 if let Some(last) = out.last().map(|s: &Self| s.end) {
                     spline.start = last;
                 }

@@ -1,0 +1,167 @@
+/// The root of `f` between `low` and `high`, to the float limit.
+///
+/// Brent's method: bracketed, superlinear. `f_low` and `f_high` are the values at the ends and must
+/// not have the same sign; where one of them is zero that end is the answer.
+pub fn bracketed_root(
+    mut f: impl FnMut(f64) -> f64,
+    low: f64,
+    high: f64,
+    f_low: f64,
+    f_high: f64,
+) -> f64 {
+    let (mut a, mut fa, mut b, mut fb) = (low, f_low, high, f_high);
+    let (mut c, mut fc) = (a, fa);
+    let (mut step, mut before) = (b - a, b - a);
+    for _ in 0..200 {
+        if fb == 0.0 {
+            return b;
+        }
+        if (fb > 0.0) == (fc > 0.0) {
+            (c, fc) = (a, fa);
+            step = b - a;
+            before = step;
+        }
+        if fc.abs() < fb.abs() {
+            (a, fa) = (b, fb);
+            (b, fb) = (c, fc);
+            (c, fc) = (a, fa);
+        }
+        let limit = 2.0 * f64::EPSILON * b.abs();
+        let middle = 0.5 * (c - b);
+        if middle.abs() <= limit || fb == 0.0 {
+            return b;
+        }
+        if before.abs() >= limit && fa.abs() > fb.abs() {
+            let s = fb / fa;
+            let (mut p, mut q) = if a == c {
+                (2.0 * middle * s, 1.0 - s)
+            } else {
+                let (q, r) = (fa / fc, fb / fc);
+                (
+                    s * (2.0 * middle * q * (q - r) - (b - a) * (r - 1.0)),
+                    (q - 1.0) * (r - 1.0) * (s - 1.0),
+                )
+            };
+            if p > 0.0 {
+                q = -q;
+            } else {
+                p = -p;
+            }
+            if 2.0 * p < (3.0 * middle * q - (limit * q).abs()).min((before * q).abs()) {
+                before = step;
+                step = p / q;
+            } else {
+                step = middle;
+                before = middle;
+            }
+        } else {
+            step = middle;
+            before = middle;
+        }
+        (a, fa) = (b, fb);
+        b += if step.abs() > limit {
+            step
+        } else {
+            limit.copysign(middle)
+        };
+        fb = f(b);
+    }
+    b
+}
+
+/// The point and value of a minimum of `f` inside `[low, high]`, by golden section and parabolas.
+///
+/// The value is exact to the float limit; the point to the square root of it where `f` is smooth.
+pub fn bracketed_minimum(mut f: impl FnMut(f64) -> f64, low: f64, high: f64) -> (f64, f64) {
+    let golden = 0.5 * (3.0 - 5.0_f64.sqrt());
+    let (mut a, mut b) = (low, high);
+    let mut x = a + golden * (b - a);
+    let (mut w, mut v) = (x, x);
+    let mut fx = f(x);
+    let (mut fw, mut fv) = (fx, fx);
+    let (mut d, mut e) = (0.0_f64, 0.0_f64);
+    for _ in 0..120 {
+        let middle = 0.5 * (a + b);
+        let limit = 1e-10 * (high - low).abs() + 2.0 * f64::EPSILON * x.abs();
+        if (x - middle).abs() <= 2.0 * limit - 0.5 * (b - a) {
+            break;
+        }
+        let mut parabola = false;
+        if e.abs() > limit {
+            let r = (x - w) * (fx - fv);
+            let mut q = (x - v) * (fx - fw);
+            let mut p = (x - v) * q - (x - w) * r;
+            q = 2.0 * (q - r);
+            if q > 0.0 {
+                p = -p;
+            }
+            q = q.abs();
+            let last = e;
+            e = d;
+            if p.abs() < (0.5 * q * last).abs() && p > q * (a - x) && p < q * (b - x) {
+                d = p / q;
+                let u = x + d;
+                if u - a < 2.0 * limit || b - u < 2.0 * limit {
+                    d = limit.copysign(middle - x);
+                }
+                parabola = true;
+            }
+        }
+        if !parabola {
+            e = if x < middle { b - x } else { a - x };
+            d = golden * e;
+        }
+        let u = if d.abs() >= limit {
+            x + d
+        } else {
+            x + limit.copysign(d)
+        };
+        let fu = f(u);
+        if fu <= fx {
+            if u < x {
+                b = x;
+            } else {
+                a = x;
+            }
+            (v, fv) = (w, fw);
+            (w, fw) = (x, fx);
+            (x, fx) = (u, fu);
+        } else {
+            if u < x {
+                a = u;
+            } else {
+                b = u;
+            }
+            if fu <= fw || w == x {
+                (v, fv) = (w, fw);
+                (w, fw) = (u, fu);
+            } else if fu <= fv || v == x || v == w {
+                (v, fv) = (u, fu);
+            }
+        }
+    }
+    (x, fx)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_root_is_found_to_the_float_limit() {
+        let f = |x: f64| x.cos() - x;
+        let x = bracketed_root(f, 0.0, 1.0, f(0.0), f(1.0));
+        assert!(f(x).abs() < 1e-15);
+        let steep = |x: f64| (x - 0.3).powi(9);
+        assert!((bracketed_root(steep, -1.0, 2.0, steep(-1.0), steep(2.0)) - 0.3).abs() < 1e-4);
+        assert_eq!(bracketed_root(|x| x, 0.0, 1.0, 0.0, 1.0), 0.0);
+    }
+
+    #[test]
+    fn a_minimum_with_a_kink_is_found() {
+        let (x, v) = bracketed_minimum(|x| (x - 0.7).abs(), -2.0, 3.0);
+        assert!((x - 0.7).abs() < 1e-9 && v < 1e-9);
+        let (x, v) = bracketed_minimum(|x| (x - 0.7).powi(2) + 2.0, -2.0, 3.0);
+        assert!((x - 0.7).abs() < 1e-7 && (v - 2.0).abs() < 1e-15);
+    }
+}
