@@ -4,6 +4,7 @@
 //! angles radians, counter-clockwise positive.
 
 mod curve;
+mod loops;
 mod outline;
 mod primitive;
 mod roots;
@@ -11,6 +12,7 @@ mod spline;
 mod tolerance;
 
 pub use curve::{Curve, Jet};
+pub use loops::{Kept, crossings, self_crossings, without_loops};
 pub use outline::{Arc, OpenOutline, Outline, Segment};
 pub use primitive::Primitive;
 pub use roots::{bracketed_minimum, bracketed_root};

@@ -102,6 +102,16 @@ impl Primitive {
         self.total
     }
 
+    /// Quadrature points and weights of the panels: what integrates `f`, and functions like it, to the
+    /// float limit over the whole interval (Fejér's first rule on every panel).
+    pub fn nodes(&self) -> impl Iterator<Item = (f64, f64)> + '_ {
+        let tables = tables();
+        self.ends.windows(2).flat_map(move |end| {
+            let (middle, half) = (0.5 * (end[0] + end[1]), 0.5 * (end[1] - end[0]));
+            (0..NODES).map(move |j| (middle + half * tables.nodes[j], half * tables.weights[j]))
+        })
+    }
+
     /// The integral from the start of the interval to `t`, for `t` inside it.
     #[must_use]
     pub fn at(&self, t: f64) -> f64 {
@@ -145,13 +155,20 @@ impl Primitive {
 struct Tables {
     nodes: [f64; NODES],
     transform: [[f64; NODES]; NODES],
+    weights: [f64; NODES],
 }
 
 fn tables() -> &'static Tables {
     static TABLES: std::sync::OnceLock<Tables> = std::sync::OnceLock::new();
     TABLES.get_or_init(|| {
         let angle = |j: usize| std::f64::consts::PI * (j as f64 + 0.5) / NODES as f64;
+        let weight = |j: usize| {
+            let series =
+                (1..NODES / 2).map(|k| (2.0 * k as f64 * angle(j)).cos() / (4 * k * k - 1) as f64);
+            2.0 / NODES as f64 * (1.0 - 2.0 * series.sum::<f64>())
+        };
         Tables {
+            weights: std::array::from_fn(weight),
             nodes: std::array::from_fn(|j| angle(j).cos()),
             transform: std::array::from_fn(|k| {
                 std::array::from_fn(|j| {
@@ -176,6 +193,8 @@ mod tests {
             assert!((p.at(t) - exact).abs() < 2e-15, "{t}: {}", p.at(t) - exact);
             assert!((p.inverse(exact) - t).abs() < 1e-13);
         }
+        let sum: f64 = p.nodes().map(|(t, w)| w / (1.0 + 25.0 * t * t)).sum();
+        assert!((sum - p.total()).abs() < 1e-14);
     }
 
     #[test]

@@ -1,0 +1,183 @@
+use centrode_geometry::{Point, Vector, bracketed_root};
+
+use super::{
+    rolling::{Frame, Member, Rolling},
+    tool::{Corner, Tool, ToolKind},
+};
+
+/// One side of a tooth: which way its material lies along the pitch curve.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+pub enum Side {
+    /// The flank reached first, in the order the teeth mesh.
+    Leading,
+    /// The flank reached last.
+    Trailing,
+}
+
+impl Side {
+    /// Sign of the arc length from the tooth's middle to this flank.
+    pub(crate) fn sign(self) -> f64 {
+        match self {
+            Self::Leading => -1.0,
+            Self::Trailing => 1.0,
+        }
+    }
+}
+
+/// The exact flank, fillet, tip and root curves about one crossing of a pitch curve.
+///
+/// While the pitch curve rolls on the tool's pitch line, the contact point of the straight flank that
+/// crosses at arc length `s_j` is the foot of the perpendicular from the pitch point P:
+/// Q(s) = P + (s_j - s) cos alpha (cos alpha T + sigma sin alpha N), with speed
+/// sin alpha + sigma kappa (s_j - s) cos alpha along e = sin alpha T - sigma cos alpha N. The flank is
+/// regular while that speed is positive; it is undercut where the speed ends below the pitch curve.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Flank<'a> {
+    pub(crate) rolling: &'a Rolling,
+    pub(crate) member: Member,
+    pub(crate) tool: &'a Tool,
+    pub(crate) side: Side,
+    /// Arc length where the flank crosses the pitch curve.
+    pub(crate) crossing: f64,
+}
+
+impl Flank<'_> {
+    pub(crate) fn frame(&self, t: f64) -> Frame {
+        self.rolling.frame(self.member, t)
+    }
+
+    /// Point of the flank generated at a parameter.
+    pub(crate) fn point(&self, t: f64) -> Point {
+        self.point_in(&self.frame(t))
+    }
+
+    pub(crate) fn point_in(&self, frame: &Frame) -> Point {
+        let (sin, cos) = self.tool.pressure_angle.sin_cos();
+        let line = frame.tangent * cos + frame.normal * (self.side.sign() * sin);
+        frame.point + line * ((self.crossing - frame.arc) * cos)
+    }
+
+    /// Length of flank made per arc length rolled, along [`Self::direction`].
+    pub(crate) fn speed_in(&self, frame: &Frame) -> f64 {
+        let (sin, cos) = self.tool.pressure_angle.sin_cos();
+        sin + self.side.sign() * frame.curvature * (self.crossing - frame.arc) * cos
+    }
+
+    fn direction(&self, frame: &Frame) -> Vector {
+        let (sin, cos) = self.tool.pressure_angle.sin_cos();
+        frame.tangent * sin - frame.normal * (self.side.sign() * cos)
+    }
+
+    /// First parameter between `from` and `to` at which the flank stops moving on.
+    pub(crate) fn singularity(&self, from: f64, to: f64) -> Option<f64> {
+        const SAMPLES: u32 = 12;
+        let mut ends = vec![from];
+        ends.extend(self.rolling.breaks_between(from, to));
+        ends.push(to);
+        for pair in ends.windows(2) {
+            let (a, b) = (pair[0], pair[1]);
+            let inward = if b > a { b.next_down() } else { b };
+            let start = if b > a { a } else { a.next_down() };
+            let mut before = (start, self.speed_in(&self.frame(start)));
+            if before.1 <= 0.0 {
+                return Some(a);
+            }
+            for i in 1..=SAMPLES {
+                let t = if i == SAMPLES { inward } else { a + (b - a) * f64::from(i) / f64::from(SAMPLES) };
+                let speed = self.speed_in(&self.frame(t));
+                if speed <= 0.0 {
+                    let root = |t: f64| self.speed_in(&self.frame(t));
+                    return Some(bracketed_root(root, before.0, t, before.1, speed));
+                }
+                before = (t, speed);
+            }
+        }
+        None
+    }
+
+    /// Height of the point generated at arc length `s`, above the pitch point it was generated at.
+    pub(crate) fn height(&self, arc: f64) -> f64 {
+        let (sin, cos) = self.tool.pressure_angle.sin_cos();
+        self.side.sign() * (self.crossing - arc) * sin * cos
+    }
+
+    /// Point of the fillet, the envelope of the tool's rounded corner.
+    pub(crate) fn fillet(&self, corner: &Corner, t: f64) -> Point {
+        let frame = self.frame(t);
+        let offset = self.corner_center(corner, &frame);
+        frame.point + offset * (1.0 + corner.radius / offset.norm())
+    }
+
+    /// Centre of the tool's rounding from the pitch point.
+    fn corner_center(&self, corner: &Corner, frame: &Frame) -> Vector {
+        let ahead = self.crossing + self.side.sign() * corner.center - frame.arc;
+        let straight = corner.depth - corner.radius;
+        match self.tool.kind {
+            ToolKind::Rack => frame.tangent * ahead - frame.normal * straight,
+            ToolKind::Shaper { radius } => {
+                let (sin, cos) = (ahead / radius).sin_cos();
+                let center = radius + straight;
+                frame.tangent * (center * sin) + frame.normal * (radius - center * cos)
+            }
+        }
+    }
+
+    /// Where the flank reaches a normal distance `height` from the pitch curve: the parameters of the
+    /// flank and of the foot of that normal. `None` where Newton's method leaves the neighbourhood.
+    pub(crate) fn at_height(&self, height: f64) -> Option<(f64, f64)> {
+        let (sin, cos) = self.tool.pressure_angle.sin_cos();
+        let arc = self.crossing - self.side.sign() * height / (sin * cos);
+        let foot = arc + (self.crossing - arc) * cos * cos;
+        let (mut t, mut tau) = (self.rolling.parameter(arc), self.rolling.parameter(foot));
+        let reach = 4.0 * height.abs() / (sin * cos);
+        let mut miss = f64::INFINITY;
+        for _ in 0..40 {
+            let (at, under) = (self.frame(t), self.frame(tau));
+            if (at.arc - self.crossing).abs() > reach || (under.arc - self.crossing).abs() > reach {
+                return None;
+            }
+            let gap = self.point_in(&at) - (under.point + under.normal * height);
+            let along = self.direction(&at) * (self.speed_in(&at) * at.speed);
+            let across = under.tangent * (-(1.0 + under.curvature * height) * under.speed);
+            let area = along.perp(&across);
+            let dt = -gap.perp(&across) / area;
+            let dtau = -along.perp(&gap) / area;
+            if !(dt.is_finite() && dtau.is_finite()) {
+                return None;
+            }
+            t += dt;
+            tau += dtau;
+            // One more step after this one changes nothing a double can hold.
+            miss = gap.norm() / at.point.coords.norm();
+            if miss < 1e-14 {
+                break;
+            }
+        }
+        (miss < 1e-12).then_some((t, tau))
+    }
+
+    /// Foot of the normal from the flank's point at `t` to the pitch curve: its parameter and the
+    /// signed distance.
+    pub(crate) fn foot(&self, t: f64) -> (f64, f64) {
+        let (_, cos) = self.tool.pressure_angle.sin_cos();
+        let at = self.frame(t);
+        let point = self.point_in(&at);
+        let limit = self.tool.addendum + self.tool.dedendum;
+        let mut tau = self.rolling.parameter(at.arc + (self.crossing - at.arc) * cos * cos);
+        for _ in 0..40 {
+            let under = self.frame(tau);
+            let offset = point - under.point;
+            let height = offset.dot(&under.normal);
+            let step = offset.dot(&under.tangent) / (1.0 + under.curvature * height);
+            if !step.is_finite() {
+                break;
+            }
+            tau += step.clamp(-limit, limit) / under.speed;
+            if step.abs() <= 1e-15 * limit {
+                break;
+            }
+        }
+        let under = self.frame(tau);
+        (tau, (point - under.point).dot(&under.normal))
+    }
+}

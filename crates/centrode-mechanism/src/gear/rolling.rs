@@ -1,0 +1,535 @@
+use std::f64::consts::{PI, TAU};
+use std::sync::Arc;
+
+use centrode_geometry::{Curve, Jet, Point, Primitive, Vector, bracketed_root};
+
+/// Which gear of a pair.
+#[derive(Clone, Copy, Debug, Eq, Hash, PartialEq)]
+pub enum Member {
+    /// The gear that is turned; centred at the origin.
+    Driver,
+    /// The gear that is driven; centred at (a, 0).
+    Driven,
+}
+
+impl Member {
+    /// The name used in files and reports.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Driver => "driver",
+            Self::Driven => "driven",
+        }
+    }
+}
+
+/// A point of a pitch curve while it rolls: the moving frame both tools and mates are seen in.
+#[derive(Clone, Copy, Debug)]
+pub struct Frame {
+    /// The point, in the gear's own body frame, mm.
+    pub point: Point,
+    /// Unit tangent in the direction of growing arc length.
+    pub tangent: Vector,
+    /// Unit normal, out of the material.
+    pub normal: Vector,
+    /// Curvature (1/mm), positive where the gear is convex.
+    pub curvature: f64,
+    /// Arc length from the start of the cycle, mm; the same on both curves, which roll without slip.
+    pub arc: f64,
+    /// Arc length per curve parameter.
+    pub speed: f64,
+}
+
+/// Two pitch curves rolling on each other about fixed centres.
+///
+/// The driver's polar angle phi runs against its rotation: at phi the driver has turned by -phi and
+/// the driven gear, centred at (a, 0), by +phi2, with d phi2/d phi = r/(a - r). Both body frames are
+/// parallel to the world's at phi = 0.
+///
+/// Source: Litvin's centrode relations; the closure is derived again for a mean ratio n1:n2 (turns of
+/// driver to turns of driven), which asks one driver turn to give 2 pi n2/n1.
+#[derive(Clone, Debug)]
+pub struct Rolling {
+    curve: Arc<dyn Curve>,
+    /// Parameter at phi = 0.
+    start: f64,
+    /// Parameter at phi = pi.
+    half: f64,
+    /// The curve's breaks in `[start, start + period)`.
+    jumps: Vec<f64>,
+    arc: Primitive,
+    driven: Primitive,
+    center_distance: f64,
+    mean_ratio: (u32, u32),
+    least_radius: f64,
+    greatest_radius: f64,
+}
+
+/// Why two pitch curves cannot roll on each other.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum RollingError {
+    /// The pitch curve does not go once around the shaft.
+    #[error("the pitch curve turns by {turned} rad about the shaft in one round; it must turn by 2 pi, always forward")]
+    NotAroundAxis {
+        /// Polar angle swept in one round, rad.
+        turned: f64,
+    },
+    /// The mean ratio has no closed driven curve.
+    #[error("mean ratio {}:{} needs a driver that repeats {} times a turn, but its radius differs by {difference:e} mm between repeats", ratio.0, ratio.1, ratio.1)]
+    NotPeriodic {
+        /// Turns of driver : turns of driven.
+        ratio: (u32, u32),
+        /// Greatest difference found, mm.
+        difference: f64,
+    },
+    /// A mean ratio with a zero or absurd number in it.
+    #[error("mean ratio {}:{} must be two counts from 1 to {}", ratio.0, ratio.1, Rolling::GREATEST_TURNS)]
+    MeanRatio {
+        /// Turns of driver : turns of driven.
+        ratio: (u32, u32),
+    },
+    /// No centre distance closes the driven curve.
+    #[error("no centre distance closes the driven curve: at {center_distance} mm one driver turn gives {turned} rad of {wanted}")]
+    NoClosure {
+        /// The last centre distance tried, mm.
+        center_distance: f64,
+        /// Driven angle of one driver turn, rad.
+        turned: f64,
+        /// What it should be, rad.
+        wanted: f64,
+    },
+}
+
+impl Rolling {
+    /// Greatest number in a mean ratio.
+    pub const GREATEST_TURNS: u32 = 50;
+
+    /// Finds the centre distance at which `curve` drives a closed conjugate curve at `mean_ratio`
+    /// (turns of driver : turns of driven).
+    ///
+    /// # Errors
+    /// [`RollingError`] when no such curve exists.
+    pub fn of(curve: Arc<dyn Curve>, mean_ratio: (u32, u32)) -> Result<Self, RollingError> {
+        let ratio = reduced(mean_ratio)?;
+        let period = curve.period();
+        let (start, half) = axis_crossings(&*curve, period)?;
+        let mut jumps: Vec<f64> = curve
+            .breaks()
+            .into_iter()
+            .map(|b| if b < start { b + period } else { b })
+            .collect();
+        jumps.sort_by(f64::total_cmp);
+        let mut breaks = vec![start];
+        breaks.extend(jumps.iter().copied().filter(|&b| b > start));
+        breaks.push(start + period);
+
+        let arc = Primitive::of(|t| curve.at(t).first.norm(), &breaks);
+        let nodes: Vec<(f64, f64)> = arc
+            .nodes()
+            .map(|(t, weight)| {
+                let jet = curve.at(t);
+                (jet.point.coords.norm(), weight * jet.point.coords.perp(&jet.first))
+            })
+            .collect();
+        let (mut least, mut greatest) = extremes(&*curve, &arc);
+        for &(r, _) in &nodes {
+            least = least.min(r);
+            greatest = greatest.max(r);
+        }
+        let wanted = TAU * f64::from(ratio.1) / f64::from(ratio.0);
+        let mut a = closure(&nodes, greatest, wanted);
+        let mut driven = driven_angle(&*curve, &breaks, a);
+        for _ in 0..4 {
+            let missing = driven.total() - wanted;
+            if missing.abs() <= 1e-15 * wanted {
+                break;
+            }
+            let slope: f64 = nodes.iter().map(|&(r, w)| -w / (r * (a - r) * (a - r))).sum();
+            let better = a - missing / slope;
+            if better <= greatest || better == a {
+                break;
+            }
+            let retry = driven_angle(&*curve, &breaks, better);
+            if (retry.total() - wanted).abs() >= missing.abs() {
+                break;
+            }
+            (a, driven) = (better, retry);
+        }
+        if (driven.total() - wanted).abs().is_nan() || (driven.total() - wanted).abs() > 1e-12 * wanted {
+            return Err(RollingError::NoClosure {
+                center_distance: a,
+                turned: driven.total(),
+                wanted,
+            });
+        }
+        let rolling = Self {
+            curve,
+            start,
+            half,
+            jumps,
+            arc,
+            driven,
+            center_distance: a,
+            mean_ratio: ratio,
+            least_radius: least,
+            greatest_radius: greatest,
+        };
+        rolling.check_repeats()?;
+        Ok(rolling)
+    }
+
+    /// A driver must repeat n2 times a turn, or the driven curve would not close after its own turn.
+    fn check_repeats(&self) -> Result<(), RollingError> {
+        let repeats = self.mean_ratio.1;
+        if repeats == 1 {
+            return Ok(());
+        }
+        let mut difference = 0.0_f64;
+        for i in 0..256 {
+            let phi = TAU * f64::from(i) / 256.0;
+            let r = self.radius(phi);
+            let again = self.radius(phi + TAU / f64::from(repeats));
+            difference = difference.max((again - r).abs());
+        }
+        if difference > 1e-9 * self.greatest_radius {
+            return Err(RollingError::NotPeriodic {
+                ratio: self.mean_ratio,
+                difference,
+            });
+        }
+        Ok(())
+    }
+
+    /// The driver's pitch curve.
+    #[must_use]
+    pub fn curve(&self) -> &Arc<dyn Curve> {
+        &self.curve
+    }
+
+    /// Distance between the shafts, mm.
+    #[must_use]
+    pub fn center_distance(&self) -> f64 {
+        self.center_distance
+    }
+
+    /// Turns of driver : turns of driven, in lowest terms.
+    #[must_use]
+    pub fn mean_ratio(&self) -> (u32, u32) {
+        self.mean_ratio
+    }
+
+    /// Length of the pitch curve of a member, mm.
+    #[must_use]
+    pub fn pitch_length(&self, member: Member) -> f64 {
+        match member {
+            Member::Driver => self.arc.total(),
+            Member::Driven => self.arc.total() * f64::from(self.mean_ratio.0) / f64::from(self.mean_ratio.1),
+        }
+    }
+
+    /// Least and greatest radius of the pitch curve of a member, mm.
+    #[must_use]
+    pub fn radii(&self, member: Member) -> (f64, f64) {
+        match member {
+            Member::Driver => (self.least_radius, self.greatest_radius),
+            Member::Driven => (
+                self.center_distance - self.greatest_radius,
+                self.center_distance - self.least_radius,
+            ),
+        }
+    }
+
+    /// Driven angle of one driver turn less 2 pi n2/n1, rad: how well the cycle closes.
+    #[must_use]
+    pub fn closure_error(&self) -> f64 {
+        self.driven.total() - TAU * f64::from(self.mean_ratio.1) / f64::from(self.mean_ratio.0)
+    }
+
+    /// Curve parameter at an arc length from the start of the cycle; any real arc length.
+    #[must_use]
+    pub fn parameter(&self, arc: f64) -> f64 {
+        let turns = (arc / self.arc.total()).floor();
+        let rest = (arc - turns * self.arc.total()).clamp(0.0, self.arc.total());
+        self.arc.inverse(rest) + turns * self.curve.period()
+    }
+
+    /// Curve parameter at a driver polar angle; any real angle.
+    #[must_use]
+    pub fn parameter_at_angle(&self, phi: f64) -> f64 {
+        let period = self.curve.period();
+        let turns = (phi / TAU).floor();
+        let wanted = phi - turns * TAU;
+        let angle = |t: f64| self.polar_angle(t, &self.curve.at(t)) - wanted;
+        let (low, high) = (self.start, self.start + period);
+        let (f_low, f_high) = (-wanted, TAU - wanted);
+        bracketed_root(angle, low, high, f_low, f_high) + turns * period
+    }
+
+    /// Driver polar angle at a parameter.
+    #[must_use]
+    pub fn angle(&self, t: f64) -> f64 {
+        let (inside, turns) = self.wrapped(t);
+        self.polar_angle(inside, &self.curve.at(inside)) + turns * TAU
+    }
+
+    /// Arc length at a parameter.
+    #[must_use]
+    pub fn arc_length(&self, t: f64) -> f64 {
+        let (inside, turns) = self.wrapped(t);
+        self.arc.at(inside) + turns * self.arc.total()
+    }
+
+    /// Driven angle phi2 at a parameter.
+    #[must_use]
+    pub fn driven_angle_at(&self, t: f64) -> f64 {
+        let (inside, turns) = self.wrapped(t);
+        self.driven.at(inside) + turns * self.driven.total()
+    }
+
+    /// Driven angle at a driver angle: the pair's transmission function, any real angle.
+    #[must_use]
+    pub fn driven_angle(&self, phi: f64) -> f64 {
+        self.driven_angle_at(self.parameter_at_angle(phi))
+    }
+
+    /// Radius of the driver's pitch curve at its polar angle, mm.
+    #[must_use]
+    pub fn radius(&self, phi: f64) -> f64 {
+        self.curve.at(self.parameter_at_angle(phi)).point.coords.norm()
+    }
+
+    /// Driven turn per driver turn at a driver angle: r/(a - r).
+    #[must_use]
+    pub fn ratio(&self, phi: f64) -> f64 {
+        let r = self.radius(phi);
+        r / (self.center_distance - r)
+    }
+
+    /// Change of the ratio per radian of driver angle.
+    #[must_use]
+    pub fn ratio_slope(&self, phi: f64) -> f64 {
+        let jet = self.curve.at(self.parameter_at_angle(phi));
+        let r = jet.point.coords.norm();
+        let turn = jet.point.coords.perp(&jet.first) / (r * r);
+        let slope = jet.point.coords.dot(&jet.first) / r / turn;
+        let rest = self.center_distance - r;
+        self.center_distance * slope / (rest * rest)
+    }
+
+    /// The rolling frame of a member at a curve parameter, in that member's body frame.
+    #[must_use]
+    pub fn frame(&self, member: Member, t: f64) -> Frame {
+        let (inside, turns) = self.wrapped(t);
+        let jet = self.curve.at(inside);
+        let speed = jet.first.norm();
+        let tangent = jet.first / speed;
+        let arc = self.arc.at(inside) + turns * self.arc.total();
+        let normal = Vector::new(tangent.y, -tangent.x);
+        let curvature = jet.curvature();
+        if member == Member::Driver {
+            return Frame {
+                point: jet.point,
+                tangent,
+                normal,
+                curvature,
+                arc,
+                speed,
+            };
+        }
+        let r = jet.point.coords.norm();
+        let rest = self.center_distance - r;
+        let phi2 = self.driven.at(inside) + turns * self.driven.total();
+        let (sin2, cos2) = phi2.sin_cos();
+        // World directions: the driver is turned back by its polar angle, whose cosine is x/r.
+        let (cos1, sin1) = (jet.point.x / r, jet.point.y / r);
+        let world = Vector::new(
+            cos1 * tangent.x + sin1 * tangent.y,
+            -sin1 * tangent.x + cos1 * tangent.y,
+        );
+        let tangent2 = Vector::new(
+            cos2 * world.x + sin2 * world.y,
+            -sin2 * world.x + cos2 * world.y,
+        );
+        // d phi/ds = sin(radius, tangent)/r, which is also -N's share along the centre line.
+        let turn = world.y / r;
+        let turn2 = world.y / rest;
+        Frame {
+            point: Point::new(-rest * cos2, rest * sin2),
+            tangent: tangent2,
+            normal: Vector::new(-tangent2.y, tangent2.x),
+            curvature: turn + turn2 - curvature,
+            arc,
+            speed,
+        }
+    }
+
+    /// Breaks strictly between two parameters, in the order walked.
+    pub(crate) fn breaks_between(&self, from: f64, to: f64) -> Vec<f64> {
+        if self.jumps.is_empty() {
+            return Vec::new();
+        }
+        let period = self.curve.period();
+        let (low, high) = (from.min(to), from.max(to));
+        let turn = |t: f64| ((t - self.start) / period).floor() as i64;
+        let mut out: Vec<f64> = (turn(low)..=turn(high))
+            .flat_map(|turn| self.jumps.iter().map(move |b| b + turn as f64 * period))
+            .filter(|&b| b > low && b < high)
+            .collect();
+        if to < from {
+            out.reverse();
+        }
+        out
+    }
+
+    /// Breaks in `[from, to)`.
+    pub(crate) fn jumps_in(&self, from: f64, to: f64) -> Vec<f64> {
+        let mut out = self.breaks_between(from, to);
+        if self.is_jump(from) {
+            out.insert(0, from);
+        }
+        out
+    }
+
+    /// Whether the pitch curve has a break at exactly this parameter.
+    pub(crate) fn is_jump(&self, t: f64) -> bool {
+        if self.jumps.is_empty() {
+            return false;
+        }
+        let (inside, _) = self.wrapped(t);
+        self.jumps.contains(&inside)
+    }
+
+    fn wrapped(&self, t: f64) -> (f64, f64) {
+        let period = self.curve.period();
+        if t >= self.start && t <= self.start + period {
+            return (t, 0.0);
+        }
+        let turns = ((t - self.start) / period).floor();
+        ((t - turns * period).clamp(self.start, self.start + period), turns)
+    }
+
+    /// Polar angle in the turn the parameter lies in, whatever the rounding at its ends.
+    fn polar_angle(&self, t: f64, jet: &Jet) -> f64 {
+        let angle = jet.point.y.atan2(jet.point.x);
+        let middle = if t <= self.half { 0.5 * PI } else { 1.5 * PI };
+        angle + TAU * ((middle - angle) / TAU).round()
+    }
+}
+
+fn reduced(ratio: (u32, u32)) -> Result<(u32, u32), RollingError> {
+    let (mut a, mut b) = ratio;
+    while b != 0 {
+        (a, b) = (b, a % b);
+    }
+    let fair = |n: u32| (1..=Rolling::GREATEST_TURNS).contains(&n);
+    if a == 0 || !fair(ratio.0 / a) || !fair(ratio.1 / a) {
+        return Err(RollingError::MeanRatio { ratio });
+    }
+    Ok((ratio.0 / a, ratio.1 / a))
+}
+
+/// Parameters at polar angle 0 and pi.
+fn axis_crossings(curve: &dyn Curve, period: f64) -> Result<(f64, f64), RollingError> {
+    const SAMPLES: usize = 128;
+    let t = |i: usize| period * i as f64 / SAMPLES as f64;
+    let points: Vec<Point> = (0..=SAMPLES).map(|i| curve.at(t(i)).point).collect();
+    let mut turned = 0.0;
+    let (mut start, mut half) = (None, None);
+    for i in 0..SAMPLES {
+        let (p, q) = (points[i], points[i + 1]);
+        turned += p.coords.perp(&q.coords).atan2(p.coords.dot(&q.coords));
+        let height = |t: f64| curve.at(t).point.y;
+        if p.y <= 0.0 && q.y > 0.0 && start.is_none() && p.x + q.x > 0.0 {
+            start = Some(bracketed_root(height, t(i), t(i + 1), p.y, q.y));
+        }
+        if p.y >= 0.0 && q.y < 0.0 && p.x + q.x < 0.0 {
+            half = Some(bracketed_root(height, t(i), t(i + 1), p.y, q.y));
+        }
+    }
+    match (start, half) {
+        (Some(start), Some(half)) if (turned - TAU).abs() < 1e-6 => {
+            let half = if half < start { half + period } else { half };
+            Ok((start, half))
+        }
+        _ => Err(RollingError::NotAroundAxis { turned }),
+    }
+}
+
+/// Least and greatest radius, sharpened from the samples of the arc-length panels.
+fn extremes(curve: &dyn Curve, arc: &Primitive) -> (f64, f64) {
+    let slope = |t: f64| {
+        let jet = curve.at(t);
+        jet.point.coords.dot(&jet.first)
+    };
+    let samples: Vec<f64> = {
+        let mut all: Vec<f64> = arc.nodes().map(|(t, _)| t).collect();
+        all.sort_by(f64::total_cmp);
+        all
+    };
+    let (mut least, mut greatest) = (f64::INFINITY, 0.0_f64);
+    let mut take = |t: f64| {
+        let r = curve.at(t).point.coords.norm();
+        least = least.min(r);
+        greatest = greatest.max(r);
+    };
+    let count = samples.len();
+    for i in 0..count {
+        let (a, mut b) = (samples[i], samples[(i + 1) % count]);
+        if b < a {
+            b += curve.period();
+        }
+        let (fa, fb) = (slope(a), slope(b));
+        if (fa > 0.0) != (fb > 0.0) {
+            take(bracketed_root(slope, a, b, fa, fb));
+        }
+        take(a);
+    }
+    (least, greatest)
+}
+
+/// Newton's method kept above the greatest radius, where the driven angle falls from infinity to zero.
+fn closure(nodes: &[(f64, f64)], greatest: f64, wanted: f64) -> f64 {
+    let turned = |a: f64| -> (f64, f64) {
+        let (mut sum, mut slope) = (0.0, 0.0);
+        for &(r, w) in nodes {
+            let part = w / (r * (a - r));
+            sum += part;
+            slope -= part / (a - r);
+        }
+        (sum, slope)
+    };
+    let mut low = greatest;
+    let mut high = f64::INFINITY;
+    // A circle of the greatest radius would need this distance; the answer is below it.
+    let mut a = greatest * (1.0 + TAU / wanted);
+    for _ in 0..100 {
+        let (sum, slope) = turned(a);
+        if sum > wanted {
+            low = low.max(a);
+        } else {
+            high = high.min(a);
+        }
+        let mut next = a - (sum - wanted) / slope;
+        if !(next > low && next < high) {
+            next = if high.is_finite() { 0.5 * (low + high) } else { 2.0 * a };
+        }
+        let done = (next - a).abs() <= 2.0 * f64::EPSILON * a;
+        a = next;
+        if done {
+            break;
+        }
+    }
+    a
+}
+
+fn driven_angle(curve: &dyn Curve, breaks: &[f64], a: f64) -> Primitive {
+    Primitive::of(
+        |t| {
+            let jet = curve.at(t);
+            let r = jet.point.coords.norm();
+            jet.point.coords.perp(&jet.first) / (r * (a - r))
+        },
+        breaks,
+    )
+}

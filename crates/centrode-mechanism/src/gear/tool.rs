@@ -1,0 +1,104 @@
+use std::f64::consts::PI;
+
+/// The generating tool, resolved: lengths in mm, angles in rad.
+///
+/// `addendum` and `dedendum` are those of the driver's teeth about the rolling line, profile shift
+/// included; the driven gear is cut with the opposite shift.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tool {
+    /// Pressure angle, rad.
+    pub pressure_angle: f64,
+    /// Height of a tooth above the pitch curve, without profile shift.
+    pub addendum: f64,
+    /// Depth of a space below the pitch curve, without profile shift.
+    pub dedendum: f64,
+    /// Radius of the tool's rounded tip corner.
+    pub tip_radius: f64,
+    /// Profile shift of the driver: outwards positive.
+    pub profile_shift: f64,
+    /// Rack, or pinion-type shaper.
+    pub kind: ToolKind,
+}
+
+/// What the tool is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ToolKind {
+    /// A rack: hob, rack cutter, or the basic rack itself.
+    Rack,
+    /// A pinion-type cutter of this pitch radius, mm.
+    Shaper {
+        /// Pitch radius, mm.
+        radius: f64,
+    },
+}
+
+/// Where a tool's tip rounding sits against the flank it ends, and where the flank ends.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Corner {
+    /// Depth of the root below the pitch curve.
+    pub(crate) depth: f64,
+    /// Radius of the rounding.
+    pub(crate) radius: f64,
+    /// Arc length from the flank's crossing of the pitch curve to where the rounding's centre
+    /// stands square below the pitch point.
+    pub(crate) center: f64,
+    /// Arc length from the crossing to where the flank's generation ends.
+    pub(crate) end: f64,
+}
+
+impl Tool {
+    /// The corner of a tool that cuts to `depth` with a rounding of `radius`.
+    pub(crate) fn corner(&self, depth: f64, radius: f64) -> Corner {
+        let (sin, cos) = self.pressure_angle.sin_cos();
+        let straight = depth - radius;
+        match self.kind {
+            ToolKind::Rack => Corner {
+                depth,
+                radius,
+                center: straight * sin / cos + radius / cos,
+                end: straight / (cos * sin) + radius / cos,
+            },
+            ToolKind::Shaper { radius: r0 } => {
+                let base = r0 * cos;
+                let center = r0 + straight;
+                let tangent = (center * center - base * base).max(0.0).sqrt();
+                let involute = |t: f64| t - t.atan();
+                let angle = involute(tangent / base) - involute(sin / cos) + radius / base;
+                Corner {
+                    depth,
+                    radius,
+                    center: r0 * angle,
+                    end: (tangent + radius - r0 * sin) / cos,
+                }
+            }
+        }
+    }
+
+    /// Greatest arc length the tool can generate on the addendum side of a crossing, mm: a shaper's
+    /// flank starts at its base circle.
+    pub(crate) fn addendum_reach(&self) -> f64 {
+        match self.kind {
+            ToolKind::Rack => f64::INFINITY,
+            ToolKind::Shaper { radius } => radius * self.pressure_angle.tan(),
+        }
+    }
+
+    /// Width of the flat left on the tool's tip when it cuts spaces of pitch-line width `space` to
+    /// `corner`, mm along the pitch line; negative where the two roundings do not fit.
+    pub(crate) fn tip_land(corner: &Corner, space: f64) -> f64 {
+        space - 2.0 * corner.center
+    }
+
+    /// Greatest rounding that leaves the tool's tip a flat, for a space of pitch-line width `space`
+    /// and `depth`, mm. Source: the two roundings of a rack tooth meet at its middle.
+    pub(crate) fn greatest_tip_radius(&self, depth: f64, space: f64) -> f64 {
+        let (sin, cos) = self.pressure_angle.sin_cos();
+        ((0.5 * space - depth * sin / cos) * cos / (1.0 - sin)).min(depth)
+    }
+}
+
+/// Width of a standard tooth or space on the pitch line, mm.
+#[must_use]
+pub fn half_pitch(module: f64) -> f64 {
+    0.5 * PI * module
+}
