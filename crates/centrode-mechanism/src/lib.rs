@@ -1,1 +1,4 @@
-//! mechanism
+//! The design file and each family of mechanism, resolved to exact curves.
+
+mod degrees;
+pub mod gear;

@@ -1,0 +1,51 @@
+//! Angles are degrees in the file and radians in the program.
+
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+/// The degrees that read back as the given radians, the round number where there is one.
+fn written(radians: f64) -> f64 {
+    let degrees = radians.to_degrees();
+    let round = (degrees * 1e11).round() / 1e11;
+    if round.to_radians() == radians {
+        round
+    } else {
+        degrees
+    }
+}
+
+pub(crate) fn serialize<S: Serializer>(radians: &f64, s: S) -> Result<S::Ok, S::Error> {
+    s.serialize_f64(written(*radians))
+}
+
+pub(crate) fn deserialize<'de, D: Deserializer<'de>>(d: D) -> Result<f64, D::Error> {
+    f64::deserialize(d).map(f64::to_radians)
+}
+
+/// The same for a list.
+pub(crate) mod list {
+    use super::{Deserialize, Deserializer, Serialize, Serializer, written};
+
+    pub(crate) fn serialize<S: Serializer>(radians: &[f64], s: S) -> Result<S::Ok, S::Error> {
+        let degrees: Vec<f64> = radians.iter().map(|&r| written(r)).collect();
+        degrees.serialize(s)
+    }
+
+    pub(crate) fn deserialize<'de, D: Deserializer<'de>>(d: D) -> Result<Vec<f64>, D::Error> {
+        let degrees = Vec::<f64>::deserialize(d)?;
+        Ok(degrees.into_iter().map(f64::to_radians).collect())
+    }
+}
+
+/// The same for an angle that may be absent.
+pub(crate) mod option {
+    use super::{Deserialize, Deserializer, Serialize, Serializer, written};
+
+    #[allow(clippy::ref_option, reason = "the signature serde calls")]
+    pub(crate) fn serialize<S: Serializer>(r: &Option<f64>, s: S) -> Result<S::Ok, S::Error> {
+        r.map(written).serialize(s)
+    }
+
+    pub(crate) fn deserialize<'de, D: Deserializer<'de>>(d: D) -> Result<Option<f64>, D::Error> {
+        Ok(Option::<f64>::deserialize(d)?.map(f64::to_radians))
+    }
+}

@@ -1,0 +1,67 @@
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::rule::{Rule, SpecError, broken, not_negative, positive};
+
+/// The body of a gear: what is not teeth.
+#[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct BodySpec {
+    /// Face width, mm.
+    pub width: f64,
+    /// Diameter of the bore, mm; 0 for none.
+    pub bore: f64,
+    /// Keyway in the bore.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub keyway: Option<Keyway>,
+    /// Density, kg/m^3.
+    pub density: f64,
+    /// Material, for the drawing.
+    pub material: String,
+}
+
+/// A keyway in the bore, along the body's x axis.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Keyway {
+    /// Width, mm.
+    pub width: f64,
+    /// Depth below the bore's circle, mm, measured on the middle of the keyway.
+    pub depth: f64,
+}
+
+impl Default for BodySpec {
+    fn default() -> Self {
+        Self {
+            width: 10.0,
+            bore: 0.0,
+            keyway: None,
+            density: 7850.0,
+            material: "steel".into(),
+        }
+    }
+}
+
+impl BodySpec {
+    /// Ranges, and a keyway that fits the bore.
+    ///
+    /// # Errors
+    /// [`SpecError`] with the key at fault.
+    pub fn validate(&self) -> Result<(), SpecError> {
+        positive("width", self.width)?;
+        not_negative("bore", self.bore)?;
+        positive("density", self.density)?;
+        let Some(Keyway { width, depth }) = self.keyway else {
+            return Ok(());
+        };
+        positive("keyway.width", width)?;
+        positive("keyway.depth", depth)?;
+        if self.bore == 0.0 {
+            return broken("keyway", Rule::NoBore);
+        }
+        if width >= self.bore {
+            return broken("keyway.width", Rule::KeywayWidth(width, self.bore));
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,144 @@
+//! A gear pair as written: the same words in the file, in Rust and in Python.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::pitch::PitchSpec;
+
+mod body;
+mod rule;
+mod teeth;
+mod tool;
+
+pub use body::{BodySpec, Keyway};
+pub use rule::{Rule, SpecError};
+pub use teeth::{Addendum, Phase, TeethSpec};
+pub use tool::{Rack, Shaper, ToolSpec};
+
+use rule::{broken, positive, within};
+
+/// A non-circular gear pair.
+#[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct GearPairDesign {
+    /// Short name, used for file names: letters, digits, `-` and `_`.
+    #[serde(default = "default_name")]
+    pub name: String,
+    /// One line for drawings and reports.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub title: String,
+    /// Turns of the driver and of the driven gear in one whole cycle, in lowest terms: `[2, 1]` gives
+    /// the driver two turns to one of the driven gear.
+    #[serde(default = "default_mean_ratio")]
+    pub mean_ratio: [u32; 2],
+    /// Teeth of the driver, for a pitch curve with a size of its own: the module follows.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tooth_count: Option<u32>,
+    /// Centre distance, mm; left out, it follows from pitch curve and mean ratio.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub center_distance: Option<f64>,
+    /// Pitch curve of the driver.
+    pub pitch: PitchSpec,
+    /// The tool that cuts both gears.
+    #[serde(default)]
+    pub tool: ToolSpec,
+    /// Teeth of both gears.
+    #[serde(default)]
+    pub teeth: TeethSpec,
+    /// Body of the driver.
+    #[serde(default)]
+    pub driver: BodySpec,
+    /// Body of the driven gear.
+    #[serde(default)]
+    pub driven: BodySpec,
+}
+
+fn default_name() -> String {
+    "gear-pair".into()
+}
+
+fn default_mean_ratio() -> [u32; 2] {
+    [1, 1]
+}
+
+/// Largest number of turns in a mean ratio.
+const MOST_TURNS: u32 = 60;
+
+impl GearPairDesign {
+    /// A pair with the given driver pitch curve and every other value at its default.
+    #[must_use]
+    pub fn new(pitch: PitchSpec) -> Self {
+        Self {
+            name: default_name(),
+            title: String::new(),
+            mean_ratio: default_mean_ratio(),
+            tooth_count: None,
+            center_distance: None,
+            pitch,
+            tool: ToolSpec::default(),
+            teeth: TeethSpec::default(),
+            driver: BodySpec::default(),
+            driven: BodySpec::default(),
+        }
+    }
+
+    /// The rules that need no geometry: ranges, and keys that contradict each other.
+    ///
+    /// # Errors
+    /// [`SpecError`] with the key at fault and the rule it breaks. The pitch curve's own rules are
+    /// those of [`PitchSpec::resolve`].
+    pub fn validate(&self) -> Result<(), SpecError> {
+        let safe = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
+        if self.name.is_empty() || self.name.len() > 64 || !self.name.chars().all(safe) {
+            let name = self.name.chars().take(80).collect();
+            return broken("name", Rule::Name(name));
+        }
+        let [n1, n2] = self.mean_ratio;
+        within("mean_ratio", n1, 1, MOST_TURNS)?;
+        within("mean_ratio", n2, 1, MOST_TURNS)?;
+        let divisor = greatest_common_divisor(n1, n2);
+        if divisor > 1 {
+            let rule = Rule::LowestTerms([n1, n2], [n1 / divisor, n2 / divisor]);
+            return broken("mean_ratio", rule);
+        }
+        if let Some(z) = self.tooth_count {
+            within("tooth_count", z, 3, 10_000)?;
+        }
+        if let (Some(z), Some(of_pitch)) = (self.tooth_count, self.pitch.tooth_count())
+            && z != of_pitch
+        {
+            return broken("tooth_count", Rule::ToothCountTwice(z, of_pitch));
+        }
+        if let Some(z) = self.driver_tooth_count()
+            && !(u64::from(z) * u64::from(n1)).is_multiple_of(n2.into())
+        {
+            let key = if self.tooth_count.is_some() {
+                "tooth_count"
+            } else {
+                "pitch.tooth_count"
+            };
+            return broken(key, Rule::DrivenTeeth(z, [n1, n2]));
+        }
+        if let Some(a) = self.center_distance {
+            positive("center_distance", a)?;
+        }
+        self.tool.validate().map_err(|e| e.inside("tool"))?;
+        self.teeth.validate().map_err(|e| e.inside("teeth"))?;
+        self.driver.validate().map_err(|e| e.inside("driver"))?;
+        self.driven.validate().map_err(|e| e.inside("driven"))
+    }
+
+    /// Teeth of the driver, from the pair or from its pitch curve.
+    #[must_use]
+    pub fn driver_tooth_count(&self) -> Option<u32> {
+        self.tooth_count.or(self.pitch.tooth_count())
+    }
+}
+
+fn greatest_common_divisor(a: u32, b: u32) -> u32 {
+    if b == 0 {
+        a
+    } else {
+        greatest_common_divisor(b, a % b)
+    }
+}

@@ -1,0 +1,134 @@
+use thiserror::Error;
+
+/// A value of a description that breaks a rule.
+#[derive(Clone, Debug, Error, PartialEq)]
+#[error("{key} {rule}")]
+pub struct SpecError {
+    /// Key of the value, with the tables around it: `teeth.backlash`.
+    pub key: String,
+    /// The rule it breaks.
+    pub rule: Rule,
+}
+
+/// What a value must be, and what it is.
+#[derive(Clone, Debug, Error, PartialEq)]
+#[non_exhaustive]
+pub enum Rule {
+    /// NaN or infinite.
+    #[error("must be a finite number, not {0}")]
+    NotFinite(f64),
+    /// Zero or less where a size is needed.
+    #[error("must be greater than 0, not {0}")]
+    NotPositive(f64),
+    /// Less than zero.
+    #[error("must not be negative, but is {0}")]
+    Negative(f64),
+    /// Outside a range.
+    #[error("must be {least} to {greatest}{unit}, not {value}{unit}")]
+    OutOfRange {
+        /// What was given.
+        value: f64,
+        /// Least value allowed.
+        least: f64,
+        /// Greatest value allowed.
+        greatest: f64,
+        /// Unit with a leading space, or empty.
+        unit: &'static str,
+    },
+    /// Two keys that exclude each other.
+    #[error("cannot be given together with {0}")]
+    Excludes(&'static str),
+    /// A name that cannot name a file.
+    #[error("must be 1 to 64 letters, digits, '-' or '_', not {0:?}")]
+    Name(String),
+    /// A mean ratio with a common factor.
+    #[error("must be in lowest terms: write {1:?} for {0:?}")]
+    LowestTerms([u32; 2], [u32; 2]),
+    /// Two different tooth counts for one gear.
+    #[error("is {0}, but the pitch curve has tooth_count {1}: give one of them")]
+    ToothCountTwice(u32, u32),
+    /// A driven gear without a whole number of teeth.
+    #[error("is {0}, which at mean_ratio {1:?} leaves the driven gear no whole number of teeth: it must be a multiple of {n2}", n2 = .1[1])]
+    DrivenTeeth(u32, [u32; 2]),
+    /// A keyway wider than the bore.
+    #[error("is {0} mm, but the bore is only {1} mm across")]
+    KeywayWidth(f64, f64),
+    /// Something that needs a bore, without one.
+    #[error("needs a bore")]
+    NoBore,
+    /// A tip rounding that does not fit the tool's tooth.
+    #[error(
+        "is {value}, but at this pressure angle and addendum at most {greatest:.6} fits the tip of the tool"
+    )]
+    TipRadius {
+        /// What was given.
+        value: f64,
+        /// Greatest that fits.
+        greatest: f64,
+    },
+}
+
+impl SpecError {
+    /// The same error seen from outside the table `table`.
+    #[must_use]
+    pub(crate) fn inside(mut self, table: &str) -> Self {
+        self.key = format!("{table}.{}", self.key);
+        self
+    }
+}
+
+pub(crate) fn broken<T>(key: &str, rule: Rule) -> Result<T, SpecError> {
+    Err(SpecError {
+        key: key.into(),
+        rule,
+    })
+}
+
+pub(crate) fn finite(key: &str, value: f64) -> Result<(), SpecError> {
+    if value.is_finite() {
+        Ok(())
+    } else {
+        broken(key, Rule::NotFinite(value))
+    }
+}
+
+pub(crate) fn positive(key: &str, value: f64) -> Result<(), SpecError> {
+    finite(key, value)?;
+    if value > 0.0 {
+        Ok(())
+    } else {
+        broken(key, Rule::NotPositive(value))
+    }
+}
+
+pub(crate) fn not_negative(key: &str, value: f64) -> Result<(), SpecError> {
+    finite(key, value)?;
+    if value >= 0.0 {
+        Ok(())
+    } else {
+        broken(key, Rule::Negative(value))
+    }
+}
+
+pub(crate) fn within(key: &str, value: u32, least: u32, greatest: u32) -> Result<(), SpecError> {
+    between(key, value.into(), [least.into(), greatest.into()], "")
+}
+
+pub(crate) fn between(
+    key: &str,
+    value: f64,
+    [least, greatest]: [f64; 2],
+    unit: &'static str,
+) -> Result<(), SpecError> {
+    finite(key, value)?;
+    if (least..=greatest).contains(&value) {
+        return Ok(());
+    }
+    let rule = Rule::OutOfRange {
+        value,
+        least,
+        greatest,
+        unit,
+    };
+    broken(key, rule)
+}

@@ -1,0 +1,164 @@
+use std::fmt;
+
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
+
+use super::rule::{Rule, SpecError, between, broken, finite, not_negative};
+use crate::degrees;
+
+/// The teeth of both gears.
+#[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct TeethSpec {
+    /// "full": every tooth as high as the tool asks. "fitted": each as high as works.
+    pub addendum: Addendum,
+    /// Where the teeth sit on the driver's pitch curve.
+    pub phase: Phase,
+    /// Total backlash of the pair along the normal, mm.
+    pub backlash: f64,
+    /// Total backlash as a bound on the play of the driven gear, rad (degrees in the file).
+    #[serde(
+        rename = "backlash_angle_deg",
+        with = "degrees::option",
+        skip_serializing_if = "Option::is_none"
+    )]
+    #[schemars(with = "Option<f64>")]
+    pub backlash_angle: Option<f64>,
+    /// The driver's share of the pitch: its tooth thickness over the circular pitch.
+    pub thickness_split: f64,
+    /// Least width of a tooth at its tip, as a multiple of the module, before it is reported.
+    pub least_tip_width_coefficient: f64,
+}
+
+impl Default for TeethSpec {
+    fn default() -> Self {
+        Self {
+            addendum: Addendum::Full,
+            phase: Phase::Auto,
+            backlash: 0.0,
+            backlash_angle: None,
+            thickness_split: 0.5,
+            least_tip_width_coefficient: 0.2,
+        }
+    }
+}
+
+/// How high the teeth are.
+#[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Addendum {
+    /// As high as the tool's data asks.
+    #[default]
+    Full,
+    /// Trimmed tooth by tooth to what works.
+    Fitted,
+}
+
+/// Where the teeth sit on the driver's pitch curve.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Phase {
+    /// Congruent where both gears are the same curve, else a tooth at the polar angle zero.
+    #[default]
+    Auto,
+    /// The middle of a tooth at the polar angle zero.
+    Tooth,
+    /// The middle of a space at the polar angle zero.
+    Space,
+    /// So that driver and driven gear come out the same part.
+    Congruent,
+    /// The middle of a tooth this many pitches after the polar angle zero.
+    Pitches(f64),
+}
+
+const WORDS: [(&str, Phase); 4] = [
+    ("auto", Phase::Auto),
+    ("tooth", Phase::Tooth),
+    ("space", Phase::Space),
+    ("congruent", Phase::Congruent),
+];
+
+impl Serialize for Phase {
+    fn serialize<S: Serializer>(&self, s: S) -> Result<S::Ok, S::Error> {
+        match self {
+            Self::Auto => s.serialize_str("auto"),
+            Self::Tooth => s.serialize_str("tooth"),
+            Self::Space => s.serialize_str("space"),
+            Self::Congruent => s.serialize_str("congruent"),
+            Self::Pitches(p) => s.serialize_f64(*p),
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for Phase {
+    fn deserialize<D: Deserializer<'de>>(d: D) -> Result<Self, D::Error> {
+        struct WordOrNumber;
+        impl de::Visitor<'_> for WordOrNumber {
+            type Value = Phase;
+
+            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+                f.write_str("\"auto\", \"tooth\", \"space\", \"congruent\" or a number of pitches")
+            }
+
+            fn visit_str<E: de::Error>(self, word: &str) -> Result<Phase, E> {
+                let found = WORDS.iter().find(|(w, _)| *w == word);
+                found
+                    .map(|(_, phase)| *phase)
+                    .ok_or_else(|| E::invalid_value(de::Unexpected::Str(word), &self))
+            }
+
+            fn visit_f64<E: de::Error>(self, pitches: f64) -> Result<Phase, E> {
+                Ok(Phase::Pitches(pitches))
+            }
+
+            fn visit_i64<E: de::Error>(self, pitches: i64) -> Result<Phase, E> {
+                Ok(Phase::Pitches(pitches as f64))
+            }
+
+            fn visit_u64<E: de::Error>(self, pitches: u64) -> Result<Phase, E> {
+                Ok(Phase::Pitches(pitches as f64))
+            }
+        }
+        d.deserialize_any(WordOrNumber)
+    }
+}
+
+impl JsonSchema for Phase {
+    fn schema_name() -> std::borrow::Cow<'static, str> {
+        "Phase".into()
+    }
+
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        json_schema!({
+            "description": "Where the teeth sit on the driver's pitch curve: a word, or the pitches from the polar angle zero to the middle of a tooth.",
+            "anyOf": [
+                { "enum": WORDS.map(|(word, _)| word) },
+                { "type": "number" }
+            ]
+        })
+    }
+}
+
+impl TeethSpec {
+    /// Ranges, and backlash given in one way only.
+    ///
+    /// # Errors
+    /// [`SpecError`] with the key at fault.
+    pub fn validate(&self) -> Result<(), SpecError> {
+        if let Phase::Pitches(p) = self.phase {
+            finite("phase", p)?;
+            between("phase", p, [-1.0, 1.0], "")?;
+        }
+        not_negative("backlash", self.backlash)?;
+        if let Some(angle) = self.backlash_angle {
+            not_negative("backlash_angle_deg", angle.to_degrees())?;
+            if self.backlash != 0.0 {
+                return broken("backlash_angle_deg", Rule::Excludes("backlash"));
+            }
+        }
+        between("thickness_split", self.thickness_split, [0.2, 0.8], "")?;
+        not_negative(
+            "least_tip_width_coefficient",
+            self.least_tip_width_coefficient,
+        )
+    }
+}

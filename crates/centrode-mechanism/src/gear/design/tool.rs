@@ -1,0 +1,189 @@
+use std::f64::consts::PI;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::rule::{Rule, SpecError, between, broken, not_negative, positive, within};
+use crate::degrees;
+
+/// The tool that cuts both gears, by the key `kind`; its module is that of the pitch curve.
+#[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
+#[serde(tag = "kind", rename_all = "kebab-case")]
+#[non_exhaustive]
+pub enum ToolSpec {
+    /// A straight-sided rack: hob or rack cutter.
+    Rack(Rack),
+    /// A pinion-type cutter.
+    Shaper(Shaper),
+}
+
+impl Default for ToolSpec {
+    fn default() -> Self {
+        Self::Rack(Rack::default())
+    }
+}
+
+/// A basic rack; the defaults are ISO 53, profile A. Lengths are multiples of the module.
+#[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Rack {
+    /// Pressure angle, rad (degrees in the file).
+    #[serde(rename = "pressure_angle_deg", with = "degrees")]
+    #[schemars(with = "f64")]
+    pub pressure_angle: f64,
+    /// Height of the gear's tooth above the pitch curve.
+    pub addendum_coefficient: f64,
+    /// Depth of the gear's tooth below the pitch curve; the tool cuts this far.
+    pub dedendum_coefficient: f64,
+    /// Radius of the tool's tip, which leaves the fillet.
+    pub tip_radius_coefficient: f64,
+    /// Distance the tool is held out of the driver's blank and into the driven's.
+    pub profile_shift_coefficient: f64,
+}
+
+impl Default for Rack {
+    fn default() -> Self {
+        Self {
+            pressure_angle: 20.0_f64.to_radians(),
+            addendum_coefficient: 1.0,
+            dedendum_coefficient: 1.25,
+            tip_radius_coefficient: 0.38,
+            profile_shift_coefficient: 0.0,
+        }
+    }
+}
+
+/// A pinion-type cutter with involute teeth. Lengths are multiples of the module.
+#[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Shaper {
+    /// Teeth of the cutter.
+    pub tooth_count: u32,
+    /// Pressure angle, rad (degrees in the file).
+    #[serde(
+        rename = "pressure_angle_deg",
+        with = "degrees",
+        default = "pressure_angle"
+    )]
+    #[schemars(with = "f64")]
+    pub pressure_angle: f64,
+    /// Height of the gear's tooth above the pitch curve.
+    #[serde(default = "addendum_coefficient")]
+    pub addendum_coefficient: f64,
+    /// Depth of the gear's tooth below the pitch curve; the cutter's own addendum.
+    #[serde(default = "dedendum_coefficient")]
+    pub dedendum_coefficient: f64,
+    /// Radius of the cutter's tip corner, which leaves the fillet.
+    #[serde(default = "shaper_tip_radius_coefficient")]
+    pub tip_radius_coefficient: f64,
+    /// Distance the cutter is held out of the driver's blank and into the driven's.
+    #[serde(default)]
+    pub profile_shift_coefficient: f64,
+}
+
+fn pressure_angle() -> f64 {
+    Rack::default().pressure_angle
+}
+
+fn addendum_coefficient() -> f64 {
+    Rack::default().addendum_coefficient
+}
+
+fn dedendum_coefficient() -> f64 {
+    Rack::default().dedendum_coefficient
+}
+
+/// A cutter's teeth are narrower at the tip than a rack's.
+fn shaper_tip_radius_coefficient() -> f64 {
+    0.2
+}
+
+impl Default for Shaper {
+    fn default() -> Self {
+        Self {
+            tooth_count: 20,
+            pressure_angle: pressure_angle(),
+            addendum_coefficient: addendum_coefficient(),
+            dedendum_coefficient: dedendum_coefficient(),
+            tip_radius_coefficient: shaper_tip_radius_coefficient(),
+            profile_shift_coefficient: 0.0,
+        }
+    }
+}
+
+impl ToolSpec {
+    /// Ranges, and a tip rounding that fits the tool.
+    ///
+    /// # Errors
+    /// [`SpecError`] with the key at fault.
+    pub fn validate(&self) -> Result<(), SpecError> {
+        match self {
+            Self::Rack(rack) => rack.validate(),
+            Self::Shaper(shaper) => shaper.validate(),
+        }
+    }
+
+    /// Pressure angle, rad.
+    #[must_use]
+    pub fn pressure_angle(&self) -> f64 {
+        match self {
+            Self::Rack(rack) => rack.pressure_angle,
+            Self::Shaper(shaper) => shaper.pressure_angle,
+        }
+    }
+}
+
+impl Rack {
+    fn validate(&self) -> Result<(), SpecError> {
+        heights(
+            self.pressure_angle,
+            self.addendum_coefficient,
+            self.dedendum_coefficient,
+            self.profile_shift_coefficient,
+        )?;
+        let key = "tip_radius_coefficient";
+        let value = self.tip_radius_coefficient;
+        not_negative(key, value)?;
+        // Half the rack's tip land is pi/4 - h tan(alpha); the round must end on it and above the
+        // pitch line.
+        let (sin, cos) = self.pressure_angle.sin_cos();
+        let half_land = 0.25 * PI - self.dedendum_coefficient * sin / cos;
+        if half_land < 0.0 {
+            let greatest = 0.25 * PI * cos / sin;
+            let key = "dedendum_coefficient";
+            return between(key, self.dedendum_coefficient, [0.0, greatest], "");
+        }
+        let greatest = (half_land * cos / (1.0 - sin)).min(self.dedendum_coefficient / (1.0 - sin));
+        if value > greatest {
+            return broken(key, Rule::TipRadius { value, greatest });
+        }
+        Ok(())
+    }
+}
+
+impl Shaper {
+    fn validate(&self) -> Result<(), SpecError> {
+        within("tooth_count", self.tooth_count, 3, 1000)?;
+        heights(
+            self.pressure_angle,
+            self.addendum_coefficient,
+            self.dedendum_coefficient,
+            self.profile_shift_coefficient,
+        )?;
+        not_negative("tip_radius_coefficient", self.tip_radius_coefficient)
+    }
+}
+
+fn heights(angle: f64, addendum: f64, dedendum: f64, shift: f64) -> Result<(), SpecError> {
+    between(
+        "pressure_angle_deg",
+        (angle.to_degrees() * 1e9).round() / 1e9,
+        [5.0, 40.0],
+        " deg",
+    )?;
+    positive("addendum_coefficient", addendum)?;
+    between("addendum_coefficient", addendum, [0.0, 3.0], "")?;
+    positive("dedendum_coefficient", dedendum)?;
+    between("dedendum_coefficient", dedendum, [0.0, 3.0], "")?;
+    between("profile_shift_coefficient", shift, [-2.0, 2.0], "")
+}

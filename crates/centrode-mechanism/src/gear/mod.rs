@@ -1,0 +1,4 @@
+//! Non-circular gears.
+
+pub mod design;
+pub mod pitch;

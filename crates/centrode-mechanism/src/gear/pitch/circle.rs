@@ -1,0 +1,110 @@
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::error::{eccentricity, positive};
+use super::plane::{Derivatives, PolarCurve, RadiusLaw};
+use super::size::{OwnSize, Size};
+use super::{Draft, PitchError};
+
+/// A circle around the shaft axis: an ordinary gear.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Circle {
+    /// Radius, mm; or leave it out and give module and `tooth_count`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub radius: Option<f64>,
+    /// Module, mm, with `tooth_count`: sets the size of the curve.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub module: Option<f64>,
+    /// Number of teeth.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub tooth_count: Option<u32>,
+}
+
+/// A circle whose shaft axis is not at its centre.
+///
+/// `r(phi) = R (e cos phi + sqrt(1 - e^2 sin^2 phi))`; the far side is at `phi = 0`.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct EccentricCircle {
+    /// Offset of the centre from the shaft axis over the radius `R`, at least 0 and less than 1.
+    pub eccentricity: f64,
+    /// Radius `R`, mm; or leave it out and give module and `tooth_count`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub radius: Option<f64>,
+    /// Module, mm, with `tooth_count`: sets the size of the curve.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub module: Option<f64>,
+    /// Number of teeth.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tooth_count: Option<u32>,
+}
+
+fn own_size(radius: Option<f64>) -> Result<OwnSize, PitchError> {
+    match radius {
+        Some(r) => positive("radius", r).map(|_| OwnSize::Fixed("radius")),
+        None => Ok(OwnSize::Missing("radius")),
+    }
+}
+
+impl Circle {
+    pub(crate) fn draft(&self) -> Result<Draft, PitchError> {
+        let size = Size {
+            module: self.module,
+            tooth_count: self.tooth_count,
+            own: own_size(self.radius)?,
+        };
+        let law = Eccentric {
+            radius: self.radius.unwrap_or(1.0),
+            eccentricity: 0.0,
+        };
+        Draft::new("radius", PolarCurve::new(law), size, "circle, r = R".into())
+    }
+}
+
+impl EccentricCircle {
+    pub(crate) fn draft(&self) -> Result<Draft, PitchError> {
+        let law = Eccentric {
+            radius: self.radius.unwrap_or(1.0),
+            eccentricity: eccentricity(self.eccentricity)?,
+        };
+        let size = Size {
+            module: self.module,
+            tooth_count: self.tooth_count,
+            own: own_size(self.radius)?,
+        };
+        let definition = format!(
+            "eccentric circle, r = R (e cos phi + sqrt(1 - e^2 sin^2 phi)), e = {}",
+            self.eccentricity
+        );
+        Draft::new("eccentricity", PolarCurve::new(law), size, definition)
+    }
+}
+
+#[derive(Debug)]
+struct Eccentric {
+    radius: f64,
+    eccentricity: f64,
+}
+
+impl RadiusLaw for Eccentric {
+    fn radius(&self, phi: f64) -> Derivatives {
+        let (sin, cos) = phi.sin_cos();
+        let e = self.eccentricity;
+        let square = e * e;
+        // w^2 = 1 - e^2 sin^2 phi, differentiated: w w' = g, w'^2 + w w'' = g', ...
+        let w = (1.0 - square * sin * sin).sqrt();
+        let g = -square * sin * cos;
+        let g1 = -square * (cos * cos - sin * sin);
+        let g2 = 4.0 * square * sin * cos;
+        let w1 = g / w;
+        let w2 = (g1 - w1 * w1) / w;
+        let w3 = (g2 - 3.0 * w1 * w2) / w;
+        [
+            self.radius * (e * cos + w),
+            self.radius * (w1 - e * sin),
+            self.radius * (w2 - e * cos),
+            self.radius * (w3 + e * sin),
+        ]
+    }
+}

@@ -1,0 +1,158 @@
+//! Pitch curves: how each kind is described, and the exact curve it means.
+//!
+//! A description scaled by `module` and `tooth_count` has the length `pi * module * tooth_count`.
+
+use std::f64::consts::PI;
+use std::sync::Arc;
+
+use centrode_geometry::{Curve, Primitive};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+mod bezier;
+mod bspline;
+mod circle;
+mod ellipse;
+mod error;
+mod piecewise;
+mod plane;
+mod points;
+mod proof;
+mod size;
+
+pub use bezier::Bezier;
+pub use bspline::Bspline;
+pub use circle::{Circle, EccentricCircle};
+pub use ellipse::{Ellipse, LobedEllipse};
+pub use error::PitchError;
+pub use points::Plane;
+
+use plane::Shape;
+use size::Size;
+
+/// A pitch curve as written: one of the kinds, by the key `kind`.
+#[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
+#[serde(tag = "kind", rename_all = "kebab-case")]
+#[non_exhaustive]
+pub enum PitchSpec {
+    /// Circle around the shaft axis.
+    Circle(Circle),
+    /// Circle whose shaft axis is not at its centre.
+    EccentricCircle(EccentricCircle),
+    /// Ellipse turning about a focus.
+    Ellipse(Ellipse),
+    /// Focal ellipse drawn together so that it repeats several times in one turn.
+    LobedEllipse(LobedEllipse),
+    /// Closed uniform B-spline.
+    Bspline(Bspline),
+    /// Closed chain of Bezier arcs.
+    Bezier(Bezier),
+}
+
+/// A resolved pitch curve.
+#[derive(Clone, Debug)]
+pub struct Pitch {
+    /// The exact curve, mm, around the shaft axis at the origin: once round, counter-clockwise, the
+    /// polar angle strictly increasing, the radius above zero.
+    pub curve: Arc<dyn Curve>,
+    /// Number of teeth, if given.
+    pub tooth_count: Option<u32>,
+    /// Module, mm, if the tooth count is given: the length of the curve is `pi * module * tooth_count`.
+    pub module: Option<f64>,
+    /// What the curve is, in one line, for reports and drawings.
+    pub definition: String,
+    /// Turns of driver and driven gear that the description asks for, in lowest terms.
+    pub implied_ratio: Option<(u32, u32)>,
+}
+
+impl PitchSpec {
+    /// The exact curve, proved to go round the shaft axis once, in order.
+    ///
+    /// # Errors
+    /// [`PitchError`] naming the violated rule and its numbers.
+    pub fn resolve(&self) -> Result<Pitch, PitchError> {
+        self.draft()?.finish()
+    }
+
+    /// Number of teeth written with the curve.
+    #[must_use]
+    pub fn tooth_count(&self) -> Option<u32> {
+        match self {
+            Self::Circle(spec) => spec.tooth_count,
+            Self::EccentricCircle(spec) => spec.tooth_count,
+            Self::Ellipse(spec) => spec.tooth_count,
+            Self::LobedEllipse(spec) => spec.tooth_count,
+            Self::Bspline(spec) => spec.tooth_count,
+            Self::Bezier(spec) => spec.tooth_count,
+        }
+    }
+
+    fn draft(&self) -> Result<Draft, PitchError> {
+        match self {
+            Self::Circle(spec) => spec.draft(),
+            Self::EccentricCircle(spec) => spec.draft(),
+            Self::Ellipse(spec) => spec.draft(),
+            Self::LobedEllipse(spec) => spec.draft(),
+            Self::Bspline(spec) => spec.draft(),
+            Self::Bezier(spec) => spec.draft(),
+        }
+    }
+}
+
+/// A shape whose numbers are checked, before proof and scaling.
+#[derive(Debug)]
+pub(crate) struct Draft {
+    key: &'static str,
+    curve: Box<dyn Shape>,
+    size: Size,
+    definition: String,
+    implied_ratio: Option<(u32, u32)>,
+}
+
+impl Draft {
+    fn new(
+        key: &'static str,
+        curve: impl Shape + 'static,
+        size: Size,
+        definition: String,
+    ) -> Result<Self, PitchError> {
+        size.check()?;
+        Ok(Self {
+            key,
+            curve: Box::new(curve),
+            size,
+            definition,
+            implied_ratio: None,
+        })
+    }
+
+    fn finish(mut self) -> Result<Pitch, PitchError> {
+        proof::goes_round_once(self.curve.as_ref(), self.key)?;
+        let tooth_count = self.size.tooth_count;
+        let module = match (self.size.module, tooth_count) {
+            (Some(module), Some(z)) => {
+                let factor = PI * module * f64::from(z) / perimeter(self.curve.as_ref());
+                self.curve.rescale(factor);
+                Some(module)
+            }
+            (None, Some(z)) => Some(perimeter(self.curve.as_ref()) / (PI * f64::from(z))),
+            (_, None) => None,
+        };
+        let shape: Arc<dyn Shape> = Arc::from(self.curve);
+        Ok(Pitch {
+            curve: shape,
+            tooth_count,
+            module,
+            definition: self.definition,
+            implied_ratio: self.implied_ratio,
+        })
+    }
+}
+
+/// Length of one turn of a curve, mm.
+fn perimeter(curve: &dyn Curve) -> f64 {
+    Primitive::of(|t| curve.at(t).first.norm(), &proof::piece_ends(curve)).total()
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,87 @@
+use centrode_geometry::{Curve, Jet, Point, Vector};
+
+/// A value and its first three derivatives.
+pub(crate) type Derivatives = [f64; 4];
+
+/// The jet of a curve given in polar coordinates: angle and radius as functions of the parameter.
+///
+/// With `z = r e^(i theta)` the derivatives are `w_k e^(i theta)` where `w_0 = r` and
+/// `w_(k+1) = w_k' + i theta' w_k`.
+pub(crate) fn polar_jet(angle: &Derivatives, radius: &Derivatives) -> Jet {
+    let [theta, t1, t2, t3] = *angle;
+    let [r, r1, r2, r3] = *radius;
+    let (a, b) = (r1, r * t1);
+    let (a1, b1) = (r2, r1 * t1 + r * t2);
+    let (a2, b2) = (r3, r2 * t1 + 2.0 * r1 * t2 + r * t3);
+    let (c, d) = (a1 - t1 * b, b1 + t1 * a);
+    let (c1, d1) = (a2 - t2 * b - t1 * b1, b2 + t2 * a + t1 * a1);
+    let (e, f) = (c1 - t1 * d, d1 + t1 * c);
+    let (sin, cos) = theta.sin_cos();
+    let turned = |x: f64, y: f64| Vector::new(x * cos - y * sin, x * sin + y * cos);
+    Jet {
+        point: Point::new(r * cos, r * sin),
+        first: turned(a, b),
+        second: turned(c, d),
+        third: turned(e, f),
+    }
+}
+
+/// A closed curve whose size can still be changed.
+pub(crate) trait Shape: Curve {
+    /// Multiplies every length of the curve by `factor`.
+    fn rescale(&mut self, factor: f64);
+
+    /// The sign of the radius where a curve is given by one; 1 otherwise.
+    fn side(&self, _t: f64) -> f64 {
+        1.0
+    }
+}
+
+/// A radius as a function of the polar angle, with period one turn.
+pub(crate) trait RadiusLaw: std::fmt::Debug + Send + Sync {
+    /// Radius and its derivatives at the polar angle `phi`.
+    fn radius(&self, phi: f64) -> Derivatives;
+
+    /// Angles in `[0, 2 pi)` where a derivative may jump, ascending.
+    fn breaks(&self) -> Vec<f64> {
+        Vec::new()
+    }
+}
+
+/// The curve of a radius law; its parameter is the polar angle.
+#[derive(Debug)]
+pub(crate) struct PolarCurve<L> {
+    law: L,
+    scale: f64,
+}
+
+impl<L: RadiusLaw> PolarCurve<L> {
+    pub(crate) fn new(law: L) -> Self {
+        Self { law, scale: 1.0 }
+    }
+}
+
+impl<L: RadiusLaw> Curve for PolarCurve<L> {
+    fn period(&self) -> f64 {
+        std::f64::consts::TAU
+    }
+
+    fn breaks(&self) -> Vec<f64> {
+        self.law.breaks()
+    }
+
+    fn at(&self, t: f64) -> Jet {
+        let radius = self.law.radius(t).map(|d| d * self.scale);
+        polar_jet(&[t, 1.0, 0.0, 0.0], &radius)
+    }
+}
+
+impl<L: RadiusLaw> Shape for PolarCurve<L> {
+    fn rescale(&mut self, factor: f64) {
+        self.scale *= factor;
+    }
+
+    fn side(&self, t: f64) -> f64 {
+        self.law.radius(t)[0].signum()
+    }
+}

@@ -1,0 +1,57 @@
+use super::PitchError;
+use super::error::positive;
+
+/// What a description says about the size of its curve.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Size {
+    pub(crate) module: Option<f64>,
+    pub(crate) tooth_count: Option<u32>,
+    /// Where the lengths of the shape come from.
+    pub(crate) own: OwnSize,
+}
+
+/// The size of a shape as written, before module and tooth count.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum OwnSize {
+    /// The shape has none; the key is the one that could set it.
+    Missing(&'static str),
+    /// The key fixes it: a module beside it would contradict.
+    Fixed(&'static str),
+    /// As written, unless module and tooth count scale it.
+    Written,
+}
+
+impl Size {
+    /// Refuses a size that is impossible, absent or given twice.
+    pub(crate) fn check(&self) -> Result<(), PitchError> {
+        if let Some(module) = self.module {
+            positive("module", module)?;
+        }
+        if let Some(z) = self.tooth_count {
+            if z < 3 {
+                return Err(PitchError::ToothCount(z));
+            }
+            if z > 10_000 {
+                return Err(PitchError::OutOfRange {
+                    key: "tooth_count",
+                    value: z.into(),
+                    least: 3,
+                    greatest: 10_000,
+                });
+            }
+        }
+        match (self.module, self.tooth_count, self.own) {
+            (Some(_), None, _) => Err(PitchError::SizeIncomplete {
+                given: "module",
+                missing: "tooth_count",
+            }),
+            (None, Some(_), OwnSize::Missing(_)) => Err(PitchError::SizeIncomplete {
+                given: "tooth_count",
+                missing: "module",
+            }),
+            (None, None, OwnSize::Missing(key)) => Err(PitchError::NoSize(key)),
+            (Some(_), Some(_), OwnSize::Fixed(key)) => Err(PitchError::SizeTwice(key)),
+            _ => Ok(()),
+        }
+    }
+}
