@@ -76,23 +76,34 @@ impl Spline {
     /// below `t0`: the curve is then traversed backwards.
     #[must_use]
     pub fn fit(
-        mut curve: impl FnMut(f64) -> Point,
+        curve: impl FnMut(f64) -> Point,
         t0: f64,
         t1: f64,
         tolerance: Tolerance,
     ) -> Vec<Self> {
-        let mut out = Vec::new();
+        let spans = Self::fit_spans(curve, t0, t1, tolerance);
+        spans.into_iter().map(|(spline, ..)| spline).collect()
+    }
+
+    /// As [`fit`](Self::fit), each segment with the parameters of the curve it stands for.
+    #[must_use]
+    pub fn fit_spans(
+        mut curve: impl FnMut(f64) -> Point,
+        t0: f64,
+        t1: f64,
+        tolerance: Tolerance,
+    ) -> Vec<(Self, f64, f64)> {
+        let mut out: Vec<(Self, f64, f64)> = Vec::new();
         let mut stack = vec![(t0, t1, 0_u32)];
         while let Some((a, b, depth)) = stack.pop() {
             let (mut spline, error) = Self::interpolate(&mut curve, a, b);
             // Below the rounding of the points no halving helps; nor does it at a jump.
-            let rounding =
-                32.0 * f64::EPSILON * spline.start.coords.amax().max(spline.end.coords.amax());
+            let rounding = 32.0 * f64::EPSILON * spline.start.coords.amax().max(spline.end.coords.amax());
             if error <= tolerance.mm().max(rounding) || depth >= 16 {
-                if let Some(last) = out.last().map(|s: &Self| s.end) {
-                    spline.start = last;
+                if let Some((last, ..)) = out.last() {
+                    spline.start = last.end;
                 }
-                out.push(spline);
+                out.push((spline, a, b));
             } else {
                 let middle = 0.5 * (a + b);
                 stack.push((middle, b, depth + 1));
@@ -100,6 +111,13 @@ impl Spline {
             }
         }
         out
+    }
+
+    /// Length of the chain of `count` chords of equal parameter.
+    #[must_use]
+    pub fn chords(&self, count: u32) -> f64 {
+        let point = |i: u32| self.at(-1.0 + 2.0 * f64::from(i) / f64::from(count)).point;
+        (0..count).map(|i| (point(i + 1) - point(i)).norm()).sum()
     }
 
     /// Start point, `u = -1`.

@@ -1,4 +1,20 @@
 //! Non-circular gears.
 
+mod conjugate;
 pub mod design;
+mod fitted;
+mod flank;
+mod pair;
 pub mod pitch;
+mod profile;
+mod rolling;
+mod teeth;
+mod tool;
+
+pub use conjugate::Conjugate;
+pub use flank::Side;
+pub use pair::{Gear, GearPair, GearPairError};
+pub use profile::{ProfileError, Role, Tooth, ToothSide};
+pub use rolling::{Frame, Member, Rolling, RollingError};
+pub use teeth::{TeethError, TeethParameters};
+pub use tool::{Tool, ToolKind};

@@ -13,6 +13,15 @@ pub enum Member {
 }
 
 impl Member {
+    /// The other gear of the pair.
+    #[must_use]
+    pub fn mate(self) -> Self {
+        match self {
+            Self::Driver => Self::Driven,
+            Self::Driven => Self::Driver,
+        }
+    }
+
     /// The name used in files and reports.
     #[must_use]
     pub fn name(self) -> &'static str {
@@ -61,8 +70,15 @@ pub struct Rolling {
     driven: Primitive,
     center_distance: f64,
     mean_ratio: (u32, u32),
-    least_radius: f64,
-    greatest_radius: f64,
+    least: Extreme,
+    greatest: Extreme,
+}
+
+/// A pitch radius that is the least or the greatest, and the parameter it is at.
+#[derive(Clone, Copy, Debug)]
+struct Extreme {
+    at: f64,
+    radius: f64,
 }
 
 /// Why two pitch curves cannot roll on each other.
@@ -132,13 +148,9 @@ impl Rolling {
                 (jet.point.coords.norm(), weight * jet.point.coords.perp(&jet.first))
             })
             .collect();
-        let (mut least, mut greatest) = extremes(&*curve, &arc);
-        for &(r, _) in &nodes {
-            least = least.min(r);
-            greatest = greatest.max(r);
-        }
+        let (least, greatest) = extremes(&*curve, &arc);
         let wanted = TAU * f64::from(ratio.1) / f64::from(ratio.0);
-        let mut a = closure(&nodes, greatest, wanted);
+        let mut a = closure(&nodes, greatest.radius, wanted);
         let mut driven = driven_angle(&*curve, &breaks, a);
         for _ in 0..4 {
             let missing = driven.total() - wanted;
@@ -147,7 +159,7 @@ impl Rolling {
             }
             let slope: f64 = nodes.iter().map(|&(r, w)| -w / (r * (a - r) * (a - r))).sum();
             let better = a - missing / slope;
-            if better <= greatest || better == a {
+            if better <= greatest.radius || better == a {
                 break;
             }
             let retry = driven_angle(&*curve, &breaks, better);
@@ -172,8 +184,8 @@ impl Rolling {
             driven,
             center_distance: a,
             mean_ratio: ratio,
-            least_radius: least,
-            greatest_radius: greatest,
+            least,
+            greatest,
         };
         rolling.check_repeats()?;
         Ok(rolling)
@@ -192,7 +204,7 @@ impl Rolling {
             let again = self.radius(phi + TAU / f64::from(repeats));
             difference = difference.max((again - r).abs());
         }
-        if difference > 1e-9 * self.greatest_radius {
+        if difference > 1e-9 * self.greatest.radius {
             return Err(RollingError::NotPeriodic {
                 ratio: self.mean_ratio,
                 difference,
@@ -232,12 +244,28 @@ impl Rolling {
     #[must_use]
     pub fn radii(&self, member: Member) -> (f64, f64) {
         match member {
-            Member::Driver => (self.least_radius, self.greatest_radius),
+            Member::Driver => (self.least.radius, self.greatest.radius),
             Member::Driven => (
-                self.center_distance - self.greatest_radius,
-                self.center_distance - self.least_radius,
+                self.center_distance - self.greatest.radius,
+                self.center_distance - self.least.radius,
             ),
         }
+    }
+
+    /// Arc lengths at the least and the greatest driver radius, the first of each.
+    pub(crate) fn extreme_arcs(&self) -> (f64, f64) {
+        (self.arc_length(self.least.at), self.arc_length(self.greatest.at))
+    }
+
+    /// The sharpest corner of the pitch curve: change of direction and polar angle, rad.
+    pub(crate) fn corner(&self) -> Option<(f64, f64)> {
+        let turn = |&b: &f64| {
+            let (before, after) = (self.curve.at(b.next_down()).first, self.curve.at(b).first);
+            (before.perp(&after).atan2(before.dot(&after)), self.angle(b))
+        };
+        let sharpest = self.jumps.iter().map(turn).max_by(|a, b| a.0.abs().total_cmp(&b.0.abs()))?;
+        // Far above the rounding of a direction, far below any drawn corner.
+        (sharpest.0.abs() > 1e-7).then_some(sharpest)
     }
 
     /// Driven angle of one driver turn less 2 pi n2/n1, rad: how well the cycle closes.
@@ -457,28 +485,28 @@ fn axis_crossings(curve: &dyn Curve, period: f64) -> Result<(f64, f64), RollingE
 }
 
 /// Least and greatest radius, sharpened from the samples of the arc-length panels.
-fn extremes(curve: &dyn Curve, arc: &Primitive) -> (f64, f64) {
+fn extremes(curve: &dyn Curve, arc: &Primitive) -> (Extreme, Extreme) {
     let slope = |t: f64| {
         let jet = curve.at(t);
         jet.point.coords.dot(&jet.first)
     };
-    let samples: Vec<f64> = {
-        let mut all: Vec<f64> = arc.nodes().map(|(t, _)| t).collect();
-        all.sort_by(f64::total_cmp);
-        all
-    };
-    let (mut least, mut greatest) = (f64::INFINITY, 0.0_f64);
-    let mut take = |t: f64| {
-        let r = curve.at(t).point.coords.norm();
-        least = least.min(r);
-        greatest = greatest.max(r);
+    let mut samples: Vec<f64> = arc.nodes().map(|(t, _)| t).collect();
+    samples.sort_by(f64::total_cmp);
+    let mut least = Extreme { at: 0.0, radius: f64::INFINITY };
+    let mut greatest = Extreme { at: 0.0, radius: 0.0 };
+    let mut take = |at: f64| {
+        let radius = curve.at(at).point.coords.norm();
+        if radius < least.radius {
+            least = Extreme { at, radius };
+        }
+        if radius > greatest.radius {
+            greatest = Extreme { at, radius };
+        }
     };
     let count = samples.len();
     for i in 0..count {
-        let (a, mut b) = (samples[i], samples[(i + 1) % count]);
-        if b < a {
-            b += curve.period();
-        }
+        let a = samples[i];
+        let b = if i + 1 < count { samples[i + 1] } else { samples[0] + curve.period() };
         let (fa, fb) = (slope(a), slope(b));
         if (fa > 0.0) != (fb > 0.0) {
             take(bracketed_root(slope, a, b, fa, fb));

@@ -1,5 +1,3 @@
-use std::f64::consts::PI;
-
 /// The generating tool, resolved: lengths in mm, angles in rad.
 ///
 /// `addendum` and `dedendum` are those of the driver's teeth about the rolling line, profile shift
@@ -97,8 +95,3 @@ impl Tool {
     }
 }
 
-/// Width of a standard tooth or space on the pitch line, mm.
-#[must_use]
-pub fn half_pitch(module: f64) -> f64 {
-    0.5 * PI * module
-}

@@ -1,0 +1,396 @@
+use centrode_geometry::{Kept, OpenOutline, Outline, Point, Segment, Spline, Tolerance, without_loops};
+
+use super::{
+    flank::{Flank, Side},
+    rolling::{Member, Rolling},
+    tool::{Corner, Tool},
+};
+
+/// What a part of a gear's profile is.
+#[derive(Clone, Copy, Debug, Eq, Hash, PartialEq)]
+pub enum Role {
+    /// Top of a tooth.
+    Tip,
+    /// Side of a tooth: what transmits the motion.
+    Flank,
+    /// Curve from a flank to the root, cut by the tool's rounded corner.
+    Fillet,
+    /// Bottom of a space.
+    Root,
+}
+
+impl Role {
+    /// The name used in files.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Tip => "tip",
+            Self::Flank => "flank",
+            Self::Fillet => "fillet",
+            Self::Root => "root",
+        }
+    }
+}
+
+/// How far a flank reaches up, and what ends it below.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct FlankPlan {
+    /// Arc length where the flank crosses the pitch curve.
+    pub(crate) crossing: f64,
+    pub(crate) top: Top,
+    pub(crate) corner: Corner,
+}
+
+/// Where a flank ends at the tip.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Top {
+    /// At this normal distance from the pitch curve.
+    Height(f64),
+    /// Where it is generated this far, in arc length, from its crossing.
+    Reach(f64),
+}
+
+/// The two flanks of a tooth as they are to be cut.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ToothPlan {
+    pub(crate) leading: FlankPlan,
+    pub(crate) trailing: FlankPlan,
+}
+
+/// One side of a finished tooth.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ToothSide {
+    /// Arc length where the flank crosses the pitch curve, mm.
+    pub crossing: f64,
+    /// Height of the tip corner above the pitch curve, mm.
+    pub tip_height: f64,
+    /// How much lower the tip corner is than asked for, mm: the pitch curve or the tool allows no more flank.
+    pub shortened: f64,
+    /// Depth below the pitch curve, as the tool stands, that the tool's straight flank reaches, mm.
+    pub form_depth: f64,
+    /// Length of flank lost to undercut, in arc length of roll, mm; zero for a sound tooth.
+    pub undercut: f64,
+    /// Arc lengths of roll between which flank is left; `None` when nothing is.
+    pub active: Option<(f64, f64)>,
+    /// Least radius of curvature of the fillet, mm.
+    pub fillet_radius: f64,
+}
+
+/// A finished tooth, numbered in the order the teeth mesh.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tooth {
+    /// Flank reached first.
+    pub leading: ToothSide,
+    /// Flank reached last.
+    pub trailing: ToothSide,
+    /// Width of the top land, mm; zero for a pointed or missing tooth.
+    pub tip_width: f64,
+    /// True when undercut from both sides has cut the tooth off.
+    pub severed: bool,
+}
+
+/// The profile of one gear: its outline, what each segment of it is, and its teeth.
+#[derive(Clone, Debug)]
+pub(crate) struct Profile {
+    pub(crate) outline: Outline,
+    pub(crate) roles: Vec<Role>,
+    pub(crate) owners: Vec<u32>,
+    pub(crate) teeth: Vec<Tooth>,
+}
+
+struct Piece {
+    spline: Spline,
+    role: Role,
+    tooth: u32,
+    /// Pitch-curve parameters at the ends.
+    span: (f64, f64),
+    side: Side,
+}
+
+/// The tips and ends of one flank, found.
+struct Ends {
+    /// Parameter at the tip corner.
+    tip: f64,
+    /// Foot of the normal through the tip corner.
+    foot: f64,
+    height: f64,
+    shortened: f64,
+}
+
+/// Why a gear has no profile.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ProfileError {
+    /// The pitch curve is too sharp for any tooth.
+    #[error("the {} has no profile: every part of its contour lies in a loop, so the teeth are too large for the pitch curve", .member.name())]
+    Looped {
+        /// Which gear.
+        member: Member,
+    },
+    /// The contour does not close: a coordinate is not a number.
+    #[error(transparent)]
+    Open(#[from] OpenOutline),
+}
+
+pub(crate) struct Cutter<'a> {
+    pub(crate) rolling: &'a Rolling,
+    pub(crate) member: Member,
+    pub(crate) tool: &'a Tool,
+    pub(crate) tolerance: Tolerance,
+}
+
+impl Cutter<'_> {
+    fn flank(&self, plan: &FlankPlan, side: Side) -> Flank<'_> {
+        Flank {
+            rolling: self.rolling,
+            member: self.member,
+            tool: self.tool,
+            side,
+            crossing: plan.crossing,
+        }
+    }
+
+    /// Cuts every tooth and joins them into one contour.
+    pub(crate) fn cut(&self, plans: &[ToothPlan]) -> Result<Profile, ProfileError> {
+        let mut pieces: Vec<Piece> = Vec::with_capacity(plans.len() * 16);
+        let mut teeth = Vec::with_capacity(plans.len());
+        for (k, plan) in plans.iter().enumerate() {
+            let next = plans.get(k + 1).map_or_else(
+                || {
+                    let mut first = plans[0].leading;
+                    first.crossing += self.rolling.pitch_length(self.member);
+                    first
+                },
+                |p| p.leading,
+            );
+            teeth.push(self.tooth(k as u32, plan, &next, &mut pieces));
+        }
+        let segments: Vec<Segment> = pieces.iter().map(|p| Segment::Spline(p.spline)).collect();
+        let per_tooth = 1 + pieces.len() / plans.len();
+        let kept = without_loops(&segments, |i| {
+            // Up to the end of the next tooth: a longer detour is not one tooth's own.
+            let owner = pieces[i].tooth;
+            let count = pieces.len();
+            (1..4 * per_tooth)
+                .take_while(|step| {
+                    let ahead = pieces[(i + step) % count].tooth;
+                    (ahead + plans.len() as u32 - owner) % plans.len() as u32 <= 1
+                })
+                .count()
+        })
+        .ok_or(ProfileError::Looped { member: self.member })?;
+        self.join(&pieces, &kept, teeth)
+    }
+
+    fn ends(&self, flank: &Flank<'_>, plan: &FlankPlan) -> Ends {
+        let rolling = self.rolling;
+        let start = rolling.parameter(plan.crossing);
+        let sign = flank.side.sign();
+        let limit = rolling.parameter(plan.crossing - sign * self.tool.addendum_reach().min(0.25 * rolling.pitch_length(self.member)));
+        let found = match plan.top {
+            Top::Height(height) => flank.at_height(height),
+            Top::Reach(reach) => {
+                let tip = rolling.parameter(plan.crossing - sign * reach);
+                let (foot, height) = flank.foot(tip);
+                return Ends {
+                    tip,
+                    foot,
+                    height,
+                    shortened: 0.0,
+                };
+            }
+        };
+        let wanted = match plan.top {
+            Top::Height(height) => height,
+            Top::Reach(_) => 0.0,
+        };
+        let beyond = |t: f64| sign * (limit - t) > 0.0;
+        if let Some((tip, foot)) = found
+            && !beyond(tip)
+            && flank.singularity(start, tip).is_none()
+        {
+            return Ends {
+                tip,
+                foot,
+                height: wanted,
+                shortened: 0.0,
+            };
+        }
+        // As far up as the flank goes: to its singular point or the tool's own limit.
+        let farthest = match found {
+            Some((tip, _)) if !beyond(tip) => tip,
+            _ => {
+                let (sin, cos) = self.tool.pressure_angle.sin_cos();
+                let reach = (2.0 * wanted / (sin * cos)).min(self.tool.addendum_reach());
+                rolling.parameter(plan.crossing - sign * reach)
+            }
+        };
+        let tip = flank.singularity(start, farthest).unwrap_or(farthest);
+        let (foot, height) = flank.foot(tip);
+        Ends {
+            tip,
+            foot,
+            height,
+            shortened: (wanted - height).max(0.0),
+        }
+    }
+
+    fn tooth(&self, index: u32, plan: &ToothPlan, next: &FlankPlan, pieces: &mut Vec<Piece>) -> Tooth {
+        let leading = self.flank(&plan.leading, Side::Leading);
+        let trailing = self.flank(&plan.trailing, Side::Trailing);
+        let (lead, trail) = (self.ends(&leading, &plan.leading), self.ends(&trailing, &plan.trailing));
+        let parameter = |arc: f64| self.rolling.parameter(arc);
+        let lead_end = parameter(plan.leading.crossing - plan.leading.corner.end);
+        let lead_center = parameter(plan.leading.crossing - plan.leading.corner.center);
+        let trail_end = parameter(plan.trailing.crossing + plan.trailing.corner.end);
+        let trail_center = parameter(plan.trailing.crossing + plan.trailing.corner.center);
+        let next_center = parameter(next.crossing - next.corner.center);
+
+        let mut add = |role: Role, side: Side, from: f64, to: f64, curve: &dyn Fn(f64) -> Point| {
+            self.fit(pieces, (role, side, index), from, to, curve);
+        };
+        add(Role::Fillet, Side::Leading, lead_center, lead_end, &|t| leading.fillet(&plan.leading.corner, t));
+        add(Role::Flank, Side::Leading, lead_end, lead.tip, &|t| leading.point(t));
+        let width = trail.foot - lead.foot;
+        add(Role::Tip, Side::Trailing, lead.foot, trail.foot, &|t| {
+            let frame = leading.frame(t);
+            let share = if width == 0.0 { 0.0 } else { (t - lead.foot) / width };
+            frame.point + frame.normal * (lead.height + share * (trail.height - lead.height))
+        });
+        add(Role::Flank, Side::Trailing, trail.tip, trail_end, &|t| trailing.point(t));
+        add(Role::Fillet, Side::Trailing, trail_end, trail_center, &|t| trailing.fillet(&plan.trailing.corner, t));
+        let bottom = next_center - trail_center;
+        let (deep, next_deep) = (plan.trailing.corner.depth, next.corner.depth);
+        add(Role::Root, Side::Trailing, trail_center, next_center, &|t| {
+            let frame = leading.frame(t);
+            let share = if bottom == 0.0 { 0.0 } else { (t - trail_center) / bottom };
+            let smooth = share * share * (3.0 - 2.0 * share);
+            frame.point - frame.normal * (deep + smooth * (next_deep - deep))
+        });
+        let side = |flank: &Flank<'_>, plan: &FlankPlan, ends: &Ends| ToothSide {
+            crossing: plan.crossing,
+            tip_height: ends.height,
+            shortened: ends.shortened,
+            form_depth: -flank.height(plan.crossing + flank.side.sign() * plan.corner.end),
+            undercut: 0.0,
+            active: None,
+            fillet_radius: f64::INFINITY,
+        };
+        Tooth {
+            leading: side(&leading, &plan.leading, &lead),
+            trailing: side(&trailing, &plan.trailing, &trail),
+            tip_width: 0.0,
+            severed: true,
+        }
+    }
+
+    /// Fits a curve between two parameters, cut at the pitch curve's breaks.
+    fn fit(
+        &self,
+        pieces: &mut Vec<Piece>,
+        (role, side, tooth): (Role, Side, u32),
+        from: f64,
+        to: f64,
+        curve: &dyn Fn(f64) -> Point,
+    ) {
+        let mut ends = vec![from];
+        ends.extend(self.rolling.breaks_between(from, to));
+        ends.push(to);
+        for pair in ends.windows(2) {
+            if pair[0] == pair[1] {
+                continue;
+            }
+            let fitted = Spline::fit_spans(|t| curve(t), pair[0], pair[1], self.tolerance);
+            for (spline, t0, t1) in fitted {
+                pieces.push(Piece {
+                    spline,
+                    role,
+                    tooth,
+                    span: (t0, t1),
+                    side,
+                });
+            }
+        }
+    }
+
+    fn join(&self, pieces: &[Piece], kept: &[Kept], mut teeth: Vec<Tooth>) -> Result<Profile, ProfileError> {
+        let mut splines: Vec<Spline> = kept
+            .iter()
+            .map(|k| {
+                let spline = &pieces[k.index].spline;
+                if (k.from, k.to) == (-1.0, 1.0) {
+                    *spline
+                } else {
+                    spline.part(k.from, k.to)
+                }
+            })
+            .collect();
+        let count = splines.len();
+        for i in 0..count {
+            let end = splines[i].end();
+            let next = (i + 1) % count;
+            if splines[next].start() != end {
+                splines[next] = splines[next].pinned(end, splines[next].end());
+            }
+        }
+        let mut roles = Vec::with_capacity(count);
+        let mut owners = Vec::with_capacity(count);
+        for (k, spline) in kept.iter().zip(&splines) {
+            let piece = &pieces[k.index];
+            roles.push(piece.role);
+            owners.push(piece.tooth);
+            let tooth = &mut teeth[piece.tooth as usize];
+            let side = match piece.side {
+                Side::Leading => &mut tooth.leading,
+                Side::Trailing => &mut tooth.trailing,
+            };
+            match piece.role {
+                Role::Flank => {
+                    let (t0, t1) = piece.span;
+                    let at = |u: f64| self.rolling.arc_length(t0 + 0.5 * (1.0 + u) * (t1 - t0));
+                    let (a, b) = (at(k.from), at(k.to));
+                    let (low, high) = side.active.unwrap_or((f64::INFINITY, f64::NEG_INFINITY));
+                    side.active = Some((low.min(a).min(b), high.max(a).max(b)));
+                }
+                Role::Fillet => {
+                    for i in 0..=4 {
+                        let jet = spline.at(-1.0 + 0.5 * f64::from(i));
+                        let turn = jet.first.perp(&jet.second).abs();
+                        side.fillet_radius = side.fillet_radius.min(jet.first.norm().powi(3) / turn);
+                    }
+                }
+                Role::Tip => {
+                    tooth.severed = false;
+                    tooth.tip_width += spline.chords(8);
+                }
+                Role::Root => {}
+            }
+        }
+        for tooth in &mut teeth {
+            tooth.severed = tooth.severed && tooth.leading.active.is_none() && tooth.trailing.active.is_none();
+            for (side, sign) in [(&mut tooth.leading, -1.0), (&mut tooth.trailing, 1.0)] {
+                let (sin, cos) = self.tool.pressure_angle.sin_cos();
+                let reached = side.form_depth / (sin * cos);
+                let left = side.active.map_or(0.0, |(low, high)| {
+                    if sign > 0.0 { high - side.crossing } else { side.crossing - low }
+                });
+                let lost = reached - left;
+                // What rounding of a crossing can hide is not undercut.
+                side.undercut = if lost > 1e-7 * reached { lost } else { 0.0 };
+            }
+        }
+        let mut segments: Vec<Segment> = splines.into_iter().map(Segment::Spline).collect();
+        if self.member == Member::Driven {
+            // Rolled clockwise: turn the contour round.
+            segments = segments.iter().rev().map(Segment::reversed).collect();
+            roles.reverse();
+            owners.reverse();
+        }
+        Ok(Profile {
+            outline: Outline::new(segments)?,
+            roles,
+            owners,
+            teeth,
+        })
+    }
+}

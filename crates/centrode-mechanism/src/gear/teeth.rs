@@ -1,0 +1,270 @@
+use super::{
+    design::{Addendum, Phase},
+    fitted,
+    flank::{Flank, Side},
+    profile::{FlankPlan, ToothPlan, Top},
+    rolling::{Member, Rolling},
+    tool::Tool,
+};
+
+/// What the teeth of a pair are to be like.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TeethParameters {
+    /// The generating tool.
+    pub tool: Tool,
+    /// How high the teeth stand.
+    pub addendum: Addendum,
+    /// Where they sit.
+    pub phase: Phase,
+    /// Play between mating flanks along their common normal, mm.
+    pub backlash: f64,
+    /// Greatest play of the driven gear with the driver held, rad; replaces `backlash`.
+    pub backlash_angle: Option<f64>,
+    /// The driver's share of the pitch, tooth against space; 0.5 for equal teeth.
+    pub thickness_split: f64,
+    /// Least width of the top land, mm.
+    pub least_tip_width: f64,
+}
+
+/// Why no teeth can be laid out.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum TeethError {
+    /// The tool's tip has no room for its rounding.
+    #[error("tip radius {radius} mm does not fit the tool: a space {space} mm wide and {depth} mm deep on the {} takes at most {greatest} mm", .member.name())]
+    TipRadius {
+        /// Which gear's space.
+        member: Member,
+        /// Radius asked for, mm.
+        radius: f64,
+        /// Width of the space on the pitch curve, mm.
+        space: f64,
+        /// Depth of the space, mm.
+        depth: f64,
+        /// Greatest radius that fits, mm.
+        greatest: f64,
+    },
+    /// A tooth or a space is left with no width.
+    #[error("the {} is left with a tooth {width} mm wide on a pitch of {pitch} mm", .member.name())]
+    NoWidth {
+        /// Which gear.
+        member: Member,
+        /// Width of the tooth on the pitch curve, mm.
+        width: f64,
+        /// Pitch, mm.
+        pitch: f64,
+    },
+    /// Both gears cannot be the same part.
+    #[error("phase \"congruent\" needs two pitch curves that are the same; these differ by {difference:e} mm in radius")]
+    NotCongruent {
+        /// Greatest difference of radius, mm.
+        difference: f64,
+    },
+}
+
+/// The teeth of both gears as they are to be cut.
+#[derive(Clone, Debug)]
+pub(crate) struct Layout {
+    pub(crate) driver: Vec<ToothPlan>,
+    pub(crate) driven: Vec<ToothPlan>,
+    /// Pitches from phi = 0 to the middle of driver tooth 0.
+    pub(crate) phase: f64,
+    pub(crate) backlash: f64,
+    pub(crate) congruent: bool,
+}
+
+pub(crate) struct Counts {
+    pub(crate) driver: u32,
+    pub(crate) driven: u32,
+}
+
+pub(crate) fn layout(rolling: &Rolling, counts: &Counts, parameters: &TeethParameters) -> Result<Layout, TeethError> {
+    let tool = &parameters.tool;
+    let pitch = rolling.pitch_length(Member::Driver) / f64::from(counts.driver);
+    let (phase, congruent) = phase(rolling, pitch, parameters)?;
+    let backlash = match parameters.backlash_angle {
+        Some(angle) => angle * least_lever(rolling, tool.pressure_angle),
+        None => parameters.backlash,
+    };
+    let thinning = backlash / (4.0 * tool.pressure_angle.cos());
+    let width = pitch * parameters.thickness_split + 2.0 * tool.profile_shift * tool.pressure_angle.tan();
+    for (member, width) in [(Member::Driver, width), (Member::Driven, pitch - width)] {
+        if !(width > 2.0 * thinning && width < pitch) {
+            return Err(TeethError::NoWidth { member, width: width - 2.0 * thinning, pitch });
+        }
+    }
+    let middle = |member: Member, k: u32| {
+        let half = if member == Member::Driver { 0.0 } else { 0.5 };
+        (f64::from(k) + phase + half) * pitch
+    };
+    let crossing = |member: Member, k: u32, side: Side| {
+        let width = if member == Member::Driver { width } else { pitch - width };
+        middle(member, k) + side.sign() * (0.5 * width - thinning)
+    };
+    let space = |member: Member| {
+        let width = if member == Member::Driver { width } else { pitch - width };
+        pitch - width + 2.0 * thinning
+    };
+    let shift = |member: Member| match member {
+        Member::Driver => tool.profile_shift,
+        Member::Driven => -tool.profile_shift,
+    };
+    let count = |member: Member| match member {
+        Member::Driver => counts.driver,
+        Member::Driven => counts.driven,
+    };
+    let plan = |member: Member| -> Result<Vec<ToothPlan>, TeethError> {
+        let depth = tool.dedendum - shift(member);
+        let greatest = tool.greatest_tip_radius(depth, space(member));
+        // The two roundings may just touch: leave that to rounding.
+        if tool.tip_radius > greatest * (1.0 + 1e-12) {
+            return Err(TeethError::TipRadius {
+                member,
+                radius: tool.tip_radius,
+                space: space(member),
+                depth,
+                greatest,
+            });
+        }
+        let corner = tool.corner(depth, tool.tip_radius);
+        let flank = |k: u32, side: Side| FlankPlan {
+            crossing: crossing(member, k, side),
+            top: Top::Height(tool.addendum + shift(member)),
+            corner,
+        };
+        Ok((0..count(member))
+            .map(|k| ToothPlan {
+                leading: flank(k, Side::Leading),
+                trailing: flank(k, Side::Trailing),
+            })
+            .collect())
+    };
+    let (mut driver, mut driven) = (plan(Member::Driver)?, plan(Member::Driven)?);
+    if parameters.addendum == Addendum::Fitted {
+        let tops = |member: Member, teeth: &mut [ToothPlan]| -> Vec<[(f64, f64); 2]> {
+            teeth
+                .iter_mut()
+                .map(|tooth| fit_tops(rolling, parameters, member, tool.addendum + shift(member), tooth))
+                .collect()
+        };
+        let driver_tops = tops(Member::Driver, &mut driver);
+        let driven_tops = tops(Member::Driven, &mut driven);
+        let clearance = tool.dedendum - tool.addendum;
+        // A driver tooth works in the space between driven teeth k - 1 and k, a driven one between
+        // driver teeth k and k + 1; flanks of opposite sides mate.
+        let corner = |member: Member, top: (f64, f64)| fitted::corner(tool, top.1 + clearance, top.0, space(member));
+        let last = driven.len() - 1;
+        for (k, tooth) in driven.iter_mut().enumerate() {
+            tooth.leading.corner = corner(Member::Driven, driver_tops[k % driver_tops.len()][1]);
+            tooth.trailing.corner = corner(Member::Driven, driver_tops[(k + 1) % driver_tops.len()][0]);
+        }
+        for (k, tooth) in driver.iter_mut().enumerate() {
+            let before = if k == 0 { last } else { (k - 1) % driven_tops.len() };
+            tooth.leading.corner = corner(Member::Driver, driven_tops[before][1]);
+            tooth.trailing.corner = corner(Member::Driver, driven_tops[k % driven_tops.len()][0]);
+        }
+    }
+    Ok(Layout { driver, driven, phase, backlash, congruent })
+}
+
+/// Trims one tooth; gives reach and normal height of its leading and trailing tip corner.
+fn fit_tops(
+    rolling: &Rolling,
+    parameters: &TeethParameters,
+    member: Member,
+    height: f64,
+    tooth: &mut ToothPlan,
+) -> [(f64, f64); 2] {
+    let tool = &parameters.tool;
+    let flank = |plan: &FlankPlan, side: Side| Flank { rolling, member, tool, side, crossing: plan.crossing };
+    let (sin, cos) = tool.pressure_angle.sin_cos();
+    let limit = (height / (sin * cos)).max(0.0);
+    let leading = flank(&tooth.leading, Side::Leading);
+    let trailing = flank(&tooth.trailing, Side::Trailing);
+    // A full tooth keeps its full height, exactly.
+    let full = |flank: &Flank<'_>| {
+        let end = flank.at_height(height).map(|(t, _)| (rolling.arc_length(t) - flank.crossing).abs());
+        let most = end.unwrap_or(limit);
+        fitted::reach(rolling, tool, (member, flank.side), flank.crossing, most)
+    };
+    let (lead, trail) = (full(&leading), full(&trailing));
+    let share = fitted::share_for_width((&leading, lead), (&trailing, trail), parameters.least_tip_width);
+    let (lead, trail) = (share * lead, share * trail);
+    tooth.leading.top = Top::Reach(lead);
+    tooth.trailing.top = Top::Reach(trail);
+    let top = |flank: &Flank<'_>, reach: f64| {
+        let t = rolling.parameter(flank.crossing - flank.side.sign() * reach);
+        (reach, flank.foot(t).1)
+    };
+    [top(&leading, lead), top(&trailing, trail)]
+}
+
+/// Least distance from the driven shaft to the common normal over the cycle, mm: what turns play
+/// along the normal into an angle.
+pub(crate) fn least_lever(rolling: &Rolling, pressure_angle: f64) -> f64 {
+    const SAMPLES: u32 = 512;
+    let (sin, cos) = pressure_angle.sin_cos();
+    let length = rolling.pitch_length(Member::Driver);
+    let mut least = f64::INFINITY;
+    for i in 0..SAMPLES {
+        let t = rolling.parameter(length * f64::from(i) / f64::from(SAMPLES));
+        let frame = rolling.frame(Member::Driven, t);
+        for side in [-1.0, 1.0] {
+            let line = frame.tangent * cos + frame.normal * (side * sin);
+            least = least.min(frame.point.coords.perp(&line).abs());
+        }
+    }
+    least
+}
+
+/// Pitches from phi = 0 to the middle of a driver tooth, and whether the gears are congruent.
+///
+/// Two gears are the same part when r(s) + r(s* - s) = a for some s*: the driven tooth at
+/// (k + phase + 1/2) p must fall on a driver tooth of the mirrored count, which asks
+/// 2 phase = s*/p - 1/2 mod 1.
+fn phase(rolling: &Rolling, pitch: f64, parameters: &TeethParameters) -> Result<(f64, bool), TeethError> {
+    let difference = self_mating_difference(rolling, pitch);
+    let symmetric = parameters.thickness_split == 0.5 && parameters.tool.profile_shift == 0.0;
+    let small = 1e-9 * rolling.center_distance();
+    let wanted = |mirror: f64| (0.5 * (mirror / pitch - 0.5)).rem_euclid(0.5);
+    let congruent_at = |phase: f64| {
+        difference.is_some_and(|(mirror, d)| {
+            let off = 2.0 * (phase - wanted(mirror));
+            symmetric && d < small && (off - off.round()).abs() < 1e-9
+        })
+    };
+    match (parameters.phase, difference) {
+        (Phase::Auto, Some((mirror, d))) if d < small => Ok((wanted(mirror), symmetric)),
+        (Phase::Auto | Phase::Tooth, _) => Ok((0.0, congruent_at(0.0))),
+        (Phase::Space, _) => Ok((0.5, congruent_at(0.5))),
+        (Phase::Pitches(pitches), _) => Ok((pitches, congruent_at(pitches))),
+        (Phase::Congruent, Some((mirror, d))) if d < small && symmetric => Ok((wanted(mirror), true)),
+        (Phase::Congruent, found) => Err(TeethError::NotCongruent {
+            difference: found.map_or(f64::INFINITY, |(_, d)| d),
+        }),
+    }
+}
+
+/// The mirror s* for which r(s) + r(s* - s) comes nearest to a, and by how much it misses.
+fn self_mating_difference(rolling: &Rolling, pitch: f64) -> Option<(f64, f64)> {
+    const SAMPLES: u32 = 96;
+    if rolling.mean_ratio() != (1, 1) {
+        return None;
+    }
+    let length = rolling.pitch_length(Member::Driver);
+    let radius = |s: f64| rolling.curve().at(rolling.parameter(s)).point.coords.norm();
+    let (least, greatest) = rolling.radii(Member::Driver);
+    if greatest - least < 1e-12 * greatest {
+        // A circle mirrors about anything: half a pitch puts tooth 0 at phi = 0.
+        return Some((0.5 * pitch, 0.0));
+    }
+    let (low, high) = rolling.extreme_arcs();
+    let mirror = low + high;
+    let mut difference = 0.0_f64;
+    for i in 0..SAMPLES {
+        let s = length * f64::from(i) / f64::from(SAMPLES);
+        difference = difference.max((radius(s) + radius(mirror - s) - rolling.center_distance()).abs());
+    }
+    Some((mirror, difference))
+}
+
