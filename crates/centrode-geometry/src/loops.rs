@@ -1,7 +1,4 @@
-use crate::{Point, Segment, Vector};
-
-/// Parameter length below which a pair of parts is taken to touch, not to cross.
-const SHORTEST: f64 = 1e-9;
+use crate::{Point, Segment, Tolerance, Vector};
 
 /// A part of one segment, with what is needed to tell it from another without solving anything.
 #[derive(Clone, Copy)]
@@ -56,6 +53,11 @@ impl<'a> Part<'a> {
         ]
     }
 
+    /// Bound of the distance between any two points of the part.
+    fn size(&self) -> f64 {
+        (self.end - self.start).norm() + 2.0 * self.sagitta()
+    }
+
     fn length(&self) -> f64 {
         self.to - self.from
     }
@@ -73,13 +75,21 @@ impl<'a> Part<'a> {
         (size > spread).then(|| (first / size, (spread / size).asin()))
     }
 
+    /// Whether an axis or the normal of a chord keeps the two parts apart.
     fn apart(&self, other: &Self) -> bool {
         let margin = self.sagitta() + other.sagitta();
-        let clear = |a0: f64, a1: f64, b0: f64, b1: f64| {
+        let clear = |axis: &Vector| {
+            let along = |p: &Point| axis.dot(&p.coords);
+            let (a0, a1) = (along(&self.start), along(&self.end));
+            let (b0, b1) = (along(&other.start), along(&other.end));
+            let margin = margin * axis.norm();
             a0.max(a1) + margin < b0.min(b1) || b0.max(b1) + margin < a0.min(a1)
         };
-        clear(self.start.x, self.end.x, other.start.x, other.end.x)
-            || clear(self.start.y, self.end.y, other.start.y, other.end.y)
+        let normal = |part: &Self| {
+            let chord = part.end - part.start;
+            Vector::new(-chord.y, chord.x)
+        };
+        clear(&Vector::x()) || clear(&Vector::y()) || clear(&normal(self)) || clear(&normal(other))
     }
 }
 
@@ -91,38 +101,39 @@ fn angle_between(a: &Vector, b: &Vector) -> f64 {
 /// not a crossing.
 ///
 /// Parts are halved until their bounding boxes part or their tangent cones do; a crossing is then
-/// polished by Newton's method. Loops down to 1e-9 of a segment's parameter are found.
+/// polished by Newton's method. Parts smaller than `tolerance` are taken to touch, not to cross.
 #[must_use]
-pub fn crossings(a: &Segment, b: &Segment, joined: bool) -> Vec<(f64, f64)> {
+pub fn crossings(a: &Segment, b: &Segment, joined: bool, tolerance: Tolerance) -> Vec<(f64, f64)> {
     let mut first = Part::whole(a);
     let second = Part::whole(b);
     first.joined = joined;
     let mut out = Vec::new();
-    search(first, second, &mut out);
+    search(first, second, tolerance.mm(), &mut out);
     out
 }
 
 /// Parameters at which a segment crosses itself.
 #[must_use]
-pub fn self_crossings(segment: &Segment) -> Vec<(f64, f64)> {
+pub fn self_crossings(segment: &Segment, tolerance: Tolerance) -> Vec<(f64, f64)> {
     let mut out = Vec::new();
     let mut pending = vec![Part::whole(segment)];
+    // A smooth curve is cut a few times, one with a cusp once a level down to the tolerance.
     while let Some(part) = pending.pop() {
         // A curve whose tangents fit in half a turn cannot come back to itself.
         let straight = part.cone().is_some_and(|(_, half)| half < 1.5);
-        if straight || part.length() < SHORTEST {
+        if straight || part.size() < tolerance.mm() {
             continue;
         }
         let [mut left, right] = part.halves();
         pending.push(left);
         pending.push(right);
         left.joined = true;
-        search(left, right, &mut out);
+        search(left, right, tolerance.mm(), &mut out);
     }
     out
 }
 
-fn search(a: Part<'_>, b: Part<'_>, out: &mut Vec<(f64, f64)>) {
+fn search(a: Part<'_>, b: Part<'_>, shortest: f64, out: &mut Vec<(f64, f64)>) {
     let mut pending = vec![(a, b)];
     // A pair that keeps branching is an overlap, not a crossing; the count bounds the work on it.
     let mut budget = 20_000_u32;
@@ -154,7 +165,8 @@ fn search(a: Part<'_>, b: Part<'_>, out: &mut Vec<(f64, f64)>) {
                 continue;
             }
         }
-        if a.length().max(b.length()) < SHORTEST {
+        let (size_a, size_b) = (a.size(), b.size());
+        if size_a.max(size_b) < shortest {
             continue;
         }
         if a.joined {
@@ -164,10 +176,7 @@ fn search(a: Part<'_>, b: Part<'_>, out: &mut Vec<(f64, f64)>) {
             pending.push((unjoined(a0), b1));
             pending.push((unjoined(a1), b1));
             pending.push((a1, b0));
-        } else if a.length() * a.bend.max(1e-300) + a.sagitta() >= b.length() * b.bend + b.sagitta()
-            && a.length() >= SHORTEST
-            || b.length() < SHORTEST
-        {
+        } else if size_a >= size_b {
             for half in a.halves() {
                 pending.push((half, b));
             }
@@ -235,13 +244,17 @@ pub struct Kept {
 ///
 /// Returns `None` when every place of the chain lies in a loop.
 #[must_use]
-pub fn without_loops(segments: &[Segment], ahead: impl Fn(usize) -> usize) -> Option<Vec<Kept>> {
+pub fn without_loops(
+    segments: &[Segment],
+    ahead: impl Fn(usize) -> usize,
+    tolerance: Tolerance,
+) -> Option<Vec<Kept>> {
     let count = segments.len();
     let parts: Vec<Part<'_>> = segments.iter().map(Part::whole).collect();
     let boxes: Vec<[f64; 4]> = parts.iter().map(bounds).collect();
     let mut found: Vec<(usize, f64, usize, f64)> = Vec::new();
     for i in 0..count {
-        for (u, v) in self_crossings(&segments[i]) {
+        for (u, v) in self_crossings(&segments[i], tolerance) {
             found.push((i, u.min(v), i, u.max(v)));
         }
         for step in 1..=ahead(i).min(count / 2) {
@@ -250,7 +263,7 @@ pub fn without_loops(segments: &[Segment], ahead: impl Fn(usize) -> usize) -> Op
             if step > 1 && (a[2] < b[0] || b[2] < a[0] || a[3] < b[1] || b[3] < a[1]) {
                 continue;
             }
-            for (u, v) in crossings(&segments[i], &segments[j], step == 1) {
+            for (u, v) in crossings(&segments[i], &segments[j], step == 1, tolerance) {
                 found.push((i, u, i + step, v));
             }
         }
@@ -338,6 +351,10 @@ mod tests {
     use super::*;
     use crate::{Spline, Tolerance};
 
+    fn fine() -> Tolerance {
+        Tolerance::new(1e-13).expect("positive")
+    }
+
     fn splines(f: impl Fn(f64) -> Point, a: f64, b: f64) -> Vec<Segment> {
         let tolerance = Tolerance::new(1e-10).expect("positive");
         Spline::fit(f, a, b, tolerance)
@@ -353,9 +370,9 @@ mod tests {
             let e = 10_f64.powi(-exponent);
             let whole = splines(|t| Point::new(t * t, t * (t * t - e)), -1.2, 1.2);
             let found: Vec<_> = if whole.len() == 1 {
-                self_crossings(&whole[0])
+                self_crossings(&whole[0], fine())
             } else {
-                crossings(&whole[0], &whole[1], true)
+                crossings(&whole[0], &whole[1], true, fine())
             };
             assert_eq!(found.len(), 1, "{e}");
             let point = whole[0].at(found[0].0).point;
@@ -367,14 +384,15 @@ mod tests {
     fn a_chain_without_crossings_is_kept_whole() {
         let circle = splines(|t| Point::new(t.cos(), t.sin()), 0.0, 1.5);
         assert!(
-            crossings(&circle[0], &circle[0].reversed(), false).is_empty() || circle.len() == 1
+            crossings(&circle[0], &circle[0].reversed(), false, fine()).is_empty()
+                || circle.len() == 1
         );
         let square =
             [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)].map(|(x, y)| Point::new(x, y));
         let chain: Vec<Segment> = (0..4)
             .map(|i| Segment::Line(square[i], square[(i + 1) % 4]))
             .collect();
-        let kept = without_loops(&chain, |_| 3).expect("sound");
+        let kept = without_loops(&chain, |_| 3, fine()).expect("sound");
         assert_eq!(kept.len(), 4);
     }
 
@@ -393,7 +411,7 @@ mod tests {
         let chain: Vec<Segment> = (0..7)
             .map(|i| Segment::Line(points[i], points[(i + 1) % 7]))
             .collect();
-        let kept = without_loops(&chain, |_| 3).expect("sound");
+        let kept = without_loops(&chain, |_| 3, fine()).expect("sound");
         let at = |k: &Kept| {
             (
                 chain[k.index].at(k.from).point,

@@ -1,12 +1,12 @@
 use crate::{Point, Tolerance, Vector};
 
-/// Number of interpolation nodes of a [`Spline`]: degree nine.
-const NODES: usize = 10;
+/// Number of interpolation nodes of a [`Spline`]: degree thirteen.
+const NODES: usize = 14;
 
-/// A polynomial curve segment of degree nine on the parameter interval `[-1, 1]`.
+/// A polynomial curve segment of degree thirteen on the parameter interval `[-1, 1]`.
 ///
 /// Interpolates an exact curve at Chebyshev–Lobatto nodes, so both ends lie on it to rounding and the
-/// error between them falls tenth-order with the length of the segment.
+/// error between them falls with the fourteenth power of the length of the segment.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spline {
     start: Point,
@@ -98,7 +98,8 @@ impl Spline {
         while let Some((a, b, depth)) = stack.pop() {
             let (mut spline, error) = Self::interpolate(&mut curve, a, b);
             // Below the rounding of the points no halving helps; nor does it at a jump.
-            let rounding = 32.0 * f64::EPSILON * spline.start.coords.amax().max(spline.end.coords.amax());
+            let rounding =
+                32.0 * f64::EPSILON * spline.start.coords.amax().max(spline.end.coords.amax());
             if error <= tolerance.mm().max(rounding) || depth >= 16 {
                 if let Some((last, ..)) = out.last() {
                     spline.start = last.end;

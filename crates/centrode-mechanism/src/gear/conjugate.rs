@@ -42,9 +42,18 @@ impl Curve for Conjugate {
     fn at(&self, u: f64) -> Jet {
         // At a break the right limit of this curve is the left limit of the driver's.
         let t = -u;
-        let t = if self.rolling.is_jump(t) { t.next_down() } else { t };
+        let t = if self.rolling.is_jump(t) {
+            t.next_down()
+        } else {
+            t
+        };
         let driver = self.rolling.curve().at(t);
-        let (p, d1, d2, d3) = (driver.point.coords, driver.first, driver.second, driver.third);
+        let (p, d1, d2, d3) = (
+            driver.point.coords,
+            driver.first,
+            driver.second,
+            driver.third,
+        );
         let r = p.norm();
         let r1 = p.dot(&d1) / r;
         let r2 = (d1.norm_squared() + p.dot(&d2) - r1 * r1) / r;
@@ -71,7 +80,10 @@ impl Curve for Conjugate {
             point: Point::from(e * radius[0]),
             first: -(e * radius[1] + e1 * radius[0]),
             second: e * radius[2] + e1 * (2.0 * radius[1]) + e2 * radius[0],
-            third: -(e * radius[3] + e1 * (3.0 * radius[2]) + e2 * (3.0 * radius[1]) + e3 * radius[0]),
+            third: -(e * radius[3]
+                + e1 * (3.0 * radius[2])
+                + e2 * (3.0 * radius[1])
+                + e3 * radius[0]),
         }
     }
 }

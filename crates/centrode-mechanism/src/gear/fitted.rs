@@ -47,7 +47,11 @@ pub(crate) fn reach(
 }
 
 /// The share of both reaches a tooth can keep with a top land at least `width` wide.
-pub(crate) fn share_for_width(leading: (&Flank<'_>, f64), trailing: (&Flank<'_>, f64), width: f64) -> f64 {
+pub(crate) fn share_for_width(
+    leading: (&Flank<'_>, f64),
+    trailing: (&Flank<'_>, f64),
+    width: f64,
+) -> f64 {
     let land = |share: f64| {
         let tip = |(flank, reach): (&Flank<'_>, f64)| {
             let arc = flank.crossing - flank.side.sign() * share * reach;

@@ -83,7 +83,11 @@ impl Flank<'_> {
                 return Some(a);
             }
             for i in 1..=SAMPLES {
-                let t = if i == SAMPLES { inward } else { a + (b - a) * f64::from(i) / f64::from(SAMPLES) };
+                let t = if i == SAMPLES {
+                    inward
+                } else {
+                    a + (b - a) * f64::from(i) / f64::from(SAMPLES)
+                };
                 let speed = self.speed_in(&self.frame(t));
                 if speed <= 0.0 {
                     let root = |t: f64| self.speed_in(&self.frame(t));
@@ -163,7 +167,9 @@ impl Flank<'_> {
         let at = self.frame(t);
         let point = self.point_in(&at);
         let limit = self.tool.addendum + self.tool.dedendum;
-        let mut tau = self.rolling.parameter(at.arc + (self.crossing - at.arc) * cos * cos);
+        let mut tau = self
+            .rolling
+            .parameter(at.arc + (self.crossing - at.arc) * cos * cos);
         for _ in 0..40 {
             let under = self.frame(tau);
             let offset = point - under.point;

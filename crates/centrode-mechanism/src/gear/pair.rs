@@ -67,7 +67,9 @@ pub enum GearPairError {
     #[error(transparent)]
     Profile(#[from] ProfileError),
     /// Neither the pair nor the curve says how many teeth the driver has.
-    #[error("tooth_count is missing: give it to the pair, or module and tooth_count to the pitch curve")]
+    #[error(
+        "tooth_count is missing: give it to the pair, or module and tooth_count to the pitch curve"
+    )]
     NoToothCount,
     /// The driven gear has no whole number of teeth, or too few.
     #[error("{driver} driver teeth at mean ratio {}:{} give the driven gear {driver} x {}/{} teeth; that must be a whole number of at least 3", ratio.0, ratio.1, ratio.0, ratio.1)]
@@ -86,7 +88,9 @@ pub enum GearPairError {
         implied: (u32, u32),
     },
     /// The pitch curve has a corner, where no tooth can stand.
-    #[error("the pitch curve has a corner of {turn} rad at a polar angle of {angle} rad; a toothed curve must be smooth")]
+    #[error(
+        "the pitch curve has a corner of {turn} rad at a polar angle of {angle} rad; a toothed curve must be smooth"
+    )]
     Corner {
         /// Change of direction, rad.
         turn: f64,
@@ -94,7 +98,9 @@ pub enum GearPairError {
         angle: f64,
     },
     /// The wanted centre distance is not the one at which the curves roll.
-    #[error("center_distance is {wanted} mm, but this pitch curve rolls on a closed conjugate only at {needed} mm")]
+    #[error(
+        "center_distance is {wanted} mm, but this pitch curve rolls on a closed conjugate only at {needed} mm"
+    )]
     CenterDistance {
         /// As written, mm.
         wanted: f64,
@@ -120,14 +126,15 @@ impl GearPairError {
         match self {
             Self::Spec(error) => error.key.clone(),
             Self::Pitch(error) => format!("pitch.{}", error.key()),
-            Self::Rolling(RollingError::MeanRatio { .. } | RollingError::NotPeriodic { .. }) | Self::MeanRatio { .. } => {
-                "mean_ratio".into()
-            }
+            Self::Rolling(RollingError::MeanRatio { .. } | RollingError::NotPeriodic { .. })
+            | Self::MeanRatio { .. } => "mean_ratio".into(),
             Self::Rolling(_) | Self::Corner { .. } => "pitch".into(),
             Self::Teeth(TeethError::TipRadius { .. }) => "tool.tip_radius_coefficient".into(),
             Self::Teeth(TeethError::NoWidth { .. }) => "teeth.thickness_split".into(),
             Self::Teeth(TeethError::NotCongruent { .. }) => "teeth.phase".into(),
-            Self::Profile(_) | Self::NoToothCount | Self::DrivenTeeth { .. } => "tooth_count".into(),
+            Self::Profile(_) | Self::NoToothCount | Self::DrivenTeeth { .. } => {
+                "tooth_count".into()
+            }
             Self::CenterDistance { .. } => "center_distance".into(),
             Self::Bore { member, .. } => format!("{}.bore", member.name()),
         }
@@ -146,16 +153,23 @@ impl GearPair {
         if let Some(implied) = pitch.implied_ratio
             && implied != ratio
         {
-            return Err(GearPairError::MeanRatio { written: ratio, implied });
+            return Err(GearPairError::MeanRatio {
+                written: ratio,
+                implied,
+            });
         }
-        let driver = design.tooth_count.or(pitch.tooth_count).ok_or(GearPairError::NoToothCount)?;
+        let driver = design
+            .tooth_count
+            .or(pitch.tooth_count)
+            .ok_or(GearPairError::NoToothCount)?;
         let driven = u64::from(driver) * u64::from(ratio.0);
         if !driven.is_multiple_of(u64::from(ratio.1)) || driven / u64::from(ratio.1) < 3 {
             return Err(GearPairError::DrivenTeeth { driver, ratio });
         }
         let counts = Counts {
             driver,
-            driven: u32::try_from(driven / u64::from(ratio.1)).map_err(|_| GearPairError::DrivenTeeth { driver, ratio })?,
+            driven: u32::try_from(driven / u64::from(ratio.1))
+                .map_err(|_| GearPairError::DrivenTeeth { driver, ratio })?,
         };
         let rolling = Rolling::of(pitch.curve, ratio)?;
         if let Some((turn, angle)) = rolling.corner() {
@@ -171,7 +185,8 @@ impl GearPair {
         let module = rolling.pitch_length(Member::Driver) / (PI * f64::from(driver));
         let teeth = parameters(design, module);
         let plan = layout(&rolling, &counts, &teeth)?;
-        let tolerance = Tolerance::new(OUTLINE_TOLERANCE * module).map_err(|_| GearPairError::NoToothCount)?;
+        let tolerance =
+            Tolerance::new(OUTLINE_TOLERANCE * module).map_err(|_| GearPairError::NoToothCount)?;
         let cut = |member: Member| -> Result<Gear, GearPairError> {
             let (count, plans, body) = match member {
                 Member::Driver => (counts.driver, &plan.driver, &design.driver),
@@ -183,7 +198,14 @@ impl GearPair {
                 tool: &teeth.tool,
                 tolerance,
             };
-            Gear::new(&rolling, member, count, cutter.cut(plans)?, body.clone(), tolerance)
+            Gear::new(
+                &rolling,
+                member,
+                count,
+                cutter.cut(plans)?,
+                body.clone(),
+                tolerance,
+            )
         };
         let (driver, driven) = (cut(Member::Driver)?, cut(Member::Driven)?);
         Ok(Self {
@@ -322,7 +344,12 @@ impl Gear {
         body: BodySpec,
         tolerance: Tolerance,
     ) -> Result<Self, GearPairError> {
-        let Profile { outline, roles, owners, teeth } = profile;
+        let Profile {
+            outline,
+            roles,
+            owners,
+            teeth,
+        } = profile;
         let gear = Self {
             member,
             tooth_count,
@@ -340,7 +367,11 @@ impl Gear {
         let reach = keyway.max(0.5 * gear.body.bore);
         let (root, _) = gear.radii();
         if reach >= root {
-            return Err(GearPairError::Bore { member, reach, root });
+            return Err(GearPairError::Bore {
+                member,
+                reach,
+                root,
+            });
         }
         Ok(gear)
     }
@@ -423,7 +454,13 @@ impl Gear {
         let segments = match self.body.keyway {
             None => {
                 let (east, west) = (Point::new(radius, 0.0), Point::new(-radius, 0.0));
-                let half = |start, end| Segment::Arc(Arc { start, end, bulge: 1.0 });
+                let half = |start, end| {
+                    Segment::Arc(Arc {
+                        start,
+                        end,
+                        bulge: 1.0,
+                    })
+                };
                 vec![half(east, west), half(west, east)]
             }
             Some(key) => {
@@ -435,8 +472,16 @@ impl Gear {
                 let (start, end) = (corner(foot, half), corner(foot, -half));
                 let quarter = (0.25 * (PI - half.atan2(foot))).tan();
                 vec![
-                    Segment::Arc(Arc { start, end: west, bulge: quarter }),
-                    Segment::Arc(Arc { start: west, end, bulge: quarter }),
+                    Segment::Arc(Arc {
+                        start,
+                        end: west,
+                        bulge: quarter,
+                    }),
+                    Segment::Arc(Arc {
+                        start: west,
+                        end,
+                        bulge: quarter,
+                    }),
                     Segment::Line(end, corner(top, -half)),
                     Segment::Line(corner(top, -half), corner(top, half)),
                     Segment::Line(corner(top, half), start),
@@ -487,14 +532,26 @@ fn parameters(design: &GearPairDesign, module: f64) -> TeethParameters {
     }
 }
 
-fn pitch_curve(rolling: &Rolling, member: Member, tolerance: Tolerance) -> Result<Outline, GearPairError> {
-    let (from, to) = (rolling.parameter(0.0), rolling.parameter(rolling.pitch_length(member)));
+fn pitch_curve(
+    rolling: &Rolling,
+    member: Member,
+    tolerance: Tolerance,
+) -> Result<Outline, GearPairError> {
+    let (from, to) = (
+        rolling.parameter(0.0),
+        rolling.parameter(rolling.pitch_length(member)),
+    );
     let mut ends = vec![from];
     ends.extend(rolling.breaks_between(from, to));
     ends.push(to);
     let mut splines: Vec<Spline> = Vec::new();
     for pair in ends.windows(2) {
-        splines.extend(Spline::fit(|t| rolling.frame(member, t).point, pair[0], pair[1], tolerance));
+        splines.extend(Spline::fit(
+            |t| rolling.frame(member, t).point,
+            pair[0],
+            pair[1],
+            tolerance,
+        ));
     }
     for i in 0..splines.len() {
         let end = splines[i].end();

@@ -1,4 +1,6 @@
-use centrode_geometry::{Kept, OpenOutline, Outline, Point, Segment, Spline, Tolerance, without_loops};
+use centrode_geometry::{
+    Kept, OpenOutline, Outline, Point, Segment, Spline, Tolerance, without_loops,
+};
 
 use super::{
     flank::{Flank, Side},
@@ -39,6 +41,8 @@ pub(crate) struct FlankPlan {
     pub(crate) crossing: f64,
     pub(crate) top: Top,
     pub(crate) corner: Corner,
+    /// Arc length of roll below the crossing down to which the mate needs the flank.
+    pub(crate) needed: f64,
 }
 
 /// Where a flank ends at the tip.
@@ -68,7 +72,10 @@ pub struct ToothSide {
     pub shortened: f64,
     /// Depth below the pitch curve, as the tool stands, that the tool's straight flank reaches, mm.
     pub form_depth: f64,
-    /// Length of flank lost to undercut, in arc length of roll, mm; zero for a sound tooth.
+    /// Arc length of roll below the crossing down to which the flank is needed, mm: as far as the tool
+    /// reaches, or the mate where addenda are fitted.
+    pub needed: f64,
+    /// Length of needed flank lost to undercut, in arc length of roll, mm; zero for a sound tooth.
     pub undercut: f64,
     /// Arc lengths of roll between which flank is left; `None` when nothing is.
     pub active: Option<(f64, f64)>,
@@ -105,6 +112,37 @@ struct Piece {
     /// Pitch-curve parameters at the ends.
     span: (f64, f64),
     side: Side,
+}
+
+/// The fillet's own parameter w, with roll = depth of the rounding's centre x sinh w: the distance
+/// from the pitch point to that centre is then entire, and the fillet far smoother than in the roll,
+/// which moves it slowly at the root and fast at the flank.
+struct Swing {
+    center: f64,
+    span: f64,
+    /// Whole roll over the depth of the rounding's centre.
+    slope: f64,
+}
+
+impl Swing {
+    fn of(corner: &Corner, center: f64, end: f64) -> Self {
+        let straight = (corner.depth - corner.radius).abs();
+        let roll = (corner.end - corner.center).abs();
+        Self {
+            center,
+            span: end - center,
+            // A corner rounded all the way turns at once: any finite slope serves.
+            slope: (roll / straight).min(1e3),
+        }
+    }
+
+    fn parameter(&self, w: f64) -> f64 {
+        self.center + self.span * w.sinh() / self.slope
+    }
+
+    fn own(&self, t: f64) -> f64 {
+        ((t - self.center) / self.span * self.slope).asinh()
+    }
 }
 
 /// The tips and ends of one flank, found.
@@ -167,18 +205,24 @@ impl Cutter<'_> {
         }
         let segments: Vec<Segment> = pieces.iter().map(|p| Segment::Spline(p.spline)).collect();
         let per_tooth = 1 + pieces.len() / plans.len();
-        let kept = without_loops(&segments, |i| {
-            // Up to the end of the next tooth: a longer detour is not one tooth's own.
-            let owner = pieces[i].tooth;
-            let count = pieces.len();
-            (1..4 * per_tooth)
-                .take_while(|step| {
-                    let ahead = pieces[(i + step) % count].tooth;
-                    (ahead + plans.len() as u32 - owner) % plans.len() as u32 <= 1
-                })
-                .count()
-        })
-        .ok_or(ProfileError::Looped { member: self.member })?;
+        let kept = without_loops(
+            &segments,
+            |i| {
+                // Up to the end of the next tooth: a longer detour is not one tooth's own.
+                let owner = pieces[i].tooth;
+                let count = pieces.len();
+                (1..4 * per_tooth)
+                    .take_while(|step| {
+                        let ahead = pieces[(i + step) % count].tooth;
+                        (ahead + plans.len() as u32 - owner) % plans.len() as u32 <= 1
+                    })
+                    .count()
+            },
+            self.tolerance,
+        )
+        .ok_or(ProfileError::Looped {
+            member: self.member,
+        })?;
         self.join(&pieces, &kept, teeth)
     }
 
@@ -186,7 +230,14 @@ impl Cutter<'_> {
         let rolling = self.rolling;
         let start = rolling.parameter(plan.crossing);
         let sign = flank.side.sign();
-        let limit = rolling.parameter(plan.crossing - sign * self.tool.addendum_reach().min(0.25 * rolling.pitch_length(self.member)));
+        let limit = rolling.parameter(
+            plan.crossing
+                - sign
+                    * self
+                        .tool
+                        .addendum_reach()
+                        .min(0.25 * rolling.pitch_length(self.member)),
+        );
         let found = match plan.top {
             Top::Height(height) => flank.at_height(height),
             Top::Reach(reach) => {
@@ -235,10 +286,19 @@ impl Cutter<'_> {
         }
     }
 
-    fn tooth(&self, index: u32, plan: &ToothPlan, next: &FlankPlan, pieces: &mut Vec<Piece>) -> Tooth {
+    fn tooth(
+        &self,
+        index: u32,
+        plan: &ToothPlan,
+        next: &FlankPlan,
+        pieces: &mut Vec<Piece>,
+    ) -> Tooth {
         let leading = self.flank(&plan.leading, Side::Leading);
         let trailing = self.flank(&plan.trailing, Side::Trailing);
-        let (lead, trail) = (self.ends(&leading, &plan.leading), self.ends(&trailing, &plan.trailing));
+        let (lead, trail) = (
+            self.ends(&leading, &plan.leading),
+            self.ends(&trailing, &plan.trailing),
+        );
         let parameter = |arc: f64| self.rolling.parameter(arc);
         let lead_end = parameter(plan.leading.crossing - plan.leading.corner.end);
         let lead_center = parameter(plan.leading.crossing - plan.leading.corner.center);
@@ -246,32 +306,71 @@ impl Cutter<'_> {
         let trail_center = parameter(plan.trailing.crossing + plan.trailing.corner.center);
         let next_center = parameter(next.crossing - next.corner.center);
 
-        let mut add = |role: Role, side: Side, from: f64, to: f64, curve: &dyn Fn(f64) -> Point| {
-            self.fit(pieces, (role, side, index), from, to, curve);
+        let fillet = |flank: &Flank<'_>, corner: &Corner, pieces: &mut Vec<Piece>| {
+            let (center, end, leads) = match flank.side {
+                Side::Leading => (lead_center, lead_end, true),
+                Side::Trailing => (trail_center, trail_end, false),
+            };
+            let swing = Swing::of(corner, center, end);
+            let (from, to) = if leads { (center, end) } else { (end, center) };
+            let curve = |w: f64| flank.fillet(corner, swing.parameter(w));
+            let cut = |t: f64| swing.own(t);
+            self.fit(
+                pieces,
+                (Role::Fillet, flank.side, index),
+                (from, to),
+                &cut,
+                &curve,
+            );
         };
-        add(Role::Fillet, Side::Leading, lead_center, lead_end, &|t| leading.fillet(&plan.leading.corner, t));
-        add(Role::Flank, Side::Leading, lead_end, lead.tip, &|t| leading.point(t));
+        fillet(&leading, &plan.leading.corner, pieces);
+        let mut add = |role: Role, side: Side, from: f64, to: f64, curve: &dyn Fn(f64) -> Point| {
+            self.fit(pieces, (role, side, index), (from, to), &|t| t, curve);
+        };
+        add(Role::Flank, Side::Leading, lead_end, lead.tip, &|t| {
+            leading.point(t)
+        });
         let width = trail.foot - lead.foot;
         add(Role::Tip, Side::Trailing, lead.foot, trail.foot, &|t| {
             let frame = leading.frame(t);
-            let share = if width == 0.0 { 0.0 } else { (t - lead.foot) / width };
+            let share = if width == 0.0 {
+                0.0
+            } else {
+                (t - lead.foot) / width
+            };
             frame.point + frame.normal * (lead.height + share * (trail.height - lead.height))
         });
-        add(Role::Flank, Side::Trailing, trail.tip, trail_end, &|t| trailing.point(t));
-        add(Role::Fillet, Side::Trailing, trail_end, trail_center, &|t| trailing.fillet(&plan.trailing.corner, t));
+        add(Role::Flank, Side::Trailing, trail.tip, trail_end, &|t| {
+            trailing.point(t)
+        });
+        fillet(&trailing, &plan.trailing.corner, pieces);
+        let mut add = |role: Role, side: Side, from: f64, to: f64, curve: &dyn Fn(f64) -> Point| {
+            self.fit(pieces, (role, side, index), (from, to), &|t| t, curve);
+        };
         let bottom = next_center - trail_center;
         let (deep, next_deep) = (plan.trailing.corner.depth, next.corner.depth);
-        add(Role::Root, Side::Trailing, trail_center, next_center, &|t| {
-            let frame = leading.frame(t);
-            let share = if bottom == 0.0 { 0.0 } else { (t - trail_center) / bottom };
-            let smooth = share * share * (3.0 - 2.0 * share);
-            frame.point - frame.normal * (deep + smooth * (next_deep - deep))
-        });
+        add(
+            Role::Root,
+            Side::Trailing,
+            trail_center,
+            next_center,
+            &|t| {
+                let frame = leading.frame(t);
+                let share = if bottom == 0.0 {
+                    0.0
+                } else {
+                    (t - trail_center) / bottom
+                };
+                let smooth = share * share * (3.0 - 2.0 * share);
+                frame.point - frame.normal * (deep + smooth * (next_deep - deep))
+            },
+        );
         let side = |flank: &Flank<'_>, plan: &FlankPlan, ends: &Ends| ToothSide {
             crossing: plan.crossing,
             tip_height: ends.height,
             shortened: ends.shortened,
             form_depth: -flank.height(plan.crossing + flank.side.sign() * plan.corner.end),
+            needed: plan.needed,
             undercut: 0.0,
             active: None,
             fillet_radius: f64::INFINITY,
@@ -284,23 +383,24 @@ impl Cutter<'_> {
         }
     }
 
-    /// Fits a curve between two parameters, cut at the pitch curve's breaks.
+    /// Fits a curve between two pitch-curve parameters, cut at the pitch curve's breaks; `own` turns
+    /// such a parameter into the curve's own.
     fn fit(
         &self,
         pieces: &mut Vec<Piece>,
         (role, side, tooth): (Role, Side, u32),
-        from: f64,
-        to: f64,
+        (from, to): (f64, f64),
+        own: &dyn Fn(f64) -> f64,
         curve: &dyn Fn(f64) -> Point,
     ) {
-        let mut ends = vec![from];
-        ends.extend(self.rolling.breaks_between(from, to));
-        ends.push(to);
+        let mut ends = vec![own(from)];
+        ends.extend(self.rolling.breaks_between(from, to).into_iter().map(own));
+        ends.push(own(to));
         for pair in ends.windows(2) {
             if pair[0] == pair[1] {
                 continue;
             }
-            let fitted = Spline::fit_spans(|t| curve(t), pair[0], pair[1], self.tolerance);
+            let fitted = Spline::fit_spans(curve, pair[0], pair[1], self.tolerance);
             for (spline, t0, t1) in fitted {
                 pieces.push(Piece {
                     spline,
@@ -313,7 +413,12 @@ impl Cutter<'_> {
         }
     }
 
-    fn join(&self, pieces: &[Piece], kept: &[Kept], mut teeth: Vec<Tooth>) -> Result<Profile, ProfileError> {
+    fn join(
+        &self,
+        pieces: &[Piece],
+        kept: &[Kept],
+        mut teeth: Vec<Tooth>,
+    ) -> Result<Profile, ProfileError> {
         let mut splines: Vec<Spline> = kept
             .iter()
             .map(|k| {
@@ -356,7 +461,8 @@ impl Cutter<'_> {
                     for i in 0..=4 {
                         let jet = spline.at(-1.0 + 0.5 * f64::from(i));
                         let turn = jet.first.perp(&jet.second).abs();
-                        side.fillet_radius = side.fillet_radius.min(jet.first.norm().powi(3) / turn);
+                        side.fillet_radius =
+                            side.fillet_radius.min(jet.first.norm().powi(3) / turn);
                     }
                 }
                 Role::Tip => {
@@ -367,16 +473,19 @@ impl Cutter<'_> {
             }
         }
         for tooth in &mut teeth {
-            tooth.severed = tooth.severed && tooth.leading.active.is_none() && tooth.trailing.active.is_none();
+            tooth.severed =
+                tooth.severed && tooth.leading.active.is_none() && tooth.trailing.active.is_none();
             for (side, sign) in [(&mut tooth.leading, -1.0), (&mut tooth.trailing, 1.0)] {
-                let (sin, cos) = self.tool.pressure_angle.sin_cos();
-                let reached = side.form_depth / (sin * cos);
                 let left = side.active.map_or(0.0, |(low, high)| {
-                    if sign > 0.0 { high - side.crossing } else { side.crossing - low }
+                    if sign > 0.0 {
+                        high - side.crossing
+                    } else {
+                        side.crossing - low
+                    }
                 });
-                let lost = reached - left;
+                let lost = side.needed - left;
                 // What rounding of a crossing can hide is not undercut.
-                side.undercut = if lost > 1e-7 * reached { lost } else { 0.0 };
+                side.undercut = if lost > 1e-7 * side.needed { lost } else { 0.0 };
             }
         }
         let mut segments: Vec<Segment> = splines.into_iter().map(Segment::Spline).collect();

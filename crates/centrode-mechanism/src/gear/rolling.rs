@@ -86,7 +86,9 @@ struct Extreme {
 #[non_exhaustive]
 pub enum RollingError {
     /// The pitch curve does not go once around the shaft.
-    #[error("the pitch curve turns by {turned} rad about the shaft in one round; it must turn by 2 pi, always forward")]
+    #[error(
+        "the pitch curve turns by {turned} rad about the shaft in one round; it must turn by 2 pi, always forward"
+    )]
     NotAroundAxis {
         /// Polar angle swept in one round, rad.
         turned: f64,
@@ -106,7 +108,9 @@ pub enum RollingError {
         ratio: (u32, u32),
     },
     /// No centre distance closes the driven curve.
-    #[error("no centre distance closes the driven curve: at {center_distance} mm one driver turn gives {turned} rad of {wanted}")]
+    #[error(
+        "no centre distance closes the driven curve: at {center_distance} mm one driver turn gives {turned} rad of {wanted}"
+    )]
     NoClosure {
         /// The last centre distance tried, mm.
         center_distance: f64,
@@ -145,7 +149,10 @@ impl Rolling {
             .nodes()
             .map(|(t, weight)| {
                 let jet = curve.at(t);
-                (jet.point.coords.norm(), weight * jet.point.coords.perp(&jet.first))
+                (
+                    jet.point.coords.norm(),
+                    weight * jet.point.coords.perp(&jet.first),
+                )
             })
             .collect();
         let (least, greatest) = extremes(&*curve, &arc);
@@ -157,7 +164,10 @@ impl Rolling {
             if missing.abs() <= 1e-15 * wanted {
                 break;
             }
-            let slope: f64 = nodes.iter().map(|&(r, w)| -w / (r * (a - r) * (a - r))).sum();
+            let slope: f64 = nodes
+                .iter()
+                .map(|&(r, w)| -w / (r * (a - r) * (a - r)))
+                .sum();
             let better = a - missing / slope;
             if better <= greatest.radius || better == a {
                 break;
@@ -168,7 +178,9 @@ impl Rolling {
             }
             (a, driven) = (better, retry);
         }
-        if (driven.total() - wanted).abs().is_nan() || (driven.total() - wanted).abs() > 1e-12 * wanted {
+        if (driven.total() - wanted).abs().is_nan()
+            || (driven.total() - wanted).abs() > 1e-12 * wanted
+        {
             return Err(RollingError::NoClosure {
                 center_distance: a,
                 turned: driven.total(),
@@ -236,7 +248,9 @@ impl Rolling {
     pub fn pitch_length(&self, member: Member) -> f64 {
         match member {
             Member::Driver => self.arc.total(),
-            Member::Driven => self.arc.total() * f64::from(self.mean_ratio.0) / f64::from(self.mean_ratio.1),
+            Member::Driven => {
+                self.arc.total() * f64::from(self.mean_ratio.0) / f64::from(self.mean_ratio.1)
+            }
         }
     }
 
@@ -254,7 +268,10 @@ impl Rolling {
 
     /// Arc lengths at the least and the greatest driver radius, the first of each.
     pub(crate) fn extreme_arcs(&self) -> (f64, f64) {
-        (self.arc_length(self.least.at), self.arc_length(self.greatest.at))
+        (
+            self.arc_length(self.least.at),
+            self.arc_length(self.greatest.at),
+        )
     }
 
     /// The sharpest corner of the pitch curve: change of direction and polar angle, rad.
@@ -263,7 +280,11 @@ impl Rolling {
             let (before, after) = (self.curve.at(b.next_down()).first, self.curve.at(b).first);
             (before.perp(&after).atan2(before.dot(&after)), self.angle(b))
         };
-        let sharpest = self.jumps.iter().map(turn).max_by(|a, b| a.0.abs().total_cmp(&b.0.abs()))?;
+        let sharpest = self
+            .jumps
+            .iter()
+            .map(turn)
+            .max_by(|a, b| a.0.abs().total_cmp(&b.0.abs()))?;
         // Far above the rounding of a direction, far below any drawn corner.
         (sharpest.0.abs() > 1e-7).then_some(sharpest)
     }
@@ -324,7 +345,11 @@ impl Rolling {
     /// Radius of the driver's pitch curve at its polar angle, mm.
     #[must_use]
     pub fn radius(&self, phi: f64) -> f64 {
-        self.curve.at(self.parameter_at_angle(phi)).point.coords.norm()
+        self.curve
+            .at(self.parameter_at_angle(phi))
+            .point
+            .coords
+            .norm()
     }
 
     /// Driven turn per driver turn at a driver angle: r/(a - r).
@@ -434,7 +459,10 @@ impl Rolling {
             return (t, 0.0);
         }
         let turns = ((t - self.start) / period).floor();
-        ((t - turns * period).clamp(self.start, self.start + period), turns)
+        (
+            (t - turns * period).clamp(self.start, self.start + period),
+            turns,
+        )
     }
 
     /// Polar angle in the turn the parameter lies in, whatever the rounding at its ends.
@@ -492,8 +520,14 @@ fn extremes(curve: &dyn Curve, arc: &Primitive) -> (Extreme, Extreme) {
     };
     let mut samples: Vec<f64> = arc.nodes().map(|(t, _)| t).collect();
     samples.sort_by(f64::total_cmp);
-    let mut least = Extreme { at: 0.0, radius: f64::INFINITY };
-    let mut greatest = Extreme { at: 0.0, radius: 0.0 };
+    let mut least = Extreme {
+        at: 0.0,
+        radius: f64::INFINITY,
+    };
+    let mut greatest = Extreme {
+        at: 0.0,
+        radius: 0.0,
+    };
     let mut take = |at: f64| {
         let radius = curve.at(at).point.coords.norm();
         if radius < least.radius {
@@ -506,7 +540,11 @@ fn extremes(curve: &dyn Curve, arc: &Primitive) -> (Extreme, Extreme) {
     let count = samples.len();
     for i in 0..count {
         let a = samples[i];
-        let b = if i + 1 < count { samples[i + 1] } else { samples[0] + curve.period() };
+        let b = if i + 1 < count {
+            samples[i + 1]
+        } else {
+            samples[0] + curve.period()
+        };
         let (fa, fb) = (slope(a), slope(b));
         if (fa > 0.0) != (fb > 0.0) {
             take(bracketed_root(slope, a, b, fa, fb));
@@ -540,7 +578,11 @@ fn closure(nodes: &[(f64, f64)], greatest: f64, wanted: f64) -> f64 {
         }
         let mut next = a - (sum - wanted) / slope;
         if !(next > low && next < high) {
-            next = if high.is_finite() { 0.5 * (low + high) } else { 2.0 * a };
+            next = if high.is_finite() {
+                0.5 * (low + high)
+            } else {
+                2.0 * a
+            };
         }
         let done = (next - a).abs() <= 2.0 * f64::EPSILON * a;
         a = next;

@@ -55,7 +55,9 @@ pub enum TeethError {
         pitch: f64,
     },
     /// Both gears cannot be the same part.
-    #[error("phase \"congruent\" needs two pitch curves that are the same; these differ by {difference:e} mm in radius")]
+    #[error(
+        "phase \"congruent\" needs two pitch curves that are the same; these differ by {difference:e} mm in radius"
+    )]
     NotCongruent {
         /// Greatest difference of radius, mm.
         difference: f64,
@@ -78,7 +80,11 @@ pub(crate) struct Counts {
     pub(crate) driven: u32,
 }
 
-pub(crate) fn layout(rolling: &Rolling, counts: &Counts, parameters: &TeethParameters) -> Result<Layout, TeethError> {
+pub(crate) fn layout(
+    rolling: &Rolling,
+    counts: &Counts,
+    parameters: &TeethParameters,
+) -> Result<Layout, TeethError> {
     let tool = &parameters.tool;
     let pitch = rolling.pitch_length(Member::Driver) / f64::from(counts.driver);
     let (phase, congruent) = phase(rolling, pitch, parameters)?;
@@ -87,10 +93,15 @@ pub(crate) fn layout(rolling: &Rolling, counts: &Counts, parameters: &TeethParam
         None => parameters.backlash,
     };
     let thinning = backlash / (4.0 * tool.pressure_angle.cos());
-    let width = pitch * parameters.thickness_split + 2.0 * tool.profile_shift * tool.pressure_angle.tan();
+    let width =
+        pitch * parameters.thickness_split + 2.0 * tool.profile_shift * tool.pressure_angle.tan();
     for (member, width) in [(Member::Driver, width), (Member::Driven, pitch - width)] {
         if !(width > 2.0 * thinning && width < pitch) {
-            return Err(TeethError::NoWidth { member, width: width - 2.0 * thinning, pitch });
+            return Err(TeethError::NoWidth {
+                member,
+                width: width - 2.0 * thinning,
+                pitch,
+            });
         }
     }
     let middle = |member: Member, k: u32| {
@@ -98,11 +109,19 @@ pub(crate) fn layout(rolling: &Rolling, counts: &Counts, parameters: &TeethParam
         (f64::from(k) + phase + half) * pitch
     };
     let crossing = |member: Member, k: u32, side: Side| {
-        let width = if member == Member::Driver { width } else { pitch - width };
+        let width = if member == Member::Driver {
+            width
+        } else {
+            pitch - width
+        };
         middle(member, k) + side.sign() * (0.5 * width - thinning)
     };
     let space = |member: Member| {
-        let width = if member == Member::Driver { width } else { pitch - width };
+        let width = if member == Member::Driver {
+            width
+        } else {
+            pitch - width
+        };
         pitch - width + 2.0 * thinning
     };
     let shift = |member: Member| match member {
@@ -131,6 +150,7 @@ pub(crate) fn layout(rolling: &Rolling, counts: &Counts, parameters: &TeethParam
             crossing: crossing(member, k, side),
             top: Top::Height(tool.addendum + shift(member)),
             corner,
+            needed: corner.end,
         };
         Ok((0..count(member))
             .map(|k| ToothPlan {
@@ -144,7 +164,15 @@ pub(crate) fn layout(rolling: &Rolling, counts: &Counts, parameters: &TeethParam
         let tops = |member: Member, teeth: &mut [ToothPlan]| -> Vec<[(f64, f64); 2]> {
             teeth
                 .iter_mut()
-                .map(|tooth| fit_tops(rolling, parameters, member, tool.addendum + shift(member), tooth))
+                .map(|tooth| {
+                    fit_tops(
+                        rolling,
+                        parameters,
+                        member,
+                        tool.addendum + shift(member),
+                        tooth,
+                    )
+                })
                 .collect()
         };
         let driver_tops = tops(Member::Driver, &mut driver);
@@ -152,19 +180,43 @@ pub(crate) fn layout(rolling: &Rolling, counts: &Counts, parameters: &TeethParam
         let clearance = tool.dedendum - tool.addendum;
         // A driver tooth works in the space between driven teeth k - 1 and k, a driven one between
         // driver teeth k and k + 1; flanks of opposite sides mate.
-        let corner = |member: Member, top: (f64, f64)| fitted::corner(tool, top.1 + clearance, top.0, space(member));
-        let last = driven.len() - 1;
+        let serve = |member: Member, flank: &mut FlankPlan, mate: (f64, f64)| {
+            flank.corner = fitted::corner(tool, mate.1 + clearance, mate.0, space(member));
+            flank.needed = mate.0;
+        };
+        let (first, last) = (driver_tops.len(), driven_tops.len());
         for (k, tooth) in driven.iter_mut().enumerate() {
-            tooth.leading.corner = corner(Member::Driven, driver_tops[k % driver_tops.len()][1]);
-            tooth.trailing.corner = corner(Member::Driven, driver_tops[(k + 1) % driver_tops.len()][0]);
+            serve(
+                Member::Driven,
+                &mut tooth.leading,
+                driver_tops[k % first][1],
+            );
+            serve(
+                Member::Driven,
+                &mut tooth.trailing,
+                driver_tops[(k + 1) % first][0],
+            );
         }
         for (k, tooth) in driver.iter_mut().enumerate() {
-            let before = if k == 0 { last } else { (k - 1) % driven_tops.len() };
-            tooth.leading.corner = corner(Member::Driver, driven_tops[before][1]);
-            tooth.trailing.corner = corner(Member::Driver, driven_tops[k % driven_tops.len()][0]);
+            serve(
+                Member::Driver,
+                &mut tooth.leading,
+                driven_tops[(k + last - 1) % last][1],
+            );
+            serve(
+                Member::Driver,
+                &mut tooth.trailing,
+                driven_tops[k % last][0],
+            );
         }
     }
-    Ok(Layout { driver, driven, phase, backlash, congruent })
+    Ok(Layout {
+        driver,
+        driven,
+        phase,
+        backlash,
+        congruent,
+    })
 }
 
 /// Trims one tooth; gives reach and normal height of its leading and trailing tip corner.
@@ -176,19 +228,31 @@ fn fit_tops(
     tooth: &mut ToothPlan,
 ) -> [(f64, f64); 2] {
     let tool = &parameters.tool;
-    let flank = |plan: &FlankPlan, side: Side| Flank { rolling, member, tool, side, crossing: plan.crossing };
+    let flank = |plan: &FlankPlan, side: Side| Flank {
+        rolling,
+        member,
+        tool,
+        side,
+        crossing: plan.crossing,
+    };
     let (sin, cos) = tool.pressure_angle.sin_cos();
     let limit = (height / (sin * cos)).max(0.0);
     let leading = flank(&tooth.leading, Side::Leading);
     let trailing = flank(&tooth.trailing, Side::Trailing);
     // A full tooth keeps its full height, exactly.
     let full = |flank: &Flank<'_>| {
-        let end = flank.at_height(height).map(|(t, _)| (rolling.arc_length(t) - flank.crossing).abs());
+        let end = flank
+            .at_height(height)
+            .map(|(t, _)| (rolling.arc_length(t) - flank.crossing).abs());
         let most = end.unwrap_or(limit);
         fitted::reach(rolling, tool, (member, flank.side), flank.crossing, most)
     };
     let (lead, trail) = (full(&leading), full(&trailing));
-    let share = fitted::share_for_width((&leading, lead), (&trailing, trail), parameters.least_tip_width);
+    let share = fitted::share_for_width(
+        (&leading, lead),
+        (&trailing, trail),
+        parameters.least_tip_width,
+    );
     let (lead, trail) = (share * lead, share * trail);
     tooth.leading.top = Top::Reach(lead);
     tooth.trailing.top = Top::Reach(trail);
@@ -222,7 +286,11 @@ pub(crate) fn least_lever(rolling: &Rolling, pressure_angle: f64) -> f64 {
 /// Two gears are the same part when r(s) + r(s* - s) = a for some s*: the driven tooth at
 /// (k + phase + 1/2) p must fall on a driver tooth of the mirrored count, which asks
 /// 2 phase = s*/p - 1/2 mod 1.
-fn phase(rolling: &Rolling, pitch: f64, parameters: &TeethParameters) -> Result<(f64, bool), TeethError> {
+fn phase(
+    rolling: &Rolling,
+    pitch: f64,
+    parameters: &TeethParameters,
+) -> Result<(f64, bool), TeethError> {
     let difference = self_mating_difference(rolling, pitch);
     let symmetric = parameters.thickness_split == 0.5 && parameters.tool.profile_shift == 0.0;
     let small = 1e-9 * rolling.center_distance();
@@ -238,7 +306,9 @@ fn phase(rolling: &Rolling, pitch: f64, parameters: &TeethParameters) -> Result<
         (Phase::Auto | Phase::Tooth, _) => Ok((0.0, congruent_at(0.0))),
         (Phase::Space, _) => Ok((0.5, congruent_at(0.5))),
         (Phase::Pitches(pitches), _) => Ok((pitches, congruent_at(pitches))),
-        (Phase::Congruent, Some((mirror, d))) if d < small && symmetric => Ok((wanted(mirror), true)),
+        (Phase::Congruent, Some((mirror, d))) if d < small && symmetric => {
+            Ok((wanted(mirror), true))
+        }
         (Phase::Congruent, found) => Err(TeethError::NotCongruent {
             difference: found.map_or(f64::INFINITY, |(_, d)| d),
         }),
@@ -263,8 +333,8 @@ fn self_mating_difference(rolling: &Rolling, pitch: f64) -> Option<(f64, f64)> {
     let mut difference = 0.0_f64;
     for i in 0..SAMPLES {
         let s = length * f64::from(i) / f64::from(SAMPLES);
-        difference = difference.max((radius(s) + radius(mirror - s) - rolling.center_distance()).abs());
+        difference =
+            difference.max((radius(s) + radius(mirror - s) - rolling.center_distance()).abs());
     }
     Some((mirror, difference))
 }
-

@@ -81,12 +81,6 @@ impl Tool {
         }
     }
 
-    /// Width of the flat left on the tool's tip when it cuts spaces of pitch-line width `space` to
-    /// `corner`, mm along the pitch line; negative where the two roundings do not fit.
-    pub(crate) fn tip_land(corner: &Corner, space: f64) -> f64 {
-        space - 2.0 * corner.center
-    }
-
     /// Greatest rounding that leaves the tool's tip a flat, for a space of pitch-line width `space`
     /// and `depth`, mm. Source: the two roundings of a rack tooth meet at its middle.
     pub(crate) fn greatest_tip_radius(&self, depth: f64, space: f64) -> f64 {
@@ -94,4 +88,3 @@ impl Tool {
         ((0.5 * space - depth * sin / cos) * cos / (1.0 - sin)).min(depth)
     }
 }
-
