@@ -172,15 +172,15 @@ impl Walk<'_> {
 
     fn verdict(&self) -> Result<(), PitchError> {
         let key = self.key;
-        if self.turn < -PI {
-            return Err(PitchError::Clockwise { key });
-        }
         if self.nearest.radius[0] <= 0.0 {
             // A negative radius lies opposite the angle it belongs to.
             let radius = self.nearest.radius[0];
             let opposite = if radius < 0.0 { PI } else { 0.0 };
             let angle = degrees(self.nearest.angle + opposite);
             return Err(PitchError::RadiusNotPositive { key, angle, radius });
+        }
+        if self.turn < -PI {
+            return Err(PitchError::Clockwise { key });
         }
         if self.slowest.speed[0] <= 0.0 {
             let (angle, radius) = (degrees(self.slowest.angle), self.slowest.radius[0]);
