@@ -108,8 +108,8 @@ fn pieces(points: &Points, degree: usize) -> Vec<[Polynomial; 2]> {
 fn monomial(mut control: Polynomial, degree: usize) -> Polynomial {
     let mut out = [0.0; HIGHEST_DEGREE + 1];
     let mut binomial = 1.0;
-    for k in 0..=degree {
-        out[k] = binomial * control[0];
+    for (k, c) in out.iter_mut().enumerate().take(degree + 1) {
+        *c = binomial * control[0];
         binomial *= (degree - k) as f64 / (k + 1) as f64;
         for j in 0..degree - k {
             control[j] = control[j + 1] - control[j];

@@ -204,6 +204,14 @@ pub enum PitchError {
         /// Largest whole number tried.
         limit: u32,
     },
+    /// The curve changes so fast that no sampling can vouch for it.
+    #[error("the curve changes too fast near {angle:.3} deg to be followed")]
+    TooRough {
+        /// Key of the shape.
+        key: &'static str,
+        /// Polar angle, degrees.
+        angle: f64,
+    },
     /// A formula that cannot be read.
     #[error("{key}: {reason} at character {column}")]
     Expression {
@@ -234,6 +242,7 @@ impl PitchError {
             | Self::NotAroundAxis { key, .. }
             | Self::OpenCurve { key, .. }
             | Self::Undefined { key, .. }
+            | Self::TooRough { key, .. }
             | Self::RatioNotPositive { key, .. }
             | Self::RatioNotRational { key, .. }
             | Self::Expression { key, .. } => key,

@@ -14,18 +14,26 @@ mod bspline;
 mod circle;
 mod ellipse;
 mod error;
+mod limacon;
+mod periodic;
 mod piecewise;
 mod plane;
 mod points;
+mod polar;
 mod proof;
 mod size;
+mod transmission;
 
 pub use bezier::Bezier;
 pub use bspline::Bspline;
 pub use circle::{Circle, EccentricCircle};
 pub use ellipse::{Ellipse, LobedEllipse};
 pub use error::PitchError;
+pub use limacon::Limacon;
+pub use periodic::Interpolation;
 pub use points::Plane;
+pub use polar::Polar;
+pub use transmission::{Ratio, Transmission};
 
 use plane::Shape;
 use size::Size;
@@ -43,10 +51,18 @@ pub enum PitchSpec {
     Ellipse(Ellipse),
     /// Focal ellipse drawn together so that it repeats several times in one turn.
     LobedEllipse(LobedEllipse),
+    /// Limacon of Pascal, if wanted with several lobes.
+    Limacon(Limacon),
     /// Closed uniform B-spline.
     Bspline(Bspline),
     /// Closed chain of Bezier arcs.
     Bezier(Bezier),
+    /// Radius as a function of the polar angle.
+    Polar(Polar),
+    /// Driven angle as a function of the driver angle.
+    Transmission(Transmission),
+    /// Ratio as a function of the driver angle.
+    Ratio(Ratio),
 }
 
 /// A resolved pitch curve.
@@ -71,7 +87,7 @@ impl PitchSpec {
     /// # Errors
     /// [`PitchError`] naming the violated rule and its numbers.
     pub fn resolve(&self) -> Result<Pitch, PitchError> {
-        self.draft()?.finish()
+        self.draft().map(Draft::finish)
     }
 
     /// Number of teeth written with the curve.
@@ -82,8 +98,12 @@ impl PitchSpec {
             Self::EccentricCircle(spec) => spec.tooth_count,
             Self::Ellipse(spec) => spec.tooth_count,
             Self::LobedEllipse(spec) => spec.tooth_count,
+            Self::Limacon(spec) => spec.tooth_count,
             Self::Bspline(spec) => spec.tooth_count,
             Self::Bezier(spec) => spec.tooth_count,
+            Self::Polar(spec) => spec.tooth_count,
+            Self::Transmission(spec) => spec.tooth_count,
+            Self::Ratio(spec) => spec.tooth_count,
         }
     }
 
@@ -93,16 +113,19 @@ impl PitchSpec {
             Self::EccentricCircle(spec) => spec.draft(),
             Self::Ellipse(spec) => spec.draft(),
             Self::LobedEllipse(spec) => spec.draft(),
+            Self::Limacon(spec) => spec.draft(),
             Self::Bspline(spec) => spec.draft(),
             Self::Bezier(spec) => spec.draft(),
+            Self::Polar(spec) => spec.draft(),
+            Self::Transmission(spec) => spec.draft(),
+            Self::Ratio(spec) => spec.draft(),
         }
     }
 }
 
-/// A shape whose numbers are checked, before proof and scaling.
+/// A proved shape, before scaling.
 #[derive(Debug)]
 pub(crate) struct Draft {
-    key: &'static str,
     curve: Box<dyn Shape>,
     size: Size,
     definition: String,
@@ -117,8 +140,8 @@ impl Draft {
         definition: String,
     ) -> Result<Self, PitchError> {
         size.check()?;
+        proof::goes_round_once(&curve, key)?;
         Ok(Self {
-            key,
             curve: Box::new(curve),
             size,
             definition,
@@ -126,8 +149,7 @@ impl Draft {
         })
     }
 
-    fn finish(mut self) -> Result<Pitch, PitchError> {
-        proof::goes_round_once(self.curve.as_ref(), self.key)?;
+    fn finish(mut self) -> Pitch {
         let tooth_count = self.size.tooth_count;
         let module = match (self.size.module, tooth_count) {
             (Some(module), Some(z)) => {
@@ -139,13 +161,13 @@ impl Draft {
             (_, None) => None,
         };
         let shape: Arc<dyn Shape> = Arc::from(self.curve);
-        Ok(Pitch {
+        Pitch {
             curve: shape,
             tooth_count,
             module,
             definition: self.definition,
             implied_ratio: self.implied_ratio,
-        })
+        }
     }
 }
 

@@ -1,5 +1,7 @@
 //! Proof that a curve goes round the shaft axis once, in order, without touching it.
 
+use std::f64::consts::{PI, TAU};
+
 use centrode_geometry::{Curve, Jet, bracketed_minimum};
 
 use super::PitchError;
@@ -7,8 +9,9 @@ use super::plane::Shape;
 
 /// Fewest samples of a whole curve and of one analytic piece of it.
 const SAMPLES: (usize, usize) = (1024, 8);
-/// Halvings of a sample interval where the curve is not yet resolved.
-const DEEPEST: u32 = 8;
+/// Halvings of one sample interval, and of all together, where the curve is not yet resolved.
+const DEEPEST: u32 = 12;
+const MOST_HALVINGS: u32 = 50_000;
 
 /// Radius and speed of the polar angle at a parameter, each with its slope.
 #[derive(Clone, Copy)]
@@ -31,25 +34,27 @@ pub(crate) fn piece_ends(curve: &dyn Curve) -> Vec<f64> {
 pub(crate) fn goes_round_once(curve: &dyn Shape, key: &'static str) -> Result<(), PitchError> {
     let ends = piece_ends(curve);
     let count = (SAMPLES.0 / (ends.len() - 1)).max(SAMPLES.1);
-    let mut turn = 0.0;
-    let mut faults = None;
+    let first = sample(curve, key, 0.0)?;
+    let mut walk = Walk {
+        curve,
+        key,
+        turn: 0.0,
+        halvings: 0,
+        nearest: first,
+        slowest: first,
+    };
     let mut before: Option<Jet> = None;
     for pair in ends.windows(2) {
         // The last sample of a piece is its limit from the left.
         let (a, b) = (pair[0], pair[1].next_down());
-        let start = curve.at(a);
         if let Some(end) = before {
-            joined(key, &end, &start)?;
+            joined(key, &end, &curve.at(a))?;
         }
         let mut low = sample(curve, key, a)?;
         for i in 1..=count {
-            let t = if i == count {
-                b
-            } else {
-                a + (b - a) * i as f64 / count as f64
-            };
-            let high = sample(curve, key, t)?;
-            piece(curve, key, low, high, 0, &mut turn, &mut faults)?;
+            let t = a + (b - a) * i as f64 / count as f64;
+            let high = sample(curve, key, if i == count { b } else { t })?;
+            walk.interval(low, high, 0)?;
             low = high;
         }
         before = Some(curve.at(b));
@@ -57,18 +62,7 @@ pub(crate) fn goes_round_once(curve: &dyn Shape, key: &'static str) -> Result<()
     if let Some(end) = before {
         joined(key, &end, &curve.at(0.0))?;
     }
-    if turn < -std::f64::consts::PI {
-        return Err(PitchError::Clockwise { key });
-    }
-    if let Some(fault) = faults {
-        return Err(fault);
-    }
-    let turns = (turn / std::f64::consts::TAU).round() as i32;
-    if turns == 1 {
-        Ok(())
-    } else {
-        Err(PitchError::NotAroundAxis { key, turns })
-    }
+    walk.verdict()
 }
 
 fn joined(key: &'static str, end: &Jet, start: &Jet) -> Result<(), PitchError> {
@@ -113,66 +107,92 @@ fn sample(curve: &dyn Shape, key: &'static str, t: f64) -> Result<Sample, PitchE
     })
 }
 
-/// Adds the turn of one interval, halving it until cubic Hermite interpolation foretells its middle.
-fn piece(
-    curve: &dyn Shape,
+/// What a walk along the curve has found so far.
+struct Walk<'a> {
+    curve: &'a dyn Shape,
     key: &'static str,
-    low: Sample,
-    high: Sample,
-    depth: u32,
-    turn: &mut f64,
-    fault: &mut Option<PitchError>,
-) -> Result<(), PitchError> {
-    let middle = sample(curve, key, 0.5 * (low.t + high.t))?;
-    let step = high.t - low.t;
-    let unforeseen = |a: [f64; 2], b: [f64; 2], m: f64| {
-        let foretold = 0.5 * (a[0] + b[0]) + 0.125 * step * (a[1] - b[1]);
-        (foretold - m).abs() > 0.05 * a[0].min(b[0]).min(m).max(0.0)
-    };
-    let unresolved = unforeseen(low.radius, high.radius, middle.radius[0])
-        || unforeseen(low.speed, high.speed, middle.speed[0]);
-    if unresolved && depth < DEEPEST && fault.is_none() {
-        piece(curve, key, low, middle, depth + 1, turn, fault)?;
-        return piece(curve, key, middle, high, depth + 1, turn, fault);
-    }
-    let wrapped = |a: f64| a - std::f64::consts::TAU * (a / std::f64::consts::TAU).round();
-    *turn += wrapped(middle.angle - low.angle) + wrapped(high.angle - middle.angle);
-    if fault.is_some() {
-        return Ok(());
-    }
-    // A minimum can hide only where the slope changes from falling to rising.
-    let dips = |a: [f64; 2], b: [f64; 2]| a[1] <= 0.0 && b[1] >= 0.0;
-    let least = |figure: fn(&Sample) -> [f64; 2]| {
-        let ends = [low, middle, high].into_iter();
-        let at = ends.min_by(|a, b| figure(a)[0].total_cmp(&figure(b)[0]));
-        let at = at.unwrap_or(middle);
-        if !dips(figure(&low), figure(&high)) {
-            return Ok(at);
-        }
-        let f = |t: f64| sample(curve, key, t).map_or(f64::INFINITY, |s| figure(&s)[0]);
-        let (t, value) = bracketed_minimum(f, low.t, high.t);
-        if value < figure(&at)[0] {
-            sample(curve, key, t)
-        } else {
-            Ok(at)
-        }
-    };
-    let nearest = least(|s| s.radius)?;
-    let slowest = least(|s| s.speed)?;
-    if nearest.radius[0] <= 0.0 {
-        // A negative radius lies opposite the angle it belongs to.
-        let opposite = if nearest.radius[0] < 0.0 {
-            std::f64::consts::PI
-        } else {
-            0.0
+    turn: f64,
+    halvings: u32,
+    /// Where the radius is least.
+    nearest: Sample,
+    /// Where the polar angle advances least.
+    slowest: Sample,
+}
+
+impl Walk<'_> {
+    /// Walks one interval, halving it until cubic Hermite interpolation foretells its middle.
+    fn interval(&mut self, low: Sample, high: Sample, depth: u32) -> Result<(), PitchError> {
+        let middle = sample(self.curve, self.key, 0.5 * (low.t + high.t))?;
+        let step = high.t - low.t;
+        let unforeseen = |a: [f64; 2], b: [f64; 2], m: f64| {
+            let foretold = 0.5 * (a[0] + b[0]) + 0.125 * step * (a[1] - b[1]);
+            let least = a[0].min(b[0]).min(m);
+            least > 0.0 && (foretold - m).abs() > 0.05 * least
         };
-        let (angle, radius) = (degrees(nearest.angle + opposite), nearest.radius[0]);
-        *fault = Some(PitchError::RadiusNotPositive { key, angle, radius });
-    } else if slowest.speed[0] <= 0.0 {
-        let (angle, radius) = (degrees(slowest.angle), slowest.radius[0]);
-        *fault = Some(PitchError::SelfCrossing { key, angle, radius });
+        let unresolved = unforeseen(low.radius, high.radius, middle.radius[0])
+            || unforeseen(low.speed, high.speed, middle.speed[0]);
+        if unresolved && depth < DEEPEST {
+            self.halvings += 1;
+            if self.halvings > MOST_HALVINGS {
+                let (key, angle) = (self.key, degrees(middle.angle));
+                return Err(PitchError::TooRough { key, angle });
+            }
+            self.interval(low, middle, depth + 1)?;
+            return self.interval(middle, high, depth + 1);
+        }
+        let wrapped = |a: f64| a - TAU * (a / TAU).round();
+        self.turn += wrapped(middle.angle - low.angle) + wrapped(high.angle - middle.angle);
+        self.nearest = self.least(self.nearest, [low, middle, high], |s| s.radius)?;
+        self.slowest = self.least(self.slowest, [low, middle, high], |s| s.speed)?;
+        Ok(())
     }
-    Ok(())
+
+    /// The sample where the figure is least: the one known, or one in the interval.
+    fn least(
+        &self,
+        known: Sample,
+        interval: [Sample; 3],
+        figure: fn(&Sample) -> [f64; 2],
+    ) -> Result<Sample, PitchError> {
+        let lower = |a: Sample, b: Sample| if figure(&b)[0] < figure(&a)[0] { b } else { a };
+        let least = interval.into_iter().fold(known, lower);
+        let [low, _, high] = interval;
+        // Inside, a minimum can hide only where the slope changes from falling to rising, and matters
+        // only where it may be lower than what is known.
+        let dips = figure(&low)[1] < 0.0 && figure(&high)[1] > 0.0;
+        let reach = 0.25 * (high.t - low.t) * (figure(&high)[1] - figure(&low)[1]);
+        if !dips || figure(&low)[0].min(figure(&high)[0]) - reach > figure(&least)[0] {
+            return Ok(least);
+        }
+        let value =
+            |t: f64| sample(self.curve, self.key, t).map_or(f64::INFINITY, |s| figure(&s)[0]);
+        let (t, _) = bracketed_minimum(value, low.t, high.t);
+        Ok(lower(least, sample(self.curve, self.key, t)?))
+    }
+
+    fn verdict(&self) -> Result<(), PitchError> {
+        let key = self.key;
+        if self.nearest.radius[0] <= 0.0 {
+            // A negative radius lies opposite the angle it belongs to.
+            let radius = self.nearest.radius[0];
+            let opposite = if radius < 0.0 { PI } else { 0.0 };
+            let angle = degrees(self.nearest.angle + opposite);
+            return Err(PitchError::RadiusNotPositive { key, angle, radius });
+        }
+        if self.turn < -PI {
+            return Err(PitchError::Clockwise { key });
+        }
+        if self.slowest.speed[0] <= 0.0 {
+            let (angle, radius) = (degrees(self.slowest.angle), self.slowest.radius[0]);
+            return Err(PitchError::SelfCrossing { key, angle, radius });
+        }
+        let turns = (self.turn / TAU).round() as i32;
+        if turns == 1 {
+            Ok(())
+        } else {
+            Err(PitchError::NotAroundAxis { key, turns })
+        }
+    }
 }
 
 fn degrees(angle: f64) -> f64 {

@@ -1,23 +1,163 @@
 use super::*;
+use centrode_geometry::Jet;
+use proptest::prelude::*;
 
 const ANGLE: [f64; 12] = [
     20., 45., 76., 105., 132., 165., 195., 225., 255., 285., 316., 345.,
 ];
 const RADIUS: [f64; 12] = [21., 28., 50., 49., 58., 47., 18., 12., 28., 60., 48., 24.];
 
+fn published(degree: u32) -> Bspline {
+    Bspline {
+        degree,
+        radius: RADIUS.to_vec(),
+        angle: ANGLE.map(f64::to_radians).to_vec(),
+        ..Bspline::default()
+    }
+}
+
+fn cartesian(radius: impl Fn(usize) -> f64, count: usize) -> (Vec<f64>, Vec<f64>) {
+    let angle = |i: usize| std::f64::consts::TAU * i as f64 / count as f64;
+    (0..count)
+        .map(|i| (radius(i) * angle(i).cos(), radius(i) * angle(i).sin()))
+        .unzip()
+}
+
 fn length(pitch: &Pitch) -> f64 {
     perimeter(pitch.curve.as_ref())
 }
 
+fn resolve(spec: &PitchSpec) -> Pitch {
+    spec.resolve().expect("a good design")
+}
+
+fn error(spec: &PitchSpec) -> PitchError {
+    spec.resolve().expect_err("a bad design")
+}
+
+/// One good description of every kind and every way to write it.
+fn every_kind() -> Vec<PitchSpec> {
+    let wave = |n: usize, c: f64| -> Vec<f64> {
+        let angle = |i: usize| std::f64::consts::TAU * i as f64 / n as f64;
+        (0..n).map(|i| 20.0 + c * angle(i).cos()).collect()
+    };
+    let mut all = vec![
+        PitchSpec::Circle(Circle {
+            radius: Some(20.0),
+            ..Circle::default()
+        }),
+        PitchSpec::EccentricCircle(EccentricCircle {
+            eccentricity: 0.4,
+            radius: Some(20.0),
+            ..EccentricCircle::default()
+        }),
+        PitchSpec::Ellipse(Ellipse {
+            eccentricity: 0.5,
+            semi_major_axis: Some(20.0),
+            ..Ellipse::default()
+        }),
+        PitchSpec::LobedEllipse(LobedEllipse {
+            lobes: 3,
+            eccentricity: 0.2,
+            semi_major_axis: Some(20.0),
+            ..LobedEllipse::default()
+        }),
+        PitchSpec::Limacon(Limacon {
+            mean_radius: 20.0,
+            amplitude: 5.0,
+            lobes: 2,
+            ..Limacon::default()
+        }),
+        PitchSpec::Polar(Polar::expression("20 + 3*cos(2*phi) + sin(phi)^3")),
+        PitchSpec::Polar(Polar::expression("20 + 0.01*phi*(2*pi - phi)")),
+        PitchSpec::Polar(Polar {
+            mean: Some(20.0),
+            cos: vec![1.0, 0.5],
+            sin: vec![0.0, 0.3, 0.2],
+            ..Polar::default()
+        }),
+        PitchSpec::Polar(Polar {
+            radius: RADIUS.map(|r| 20.0 + 0.1 * r).to_vec(),
+            angle: ANGLE.map(|a| (a - 100.0).to_radians()).to_vec(),
+            ..Polar::default()
+        }),
+        PitchSpec::Transmission(Transmission {
+            center_distance: Some(40.0),
+            ..Transmission::expression("phi - 0.08*sin(2*phi)")
+        }),
+        PitchSpec::Transmission(Transmission {
+            center_distance: Some(40.0),
+            driven_angle: (0..=24)
+                .map(|i| f64::from(i) * PI / 12.0)
+                .map(|t| 0.5 * t - 0.1 * t.sin())
+                .collect(),
+            ..Transmission::default()
+        }),
+        PitchSpec::Ratio(Ratio {
+            center_distance: Some(40.0),
+            ..Ratio::expression("2/3 + 0.1*cos(phi)")
+        }),
+        PitchSpec::Ratio(Ratio {
+            center_distance: Some(40.0),
+            ratio: wave(24, 2.0).iter().map(|r| r / 10.0).collect(),
+            ..Ratio::default()
+        }),
+    ];
+    for interpolation in [
+        Interpolation::Cubic,
+        Interpolation::Quintic,
+        Interpolation::Trigonometric,
+    ] {
+        all.push(PitchSpec::Polar(Polar {
+            radius: wave(20, 4.0),
+            interpolation: Some(interpolation),
+            ..Polar::default()
+        }));
+    }
+    let (x, y) = cartesian(|i| 20.0 + (i % 3) as f64, 12);
+    for degree in 1..=5 {
+        for interpolate in [false, true] {
+            all.push(PitchSpec::Bspline(Bspline {
+                interpolate,
+                radius: wave(12, 4.0),
+                ..published(degree)
+            }));
+            all.push(PitchSpec::Bspline(Bspline {
+                plane: Plane::Cartesian,
+                degree,
+                interpolate,
+                x: x.clone(),
+                y: y.clone(),
+                ..Bspline::default()
+            }));
+        }
+        let count = 5 * degree as usize;
+        let (x, y) = cartesian(|i| 20.0 + (i % 2) as f64, count);
+        all.push(PitchSpec::Bezier(Bezier {
+            plane: Plane::Cartesian,
+            degree,
+            x,
+            y,
+            ..Bezier::default()
+        }));
+        all.push(PitchSpec::Bezier(Bezier {
+            degree,
+            radius: wave(count, 3.0),
+            angle: (0..count).map(|i| 6.0 * i as f64 / count as f64).collect(),
+            ..Bezier::default()
+        }));
+    }
+    all
+}
+
 #[test]
 fn the_elliptic_pair_of_2018() {
-    let spec = PitchSpec::Ellipse(Ellipse {
+    let pitch = resolve(&PitchSpec::Ellipse(Ellipse {
         eccentricity: 1.0 / (2.0 + 3.0_f64.sqrt()),
         module: Some(2.25),
         tooth_count: Some(23),
         ..Ellipse::default()
-    });
-    let pitch = spec.resolve().expect("a published design");
+    }));
     assert!((length(&pitch) - 162.577_420).abs() < 5e-7);
     let far = pitch.curve.at(0.0).point;
     let near = pitch.curve.at(PI).point;
@@ -26,29 +166,337 @@ fn the_elliptic_pair_of_2018() {
 
 #[test]
 fn the_control_points_of_2021() {
-    let bspline = |degree, interpolate| {
-        PitchSpec::Bspline(Bspline {
-            degree,
-            interpolate,
-            radius: RADIUS.to_vec(),
-            angle: ANGLE.map(f64::to_radians).to_vec(),
-            ..Bspline::default()
-        })
-    };
-    let quadratic = bspline(2, false).resolve().expect("published");
+    let quadratic = resolve(&PitchSpec::Bspline(published(2)));
     assert!((length(&quadratic) - 291.330_811).abs() < 5e-7);
-    let cubic = bspline(3, false).resolve().expect("published");
+    let cubic = resolve(&PitchSpec::Bspline(published(3)));
     assert!((length(&cubic) - 285.018_587).abs() < 5e-7);
     let (x, y) = ANGLE
         .iter()
         .zip(RADIUS)
         .map(|(a, r)| (r * a.to_radians().cos(), r * a.to_radians().sin()))
         .unzip();
-    let cartesian = PitchSpec::Bspline(Bspline {
+    let cartesian = resolve(&PitchSpec::Bspline(Bspline {
         plane: Plane::Cartesian,
         x,
         y,
         ..Bspline::default()
+    }));
+    assert!((length(&cartesian) - 264.237).abs() < 5e-4);
+}
+
+#[test]
+fn derivatives_agree_with_differences_for_every_kind() {
+    for spec in every_kind() {
+        let curve = resolve(&spec).curve;
+        let ends = proof::piece_ends(curve.as_ref());
+        for w in ends.windows(2) {
+            for k in 1..10 {
+                let h = 1e-4 * (w[1] - w[0]);
+                let t = w[0] + (w[1] - w[0]) * f64::from(k) / 10.0;
+                let [low, at, high] = [t - h, t, t + h].map(|t| curve.at(t));
+                let rows = |j: &Jet| [j.point.coords, j.first, j.second, j.third];
+                for order in 0..3 {
+                    let slope = (rows(&high)[order] - rows(&low)[order]) / (2.0 * h);
+                    let exact = rows(&at)[order + 1];
+                    let miss = (slope - exact).norm();
+                    assert!(
+                        miss < 2e-5 * (20.0 + exact.norm()),
+                        "{spec:?} at {t}: {miss}"
+                    );
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn every_kind_is_periodic_and_joins_at_its_breaks() {
+    for spec in every_kind() {
+        let curve = resolve(&spec).curve;
+        for t in proof::piece_ends(curve.as_ref()) {
+            let before = if t == 0.0 { curve.period() } else { t }.next_down();
+            let gap = (curve.at(t).point - curve.at(before).point).norm();
+            assert!(
+                gap < 1e-12 * 40.0 * curve.period(),
+                "{spec:?} at {t}: {gap}"
+            );
+        }
+        for t in [0.3, 1.7] {
+            let next = curve.at(t + curve.period()).point;
+            assert!((curve.at(t).point - next).norm() < 1e-12, "{spec:?}");
+        }
+    }
+}
+
+#[test]
+fn interpolated_curves_pass_through_their_points() {
+    for degree in 1..=5 {
+        let curve = resolve(&PitchSpec::Bspline(Bspline {
+            interpolate: true,
+            radius: RADIUS.map(|r| 40.0 + 0.3 * r).to_vec(),
+            ..published(degree)
+        }))
+        .curve;
+        let offset = if degree % 2 == 1 { 0.0 } else { 0.5 };
+        for (i, (a, r)) in ANGLE.iter().zip(RADIUS).enumerate() {
+            let p = curve.at(i as f64 + offset).point;
+            assert!((p.coords.norm() - (40.0 + 0.3 * r)).abs() < 1e-12);
+            let angle = p.y.atan2(p.x).rem_euclid(2.0 * PI);
+            assert!((angle - a.to_radians()).abs() < 1e-13);
+        }
+    }
+    for interpolation in [
+        Interpolation::Cubic,
+        Interpolation::Quintic,
+        Interpolation::Trigonometric,
+    ] {
+        let curve = resolve(&PitchSpec::Polar(Polar {
+            radius: RADIUS.map(|r| 40.0 + 0.3 * r).to_vec(),
+            interpolation: Some(interpolation),
+            ..Polar::default()
+        }))
+        .curve;
+        for (i, r) in RADIUS.iter().enumerate() {
+            let p = curve.at(i as f64 * PI / 6.0).point;
+            assert!((p.coords.norm() - (40.0 + 0.3 * r)).abs() < 1e-12);
+        }
+    }
+    let curve = resolve(&every_kind()[8]).curve;
+    for (a, r) in ANGLE.iter().zip(RADIUS) {
+        let p = curve.at((a - 100.0).to_radians()).point;
+        assert!((p.coords.norm() - (20.0 + 0.1 * r)).abs() < 1e-12);
+    }
+}
+
+#[test]
+fn a_law_and_its_derivative_give_the_same_curve() {
+    let law = PitchSpec::Transmission(Transmission {
+        module: Some(1.5),
+        tooth_count: Some(24),
+        ..Transmission::expression("phi - 0.08*sin(2*phi)")
     });
-    assert!((length(&cartesian.resolve().expect("published")) - 264.237).abs() < 5e-4);
+    let ratio = PitchSpec::Ratio(Ratio {
+        module: Some(1.5),
+        tooth_count: Some(24),
+        ..Ratio::expression("1 - 0.16*cos(2*phi)")
+    });
+    let (law, ratio) = (resolve(&law), resolve(&ratio));
+    assert_eq!(law.implied_ratio, Some((1, 1)));
+    assert_eq!(ratio.implied_ratio, Some((1, 1)));
+    for i in 0..100 {
+        let t = 0.0628 * f64::from(i);
+        assert!((law.curve.at(t).point - ratio.curve.at(t).point).norm() < 1e-13);
+    }
+    assert_eq!(resolve(&every_kind()[10]).implied_ratio, Some((2, 1)));
+    assert_eq!(resolve(&every_kind()[11]).implied_ratio, Some((3, 2)));
+    assert_eq!(resolve(&every_kind()[12]).implied_ratio, Some((1, 2)));
+}
+
+#[test]
+fn module_and_tooth_count_set_the_length() {
+    let spec = PitchSpec::Polar(Polar {
+        module: Some(1.5),
+        tooth_count: Some(24),
+        ..Polar::expression("1 + 0.08*cos(2*phi)")
+    });
+    assert!((length(&resolve(&spec)) - PI * 36.0).abs() < 1e-12);
+    let mut spec = published(2);
+    spec.tooth_count = Some(37);
+    let pitch = resolve(&PitchSpec::Bspline(spec));
+    let module = pitch.module.expect("follows");
+    assert!((module * PI * 37.0 - 291.330_811).abs() < 5e-7);
+}
+
+#[test]
+fn faults_are_named_with_key_and_place() {
+    let ellipse = |k: f64, m: f64, z: u32| {
+        error(&PitchSpec::Ellipse(Ellipse {
+            eccentricity: k,
+            module: Some(m),
+            tooth_count: Some(z),
+            ..Ellipse::default()
+        }))
+    };
+    assert_eq!(ellipse(1.0, 2.0, 20), PitchError::Eccentricity(1.0));
+    assert_eq!(ellipse(0.2, 0.0, 20).key(), "module");
+    assert_eq!(ellipse(0.2, f64::NAN, 20).key(), "module");
+    assert_eq!(ellipse(0.2, 2.0, 2), PitchError::ToothCount(2));
+    assert_eq!(ellipse(f64::NAN, 2.0, 20).key(), "eccentricity");
+
+    let polar = |text: &str| error(&PitchSpec::Polar(Polar::expression(text)));
+    for (text, expected) in [
+        ("1 + 2*cos(phi)", "falls to -1.000000 mm at 180.000 deg"),
+        ("1 + cos(phi)", "falls to 0"),
+        ("1 + psi", "did you mean \"phi\"? at character 5"),
+        ("1/phi", "at phi = 0.000 deg"),
+        ("1 + 0.1/sin(phi - 1)", "falls to -"),
+        ("1 + sqrt(sin(phi))", "phi"),
+        ("1 + phi", "open"),
+    ] {
+        let error = polar(text);
+        assert!(error.to_string().contains(expected), "{text}: {error}");
+        assert_eq!(error.key(), "expression");
+    }
+    let noise = polar("1.001 + cos(1e6*phi)");
+    assert!(matches!(noise, PitchError::TooRough { .. }), "{noise}");
+    // A dip far narrower than the spacing of the first samples.
+    let dip = polar("1 - 1.1*exp(-(40*(phi - 3.1234))^2)");
+    assert!(
+        matches!(dip, PitchError::RadiusNotPositive { angle, .. } if (angle - 178.957).abs() < 0.01)
+    );
+
+    let law = |text: &str| {
+        error(&PitchSpec::Transmission(Transmission {
+            center_distance: Some(40.0),
+            ..Transmission::expression(text)
+        }))
+    };
+    assert!(matches!(
+        law("phi - 0.8*sin(2*phi)"),
+        PitchError::RatioNotPositive { .. }
+    ));
+    assert!(
+        matches!(law("phi + 0.8*sin(2*phi)"), PitchError::RatioNotPositive { angle, ratio, .. }
+        if (ratio + 0.6).abs() < 1e-9 && (angle.rem_euclid(180.0) - 90.0).abs() < 1e-3)
+    );
+    assert!(matches!(law("-phi"), PitchError::RatioNotPositive { .. }));
+    assert!(matches!(
+        law("0.7123*phi"),
+        PitchError::RatioNotRational { .. }
+    ));
+    assert!(matches!(
+        law("phi + 0.01*phi^2"),
+        PitchError::OpenCurve { .. }
+    ));
+    let no_size = error(&PitchSpec::Transmission(Transmission::expression("phi")));
+    assert_eq!(no_size, PitchError::NoSize("center_distance"));
+}
+
+#[test]
+fn faulty_points_are_named() {
+    let (x, y) = cartesian(|_| 20.0, 12);
+    let square = |x: Vec<f64>, y: Vec<f64>| {
+        error(&PitchSpec::Bspline(Bspline {
+            plane: Plane::Cartesian,
+            x,
+            y,
+            ..Bspline::default()
+        }))
+    };
+    let back: (Vec<f64>, Vec<f64>) = (
+        x.iter().rev().copied().collect(),
+        y.iter().rev().copied().collect(),
+    );
+    assert_eq!(square(back.0, back.1), PitchError::Clockwise { key: "x" });
+    let aside = x.iter().map(|x| x + 100.0).collect();
+    assert!(matches!(
+        square(aside, y.clone()),
+        PitchError::SelfCrossing { .. }
+    ));
+    let swapped = (
+        [&x[..4], &[x[5], x[4]], &x[6..]].concat(),
+        [&y[..4], &[y[5], y[4]], &y[6..]].concat(),
+    );
+    assert!(matches!(
+        square(swapped.0, swapped.1),
+        PitchError::SelfCrossing { .. }
+    ));
+    let twice = (
+        [x.clone(), x.clone()].concat(),
+        [y.clone(), y.clone()].concat(),
+    );
+    assert_eq!(
+        square(twice.0, twice.1),
+        PitchError::NotAroundAxis { key: "x", turns: 2 }
+    );
+    assert!(matches!(
+        square(x.clone(), y[1..].to_vec()),
+        PitchError::LengthMismatch { .. }
+    ));
+    assert!(matches!(
+        square(vec![1.0; 3], vec![1.0; 3]),
+        PitchError::TooFewPoints { .. }
+    ));
+
+    let mut spec = published(2);
+    spec.angle.swap(3, 4);
+    let crossing = error(&PitchSpec::Bspline(spec));
+    assert!(
+        matches!(crossing, PitchError::AnglesNotIncreasing { index: 4, .. }),
+        "{crossing}"
+    );
+    let mut spec = published(2);
+    spec.radius[3] = -1.0;
+    assert_eq!(error(&PitchSpec::Bspline(spec)).key(), "radius");
+    assert_eq!(error(&PitchSpec::Bspline(published(6))).key(), "degree");
+    let many = Bspline {
+        radius: vec![1.0; 10_001],
+        ..Bspline::default()
+    };
+    assert!(matches!(
+        error(&PitchSpec::Bspline(many)),
+        PitchError::TooManyPoints { .. }
+    ));
+    // Through these points the curve itself turns back, though the points are in order.
+    let overshoot = Bspline {
+        interpolate: true,
+        angle: [0.0, 1.0, 2.0, 100.0, 101.0, 102.0, 200.0, 201.0]
+            .map(f64::to_radians)
+            .to_vec(),
+        radius: vec![20.0; 8],
+        ..Bspline::default()
+    };
+    assert!(matches!(
+        error(&PitchSpec::Bspline(overshoot)),
+        PitchError::SelfCrossing { .. }
+    ));
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(64))]
+
+    #[test]
+    fn a_resolved_curve_goes_round_once(
+        radius in prop::collection::vec(5.0..50.0_f64, 4..20),
+        degree in 1_u32..=5,
+        interpolate: bool,
+        polar: bool,
+    ) {
+        let count = radius.len();
+        let (x, y) = cartesian(|i| radius[i], count);
+        let angle = (0..count).map(|i| std::f64::consts::TAU * i as f64 / count as f64).collect();
+        let spec = if polar {
+            Bspline { degree, interpolate, radius, angle, ..Bspline::default() }
+        } else {
+            Bspline { plane: Plane::Cartesian, degree, interpolate, x, y, ..Bspline::default() }
+        };
+        if let Ok(pitch) = PitchSpec::Bspline(spec).resolve() {
+            let steps = 4000;
+            let mut turned = 0.0;
+            let mut before = pitch.curve.at(0.0).point;
+            for i in 1..=steps {
+                let p = pitch.curve.at(pitch.curve.period() * f64::from(i) / f64::from(steps)).point;
+                let step = before.coords.perp(&p.coords).atan2(before.coords.dot(&p.coords));
+                prop_assert!(step > 0.0);
+                turned += step;
+                before = p;
+            }
+            prop_assert!((turned - std::f64::consts::TAU).abs() < 1e-9);
+        }
+    }
+
+    #[test]
+    fn scale_is_carried_through(k in 0.01..100.0_f64, e in 0.0..0.9_f64) {
+        let ellipse = |axis| resolve(&PitchSpec::Ellipse(Ellipse {
+            eccentricity: e,
+            semi_major_axis: Some(axis),
+            ..Ellipse::default()
+        })).curve;
+        let (one, scaled) = (ellipse(1.0), ellipse(k));
+        for i in 0..20 {
+            let t = 0.314 * f64::from(i);
+            let miss = (one.at(t).third * k - scaled.at(t).third).norm();
+            prop_assert!(miss <= 1e-12 * scaled.at(t).third.norm());
+        }
+    }
 }

@@ -1,0 +1,123 @@
+//! Formulas in one variable, read once and evaluated with exact derivatives.
+
+mod parser;
+mod taylor;
+
+pub(crate) use parser::FormulaError;
+pub(crate) use taylor::Taylor;
+
+/// Values a formula may hold back while it computes others.
+const DEEPEST: usize = 32;
+
+/// A formula in the variable `phi`, as a program for a stack machine.
+///
+/// Evaluation is forward differentiation in Taylor arithmetic: exact derivatives at a cost linear in
+/// the length of the formula, whatever the formula is.
+#[derive(Clone, Debug)]
+pub(crate) struct Formula {
+    program: Vec<Step>,
+}
+
+#[derive(Clone, Copy, Debug)]
+enum Step {
+    Constant(f64),
+    Variable,
+    Add,
+    Subtract,
+    Multiply,
+    Divide,
+    Power,
+    PowerConstant(f64),
+    Negate,
+    Apply(Function),
+}
+
+/// A function a formula may use: analytic wherever it has a value.
+#[derive(Clone, Copy, Debug)]
+enum Function {
+    Sin,
+    Cos,
+    Tan,
+    Asin,
+    Acos,
+    Atan,
+    Sinh,
+    Cosh,
+    Tanh,
+    Exp,
+    Ln,
+    Sqrt,
+}
+
+impl Formula {
+    /// Reads a formula: numbers, `phi`, `pi`, `+ - * / ^`, parentheses and the analytic functions.
+    pub(crate) fn read(text: &str) -> Result<Self, FormulaError> {
+        parser::read(text).map(|program| Self { program })
+    }
+
+    /// Taylor coefficients of the formula around `phi`; not finite where it has no value.
+    pub(crate) fn at(&self, phi: f64) -> Taylor {
+        let mut stack = [Taylor::constant(0.0); DEEPEST];
+        let mut top = 0;
+        for step in &self.program {
+            match step {
+                Step::Constant(c) => {
+                    stack[top] = Taylor::constant(*c);
+                    top += 1;
+                }
+                Step::Variable => {
+                    stack[top] = Taylor::variable(phi);
+                    top += 1;
+                }
+                Step::Negate => stack[top - 1] = -stack[top - 1],
+                Step::PowerConstant(p) => stack[top - 1] = stack[top - 1].power(*p),
+                Step::Apply(f) => stack[top - 1] = f.of(stack[top - 1]),
+                Step::Add | Step::Subtract | Step::Multiply | Step::Divide | Step::Power => {
+                    top -= 1;
+                    stack[top - 1] = step.combine(stack[top - 1], stack[top]);
+                }
+            }
+        }
+        stack[0]
+    }
+}
+
+impl Step {
+    fn combine(self, a: Taylor, b: Taylor) -> Taylor {
+        match self {
+            Self::Add => a + b,
+            Self::Subtract => a - b,
+            Self::Multiply => a * b,
+            Self::Divide => a / b,
+            _ => (a.ln() * b).exp(),
+        }
+    }
+}
+
+impl Function {
+    fn of(self, a: Taylor) -> Taylor {
+        match self {
+            Self::Sin => a.sin_cos().0,
+            Self::Cos => a.sin_cos().1,
+            Self::Tan => {
+                let (sin, cos) = a.sin_cos();
+                sin / cos
+            }
+            Self::Asin => a.asin(),
+            Self::Acos => Taylor::constant(std::f64::consts::FRAC_PI_2) - a.asin(),
+            Self::Atan => a.atan(),
+            Self::Sinh => a.sinh_cosh().0,
+            Self::Cosh => a.sinh_cosh().1,
+            Self::Tanh => {
+                let (sinh, cosh) = a.sinh_cosh();
+                sinh / cosh
+            }
+            Self::Exp => a.exp(),
+            Self::Ln => a.ln(),
+            Self::Sqrt => a.sqrt(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

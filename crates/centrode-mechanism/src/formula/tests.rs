@@ -1,0 +1,99 @@
+use super::*;
+use proptest::prelude::*;
+
+fn value(text: &str, phi: f64) -> f64 {
+    Formula::read(text).expect(text).at(phi).0[0]
+}
+
+#[test]
+fn precedence_is_that_of_written_mathematics() {
+    for (text, expected) in [
+        ("1 + 2*3", 7.0),
+        ("-2^2", -4.0),
+        ("2^-1", 0.5),
+        ("2^3^2", 512.0),
+        ("2**3", 8.0),
+        ("8/4/2", 1.0),
+        ("1-2-3", -4.0),
+        ("-(1+2)*3", -9.0),
+        ("1.5e1 + .5", 15.5),
+        ("2*cos(0)^2", 2.0),
+        ("sqrt(16) - ln(exp(1))", 3.0),
+        ("asin(1) + acos(0) - 2*atan(1)", std::f64::consts::FRAC_PI_2),
+        ("pi", std::f64::consts::PI),
+    ] {
+        assert!((value(text, 0.3) - expected).abs() < 1e-14, "{text}");
+    }
+    assert!((value("phi^phi", 2.0) - 4.0).abs() < 1e-14);
+}
+
+#[test]
+fn derivatives_agree_with_differences_for_every_function() {
+    let inner = "(0.4 + 0.3*sin(phi))";
+    let mut texts: Vec<String> = "sin cos tan asin acos atan sinh cosh tanh exp ln sqrt"
+        .split(' ')
+        .map(|f| format!("{f}{inner}"))
+        .collect();
+    texts.extend(["^2", "^-3", "^2.5", "^phi"].map(|p| format!("{inner}{p}")));
+    texts.push(format!("phi/{inner} - phi*{inner}"));
+    let h = 1e-4;
+    for text in texts {
+        let formula = Formula::read(&text).expect(&text);
+        for i in 1..20 {
+            let phi = 0.3 * f64::from(i);
+            let (low, at, high) = (formula.at(phi - h), formula.at(phi), formula.at(phi + h));
+            for k in 0..4 {
+                let slope = (high.0[k] - low.0[k]) / (2.0 * h);
+                let exact = at.0[k + 1] * (k + 1) as f64;
+                let size = 1.0 + at.0.iter().fold(0.0_f64, |m, c| m.max(c.abs())) * 50.0;
+                assert!(
+                    (slope - exact).abs() < 2e-6 * size,
+                    "{text} order {k}: {slope} {exact}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn faults_name_their_place() {
+    for (text, reason, column) in [
+        ("", "empty", 1),
+        ("1 + ", "breaks off", 5),
+        ("1 + psi", "did you mean \"phi\"", 5),
+        ("1 + velocity", "known are sin", 5),
+        ("(1 + 2", "')' is missing", 7),
+        ("1)", "without its '('", 2),
+        ("2 phi", "operator is missing", 3),
+        ("sin phi", "'(' is missing", 5),
+        ("1..2", "no number", 1),
+        ("1e999", "no number", 1),
+        ("1 + *2", "missing before '*'", 5),
+        ("phi $ 2", "missing before '$'", 5),
+    ] {
+        let error = Formula::read(text).expect_err(text);
+        assert!(error.reason.contains(reason), "{text}: {error}");
+        assert_eq!(error.column, column, "{text}: {error}");
+    }
+}
+
+#[test]
+fn hostile_formulas_are_refused_or_cheap() {
+    let deep = "(".repeat(900) + "phi" + &")".repeat(900);
+    assert!(Formula::read(&deep).is_err());
+    assert!(Formula::read(&("-".repeat(1900) + "1")).is_err());
+    assert!(Formula::read(&("1+".repeat(5_000_000) + "1")).is_err());
+    let right = "phi+(".repeat(40) + "1" + &")".repeat(40);
+    assert!(Formula::read(&right).is_err());
+    let product = vec!["sin(phi)"; 180].join("*");
+    assert!(Formula::read(&product).expect("long").at(1.0).0[0].is_finite());
+}
+
+proptest! {
+    #[test]
+    fn any_text_is_read_or_refused(text in "[-+*/^(). 0-9a-z]{0,60}") {
+        if let Ok(formula) = Formula::read(&text) {
+            let _ = formula.at(1.0);
+        }
+    }
+}

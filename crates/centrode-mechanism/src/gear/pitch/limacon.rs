@@ -1,0 +1,79 @@
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::error::{finite, positive, within};
+use super::plane::{Derivatives, PolarCurve, RadiusLaw};
+use super::size::{OwnSize, Size};
+use super::{Draft, PitchError};
+
+/// A limacon of Pascal, if wanted with several lobes: `r(phi) = b + c cos(N phi)`.
+#[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Limacon {
+    /// Mean radius `b`, mm.
+    pub mean_radius: f64,
+    /// Swing of the radius `c`, mm: less than the mean radius.
+    pub amplitude: f64,
+    /// Number of lobes `N`, 1 to 60.
+    #[serde(default = "one")]
+    pub lobes: u32,
+    /// Module, mm, with `tooth_count`: scales the curve.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub module: Option<f64>,
+    /// Number of teeth; alone, the module follows from the size of the curve.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tooth_count: Option<u32>,
+}
+
+fn one() -> u32 {
+    1
+}
+
+impl Default for Limacon {
+    fn default() -> Self {
+        Self {
+            mean_radius: 1.0,
+            amplitude: 0.0,
+            lobes: 1,
+            module: None,
+            tooth_count: None,
+        }
+    }
+}
+
+impl Limacon {
+    pub(crate) fn draft(&self) -> Result<Draft, PitchError> {
+        let law = Cosine {
+            mean: positive("mean_radius", self.mean_radius)?,
+            amplitude: finite("amplitude", self.amplitude)?,
+            lobes: within("lobes", self.lobes, 1, 60)?.into(),
+        };
+        let size = Size {
+            module: self.module,
+            tooth_count: self.tooth_count,
+            own: OwnSize::Written,
+        };
+        let definition = format!(
+            "limacon, r = b + c cos({} phi), c/b = {}",
+            self.lobes,
+            self.amplitude / self.mean_radius
+        );
+        Draft::new("amplitude", PolarCurve::new(law), size, definition)
+    }
+}
+
+#[derive(Debug)]
+struct Cosine {
+    mean: f64,
+    amplitude: f64,
+    lobes: f64,
+}
+
+impl RadiusLaw for Cosine {
+    fn radius(&self, phi: f64) -> Derivatives {
+        let n = self.lobes;
+        let (sin, cos) = (n * phi).sin_cos();
+        let (c, s) = (self.amplitude * cos, self.amplitude * sin);
+        [self.mean + c, -n * s, -n * n * c, n * n * n * s]
+    }
+}

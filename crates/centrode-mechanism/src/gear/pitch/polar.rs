@@ -1,0 +1,227 @@
+use std::f64::consts::TAU;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::error::finite;
+use super::periodic::{Fourier, Interpolation, Periodic};
+use super::plane::{Derivatives, PolarCurve, RadiusLaw};
+use super::size::{OwnSize, Size};
+use super::{Draft, PitchError};
+use crate::degrees;
+use crate::formula::{Formula, FormulaError};
+
+/// A radius as a function of the polar angle: a formula, a table or a Fourier series.
+///
+/// Give one of: `expression`; `radius` (equal steps from the angle zero, or with `angle_deg`);
+/// `mean` with `cos` and `sin`.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Polar {
+    /// Radius, mm, as a formula in `phi` (rad): `+ - * / ^`, `pi`, sin, cos, tan, asin, acos, atan,
+    /// sinh, cosh, tanh, exp, ln, sqrt.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub expression: Option<String>,
+    /// Radii, mm; over equal steps from the angle zero if `angle_deg` is left out.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub radius: Vec<f64>,
+    /// Polar angles of the radii, rad (degrees in the file), increasing within one turn.
+    #[serde(
+        rename = "angle_deg",
+        with = "degrees::list",
+        skip_serializing_if = "Vec::is_empty"
+    )]
+    #[schemars(with = "Vec<f64>")]
+    pub angle: Vec<f64>,
+    /// Between the radii; left out, "quintic" over equal steps, "cubic" with `angle_deg`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub interpolation: Option<Interpolation>,
+    /// Mean radius of a Fourier series, mm.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mean: Option<f64>,
+    /// Cosine coefficients from the first harmonic, mm.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub cos: Vec<f64>,
+    /// Sine coefficients from the first harmonic, mm.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub sin: Vec<f64>,
+    /// Module, mm, with `tooth_count`: scales the curve.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub module: Option<f64>,
+    /// Number of teeth; alone, the module follows from the size of the curve.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub tooth_count: Option<u32>,
+}
+
+impl Polar {
+    /// The curve of a formula for the radius.
+    #[must_use]
+    pub fn expression(formula: impl Into<String>) -> Self {
+        Self {
+            expression: Some(formula.into()),
+            ..Self::default()
+        }
+    }
+
+    pub(crate) fn draft(&self) -> Result<Draft, PitchError> {
+        let size = Size {
+            module: self.module,
+            tooth_count: self.tooth_count,
+            own: OwnSize::Written,
+        };
+        if let Some(text) = &self.expression {
+            self.nothing_of(&["radius", "mean"])?;
+            let law = FormulaLaw::read("expression", text)?;
+            let definition = format!("polar, r = {text}");
+            return Draft::new("expression", PolarCurve::new(law), size, definition);
+        }
+        if let Some(mean) = self.mean {
+            self.nothing_of(&["radius"])?;
+            finite("mean", mean)?;
+            for (key, list) in [("cos", &self.cos), ("sin", &self.sin)] {
+                list.iter().try_for_each(|&c| finite(key, c).map(drop))?;
+            }
+            let series = Fourier::new(mean, ("cos", &self.cos), ("sin", &self.sin))?;
+            let definition = format!(
+                "polar, Fourier series of {} harmonics",
+                self.cos.len().max(self.sin.len())
+            );
+            let law = TableLaw(Periodic::Fourier(series));
+            return Draft::new("mean", PolarCurve::new(law), size, definition);
+        }
+        if self.radius.is_empty() {
+            let rule = "is missing: give expression, or radius, or mean with cos and sin";
+            let key = "expression";
+            return Err(PitchError::Key { key, rule });
+        }
+        self.nothing_of(&["mean"])?;
+        for &r in &self.radius {
+            super::error::positive("radius", r)?;
+        }
+        let (table, kind) = self.table()?;
+        let definition = format!("polar, {kind} through {} radii", self.radius.len());
+        Draft::new("radius", PolarCurve::new(TableLaw(table)), size, definition)
+    }
+
+    fn table(&self) -> Result<(Periodic, &'static str), PitchError> {
+        if self.angle.is_empty() {
+            let interpolation = self.interpolation.unwrap_or(Interpolation::Quintic);
+            let table = Periodic::even("radius", &self.radius, interpolation)?;
+            return Ok((table, interpolation.name()));
+        }
+        if self
+            .interpolation
+            .is_some_and(|i| i != Interpolation::Cubic)
+        {
+            return Err(PitchError::Key {
+                key: "interpolation",
+                rule: "must be \"cubic\" where angle_deg is given",
+            });
+        }
+        let table = Periodic::uneven("radius", &self.angle, &self.radius)?;
+        Ok((table, Interpolation::Cubic.name()))
+    }
+
+    /// Refuses keys of another way to give the radius than the one in use.
+    fn nothing_of(&self, ways: &[&str]) -> Result<(), PitchError> {
+        let given = [
+            ("radius", "radius", !self.radius.is_empty()),
+            ("radius", "angle_deg", !self.angle.is_empty()),
+            ("radius", "interpolation", self.interpolation.is_some()),
+            ("mean", "mean", self.mean.is_some()),
+            ("mean", "cos", !self.cos.is_empty()),
+            ("mean", "sin", !self.sin.is_empty()),
+        ];
+        let stray = given.iter().find(|(way, _, on)| *on && ways.contains(way));
+        match stray {
+            Some((_, key, _)) => Err(PitchError::Key {
+                key,
+                rule: "does not go with the other keys: give one of expression, radius (with angle_deg, interpolation), mean (with cos, sin)",
+            }),
+            None => Ok(()),
+        }
+    }
+}
+
+impl Interpolation {
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Self::Cubic => "periodic cubic spline",
+            Self::Quintic => "periodic quintic spline",
+            Self::Trigonometric => "trigonometric polynomial",
+        }
+    }
+}
+
+/// The formula, or where it cannot be read.
+pub(crate) fn read_formula(key: &'static str, text: &str) -> Result<Formula, PitchError> {
+    Formula::read(text).map_err(|FormulaError { reason, column }| PitchError::Expression {
+        key,
+        reason,
+        column,
+    })
+}
+
+#[derive(Debug)]
+struct FormulaLaw {
+    formula: Formula,
+    breaks: Vec<f64>,
+}
+
+impl FormulaLaw {
+    fn read(key: &'static str, text: &str) -> Result<Self, PitchError> {
+        let formula = read_formula(key, text)?;
+        let (start, end) = (formula.at(0.0).derivatives(), formula.at(TAU).derivatives());
+        for (angle, value) in [(0.0, start[0]), (360.0, end[0])] {
+            if !value.is_finite() {
+                return Err(PitchError::Undefined { key, angle, value });
+            }
+        }
+        let size = start[0].abs().max(end[0].abs());
+        if (start[0] - end[0]).abs() > 1e-9 * size {
+            return Err(PitchError::OpenCurve {
+                key,
+                what: "the radius",
+                start: start[0],
+                end: end[0],
+            });
+        }
+        Ok(Self {
+            formula,
+            breaks: seam(&start, &end),
+        })
+    }
+}
+
+/// A break at the angle zero, unless all derivatives of both ends of the turn agree.
+pub(crate) fn seam(start: &Derivatives, end: &Derivatives) -> Vec<f64> {
+    let size = start.iter().fold(0.0_f64, |m, d| m.max(d.abs()));
+    let smooth = start
+        .iter()
+        .zip(end)
+        .all(|(a, b)| (a - b).abs() <= 1e-9 * size);
+    if smooth { Vec::new() } else { vec![0.0] }
+}
+
+impl RadiusLaw for FormulaLaw {
+    fn radius(&self, phi: f64) -> Derivatives {
+        self.formula.at(phi.rem_euclid(TAU)).derivatives()
+    }
+
+    fn breaks(&self) -> Vec<f64> {
+        self.breaks.clone()
+    }
+}
+
+#[derive(Debug)]
+struct TableLaw(Periodic);
+
+impl RadiusLaw for TableLaw {
+    fn radius(&self, phi: f64) -> Derivatives {
+        self.0.at(phi).derivatives()
+    }
+
+    fn breaks(&self) -> Vec<f64> {
+        self.0.breaks()
+    }
+}
