@@ -5,14 +5,23 @@
 
 mod curve;
 mod loops;
+mod flatten;
+mod moments;
 mod outline;
+mod piece;
+mod placement;
 mod primitive;
+mod quadrature;
 mod roots;
+#[cfg(test)]
+mod shapes;
 mod spline;
 mod tolerance;
 
 pub use curve::{Curve, Jet};
 pub use loops::{Kept, crossings, self_crossings, without_loops};
+pub use flatten::Sample;
+pub use moments::AreaMoments;
 pub use outline::{Arc, OpenOutline, Outline, Segment};
 pub use primitive::Primitive;
 pub use roots::{bracketed_minimum, bracketed_root};
