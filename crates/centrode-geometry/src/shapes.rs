@@ -24,60 +24,63 @@ pub(crate) fn rosette(radius: f64, wave: f64, lobes: u32, tolerance: Tolerance) 
     closed(Spline::fit(curve, 0.0, TAU, tolerance))
 }
 
-/// A ring of involute flanks with rounded roots and sharp tips: two corners a tooth.
+/// A ring of involute teeth cut by a rack with rounded tips: two corners a tooth, smooth in between.
 pub(crate) fn tooth_ring(teeth: u32, module: f64, tolerance: Tolerance) -> Outline {
-    let alpha = 20_f64.to_radians();
-    let pitch_radius = 0.5 * module * f64::from(teeth);
-    let base = pitch_radius * alpha.cos();
-    let tip = pitch_radius + module;
-    let turn = |angle: f64, p: Point| nalgebra::Rotation2::new(angle) * p;
-    let involute = |roll: f64| {
-        Point::from(
-            base * Vector::new(
-                roll.cos() + roll * roll.sin(),
-                roll.sin() - roll * roll.cos(),
-            ),
-        )
+    let (sin, cos) = 20_f64.to_radians().sin_cos();
+    let r = 0.5 * module * f64::from(teeth);
+    let (tip, depth, rho) = (r + module, 1.25 * module, 0.38 * module);
+    let center = depth - rho;
+    let quarter = 0.25 * std::f64::consts::PI * module;
+    let side = quarter - center * sin / cos - rho / cos;
+    // The rack moves by r a while the ring turns by a; its tip circle and flank are met where their
+    // normals pass the rolling point (r, 0).
+    let turned = |a: f64, p: Point| nalgebra::Rotation2::new(-a) * p;
+    let fillet = |a: f64| {
+        let v = Vector::new(-center, side + r * a);
+        turned(a, Point::new(r, 0.0) + v + v.normalize() * rho)
     };
-    let roll_tip = ((tip / base).powi(2) - 1.0).sqrt();
-    let roll_low = 0.1;
-    let half = TAU / f64::from(4 * teeth) + alpha.tan() - alpha;
+    let flank = |a: f64| {
+        let reach = (quarter + r * a) * cos;
+        turned(a, Point::new(r, 0.0) + Vector::new(-sin, cos) * reach)
+    };
+    let (lowest, joint) = (-side / r, (center * cos / sin - side) / r);
+    let reach = r * sin - (r * r * sin * sin + tip * tip - r * r).sqrt();
+    let highest = (reach / cos - quarter) / r;
+    let (root_angle, corner) = (side / r, flank(highest));
+    let tip_angle = corner.y.atan2(corner.x);
+    let next = TAU / f64::from(teeth);
     let mut splines = Vec::new();
     for tooth in 0..teeth {
-        let middle = TAU * f64::from(tooth) / f64::from(teeth);
-        let right = |roll: f64| turn(middle - half, involute(roll));
-        let left = |roll: f64| {
-            let p = involute(roll);
-            turn(middle + half, Point::new(p.x, -p.y))
-        };
-        let next = TAU / f64::from(teeth);
-        splines.extend(Spline::fit(right, roll_low, roll_tip, tolerance));
-        let tips = [right(roll_tip), left(roll_tip)].map(|p| p.y.atan2(p.x));
-        let span = (tips[1] - tips[0]).rem_euclid(TAU);
+        let place = nalgebra::Rotation2::new(next * f64::from(tooth));
+        let mirrored = |p: Point| place * Point::new(p.x, -p.y);
+        let circle =
+            |radius: f64| move |a: f64| place * Point::new(radius * a.cos(), radius * a.sin());
         splines.extend(Spline::fit(
-            |a| Point::new(tip * a.cos(), tip * a.sin()),
-            tips[0],
-            tips[0] + span,
+            |a| mirrored(flank(a)),
+            highest,
+            joint,
             tolerance,
         ));
-        splines.extend(Spline::fit(left, roll_tip, roll_low, tolerance));
-        // The root: a cubic Hermite curve with the flanks' tangents, so the joints are smooth.
-        let start = left(roll_low);
-        let end = turn(next, right(roll_low));
-        let inward = |p: Point, q: Point| (p - q).normalize() * module * 2.5;
-        let leave = inward(left(roll_low), left(roll_low + 1e-7));
-        let arrive = -inward(right(roll_low), right(roll_low + 1e-7));
-        let arrive = nalgebra::Rotation2::new(next) * arrive;
-        let hermite = |t: f64| {
-            let s = 1.0 - t;
-            Point::from(
-                start.coords * (s * s * (1.0 + 2.0 * t))
-                    + end.coords * (t * t * (1.0 + 2.0 * s))
-                    + leave * (t * s * s)
-                    - arrive * (t * t * s),
-            )
-        };
-        splines.extend(Spline::fit(hermite, 0.0, 1.0, tolerance));
+        splines.extend(Spline::fit(
+            |a| mirrored(fillet(a)),
+            joint,
+            lowest,
+            tolerance,
+        ));
+        splines.extend(Spline::fit(
+            circle(r - depth),
+            -root_angle,
+            root_angle,
+            tolerance,
+        ));
+        splines.extend(Spline::fit(|a| place * fillet(a), lowest, joint, tolerance));
+        splines.extend(Spline::fit(|a| place * flank(a), joint, highest, tolerance));
+        splines.extend(Spline::fit(
+            circle(tip),
+            tip_angle,
+            next - tip_angle,
+            tolerance,
+        ));
     }
     // Neighbours computed by different formulas differ by rounding.
     for i in 1..splines.len() {
