@@ -5,9 +5,12 @@
 
 mod arcs;
 mod biarc;
+mod bounds;
+mod containment;
+mod crossing;
 mod curve;
-mod loops;
 mod flatten;
+mod loops;
 mod mass;
 mod mesh;
 mod moments;
@@ -24,9 +27,11 @@ mod solid;
 mod spline;
 mod tolerance;
 
+pub use bounds::Bounds;
+pub use crossing::Crossing;
 pub use curve::{Curve, Jet};
-pub use loops::{Kept, crossings, self_crossings, without_loops};
 pub use flatten::Sample;
+pub use loops::{Kept, crossings, self_crossings, without_loops};
 pub use mass::MassProperties;
 pub use mesh::Mesh;
 pub use moments::AreaMoments;

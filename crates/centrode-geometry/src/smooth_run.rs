@@ -67,47 +67,6 @@ impl Outline {
     }
 }
 
-/// Covers nodes `0..=last` by spans, each the longest `fit` accepts from where the one before ended.
-///
-/// `fit` is given the span before, the first and last node, and whether it must succeed: a span of one
-/// step must always be acceptable to the caller.
-pub(crate) fn longest_spans<T>(
-    last: usize,
-    mut fit: impl FnMut(Option<&T>, [usize; 2], bool) -> Option<T>,
-) -> Vec<T> {
-    let mut out = Vec::new();
-    let (mut start, mut guess) = (0, 4);
-    while start < last {
-        // Bracket the longest span around the length of the one before, then halve the bracket.
-        let (mut good, mut fitted) = (0, None);
-        let mut bad = last - start + 1;
-        let mut step = guess.min(last - start);
-        while bad - good > 1 {
-            if let Some(found) = fit(out.last(), [start, start + step], false) {
-                (good, fitted) = (step, Some(found));
-                step = if bad > last - start {
-                    (2 * step).min(last - start)
-                } else {
-                    (good + bad) / 2
-                };
-            } else {
-                bad = step;
-                step = (good + bad) / 2;
-            }
-            if step == good {
-                break;
-            }
-        }
-        if fitted.is_none() {
-            (good, fitted) = (1, fit(out.last(), [start, start + 1], true));
-        }
-        out.extend(fitted);
-        start += good;
-        guess = good.max(1);
-    }
-    out
-}
-
 /// Upper bound, to fourth order, of `|d|` over a step of length `h`, from its values and slopes at the
 /// ends: the extremes of the cubic through them.
 pub(crate) fn hermite_peak(d0: f64, s0: f64, d1: f64, s1: f64, h: f64) -> f64 {

@@ -98,7 +98,8 @@ impl Spline {
         while let Some((a, b, depth)) = stack.pop() {
             let (mut spline, error) = Self::interpolate(&mut curve, a, b);
             // Below the rounding of the points no halving helps; nor does it at a jump.
-            let rounding = 32.0 * f64::EPSILON * spline.start.coords.amax().max(spline.end.coords.amax());
+            let rounding =
+                32.0 * f64::EPSILON * spline.start.coords.amax().max(spline.end.coords.amax());
             if error <= tolerance.mm().max(rounding) || depth >= 16 {
                 if let Some((last, ..)) = out.last() {
                     spline.start = last.end;
