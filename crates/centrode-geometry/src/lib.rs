@@ -3,19 +3,42 @@
 //! No gear word in this crate: it knows curves, not what they are for. Lengths are millimetres,
 //! angles radians, counter-clockwise positive.
 
+mod arcs;
+mod biarc;
+mod bounds;
+mod containment;
+mod crossing;
 mod curve;
+mod flatten;
 mod loops;
+mod mass;
+mod mesh;
+mod moments;
 mod outline;
+mod piece;
+mod placement;
 mod primitive;
+mod quadrature;
 mod roots;
+#[cfg(test)]
+mod shapes;
+mod smooth_run;
+mod solid;
 mod spline;
 mod tolerance;
 
+pub use bounds::Bounds;
+pub use crossing::Crossing;
 pub use curve::{Curve, Jet};
+pub use flatten::Sample;
 pub use loops::{Kept, crossings, self_crossings, without_loops};
+pub use mass::MassProperties;
+pub use mesh::Mesh;
+pub use moments::AreaMoments;
 pub use outline::{Arc, OpenOutline, Outline, Segment};
 pub use primitive::Primitive;
 pub use roots::{bracketed_minimum, bracketed_root};
+pub use solid::{Solid, SolidError};
 pub use spline::{SegmentJet, Spline};
 pub use tolerance::{BadTolerance, Tolerance};
 

@@ -1,4 +1,5 @@
 use crate::{Point, Spline, Vector, spline::SegmentJet};
+use nalgebra::Rotation2;
 
 /// A circular arc from `start` to `end`; `bulge` is the tangent of a quarter of the turned angle,
 /// positive counter-clockwise.
@@ -83,15 +84,20 @@ impl Segment {
                 second: Vector::zeros(),
             },
             Self::Arc(arc) => {
-                let center = arc.center();
+                // Chord form: as good for a nearly straight arc as for a half circle.
                 let half = 0.5 * arc.sweep();
-                let (sin, cos) = (half * (1.0 + u)).sin_cos();
-                let r = arc.start - center;
-                let turned = Vector::new(cos * r.x - sin * r.y, sin * r.x + cos * r.y);
+                let chord = arc.end - arc.start;
+                let t = 0.5 * (1.0 + u);
+                let (ratio, stretch) = if half == 0.0 {
+                    (t, 1.0)
+                } else {
+                    ((half * t).sin() / half.sin(), half / half.sin())
+                };
+                let first = Rotation2::new(half * u) * chord * (0.5 * stretch);
                 SegmentJet {
-                    point: center + turned,
-                    first: Vector::new(-turned.y, turned.x) * half,
-                    second: -turned * (half * half),
+                    point: arc.start + Rotation2::new(half * (t - 1.0)) * chord * ratio,
+                    first,
+                    second: Vector::new(-first.y, first.x) * half,
                 }
             }
             Self::Spline(spline) => spline.at(u),
@@ -138,6 +144,11 @@ impl Outline {
         Ok(Self { segments })
     }
 
+    /// Segments already known to join exactly.
+    pub(crate) fn from_closed(segments: Vec<Segment>) -> Self {
+        Self { segments }
+    }
+
     /// The segments in order.
     #[must_use]
     pub fn segments(&self) -> &[Segment] {
@@ -155,4 +166,36 @@ pub struct OpenOutline {
     pub index: usize,
     /// The distance between the two, mm.
     pub gap: f64,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_arc_has_the_jet_of_its_circle() {
+        for bulge in [-1.7, -1.0, -1e-9, 1e-4, 0.3, 1.0] {
+            let arc = Arc {
+                start: Point::new(3.0, 1.0),
+                end: Point::new(5.0, 4.0),
+                bulge,
+            };
+            let segment = Segment::Arc(arc);
+            assert!((segment.at(-1.0).point - arc.start).norm() < 1e-14);
+            assert!((segment.at(1.0).point - arc.end).norm() < 1e-14);
+            for u in [-0.9, -0.3, 0.0, 0.8] {
+                let jet = segment.at(u);
+                let h = 1e-5;
+                let (before, after) = (segment.at(u - h), segment.at(u + h));
+                assert!(((after.point - before.point) / (2.0 * h) - jet.first).norm() < 1e-8);
+                assert!(((after.first - before.first) / (2.0 * h) - jet.second).norm() < 1e-8);
+                let curvature = jet.first.perp(&jet.second) / jet.first.norm().powi(3);
+                assert!((curvature * arc.radius() - bulge.signum()).abs() < 1e-9);
+                if bulge.abs() > 1e-6 {
+                    let r = (jet.point - arc.center()).norm();
+                    assert!((r / arc.radius() - 1.0).abs() < 1e-12);
+                }
+            }
+        }
+    }
 }

@@ -172,6 +172,24 @@ impl Spline {
         }
     }
 
+    /// The image under an affine map, `vector` being its linear part.
+    pub(crate) fn mapped(
+        &self,
+        point: impl Fn(&Point) -> Point,
+        vector: impl Fn(&Vector) -> Vector,
+    ) -> Self {
+        let mut coefficients = self.coefficients;
+        for c in &mut coefficients {
+            *c = vector(c);
+        }
+        coefficients[0] = point(&Point::from(self.coefficients[0])).coords;
+        Self {
+            start: point(&self.start),
+            end: point(&self.end),
+            coefficients,
+        }
+    }
+
     /// The part between `u0` and `u1`, itself on `[-1, 1]`.
     #[must_use]
     pub fn part(&self, u0: f64, u1: f64) -> Self {

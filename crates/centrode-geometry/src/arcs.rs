@@ -1,0 +1,237 @@
+use crate::{
+    Outline, Segment, Tolerance, Vector,
+    biarc::{ArcPlan, Biarc},
+    smooth_run::{Node, Run},
+};
+
+/// The arcs over one span and the direction in which they arrive.
+struct Span {
+    segments: Vec<Segment>,
+    arrival: Vector,
+}
+
+impl From<Biarc> for Span {
+    fn from(biarc: Biarc) -> Self {
+        let segments = match biarc.single() {
+            Some(segment) => vec![segment],
+            None => biarc.segments.to_vec(),
+        };
+        Self {
+            segments,
+            arrival: biarc.arrival(),
+        }
+    }
+}
+
+impl Span {
+    /// The span from `start` that reaches farthest, and where it ends.
+    ///
+    /// Tangents that lean suit long spans: a span of a third of the planned length may fail where the
+    /// whole one fits, so the search comes from above.
+    fn longest(
+        nodes: &[Node],
+        plan: &ArcPlan,
+        start: usize,
+        leave: Vector,
+        tolerance: f64,
+    ) -> (usize, Self) {
+        let last = nodes.len() - 1;
+        let fit = |end: usize| {
+            let part = &nodes[start..=end];
+            Biarc::fit(part, [leave, plan.tangents[end]], tolerance)
+                .or_else(|| Biarc::fit(part, [leave, nodes[end].tangent], tolerance))
+        };
+        let after = |arcs: f64| {
+            let target = plan.count[start] + arcs;
+            plan.count
+                .partition_point(|&c| c < target)
+                .clamp(start + 1, last)
+        };
+        let mut arcs = 4.0;
+        let mut tried = usize::MAX;
+        while tried > start + 1 {
+            let end = after(arcs).min(tried - 1);
+            if let Some(biarc) = fit(end) {
+                return (end, biarc.into());
+            }
+            tried = end;
+            arcs *= 0.92;
+        }
+        let end = start + 1;
+        (
+            end,
+            Self::forced(&nodes[start..=end], [leave, nodes[end].tangent]),
+        )
+    }
+
+    /// One short step, whatever its error: a line where no biarc exists.
+    fn forced(nodes: &[Node], tangents: [Vector; 2]) -> Self {
+        if let Some(biarc) = Biarc::fit(nodes, tangents, f64::MAX) {
+            return biarc.into();
+        }
+        let (start, end) = (nodes[0].point, nodes[nodes.len() - 1].point);
+        Self {
+            segments: vec![Segment::Line(start, end)],
+            arrival: tangents[1],
+        }
+    }
+}
+
+impl Outline {
+    /// The outline as lines and arcs only, nowhere farther from it than the tolerance.
+    ///
+    /// Lines, arcs and corners stay exactly where they are; the curves between them become pairs of
+    /// arcs that touch the curve at their ends and join without a kink. Each pair is as long as the
+    /// tolerance allows, so a tenth of the tolerance costs about twice the arcs.
+    #[must_use]
+    pub fn arcs(&self, tolerance: Tolerance) -> Self {
+        // The check between nodes is of fourth order: this spacing leaves it a thousandth of the rest.
+        let spacing = tolerance.scaled(0.25);
+        let limit = 0.995 * tolerance.mm();
+        let mut segments = Vec::new();
+        for run in self.runs(spacing) {
+            let (nodes, free) = match run {
+                Run::Kept(segment) => {
+                    segments.push(segment);
+                    continue;
+                }
+                Run::Smooth { nodes, free } => (nodes, free),
+            };
+            let last = nodes.len() - 1;
+            let plan = ArcPlan::new(&nodes, free, limit);
+            let mut start = 0;
+            let mut leave = plan.tangents[0];
+            while start < last {
+                let (end, span) = Span::longest(&nodes, &plan, start, leave, limit);
+                segments.extend(span.segments);
+                leave = span.arrival;
+                start = end;
+            }
+        }
+        Self::from_closed(segments)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        Point,
+        shapes::{rosette, tooth_ring},
+    };
+    use proptest::prelude::{ProptestConfig, prop_assert, proptest};
+
+    fn tolerance(mm: f64) -> Tolerance {
+        Tolerance::new(mm).expect("positive")
+    }
+
+    /// Greatest distance from dense points of one outline to the segments of another, both walked.
+    fn deviation(outline: &Outline, arcs: &Outline) -> f64 {
+        let distance = |p: Point, s: &Segment| match s {
+            Segment::Arc(arc) => {
+                let (c, r) = (arc.center(), arc.radius());
+                let half = 0.5 * arc.sweep().abs();
+                let middle = s.at(0.0).point - c;
+                let v = p - c;
+                if v.perp(&middle).atan2(v.dot(&middle)).abs() <= half {
+                    (v.norm() - r).abs()
+                } else {
+                    (p - arc.start).norm().min((p - arc.end).norm())
+                }
+            }
+            _ => {
+                let (a, b) = (s.start(), s.end());
+                let t = ((p - a).dot(&(b - a)) / (b - a).norm_squared()).clamp(0.0, 1.0);
+                (p - (a + (b - a) * t)).norm()
+            }
+        };
+        let list = arcs.segments();
+        let (mut worst, mut k) = (0.0_f64, 0);
+        for segment in outline.segments() {
+            for i in 0..=60 {
+                let p = segment.at(-1.0 + f64::from(i) / 30.0).point;
+                while k + 1 < list.len() && distance(p, &list[k + 1]) < distance(p, &list[k]) {
+                    k += 1;
+                }
+                worst = worst.max(distance(p, &list[k]));
+            }
+        }
+        worst
+    }
+
+    fn kinks(outline: &Outline) -> usize {
+        outline.jumps().iter().filter(|&&jump| jump > 1e-6).count()
+    }
+
+    #[test]
+    fn a_toothed_ring_keeps_tolerance_corners_and_arc_count() {
+        let outline = tooth_ring(23, 2.25, tolerance(1e-10));
+        for tol in [1e-1, 1e-2, 1e-3, 1e-4, 1e-5] {
+            let arcs = outline.arcs(tolerance(tol));
+            Outline::new(arcs.segments().to_vec()).expect("closed");
+            let worst = deviation(&outline, &arcs);
+            assert!(worst <= tol, "{tol}: {worst}");
+            assert!(worst > 0.2 * tol, "{tol}: {worst} wastes arcs");
+            assert_eq!(kinks(&arcs), 46, "{tol}");
+            let count = arcs.segments().len();
+            assert!(tol < 1e-3 || count <= 500, "{tol}: {count} arcs");
+            assert!((arcs.area() - outline.area()).abs() < tol * outline.length());
+        }
+    }
+
+    #[test]
+    fn lines_and_arcs_come_back_as_they_were() {
+        let p = Point::new;
+        let stadium = Outline::new(vec![
+            Segment::Line(p(0.0, -2.0), p(10.0, -2.0)),
+            Segment::Arc(crate::Arc {
+                start: p(10.0, -2.0),
+                end: p(10.0, 2.0),
+                bulge: 1.0,
+            }),
+            Segment::Line(p(10.0, 2.0), p(0.0, 2.0)),
+            Segment::Arc(crate::Arc {
+                start: p(0.0, 2.0),
+                end: p(0.0, -2.0),
+                bulge: 1.0,
+            }),
+        ])
+        .expect("closed");
+        assert_eq!(stadium.arcs(tolerance(1e-3)), stadium);
+    }
+
+    #[test]
+    fn splines_on_a_circle_become_few_arcs_of_its_radius() {
+        let arcs = rosette(10.0, 0.0, 1, tolerance(1e-11)).arcs(tolerance(1e-4));
+        assert!(arcs.segments().len() <= 6, "{}", arcs.segments().len());
+        for segment in arcs.segments() {
+            let Segment::Arc(arc) = segment else {
+                panic!("an arc")
+            };
+            assert!((arc.radius() - 10.0).abs() < 1e-6);
+        }
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(12))]
+        #[test]
+        fn any_smooth_outline_is_followed_within_any_tolerance(
+            radius in 5.0..80.0_f64,
+            depth in 0.0..0.6_f64,
+            lobes in 1_u32..9,
+            exponent in 0.0..6.0_f64,
+            fit in 1_i32..10,
+        ) {
+            let wave = radius * depth / f64::from(lobes * lobes).max(2.0);
+            let outline = rosette(radius, wave, lobes, tolerance(10_f64.powi(-fit)));
+            let tol = tolerance(10_f64.powf(-exponent));
+            let arcs = outline.arcs(tol);
+            prop_assert!(Outline::new(arcs.segments().to_vec()).is_ok());
+            let worst = deviation(&outline, &arcs);
+            prop_assert!(worst <= tol.mm(), "{worst}");
+            prop_assert!(kinks(&arcs) <= kinks(&outline));
+            let large = outline.scaled(16.0).arcs(tol.scaled(16.0));
+            prop_assert!(large.segments().len() == arcs.segments().len());
+        }
+    }
+}

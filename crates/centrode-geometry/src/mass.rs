@@ -1,0 +1,81 @@
+use crate::AreaMoments;
+use nalgebra::{Matrix3, Point3};
+
+/// Mass, center of mass and inertia of a body.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MassProperties {
+    /// Mass, kg.
+    pub mass: f64,
+    /// Center of mass, mm.
+    pub center: Point3<f64>,
+    /// Inertia tensor about the center of mass, kg mm².
+    pub inertia: Matrix3<f64>,
+}
+
+impl MassProperties {
+    /// An extrusion of a cross-section with the given moments between two heights (mm), at a density
+    /// in kg/m³.
+    #[must_use]
+    pub fn of_extrusion(section: &AreaMoments, bottom: f64, top: f64, density: f64) -> Self {
+        let height = top - bottom;
+        let center = section.centroid();
+        // 1 kg/m³ = 1e-9 kg/mm³.
+        let areal = density * 1e-9 * height;
+        let mass = areal * section.area;
+        let xx = areal * section.xx - mass * center.x * center.x;
+        let yy = areal * section.yy - mass * center.y * center.y;
+        let xy = areal * section.xy - mass * center.x * center.y;
+        let zz = mass * height * height / 12.0;
+        Self {
+            mass,
+            center: Point3::new(center.x, center.y, 0.5 * (bottom + top)),
+            inertia: Matrix3::new(yy + zz, -xy, 0.0, -xy, xx + zz, 0.0, 0.0, 0.0, xx + yy),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::{Outline, Point, Solid, Tolerance, Vector, shapes::rosette};
+    use nalgebra::{Isometry2, Rotation3, Vector3};
+
+    #[test]
+    fn a_steel_tube_has_the_closed_forms() {
+        let center = Point::new(3.0, -4.0);
+        let (outer, inner, height) = (20.0_f64, 8.0_f64, 12.0);
+        let solid = Solid::new(
+            Outline::circle(center, outer),
+            vec![Outline::circle(center, inner).reversed()],
+            -2.0,
+            10.0,
+        )
+        .expect("has height");
+        let m = solid.mass_properties(7850.0);
+        let area = std::f64::consts::PI * (outer * outer - inner * inner);
+        let mass = 7850e-9 * area * height;
+        assert!((m.mass - mass).abs() < 1e-12);
+        assert!((m.center - nalgebra::Point3::new(3.0, -4.0, 4.0)).norm() < 1e-12);
+        let polar = 0.5 * mass * (outer * outer + inner * inner);
+        let across = 0.5 * polar + mass * height * height / 12.0;
+        let exact = nalgebra::Matrix3::from_diagonal(&Vector3::new(across, across, polar));
+        assert!((m.inertia - exact).norm() < 1e-10);
+    }
+
+    #[test]
+    fn the_inertia_turns_with_the_body() {
+        let outline = rosette(20.0, 3.0, 1, Tolerance::new(1e-9).expect("positive"))
+            .transformed(&Isometry2::translation(1.0, 2.0));
+        let angle = 0.7;
+        let turned = outline.transformed(&Isometry2::new(Vector::new(9.0, -1.0), angle));
+        let of = |o: Outline| {
+            Solid::new(o, vec![], 0.0, 7.0)
+                .expect("has height")
+                .mass_properties(1000.0)
+        };
+        let (a, b) = (of(outline), of(turned));
+        let r = Rotation3::from_axis_angle(&Vector3::z_axis(), angle);
+        let carried = r.matrix() * a.inertia * r.matrix().transpose();
+        assert!((carried - b.inertia).norm() < 1e-10 * b.inertia.norm());
+        assert!(carried[(0, 1)].abs() > 1e-6 * carried.norm());
+    }
+}

@@ -1,0 +1,89 @@
+use crate::{Outline, Point, Segment, Tolerance, Vector, piece::CORNER};
+
+/// A point of a smooth part of an outline with its unit tangent.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Node {
+    pub(crate) point: Point,
+    pub(crate) tangent: Vector,
+}
+
+/// A longest part of an outline without a corner, line or arc in it, as closely spaced nodes.
+///
+/// Also a line or an arc by itself, which is kept as it is.
+#[derive(Debug)]
+pub(crate) enum Run {
+    Kept(Segment),
+    Smooth {
+        nodes: Vec<Node>,
+        /// Whether the tangent at the start and at the end is free, the joint there being a corner.
+        free: [bool; 2],
+    },
+}
+
+impl Outline {
+    /// The outline as lines, arcs and smooth runs, in order.
+    ///
+    /// Between neighbouring nodes the curve leaves its chord by at most `spacing`.
+    pub(crate) fn runs(&self, spacing: Tolerance) -> Vec<Run> {
+        let jumps = self.jumps();
+        let corner = |segment: usize| jumps[segment % jumps.len()] > CORNER;
+        let mut runs: Vec<Run> = Vec::new();
+        let mut nodes: Vec<Node> = Vec::new();
+        let mut first = 0;
+        let finish = |runs: &mut Vec<Run>, nodes: &mut Vec<Node>, first: usize, next: usize| {
+            if nodes.is_empty() {
+                return;
+            }
+            let last = &self.segments()[next - 1];
+            nodes.push(Node {
+                point: last.end(),
+                tangent: last.tangent(1.0),
+            });
+            runs.push(Run::Smooth {
+                nodes: std::mem::take(nodes),
+                free: [corner(first), corner(next)],
+            });
+        };
+        for place in self.places(spacing) {
+            let segment = &self.segments()[place.segment];
+            let is_spline = matches!(segment, Segment::Spline(_));
+            if place.u == -1.0 && (corner(place.segment) || !is_spline) {
+                finish(&mut runs, &mut nodes, first, place.segment);
+            }
+            if is_spline {
+                if nodes.is_empty() {
+                    first = place.segment;
+                }
+                nodes.push(Node {
+                    point: self.point(place),
+                    tangent: segment.tangent(place.u),
+                });
+            } else if place.u == -1.0 {
+                runs.push(Run::Kept(*segment));
+            }
+        }
+        finish(&mut runs, &mut nodes, first, self.segments().len());
+        runs
+    }
+}
+
+/// Upper bound, to fourth order, of `|d|` over a step of length `h`, from its values and slopes at the
+/// ends: the extremes of the cubic through them.
+pub(crate) fn hermite_peak(d0: f64, s0: f64, d1: f64, s1: f64, h: f64) -> f64 {
+    let mut peak = d0.abs().max(d1.abs());
+    if s0 * s1 > 0.0 && (d1 - d0) * s0 > 0.0 {
+        return peak;
+    }
+    // d(t) = d0 + a t + b t² + c t³ on [0, 1].
+    let (a, end) = (s0 * h, s1 * h);
+    let b = 3.0 * (d1 - d0) - 2.0 * a - end;
+    let c = a + end - 2.0 * (d1 - d0);
+    let root = (b * b - 3.0 * a * c).max(0.0).sqrt();
+    let q = -(b + root.copysign(b));
+    for t in [q / (3.0 * c), a / q] {
+        if t > 0.0 && t < 1.0 {
+            peak = peak.max((d0 + t * (a + t * (b + t * c))).abs());
+        }
+    }
+    peak
+}

@@ -1,0 +1,256 @@
+use crate::{AreaMoments, MassProperties, Mesh, Outline, Point, Tolerance};
+use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation};
+use thiserror::Error;
+
+/// A straight extrusion: the region inside an outline and outside its holes, from `bottom` to `top`
+/// along z.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Solid {
+    outline: Outline,
+    holes: Vec<Outline>,
+    bottom: f64,
+    top: f64,
+}
+
+/// Why contours do not bound a solid.
+#[derive(Clone, Debug, Error, PartialEq)]
+#[non_exhaustive]
+pub enum SolidError {
+    /// The top is not above the bottom.
+    #[error("a solid must be higher than it begins: bottom {bottom} mm, top {top} mm")]
+    NoHeight {
+        /// Lower face, mm.
+        bottom: f64,
+        /// Upper face, mm.
+        top: f64,
+    },
+    /// A point of a contour is not a finite number.
+    #[error("contour {contour} (0 is the outer one) has a point that is not finite")]
+    NotFinite {
+        /// Index of the contour, the outer one first.
+        contour: usize,
+    },
+    /// Contours flattened at the tolerance meet or cross themselves or one another.
+    #[error("contours cross or touch near ({x}, {y}) mm at a tolerance of {tolerance} mm")]
+    Crossing {
+        /// Where, mm.
+        x: f64,
+        /// Where, mm.
+        y: f64,
+        /// The flattening tolerance, mm.
+        tolerance: f64,
+    },
+    /// A hole is not inside the outer contour, or lies in another hole.
+    #[error("hole {hole} does not lie in the material")]
+    HoleOutside {
+        /// Index of the hole.
+        hole: usize,
+    },
+}
+
+impl Solid {
+    /// A solid between the heights `bottom` and `top`; contours may be walked either way.
+    ///
+    /// # Errors
+    /// [`SolidError::NoHeight`] unless `bottom < top`.
+    pub fn new(
+        outline: Outline,
+        holes: Vec<Outline>,
+        bottom: f64,
+        top: f64,
+    ) -> Result<Self, SolidError> {
+        if !(bottom < top && bottom.is_finite() && top.is_finite()) {
+            return Err(SolidError::NoHeight { bottom, top });
+        }
+        let forward = |o: Outline| {
+            if o.is_counter_clockwise() {
+                o
+            } else {
+                o.reversed()
+            }
+        };
+        Ok(Self {
+            outline: forward(outline),
+            holes: holes.into_iter().map(forward).collect(),
+            bottom,
+            top,
+        })
+    }
+
+    /// Outer contour, counter-clockwise.
+    #[must_use]
+    pub fn outline(&self) -> &Outline {
+        &self.outline
+    }
+
+    /// Contours of the holes, counter-clockwise.
+    #[must_use]
+    pub fn holes(&self) -> &[Outline] {
+        &self.holes
+    }
+
+    /// Area moments of the cross-section about the origin, exact to rounding.
+    #[must_use]
+    pub fn section(&self) -> AreaMoments {
+        self.holes.iter().fold(self.outline.moments(), |sum, hole| {
+            sum.without(hole.moments())
+        })
+    }
+
+    /// Volume, mm³, exact to rounding.
+    #[must_use]
+    pub fn volume(&self) -> f64 {
+        self.section().area * (self.top - self.bottom)
+    }
+
+    /// Mass, center of mass and inertia of the exact solid at a uniform density in kg/m³.
+    #[must_use]
+    pub fn mass_properties(&self, density: f64) -> MassProperties {
+        MassProperties::of_extrusion(&self.section(), self.bottom, self.top, density)
+    }
+
+    /// A closed triangle mesh with outward normals whose side walls follow the contours within the
+    /// tolerance. Its vertices are shared: the bottom ones first, then the top ones in the same order.
+    ///
+    /// # Errors
+    /// [`SolidError`] where the flattened contours cross or touch, or a hole is not in the material.
+    pub fn mesh(&self, tolerance: Tolerance) -> Result<Mesh, SolidError> {
+        let mut contours = vec![self.outline.flatten(tolerance)];
+        for hole in &self.holes {
+            let mut points = hole.flatten(tolerance);
+            points.reverse();
+            contours.push(points);
+        }
+        let cap = triangulate(&contours, tolerance)?;
+        let count: usize = contours.iter().map(Vec::len).sum();
+        let n = count as u32;
+        let mut vertices = Vec::with_capacity(2 * count);
+        for z in [self.bottom, self.top] {
+            vertices.extend(contours.iter().flatten().map(|p| [p.x, p.y, z]));
+        }
+        let mut faces = Vec::with_capacity(2 * (cap.len() + count));
+        faces.extend(cap.iter().map(|&[a, b, c]| [a, c, b]));
+        faces.extend(cap.iter().map(|face| face.map(|v| v + n)));
+        for [a, b] in edges(&contours) {
+            faces.push([a, b, b + n]);
+            faces.push([a, b + n, a + n]);
+        }
+        Ok(Mesh { vertices, faces })
+    }
+}
+
+/// Edges of closed polygons whose points are numbered through.
+fn edges(contours: &[Vec<Point>]) -> Vec<[u32; 2]> {
+    let mut out = Vec::new();
+    let mut first = 0;
+    for contour in contours {
+        let n = contour.len() as u32;
+        out.extend((0..n).map(|i| [first + i, first + (i + 1) % n]));
+        first += n;
+    }
+    out
+}
+
+/// Counter-clockwise triangles of the region left of every contour, with the contours' own points.
+///
+/// A constrained Delaunay triangulation keeps every point and edge, also along a straight line, so the
+/// caps meet the walls without gaps.
+fn triangulate(contours: &[Vec<Point>], tolerance: Tolerance) -> Result<Vec<[u32; 3]>, SolidError> {
+    let crossing = |p: &Point| SolidError::Crossing {
+        x: p.x,
+        y: p.y,
+        tolerance: tolerance.mm(),
+    };
+    let points: Vec<Point> = contours.iter().flatten().copied().collect();
+    if let Some(contour) = contours
+        .iter()
+        .position(|c| c.iter().any(|p| !(p.x.is_finite() && p.y.is_finite())))
+    {
+        return Err(SolidError::NotFinite { contour });
+    }
+    // The library refuses numbers it cannot square; next to any machine part they are zero.
+    let snap = |x: f64| if x.abs() < 1e-100 { 0.0 } else { x };
+    let vertices = points
+        .iter()
+        .map(|p| Point2::new(snap(p.x), snap(p.y)))
+        .collect();
+    let edges: Vec<[usize; 2]> = edges(contours)
+        .into_iter()
+        .map(|edge| edge.map(|v| v as usize))
+        .collect();
+    let mut conflict = None;
+    let triangulation = ConstrainedDelaunayTriangulation::<Point2<f64>>::try_bulk_load_cdt(
+        vertices,
+        edges.clone(),
+        |edge| conflict = conflict.or(Some(edge[0])),
+    )
+    .map_err(|_| SolidError::NotFinite { contour: 0 })?;
+    if let Some(vertex) = conflict {
+        return Err(crossing(&points[vertex]));
+    }
+    if triangulation.num_vertices() < points.len() {
+        let twin = (0..points.len()).find(|&i| points[..i].contains(&points[i]));
+        return Err(crossing(&points[twin.unwrap_or(0)]));
+    }
+    if triangulation.num_constraints() != edges.len() {
+        // A contour runs through a point of another: some edge has been split there.
+        let split = edges.iter().find(|[a, b]| {
+            let handle = |i: &usize| spade::handles::FixedVertexHandle::from_index(*i);
+            !triangulation.exists_constraint(handle(a), handle(b))
+        });
+        return Err(crossing(&points[split.map_or(0, |edge| edge[0])]));
+    }
+    // Every edge of a contour has the material on its left: the state of a face is that of its
+    // neighbour, changed where the edge between them belongs to a contour.
+    let mut inside = vec![None; triangulation.num_all_faces()];
+    inside[triangulation.outer_face().fix().index()] = Some(false);
+    let mut stack = vec![triangulation.outer_face().fix()];
+    for edge in triangulation.convex_hull() {
+        let face = edge.rev().face();
+        let state = edge.is_constraint_edge();
+        if inside[face.fix().index()].is_none() {
+            inside[face.fix().index()] = Some(state);
+            stack.push(face.fix());
+        }
+    }
+    while let Some(face) = stack.pop() {
+        let Some(face) = triangulation.face(face).as_inner() else {
+            continue;
+        };
+        let state = inside[face.fix().index()] == Some(true);
+        for edge in face.adjacent_edges() {
+            let other = edge.rev().face().fix();
+            if inside[other.index()].is_none() {
+                inside[other.index()] = Some(state != edge.is_constraint_edge());
+                stack.push(other);
+            }
+        }
+    }
+    let mut triangles = Vec::with_capacity(points.len());
+    for face in triangulation.inner_faces() {
+        if inside[face.fix().index()] == Some(true) {
+            triangles.push(face.vertices().map(|v| v.fix().index() as u32));
+        }
+    }
+    check_sides(contours, &triangles)?;
+    Ok(triangles)
+}
+
+/// Every contour edge must bound exactly one triangle, on its left.
+fn check_sides(contours: &[Vec<Point>], triangles: &[[u32; 3]]) -> Result<(), SolidError> {
+    let directed: std::collections::HashSet<[u32; 2]> = triangles
+        .iter()
+        .flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]])
+        .collect();
+    let mut first = 0;
+    for (contour, points) in contours.iter().enumerate() {
+        let edge = [first, first + 1];
+        if !directed.contains(&edge) {
+            return Err(SolidError::HoleOutside {
+                hole: contour.saturating_sub(1),
+            });
+        }
+        first += points.len() as u32;
+    }
+    Ok(())
+}
