@@ -31,9 +31,7 @@ def case(kind, shape, k, lobes, mean_ratio, module, tooth_count):
     perimeter = pi * mpf(module) * tooth_count
     p = perimeter / over_period(lambda t: sqrt(u(t) ** 2 + slope(t) ** 2))
     greatest = max(u(2 * pi * i / 720) for i in range(720)) * p
-    a = center_distance(
-        lambda a: over_period(lambda t: p * u(t) / (a - p * u(t))), 2 * pi * n2 / n1, greatest
-    )
+    a = center_distance(lambda a: over_period(lambda t: p * u(t) / (a - p * u(t))), 2 * pi * n2 / n1, greatest)
     driven, total, before = [], mpf(0), mpf(0)
     for phi in PHI:
         total += quad(lambda t: p * u(t) / (a - p * u(t)), [before, phi])

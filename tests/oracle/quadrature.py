@@ -1,5 +1,7 @@
 """Integrals and the closure of a gear pair, to the working precision."""
 
+from itertools import pairwise
+
 from mpmath import findroot, mp, mpf, pi, quad
 
 
@@ -17,7 +19,7 @@ def over_period(f, period=None):
 
 def by_parts(f, knots):
     """Integral of a function smooth between the knots."""
-    return sum(quad(f, [a, b]) for a, b in zip(knots, knots[1:], strict=False))
+    return sum(quad(f, [a, b]) for a, b in pairwise(knots))
 
 
 def center_distance(turn, target, least):

@@ -88,7 +88,9 @@ def parameter(curve, phi):
     for span in range(COUNT):
         low, high = off(mpf(span), span), off(mpf(span + 1), span)
         if low <= 0 < high and high - low < pi:
-            root = findroot(lambda t, s=span: off(t, s), (mpf(span), mpf(span + 1)), solver="anderson", tol=mpf(10) ** -60)
+            root = findroot(
+                lambda t, s=span: off(t, s), (mpf(span), mpf(span + 1)), solver="anderson", tol=mpf(10) ** -60
+            )
             return root, span
     raise ArithmeticError("the curve does not go round the origin")
 
@@ -104,9 +106,7 @@ def case(curve):
         assert abs(diff(lambda u, s=span: curve.at(u, s)[0], t) - curve.at(t, span)[2]) < mpf(10) ** -12
         assert all(curve.at(span + mpf(i) / 50, span)[2] > 0 for i in range(51))
     greatest = max(curve.at(s + mpf(i) / 50, s)[1] for s in range(COUNT) for i in range(51))
-    a = center_distance(
-        lambda a: whole(lambda _, r, turn, __: r / (a - r) * turn), 2 * pi, greatest
-    )
+    a = center_distance(lambda a: whole(lambda _, r, turn, __: r / (a - r) * turn), 2 * pi, greatest)
     perimeter = whole(lambda _, r, turn, slope: sqrt(slope**2 + (r * turn) ** 2))
     start, rows, total = parameter(curve, mpf(0)), [], mpf(0)
     before = start
@@ -119,9 +119,7 @@ def case(curve):
             stop = min(mpf(int(floor(t)) + 1), goal)
             s = int(floor(t)) % COUNT
             shift = int(floor(t)) - s
-            total += by_parts(
-                lambda u, s=s, shift=shift: driven(curve.at(u - shift, s), a), [t, stop]
-            )
+            total += by_parts(lambda u, s=s, shift=shift: driven(curve.at(u - shift, s), a), [t, stop])
             t = stop
         rows.append([phi, curve.at(*now)[1], total])
         before = now
