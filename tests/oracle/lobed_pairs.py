@@ -56,16 +56,16 @@ def case(kind, shape, k, lobes, mean_ratio, module, tooth_count):
 if __name__ == "__main__":
     write(
         "lobed_pairs",
-        """Driver r = p/(1 - k cos(N phi)) ("conic") or p (1 + k cos(N phi)) ("wave"), k = eccentricity, N = lobes,
+        """Driver r = p/(1 - k cos(N phi)) ("lobed-ellipse") or p (1 + k cos(N phi)) ("polar"), k = eccentricity, N = lobes,
 p = parameter (mm), scaled to perimeter pi m z. driven_angle: rows of driver angle phi and driven angle, rad.""",
         [
-            case("conic", conic, "0.2", 1, (1, 1), "2", 20),
-            case("conic", conic, "0.1", 2, (1, 1), "2", 24),
-            case("conic", conic, "0.1", 2, (2, 1), "2", 24),
-            case("conic", conic, "0.1", 2, (3, 2), "2", 24),
-            case("conic", conic, "0.1", 2, (5, 2), "2", 22),
-            case("conic", conic, "0.05", 3, (1, 3), "2", 60),
-            case("wave", wave, "0.08", 2, (1, 1), "1.5", 24),
-            case("wave", wave, "0.08", 5, (2, 5), "1", 100),
+            case("lobed-ellipse", conic, "0.2", 1, (1, 1), "2", 20),
+            case("lobed-ellipse", conic, "0.1", 2, (1, 1), "2", 24),
+            case("lobed-ellipse", conic, "0.1", 2, (2, 1), "2", 24),
+            case("lobed-ellipse", conic, "0.1", 2, (3, 2), "2", 24),
+            case("lobed-ellipse", conic, "0.1", 2, (5, 2), "2", 22),
+            case("lobed-ellipse", conic, "0.05", 3, (1, 3), "2", 60),
+            case("polar", wave, "0.08", 2, (1, 1), "1.5", 24),
+            case("polar", wave, "0.08", 5, (2, 5), "1", 100),
         ],
     )
