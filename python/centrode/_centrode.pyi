@@ -3,6 +3,20 @@ from typing import Literal, final
 from numpy import float64
 from numpy.typing import ArrayLike, NDArray
 
+__all__ = [
+    "DesignError",
+    "Error",
+    "Pitch",
+    "PitchError",
+    "__version__",
+    "bezier",
+    "bspline",
+    "circle",
+    "eccentric_circle",
+    "ellipse",
+    "lobed_ellipse",
+]
+
 __version__: str
 
 class Error(Exception): ...

@@ -1,0 +1,4 @@
+//! Published figures, recomputed to 25 digits by the oracle.
+
+mod data;
+mod pitch;
