@@ -29,6 +29,10 @@ pub(crate) struct EllipticPair {
     pub(crate) least_curvature_radius: f64,
     /// Driver angle, driven angle.
     pub(crate) driven_angle: Vec<[f64; 2]>,
+    /// Tooth, side, height, driver angle, driven angle, x and y on the driver, x and y on the driven gear.
+    pub(crate) flank: Vec<[f64; 9]>,
+    /// Tooth, side, angle of the normal, x and y on the driver.
+    pub(crate) fillet: Vec<[f64; 5]>,
 }
 
 /// The 2021 transplanter pair in one reading of its control points.
@@ -58,4 +62,19 @@ pub(crate) struct LobedPair {
     pub(crate) center_distance: f64,
     /// Driver angle, driven angle.
     pub(crate) driven_angle: Vec<[f64; 2]>,
+}
+
+/// A circular gear cut by the ISO 53 A rack.
+#[derive(Deserialize)]
+pub(crate) struct CircularGear {
+    pub(crate) tooth_count: u32,
+    pub(crate) module: f64,
+    pub(crate) tip_radius: f64,
+    pub(crate) root_radius: f64,
+    pub(crate) undercut: bool,
+    pub(crate) area: f64,
+    /// Radius, angle from the tooth's center line.
+    pub(crate) flank: Vec<[f64; 2]>,
+    /// Radius, angle from the tooth's center line.
+    pub(crate) fillet: Vec<[f64; 2]>,
 }
