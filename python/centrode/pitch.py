@@ -1,0 +1,5 @@
+"""Pitch curves, each by the keys it has in a design file (angles in radians)."""
+
+from ._centrode import bezier, bspline, circle, eccentric_circle, ellipse, lobed_ellipse
+
+__all__ = ["bezier", "bspline", "circle", "eccentric_circle", "ellipse", "lobed_ellipse"]

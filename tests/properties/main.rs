@@ -1,0 +1,4 @@
+//! What holds for every design.
+
+mod design;
+mod pitch;

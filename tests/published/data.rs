@@ -1,0 +1,80 @@
+use std::path::Path;
+
+use serde::{Deserialize, de::DeserializeOwned};
+
+#[derive(Deserialize)]
+struct Cases<T> {
+    case: Vec<T>,
+}
+
+/// The cases of `data/<name>.toml`.
+pub(crate) fn cases<T: DeserializeOwned>(name: &str) -> Vec<T> {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("published/data/{name}.toml"));
+    let text = std::fs::read_to_string(path).expect("the figures are checked in");
+    let cases: Cases<T> = toml::from_str(&text).expect("the oracle writes what this reads");
+    assert!(!cases.case.is_empty(), "{name} has no case");
+    cases.case
+}
+
+/// The 2018 elliptic pair.
+#[derive(Deserialize)]
+pub(crate) struct EllipticPair {
+    pub(crate) eccentricity: f64,
+    pub(crate) module: f64,
+    pub(crate) tooth_count: u32,
+    pub(crate) perimeter: f64,
+    pub(crate) center_distance: f64,
+    pub(crate) least_radius: f64,
+    pub(crate) greatest_radius: f64,
+    pub(crate) least_curvature_radius: f64,
+    /// Driver angle, driven angle.
+    pub(crate) driven_angle: Vec<[f64; 2]>,
+    /// Tooth, side, height, driver angle, driven angle, x and y on the driver, x and y on the driven gear.
+    pub(crate) flank: Vec<[f64; 9]>,
+    /// Tooth, side, angle of the normal, x and y on the driver.
+    pub(crate) fillet: Vec<[f64; 5]>,
+}
+
+/// The 2021 transplanter pair in one reading of its control points.
+#[derive(Deserialize)]
+pub(crate) struct TransplanterPair {
+    pub(crate) plane: String,
+    pub(crate) degree: u32,
+    pub(crate) radius: Vec<f64>,
+    pub(crate) angle_deg: Vec<f64>,
+    pub(crate) center_distance: f64,
+    pub(crate) perimeter: f64,
+    /// Driver angle, driver radius, driven angle.
+    pub(crate) driven_angle: Vec<[f64; 3]>,
+}
+
+/// A pair with a given mean ratio.
+#[derive(Deserialize)]
+pub(crate) struct LobedPair {
+    pub(crate) kind: String,
+    pub(crate) eccentricity: f64,
+    pub(crate) lobes: u32,
+    pub(crate) mean_ratio: [u32; 2],
+    pub(crate) module: f64,
+    pub(crate) tooth_count: u32,
+    pub(crate) parameter: f64,
+    pub(crate) perimeter: f64,
+    pub(crate) center_distance: f64,
+    /// Driver angle, driven angle.
+    pub(crate) driven_angle: Vec<[f64; 2]>,
+}
+
+/// A circular gear cut by the ISO 53 A rack.
+#[derive(Deserialize)]
+pub(crate) struct CircularGear {
+    pub(crate) tooth_count: u32,
+    pub(crate) module: f64,
+    pub(crate) tip_radius: f64,
+    pub(crate) root_radius: f64,
+    pub(crate) undercut: bool,
+    pub(crate) area: f64,
+    /// Radius, angle from the tooth's center line.
+    pub(crate) flank: Vec<[f64; 2]>,
+    /// Radius, angle from the tooth's center line.
+    pub(crate) fillet: Vec<[f64; 2]>,
+}

@@ -1,0 +1,125 @@
+//! Random designs for property tests: every one of them valid.
+
+use std::f64::consts::TAU;
+
+use centrode_mechanism::gear::pitch::{
+    Bspline, Circle, EccentricCircle, Ellipse, LobedEllipse, PitchSpec, Plane,
+};
+use proptest::prelude::{Just, Strategy, any, prop_oneof};
+
+/// A module and a tooth count of ordinary size.
+pub fn size() -> impl Strategy<Value = (f64, u32)> {
+    (0.2..8.0_f64, 12..90_u32)
+}
+
+/// A pitch curve of any kind that has a closed form, scaled by module and tooth count.
+pub fn pitch() -> impl Strategy<Value = PitchSpec> {
+    (shape(), size()).prop_map(|(mut shape, (m, z))| {
+        let (module, tooth_count) = match &mut shape {
+            PitchSpec::Circle(spec) => (&mut spec.module, &mut spec.tooth_count),
+            PitchSpec::EccentricCircle(spec) => (&mut spec.module, &mut spec.tooth_count),
+            PitchSpec::Ellipse(spec) => (&mut spec.module, &mut spec.tooth_count),
+            PitchSpec::LobedEllipse(spec) => (&mut spec.module, &mut spec.tooth_count),
+            PitchSpec::Bspline(spec) => (&mut spec.module, &mut spec.tooth_count),
+            other => unreachable!("no strategy makes {other:?}"),
+        };
+        (*module, *tooth_count) = (Some(m), Some(z));
+        shape
+    })
+}
+
+fn shape() -> impl Strategy<Value = PitchSpec> {
+    prop_oneof![
+        Just(PitchSpec::Circle(Circle::default())),
+        (0.0..0.6_f64).prop_map(|eccentricity| {
+            PitchSpec::EccentricCircle(EccentricCircle {
+                eccentricity,
+                ..EccentricCircle::default()
+            })
+        }),
+        (0.0..0.7_f64).prop_map(|eccentricity| {
+            PitchSpec::Ellipse(Ellipse {
+                eccentricity,
+                ..Ellipse::default()
+            })
+        }),
+        (1..6_u32, 0.0..0.2_f64).prop_map(|(lobes, eccentricity)| {
+            PitchSpec::LobedEllipse(LobedEllipse {
+                lobes,
+                eccentricity,
+                ..LobedEllipse::default()
+            })
+        }),
+        polar_spline(),
+    ]
+}
+
+/// A B-spline through or towards unevenly spaced points round the shaft.
+fn polar_spline() -> impl Strategy<Value = PitchSpec> {
+    let point = (10.0..30.0_f64, 0.6..1.0_f64);
+    (proptest::collection::vec(point, 6..14), 2..=5_u32).prop_map(|(points, degree)| {
+        let whole: f64 = points.iter().map(|(_, step)| step).sum();
+        let mut turned = 0.0;
+        let angle = points
+            .iter()
+            .map(|(_, step)| {
+                turned += step;
+                TAU * (turned / whole - 0.02)
+            })
+            .collect();
+        PitchSpec::Bspline(Bspline {
+            plane: Plane::Polar,
+            degree,
+            radius: points.iter().map(|(radius, _)| *radius).collect(),
+            angle,
+            ..Bspline::default()
+        })
+    })
+}
+
+/// Text that is near a design file: lines of keys and values, some of them wrong, or anything at all.
+pub fn near_design() -> impl Strategy<Value = String> {
+    let key = prop_oneof![
+        Just("name"),
+        Just("mean_ratio"),
+        Just("tooth_count"),
+        Just("kind"),
+        Just("eccentricity"),
+        Just("module"),
+        Just("radius"),
+        Just("angle_deg"),
+        Just("degree"),
+        Just("[pitch]"),
+        Just("[tool]"),
+        Just("[teeth]"),
+        Just("[driver]"),
+        Just("pressure_angle_deg"),
+        Just("phase"),
+        Just("backlash"),
+        Just("width"),
+        Just("nonsense"),
+    ];
+    let value = prop_oneof![
+        any::<f64>().prop_map(|v| format!("{v:?}")),
+        any::<i64>().prop_map(|v| v.to_string()),
+        Just("nan".to_owned()),
+        Just("-inf".to_owned()),
+        Just("[1, 1]".to_owned()),
+        Just("[]".to_owned()),
+        Just("\"ellipse\"".to_owned()),
+        Just("\"bspline\"".to_owned()),
+        Just("{ width = 1 }".to_owned()),
+        "\\PC{0,12}".prop_map(|text| format!("\"{text}\"")),
+    ];
+    let line = (key, value).prop_map(|(key, value)| {
+        if key.starts_with('[') {
+            key.to_owned()
+        } else {
+            format!("{key} = {value}")
+        }
+    });
+    prop_oneof![
+        4 => proptest::collection::vec(line, 0..12).prop_map(|lines| lines.join("\n")),
+        1 => any::<String>(),
+    ]
+}
