@@ -88,6 +88,11 @@ struct Eccentric {
 }
 
 impl RadiusLaw for Eccentric {
+    // An axis inside the circle: eccentricity below 1.
+    fn is_positive_by_form(&self) -> bool {
+        true
+    }
+
     fn radius(&self, phi: f64) -> Derivatives {
         let (sin, cos) = phi.sin_cos();
         let e = self.eccentricity;

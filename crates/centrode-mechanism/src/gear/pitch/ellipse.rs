@@ -124,6 +124,11 @@ impl Focal {
 }
 
 impl RadiusLaw for Focal {
+    // An ellipse about its focus: eccentricity below 1.
+    fn is_positive_by_form(&self) -> bool {
+        true
+    }
+
     fn radius(&self, phi: f64) -> Derivatives {
         let n = self.lobes;
         let (sin, cos) = (n * phi).sin_cos();

@@ -35,12 +35,22 @@ pub(crate) trait Shape: Curve {
     fn side(&self, _t: f64) -> f64 {
         1.0
     }
+
+    /// Whether the curve goes round the axis once by its own form, so that nothing needs proving.
+    fn goes_round_by_form(&self) -> bool {
+        false
+    }
 }
 
 /// A radius as a function of the polar angle, with period one turn.
 pub(crate) trait RadiusLaw: std::fmt::Debug + Send + Sync {
     /// Radius and its derivatives at the polar angle `phi`.
     fn radius(&self, phi: f64) -> Derivatives;
+
+    /// Whether the radius is above zero by the law's own form, for any numbers it was checked for.
+    fn is_positive_by_form(&self) -> bool {
+        false
+    }
 
     /// Angles in `[0, 2 pi)` where a derivative may jump, ascending.
     fn breaks(&self) -> Vec<f64> {
@@ -83,5 +93,9 @@ impl<L: RadiusLaw> Shape for PolarCurve<L> {
 
     fn side(&self, t: f64) -> f64 {
         self.law.radius(t)[0].signum()
+    }
+
+    fn goes_round_by_form(&self) -> bool {
+        self.law.is_positive_by_form()
     }
 }
