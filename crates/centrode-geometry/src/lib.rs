@@ -8,6 +8,7 @@ mod biarc;
 mod bounds;
 mod containment;
 mod crossing;
+mod cubics;
 mod curve;
 mod flatten;
 mod loops;
