@@ -1,0 +1,210 @@
+use std::{
+    fs::{self, File},
+    io::{self, Write},
+    path::{Path, PathBuf},
+};
+use thiserror::Error;
+
+/// Files ready to be written: names and contents, in order.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Bundle {
+    files: Vec<(String, Vec<u8>)>,
+}
+
+/// Why a bundle could not be built or written.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum BundleError {
+    /// A file name that could lead out of the directory.
+    #[error("{name:?} is not a plain file name")]
+    Name {
+        /// The name.
+        name: String,
+    },
+    /// Two files of one name.
+    #[error("two files are named {name:?}")]
+    Twice {
+        /// The name.
+        name: String,
+    },
+    /// The system refused.
+    #[error("cannot {action} {}: {source}", path.display())]
+    Disk {
+        /// What was tried.
+        action: &'static str,
+        /// On which path.
+        path: PathBuf,
+        /// The system's reason.
+        source: io::Error,
+    },
+}
+
+impl Bundle {
+    /// Adds a file.
+    ///
+    /// # Errors
+    /// [`BundleError::Name`] unless the name is a plain one without path separators,
+    /// [`BundleError::Twice`] if a file of that name (letter case aside) is there already.
+    pub fn add(&mut self, name: &str, bytes: Vec<u8>) -> Result<(), BundleError> {
+        let plain = !name.is_empty()
+            && !name.starts_with('.')
+            && !name
+                .chars()
+                .any(|c| matches!(c, '/' | '\\' | ':') || c.is_control());
+        if !plain {
+            return Err(BundleError::Name {
+                name: name.to_owned(),
+            });
+        }
+        if self
+            .files
+            .iter()
+            .any(|(other, _)| other.eq_ignore_ascii_case(name))
+        {
+            return Err(BundleError::Twice {
+                name: name.to_owned(),
+            });
+        }
+        self.files.push((name.to_owned(), bytes));
+        Ok(())
+    }
+
+    /// Names and contents, in order.
+    pub fn files(&self) -> impl Iterator<Item = (&str, &[u8])> {
+        self.files
+            .iter()
+            .map(|(name, bytes)| (name.as_str(), bytes.as_slice()))
+    }
+
+    /// Writes every file into a directory, which is made if it is missing. Returns the paths.
+    ///
+    /// All contents are first written and flushed under temporary names, then renamed: a file is there
+    /// whole or, after an error, as it was before; no temporary is left behind.
+    ///
+    /// # Errors
+    /// [`BundleError::Disk`] with the path and the system's reason.
+    pub fn write_to(&self, directory: &Path) -> Result<Vec<PathBuf>, BundleError> {
+        fs::create_dir_all(directory).map_err(failed("create the directory", directory))?;
+        let mut staged = Staged::default();
+        for (name, bytes) in &self.files {
+            let target = directory.join(name);
+            if target.is_dir() {
+                let source = io::Error::from(io::ErrorKind::IsADirectory);
+                return Err(failed("write", &target)(source));
+            }
+            let temporary = directory.join(format!(".{name}.{}.part", std::process::id()));
+            staged.paths.push((temporary.clone(), target));
+            let mut file = File::create(&temporary).map_err(failed("create", &temporary))?;
+            file.write_all(bytes).map_err(failed("write", &temporary))?;
+            file.sync_all().map_err(failed("flush", &temporary))?;
+        }
+        let mut written = Vec::with_capacity(self.files.len());
+        for (temporary, target) in &staged.paths {
+            fs::rename(temporary, target).map_err(failed("write", target))?;
+            written.push(target.clone());
+        }
+        Ok(written)
+    }
+}
+
+fn failed(action: &'static str, path: &Path) -> impl FnOnce(io::Error) -> BundleError {
+    let path = path.to_owned();
+    move |source| BundleError::Disk {
+        action,
+        path,
+        source,
+    }
+}
+
+/// Temporary and final paths; what is left of the temporaries is removed in the end.
+#[derive(Default)]
+struct Staged {
+    paths: Vec<(PathBuf, PathBuf)>,
+}
+
+impl Drop for Staged {
+    fn drop(&mut self) {
+        for (temporary, _) in &self.paths {
+            // Renamed files are gone already; nothing more can be done about others.
+            let _ = fs::remove_file(temporary);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn names(directory: &Path) -> Vec<String> {
+        let mut names: Vec<String> = fs::read_dir(directory)
+            .expect("readable")
+            .map(|entry| {
+                entry
+                    .expect("entry")
+                    .file_name()
+                    .to_string_lossy()
+                    .into_owned()
+            })
+            .collect();
+        names.sort();
+        names
+    }
+
+    #[test]
+    fn files_are_written_whole_into_a_new_directory_and_over_old_ones() {
+        let root = tempfile::tempdir().expect("a place to write");
+        let directory = root.path().join("a").join("b");
+        let mut bundle = Bundle::default();
+        bundle.add("one.txt", b"first".to_vec()).expect("plain");
+        bundle.add("two.txt", vec![7; 100_000]).expect("plain");
+        let paths = bundle.write_to(&directory).expect("written");
+        assert_eq!(paths.len(), 2);
+        assert_eq!(names(&directory), ["one.txt", "two.txt"]);
+        let mut second = Bundle::default();
+        second.add("one.txt", b"second".to_vec()).expect("plain");
+        second.write_to(&directory).expect("written over");
+        assert_eq!(
+            fs::read(directory.join("one.txt")).expect("there"),
+            b"second"
+        );
+        assert_eq!(names(&directory), ["one.txt", "two.txt"]);
+    }
+
+    #[test]
+    fn a_failure_leaves_old_files_and_no_temporaries() {
+        let root = tempfile::tempdir().expect("a place to write");
+        fs::write(root.path().join("one.txt"), b"old").expect("written");
+        fs::create_dir(root.path().join("two.txt")).expect("a directory in the way");
+        let mut bundle = Bundle::default();
+        bundle.add("one.txt", b"new".to_vec()).expect("plain");
+        bundle.add("two.txt", b"new".to_vec()).expect("plain");
+        let error = bundle.write_to(root.path()).expect_err("in the way");
+        assert!(error.to_string().contains("two.txt"), "{error}");
+        assert_eq!(
+            fs::read(root.path().join("one.txt")).expect("there"),
+            b"old"
+        );
+        assert_eq!(names(root.path()), ["one.txt", "two.txt"]);
+        let file = root.path().join("one.txt");
+        let error = bundle.write_to(&file).expect_err("a file, not a directory");
+        assert!(matches!(error, BundleError::Disk { .. }) && error.to_string().contains("one.txt"));
+    }
+
+    #[test]
+    fn names_that_lead_elsewhere_or_repeat_are_refused() {
+        let mut bundle = Bundle::default();
+        for name in [
+            "", "..", ".hidden", "a/b", "a\\b", "c:d", "/etc", "a\nb", "../x",
+        ] {
+            assert!(
+                matches!(bundle.add(name, vec![]), Err(BundleError::Name { .. })),
+                "{name}"
+            );
+        }
+        bundle.add("a.dxf", vec![]).expect("plain");
+        assert!(matches!(
+            bundle.add("A.DXF", vec![]),
+            Err(BundleError::Twice { .. })
+        ));
+    }
+}

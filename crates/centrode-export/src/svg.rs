@@ -1,0 +1,221 @@
+//! SVG pictures.
+
+use crate::drawing::{Anchor, Color, Drawing, LineType, Shape, Text};
+use centrode_geometry::{Arc, Outline, Point, Segment, Tolerance, Vector};
+use std::fmt::Write;
+
+/// A drawing as an SVG picture, one user unit to the millimetre, with lines and true arcs.
+///
+/// Curved contours become arcs within the tolerance. Numbers keep a millionth of a millimetre.
+#[must_use]
+pub fn write(drawing: &Drawing, tolerance: Tolerance) -> String {
+    let mut bounds = drawing.bounds();
+    if !bounds.diagonal().is_finite() {
+        bounds = centrode_geometry::Bounds::EMPTY
+            .with(Point::origin())
+            .with(Point::new(1.0, 1.0));
+    }
+    let margin = Vector::repeat(0.04 * bounds.diagonal().max(1.0));
+    let (low, high) = (bounds.min - margin, bounds.max + margin);
+    let (width, height) = (number(high.x - low.x), number(high.y - low.y));
+    let mut out = String::new();
+    // y points up in a drawing and down in a picture: every y is negated.
+    let _ = writeln!(
+        out,
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}mm\" height=\"{height}mm\" \
+         viewBox=\"{} {} {width} {height}\">",
+        number(low.x),
+        number(-high.y),
+    );
+    for layer in &drawing.layers {
+        let dashes = match layer.line_type {
+            LineType::Continuous => String::new(),
+            _ => {
+                // A dash of no length is drawn as a dot by the round caps.
+                let dashes: Vec<String> = layer
+                    .line_type
+                    .pattern()
+                    .iter()
+                    .map(|d| number(d.abs()))
+                    .collect();
+                format!(" stroke-dasharray=\"{}\"", dashes.join(" "))
+            }
+        };
+        let _ = writeln!(
+            out,
+            "<g id=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{}\" stroke-linejoin=\"round\" \
+             stroke-linecap=\"round\"{dashes}>",
+            escaped(&layer.name),
+            paint(layer.color),
+            number(layer.line_width),
+        );
+        for entity in drawing.entities.iter().filter(|e| e.layer == layer.name) {
+            shape(
+                &mut out,
+                &entity.shape,
+                layer.color,
+                layer.line_width,
+                tolerance,
+            );
+        }
+        out.push_str("</g>\n");
+    }
+    out.push_str("</svg>\n");
+    out
+}
+
+fn shape(out: &mut String, shape: &Shape, color: Color, line_width: f64, tolerance: Tolerance) {
+    let _ = match shape {
+        Shape::Contour(outline) => {
+            writeln!(out, "<path d=\"{}\"/>", contour(&outline.arcs(tolerance)))
+        }
+        Shape::Polyline(points) => {
+            let points: Vec<String> = points.iter().map(pair).collect();
+            writeln!(out, "<polyline points=\"{}\"/>", points.join(" "))
+        }
+        Shape::Line(start, end) => writeln!(out, "<path d=\"M{} L{}\"/>", pair(start), pair(end)),
+        Shape::Circle { center, radius } => writeln!(
+            out,
+            "<circle cx=\"{}\" cy=\"{}\" r=\"{}\"/>",
+            number(center.x),
+            number(-center.y),
+            number(*radius),
+        ),
+        Shape::Arc(arc) => writeln!(
+            out,
+            "<path d=\"M{} {}\"/>",
+            pair(&arc.start),
+            arc_command(arc)
+        ),
+        Shape::Mark(point) => {
+            let reach = 6.0 * line_width;
+            let (x, y) = (Vector::new(reach, 0.0), Vector::new(0.0, reach));
+            writeln!(
+                out,
+                "<path d=\"M{} L{} M{} L{}\"/>",
+                pair(&(point - x)),
+                pair(&(point + x)),
+                pair(&(point - y)),
+                pair(&(point + y)),
+            )
+        }
+        Shape::Text(text) => words(out, text, color),
+    };
+}
+
+fn contour(arcs: &Outline) -> String {
+    let Some(first) = arcs.segments().first() else {
+        return String::new();
+    };
+    let mut d = format!("M{}", pair(&first.start()));
+    for segment in arcs.segments() {
+        match segment {
+            Segment::Arc(arc) => {
+                let _ = write!(d, " {}", arc_command(arc));
+            }
+            _ => {
+                let _ = write!(d, " L{}", pair(&segment.end()));
+            }
+        }
+    }
+    d.push_str(" Z");
+    d
+}
+
+fn arc_command(arc: &Arc) -> String {
+    let radius = number(arc.radius());
+    let large = u8::from(arc.bulge.abs() > 1.0);
+    let sweep = u8::from(arc.bulge < 0.0);
+    format!("A{radius} {radius} 0 {large} {sweep} {}", pair(&arc.end))
+}
+
+fn words(out: &mut String, text: &Text, color: Color) -> std::fmt::Result {
+    let anchor = match text.anchor {
+        Anchor::Left => "start",
+        Anchor::Middle => "middle",
+        Anchor::Right => "end",
+    };
+    // Capitals are about 0.7 of a font's size.
+    writeln!(
+        out,
+        "<text x=\"{}\" y=\"{}\" font-family=\"sans-serif\" font-size=\"{}\" text-anchor=\"{anchor}\" \
+         fill=\"{}\" stroke=\"none\">{}</text>",
+        number(text.at.x),
+        number(-text.at.y),
+        number(text.height / 0.7),
+        paint(color),
+        escaped(&text.words),
+    )
+}
+
+fn pair(point: &Point) -> String {
+    format!("{},{}", number(point.x), number(-point.y))
+}
+
+/// A number to a millionth, without trailing zeros.
+fn number(x: f64) -> String {
+    let text = format!("{x:.6}");
+    let text = text.trim_end_matches('0').trim_end_matches('.');
+    if text == "-0" {
+        "0".to_owned()
+    } else {
+        text.to_owned()
+    }
+}
+
+fn paint(color: Color) -> &'static str {
+    match color {
+        Color::Foreground => "#1a1a1a",
+        Color::Red => "#c62828",
+        Color::Green => "#2e7d32",
+        Color::Cyan => "#00838f",
+        Color::Blue => "#1565c0",
+        Color::Magenta => "#ad1457",
+        Color::Gray => "#8a8a8a",
+    }
+}
+
+fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;")
+        .replace('<', "&lt;")
+        .replace('>', "&gt;")
+        .replace('"', "&quot;")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shapes_appear_upright_in_millimetres() {
+        let mut drawing = Drawing::default().layer("CUT", Color::Red, LineType::Center, 0.25);
+        drawing.draw(
+            "CUT",
+            Shape::Contour(Outline::circle(Point::new(0.0, 5.0), 2.0)),
+        );
+        drawing.draw(
+            "CUT",
+            Shape::Line(Point::origin(), Point::new(10.0, 1.0 / 3.0)),
+        );
+        drawing.draw(
+            "CUT",
+            Shape::Text(Text {
+                at: Point::new(1.0, 9.0),
+                height: 3.5,
+                words: "a < b & c".into(),
+                anchor: Anchor::Left,
+            }),
+        );
+        let svg = write(&drawing, Tolerance::new(1e-3).expect("positive"));
+        assert!(
+            svg.contains("M2,-5 A2 2 0 0 0 -2,-5 A2 2 0 0 0 2,-5 Z"),
+            "{svg}"
+        );
+        assert!(svg.contains("M0,0 L10,-0.333333"));
+        assert!(svg.contains("a &lt; b &amp; c"));
+        assert!(svg.contains("stroke-dasharray=\"6 1.5 0 1.5\""));
+        assert!(!svg.contains("NaN") && !svg.contains("inf"));
+        let empty = write(&Drawing::default(), Tolerance::new(1.0).expect("positive"));
+        assert!(!empty.contains("inf") && !empty.contains("NaN"));
+    }
+}
