@@ -1,4 +1,4 @@
-use crate::{Outline, Point, Segment, Tolerance, Vector};
+use crate::{Outline, Point, Segment, Tolerance, Vector, spline::NODES};
 
 /// Tangent jump, rad, above which a joint is a corner rather than rounding.
 pub(crate) const CORNER: f64 = 1e-6;
@@ -41,7 +41,7 @@ impl Piece {
                     spline_bounds(spline.coefficients(), 1.0)
                 } else {
                     let half = 0.5 * (u1 - u0);
-                    let mut c = [Vector::zeros(); 10];
+                    let mut c = [Vector::zeros(); NODES];
                     c.copy_from_slice(spline.coefficients());
                     shift(&mut c, 0.5 * (u0 + u1));
                     spline_bounds(&c, half)
@@ -91,9 +91,9 @@ impl Piece {
 }
 
 /// Moves the origin of the parameter to `middle`.
-fn shift(c: &mut [Vector; 10], middle: f64) {
-    for low in 0..9 {
-        for k in (low..9).rev() {
+fn shift(c: &mut [Vector; NODES], middle: f64) {
+    for low in 0..NODES - 1 {
+        for k in (low..NODES - 1).rev() {
             let above = c[k + 1];
             c[k] += above * middle;
         }

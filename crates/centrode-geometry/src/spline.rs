@@ -1,7 +1,7 @@
 use crate::{Point, Tolerance, Vector};
 
 /// Number of interpolation nodes of a [`Spline`]: degree thirteen.
-const NODES: usize = 14;
+pub(crate) const NODES: usize = 14;
 
 /// A polynomial curve segment of degree thirteen on the parameter interval `[-1, 1]`.
 ///
