@@ -6,7 +6,7 @@ use crate::gear::pitch::PitchError;
 
 /// What is wrong with a design file, and where.
 #[derive(Debug, Error)]
-#[error("line {line}, column {column}{}: {fault}", self.named_key())]
+#[error("line {line}, column {column}: {}", self.message())]
 pub struct DesignError {
     /// What is wrong.
     #[source]
@@ -23,10 +23,10 @@ pub struct DesignError {
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum DesignFault {
-    /// Too large to be a design.
-    #[error("the file has {bytes} bytes; a design file has at most {limit}")]
+    /// Too large to be a design; it is not read to its end.
+    #[error("the file has at least {bytes} bytes; a design file has at most {limit}")]
     TooLarge {
-        /// Size of the file.
+        /// Bytes seen of it.
         bytes: usize,
         /// Greatest size read.
         limit: usize,
@@ -79,11 +79,24 @@ pub enum DesignFault {
 }
 
 impl DesignError {
-    fn named_key(&self) -> String {
-        if self.key.is_empty() {
-            String::new()
+    /// The key and what is wrong with it, without the place.
+    #[must_use]
+    pub fn message(&self) -> String {
+        let fault = self.fault.to_string();
+        let (tables, last) = match self.key.rfind('.') {
+            Some(dot) => self.key.split_at(dot + 1),
+            None => ("", self.key.as_str()),
+        };
+        // Some rules begin with their key already.
+        let named = fault
+            .strip_prefix(last)
+            .is_some_and(|rest| rest.starts_with(|c: char| !c.is_alphanumeric() && c != '_'));
+        if last.is_empty() {
+            fault
+        } else if named {
+            format!("{tables}{fault}")
         } else {
-            format!(", {}", self.key)
+            format!("{}: {fault}", self.key)
         }
     }
 }
