@@ -1,7 +1,8 @@
 use std::f64::consts::PI;
 
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer, Serialize};
 
 use super::rule::{Rule, SpecError, between, broken, not_negative, positive, within};
 use crate::degrees;
@@ -112,6 +113,18 @@ impl Default for Shaper {
 }
 
 impl ToolSpec {
+    /// Every `kind`.
+    pub(crate) const KINDS: &'static [&'static str] = &["rack", "shaper"];
+
+    /// Reads what stands beside the key `kind`.
+    pub(crate) fn of_kind<'de, D: Deserializer<'de>>(kind: &str, d: D) -> Result<Self, D::Error> {
+        match kind {
+            "rack" => Rack::deserialize(d).map(Self::Rack),
+            "shaper" => Shaper::deserialize(d).map(Self::Shaper),
+            other => Err(D::Error::unknown_variant(other, Self::KINDS)),
+        }
+    }
+
     /// Ranges, and a tip rounding that fits the tool.
     ///
     /// # Errors

@@ -2,7 +2,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::error::{eccentricity, positive};
-use super::plane::{Derivatives, PolarCurve, RadiusLaw};
+use super::plane::{Derivatives, Direction, PolarCurve, RadiusLaw};
 use super::size::{OwnSize, Size};
 use super::{Draft, PitchError};
 
@@ -93,8 +93,8 @@ impl RadiusLaw for Eccentric {
         true
     }
 
-    fn radius(&self, phi: f64) -> Derivatives {
-        let (sin, cos) = phi.sin_cos();
+    fn radius(&self, phi: &Direction) -> Derivatives {
+        let Direction { sin, cos, .. } = *phi;
         let e = self.eccentricity;
         let square = e * e;
         // w^2 = 1 - e^2 sin^2 phi, differentiated: w w' = g, w'^2 + w w'' = g', ...

@@ -2,7 +2,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::error::{eccentricity, positive};
-use super::plane::{Derivatives, PolarCurve, RadiusLaw};
+use super::plane::{Derivatives, Direction, PolarCurve, RadiusLaw};
 use super::size::{OwnSize, Size};
 use super::{Draft, PitchError};
 
@@ -129,9 +129,9 @@ impl RadiusLaw for Focal {
         true
     }
 
-    fn radius(&self, phi: f64) -> Derivatives {
+    fn radius(&self, phi: &Direction) -> Derivatives {
         let n = self.lobes;
-        let (sin, cos) = (n * phi).sin_cos();
+        let (sin, cos) = phi.times(n);
         let k = self.eccentricity;
         let r = self.parameter / (1.0 - k * cos);
         // d = 1 - k cos(N phi): r d = p, so r' = -r d'/d and so on by Leibniz.

@@ -2,7 +2,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::error::{finite, positive, within};
-use super::plane::{Derivatives, PolarCurve, RadiusLaw};
+use super::plane::{Derivatives, Direction, PolarCurve, RadiusLaw};
 use super::size::{OwnSize, Size};
 use super::{Draft, PitchError};
 
@@ -70,9 +70,9 @@ struct Cosine {
 }
 
 impl RadiusLaw for Cosine {
-    fn radius(&self, phi: f64) -> Derivatives {
+    fn radius(&self, phi: &Direction) -> Derivatives {
         let n = self.lobes;
-        let (sin, cos) = (n * phi).sin_cos();
+        let (sin, cos) = phi.times(n);
         let (c, s) = (self.amplitude * cos, self.amplitude * sin);
         [self.mean + c, -n * s, -n * n * c, n * n * n * s]
     }

@@ -7,7 +7,8 @@ use std::sync::Arc;
 
 use centrode_geometry::{Curve, Primitive};
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer, Serialize};
 
 mod bezier;
 mod bspline;
@@ -82,6 +83,37 @@ pub struct Pitch {
 }
 
 impl PitchSpec {
+    /// Every `kind`.
+    pub(crate) const KINDS: &'static [&'static str] = &[
+        "circle",
+        "eccentric-circle",
+        "ellipse",
+        "lobed-ellipse",
+        "limacon",
+        "bspline",
+        "bezier",
+        "polar",
+        "transmission",
+        "ratio",
+    ];
+
+    /// Reads what stands beside the key `kind`.
+    pub(crate) fn of_kind<'de, D: Deserializer<'de>>(kind: &str, d: D) -> Result<Self, D::Error> {
+        match kind {
+            "circle" => Circle::deserialize(d).map(Self::Circle),
+            "eccentric-circle" => EccentricCircle::deserialize(d).map(Self::EccentricCircle),
+            "ellipse" => Ellipse::deserialize(d).map(Self::Ellipse),
+            "lobed-ellipse" => LobedEllipse::deserialize(d).map(Self::LobedEllipse),
+            "limacon" => Limacon::deserialize(d).map(Self::Limacon),
+            "bspline" => Bspline::deserialize(d).map(Self::Bspline),
+            "bezier" => Bezier::deserialize(d).map(Self::Bezier),
+            "polar" => Polar::deserialize(d).map(Self::Polar),
+            "transmission" => Transmission::deserialize(d).map(Self::Transmission),
+            "ratio" => Ratio::deserialize(d).map(Self::Ratio),
+            other => Err(D::Error::unknown_variant(other, Self::KINDS)),
+        }
+    }
+
     /// The exact curve, proved to go round the shaft axis once, in order.
     ///
     /// # Errors

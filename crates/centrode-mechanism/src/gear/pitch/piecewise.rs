@@ -1,6 +1,6 @@
 use centrode_geometry::{Curve, Jet, Point, Vector};
 
-use super::plane::{Derivatives, Shape, polar_jet};
+use super::plane::{Derivatives, Direction, Shape, polar_jet};
 
 /// Highest degree of a pitch spline.
 pub(crate) const HIGHEST_DEGREE: usize = 5;
@@ -72,7 +72,11 @@ impl Curve for PiecewiseCurve {
     fn at(&self, t: f64) -> Jet {
         let [a, b] = self.plane(t);
         match self.coordinates {
-            Coordinates::Polar => polar_jet(&a, &b.map(|d| d * self.scale)),
+            Coordinates::Polar => polar_jet(
+                &Direction::at(a[0]),
+                [a[1], a[2], a[3]],
+                &b.map(|d| d * self.scale),
+            ),
             Coordinates::Cartesian => Jet {
                 point: Point::new(a[0], b[0]) * self.scale,
                 first: Vector::new(a[1], b[1]) * self.scale,

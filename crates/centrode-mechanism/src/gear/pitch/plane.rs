@@ -3,12 +3,37 @@ use centrode_geometry::{Curve, Jet, Point, Vector};
 /// A value and its first three derivatives.
 pub(crate) type Derivatives = [f64; 4];
 
-/// The jet of a curve given in polar coordinates: angle and radius as functions of the parameter.
+/// A polar angle with its sine and cosine.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Direction {
+    pub(crate) angle: f64,
+    pub(crate) sin: f64,
+    pub(crate) cos: f64,
+}
+
+impl Direction {
+    pub(crate) fn at(angle: f64) -> Self {
+        let (sin, cos) = angle.sin_cos();
+        Self { angle, sin, cos }
+    }
+
+    /// Sine and cosine of the angle times a whole number.
+    pub(crate) fn times(&self, n: f64) -> (f64, f64) {
+        if n == 1.0 {
+            (self.sin, self.cos)
+        } else {
+            (n * self.angle).sin_cos()
+        }
+    }
+}
+
+/// The jet of a curve given in polar coordinates: direction with the derivatives of its
+/// angle, and radius, as functions of the parameter.
 ///
 /// With `z = r e^(i theta)` the derivatives are `w_k e^(i theta)` where `w_0 = r` and
 /// `w_(k+1) = w_k' + i theta' w_k`.
-pub(crate) fn polar_jet(angle: &Derivatives, radius: &Derivatives) -> Jet {
-    let [theta, t1, t2, t3] = *angle;
+pub(crate) fn polar_jet(direction: &Direction, turn: [f64; 3], radius: &Derivatives) -> Jet {
+    let [t1, t2, t3] = turn;
     let [r, r1, r2, r3] = *radius;
     let (a, b) = (r1, r * t1);
     let (a1, b1) = (r2, r1 * t1 + r * t2);
@@ -16,7 +41,7 @@ pub(crate) fn polar_jet(angle: &Derivatives, radius: &Derivatives) -> Jet {
     let (c, d) = (a1 - t1 * b, b1 + t1 * a);
     let (c1, d1) = (a2 - t2 * b - t1 * b1, b2 + t2 * a + t1 * a1);
     let (e, f) = (c1 - t1 * d, d1 + t1 * c);
-    let (sin, cos) = theta.sin_cos();
+    let Direction { sin, cos, .. } = *direction;
     let turned = |x: f64, y: f64| Vector::new(x * cos - y * sin, x * sin + y * cos);
     Jet {
         point: Point::new(r * cos, r * sin),
@@ -44,8 +69,8 @@ pub(crate) trait Shape: Curve {
 
 /// A radius as a function of the polar angle, with period one turn.
 pub(crate) trait RadiusLaw: std::fmt::Debug + Send + Sync {
-    /// Radius and its derivatives at the polar angle `phi`.
-    fn radius(&self, phi: f64) -> Derivatives;
+    /// Radius and its derivatives in a direction.
+    fn radius(&self, phi: &Direction) -> Derivatives;
 
     /// Whether the radius is above zero by the law's own form, for any numbers it was checked for.
     fn is_positive_by_form(&self) -> bool {
@@ -81,8 +106,9 @@ impl<L: RadiusLaw> Curve for PolarCurve<L> {
     }
 
     fn at(&self, t: f64) -> Jet {
-        let radius = self.law.radius(t).map(|d| d * self.scale);
-        polar_jet(&[t, 1.0, 0.0, 0.0], &radius)
+        let direction = Direction::at(t);
+        let radius = self.law.radius(&direction).map(|d| d * self.scale);
+        polar_jet(&direction, [1.0, 0.0, 0.0], &radius)
     }
 }
 
@@ -92,7 +118,7 @@ impl<L: RadiusLaw> Shape for PolarCurve<L> {
     }
 
     fn side(&self, t: f64) -> f64 {
-        self.law.radius(t)[0].signum()
+        self.law.radius(&Direction::at(t))[0].signum()
     }
 
     fn goes_round_by_form(&self) -> bool {

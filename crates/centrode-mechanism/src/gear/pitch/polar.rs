@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::error::finite;
 use super::periodic::{Fourier, Interpolation, Periodic};
-use super::plane::{Derivatives, PolarCurve, RadiusLaw};
+use super::plane::{Derivatives, Direction, PolarCurve, RadiusLaw};
 use super::size::{OwnSize, Size};
 use super::{Draft, PitchError};
 use crate::degrees;
@@ -204,8 +204,8 @@ pub(crate) fn seam(start: &Derivatives, end: &Derivatives) -> Vec<f64> {
 }
 
 impl RadiusLaw for FormulaLaw {
-    fn radius(&self, phi: f64) -> Derivatives {
-        self.formula.at(phi.rem_euclid(TAU)).derivatives()
+    fn radius(&self, phi: &Direction) -> Derivatives {
+        self.formula.at(phi.angle.rem_euclid(TAU)).derivatives()
     }
 
     fn breaks(&self) -> Vec<f64> {
@@ -217,8 +217,8 @@ impl RadiusLaw for FormulaLaw {
 struct TableLaw(Periodic);
 
 impl RadiusLaw for TableLaw {
-    fn radius(&self, phi: f64) -> Derivatives {
-        self.0.at(phi).derivatives()
+    fn radius(&self, phi: &Direction) -> Derivatives {
+        self.0.at(phi.angle).derivatives()
     }
 
     fn breaks(&self) -> Vec<f64> {

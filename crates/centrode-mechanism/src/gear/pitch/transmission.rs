@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::error::{finite, positive};
 use super::periodic::{Interpolation, Periodic};
-use super::plane::{Derivatives, PolarCurve, RadiusLaw};
+use super::plane::{Derivatives, Direction, PolarCurve, RadiusLaw};
 use super::points::count;
 use super::polar::{read_formula, seam};
 use super::size::{OwnSize, Size};
@@ -328,8 +328,8 @@ struct LawRadius {
 }
 
 impl RadiusLaw for LawRadius {
-    fn radius(&self, phi: f64) -> Derivatives {
-        let q = self.law.ratio(phi.rem_euclid(TAU));
+    fn radius(&self, phi: &Direction) -> Derivatives {
+        let q = self.law.ratio(phi.angle.rem_euclid(TAU));
         let share = q / (Taylor::constant(1.0) + q);
         share.derivatives().map(|d| d * self.a)
     }

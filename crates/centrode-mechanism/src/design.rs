@@ -1,0 +1,77 @@
+//! The design file: TOML in, a description of one family of mechanism out.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+mod fault;
+mod file;
+mod keys;
+
+pub use fault::{DesignError, DesignFault};
+pub use file::DesignFile;
+
+use crate::gear::design::GearPairDesign;
+
+/// A mechanism as written: one of the families, by the key `family`.
+#[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
+#[serde(tag = "family", rename_all = "kebab-case")]
+#[non_exhaustive]
+pub enum Design {
+    /// A non-circular gear pair.
+    GearPair(GearPairDesign),
+}
+
+impl Design {
+    /// The names of the families, as written in `family`.
+    pub const FAMILIES: [&'static str; 1] = ["gear-pair"];
+
+    /// A commented design file of a family to start from, itself a good design.
+    #[must_use]
+    pub fn template(family: &str) -> Option<&'static str> {
+        match family {
+            "gear-pair" => Some(include_str!("../design/gear_pair.toml")),
+            _ => None,
+        }
+    }
+
+    /// The JSON schema of the design file.
+    #[must_use]
+    pub fn json_schema() -> serde_json::Value {
+        schemars::schema_for!(Self).to_value()
+    }
+
+    /// Reads a design file and checks every rule that needs no geometry.
+    ///
+    /// # Errors
+    /// [`DesignError`] naming key, line and column.
+    pub fn from_toml(text: &str) -> Result<Self, DesignError> {
+        DesignFile::read(text.as_bytes()).map(DesignFile::into_design)
+    }
+
+    /// The design as a file; reads back as the same design.
+    ///
+    /// # Errors
+    /// [`DesignFault::NotWritable`] for a number no file can hold, such as a tooth count above the
+    /// greatest whole number of TOML.
+    pub fn to_toml(&self) -> Result<String, DesignError> {
+        toml::to_string(self).map_err(|e| DesignError {
+            fault: DesignFault::NotWritable(e.to_string()),
+            key: String::new(),
+            line: 1,
+            column: 1,
+        })
+    }
+
+    /// Checks every rule that needs no geometry.
+    ///
+    /// # Errors
+    /// [`SpecError`](crate::gear::design::SpecError) with the key at fault.
+    pub fn validate(&self) -> Result<(), crate::gear::design::SpecError> {
+        match self {
+            Self::GearPair(design) => design.validate(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,113 @@
+use thiserror::Error;
+
+use crate::gear::GearPairError;
+use crate::gear::design::Rule;
+use crate::gear::pitch::PitchError;
+
+/// What is wrong with a design file, and where.
+#[derive(Debug, Error)]
+#[error("line {line}, column {column}: {}", self.message())]
+pub struct DesignError {
+    /// What is wrong.
+    #[source]
+    pub fault: DesignFault,
+    /// Key at fault with the tables around it, `teeth.backlash`; empty where no key is to blame.
+    pub key: String,
+    /// Line of the key, from one.
+    pub line: usize,
+    /// Column of the key, in characters, from one.
+    pub column: usize,
+}
+
+/// A rule a design file breaks.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum DesignFault {
+    /// Too large to be a design; it is not read to its end.
+    #[error("the file has at least {bytes} bytes; a design file has at most {limit}")]
+    TooLarge {
+        /// Bytes seen of it.
+        bytes: usize,
+        /// Greatest size read.
+        limit: usize,
+    },
+    /// Not text.
+    #[error("the file is not UTF-8 text")]
+    NotText,
+    /// Nothing but blanks and comments.
+    #[error("the file is empty: write family = \"gear-pair\" and what belongs to it")]
+    Empty,
+    /// Not TOML.
+    #[error("{0}")]
+    Syntax(String),
+    /// A key that means nothing here.
+    #[error("unknown key{}; known are {}", near.as_ref().map_or(String::new(), |n| format!(", did you mean {n:?}?")), known.join(", "))]
+    UnknownKey {
+        /// The nearest known key.
+        near: Option<String>,
+        /// All keys known here.
+        known: Vec<String>,
+    },
+    /// A key that must be there.
+    #[error("the key {0:?} is missing")]
+    MissingKey(String),
+    /// A word that is none of those allowed.
+    #[error("unknown word {word:?}{}; known are {}", near.as_ref().map_or(String::new(), |n| format!(", did you mean {n:?}?")), known.join(", "))]
+    UnknownWord {
+        /// As written.
+        word: String,
+        /// The nearest known word.
+        near: Option<String>,
+        /// All words known here.
+        known: Vec<String>,
+    },
+    /// A value of another type than the key takes.
+    #[error("{0}")]
+    WrongType(String),
+    /// A value outside its range, or against another key.
+    #[error("{0}")]
+    Value(Rule),
+    /// The pitch curve does not exist.
+    #[error(transparent)]
+    Pitch(PitchError),
+    /// The mechanism does not exist.
+    #[error(transparent)]
+    GearPair(Box<GearPairError>),
+    /// A design that TOML cannot hold.
+    #[error("{0}")]
+    NotWritable(String),
+}
+
+impl DesignError {
+    /// The key and what is wrong with it, without the place.
+    #[must_use]
+    pub fn message(&self) -> String {
+        let fault = self.fault.to_string();
+        let (tables, last) = match self.key.rfind('.') {
+            Some(dot) => self.key.split_at(dot + 1),
+            None => ("", self.key.as_str()),
+        };
+        // Some rules begin with their key already.
+        let named = fault
+            .strip_prefix(last)
+            .is_some_and(|rest| rest.starts_with(|c: char| !c.is_alphanumeric() && c != '_'));
+        if last.is_empty() {
+            fault
+        } else if named {
+            format!("{tables}{fault}")
+        } else {
+            format!("{}: {fault}", self.key)
+        }
+    }
+}
+
+/// The known word nearest to `word`, if it is near at all.
+pub(super) fn nearest(word: &str, known: &[String]) -> Option<String> {
+    let short: String = word.chars().take(60).collect();
+    known
+        .iter()
+        .map(|k| (strsim::damerau_levenshtein(&short, k), k))
+        .filter(|(distance, k)| *distance <= 1 + k.len() / 4)
+        .min()
+        .map(|(_, k)| k.clone())
+}

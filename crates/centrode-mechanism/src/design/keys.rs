@@ -1,0 +1,67 @@
+use std::ops::Range;
+
+use toml::de::{DeTable, DeValue};
+
+/// Where every key of a file stands.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Keys(Vec<Entry>);
+
+#[derive(Clone, Debug)]
+struct Entry {
+    path: String,
+    key: Range<usize>,
+    value: Range<usize>,
+}
+
+impl Keys {
+    pub(super) fn of(root: &DeTable<'_>) -> Self {
+        let mut keys = Self::default();
+        keys.add(root, "");
+        keys
+    }
+
+    fn add(&mut self, table: &DeTable<'_>, prefix: &str) {
+        for (key, value) in table {
+            let path = format!("{prefix}{}", key.get_ref());
+            self.0.push(Entry {
+                path: path.clone(),
+                key: key.span(),
+                value: value.span(),
+            });
+            // The parser refuses deep nesting, so this recursion is shallow.
+            if let DeValue::Table(inner) = value.get_ref() {
+                self.add(inner, &format!("{path}."));
+            }
+        }
+    }
+
+    /// Byte offset of a key, or of the nearest table around it that is there.
+    pub(super) fn offset(&self, path: &str) -> Option<usize> {
+        let mut path = path;
+        loop {
+            if let Some(entry) = self.0.iter().find(|e| e.path == path) {
+                return Some(entry.key.start);
+            }
+            path = &path[..path.rfind('.')?];
+        }
+    }
+
+    /// The innermost key whose name or value holds the byte `offset`.
+    pub(super) fn around(&self, offset: usize) -> Option<&str> {
+        let holds = |e: &&Entry| e.key.contains(&offset) || e.value.contains(&offset);
+        let innermost = self.0.iter().filter(holds).max_by_key(|e| e.path.len());
+        innermost.map(|e| e.path.as_str())
+    }
+}
+
+/// Line and column of a byte offset, both from one; the column counts characters.
+pub(super) fn line_and_column(text: &str, offset: usize) -> (usize, usize) {
+    let mut offset = offset.min(text.len());
+    while !text.is_char_boundary(offset) {
+        offset -= 1;
+    }
+    let before = &text[..offset];
+    let start = before.rfind('\n').map_or(0, |i| i + 1);
+    let line = before.matches('\n').count() + 1;
+    (line, before[start..].chars().count() + 1)
+}

@@ -1,0 +1,453 @@
+use super::*;
+use proptest::prelude::*;
+
+const GOOD: &str = r#"family = "gear-pair"
+name = "pair"
+mean_ratio = [1, 1]
+
+[pitch]
+kind = "ellipse"
+eccentricity = 0.25
+module = 2.25
+tooth_count = 23
+
+[tool]
+kind = "rack"
+pressure_angle_deg = 20
+
+[teeth]
+backlash = 0.05
+
+[driver]
+width = 10
+bore = 12
+keyway = { width = 4, depth = 1.8 }
+"#;
+
+fn shipped() -> Vec<(String, String)> {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/designs");
+    let entries = std::fs::read_dir(folder).expect("the shipped designs");
+    entries
+        .map(|entry| entry.expect("readable").path())
+        .filter(|path| path.extension().is_some_and(|e| e == "toml"))
+        .map(|path| {
+            let text = std::fs::read_to_string(&path).expect("text");
+            (path.display().to_string(), text)
+        })
+        .collect()
+}
+
+#[test]
+fn shipped_designs_and_the_template_are_read_and_written_back() {
+    let mut files = shipped();
+    assert!(files.len() >= 7);
+    let template = Design::template("gear-pair").expect("a template");
+    files.push(("template".into(), template.into()));
+    for (name, text) in files {
+        let file = DesignFile::read(text.as_bytes()).unwrap_or_else(|e| panic!("{name}: {e}"));
+        let Design::GearPair(pair) = file.design();
+        pair.pitch
+            .resolve()
+            .unwrap_or_else(|e| panic!("{name}: {e}"));
+        let written = file.design().to_toml().expect("writable");
+        let again =
+            Design::from_toml(&written).unwrap_or_else(|e| panic!("{name}: {e}\n{written}"));
+        assert_eq!(&again, file.design(), "{written}");
+    }
+}
+
+#[test]
+fn the_template_is_a_good_pair() {
+    let template = Design::template("gear-pair").expect("a template");
+    let file = DesignFile::read(template.as_bytes()).expect("a design");
+    let pair = file.gear_pair().expect("a pair");
+    assert!((pair.module() - 2.25).abs() < 1e-12);
+    assert!(Design::template("gear-pear").is_none());
+}
+
+#[test]
+fn every_bad_line_is_named_with_key_and_place() {
+    // The line to change, what it becomes, and what the message must say.
+    for (old, new, expected) in [
+        (
+            "eccentricity = 0.25",
+            "eccentricity = 1.25",
+            "line 7, column 1: pitch.eccentricity must be at least 0 and less than 1, not 1.25",
+        ),
+        (
+            "eccentricity = 0.25",
+            "eccentricity = nan",
+            "line 7, column 1: pitch.eccentricity must be a finite number",
+        ),
+        (
+            "eccentricity = 0.25",
+            "eccentricity = \"high\"",
+            "line 7, column 16: pitch.eccentricity: invalid type: string \"high\", expected a number",
+        ),
+        (
+            "eccentricity = 0.25",
+            "excentricity = 0.25",
+            "line 7, column 1: pitch.excentricity: unknown key, did you mean \"eccentricity\"?",
+        ),
+        (
+            "eccentricity = 0.25\n",
+            "",
+            "line 5, column 2: pitch.eccentricity: the key \"eccentricity\" is missing",
+        ),
+        (
+            "kind = \"ellipse\"",
+            "kind = \"elipse\"",
+            "line 6, column 1: pitch.kind: unknown word \"elipse\", did you mean \"ellipse\"?",
+        ),
+        (
+            "kind = \"ellipse\"\n",
+            "",
+            "line 5, column 2: pitch.kind: the key \"kind\" is missing",
+        ),
+        (
+            "kind = \"ellipse\"",
+            "kind = 7",
+            "line 6, column 1: pitch.kind: must be a word in quotes",
+        ),
+        (
+            "module = 2.25",
+            "module = 0",
+            "line 8, column 1: pitch.module must be greater than 0, not 0",
+        ),
+        (
+            "module = 2.25",
+            "module = inf",
+            "line 8, column 1: pitch.module must be a finite number",
+        ),
+        (
+            "module = 2.25\n",
+            "",
+            "line 8, column 1: pitch.tooth_count is given without module",
+        ),
+        (
+            "tooth_count = 23",
+            "tooth_count = 2",
+            "line 9, column 1: pitch.tooth_count must be at least 3, not 2",
+        ),
+        (
+            "tooth_count = 23",
+            "tooth_count = -23",
+            "line 9, column 15: pitch.tooth_count: invalid value: integer `-23`, expected a whole number",
+        ),
+        (
+            "tooth_count = 23",
+            "tooth_count = 23.5",
+            "line 9, column 15: pitch.tooth_count: invalid type: number `23.5`, expected a whole number",
+        ),
+        (
+            "kind = \"rack\"",
+            "kind = \"rake\"",
+            "line 12, column 1: tool.kind: unknown word \"rake\", did you mean \"rack\"?",
+        ),
+        (
+            "pressure_angle_deg = 20",
+            "pressure_angle = 20",
+            "line 13, column 1: tool.pressure_angle: unknown key, did you mean \"pressure_angle_deg\"?",
+        ),
+        (
+            "pressure_angle_deg = 20",
+            "pressure_angle_deg = 60",
+            "line 13, column 1: tool.pressure_angle_deg: must be 5 to 40 deg, not 60 deg",
+        ),
+        (
+            "pressure_angle_deg = 20",
+            "tip_radius_coefficient = 0.8",
+            "line 13, column 1: tool.tip_radius_coefficient: is 0.8, but",
+        ),
+        (
+            "backlash = 0.05",
+            "backlash = -0.05",
+            "line 16, column 1: teeth.backlash: must not be negative, but is -0.05",
+        ),
+        (
+            "backlash = 0.05",
+            "backlash = 0.05\nbacklash_angle_deg = 1",
+            "line 17, column 1: teeth.backlash_angle_deg: cannot be given together with backlash",
+        ),
+        (
+            "backlash = 0.05",
+            "addendum = \"fited\"",
+            "line 16, column 12: teeth.addendum: unknown word \"fited\", did you mean \"fitted\"?",
+        ),
+        (
+            "backlash = 0.05",
+            "phase = \"twooth\"",
+            "line 16, column 9: teeth.phase: invalid value: string \"twooth\", expected \"auto\"",
+        ),
+        (
+            "width = 10",
+            "width = true",
+            "line 19, column 9: driver.width: invalid type: boolean `true`, expected a number",
+        ),
+        (
+            "width = 10",
+            "width = nan",
+            "line 19, column 1: driver.width: must be a finite number, not NaN",
+        ),
+        (
+            "bore = 12",
+            "bore = 3",
+            "line 21, column 12: driver.keyway.width: is 4 mm, but the bore is only 3 mm across",
+        ),
+        (
+            "bore = 12\n",
+            "",
+            "line 20, column 1: driver.keyway: needs a bore",
+        ),
+        (
+            "depth = 1.8",
+            "dept = 1.8",
+            "line 21, column 23: driver.keyway.dept: unknown key, did you mean \"depth\"?",
+        ),
+        (
+            "name = \"pair\"",
+            "name = \"../pair\"",
+            "line 2, column 1: name: must be 1 to 64 letters",
+        ),
+        (
+            "mean_ratio = [1, 1]",
+            "mean_ratio = [0, 1]",
+            "line 3, column 1: mean_ratio: must be 1 to 60, not 0",
+        ),
+        (
+            "mean_ratio = [1, 1]",
+            "mean_ratio = [4, 2]",
+            "line 3, column 1: mean_ratio: must be in lowest terms: write [2, 1] for [4, 2]",
+        ),
+        (
+            "mean_ratio = [1, 1]",
+            "mean_ratio = [1, 2]",
+            "line 9, column 1: pitch.tooth_count: is 23, which at mean_ratio [1, 2]",
+        ),
+        (
+            "mean_ratio = [1, 1]",
+            "mean_ratio = [1]",
+            "line 3, column 14: mean_ratio: invalid length 1",
+        ),
+        (
+            "mean_ratio = [1, 1]",
+            "center_distance = 1",
+            "line 3, column 1: center_distance is 1 mm, but",
+        ),
+        (
+            "mean_ratio = [1, 1]",
+            "mean_ration = [1, 1]",
+            "line 3, column 1: mean_ration: unknown key, did you mean \"mean_ratio\"?",
+        ),
+        (
+            "mean_ratio = [1, 1]",
+            "mean_ratio = [1, 1",
+            "line 5, column 1: missing comma between array elements",
+        ),
+        (
+            "family = \"gear-pair\"",
+            "family = \"gear-pear\"",
+            "line 1, column 1: family: unknown word \"gear-pear\", did you mean \"gear-pair\"?",
+        ),
+        (
+            "family = \"gear-pair\"\n",
+            "",
+            "line 1, column 1: family: the key \"family\" is missing",
+        ),
+        (
+            "[driver]",
+            "[[driver]]",
+            "line 18, column 3: driver: must be a table",
+        ),
+        ("[driver]", "[driver", "line 18, column 8: "),
+        ("[tool]", "[pitch]", "line 11, column 2: duplicate key"),
+    ] {
+        assert!(GOOD.contains(old), "{old}");
+        let text = GOOD.replacen(old, new, 1);
+        let found = DesignFile::read(text.as_bytes()).and_then(|file| file.gear_pair().map(drop));
+        let message = found.expect_err(new).to_string();
+        assert!(message.starts_with(expected), "{new:?}:\n  {message}");
+    }
+}
+
+#[test]
+fn pitch_curve_faults_name_their_line() {
+    let head = "family = \"gear-pair\"\ntooth_count = 20\n[pitch]\n";
+    for (pitch, expected) in [
+        (
+            "kind = \"polar\"\nexpression = \"10 + psi\"",
+            "line 5, column 1: pitch.expression: unknown name \"psi\"",
+        ),
+        (
+            "kind = \"polar\"\nexpression = \"10/(phi - phi)\"",
+            "line 5, column 1: pitch.expression has the value",
+        ),
+        (
+            "kind = \"polar\"\nradius = [1, 2, 3, nan, 5, 6]",
+            "line 5, column 1: pitch.radius must be a finite number",
+        ),
+        (
+            "kind = \"polar\"\nradius = [1, 2, 3, -4, 5, 6]",
+            "line 5, column 1: pitch.radius must be greater than 0, not -4",
+        ),
+        (
+            "kind = \"polar\"\nradius = [9, 9, 9, 9, 9, 9]\nmean = 2",
+            "line 5, column 1: pitch.radius does not go",
+        ),
+        (
+            "kind = \"polar\"",
+            "line 3, column 2: pitch.expression is missing",
+        ),
+        (
+            "kind = \"bspline\"\nradius = [9, 9, 9, 9]\nangle_deg = [0, 90, 80, 270]",
+            "line 6, column 1: pitch.angle_deg must increase, within one turn: value 2 is 80 deg after 90 deg",
+        ),
+        (
+            "kind = \"bspline\"\nradius = [9, 9, 9, 9]\nangle_deg = [0, 90]",
+            "line 6, column 1: pitch.angle_deg: radius has 4 values but angle_deg has 2",
+        ),
+        (
+            "kind = \"bspline\"\nplane = \"cartesian\"\nx = [9, 0, -9, 0]\ny = [0, 9, 0, -9.0]\ndegree = 9",
+            "line 8, column 1: pitch.degree must be 1 to 5, not 9",
+        ),
+        (
+            "kind = \"bspline\"\nplane = \"cartesian\"\nx = [9, 0, -9, 0]\ny = [0, -9, 0, 9]",
+            "line 6, column 1: pitch.x: the points run clockwise",
+        ),
+        (
+            "kind = \"bspline\"\nplane = \"cartesian\"\nx = [9, -9, 9, -9]\ny = [-9, 9, 9, -8]",
+            "line 6, column 1: pitch.x: the curve turns back or crosses itself",
+        ),
+        (
+            "kind = \"transmission\"\nexpression = \"phi - sin(phi)\"\ncenter_distance = 40",
+            "line 5, column 1: pitch.expression: d driven / d driver falls to 0",
+        ),
+        (
+            "kind = \"ratio\"\nexpression = \"0.7123\"\ncenter_distance = 40",
+            "line 5, column 1: pitch.expression: one driver turn makes 0.7123",
+        ),
+        (
+            "kind = \"ratio\"\nexpression = \"0.5\"\ncenter_distance = 40",
+            "line 1, column 1: mean_ratio is 1:1 but",
+        ),
+    ] {
+        let text = format!("{head}{pitch}\n");
+        let found = DesignFile::read(text.as_bytes()).and_then(|file| file.gear_pair().map(drop));
+        let message = found.expect_err(pitch).to_string();
+        assert!(message.starts_with(expected), "{pitch}:\n  {message}");
+    }
+}
+
+#[test]
+fn bytes_that_are_no_design_are_refused_at_once() {
+    let begun = std::time::Instant::now();
+    let message = |bytes: &[u8]| DesignFile::read(bytes).expect_err("no design").to_string();
+    assert!(message(b"").contains("the file is empty"));
+    assert!(message(b"# nothing\n").contains("the file is empty"));
+    assert!(
+        message(b"family = \"gear-pair\"\nname = \"\xff\"")
+            .starts_with("line 2, column 9: the file is not UTF-8")
+    );
+    assert!(message(&vec![b'a'; 10_000_000]).contains("10000000 bytes"));
+    for cut in 0..GOOD.len() {
+        if let Err(error) = DesignFile::read(&GOOD.as_bytes()[..cut]) {
+            assert!(error.line <= GOOD.lines().count() + 1, "{error}");
+        }
+    }
+    assert!(
+        message(b"family = \"gear-pair\"\ntool = 3").starts_with("line 2, column 1: tool: must be")
+    );
+    let deep = format!(
+        "family = \"gear-pair\"\npitch = {}1{}",
+        "[".repeat(300_000),
+        "]".repeat(300_000)
+    );
+    assert!(message(deep.as_bytes()).starts_with("line 2"));
+    let tables = format!(
+        "family = \"gear-pair\"\n{} = 1",
+        vec!["a"; 300_000].join(".")
+    );
+    assert!(message(tables.as_bytes()).starts_with("line 2"));
+    let long = format!("{GOOD}\n[pitch.{}]\n", "x".repeat(900_000));
+    assert!(message(long.as_bytes()).contains("unknown key"));
+    assert!(begun.elapsed().as_secs_f64() < 5.0);
+}
+
+#[test]
+fn angles_are_degrees_in_the_file_and_come_back_round() {
+    let design = Design::from_toml(GOOD).expect("good");
+    let Design::GearPair(pair) = &design;
+    assert_eq!(pair.tool.pressure_angle(), 20.0_f64.to_radians());
+    let written = design.to_toml().expect("writable");
+    assert!(written.contains("pressure_angle_deg = 20.0\n"), "{written}");
+}
+
+#[test]
+fn the_checked_in_schema_is_the_one_of_the_code() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/design/gear_pair.schema.json");
+    let schema = serde_json::to_string_pretty(&Design::json_schema()).expect("json") + "\n";
+    if std::env::var_os("CENTRODE_REFRESH").is_some() {
+        std::fs::write(path, &schema).expect("writable");
+    }
+    let checked_in = std::fs::read_to_string(path).expect("checked in");
+    assert!(
+        checked_in == schema,
+        "run the tests with CENTRODE_REFRESH=1 to write {path}"
+    );
+    for key in [
+        "pressure_angle_deg",
+        "backlash_angle_deg",
+        "lobed-ellipse",
+        "gear-pair",
+    ] {
+        assert!(schema.contains(key), "{key}");
+    }
+}
+
+proptest! {
+    #[test]
+    fn any_text_is_a_design_or_an_error_with_a_place(text in "\\PC{0,200}") {
+        if let Err(error) = DesignFile::read(text.as_bytes()) {
+            prop_assert!(error.line >= 1 && error.column >= 1);
+        }
+    }
+
+    #[test]
+    fn a_damaged_design_is_a_design_or_an_error(at in 0..GOOD.len(), byte: u8) {
+        let mut bytes = GOOD.as_bytes().to_vec();
+        bytes[at] = byte;
+        let _ = DesignFile::read(&bytes).map(|f| f.design().validate());
+    }
+
+    #[test]
+    fn what_is_written_reads_back(
+        k in 0.0..0.99_f64,
+        m in 0.01..100.0_f64,
+        z in 3..200_u32,
+        angle in 6.0..39.0_f64,
+        backlash in 0.0..1.0_f64,
+    ) {
+        let design = Design::from_toml(GOOD).expect("good");
+        let Design::GearPair(mut pair) = design;
+        pair.pitch = crate::gear::pitch::PitchSpec::Ellipse(crate::gear::pitch::Ellipse {
+            eccentricity: k,
+            semi_major_axis: None,
+            module: Some(m),
+            tooth_count: Some(z),
+        });
+        pair.tool = crate::gear::design::ToolSpec::Rack(crate::gear::design::Rack {
+            pressure_angle: angle.to_radians(),
+            dedendum_coefficient: 0.5,
+            tip_radius_coefficient: 0.0,
+            ..Default::default()
+        });
+        pair.teeth.backlash = backlash;
+        let design = Design::GearPair(pair);
+        let written = design.to_toml().expect("writable");
+        let Design::GearPair(again) = Design::from_toml(&written).expect("reads back");
+        let Design::GearPair(pair) = design;
+        let (a, b) = (again.tool.pressure_angle(), pair.tool.pressure_angle());
+        prop_assert!((a - b).abs() <= 2.0 * f64::EPSILON * b);
+        prop_assert_eq!((again.pitch, again.teeth), (pair.pitch, pair.teeth));
+    }
+}

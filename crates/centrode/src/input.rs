@@ -1,0 +1,50 @@
+use std::fs::File;
+use std::io::{self, Read};
+use std::path::Path;
+
+use centrode::mechanism::design::{DesignError, DesignFile};
+
+use crate::failure::Failure;
+
+/// The text of a design file, kept for its errors.
+pub(crate) struct Source {
+    name: String,
+    bytes: Vec<u8>,
+}
+
+impl Source {
+    /// Reads a file, or standard input for `-`; a little more than a design may have is enough.
+    pub(crate) fn open(path: &Path) -> Result<Self, Failure> {
+        let standard = path == Path::new("-");
+        let name = if standard {
+            "standard input".into()
+        } else {
+            path.display().to_string()
+        };
+        let mut bytes = Vec::new();
+        let limit = DesignFile::LARGEST as u64 + 1;
+        let read = if standard {
+            io::stdin().lock().take(limit).read_to_end(&mut bytes)
+        } else {
+            File::open(path).and_then(|file| file.take(limit).read_to_end(&mut bytes))
+        };
+        match read {
+            Ok(_) => Ok(Self { name, bytes }),
+            Err(error) => Err(Failure::Input { name, error }),
+        }
+    }
+
+    /// The design of the file.
+    pub(crate) fn design(&self) -> Result<DesignFile, Failure> {
+        DesignFile::read(&self.bytes).map_err(|error| self.blame(error))
+    }
+
+    /// The error, shown at its line of this file.
+    pub(crate) fn blame(&self, error: DesignError) -> Failure {
+        Failure::Design {
+            name: self.name.clone(),
+            text: String::from_utf8_lossy(&self.bytes).into_owned(),
+            error: Box::new(error),
+        }
+    }
+}

@@ -1,0 +1,50 @@
+//! The command line: `centrode new`, `check` and the rest.
+
+mod args;
+mod check;
+mod completions;
+mod failure;
+mod input;
+mod man;
+mod new;
+mod schema;
+
+use std::io::Write as _;
+use std::process::ExitCode;
+
+use clap::Parser as _;
+
+use args::{Arguments, Command};
+use failure::Failure;
+
+fn main() -> ExitCode {
+    let arguments = match Arguments::try_parse() {
+        Ok(arguments) => arguments,
+        Err(error) => {
+            // Help and version are no failures; a reader that has gone is none either.
+            let _ = error.print();
+            return ExitCode::from(if error.use_stderr() { 2 } else { 0 });
+        }
+    };
+    let mut out = std::io::BufWriter::new(anstream::stdout());
+    let result = match &arguments.command {
+        Command::New(command) => new::run(command, &mut out),
+        Command::Check(command) => check::run(command, &mut out),
+        Command::Schema => schema::run(&mut out),
+        Command::Completions(command) => completions::run(command, &mut out),
+        Command::Man(command) => man::run(command, &mut out),
+    };
+    let result = result.and_then(|code| out.flush().map(|()| code).map_err(Failure::Output));
+    // What is still buffered would fail again when dropped.
+    let _ = out.into_parts();
+    match result {
+        Ok(code) => code,
+        Err(Failure::Output(error)) if error.kind() == std::io::ErrorKind::BrokenPipe => {
+            ExitCode::SUCCESS
+        }
+        Err(failure) => {
+            let _ = failure.write(&mut anstream::stderr());
+            ExitCode::from(2)
+        }
+    }
+}

@@ -1,0 +1,124 @@
+//! The program as its user meets it: output, errors, exit status.
+#![cfg(feature = "cli")]
+
+use std::io::Write as _;
+use std::path::PathBuf;
+use std::process::{Command, Output, Stdio};
+
+fn centrode(arguments: &[&str]) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_centrode"));
+    command.args(arguments).output().expect("the program runs")
+}
+
+fn fed(arguments: &[&str], input: &[u8]) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_centrode"));
+    let command = command.args(arguments);
+    let piped = command.stdin(Stdio::piped()).stdout(Stdio::piped());
+    let mut child = piped.stderr(Stdio::piped()).spawn().expect("runs");
+    let mut stdin = child.stdin.take().expect("piped");
+    // The program may stop reading before the end.
+    let _ = stdin.write_all(input);
+    drop(stdin);
+    child.wait_with_output().expect("ends")
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8(bytes.to_vec()).expect("text")
+}
+
+fn shipped(name: &str) -> String {
+    let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../tests/designs");
+    folder.join(name).display().to_string()
+}
+
+#[test]
+fn a_new_design_checks() {
+    let new = centrode(&["new", "gear-pair"]);
+    assert_eq!(new.status.code(), Some(0));
+    let check = fed(&["check", "-"], &new.stdout);
+    assert_eq!(check.status.code(), Some(0), "{}", text(&check.stderr));
+    assert!(text(&check.stdout).contains("center_distance"));
+}
+
+#[test]
+fn the_published_pair_has_its_figures() {
+    let check = centrode(&["check", &shipped("elliptic-pair-2018.toml"), "--json"]);
+    let report: serde_json::Value = serde_json::from_slice(&check.stdout).expect("JSON");
+    let value = |name: &str| report["values"][name].as_f64().expect(name);
+    assert!((value("center_distance") - 52.709_221).abs() < 5e-7);
+    assert!((value("module") - 2.25).abs() < 1e-12);
+}
+
+#[test]
+fn bad_designs_and_bad_usage_end_with_two_and_say_why() {
+    let design = b"family = \"gear-pair\"\n[pitch]\nkind = \"ellipse\"\neccentricity = 1.5\nmodule = 2\ntooth_count = 20\n";
+    let bad = fed(&["check", "-"], design);
+    assert_eq!(bad.status.code(), Some(2));
+    assert!(bad.stdout.is_empty());
+    let message = text(&bad.stderr);
+    assert!(message.contains("error: pitch.eccentricity must"), "{message}");
+    assert!(message.contains("--> standard input:4:1"), "{message}");
+    assert!(message.contains("4 | eccentricity = 1.5"), "{message}");
+    assert!(
+        !message.contains('\u{1b}'),
+        "no colour off a terminal: {message:?}"
+    );
+
+    let absent = centrode(&["check", "no-such-file.toml"]);
+    assert_eq!(absent.status.code(), Some(2));
+    assert!(text(&absent.stderr).contains("cannot read no-such-file.toml"));
+    let large = fed(&["check", "-"], &vec![b'#'; 10_000_000]);
+    assert_eq!(large.status.code(), Some(2));
+    assert!(text(&large.stderr).contains("a design file has at most"));
+    for usage in [
+        &["chek"][..],
+        &["new", "gear"],
+        &["man", "chek"],
+        &["check"],
+        &[],
+    ] {
+        let bad = centrode(usage);
+        assert_eq!(bad.status.code(), Some(2), "{usage:?}");
+        assert!(bad.stdout.is_empty(), "{usage:?}");
+        assert!(!bad.stderr.is_empty(), "{usage:?}");
+    }
+}
+
+#[test]
+fn help_version_schema_completions_and_man_pages_are_printed() {
+    for (arguments, expected) in [
+        (&["--help"][..], "Usage: centrode"),
+        (&["--version"], "centrode "),
+        (&["check", "--help"], "Exit status"),
+        (&["schema"], "\"$schema\""),
+        (&["completions", "bash"], "_centrode"),
+        (&["completions", "zsh"], "#compdef centrode"),
+        (&["completions", "fish"], "complete -c centrode"),
+        (&["man"], ".TH centrode"),
+        (&["man", "check"], ".TH centrode-check"),
+    ] {
+        let output = centrode(arguments);
+        assert_eq!(output.status.code(), Some(0), "{arguments:?}");
+        let printed = text(&output.stdout);
+        assert!(printed.contains(expected), "{arguments:?}: {printed}");
+    }
+}
+
+#[test]
+fn a_reader_that_leaves_is_no_failure() {
+    for arguments in [
+        &["schema"][..],
+        &["new", "gear-pair"],
+        &["man"],
+        &["--help"],
+    ] {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_centrode"));
+        let command = command.args(arguments).stdout(Stdio::piped());
+        let mut child = command.stderr(Stdio::piped()).spawn().expect("runs");
+        drop(child.stdout.take());
+        let output = child.wait_with_output().expect("ends");
+        let message = text(&output.stderr);
+        assert!(!message.contains("panicked"), "{arguments:?}: {message}");
+        assert_eq!(output.status.code(), Some(0), "{arguments:?}: {message}");
+    }
+}
