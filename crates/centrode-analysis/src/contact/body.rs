@@ -1,0 +1,125 @@
+use centrode_geometry::{Outline, Point, Segment, SegmentJet, Vector};
+use centrode_mechanism::gear::{Gear, Role};
+
+/// Change of direction at a joint above which it is a corner, rad: far above the rounding of a fitted
+/// joint, far below a tip edge.
+const CORNER: f64 = 1e-4;
+
+/// Directions of the outward normals of a part: the middle one and how far the rest turn from it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Cone {
+    pub(super) middle: f64,
+    pub(super) half: f64,
+}
+
+/// A smooth part of an outline with what tells quickly whether it can touch another.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Part<'a> {
+    pub(super) segment: &'a Segment,
+    pub(super) role: Role,
+    pub(super) owner: u32,
+    pub(super) center: Point,
+    pub(super) radius: f64,
+    pub(super) normals: Cone,
+}
+
+/// A corner of an outline: an edge of the gear.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Corner {
+    pub(super) point: Point,
+    pub(super) owner: u32,
+    /// Whether a flank ends here.
+    pub(super) on_flank: bool,
+    pub(super) normals: Cone,
+}
+
+/// A finished gear as the contact analysis sees it: nothing but its outline.
+#[derive(Debug)]
+pub(super) struct Body<'a> {
+    pub(super) parts: Vec<Part<'a>>,
+    pub(super) corners: Vec<Corner>,
+    /// Greatest distance from the axis.
+    pub(super) reach: f64,
+}
+
+impl<'a> Body<'a> {
+    pub(super) fn of(gear: &'a Gear) -> Self {
+        let outline: &Outline = gear.outline();
+        let parts: Vec<Part<'a>> = outline
+            .segments()
+            .iter()
+            .zip(gear.roles().iter().zip(gear.owners()))
+            .map(|(segment, (&role, &owner))| part(segment, role, owner))
+            .collect();
+        let mut corners = Vec::new();
+        let count = parts.len();
+        for i in 0..count {
+            let (before, after) = (&parts[i], &parts[(i + 1) % count]);
+            let (end, start) = (before.segment.at(1.0), after.segment.at(-1.0));
+            let turn = angle(end.first.perp(&start.first), end.first.dot(&start.first));
+            // A re-entrant corner can touch nothing that its neighbours do not touch first.
+            if turn > CORNER {
+                let from = direction(&end);
+                corners.push(Corner {
+                    point: start.point,
+                    owner: before.owner,
+                    on_flank: before.role == Role::Flank || after.role == Role::Flank,
+                    normals: Cone {
+                        middle: from + 0.5 * turn,
+                        half: 0.5 * turn,
+                    },
+                });
+            }
+        }
+        let reach = parts
+            .iter()
+            .map(|p| p.center.coords.norm() + p.radius)
+            .fold(0.0, f64::max);
+        Self {
+            parts,
+            corners,
+            reach,
+        }
+    }
+}
+
+fn angle(y: f64, x: f64) -> f64 {
+    y.atan2(x)
+}
+
+/// Direction of the outward normal: the contour is counter-clockwise.
+fn direction(jet: &SegmentJet) -> f64 {
+    angle(-jet.first.x, jet.first.y)
+}
+
+fn part(segment: &Segment, role: Role, owner: u32) -> Part<'_> {
+    const SAMPLES: usize = 6;
+    let jets: [SegmentJet; SAMPLES + 1] =
+        std::array::from_fn(|i| segment.at(-1.0 + 2.0 * i as f64 / SAMPLES as f64));
+    let center = nalgebra::center(&jets[0].point, &jets[SAMPLES].point);
+    let radius = jets
+        .iter()
+        .map(|j| (j.point - center).norm())
+        .fold(0.0, f64::max);
+    let mut direction_now = direction(&jets[0]);
+    let (mut low, mut high) = (direction_now, direction_now);
+    for pair in jets.windows(2) {
+        let (a, b): (Vector, Vector) = (pair[0].first, pair[1].first);
+        direction_now += angle(a.perp(&b), a.dot(&b));
+        low = low.min(direction_now);
+        high = high.max(direction_now);
+    }
+    // Between samples a smooth part turns little more than between their ends.
+    let half = 0.5 * (high - low);
+    Part {
+        segment,
+        role,
+        owner,
+        center,
+        radius: radius * 1.02,
+        normals: Cone {
+            middle: 0.5 * (low + high),
+            half: half * 1.05 + 1e-3,
+        },
+    }
+}

@@ -1,0 +1,414 @@
+//! Contact analysis of a finished pair: what turns what, by how much, and what else comes near.
+//!
+//! Works on the outlines and the centre distance alone; how the teeth were made plays no part. At each
+//! input the driven gear is seated against the driver from either side, and every place where the two
+//! outlines face each other is measured.
+
+mod body;
+mod touch;
+
+use body::{Body, Cone};
+use centrode_mechanism::gear::{GearPair, Member, Role};
+use touch::{Pose, Touch};
+
+use std::f64::consts::{PI, TAU};
+
+/// Samples a pitch if nothing else is asked for.
+const SAMPLES_PER_PITCH: u32 = 8;
+
+/// Places farther apart than this many modules are not looked at.
+const NEAR: f64 = 0.4;
+
+/// Overlaps no deeper than this many modules are taken as they are.
+const SHALLOW: f64 = 1e-3;
+
+/// Two flanks seated to within this many modules are in contact.
+const SEATED: f64 = 1e-6;
+
+/// The contact of a pair along one whole cycle, one value an input.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Contact {
+    /// Driver angle, rad.
+    pub input: Vec<f64>,
+    /// Driven angle the pitch curves ask for, rad.
+    pub law: Vec<f64>,
+    /// Driven angle when the driver pushes it on, less the law and the designed half backlash, rad.
+    pub transmission_error: Vec<f64>,
+    /// The same with the driver pushing it back.
+    pub reverse_transmission_error: Vec<f64>,
+    /// Play of the driven gear with the driver held, rad.
+    pub backlash: Vec<f64>,
+    /// Play along the common normal of the driving contact, mm.
+    pub normal_backlash: Vec<f64>,
+    /// Pairs of teeth in contact when the driver pushes the driven gear on.
+    pub contacts: Vec<u32>,
+    /// Deepest overlap of the two outlines with the driven gear seated, mm.
+    pub overlap: Vec<f64>,
+    /// Least distance of a tip from a root, mm; infinite where none is near.
+    pub clearance: Vec<f64>,
+    /// Least distance of anything from a fillet, mm; infinite where nothing is near.
+    pub fillet_clearance: Vec<f64>,
+    /// Greatest sliding speed in the contact per driver speed, mm/rad.
+    pub sliding: Vec<f64>,
+}
+
+/// One place where the gears face each other, and what is there.
+#[derive(Clone, Copy, Debug)]
+struct Place {
+    touch: Touch,
+    kind: Kind,
+    /// Driver and driven tooth.
+    teeth: (u32, u32),
+    /// Parts or corners, to look again.
+    from: From,
+}
+
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+enum Kind {
+    Flanks,
+    Fillet,
+    TipAndRoot,
+}
+
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+enum From {
+    Parts(usize, usize),
+    DriverCorner(usize, usize),
+    DrivenCorner(usize, usize),
+}
+
+impl Contact {
+    /// Analyses one whole cycle at eight inputs a pitch.
+    #[must_use]
+    pub fn of(pair: &GearPair) -> Self {
+        Self::sampled(pair, SAMPLES_PER_PITCH)
+    }
+
+    /// Analyses one whole cycle at about `per_pitch` inputs a pitch, spaced evenly along the pitch curve
+    /// and never in step with the teeth.
+    #[must_use]
+    pub fn sampled(pair: &GearPair, per_pitch: u32) -> Self {
+        let (n1, _) = pair.mean_ratio();
+        let rolling = pair.rolling();
+        let teeth = pair.driver().tooth_count() * n1;
+        // One more than a multiple of the teeth: every sample stands elsewhere on its tooth.
+        let count = teeth * per_pitch.max(1) + 1;
+        let length = rolling.pitch_length(Member::Driver) * f64::from(n1);
+        let mut meshing = Meshing::new(pair);
+        let mut out = Self::default();
+        for i in 0..count {
+            let t = rolling.parameter(length * f64::from(i) / f64::from(count));
+            meshing.sample(rolling.angle(t), rolling.driven_angle_at(t), &mut out);
+        }
+        out
+    }
+
+    /// Analyses given driver angles, rad.
+    #[must_use]
+    pub fn at(pair: &GearPair, inputs: &[f64]) -> Self {
+        let mut meshing = Meshing::new(pair);
+        let mut out = Self::default();
+        for &phi in inputs {
+            meshing.sample(phi, pair.driven_angle(phi), &mut out);
+        }
+        out
+    }
+}
+
+struct Meshing<'a> {
+    pair: &'a GearPair,
+    driver: Body<'a>,
+    driven: Body<'a>,
+    module: f64,
+    near: f64,
+    /// Where parts faced each other at the sample before.
+    memory: Vec<(usize, usize, (f64, f64))>,
+    active: (Vec<usize>, Vec<(usize, centrode_geometry::Point)>),
+}
+
+impl<'a> Meshing<'a> {
+    fn new(pair: &'a GearPair) -> Self {
+        Self {
+            pair,
+            driver: Body::of(pair.driver()),
+            driven: Body::of(pair.driven()),
+            module: pair.module(),
+            near: NEAR * pair.module() + 2.0 * pair.backlash(),
+            memory: Vec::new(),
+            active: (Vec::new(), Vec::new()),
+        }
+    }
+
+    fn sample(&mut self, phi: f64, law: f64, out: &mut Contact) {
+        let a = self.pair.center_distance();
+        let pose = Pose::new(phi, law, a);
+        let places = self.places(&pose, phi + law);
+        let forward = self.seat(&places, phi, law, 1.0);
+        let back = self.seat(&places, phi, law, -1.0);
+        out.input.push(phi);
+        out.law.push(law);
+        let half = 0.5 * self.pair.backlash();
+        let (Some(forward), Some(back)) = (forward, back) else {
+            // Nothing near enough to drive: the mesh has come apart.
+            for list in [
+                &mut out.transmission_error,
+                &mut out.reverse_transmission_error,
+                &mut out.backlash,
+                &mut out.normal_backlash,
+                &mut out.clearance,
+                &mut out.fillet_clearance,
+            ] {
+                list.push(f64::INFINITY);
+            }
+            out.contacts.push(0);
+            out.overlap.push(0.0);
+            out.sliding.push(0.0);
+            return;
+        };
+        out.transmission_error
+            .push(forward.angle - law + half / forward.lever);
+        out.reverse_transmission_error
+            .push(back.angle - law - half / back.lever);
+        let play = back.angle - forward.angle;
+        out.backlash.push(play);
+        out.normal_backlash.push(play * forward.lever);
+        out.overlap.push((-play * 0.5 * forward.lever).max(0.0));
+        let least = |kind: Kind| {
+            let gaps = places
+                .iter()
+                .filter(|p| p.kind == kind)
+                .map(|p| p.touch.gap);
+            gaps.fold(f64::INFINITY, f64::min)
+        };
+        out.clearance.push(least(Kind::TipAndRoot));
+        out.fillet_clearance.push(least(Kind::Fillet));
+        out.contacts.push(forward.contacts);
+        let r = self.pair.rolling().radius(phi);
+        let ratio = r / (a - r);
+        let sliding = forward
+            .places
+            .iter()
+            .map(|p| sliding(&p.touch, phi, a, ratio));
+        out.sliding.push(sliding.fold(0.0, f64::max));
+    }
+
+    /// Every place where the outlines face each other nearer than the limit.
+    fn places(&mut self, pose: &Pose, turned: f64) -> Vec<Place> {
+        let (near, module) = (self.near, self.module);
+        self.active.0.clear();
+        self.active.1.clear();
+        for (i, part) in self.driver.parts.iter().enumerate() {
+            let reach = self.driven.reach + part.radius + near;
+            if (part.center - pose.axis).norm_squared() < reach * reach {
+                self.active.0.push(i);
+            }
+        }
+        for (j, part) in self.driven.parts.iter().enumerate() {
+            let reach = self.driver.reach + part.radius + near;
+            let center = pose.place(&part.center);
+            if center.coords.norm_squared() < reach * reach {
+                self.active.1.push((j, center));
+            }
+        }
+        let mut out = Vec::with_capacity(16);
+        let mut memory = Vec::with_capacity(16);
+        // An overlap deeper than half a module is the far side of a tooth.
+        let within = |touch: &Touch| touch.gap < near && touch.gap > -0.5 * module;
+        for &i in &self.active.0 {
+            let a = &self.driver.parts[i];
+            for &(j, center) in &self.active.1 {
+                let b = &self.driven.parts[j];
+                let reach = a.radius + b.radius + near;
+                if (a.center - center).norm_squared() > reach * reach
+                    || !facing(a.normals, b.normals, turned)
+                {
+                    continue;
+                }
+                let start = self
+                    .memory
+                    .iter()
+                    .find(|m| (m.0, m.1) == (i, j))
+                    .map_or((0.0, 0.0), |m| m.2);
+                if let Some(touch) = touch::parts(a, b, pose, start)
+                    && within(&touch)
+                    && self.real(&touch, pose)
+                {
+                    memory.push((i, j, touch.at));
+                    out.push(Place {
+                        touch,
+                        kind: kind(a.role, b.role),
+                        teeth: (a.owner, b.owner),
+                        from: From::Parts(i, j),
+                    });
+                }
+            }
+        }
+        self.memory = memory;
+        for (k, corner) in self.driver.corners.iter().enumerate() {
+            let reach = self.driven.reach + near;
+            if (corner.point - pose.axis).norm_squared() > reach * reach {
+                continue;
+            }
+            for &(j, center) in &self.active.1 {
+                let b = &self.driven.parts[j];
+                let reach = b.radius + near;
+                if (corner.point - center).norm_squared() > reach * reach
+                    || !facing(corner.normals, b.normals, turned)
+                {
+                    continue;
+                }
+                if let Some(touch) = touch::driver_corner(corner, b, pose)
+                    && within(&touch)
+                    && self.real(&touch, pose)
+                {
+                    out.push(Place {
+                        touch,
+                        kind: corner_kind(corner.on_flank, b.role),
+                        teeth: (corner.owner, b.owner),
+                        from: From::DriverCorner(k, j),
+                    });
+                }
+            }
+        }
+        for (k, corner) in self.driven.corners.iter().enumerate() {
+            let point = pose.place(&corner.point);
+            let reach = self.driver.reach + near;
+            if point.coords.norm_squared() > reach * reach {
+                continue;
+            }
+            for &i in &self.active.0 {
+                let a = &self.driver.parts[i];
+                let reach = a.radius + near;
+                if (point - a.center).norm_squared() > reach * reach
+                    || !facing(a.normals, corner.normals, turned)
+                {
+                    continue;
+                }
+                if let Some(touch) = touch::driven_corner(a, corner, pose)
+                    && within(&touch)
+                    && self.real(&touch, pose)
+                {
+                    out.push(Place {
+                        touch,
+                        kind: corner_kind(corner.on_flank, a.role),
+                        teeth: (a.owner, corner.owner),
+                        from: From::DrivenCorner(i, k),
+                    });
+                }
+            }
+        }
+        out
+    }
+
+    /// Whether a deep overlap is one: the far sides of two neighbouring teeth face each other too, but
+    /// neither lies in the other.
+    fn real(&self, touch: &Touch, pose: &Pose) -> bool {
+        touch.gap > -SHALLOW * self.module || {
+            let inside = touch.point + touch.normal * (0.5 * touch.gap);
+            self.pair.driver().outline().contains(inside)
+                && self.pair.driven().outline().contains(pose.back(&inside))
+        }
+    }
+
+    /// Turns the driven gear until the first place on the side of `sign` touches.
+    fn seat(&self, places: &[Place], phi: f64, law: f64, sign: f64) -> Option<Seat> {
+        let a = self.pair.center_distance();
+        let mut at: Vec<Place> = places
+            .iter()
+            .filter(|p| sign * p.touch.lever > 0.0)
+            .copied()
+            .collect();
+        // The angle at which a place would close, and which of them closes first.
+        let bound = |p: &Place, angle: f64| angle - p.touch.gap / p.touch.lever;
+        let mut angle = law;
+        let mut lever = None;
+        for _ in 0..8 {
+            let first = at
+                .iter()
+                .max_by(|p, q| (sign * bound(p, angle)).total_cmp(&(sign * bound(q, angle))))?;
+            let next = bound(first, angle);
+            lever = Some(first.touch.lever.abs());
+            let moved = (next - angle).abs() * a;
+            let settled = moved < 1e-5 * self.module * 1e-2;
+            let slack = 4.0 * (next - angle).abs();
+            at.retain(|p| sign * (bound(p, angle) - next) > -slack - 1e-3);
+            if settled {
+                angle = next;
+                break;
+            }
+            angle = next;
+            let pose = Pose::new(phi, angle, a);
+            at = at.iter().filter_map(|p| self.again(p, &pose)).collect();
+        }
+        let seated = SEATED * self.module;
+        at.retain(|p| p.touch.gap.abs() <= seated || p.touch.gap < 0.0);
+        let mut pairs: Vec<(u32, u32)> = at.iter().map(|p| p.teeth).collect();
+        pairs.sort_unstable();
+        pairs.dedup();
+        Some(Seat {
+            angle,
+            lever: lever?,
+            contacts: pairs.len() as u32,
+            places: at,
+        })
+    }
+
+    fn again(&self, place: &Place, pose: &Pose) -> Option<Place> {
+        let touch = match place.from {
+            From::Parts(i, j) => touch::parts(
+                &self.driver.parts[i],
+                &self.driven.parts[j],
+                pose,
+                place.touch.at,
+            ),
+            From::DriverCorner(k, j) => {
+                touch::driver_corner(&self.driver.corners[k], &self.driven.parts[j], pose)
+            }
+            From::DrivenCorner(i, k) => {
+                touch::driven_corner(&self.driver.parts[i], &self.driven.corners[k], pose)
+            }
+        }?;
+        Some(Place { touch, ..*place })
+    }
+}
+
+/// The driven gear pushed to one side.
+struct Seat {
+    angle: f64,
+    /// Distance of the driven axis from the common normal, mm.
+    lever: f64,
+    contacts: u32,
+    places: Vec<Place>,
+}
+
+/// Whether some outward normal of one opposes some outward normal of the other.
+fn facing(a: Cone, b: Cone, turned: f64) -> bool {
+    let difference = a.middle - b.middle - turned - PI;
+    let wrapped = difference - TAU * (difference / TAU).round();
+    wrapped.abs() <= a.half + b.half
+}
+
+fn kind(a: Role, b: Role) -> Kind {
+    match (a, b) {
+        (Role::Flank, Role::Flank) => Kind::Flanks,
+        (Role::Fillet, _) | (_, Role::Fillet) => Kind::Fillet,
+        _ => Kind::TipAndRoot,
+    }
+}
+
+fn corner_kind(on_flank: bool, part: Role) -> Kind {
+    match part {
+        Role::Flank if on_flank => Kind::Flanks,
+        Role::Fillet => Kind::Fillet,
+        _ => Kind::TipAndRoot,
+    }
+}
+
+/// Speed at which the gears slide on each other per speed of the driver, mm/rad.
+fn sliding(touch: &Touch, phi: f64, a: f64, ratio: f64) -> f64 {
+    let axis = centrode_geometry::Vector::new(a * phi.cos(), a * phi.sin());
+    let arm = touch.point.coords - axis;
+    let across = |v: centrode_geometry::Vector| centrode_geometry::Vector::new(-v.y, v.x);
+    let speed = across(axis) + across(arm) * (1.0 + ratio);
+    speed.perp(&touch.normal).abs()
+}

@@ -1,0 +1,190 @@
+use centrode_geometry::{Point, SegmentJet, Vector};
+
+use super::body::{Corner, Part};
+
+/// The pose of the driven gear in the driver's own frame.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Pose {
+    /// The driven axis.
+    pub(super) axis: Point,
+    sin: f64,
+    cos: f64,
+}
+
+impl Pose {
+    /// Driver angle `phi`, driven angle `psi`, centre distance `a`.
+    pub(super) fn new(phi: f64, psi: f64, a: f64) -> Self {
+        let (sin, cos) = (phi + psi).sin_cos();
+        Self {
+            axis: Point::new(a * phi.cos(), a * phi.sin()),
+            sin,
+            cos,
+        }
+    }
+
+    pub(super) fn turn(&self, v: &Vector) -> Vector {
+        Vector::new(
+            self.cos * v.x - self.sin * v.y,
+            self.sin * v.x + self.cos * v.y,
+        )
+    }
+
+    pub(super) fn place(&self, p: &Point) -> Point {
+        self.axis + self.turn(&p.coords)
+    }
+
+    /// A point of the driver's frame in the driven gear's own.
+    pub(super) fn back(&self, p: &Point) -> Point {
+        let v = p - self.axis;
+        Point::new(
+            self.cos * v.x + self.sin * v.y,
+            self.cos * v.y - self.sin * v.x,
+        )
+    }
+
+    fn jet(&self, jet: &SegmentJet) -> SegmentJet {
+        SegmentJet {
+            point: self.place(&jet.point),
+            first: self.turn(&jet.first),
+            second: self.turn(&jet.second),
+        }
+    }
+}
+
+/// Two places, one on each gear, that face each other along a common normal.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Touch {
+    /// Distance between them along the normal, mm; negative where the gears overlap.
+    pub(super) gap: f64,
+    /// The place on the driver, in the driver's frame.
+    pub(super) point: Point,
+    /// Outward normal of the driver there.
+    pub(super) normal: Vector,
+    /// Opening of the gap per radian the driven gear turns on, mm.
+    pub(super) lever: f64,
+    /// Parameters on the two parts.
+    pub(super) at: (f64, f64),
+}
+
+impl Touch {
+    fn new(point: Point, mate: Point, normal: Vector, at: (f64, f64), pose: &Pose) -> Self {
+        let arm = mate - pose.axis;
+        Self {
+            gap: (mate - point).dot(&normal),
+            point,
+            normal,
+            lever: normal.y * arm.x - normal.x * arm.y,
+            at,
+        }
+    }
+}
+
+/// Parameter change below which a gap, second-order in it, is exact.
+const SETTLED: f64 = 3e-7;
+
+/// Where two smooth parts face each other, by Newton's method from the parameters `at`.
+///
+/// Solves A' x B' = 0 and (A - B).A' = 0; regular while the two parts do not hug each other.
+pub(super) fn parts(a: &Part<'_>, b: &Part<'_>, pose: &Pose, at: (f64, f64)) -> Option<Touch> {
+    // What was remembered may lead astray; the middle hardly does.
+    let mut known = newton(a, b, pose, at);
+    if at != (0.0, 0.0) && !matches!(known, Some(Some(_))) {
+        known = newton(a, b, pose, (0.0, 0.0));
+    }
+    // Mating flanks are walked against each other: where one starts the other ends.
+    known
+        .or_else(|| newton(a, b, pose, (0.8, -0.8)))
+        .or_else(|| newton(a, b, pose, (-0.8, 0.8)))
+        .flatten()
+}
+
+/// `None` where Newton's method got lost; `Some(None)` where it found that nothing faces.
+fn newton(a: &Part<'_>, b: &Part<'_>, pose: &Pose, at: (f64, f64)) -> Option<Option<Touch>> {
+    let (mut u, mut v) = at;
+    for _ in 0..8 {
+        let p = a.segment.at(u);
+        let q = pose.jet(&b.segment.at(v));
+        let apart = p.point - q.point;
+        let f = p.first.perp(&q.first);
+        let g = apart.dot(&p.first);
+        let (f_u, f_v) = (p.second.perp(&q.first), p.first.perp(&q.second));
+        let (g_u, g_v) = (
+            p.first.norm_squared() + apart.dot(&p.second),
+            -q.first.dot(&p.first),
+        );
+        let area = f_u * g_v - f_v * g_u;
+        let du = (f_v * g - f * g_v) / area;
+        let dv = (f * g_u - f_u * g) / area;
+        if !(du.is_finite() && dv.is_finite()) {
+            return None;
+        }
+        let settled = du.abs() < SETTLED && dv.abs() < SETTLED;
+        if settled {
+            // A little beyond an end belongs to the neighbour just as well.
+            if u.abs() > 1.0 + 1e-3 || v.abs() > 1.0 + 1e-3 {
+                return Some(None);
+            }
+            let size = p.first.norm();
+            let normal = Vector::new(p.first.y, -p.first.x) / size;
+            // Nearest, not farthest: the two must curve away from each other.
+            let bend_a = p.first.perp(&p.second) / size.powi(3);
+            let bend_b = q.first.perp(&q.second) / q.first.norm().powi(3);
+            let touch = Touch::new(p.point, q.point, normal, (u, v), pose);
+            let opening = bend_a + bend_b + bend_a * bend_b * touch.gap;
+            return Some((opening > 0.0).then_some(touch));
+        }
+        // Steps beyond the parts' own length leave the region the parts describe.
+        u = (u + du.clamp(-1.0, 1.0)).clamp(-1.6, 1.6);
+        v = (v + dv.clamp(-1.0, 1.0)).clamp(-1.6, 1.6);
+    }
+    None
+}
+
+/// Where a corner of the driven gear faces a part of the driver.
+pub(super) fn driven_corner(a: &Part<'_>, corner: &Corner, pose: &Pose) -> Option<Touch> {
+    let mate = pose.place(&corner.point);
+    let (u, jet) = foot(a, &mate)?;
+    let normal = Vector::new(jet.first.y, -jet.first.x) / jet.first.norm();
+    Some(Touch::new(jet.point, mate, normal, (u, 0.0), pose))
+}
+
+/// Where a corner of the driver faces a part of the driven gear.
+pub(super) fn driver_corner(corner: &Corner, b: &Part<'_>, pose: &Pose) -> Option<Touch> {
+    // Seen from the driven gear, whose parts do not move.
+    let back = corner.point - pose.axis;
+    let own = Point::new(
+        pose.cos * back.x + pose.sin * back.y,
+        pose.cos * back.y - pose.sin * back.x,
+    );
+    let (v, jet) = foot(b, &own)?;
+    let outward = Vector::new(jet.first.y, -jet.first.x) / jet.first.norm();
+    let normal = -pose.turn(&outward);
+    Some(Touch::new(
+        corner.point,
+        pose.place(&jet.point),
+        normal,
+        (0.0, v),
+        pose,
+    ))
+}
+
+/// Foot of the normal from a point to a part.
+fn foot(part: &Part<'_>, point: &Point) -> Option<(f64, SegmentJet)> {
+    let chord = part.segment.end() - part.segment.start();
+    let mut u = 2.0 * (point - part.segment.start()).dot(&chord) / chord.norm_squared() - 1.0;
+    u = u.clamp(-1.0, 1.0);
+    for _ in 0..12 {
+        let jet = part.segment.at(u);
+        let apart = jet.point - point;
+        let slope = jet.first.norm_squared() + apart.dot(&jet.second);
+        let step = -apart.dot(&jet.first) / slope;
+        if slope.is_nan() || slope <= 0.0 {
+            return None;
+        }
+        if step.abs() < SETTLED {
+            return (u.abs() <= 1.0 + 1e-6).then_some((u, jet));
+        }
+        u = (u + step.clamp(-1.0, 1.0)).clamp(-1.6, 1.6);
+    }
+    None
+}
