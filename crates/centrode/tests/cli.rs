@@ -56,7 +56,10 @@ fn bad_designs_and_bad_usage_end_with_two_and_say_why() {
     assert_eq!(bad.status.code(), Some(2));
     assert!(bad.stdout.is_empty());
     let message = text(&bad.stderr);
-    assert!(message.contains("error: pitch.eccentricity must"), "{message}");
+    assert!(
+        message.contains("error: pitch.eccentricity must"),
+        "{message}"
+    );
     assert!(message.contains("--> standard input:4:1"), "{message}");
     assert!(message.contains("4 | eccentricity = 1.5"), "{message}");
     assert!(

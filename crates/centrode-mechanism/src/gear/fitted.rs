@@ -4,6 +4,8 @@ use centrode_geometry::bracketed_root;
 
 use super::{
     flank::{Flank, Side},
+    interference::Mates,
+    profile::{FlankPlan, ToothPlan, Top},
     rolling::{Member, Rolling},
     tool::{Corner, Tool},
 };
@@ -11,6 +13,150 @@ use super::{
 /// Least share of a straight rack's flank speed kept at the end of a trimmed flank: below it the
 /// flank ends in a knife edge of no radius of curvature.
 const LEAST_SPEED: f64 = 0.05;
+
+/// What the trimming needs to know.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Fitting<'a> {
+    pub(crate) rolling: &'a Rolling,
+    pub(crate) tool: &'a Tool,
+    pub(crate) least_tip_width: f64,
+}
+
+/// Reach in roll and normal height of a tip corner.
+type Tip = (f64, f64);
+
+impl Fitting<'_> {
+    /// Trims every tip of both gears and fits every space to the tips that enter it.
+    ///
+    /// A tip is as high as both flanks stay regular, as mating flanks stay clear of each other away from
+    /// their contact, and as the top land stays wide enough. `meshes` is the number of pitches in a cycle.
+    pub(crate) fn fit(
+        &self,
+        driver: &mut [ToothPlan],
+        driven: &mut [ToothPlan],
+        meshes: u32,
+        pitch: f64,
+        space: impl Fn(Member) -> f64,
+    ) {
+        let reaches = |member: Member, teeth: &[ToothPlan]| -> Vec<[f64; 2]> {
+            let reach = |plan: &FlankPlan, side| self.regular(member, side, plan);
+            teeth
+                .iter()
+                .map(|t| {
+                    [
+                        reach(&t.leading, Side::Leading),
+                        reach(&t.trailing, Side::Trailing),
+                    ]
+                })
+                .collect()
+        };
+        let mut reach_1 = reaches(Member::Driver, driver);
+        let mut reach_2 = reaches(Member::Driven, driven);
+        let (first, last) = (driver.len(), driven.len());
+        // A driver tooth works in the space between driven teeth k - 1 and k: its trailing flank on
+        // driven tooth k, its leading one on k - 1.
+        for k in 0..meshes as usize {
+            let turn_1 = (k / first) as f64 * self.rolling.pitch_length(Member::Driver);
+            let turn_2 = (k / last) as f64 * self.rolling.pitch_length(Member::Driven);
+            let (i, j) = (k % first, k % last);
+            let before = (j + last - 1) % last;
+            let turn_before = if j == 0 {
+                turn_2 - self.rolling.pitch_length(Member::Driven)
+            } else {
+                turn_2
+            };
+            for (side, mate, turn) in [
+                (Side::Trailing, j, turn_2),
+                (Side::Leading, before, turn_before),
+            ] {
+                let (one, two) = (side as usize, side.other() as usize);
+                let crossings = (
+                    driver[i].side(side).crossing + turn_1,
+                    driven[mate].side(side.other()).crossing + turn,
+                );
+                if let Some(mates) = Mates::near(self, side, crossings, pitch) {
+                    (reach_1[i][one], reach_2[mate][two]) =
+                        mates.clear((reach_1[i][one], reach_2[mate][two]));
+                }
+            }
+        }
+        let tips_1: Vec<[Tip; 2]> = self.tops(Member::Driver, driver, &reach_1);
+        let tips_2: Vec<[Tip; 2]> = self.tops(Member::Driven, driven, &reach_2);
+        let clearance = self.tool.dedendum - self.tool.addendum;
+        let serve = |member: Member, flank: &mut FlankPlan, mate: Tip| {
+            flank.corner = corner(self.tool, mate.1 + clearance, mate.0, space(member));
+            flank.needed = mate.0;
+        };
+        let deeper = |a: Tip, b: Tip| if a.0 > b.0 { a } else { b };
+        for (i, tooth) in driver.iter_mut().enumerate() {
+            let mates = (i..meshes as usize).step_by(first).map(|k| k % last);
+            let (lead, trail) = mates.fold(((0.0, 0.0), (0.0, 0.0)), |(lead, trail), j| {
+                (
+                    deeper(lead, tips_2[(j + last - 1) % last][1]),
+                    deeper(trail, tips_2[j][0]),
+                )
+            });
+            serve(Member::Driver, &mut tooth.leading, lead);
+            serve(Member::Driver, &mut tooth.trailing, trail);
+        }
+        for (j, tooth) in driven.iter_mut().enumerate() {
+            let mates = (j..meshes as usize).step_by(last).map(|k| k % first);
+            let (lead, trail) = mates.fold(((0.0, 0.0), (0.0, 0.0)), |(lead, trail), i| {
+                (
+                    deeper(lead, tips_1[i][1]),
+                    deeper(trail, tips_1[(i + 1) % first][0]),
+                )
+            });
+            serve(Member::Driven, &mut tooth.leading, lead);
+            serve(Member::Driven, &mut tooth.trailing, trail);
+        }
+    }
+
+    fn flank(&self, member: Member, side: Side, crossing: f64) -> Flank<'_> {
+        Flank {
+            rolling: self.rolling,
+            member,
+            tool: self.tool,
+            side,
+            crossing,
+        }
+    }
+
+    /// How far up a flank can go with both it and its mate regular, at most its full height.
+    fn regular(&self, member: Member, side: Side, plan: &FlankPlan) -> f64 {
+        let Top::Height(height) = plan.top else {
+            return 0.0;
+        };
+        let (sin, cos) = self.tool.pressure_angle.sin_cos();
+        let flank = self.flank(member, side, plan.crossing);
+        // A full tooth keeps its full height, exactly.
+        let end = flank
+            .at_height(height)
+            .map(|(t, _)| (self.rolling.arc_length(t) - flank.crossing).abs());
+        let most = end.unwrap_or((height / (sin * cos)).max(0.0));
+        reach(self.rolling, self.tool, (member, side), plan.crossing, most)
+    }
+
+    /// Settles every tip of a gear, wide enough at the top.
+    fn tops(&self, member: Member, teeth: &mut [ToothPlan], reaches: &[[f64; 2]]) -> Vec<[Tip; 2]> {
+        let settle = |(tooth, &[lead, trail]): (&mut ToothPlan, &[f64; 2])| {
+            let leading = self.flank(member, Side::Leading, tooth.leading.crossing);
+            let trailing = self.flank(member, Side::Trailing, tooth.trailing.crossing);
+            let share = share_for_width((&leading, lead), (&trailing, trail), self.least_tip_width);
+            let (lead, trail) = (share * lead, share * trail);
+            tooth.leading.top = Top::Reach(lead);
+            tooth.trailing.top = Top::Reach(trail);
+            let tip = |flank: &Flank<'_>, reach: f64| {
+                let t = self
+                    .rolling
+                    .parameter(flank.crossing - flank.side.sign() * reach);
+                (reach, flank.foot(t).1)
+            };
+            [tip(&leading, lead), tip(&trailing, trail)]
+        };
+        teeth.iter_mut().zip(reaches).map(settle).collect()
+    }
+}
 
 /// How far, in arc length of roll, the flank of `member` on `side` that crosses the pitch curve at
 /// `crossing` can work above it together with its mate, at most `limit`.

@@ -4,6 +4,7 @@ mod conjugate;
 pub mod design;
 mod fitted;
 mod flank;
+mod interference;
 mod pair;
 pub mod pitch;
 mod profile;

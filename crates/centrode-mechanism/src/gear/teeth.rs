@@ -1,7 +1,7 @@
 use super::{
     design::{Addendum, Phase},
-    fitted,
-    flank::{Flank, Side},
+    fitted::Fitting,
+    flank::Side,
     profile::{FlankPlan, ToothPlan, Top},
     rolling::{Member, Rolling},
     tool::Tool,
@@ -161,54 +161,18 @@ pub(crate) fn layout(
     };
     let (mut driver, mut driven) = (plan(Member::Driver)?, plan(Member::Driven)?);
     if parameters.addendum == Addendum::Fitted {
-        let tops = |member: Member, teeth: &mut [ToothPlan]| -> Vec<[(f64, f64); 2]> {
-            teeth
-                .iter_mut()
-                .map(|tooth| {
-                    fit_tops(
-                        rolling,
-                        parameters,
-                        member,
-                        tool.addendum + shift(member),
-                        tooth,
-                    )
-                })
-                .collect()
+        let fitting = Fitting {
+            rolling,
+            tool,
+            least_tip_width: parameters.least_tip_width,
         };
-        let driver_tops = tops(Member::Driver, &mut driver);
-        let driven_tops = tops(Member::Driven, &mut driven);
-        let clearance = tool.dedendum - tool.addendum;
-        // A driver tooth works in the space between driven teeth k - 1 and k, a driven one between
-        // driver teeth k and k + 1; flanks of opposite sides mate.
-        let serve = |member: Member, flank: &mut FlankPlan, mate: (f64, f64)| {
-            flank.corner = fitted::corner(tool, mate.1 + clearance, mate.0, space(member));
-            flank.needed = mate.0;
-        };
-        let (first, last) = (driver_tops.len(), driven_tops.len());
-        for (k, tooth) in driven.iter_mut().enumerate() {
-            serve(
-                Member::Driven,
-                &mut tooth.leading,
-                driver_tops[k % first][1],
-            );
-            serve(
-                Member::Driven,
-                &mut tooth.trailing,
-                driver_tops[(k + 1) % first][0],
-            );
-        }
-        for (k, tooth) in driver.iter_mut().enumerate() {
-            serve(
-                Member::Driver,
-                &mut tooth.leading,
-                driven_tops[(k + last - 1) % last][1],
-            );
-            serve(
-                Member::Driver,
-                &mut tooth.trailing,
-                driven_tops[k % last][0],
-            );
-        }
+        fitting.fit(
+            &mut driver,
+            &mut driven,
+            counts.driver * rolling.mean_ratio().0,
+            pitch,
+            space,
+        );
     }
     Ok(Layout {
         driver,
@@ -217,50 +181,6 @@ pub(crate) fn layout(
         backlash,
         congruent,
     })
-}
-
-/// Trims one tooth; gives reach and normal height of its leading and trailing tip corner.
-fn fit_tops(
-    rolling: &Rolling,
-    parameters: &TeethParameters,
-    member: Member,
-    height: f64,
-    tooth: &mut ToothPlan,
-) -> [(f64, f64); 2] {
-    let tool = &parameters.tool;
-    let flank = |plan: &FlankPlan, side: Side| Flank {
-        rolling,
-        member,
-        tool,
-        side,
-        crossing: plan.crossing,
-    };
-    let (sin, cos) = tool.pressure_angle.sin_cos();
-    let limit = (height / (sin * cos)).max(0.0);
-    let leading = flank(&tooth.leading, Side::Leading);
-    let trailing = flank(&tooth.trailing, Side::Trailing);
-    // A full tooth keeps its full height, exactly.
-    let full = |flank: &Flank<'_>| {
-        let end = flank
-            .at_height(height)
-            .map(|(t, _)| (rolling.arc_length(t) - flank.crossing).abs());
-        let most = end.unwrap_or(limit);
-        fitted::reach(rolling, tool, (member, flank.side), flank.crossing, most)
-    };
-    let (lead, trail) = (full(&leading), full(&trailing));
-    let share = fitted::share_for_width(
-        (&leading, lead),
-        (&trailing, trail),
-        parameters.least_tip_width,
-    );
-    let (lead, trail) = (share * lead, share * trail);
-    tooth.leading.top = Top::Reach(lead);
-    tooth.trailing.top = Top::Reach(trail);
-    let top = |flank: &Flank<'_>, reach: f64| {
-        let t = rolling.parameter(flank.crossing - flank.side.sign() * reach);
-        (reach, flank.foot(t).1)
-    };
-    [top(&leading, lead), top(&trailing, trail)]
 }
 
 /// Least distance from the driven shaft to the common normal over the cycle, mm: what turns play
