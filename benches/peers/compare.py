@@ -152,7 +152,12 @@ def compare(case):
         outline = our.driver.outline(tolerance=1e-7)
         rows = [
             ("generate + prove", seconds(theirs), seconds(ours), f"{theirs / ours:.0f} x"),
-            ("whole command to files", seconds(their_command), seconds(our_whole), f"{their_command / our_whole:.0f} x"),
+            (
+                "whole command to files",
+                seconds(their_command),
+                seconds(our_whole),
+                f"{their_command / our_whole:.0f} x",
+            ),
             ("points / arcs a gear in DXF", their_vertices, arcs, f"{their_vertices / arcs:.1f} x"),
             ("points of its outline", len(pair.drive_outline), len(outline), "-"),
             (

@@ -18,9 +18,7 @@ def case():
 
 @pytest.fixture(scope="module")
 def pair(case):
-    pitch = ct.pitch.ellipse(
-        eccentricity=case["eccentricity"], module=case["module"], tooth_count=case["tooth_count"]
-    )
+    pitch = ct.pitch.ellipse(eccentricity=case["eccentricity"], module=case["module"], tooth_count=case["tooth_count"])
     return ct.GearPair(pitch, phase="tooth")
 
 
