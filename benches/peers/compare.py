@@ -137,6 +137,10 @@ def seconds(value):
     return f"{value * 1e3:.2f} ms" if value < 1 else f"{value:.2f} s"
 
 
+def times(theirs, ours):
+    return f"{theirs / ours:.3g} x"
+
+
 def number(value):
     return "-" if value is None else f"{value:.1e}"
 
@@ -151,7 +155,7 @@ def compare(case):
         arcs = max(vertices(out / f"{gear}.dxf") for gear in ("driver", "driven"))
         outline = our.driver.outline(tolerance=1e-7)
         rows = [
-            ("generate + prove", seconds(theirs), seconds(ours), f"{theirs / ours:.0f} x"),
+            ("generate + prove", seconds(theirs), seconds(ours), times(theirs, ours)),
             (
                 "whole command to files",
                 seconds(their_command),
@@ -182,8 +186,8 @@ def circular():
     generate, pair = best(lambda: ct.GearPair(pitch))
     prove, _ = best(lambda: ct.GearPair(pitch).check())
     rows = [
-        ("generate (ours: both gears)", seconds(theirs), seconds(generate), f"{theirs / generate:.0f} x"),
-        ("generate + prove", "-", seconds(prove), f"{theirs / prove:.0f} x"),
+        ("generate (ours: both gears)", seconds(theirs), seconds(generate), times(theirs, generate)),
+        ("generate + prove", "-", seconds(prove), times(theirs, prove)),
         ("edges / segments a gear", len(wire.edges()), len(pair.driver.outline(tolerance=1e-3)), "-"),
     ]
     show("circle, z 23", "py_gearworks", rows)
