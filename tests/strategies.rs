@@ -3,7 +3,8 @@
 use std::f64::consts::TAU;
 
 use centrode_mechanism::gear::pitch::{
-    Bspline, Circle, EccentricCircle, Ellipse, LobedEllipse, PitchSpec, Plane,
+    Bspline, Circle, EccentricCircle, Ellipse, Limacon, LobedEllipse, PitchSpec, Plane, Polar,
+    Transmission,
 };
 use proptest::prelude::{Just, Strategy, any, prop_oneof};
 
@@ -20,7 +21,10 @@ pub fn pitch() -> impl Strategy<Value = PitchSpec> {
             PitchSpec::EccentricCircle(spec) => (&mut spec.module, &mut spec.tooth_count),
             PitchSpec::Ellipse(spec) => (&mut spec.module, &mut spec.tooth_count),
             PitchSpec::LobedEllipse(spec) => (&mut spec.module, &mut spec.tooth_count),
+            PitchSpec::Limacon(spec) => (&mut spec.module, &mut spec.tooth_count),
             PitchSpec::Bspline(spec) => (&mut spec.module, &mut spec.tooth_count),
+            PitchSpec::Polar(spec) => (&mut spec.module, &mut spec.tooth_count),
+            PitchSpec::Transmission(spec) => (&mut spec.module, &mut spec.tooth_count),
             other => unreachable!("no strategy makes {other:?}"),
         };
         (*module, *tooth_count) = (Some(m), Some(z));
@@ -48,6 +52,28 @@ fn shape() -> impl Strategy<Value = PitchSpec> {
                 lobes,
                 eccentricity,
                 ..LobedEllipse::default()
+            })
+        }),
+        (10.0..30.0_f64, 0.0..0.3_f64, 1..4_u32).prop_map(|(mean_radius, swing, lobes)| {
+            PitchSpec::Limacon(Limacon {
+                mean_radius,
+                amplitude: swing * mean_radius,
+                lobes,
+                module: None,
+                tooth_count: None,
+            })
+        }),
+        (0.0..0.15_f64, 0.0..0.1_f64, 1..5_u32).prop_map(|(a, b, n)| {
+            PitchSpec::Polar(Polar {
+                expression: Some(format!("1 + {a}*cos({n}*phi) - {b}*sin(phi)")),
+                ..Polar::default()
+            })
+        }),
+        (0.0..0.3_f64, 1..4_u32).prop_map(|(swing, n)| {
+            let amplitude = swing / f64::from(n * n);
+            PitchSpec::Transmission(Transmission {
+                expression: Some(format!("phi - {amplitude}*sin({n}*phi)")),
+                ..Transmission::default()
             })
         }),
         polar_spline(),

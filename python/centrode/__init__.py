@@ -4,6 +4,29 @@ Lengths are millimetres, angles radians, counter-clockwise positive.
 """
 
 from . import pitch
-from ._centrode import DesignError, Error, Pitch, PitchError, __version__
+from ._centrode import (
+    DesignError,
+    Error,
+    Gear,
+    GearPair,
+    GearPairError,
+    Pitch,
+    PitchError,
+    Rack,
+    Shaper,
+    __version__,
+)
 
-__all__ = ["DesignError", "Error", "Pitch", "PitchError", "__version__", "pitch"]
+__all__ = [
+    "DesignError",
+    "Error",
+    "Gear",
+    "GearPair",
+    "GearPairError",
+    "Pitch",
+    "PitchError",
+    "Rack",
+    "Shaper",
+    "__version__",
+    "pitch",
+]

@@ -1,17 +1,35 @@
 use centrode_mechanism::gear::pitch as spec;
-use numpy::{AllowTypeChange, PyArray2, PyArrayLike1};
+use numpy::PyArray2;
+use pyo3::FromPyObject;
 use pyo3::prelude::{Bound, PyResult, Python, pyclass, pyfunction, pymethods};
 
+use crate::array::{Numbers, list, points};
 use crate::error::{DesignError, of_pitch};
 
-/// A list of numbers: anything `NumPy` can make a one-dimensional float array of.
-type Numbers<'py> = PyArrayLike1<'py, f64, AllowTypeChange>;
+/// A function of one angle: a formula in `phi`, or values at equal steps of it.
+#[derive(FromPyObject)]
+pub(crate) enum Law<'py> {
+    /// A formula.
+    Formula(String),
+    /// Sampled values.
+    Samples(Numbers<'py>),
+}
+
+impl Law<'_> {
+    /// Formula and samples: one of them empty.
+    fn parts(law: Option<Self>) -> (Option<String>, Vec<f64>) {
+        match law {
+            None => (None, Vec::new()),
+            Some(Self::Formula(text)) => (Some(text), Vec::new()),
+            Some(Self::Samples(values)) => (None, values.as_array().to_vec()),
+        }
+    }
+}
 
 /// A pitch curve, proved to go once round the shaft axis.
 #[pyclass(frozen, module = "centrode")]
 #[derive(Debug)]
 pub(crate) struct Pitch {
-    #[expect(dead_code, reason = "what a gear pair is made from")]
     pub(crate) spec: spec::PitchSpec,
     resolved: spec::Pitch,
 }
@@ -54,18 +72,9 @@ impl Pitch {
         py: Python<'py>,
         parameters: Numbers<'py>,
     ) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let rows: Vec<Vec<f64>> = parameters
-            .as_array()
-            .iter()
-            .map(|&t| {
-                let point = self.resolved.curve.at(t).point;
-                vec![point.x, point.y]
-            })
-            .collect();
-        if rows.is_empty() {
-            return Ok(PyArray2::zeros(py, [0, 2], false));
-        }
-        Ok(PyArray2::from_vec2(py, &rows)?)
+        let at = |&t: &f64| self.resolved.curve.at(t).point;
+        let along: Vec<_> = parameters.as_array().iter().map(at).collect();
+        points(py, &along)
     }
 
     fn __repr__(&self) -> String {
@@ -78,16 +87,24 @@ fn resolve(spec: spec::PitchSpec) -> PyResult<Pitch> {
     Ok(Pitch { spec, resolved })
 }
 
-fn list(numbers: Option<Numbers<'_>>) -> Vec<f64> {
-    numbers.map_or_else(Vec::new, |n| n.as_array().to_vec())
-}
-
 fn plane(word: &str) -> PyResult<spec::Plane> {
     match word {
         "polar" => Ok(spec::Plane::Polar),
         "cartesian" => Ok(spec::Plane::Cartesian),
         _ => Err(DesignError::new_err(format!(
             "plane must be \"polar\" or \"cartesian\", not \"{word}\""
+        ))),
+    }
+}
+
+fn interpolation(word: Option<&str>) -> PyResult<Option<spec::Interpolation>> {
+    match word {
+        None => Ok(None),
+        Some("cubic") => Ok(Some(spec::Interpolation::Cubic)),
+        Some("quintic") => Ok(Some(spec::Interpolation::Quintic)),
+        Some("trigonometric") => Ok(Some(spec::Interpolation::Trigonometric)),
+        Some(word) => Err(DesignError::new_err(format!(
+            "interpolation must be \"cubic\", \"quintic\" or \"trigonometric\", not \"{word}\""
         ))),
     }
 }
@@ -209,6 +226,95 @@ pub(crate) fn bezier(
         angle: list(angle),
         x: list(x),
         y: list(y),
+        module,
+        tooth_count,
+    }))
+}
+
+/// A limacon of Pascal: `r = b + c cos(N phi)`.
+#[pyfunction]
+#[pyo3(signature = (*, mean_radius, amplitude, lobes=1, module=None, tooth_count=None))]
+pub(crate) fn limacon(
+    mean_radius: f64,
+    amplitude: f64,
+    lobes: u32,
+    module: Option<f64>,
+    tooth_count: Option<u32>,
+) -> PyResult<Pitch> {
+    resolve(spec::PitchSpec::Limacon(spec::Limacon {
+        mean_radius,
+        amplitude,
+        lobes,
+        module,
+        tooth_count,
+    }))
+}
+
+/// Radius as a function of the polar angle: a formula in `phi`, radii, or a Fourier series.
+#[pyfunction]
+#[pyo3(signature = (radius=None, *, angle=None, interpolation=None, mean=None, cos=None, sin=None, module=None, tooth_count=None))]
+#[expect(clippy::too_many_arguments, reason = "keyword arguments")]
+pub(crate) fn polar(
+    radius: Option<Law<'_>>,
+    angle: Option<Numbers<'_>>,
+    interpolation: Option<&str>,
+    mean: Option<f64>,
+    cos: Option<Numbers<'_>>,
+    sin: Option<Numbers<'_>>,
+    module: Option<f64>,
+    tooth_count: Option<u32>,
+) -> PyResult<Pitch> {
+    let (expression, radius) = Law::parts(radius);
+    resolve(spec::PitchSpec::Polar(spec::Polar {
+        expression,
+        radius,
+        angle: list(angle),
+        interpolation: self::interpolation(interpolation)?,
+        mean,
+        cos: list(cos),
+        sin: list(sin),
+        module,
+        tooth_count,
+    }))
+}
+
+/// Driven angle as a function of the driver angle: a formula in `phi`, or samples over one driver turn.
+#[pyfunction]
+#[pyo3(signature = (driven_angle, *, interpolation=None, center_distance=None, module=None, tooth_count=None))]
+pub(crate) fn from_transmission(
+    driven_angle: Law<'_>,
+    interpolation: Option<&str>,
+    center_distance: Option<f64>,
+    module: Option<f64>,
+    tooth_count: Option<u32>,
+) -> PyResult<Pitch> {
+    let (expression, driven_angle) = Law::parts(Some(driven_angle));
+    resolve(spec::PitchSpec::Transmission(spec::Transmission {
+        expression,
+        driven_angle,
+        interpolation: self::interpolation(interpolation)?,
+        center_distance,
+        module,
+        tooth_count,
+    }))
+}
+
+/// Ratio as a function of the driver angle: a formula in `phi`, or samples over one driver turn.
+#[pyfunction]
+#[pyo3(signature = (ratio, *, interpolation=None, center_distance=None, module=None, tooth_count=None))]
+pub(crate) fn from_ratio(
+    ratio: Law<'_>,
+    interpolation: Option<&str>,
+    center_distance: Option<f64>,
+    module: Option<f64>,
+    tooth_count: Option<u32>,
+) -> PyResult<Pitch> {
+    let (expression, ratio) = Law::parts(Some(ratio));
+    resolve(spec::PitchSpec::Ratio(spec::Ratio {
+        expression,
+        ratio,
+        interpolation: self::interpolation(interpolation)?,
+        center_distance,
         module,
         tooth_count,
     }))

@@ -57,7 +57,8 @@ if __name__ == "__main__":
     write(
         "lobed_pairs",
         """Driver r = p/(1 - k cos(N phi)) ("lobed-ellipse") or p (1 + k cos(N phi)) ("polar"); k = eccentricity,
-N = lobes, p = parameter (mm), scaled to perimeter pi m z. driven_angle: rows of driver angle phi and driven angle, rad.""",
+N = lobes, p = parameter (mm), scaled to perimeter pi m z.
+driven_angle: rows of driver angle phi and driven angle, rad.""",
         [
             case("lobed-ellipse", conic, "0.2", 1, (1, 1), "2", 20),
             case("lobed-ellipse", conic, "0.1", 2, (1, 1), "2", 24),

@@ -26,7 +26,10 @@ fn scaled(spec: &PitchSpec, factor: f64) -> PitchSpec {
         PitchSpec::EccentricCircle(spec) => &mut spec.module,
         PitchSpec::Ellipse(spec) => &mut spec.module,
         PitchSpec::LobedEllipse(spec) => &mut spec.module,
+        PitchSpec::Limacon(spec) => &mut spec.module,
         PitchSpec::Bspline(spec) => &mut spec.module,
+        PitchSpec::Polar(spec) => &mut spec.module,
+        PitchSpec::Transmission(spec) => &mut spec.module,
         other => unreachable!("no strategy makes {other:?}"),
     };
     *module = module.map(|m| m * factor);

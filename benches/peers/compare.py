@@ -1,0 +1,212 @@
+"""Runs centrode and its peers on the same cases and prints one table of ratios."""
+
+import argparse
+import math
+import os
+import subprocess
+import tempfile
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+import centrode as ct
+import ezdxf
+import flanks
+import ncgears
+
+ALPHA = math.radians(20)
+K = 1 / (2 + math.sqrt(3))
+
+
+@dataclass
+class Case:
+    """One pair, as each tool wants it."""
+
+    name: str
+    module: float
+    teeth: int
+    pitch: Callable[[], ct.Pitch]
+    toml: str
+    peer: dict
+    mean_ratio: tuple[int, int] = (1, 1)
+    eccentricity: float | None = None
+
+
+CASES = [
+    Case(
+        "2018 ellipse, z 23",
+        2.25,
+        23,
+        lambda: ct.pitch.ellipse(eccentricity=K, module=2.25, tooth_count=23),
+        f'[pitch]\nkind = "ellipse"\neccentricity = {K!r}\nmodule = 2.25\ntooth_count = 23\n',
+        {"centrode": f"1/(1-{K!r}*cos(phi))"},
+        eccentricity=K,
+    ),
+    Case(
+        "law, two lobes, z 24",
+        1.5,
+        24,
+        lambda: ct.pitch.from_transmission("phi - 0.08*sin(2*phi)", module=1.5, tooth_count=24),
+        '[pitch]\nkind = "transmission"\nexpression = "phi - 0.08*sin(2*phi)"\nmodule = 1.5\ntooth_count = 24\n',
+        {"law": "phi - 0.08*sin(2*phi)"},
+    ),
+    Case(
+        "radius, two lobes, z 20",
+        1.0,
+        20,
+        lambda: ct.pitch.polar("1 + 0.08*cos(2*phi)", module=1.0, tooth_count=20),
+        '[pitch]\nkind = "polar"\nexpression = "1 + 0.08*cos(2*phi)"\nmodule = 1.0\ntooth_count = 20\n',
+        {"centrode": "1 + 0.08*cos(2*phi)"},
+    ),
+    Case(
+        "five lobes 2:5, z 100",
+        1.0,
+        100,
+        lambda: ct.pitch.polar("1 + 0.08*cos(5*phi)", module=1.0, tooth_count=100),
+        'mean_ratio = [2, 5]\n[pitch]\nkind = "polar"\nexpression = "1 + 0.08*cos(5*phi)"\n'
+        "module = 1.0\ntooth_count = 100\n",
+        {"centrode": "1 + 0.08*cos(5*phi)", "advance": 5 * math.pi},
+        mean_ratio=(2, 5),
+    ),
+]
+
+
+def best(action, least=3, seconds=1.0):
+    """Shortest of several runs, and the last answer."""
+    times, start = [], time.perf_counter()
+    while len(times) < least or (time.perf_counter() - start < seconds and len(times) < 2000):
+        begin = time.perf_counter()
+        answer = action()
+        times.append(time.perf_counter() - begin)
+    return min(times), answer
+
+
+def peer_pair(case, folder):
+    keywords = {
+        "teeth": case.teeth,
+        "module": case.module,
+        "dedendum_factor": 1.25,
+        "fillet_factor": 0.38,
+        "output_directory": folder,
+    }
+    if "law" in case.peer:
+        return ncgears.generate(case.peer["law"], **keywords)
+    advance = case.peer.get("advance", 2 * math.pi)
+    return ncgears.generate_from_centrode(case.peer["centrode"], target_cycle_delta=advance, **keywords)
+
+
+def peer_command(case, folder):
+    command = ["ncgears", "--teeth", str(case.teeth), "--module", str(case.module)]
+    if "centrode" in case.peer:
+        command.append("--centrode")
+    if "advance" in case.peer:
+        command += ["--cycle-delta", repr(case.peer["advance"])]
+    command += [case.peer.get("centrode") or case.peer["law"], "--output", folder, "--dxf", f"{folder}/pair.dxf"]
+    subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
+
+
+def our_pair(case):
+    pair = ct.GearPair(case.pitch(), mean_ratio=case.mean_ratio)
+    return pair, pair.check()
+
+
+def our_command(case, folder):
+    design, out = Path(folder, "pair.toml"), Path(folder, "out")
+    design.write_text(case.toml)
+    command = [os.environ["CENTRODE_BIN"], "export", design, "--to", out, "--format", "dxf,svg,stl,csv,urdf"]
+    subprocess.run([*command, "--tolerance", "0.001"], check=True, stdout=subprocess.DEVNULL)
+    return out
+
+
+def vertices(path):
+    """Most vertices of one closed polyline in a DXF."""
+    lines = ezdxf.readfile(path).modelspace().query("LWPOLYLINE POLYLINE")
+    return max(len(line) for line in lines)
+
+
+def profile(case, outline):
+    if case.eccentricity is None:
+        return None
+    length = math.pi * case.module * case.teeth
+    curve = flanks.focal_ellipse(case.eccentricity, length)
+    return flanks.profile_error(outline, curve, ALPHA, length / case.teeth, 0.5 * case.module)
+
+
+def seconds(value):
+    return f"{value * 1e3:.2f} ms" if value < 1 else f"{value:.2f} s"
+
+
+def times(theirs, ours):
+    return f"{theirs / ours:.3g} x"
+
+
+def number(value):
+    return "-" if value is None else f"{value:.1e}"
+
+
+def compare(case):
+    with tempfile.TemporaryDirectory() as folder:
+        theirs, pair = best(lambda: peer_pair(case, folder), least=2, seconds=0)
+        their_command, _ = best(lambda: peer_command(case, folder), least=1, seconds=0)
+        their_vertices = vertices(f"{folder}/pair.dxf")
+        ours, (our, report) = best(lambda: our_pair(case))
+        our_whole, out = best(lambda: our_command(case, folder))
+        arcs = max(vertices(out / f"{gear}.dxf") for gear in ("driver", "driven"))
+        outline = our.driver.outline(tolerance=1e-7)
+        rows = [
+            ("generate + prove", seconds(theirs), seconds(ours), times(theirs, ours)),
+            (
+                "whole command to files",
+                seconds(their_command),
+                seconds(our_whole),
+                f"{their_command / our_whole:.0f} x",
+            ),
+            ("points / arcs a gear in DXF", their_vertices, arcs, f"{their_vertices / arcs:.1f} x"),
+            ("points of its outline", len(pair.drive_outline), len(outline), "-"),
+            (
+                "transmission error, rad",
+                number(pair.maximum_transmission_error),
+                number(report.values["transmission_error_max"]),
+                "-",
+            ),
+            ("profile error, mm", number(profile(case, pair.drive_outline)), number(profile(case, outline)), "-"),
+        ]
+        assert math.isclose(pair.center_distance, our.center_distance, rel_tol=1e-9), "not the same pair"
+        assert report.ok, report.findings
+    show(case.name, "ncgears", rows)
+
+
+def circular():
+    from py_gearworks import SpurGear
+
+    module, teeth = 2.25, 23
+    theirs, wire = best(lambda: SpurGear(teeth, module=module).build_boundary_wire())
+    pitch = ct.pitch.circle(module=module, tooth_count=teeth)
+    generate, pair = best(lambda: ct.GearPair(pitch))
+    prove, _ = best(lambda: ct.GearPair(pitch).check())
+    rows = [
+        ("generate (ours: both gears)", seconds(theirs), seconds(generate), times(theirs, generate)),
+        ("generate + prove", "-", seconds(prove), times(theirs, prove)),
+        ("edges / segments a gear", len(wire.edges()), len(pair.driver.outline(tolerance=1e-3)), "-"),
+    ]
+    show("circle, z 23", "py_gearworks", rows)
+
+
+def show(name, peer, rows):
+    print(f"\n{name:28} {peer:>14} {'centrode':>14} {'ratio':>10}", flush=True)
+    for what, theirs, ours, ratio in rows:
+        print(f"  {what:26} {theirs:>14} {ours:>14} {ratio:>10}", flush=True)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--quick", action="store_true", help="the 2018 pair and one circular gear")
+    arguments = parser.parse_args()
+    for case in CASES[:1] if arguments.quick else CASES:
+        compare(case)
+    circular()
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,12 @@
+//! Any text is a design or an error: no panic, no hang.
+#![no_main]
+
+use centrode_mechanism::gear::design::GearPairDesign;
+use libfuzzer_sys::fuzz_target;
+
+fuzz_target!(|text: &str| {
+    if let Ok(design) = toml::from_str::<GearPairDesign>(text) {
+        let _ = design.validate();
+        let _ = design.pitch.resolve();
+    }
+});

@@ -1,0 +1,85 @@
+"""Exports each design once through the command line; the tests read the files back with other readers."""
+
+import json
+import math
+import os
+import subprocess
+from dataclasses import dataclass
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+BINARY = Path(os.environ.get("CENTRODE_BIN", ROOT / "target" / "release" / "centrode"))
+ECCENTRICITY = 1 / (2 + math.sqrt(3))
+
+DESIGNS = {
+    "elliptic": f"""
+name = "elliptic"
+[pitch]
+kind = "ellipse"
+eccentricity = {ECCENTRICITY!r}
+module = 2.25
+tooth_count = 23
+[driver]
+width = 12.0
+bore = 12.0
+keyway = {{ width = 4.0, depth = 1.8 }}
+[driven]
+width = 12.0
+bore = 12.0
+""",
+    "two-to-one": """
+name = "two-to-one"
+mean_ratio = [2, 1]
+[pitch]
+kind = "polar"
+expression = "1 + 0.08*cos(2*phi)"
+module = 1.5
+tooth_count = 24
+[teeth]
+backlash = 0.05
+""",
+    "circle": """
+name = "circle"
+[pitch]
+kind = "circle"
+module = 2.0
+tooth_count = 20
+""",
+}
+
+
+@dataclass
+class Export:
+    """A folder of exported files and what the report says of them."""
+
+    name: str
+    design: Path
+    folder: Path
+
+    def report(self):
+        return json.loads((self.folder / "report.json").read_text())
+
+    def __truediv__(self, name):
+        return self.folder / name
+
+
+def centrode(*arguments, check=True):
+    """Runs the command; its output is text."""
+    return subprocess.run([BINARY, *map(str, arguments)], check=check, capture_output=True, text=True, timeout=60)
+
+
+@pytest.fixture(scope="session")
+def run():
+    return centrode
+
+
+@pytest.fixture(scope="session", params=DESIGNS)
+def exported(request, tmp_path_factory):
+    folder = tmp_path_factory.mktemp(request.param)
+    design = folder / "pair.toml"
+    design.write_text(DESIGNS[request.param])
+    out = folder / "out"
+    centrode("export", design, "--to", out, "--tolerance", "0.001")
+    return Export(request.param, design, out)
