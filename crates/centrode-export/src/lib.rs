@@ -6,6 +6,7 @@ mod bundle;
 pub mod csv;
 pub mod drawing;
 pub mod dxf;
+pub mod gear_pair;
 pub mod model;
 pub mod stl;
 pub mod svg;

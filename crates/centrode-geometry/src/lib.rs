@@ -15,6 +15,7 @@ mod loops;
 mod mass;
 mod mesh;
 mod moments;
+mod offset;
 mod outline;
 mod piece;
 mod placement;

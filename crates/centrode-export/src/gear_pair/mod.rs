@@ -1,0 +1,413 @@
+//! The files of a gear pair.
+
+mod motion;
+mod outline;
+mod sheet;
+mod simulator;
+
+use crate::{
+    Bundle, BundleError,
+    csv::{self, TableError},
+    dxf::{self, DxfError},
+    stl, svg,
+    urdf::{self, UrdfError},
+};
+use centrode_geometry::{Mesh, Solid, SolidError, Tolerance};
+use centrode_mechanism::gear::{GearPair, Member};
+use std::{fmt, str::FromStr};
+use thiserror::Error;
+
+pub use sheet::{assembly_drawing, gear_drawing};
+
+/// A kind of file a gear pair can be written as.
+#[derive(Clone, Copy, Debug, Eq, Hash, Ord, PartialEq, PartialOrd)]
+#[non_exhaustive]
+pub enum Format {
+    /// Cutting files: each gear, and both in place.
+    Dxf,
+    /// Pictures of the same.
+    Svg,
+    /// Solids.
+    Stl,
+    /// Points of the outlines, and the motion.
+    Csv,
+    /// Simulator model, with the solids it shows.
+    Urdf,
+}
+
+impl Format {
+    /// Every format, in the order files are written.
+    pub const ALL: [Self; 5] = [Self::Dxf, Self::Svg, Self::Stl, Self::Csv, Self::Urdf];
+
+    /// The name a user writes.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Dxf => "dxf",
+            Self::Svg => "svg",
+            Self::Stl => "stl",
+            Self::Csv => "csv",
+            Self::Urdf => "urdf",
+        }
+    }
+}
+
+impl fmt::Display for Format {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+/// A word that names no format.
+#[derive(Clone, Debug, Error, PartialEq)]
+#[error("no format is named {0:?}; there are dxf, svg, stl, csv and urdf")]
+pub struct UnknownFormat(pub String);
+
+impl FromStr for Format {
+    type Err = UnknownFormat;
+
+    fn from_str(word: &str) -> Result<Self, UnknownFormat> {
+        Self::ALL
+            .into_iter()
+            .find(|format| format.name() == word)
+            .ok_or_else(|| UnknownFormat(word.to_owned()))
+    }
+}
+
+/// How the files are written.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Options {
+    /// Greatest distance of every arc, point sequence and mesh from the exact curve.
+    pub tolerance: Tolerance,
+    /// Which DXF.
+    pub dxf_version: dxf::Version,
+    /// Arcs or splines in the DXF.
+    pub dxf_curves: dxf::Curves,
+}
+
+impl Options {
+    /// DXF R2010 with arcs.
+    #[must_use]
+    pub fn new(tolerance: Tolerance) -> Self {
+        Self {
+            tolerance,
+            dxf_version: dxf::Version::default(),
+            dxf_curves: dxf::Curves::default(),
+        }
+    }
+}
+
+/// Why a gear pair's files could not be made.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum GearPairFilesError {
+    /// A gear is no solid at this tolerance.
+    #[error("the {} is no solid: {source}", .member.name())]
+    Solid {
+        /// Which gear.
+        member: Member,
+        /// Why.
+        source: SolidError,
+    },
+    /// The drawing could not be written.
+    #[error(transparent)]
+    Dxf(#[from] DxfError),
+    /// A table could not be written.
+    #[error(transparent)]
+    Table(#[from] TableError),
+    /// The simulator model could not be written.
+    #[error(transparent)]
+    Urdf(#[from] UrdfError),
+    /// The files do not go together.
+    #[error(transparent)]
+    Bundle(#[from] BundleError),
+}
+
+/// The files of a pair in the formats asked for, not yet on disk. URDF brings the STL files it names.
+///
+/// # Errors
+/// [`GearPairFilesError`], for instance if the tolerance is too coarse for the bore to clear the teeth.
+pub fn files(
+    pair: &GearPair,
+    formats: &[Format],
+    options: &Options,
+) -> Result<Bundle, GearPairFilesError> {
+    let wanted = |format: Format| formats.contains(&format);
+    let mut bundle = Bundle::default();
+    if wanted(Format::Dxf) || wanted(Format::Svg) {
+        draw(pair, &wanted, options, &mut bundle)?;
+    }
+    if wanted(Format::Stl) || wanted(Format::Urdf) {
+        for member in [Member::Driver, Member::Driven] {
+            let mesh = mesh(pair, member, options.tolerance)?;
+            bundle.add(&format!("{}.stl", member.name()), stl::write(&mesh))?;
+        }
+    }
+    if wanted(Format::Csv) {
+        for member in [Member::Driver, Member::Driven] {
+            let table = outline::columns(pair.gear(member), options.tolerance);
+            bundle.add(&format!("{}.csv", member.name()), csv::write(&table)?)?;
+        }
+    }
+    if wanted(Format::Csv) || wanted(Format::Urdf) {
+        let table = motion::columns(pair, options.tolerance);
+        bundle.add("motion.csv", csv::write(&table)?)?;
+    }
+    if wanted(Format::Urdf) {
+        let model = simulator::model(pair)?;
+        bundle.add("pair.urdf", urdf::write(&model)?)?;
+    }
+    Ok(bundle)
+}
+
+fn draw(
+    pair: &GearPair,
+    wanted: &impl Fn(Format) -> bool,
+    options: &Options,
+    bundle: &mut Bundle,
+) -> Result<(), GearPairFilesError> {
+    let tolerance = options.tolerance;
+    let drawings = [
+        ("driver", gear_drawing(pair, Member::Driver, tolerance)),
+        ("driven", gear_drawing(pair, Member::Driven, tolerance)),
+        ("assembly", assembly_drawing(pair, tolerance)),
+    ];
+    // Arcs are fitted once: fitting what is arcs already leaves it as it is.
+    let fitted = drawings
+        .clone()
+        .map(|(name, drawing)| (name, drawing.with_arcs(tolerance)));
+    if wanted(Format::Dxf) {
+        let source = match options.dxf_curves {
+            dxf::Curves::Arcs => &fitted,
+            dxf::Curves::Splines => &drawings,
+        };
+        for (name, drawing) in source {
+            let bytes = dxf::write(drawing, options.dxf_version, options.dxf_curves, tolerance)?;
+            bundle.add(&format!("{name}.dxf"), bytes)?;
+        }
+    }
+    if wanted(Format::Svg) {
+        for (name, drawing) in &fitted {
+            let picture = svg::write(drawing, tolerance);
+            bundle.add(&format!("{name}.svg"), picture.into_bytes())?;
+        }
+    }
+    Ok(())
+}
+
+/// A gear as a solid: toothed outline less the bore, from z = 0 to its width.
+///
+/// # Errors
+/// [`GearPairFilesError::Solid`] if the width is not positive.
+pub fn solid(pair: &GearPair, member: Member) -> Result<Solid, GearPairFilesError> {
+    let gear = pair.gear(member);
+    let holes = gear.bore().into_iter().collect();
+    Solid::new(gear.outline().clone(), holes, 0.0, gear.body().width)
+        .map_err(|source| GearPairFilesError::Solid { member, source })
+}
+
+/// A gear as a closed triangle mesh.
+///
+/// # Errors
+/// [`GearPairFilesError::Solid`] if the flattened outline and bore meet.
+pub fn mesh(
+    pair: &GearPair,
+    member: Member,
+    tolerance: Tolerance,
+) -> Result<Mesh, GearPairFilesError> {
+    solid(pair, member)?
+        .mesh(tolerance)
+        .map_err(|source| GearPairFilesError::Solid { member, source })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use centrode_geometry::Outline;
+    use centrode_mechanism::gear::{
+        design::{GearPairDesign, Keyway},
+        pitch::{Circle, Ellipse, PitchSpec},
+    };
+
+    fn pair(pitch: PitchSpec) -> GearPair {
+        let mut design = GearPairDesign::new(pitch);
+        design.driver.bore = 12.0;
+        design.driver.keyway = Some(Keyway {
+            width: 4.0,
+            depth: 1.8,
+        });
+        design.driven.bore = 10.0;
+        GearPair::resolve(&design).expect("a sound pair")
+    }
+
+    fn elliptic() -> GearPair {
+        pair(PitchSpec::Ellipse(Ellipse {
+            eccentricity: 0.2679,
+            module: Some(2.25),
+            tooth_count: Some(23),
+            ..Ellipse::default()
+        }))
+    }
+
+    fn circular() -> GearPair {
+        pair(PitchSpec::Circle(Circle {
+            module: Some(2.0),
+            tooth_count: Some(20),
+            ..Circle::default()
+        }))
+    }
+
+    fn options() -> Options {
+        Options::new(Tolerance::new(1e-3).expect("positive"))
+    }
+
+    fn text(bundle: &Bundle, name: &str) -> String {
+        let (_, bytes) = bundle
+            .files()
+            .find(|(n, _)| *n == name)
+            .expect("in the bundle");
+        String::from_utf8(bytes.to_vec()).expect("text")
+    }
+
+    #[test]
+    fn every_format_is_there_and_the_same_twice() {
+        let pair = elliptic();
+        let bundle = files(&pair, &Format::ALL, &options()).expect("made");
+        let names: Vec<&str> = bundle.files().map(|(name, _)| name).collect();
+        let expected = [
+            "driver.dxf",
+            "driven.dxf",
+            "assembly.dxf",
+            "driver.svg",
+            "driven.svg",
+            "assembly.svg",
+            "driver.stl",
+            "driven.stl",
+            "driver.csv",
+            "driven.csv",
+            "motion.csv",
+            "pair.urdf",
+        ];
+        assert_eq!(names, expected);
+        assert_eq!(
+            bundle,
+            files(&elliptic(), &Format::ALL, &options()).expect("made again")
+        );
+        let model = files(&pair, &[Format::Urdf], &options()).expect("made");
+        let names: Vec<&str> = model.files().map(|(name, _)| name).collect();
+        assert_eq!(
+            names,
+            ["driver.stl", "driven.stl", "motion.csv", "pair.urdf"]
+        );
+    }
+
+    #[test]
+    fn profiles_are_one_contour_of_at_most_400_arcs() {
+        let pair = elliptic();
+        for member in [Member::Driver, Member::Driven] {
+            let arcs: Outline = pair.gear(member).outline().arcs(options().tolerance);
+            assert_eq!(arcs.crossing(), None);
+            assert!(
+                arcs.segments().len() <= 400,
+                "{} arcs",
+                arcs.segments().len()
+            );
+        }
+    }
+
+    #[test]
+    fn only_a_linear_law_is_written_as_a_mimic_joint() {
+        let curved = text(
+            &files(&elliptic(), &[Format::Urdf], &options()).expect("made"),
+            "pair.urdf",
+        );
+        assert!(
+            !curved.contains("<mimic") && curved.contains("off by 0.5"),
+            "{curved}"
+        );
+        let linear = text(
+            &files(&circular(), &[Format::Urdf], &options()).expect("made"),
+            "pair.urdf",
+        );
+        assert!(
+            linear.contains("<mimic") && linear.contains("multiplier=\"-1\""),
+            "{linear}"
+        );
+    }
+
+    #[test]
+    fn the_motion_is_dense_enough_to_draw_straight_lines_between() {
+        let pair = elliptic();
+        let table = text(
+            &files(&pair, &[Format::Csv], &options()).expect("made"),
+            "motion.csv",
+        );
+        let rows: Vec<Vec<f64>> = table
+            .lines()
+            .skip(1)
+            .map(|line| {
+                line.split(',')
+                    .map(|cell| cell.parse().expect("a number"))
+                    .collect()
+            })
+            .collect();
+        assert!(rows.len() >= 721);
+        for w in rows.windows(2) {
+            let middle = 0.5 * (w[0][0] + w[1][0]);
+            let error = (pair.driven_angle(middle) - 0.5 * (w[0][1] + w[1][1])).abs();
+            assert!(error * pair.center_distance() < 1e-3);
+        }
+        let last = rows.last().expect("rows");
+        assert!((last[0] - pair.cycle()).abs() < 1e-12 && (last[1] - pair.cycle()).abs() < 1e-9);
+    }
+
+    #[test]
+    fn outline_points_carry_role_and_outward_normal() {
+        let pair = elliptic();
+        let table = text(
+            &files(&pair, &[Format::Csv], &options()).expect("made"),
+            "driven.csv",
+        );
+        let mut lines = table.lines();
+        assert_eq!(
+            lines.next(),
+            Some("x_mm,y_mm,normal_x,normal_y,curvature_per_mm,role,tooth")
+        );
+        let mut roles = std::collections::BTreeSet::new();
+        let outline = pair.driven().outline();
+        for line in lines.step_by(7) {
+            let cells: Vec<&str> = line.split(',').collect();
+            let x: Vec<f64> = cells[..4]
+                .iter()
+                .map(|c| c.parse().expect("a number"))
+                .collect();
+            let at = |d: f64| centrode_geometry::Point::new(x[0] + d * x[2], x[1] + d * x[3]);
+            if cells[5] == "tip" || cells[5] == "root" {
+                assert!(
+                    outline.contains(at(-1e-4)) && !outline.contains(at(1e-4)),
+                    "{line}"
+                );
+            }
+            roles.insert(cells[5].to_owned());
+        }
+        assert_eq!(
+            roles.into_iter().collect::<Vec<_>>(),
+            ["fillet", "flank", "root", "tip"]
+        );
+    }
+
+    #[test]
+    fn solids_have_the_area_of_the_outline_less_the_bore() {
+        let pair = elliptic();
+        for member in [Member::Driver, Member::Driven] {
+            let gear = pair.gear(member);
+            let bore = gear.bore().expect("a bore").area();
+            let volume = (gear.outline().area() - bore) * gear.body().width;
+            let mesh = mesh(&pair, member, options().tolerance).expect("a solid");
+            assert!(mesh.is_watertight());
+            assert!((mesh.volume() / volume - 1.0).abs() < 1e-3);
+            let exact = solid(&pair, member).expect("a solid").volume();
+            assert!((exact - volume).abs() < 1e-6);
+        }
+    }
+}

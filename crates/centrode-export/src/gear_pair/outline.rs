@@ -1,0 +1,24 @@
+use crate::csv::Column;
+use centrode_geometry::Tolerance;
+use centrode_mechanism::gear::Gear;
+
+/// Points of the toothed contour in order, counter-clockwise, each with outward normal, curvature, and
+/// which part of which tooth begins or continues there.
+pub(super) fn columns(gear: &Gear, tolerance: Tolerance) -> Vec<Column> {
+    let samples = gear.outline().samples(tolerance);
+    let owner = |segment: usize| {
+        gear.owners()
+            .get(segment)
+            .map_or_else(String::new, u32::to_string)
+    };
+    let role = |segment: usize| gear.roles().get(segment).map_or("", |role| role.name());
+    vec![
+        Column::numbers("x_mm", samples.iter().map(|s| s.point.x)),
+        Column::numbers("y_mm", samples.iter().map(|s| s.point.y)),
+        Column::numbers("normal_x", samples.iter().map(|s| s.normal.x)),
+        Column::numbers("normal_y", samples.iter().map(|s| s.normal.y)),
+        Column::numbers("curvature_per_mm", samples.iter().map(|s| s.curvature)),
+        Column::words("role", samples.iter().map(|s| role(s.segment).to_owned())),
+        Column::words("tooth", samples.iter().map(|s| owner(s.segment))),
+    ]
+}
