@@ -5,6 +5,7 @@ pub mod design;
 mod fitted;
 mod flank;
 mod interference;
+mod limits;
 mod pair;
 pub mod pitch;
 mod profile;
@@ -14,6 +15,7 @@ mod tool;
 
 pub use conjugate::Conjugate;
 pub use flank::Side;
+pub use limits::{CurvatureRange, Limits};
 pub use pair::{Gear, GearPair, GearPairError};
 pub use profile::{ProfileError, Role, Tooth, ToothSide};
 pub use rolling::{Frame, Member, Rolling, RollingError};

@@ -1,0 +1,408 @@
+use std::f64::consts::PI;
+
+use centrode_mechanism::gear::{CurvatureRange, Gear, GearPair, Member, ToolKind, Tooth};
+
+use crate::{Contact, Finding, Place, Report, Severity};
+
+/// Overlap, in modules, above which two outlines are said to run into each other.
+const OVERLAP: f64 = 1e-6;
+/// Transmission error, rad, above which contact is said to be lost.
+const LOST: f64 = 1e-6;
+
+/// Checks a gear pair: its pitch curves, every tooth, and the mesh along one whole cycle.
+///
+/// Lengths are mm, angles rad. The figures are named for what they measure; `*_min` and `*_max` are
+/// over the whole cycle.
+#[must_use]
+pub fn check(pair: &GearPair) -> Report {
+    check_contact(pair, &Contact::of(pair))
+}
+
+/// As [`check`], with a contact analysis made before.
+#[must_use]
+pub fn check_contact(pair: &GearPair, contact: &Contact) -> Report {
+    let mut report = Report::default();
+    pitch_curves(pair, &mut report);
+    for gear in [pair.driver(), pair.driven()] {
+        teeth(pair, gear, &mut report);
+    }
+    mesh(pair, contact, &mut report);
+    report
+        .findings
+        .sort_by_key(|f| std::cmp::Reverse(f.severity));
+    report
+}
+
+fn pitch_curves(pair: &GearPair, report: &mut Report) {
+    let rolling = pair.rolling();
+    let values = &mut report.values;
+    values.insert("center_distance", pair.center_distance());
+    values.insert("module", pair.module());
+    values.insert("phase", pair.phase());
+    values.insert("closure_error", rolling.closure_error());
+    let (least, greatest) = rolling.radii(Member::Driver);
+    let a = pair.center_distance();
+    values.insert("ratio_min", least / (a - least));
+    values.insert("ratio_max", greatest / (a - greatest));
+    let names = |member: Member| match member {
+        Member::Driver => [
+            "driver_tooth_count",
+            "driver_pitch_length",
+            "driver_radius_min",
+            "driver_radius_max",
+            "driver_curvature_min",
+            "driver_curvature_max",
+        ],
+        Member::Driven => [
+            "driven_tooth_count",
+            "driven_pitch_length",
+            "driven_radius_min",
+            "driven_radius_max",
+            "driven_curvature_min",
+            "driven_curvature_max",
+        ],
+    };
+    for member in [Member::Driver, Member::Driven] {
+        let gear = pair.gear(member);
+        let radii = rolling.radii(member);
+        let range = CurvatureRange::of(rolling, member);
+        let figures = [
+            f64::from(gear.tooth_count()),
+            gear.pitch_length(),
+            radii.0,
+            radii.1,
+            range.least.1,
+            range.greatest.1,
+        ];
+        for (name, figure) in names(member).into_iter().zip(figures) {
+            values.insert(name, figure);
+        }
+        let concave = -range.least.1;
+        if let ToolKind::Shaper { radius } = pair.teeth().tool.kind
+            && concave > 0.0
+            && radius * concave >= 1.0
+        {
+            report.findings.push(Finding {
+                rule: "shaper-radius",
+                severity: Severity::Error,
+                message: format!(
+                    "the shaper's pitch radius of {radius:.4} mm does not fit the {}'s concave arc, whose radius falls to {:.4} mm",
+                    member.name(),
+                    1.0 / concave
+                ),
+                measured: Some(radius),
+                required: Some(1.0 / concave),
+                unit: "mm",
+                place: Place { part: Some(member.name().into()), ..Place::default() },
+            });
+        }
+    }
+    let (steepest, input) = greatest_pressure_angle(pair);
+    report.values.insert("pressure_angle_max", steepest);
+    if steepest > PRESSURE_ANGLE {
+        report.findings.push(Finding {
+            rule: "pressure-angle",
+            severity: Severity::Note,
+            message: format!(
+                "the force on the driven gear stands up to {:.1} deg off its direction of turning",
+                steepest.to_degrees()
+            ),
+            measured: Some(steepest),
+            required: Some(PRESSURE_ANGLE),
+            unit: "rad",
+            place: Place {
+                input: Some(input),
+                ..Place::default()
+            },
+        });
+    }
+    let limits = pair.limits();
+    report
+        .values
+        .insert("largest_module", limits.largest_module);
+    report
+        .values
+        .insert("largest_addendum", limits.largest_addendum);
+}
+
+/// Pressure angle beyond which friction is commonly held to be a danger, rad.
+const PRESSURE_ANGLE: f64 = 50.0 * PI / 180.0;
+
+/// The greatest angle between the common normal and the driven gear's direction of motion at the pitch
+/// point, over both flanks, and where.
+fn greatest_pressure_angle(pair: &GearPair) -> (f64, f64) {
+    const SAMPLES: u32 = 360;
+    let rolling = pair.rolling();
+    let length = rolling.pitch_length(Member::Driver);
+    let alpha = pair.teeth().tool.pressure_angle;
+    let mut greatest = (0.0, 0.0);
+    for i in 0..SAMPLES {
+        let t = rolling.parameter(length * f64::from(i) / f64::from(SAMPLES));
+        let frame = rolling.frame(Member::Driver, t);
+        // Inclination of the pitch curve: its tangent against the circle's.
+        let radial = frame.point.coords.normalize();
+        let inclination = frame.tangent.dot(&radial).abs().asin();
+        if inclination + alpha > greatest.0 {
+            greatest = (inclination + alpha, rolling.angle(t));
+        }
+    }
+    greatest
+}
+
+fn teeth(pair: &GearPair, gear: &Gear, report: &mut Report) {
+    let part = gear.member().name();
+    let least = pair.teeth().least_tip_width;
+    let small = 1e-9 * pair.module();
+    let collect = |wanted: &dyn Fn(&Tooth) -> Option<f64>| -> (Vec<u32>, f64) {
+        let found: Vec<(u32, f64)> = (0_u32..)
+            .zip(gear.teeth())
+            .filter_map(|(k, tooth)| wanted(tooth).map(|figure| (k, figure)))
+            .collect();
+        let worst = found.iter().map(|f| f.1).fold(0.0, f64::max);
+        (found.into_iter().map(|f| f.0).collect(), worst)
+    };
+    let sides = |tooth: &Tooth| [tooth.leading, tooth.trailing];
+    let remedy = "a smaller module, or addendum = \"fitted\", avoids it";
+    let limits = || {
+        let limits = pair.limits();
+        format!(
+            "the largest module without it is {:.4} mm",
+            limits.largest_module
+        )
+    };
+    let mut add = |rule,
+                   severity,
+                   (teeth, worst): (Vec<u32>, f64),
+                   required,
+                   unit,
+                   say: &dyn Fn(&str, f64) -> String| {
+        if teeth.is_empty() {
+            return;
+        }
+        let who = format!(
+            "{} of {} teeth of the {part}",
+            teeth.len(),
+            gear.tooth_count()
+        );
+        report.findings.push(Finding {
+            rule,
+            severity,
+            message: say(&who, worst),
+            measured: Some(worst),
+            required,
+            unit,
+            place: Place {
+                part: Some(part.into()),
+                teeth,
+                input: None,
+            },
+        });
+    };
+    let severed = collect(&|t| t.severed.then_some(1.0));
+    add("severed", Severity::Error, severed, None, "", &|who, _| {
+        format!(
+            "{who} are cut off at the root by undercut from both sides; {}",
+            limits()
+        )
+    });
+    let undercut = collect(&|t| {
+        let worst = sides(t).iter().map(|s| s.undercut).fold(0.0, f64::max);
+        (worst > 0.0 && !t.severed).then_some(worst)
+    });
+    add(
+        "undercut",
+        Severity::Warning,
+        undercut,
+        Some(0.0),
+        "mm",
+        &|who, worst| {
+            format!(
+                "{who} are undercut, up to {worst:.4} mm of roll; {}; {remedy}",
+                limits()
+            )
+        },
+    );
+    let short = collect(&|t| {
+        let worst = sides(t).iter().map(|s| s.shortened).fold(0.0, f64::max);
+        (worst > small && !t.severed).then_some(worst)
+    });
+    add(
+        "short-tooth",
+        Severity::Warning,
+        short,
+        Some(0.0),
+        "mm",
+        &|who, worst| {
+            format!(
+                "{who} cannot be cut to full height, up to {worst:.4} mm is missing: the pitch curve is concave there, or the shaper ends; {remedy}"
+            )
+        },
+    );
+    let pointed = collect(&|t| (t.tip_width <= small && !t.severed).then_some(0.0));
+    add(
+        "pointed",
+        Severity::Warning,
+        pointed,
+        Some(least),
+        "mm",
+        &|who, _| format!("{who} are pointed: their flanks meet below the tip"),
+    );
+    let thin = collect(&|t| {
+        (t.tip_width > small && t.tip_width < least * (1.0 - 1e-9)).then_some(least - t.tip_width)
+    });
+    add(
+        "thin-tip",
+        Severity::Warning,
+        thin,
+        Some(least),
+        "mm",
+        &|who, worst| {
+            format!("{who} are thinner at the tip than {least:.4} mm, by up to {worst:.4} mm")
+        },
+    );
+    let dead =
+        collect(&|t| (!t.severed && sides(t).iter().any(|s| s.active.is_none())).then_some(1.0));
+    add("no-flank", Severity::Warning, dead, None, "", &|who, _| {
+        format!("{who} have a side without any working flank")
+    });
+    let present = gear.teeth().iter().filter(|t| !t.severed);
+    let width = present
+        .clone()
+        .map(|t| t.tip_width)
+        .fold(f64::INFINITY, f64::min);
+    let fillet = present
+        .flat_map(|t| sides(t).map(|s| s.fillet_radius))
+        .fold(f64::INFINITY, f64::min);
+    let names = match gear.member() {
+        Member::Driver => [
+            "driver_tip_width_min",
+            "driver_fillet_radius_min",
+            "driver_root_radius_min",
+            "driver_tip_radius_max",
+        ],
+        Member::Driven => [
+            "driven_tip_width_min",
+            "driven_fillet_radius_min",
+            "driven_root_radius_min",
+            "driven_tip_radius_max",
+        ],
+    };
+    let radii = gear.radii();
+    for (name, figure) in names.into_iter().zip([width, fillet, radii.0, radii.1]) {
+        report.values.insert(name, figure);
+    }
+}
+
+fn mesh(pair: &GearPair, contact: &Contact, report: &mut Report) {
+    let module = pair.module();
+    let at = |list: &[f64], pick: fn(f64, f64) -> f64| {
+        let start = (f64::NAN, 0.0);
+        list.iter()
+            .zip(&contact.input)
+            .fold(start, |best: (f64, f64), (&value, &input)| {
+                if best.0.is_nan() || pick(value, best.0) != best.0 {
+                    (value, input)
+                } else {
+                    best
+                }
+            })
+    };
+    let size = |list: &[f64]| -> Vec<f64> { list.iter().map(|v| v.abs()).collect() };
+    let error = at(&size(&contact.transmission_error), f64::max);
+    let reverse = at(&size(&contact.reverse_transmission_error), f64::max);
+    let overlap = at(&contact.overlap, f64::max);
+    let clearance = at(&contact.clearance, f64::min);
+    let fillet = at(&contact.fillet_clearance, f64::min);
+    let counts: Vec<f64> = contact.contacts.iter().map(|&n| f64::from(n)).collect();
+    let fewest = at(&counts, f64::min);
+    let sliding = at(&contact.sliding, f64::max);
+    let values = &mut report.values;
+    values.insert("transmission_error_max", error.0.max(reverse.0));
+    values.insert("overlap_max", overlap.0);
+    values.insert("backlash_min", at(&contact.backlash, f64::min).0);
+    values.insert("backlash_max", at(&contact.backlash, f64::max).0);
+    values.insert(
+        "normal_backlash_min",
+        at(&contact.normal_backlash, f64::min).0,
+    );
+    values.insert(
+        "normal_backlash_max",
+        at(&contact.normal_backlash, f64::max).0,
+    );
+    values.insert("contact_ratio_min", fewest.0);
+    values.insert("contact_ratio_max", at(&counts, f64::max).0);
+    values.insert(
+        "contact_ratio_mean",
+        counts.iter().sum::<f64>() / counts.len() as f64,
+    );
+    values.insert("clearance_min", clearance.0);
+    values.insert("fillet_clearance_min", fillet.0);
+    values.insert("sliding_max", sliding.0);
+    let place = |input: f64| Place {
+        input: Some(input),
+        ..Place::default()
+    };
+    let loose = contact
+        .backlash
+        .iter()
+        .zip(&contact.input)
+        .find(|(b, _)| !b.is_finite());
+    if let Some((_, &input)) = loose {
+        report.findings.push(Finding {
+            rule: "disengaged",
+            severity: Severity::Error,
+            message: "nothing holds the driven gear: no tooth of one gear reaches the other".into(),
+            measured: None,
+            required: None,
+            unit: "",
+            place: place(input),
+        });
+    }
+    // Clearance below zero is an overlap that no turning of the driven gear takes away.
+    let deepest = [
+        (overlap.0, overlap.1),
+        (-clearance.0, clearance.1),
+        (-fillet.0, fillet.1),
+    ]
+    .into_iter()
+    .max_by(|a, b| a.0.total_cmp(&b.0))
+    .unwrap_or((0.0, 0.0));
+    if deepest.0 > OVERLAP * module {
+        report.findings.push(Finding {
+            rule: "interference",
+            severity: Severity::Error,
+            message: format!("the gears overlap by up to {:.3e} mm", deepest.0),
+            measured: Some(deepest.0),
+            required: Some(0.0),
+            unit: "mm",
+            place: place(deepest.1),
+        });
+    }
+    let worst = if error.0 >= reverse.0 { error } else { reverse };
+    // Play thins the flanks: they are then conjugate only to the first order of the play.
+    let allowed = LOST.max(
+        2.0 * (pair.backlash() / pair.center_distance()).powi(2) * pair.center_distance() / module,
+    );
+    if worst.0.is_finite() && worst.0 > allowed {
+        let share = contact
+            .transmission_error
+            .iter()
+            .zip(&contact.reverse_transmission_error)
+            .filter(|(f, b)| f.abs().max(b.abs()) > allowed)
+            .count() as f64
+            / contact.input.len() as f64;
+        report.findings.push(Finding {
+            rule: "contact-lost",
+            severity: Severity::Warning,
+            message: format!(
+                "over {:.1} % of the cycle the flanks do not carry the motion: a tooth edge does, and the driven angle is off by up to {:.3e} rad",
+                100.0 * share,
+                worst.0
+            ),
+            measured: Some(worst.0),
+            required: Some(allowed),
+            unit: "rad",
+            place: place(worst.1),
+        });
+    }
+}

@@ -1,0 +1,152 @@
+use centrode_geometry::bracketed_minimum;
+
+use super::{
+    flank::{Flank, Side},
+    pair::GearPair,
+    rolling::{Member, Rolling},
+    tool::ToolKind,
+};
+
+/// How the pitch curves bend, and what that allows the teeth.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Limits {
+    /// Greatest curvature of either pitch curve where it is convex, 1/mm; zero where neither is.
+    pub convex_curvature: f64,
+    /// Greatest curvature of either pitch curve where it is concave, 1/mm; zero for convex curves.
+    pub concave_curvature: f64,
+    /// Largest module at which no flank of this tool is undercut or cut short wherever the teeth fall
+    /// on these pitch curves, mm: least radius x sin^2 alpha over the tool's depth in modules.
+    pub largest_module: f64,
+    /// Largest addendum, mm, with every flank regular wherever the teeth fall, and every tooth as cut
+    /// no thinner at its tip than asked for.
+    pub largest_addendum: f64,
+}
+
+/// Least and greatest curvature of a member's pitch curve (1/mm), and the arc lengths they are at.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CurvatureRange {
+    /// Least curvature; negative for a curve with a concave part.
+    pub least: (f64, f64),
+    /// Greatest curvature.
+    pub greatest: (f64, f64),
+}
+
+impl CurvatureRange {
+    /// Over the whole pitch curve of a member, to the float limit between its breaks.
+    #[must_use]
+    pub fn of(rolling: &Rolling, member: Member) -> Self {
+        const SAMPLES: u32 = 256;
+        let start = rolling.parameter(0.0);
+        let end = rolling.parameter(rolling.pitch_length(Member::Driver));
+        let at = |t: f64| rolling.frame(member, t).curvature;
+        let mut ends = vec![start];
+        ends.extend(rolling.breaks_between(start, end));
+        ends.push(end);
+        let step = (end - start) / f64::from(SAMPLES);
+        let mut samples: Vec<(f64, f64)> = Vec::new();
+        for pair in ends.windows(2) {
+            let last = pair[1].next_down();
+            let count = ((pair[1] - pair[0]) / step).ceil().max(2.0);
+            for i in 0..=count as u32 {
+                let t = (pair[0] + (pair[1] - pair[0]) * f64::from(i) / count).min(last);
+                samples.push((t, at(t)));
+            }
+        }
+        let refined = |sign: f64| {
+            let (index, best) = samples
+                .iter()
+                .enumerate()
+                .min_by(|a, b| (sign * a.1.1).total_cmp(&(sign * b.1.1)))
+                .map_or((0, (start, 0.0)), |(i, &s)| (i, s));
+            let mut found = best;
+            // Within a piece the extreme lies between the neighbours of the best sample.
+            let low = samples[index.saturating_sub(1)].0;
+            let high = samples[(index + 1).min(samples.len() - 1)].0;
+            for (a, b) in [(low, best.0), (best.0, high), (low, high)] {
+                if b > a {
+                    let (t, value) = bracketed_minimum(|t| sign * at(t), a, b);
+                    if value < sign * found.1 {
+                        found = (t, sign * value);
+                    }
+                }
+            }
+            (rolling.arc_length(found.0), found.1)
+        };
+        Self {
+            least: refined(1.0),
+            greatest: refined(-1.0),
+        }
+    }
+}
+
+impl GearPair {
+    /// What module and addendum these pitch curves and this tool allow.
+    #[must_use]
+    pub fn limits(&self) -> Limits {
+        let tool = &self.teeth().tool;
+        let (sin, cos) = tool.pressure_angle.sin_cos();
+        let ranges =
+            [Member::Driver, Member::Driven].map(|m| CurvatureRange::of(self.rolling(), m));
+        let convex = ranges.iter().map(|r| r.greatest.1).fold(0.0, f64::max);
+        let concave = ranges.iter().map(|r| -r.least.1).fold(0.0, f64::max);
+        let depth =
+            tool.corner(tool.dedendum, tool.tip_radius).end * sin * cos + tool.profile_shift.abs();
+        let height = tool.addendum + tool.profile_shift.abs();
+        let module = self.module();
+        let bound = |curvature: f64, reach: f64| module * sin * sin / (curvature * reach);
+        let regular = sin * sin / convex.max(concave);
+        let regular = match tool.kind {
+            ToolKind::Rack => regular,
+            ToolKind::Shaper { radius } => regular.min(radius * sin * sin),
+        };
+        Limits {
+            convex_curvature: convex,
+            concave_curvature: concave,
+            largest_module: bound(convex, depth).min(bound(concave, height)),
+            largest_addendum: self.widest_height(regular),
+        }
+    }
+
+    /// The greatest height, up to `limit`, at which no tooth is thinner than asked for.
+    fn widest_height(&self, limit: f64) -> f64 {
+        let mut height = limit;
+        for member in [Member::Driver, Member::Driven] {
+            for tooth in self.gear(member).teeth() {
+                let flank = |side, crossing| Flank {
+                    rolling: self.rolling(),
+                    member,
+                    tool: &self.teeth().tool,
+                    side,
+                    crossing,
+                };
+                let leading = flank(Side::Leading, tooth.leading.crossing);
+                let trailing = flank(Side::Trailing, tooth.trailing.crossing);
+                let spare = |h: f64| {
+                    land(&leading, &trailing, h).map_or(-1.0, |w| w - self.teeth().least_tip_width)
+                };
+                // Most teeth are wide enough at what the others leave.
+                if spare(height) >= 0.0 {
+                    continue;
+                }
+                let (mut low, mut high) = (0.0, height);
+                while high - low > 1e-9 * self.module() {
+                    let middle = 0.5 * (low + high);
+                    if spare(middle) < 0.0 {
+                        high = middle;
+                    } else {
+                        low = middle;
+                    }
+                }
+                height = low;
+            }
+        }
+        height
+    }
+}
+
+/// Width of the top land of a tooth cut off at a height; negative past its point.
+fn land(leading: &Flank<'_>, trailing: &Flank<'_>, height: f64) -> Option<f64> {
+    let ((a, foot_a), (b, foot_b)) = (leading.at_height(height)?, trailing.at_height(height)?);
+    let width = (trailing.point(b) - leading.point(a)).norm();
+    Some(if foot_b > foot_a { width } else { -width })
+}
