@@ -100,7 +100,7 @@ impl Spline {
             // Below the rounding of the points no halving helps; nor does it at a jump.
             let rounding =
                 32.0 * f64::EPSILON * spline.start.coords.amax().max(spline.end.coords.amax());
-            if error <= tolerance.mm().max(rounding) || depth >= 16 {
+            if error <= tolerance.mm().max(rounding) || depth >= 16 || error.is_nan() {
                 if let Some((last, ..)) = out.last() {
                     spline.start = last.end;
                 }

@@ -4,7 +4,7 @@ use centrode_geometry::bracketed_root;
 
 use super::{
     flank::{Flank, Side},
-    interference::Mates,
+    interference::{Passing, Reaches, Trial},
     profile::{FlankPlan, ToothPlan, Top},
     rolling::{Member, Rolling},
     tool::{Corner, Tool},
@@ -13,6 +13,13 @@ use super::{
 /// Least share of a straight rack's flank speed kept at the end of a trimmed flank: below it the
 /// flank ends in a knife edge of no radius of curvature.
 const LEAST_SPEED: f64 = 0.05;
+
+/// How far below the mate's reach a flank goes before its fillet starts, so that the mate's tip edge
+/// clears the fillet.
+const SPARE: f64 = 1.02;
+
+/// Greatest rounding of a space's corner, as a share of its depth.
+const ROUNDEST: f64 = 0.8;
 
 /// What the trimming needs to know.
 #[derive(Clone, Copy, Debug)]
@@ -38,7 +45,7 @@ impl Fitting<'_> {
         pitch: f64,
         space: impl Fn(Member) -> f64,
     ) {
-        let reaches = |member: Member, teeth: &[ToothPlan]| -> Vec<[f64; 2]> {
+        let reaches = |member: Member, teeth: &[ToothPlan]| -> Vec<Reaches> {
             let reach = |plan: &FlankPlan, side| self.regular(member, side, plan);
             teeth
                 .iter()
@@ -53,38 +60,49 @@ impl Fitting<'_> {
         let mut reach_1 = reaches(Member::Driver, driver);
         let mut reach_2 = reaches(Member::Driven, driven);
         let (first, last) = (driver.len(), driven.len());
-        // A driver tooth works in the space between driven teeth k - 1 and k: its trailing flank on
-        // driven tooth k, its leading one on k - 1.
+        let lengths = [Member::Driver, Member::Driven].map(|m| self.rolling.pitch_length(m));
+        let crossings = |tooth: &ToothPlan, turns: f64| {
+            [
+                tooth.leading.crossing + turns,
+                tooth.trailing.crossing + turns,
+            ]
+        };
         for k in 0..meshes as usize {
-            let turn_1 = (k / first) as f64 * self.rolling.pitch_length(Member::Driver);
-            let turn_2 = (k / last) as f64 * self.rolling.pitch_length(Member::Driven);
-            let (i, j) = (k % first, k % last);
-            let before = (j + last - 1) % last;
-            let turn_before = if j == 0 {
-                turn_2 - self.rolling.pitch_length(Member::Driven)
-            } else {
-                turn_2
-            };
-            for (side, mate, turn) in [
-                (Side::Trailing, j, turn_2),
-                (Side::Leading, before, turn_before),
-            ] {
-                let (one, two) = (side as usize, side.other() as usize);
-                let crossings = (
-                    driver[i].side(side).crossing + turn_1,
-                    driven[mate].side(side.other()).crossing + turn,
+            let i = k % first;
+            let one = crossings(&driver[i], (k / first) as f64 * lengths[0]);
+            // The two driven teeth beside it mesh with it; those beyond can still be met where the
+            // pitch curve is concave.
+            for beside in [-2, -1, 0, 1_isize] {
+                let index = k as isize + beside;
+                let j = index.rem_euclid(last as isize) as usize;
+                let two = crossings(
+                    &driven[j],
+                    index.div_euclid(last as isize) as f64 * lengths[1],
                 );
-                if let Some(mates) = Mates::near(self, side, crossings, pitch) {
-                    (reach_1[i][one], reach_2[mate][two]) =
-                        mates.clear((reach_1[i][one], reach_2[mate][two]));
-                }
+                let middle = 0.25 * (one[0] + one[1] + two[0] + two[1]);
+                let Some(passing) = Passing::about(self.rolling, self.tool, middle, pitch) else {
+                    continue;
+                };
+                // A flank is needed as far down as any mate reaches; the mates' own reach bounds it.
+                let trial = |member, crossings, reaches, mates: &Reaches| Trial {
+                    member,
+                    crossings,
+                    reaches,
+                    depths: [mates[1], mates[0]],
+                };
+                let (a, b) = (reach_1[i], reach_2[j]);
+                let cleared = passing.clear(
+                    &trial(Member::Driver, one, a, &b),
+                    &trial(Member::Driven, two, b, &a),
+                );
+                (reach_1[i], reach_2[j]) = cleared;
             }
         }
         let tips_1: Vec<[Tip; 2]> = self.tops(Member::Driver, driver, &reach_1);
         let tips_2: Vec<[Tip; 2]> = self.tops(Member::Driven, driven, &reach_2);
         let clearance = self.tool.dedendum - self.tool.addendum;
         let serve = |member: Member, flank: &mut FlankPlan, mate: Tip| {
-            flank.corner = corner(self.tool, mate.1 + clearance, mate.0, space(member));
+            flank.corner = corner(self.tool, mate.1 + clearance, SPARE * mate.0, space(member));
             flank.needed = mate.0;
         };
         let deeper = |a: Tip, b: Tip| if a.0 > b.0 { a } else { b };
@@ -138,7 +156,7 @@ impl Fitting<'_> {
     }
 
     /// Settles every tip of a gear, wide enough at the top.
-    fn tops(&self, member: Member, teeth: &mut [ToothPlan], reaches: &[[f64; 2]]) -> Vec<[Tip; 2]> {
+    fn tops(&self, member: Member, teeth: &mut [ToothPlan], reaches: &[Reaches]) -> Vec<[Tip; 2]> {
         let settle = |(tooth, &[lead, trail]): (&mut ToothPlan, &[f64; 2])| {
             let leading = self.flank(member, Side::Leading, tooth.leading.crossing);
             let trailing = self.flank(member, Side::Trailing, tooth.trailing.crossing);
@@ -221,7 +239,10 @@ pub(crate) fn share_for_width(
 /// The corner of a space whose root is `depth` deep and whose flank is worked down to a roll `end`
 /// below its crossing: the largest rounding that starts there and fits a space `space` wide.
 pub(crate) fn corner(tool: &Tool, depth: f64, end: f64, space: f64) -> Corner {
-    let greatest = tool.greatest_tip_radius(depth, space).max(0.0);
+    // A centre on the pitch curve itself would cut the whole fillet in one instant.
+    let greatest = tool
+        .greatest_tip_radius(depth, space)
+        .clamp(0.0, ROUNDEST * depth);
     let beyond = |radius: f64| tool.corner(depth, radius).end - end;
     let (sharp, round) = (beyond(0.0), beyond(greatest));
     let radius = if round >= 0.0 {

@@ -15,14 +15,6 @@ pub enum Side {
 }
 
 impl Side {
-    /// The side that mates with this one.
-    pub(crate) fn other(self) -> Self {
-        match self {
-            Self::Leading => Self::Trailing,
-            Self::Trailing => Self::Leading,
-        }
-    }
-
     /// Sign of the arc length from the tooth's middle to this flank.
     pub(crate) fn sign(self) -> f64 {
         match self {

@@ -1,52 +1,58 @@
-//! Mating flanks that run into each other away from their contact, where a pitch curve is concave.
+//! Teeth that run into each other away from their contact, where a pitch curve is concave.
 
-use centrode_geometry::{Point, Spline, Tolerance};
+use centrode_geometry::Point;
 
 use super::{
-    fitted::Fitting,
     flank::{Flank, Side},
-    rolling::{Frame, Member},
+    rolling::{Frame, Member, Rolling},
+    tool::Tool,
 };
 
-/// Poses a pitch at which two mating flanks are held against each other.
+/// Poses a pitch at which two teeth are held against each other.
 const POSES: u32 = 20;
-/// Places on each flank that are held against the other.
-const PLACES: u32 = 14;
-/// Overlap that is rounding and chords, not interference, as a share of the pitch.
-const OVERLAP: f64 = 1e-6;
-/// Share of a limiting reach that is kept, so that what passes between places stays clear too.
-const KEPT: f64 = 0.97;
+/// Chords, each with its bulge, that stand for a flank, and for a tip.
+const FLANK_CHORDS: u32 = 24;
+const TIP_CHORDS: u32 = 6;
+/// Overlap that may be the approximation's own, as a share of the pitch.
+const OVERLAP: f64 = 3e-5;
+/// Share of a limiting reach that is kept, so that what passes between places and poses stays clear too.
+const KEPT: f64 = 0.95;
 
-/// Two mating flanks, the driver's and the driven gear's, about their common crossing.
-pub(crate) struct Mates<'a> {
-    driver: Flank<'a>,
-    driven: Flank<'a>,
+/// How far up, in roll, the leading and the trailing flank of a tooth go.
+pub(crate) type Reaches = [f64; 2];
+
+/// A tooth whose reaches are being settled.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Trial {
+    pub(crate) member: Member,
+    /// Crossings of the leading and the trailing flank.
+    pub(crate) crossings: [f64; 2],
+    pub(crate) reaches: Reaches,
+    /// How far down the flanks are needed by the mates.
+    pub(crate) depths: [f64; 2],
+}
+
+/// A driver tooth and a driven tooth that pass near each other.
+#[derive(Debug)]
+pub(crate) struct Passing<'a> {
+    rolling: &'a Rolling,
+    tool: &'a Tool,
     pitch: f64,
-    /// Where each gear stands at every pose.
     poses: Vec<(Frame, Frame)>,
 }
 
-impl<'a> Mates<'a> {
-    /// The pair of flanks, or nothing where both pitch curves are convex for a pitch and a half around:
-    /// the rack's straight flank then keeps them apart.
-    pub(crate) fn near(
-        fitting: &Fitting<'a>,
-        side: Side,
-        crossings: (f64, f64),
+impl<'a> Passing<'a> {
+    /// The passing of two teeth about the arc length `middle`, or nothing where both pitch curves are
+    /// convex for a pitch and a half around: the rack's straight flank then keeps the teeth apart.
+    pub(crate) fn about(
+        rolling: &'a Rolling,
+        tool: &'a Tool,
+        middle: f64,
         pitch: f64,
     ) -> Option<Self> {
-        let (rolling, tool) = (fitting.rolling, fitting.tool);
-        let flank = |member, side, crossing| Flank {
-            rolling,
-            member,
-            tool,
-            side,
-            crossing,
-        };
-        let count = 3 * POSES;
-        let poses: Vec<(Frame, Frame)> = (0..=count)
+        let poses: Vec<(Frame, Frame)> = (0..=3 * POSES)
             .map(|i| {
-                let arc = crossings.0 + pitch * (f64::from(i) / f64::from(POSES) - 1.5);
+                let arc = middle + pitch * (f64::from(i) / f64::from(POSES) - 1.5);
                 let t = rolling.parameter(arc);
                 (
                     rolling.frame(Member::Driver, t),
@@ -57,141 +63,201 @@ impl<'a> Mates<'a> {
         let concave = poses
             .iter()
             .any(|(a, b)| a.curvature < 0.0 || b.curvature < 0.0);
-        concave.then(|| Self {
-            driver: flank(Member::Driver, side, crossings.0),
-            driven: flank(Member::Driven, side.other(), crossings.1),
+        concave.then_some(Self {
+            rolling,
+            tool,
             pitch,
             poses,
         })
     }
 
-    /// Shortens the two reaches until the flanks overlap at no pose.
-    pub(crate) fn clear(&self, reaches: (f64, f64)) -> (f64, f64) {
-        // Above the driver's pitch curve lies the driver's addendum and the driven gear's dedendum.
-        let driver = self.longest(reaches.0, 1.0);
-        let driven = self.longest(reaches.1, -1.0);
-        (driver, driven)
-    }
-
-    fn longest(&self, reach: f64, up: f64) -> f64 {
-        if !self.overlap(reach, up) {
-            return reach;
+    /// Shortens one tooth or the other, whichever costs less, or both, until they overlap nowhere.
+    pub(crate) fn clear(&self, driver: &Trial, driven: &Trial) -> (Reaches, Reaches) {
+        let cut = |trial: &Trial, share: f64| Trial {
+            reaches: trial.reaches.map(|r| r * share),
+            ..*trial
+        };
+        if !self.overlap(driver, driven) {
+            return (driver.reaches, driven.reaches);
         }
-        let (mut clear, mut foul) = (0.0, reach);
-        for _ in 0..12 {
-            let middle = 0.5 * (clear + foul);
-            if self.overlap(middle, up) {
-                foul = middle;
-            } else {
-                clear = middle;
-            }
-        }
-        KEPT * clear
-    }
-
-    /// Whether the parts of both flanks on one side of their crossing, out to `reach`, overlap anywhere.
-    fn overlap(&self, reach: f64, up: f64) -> bool {
-        let way = -self.driver.side.sign() * up;
-        let rolling = self.driver.rolling;
-        let place = |flank: &Flank<'_>, share: f64| {
-            flank.point(rolling.parameter(flank.crossing + way * reach * share))
-        };
-        let Ok(tolerance) = Tolerance::new(1e-8 * self.pitch) else {
-            return false;
-        };
-        let curves =
-            |flank: &Flank<'_>| Spline::fit(|share| place(flank, share), 0.0, 1.0, tolerance);
-        let places = |flank: &Flank<'_>| -> Vec<Point> {
-            (0..=PLACES)
-                .map(|i| place(flank, f64::from(i) / f64::from(PLACES)))
-                .collect()
-        };
-        let (curves_1, curves_2) = (curves(&self.driver), curves(&self.driven));
-        let (places_1, places_2) = (places(&self.driver), places(&self.driven));
-        let (material_1, material_2) = (
-            material(&self.driver, &curves_1),
-            material(&self.driven, &curves_2),
-        );
-        self.poses.iter().any(|pose| {
-            let carry = Carry::of(pose);
-            let deep = |points: &[Point], curves: &[Spline], material: f64, forth: bool| {
-                points.iter().any(|p| {
-                    let there = if forth { carry.forth(p) } else { carry.back(p) };
-                    depth(&there, curves, material)
-                        .is_some_and(|d| d > OVERLAP * self.pitch && d < 0.5 * self.pitch)
-                })
+        let ways = [(true, false), (false, true), (true, true)];
+        let settled = ways.map(|(first, second)| {
+            let pair = |share: f64| {
+                (
+                    if first { cut(driver, share) } else { *driver },
+                    if second { cut(driven, share) } else { *driven },
+                )
             };
-            deep(&places_1, &curves_2, material_2, true)
-                || deep(&places_2, &curves_1, material_1, false)
+            let share = longest(|share| {
+                let (a, b) = pair(share);
+                self.overlap(&a, &b)
+            });
+            let (a, b) = pair(share);
+            let foul = share == 0.0 && self.overlap(&a, &b);
+            let kept: f64 = a.reaches.iter().chain(&b.reaches).sum();
+            (if foul { -1.0 } else { kept }, a.reaches, b.reaches)
+        });
+        let best = settled.into_iter().max_by(|a, b| a.0.total_cmp(&b.0));
+        best.map_or((driver.reaches, driven.reaches), |(_, a, b)| (a, b))
+    }
+
+    fn overlap(&self, driver: &Trial, driven: &Trial) -> bool {
+        let (one, two) = (Shape::of(self, driver), Shape::of(self, driven));
+        let deep = |points: &[Point], carried: &dyn Fn(&Point) -> Point, shape: &Shape| {
+            points.iter().any(|p| {
+                let there = carried(p);
+                (there - shape.middle).norm() < shape.radius
+                    && shape
+                        .depth(&there)
+                        .is_some_and(|d| d > OVERLAP * self.pitch && d < 0.5 * self.pitch)
+            })
+        };
+        self.poses.iter().any(|(a, b)| {
+            let forth = |p: &Point| carry(a, b, p);
+            let back = |p: &Point| carry(b, a, p);
+            if (forth(&one.middle) - two.middle).norm() > one.radius + two.radius {
+                return false;
+            }
+            deep(&one.places, &forth, &two) || deep(&two.places, &back, &one)
         })
     }
 }
 
-/// The motion from the driver's frame to the driven gear's at one pose: the rolling frames coincide, their
+/// The greatest share, found by halving, at which nothing overlaps, less a margin; zero if none.
+fn longest(overlap: impl Fn(f64) -> bool) -> f64 {
+    let (mut clear, mut foul) = (0.0, 1.0);
+    for _ in 0..10 {
+        let middle = 0.5 * (clear + foul);
+        if overlap(middle) {
+            foul = middle;
+        } else {
+            clear = middle;
+        }
+    }
+    KEPT * clear
+}
+
+/// The motion from one gear's frame to the other's at one pose: the rolling frames coincide, their
 /// normals opposed.
-struct Carry<'a> {
-    driver: &'a Frame,
-    driven: &'a Frame,
+fn carry(from: &Frame, to: &Frame, p: &Point) -> Point {
+    let v = p - from.point;
+    to.point + to.tangent * v.dot(&from.tangent) - to.normal * v.dot(&from.normal)
 }
 
-impl<'a> Carry<'a> {
-    fn of((driver, driven): &'a (Frame, Frame)) -> Self {
-        Self { driver, driven }
-    }
-
-    fn forth(&self, p: &Point) -> Point {
-        Self::between(self.driver, self.driven, p)
-    }
-
-    fn back(&self, p: &Point) -> Point {
-        Self::between(self.driven, self.driver, p)
-    }
-
-    fn between(from: &Frame, to: &Frame, p: &Point) -> Point {
-        let v = p - from.point;
-        to.point + to.tangent * v.dot(&from.tangent) - to.normal * v.dot(&from.normal)
-    }
+/// The working part of a tooth as chords: leading flank upwards, tip, trailing flank downwards.
+struct Shape {
+    places: Vec<Point>,
+    /// How far the curve stands out of the material beyond the middle of each chord.
+    bulges: Vec<f64>,
+    /// +1 where the material lies left of the walk.
+    material: f64,
+    middle: Point,
+    radius: f64,
 }
 
-/// How deep a point lies behind a flank, where the flank's own normal passes through it.
-fn depth(point: &Point, curves: &[Spline], material: f64) -> Option<f64> {
-    let mut nearest: Option<(f64, f64)> = None;
-    for curve in curves {
-        let chord = curve.end() - curve.start();
-        let mut u = (2.0 * (point - curve.start()).dot(&chord) / chord.norm_squared() - 1.0)
-            .clamp(-1.0, 1.0);
-        for _ in 0..6 {
-            let jet = curve.at(u);
-            let apart = jet.point - point;
-            let step =
-                -apart.dot(&jet.first) / (jet.first.norm_squared() + apart.dot(&jet.second)).abs();
-            if step.is_nan() {
-                break;
+impl Shape {
+    fn of(passing: &Passing<'_>, trial: &Trial) -> Self {
+        let (rolling, tool) = (passing.rolling, passing.tool);
+        let flank = |side: Side| Flank {
+            rolling,
+            member: trial.member,
+            tool,
+            side,
+            crossing: trial.crossings[side as usize],
+        };
+        let (leading, trailing) = (flank(Side::Leading), flank(Side::Trailing));
+        let top = |flank: &Flank<'_>| {
+            let arc = flank.crossing - flank.side.sign() * trial.reaches[flank.side as usize];
+            flank.foot(rolling.parameter(arc))
+        };
+        let ((foot_a, high_a), (foot_b, high_b)) = (top(&leading), top(&trailing));
+        // Along a flank, from its lowest needed place up.
+        let along = |flank: &Flank<'_>, share: f64| {
+            let (up, down) = (
+                trial.reaches[flank.side as usize],
+                trial.depths[flank.side as usize],
+            );
+            let roll = share * (up + down) - down;
+            flank.point(rolling.parameter(flank.crossing - flank.side.sign() * roll))
+        };
+        let over = |share: f64| {
+            let frame = leading.frame(foot_a + share * (foot_b - foot_a));
+            frame.point + frame.normal * (high_a + share * (high_b - high_a))
+        };
+        let shares = |count: u32| (0..=count).map(move |i| f64::from(i) / f64::from(count));
+        // The driver is walked counter-clockwise, the driven gear clockwise.
+        let material = if trial.member == Member::Driver {
+            1.0
+        } else {
+            -1.0
+        };
+        let mut places: Vec<Point> = shares(FLANK_CHORDS).map(|x| along(&leading, x)).collect();
+        let mut bulges = bulges(&places, material);
+        for (count, part) in [
+            (TIP_CHORDS, &over as &dyn Fn(f64) -> Point),
+            (FLANK_CHORDS, &|x| along(&trailing, 1.0 - x)),
+        ] {
+            let more: Vec<Point> = shares(count).map(part).collect();
+            bulges.extend(self::bulges(&more, material));
+            places.extend(&more[1..]);
+        }
+        let middle = nalgebra::center(&along(&leading, 0.5), &along(&trailing, 0.5));
+        let radius = places
+            .iter()
+            .map(|p| (p - middle).norm())
+            .fold(0.0, f64::max);
+        Self {
+            places,
+            bulges,
+            material,
+            middle,
+            radius,
+        }
+    }
+
+    /// How deep a point lies behind the nearest chord; nothing where an end of the tooth is nearest.
+    fn depth(&self, point: &Point) -> Option<f64> {
+        let mut nearest = f64::INFINITY;
+        let mut depth = None;
+        let last = self.places.len() - 2;
+        for (k, pair) in self.places.windows(2).enumerate() {
+            let chord = pair[1] - pair[0];
+            let from = point - pair[0];
+            let share = from.dot(&chord) / chord.norm_squared();
+            if (k == 0 && share < 0.0) || (k == last && share > 1.0) {
+                let end = if k == 0 { pair[0] } else { pair[1] };
+                let distance = (point - end).norm_squared();
+                if distance < nearest {
+                    (nearest, depth) = (distance, None);
+                }
+                continue;
             }
-            u += step.clamp(-0.5, 0.5);
-            if step.abs() < 1e-6 || u.abs() > 1.5 {
-                break;
+            let distance = (from - chord * share.clamp(0.0, 1.0)).norm_squared();
+            if distance < nearest {
+                nearest = distance;
+                let share = share.clamp(0.0, 1.0);
+                let chordal = distance.sqrt() * chord.perp(&from).signum() * self.material;
+                depth = Some(chordal + 4.0 * share * (1.0 - share) * self.bulges[k]);
             }
         }
-        if u.abs() > 1.0 + 1e-6 {
-            continue;
-        }
-        let jet = curve.at(u);
-        let apart = point - jet.point;
-        let side = jet.first.perp(&apart).signum() * material;
-        let found = (apart.norm(), side);
-        if nearest.is_none_or(|(d, _)| found.0 < d) {
-            nearest = Some(found);
-        }
+        depth
     }
-    nearest.map(|(distance, side)| distance * side)
 }
 
-/// Which side of a walked flank its material is on: +1 left, -1 right.
-fn material(flank: &Flank<'_>, curves: &[Spline]) -> f64 {
-    let frame = flank.frame(flank.rolling.parameter(flank.crossing));
-    let inward = frame.tangent * -flank.side.sign();
-    curves
-        .first()
-        .map_or(0.0, |curve| curve.at(-1.0).first.perp(&inward).signum())
+/// The bulge of every chord of a smooth part, by second differences.
+fn bulges(places: &[Point], material: f64) -> Vec<f64> {
+    let second = |k: usize| {
+        let k = k.clamp(1, places.len() - 2);
+        (places[k + 1] - places[k]) - (places[k] - places[k - 1])
+    };
+    let bulge = |k: usize| {
+        let chord = places[k + 1] - places[k];
+        let length = chord.norm();
+        if length == 0.0 {
+            return 0.0;
+        }
+        // Turning towards the material means standing out of the chord.
+        0.0625 * material * chord.perp(&(second(k) + second(k + 1))) / length
+    };
+    (0..places.len() - 1).map(bulge).collect()
 }

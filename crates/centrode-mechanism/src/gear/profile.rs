@@ -34,15 +34,6 @@ impl Role {
     }
 }
 
-impl ToothPlan {
-    pub(crate) fn side(&self, side: Side) -> &FlankPlan {
-        match side {
-            Side::Leading => &self.leading,
-            Side::Trailing => &self.trailing,
-        }
-    }
-}
-
 /// How far a flank reaches up, and what ends it below.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct FlankPlan {
