@@ -100,33 +100,47 @@ impl Fitting<'_> {
         }
         let tips_1: Vec<[Tip; 2]> = self.tops(Member::Driver, driver, &reach_1);
         let tips_2: Vec<[Tip; 2]> = self.tops(Member::Driven, driven, &reach_2);
+        // Driven tooth k works in the driver's space after tooth k, driver tooth k + 1 in the driven
+        // gear's.
+        self.serve(driver, &tips_2, 0, meshes as usize, space(Member::Driver));
+        self.serve(driven, &tips_1, 1, meshes as usize, space(Member::Driven));
+    }
+
+    /// Fits every space of a gear to the tips that enter it: the mates' tooth k + `ahead` enters the
+    /// space after tooth k. One depth a space, below the higher tip,
+    /// where the flanks bear it; a fillet below each flank.
+    fn serve(
+        &self,
+        teeth: &mut [ToothPlan],
+        mates: &[[Tip; 2]],
+        ahead: usize,
+        meshes: usize,
+        space: f64,
+    ) {
         let clearance = self.tool.dedendum - self.tool.addendum;
-        let serve = |member: Member, flank: &mut FlankPlan, mate: Tip| {
-            flank.corner = corner(self.tool, mate.1 + clearance, SPARE * mate.0, space(member));
-            flank.needed = mate.0;
-        };
-        let deeper = |a: Tip, b: Tip| if a.0 > b.0 { a } else { b };
-        for (i, tooth) in driver.iter_mut().enumerate() {
-            let mates = (i..meshes as usize).step_by(first).map(|k| k % last);
-            let (lead, trail) = mates.fold(((0.0, 0.0), (0.0, 0.0)), |(lead, trail), j| {
-                (
-                    deeper(lead, tips_2[(j + last - 1) % last][1]),
-                    deeper(trail, tips_2[j][0]),
-                )
-            });
-            serve(Member::Driver, &mut tooth.leading, lead);
-            serve(Member::Driver, &mut tooth.trailing, trail);
-        }
-        for (j, tooth) in driven.iter_mut().enumerate() {
-            let mates = (j..meshes as usize).step_by(last).map(|k| k % first);
-            let (lead, trail) = mates.fold(((0.0, 0.0), (0.0, 0.0)), |(lead, trail), i| {
-                (
-                    deeper(lead, tips_1[i][1]),
-                    deeper(trail, tips_1[(i + 1) % first][0]),
-                )
-            });
-            serve(Member::Driven, &mut tooth.leading, lead);
-            serve(Member::Driven, &mut tooth.trailing, trail);
+        let higher = |a: Tip, b: Tip| (a.0.max(b.0), a.1.max(b.1));
+        let count = teeth.len();
+        for k in 0..count {
+            let none = ((0.0, 0.0), (0.0, 0.0));
+            let (before, after) = (k..meshes)
+                .step_by(count)
+                .fold(none, |(before, after), turn| {
+                    let mate = mates[(turn + ahead) % mates.len()];
+                    (higher(before, mate[0]), higher(after, mate[1]))
+                });
+            let depth = before.1.max(after.1) + clearance;
+            let settle = |flank: &mut FlankPlan, tip: Tip| {
+                let shared = corner(self.tool, depth, SPARE * tip.0, space);
+                // Where the shared depth would undercut the flank, the root rises to its own.
+                flank.corner = if shared.end > SPARE * tip.0 * (1.0 + 1e-9) {
+                    corner(self.tool, tip.1 + clearance, SPARE * tip.0, space)
+                } else {
+                    shared
+                };
+                flank.needed = tip.0;
+            };
+            settle(&mut teeth[k].trailing, before);
+            settle(&mut teeth[(k + 1) % count].leading, after);
         }
     }
 
