@@ -15,13 +15,13 @@ const REACHES: [f64; 20] = [
     0.25, 0.0,
 ];
 /// Where arcs may meet beside the curve, as shares of the limit.
-const SIDES: [f64; 3] = [0.0, 0.6, -0.6];
+const SIDES: [f64; 3] = [0.0, 0.3, -0.3];
 /// Greatest angle, rad, one arc turns through.
 const HALF_TURN: f64 = 2.9;
 /// Planned arcs that a lean off by as much as the planned one costs.
-const LEAN_COST: f64 = 0.25;
+const LEAN_COST: f64 = 0.15;
 /// Share of the planned lean by which chains to one place must differ to be worth following both.
-const LEAN_CLASS: f64 = 0.5;
+const LEAN_CLASS: f64 = 0.35;
 
 /// A chain of arcs from the start of the run to a place at a node.
 #[derive(Clone, Copy, Debug)]

@@ -47,16 +47,44 @@ impl Circle {
         }
     }
 
-    /// Whether the curve through the nodes, stays within a distance of it.
+    /// Whether the curve through the nodes stays within a distance of the circle.
     pub(crate) fn follows(&self, nodes: &[Node], limit: f64) -> bool {
-        let (mut before, mut slope) = nodes.first().map_or((0.0, 0.0), |node| self.distance(node));
-        nodes.windows(2).all(|pair| {
-            let (d, s) = self.distance(&pair[1]);
-            let h = (pair[1].point - pair[0].point).norm();
-            let within = d.abs() <= limit && hermite_peak(before, slope, d, s, h) <= limit;
+        let k = self.curvature;
+        // A circle smaller than the distance follows nothing.
+        if !((k * limit).abs() < 0.1) || !self.is_near(&nodes[nodes.len() / 2], limit) {
+            return false;
+        }
+        let beside = |node: &Node| {
+            let v = node.point - self.point;
+            let twice = 2.0 * v.dot(&self.normal) - k * v.norm_squared();
+            // `twice = d (2 - k d)`, solved for the small d.
+            let d = 0.5 * twice * (1.0 + 0.25 * k * twice);
+            (d, (self.normal - v * k).dot(&node.tangent) * (1.0 + k * d))
+        };
+        let (mut before, mut slope) = beside(&nodes[0]);
+        for pair in nodes.windows(2) {
+            let (d, s) = beside(&pair[1]);
+            if !(d.abs() <= limit) {
+                return false;
+            }
+            // No cubic rises above its ends by more than its slopes let it.
+            let square = (pair[1].point - pair[0].point).norm_squared();
+            let rise = 4.0 / 27.0 * (slope.abs() + s.abs());
+            let room = limit - before.abs().max(d.abs());
+            if rise * rise * square > room * room
+                && hermite_peak(before, slope, d, s, square.sqrt()) > limit
+            {
+                return false;
+            }
             (before, slope) = (d, s);
-            within
-        })
+        }
+        true
+    }
+
+    /// Whether a node may lie within a distance of the circle that is less than a tenth of its radius.
+    fn is_near(&self, node: &Node, limit: f64) -> bool {
+        let v = node.point - self.point;
+        (2.0 * v.dot(&self.normal) - self.curvature * v.norm_squared()).abs() <= 2.2 * limit
     }
 
     /// Signed distance to the left and its slope along a unit tangent.
