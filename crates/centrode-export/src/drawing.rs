@@ -61,7 +61,7 @@ impl LineType {
     pub fn pattern(self) -> &'static [f64] {
         match self {
             Self::Continuous => &[],
-            Self::Center => &[6.0, -1.5, 0.0, -1.5],
+            Self::Center => &[4.0, -1.0, 0.0, -1.0],
             Self::Hidden => &[2.0, -1.0],
         }
     }

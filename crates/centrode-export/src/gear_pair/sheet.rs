@@ -1,5 +1,5 @@
 use crate::drawing::{Anchor, Color, Drawing, LineType, Shape, Text};
-use centrode_geometry::{Outline, Point, Tolerance, Vector};
+use centrode_geometry::{Bounds, Outline, Point, Tolerance, Vector};
 use centrode_mechanism::gear::{Gear, GearPair, Member, design::Addendum};
 use nalgebra::Isometry2;
 
@@ -19,8 +19,8 @@ const TEXT: &str = "TEXT";
 #[derive(Clone, Debug)]
 pub(super) struct Contours {
     contours: Vec<(&'static str, Outline)>,
-    /// Distance of the outermost point from the axis, mm.
-    reach: f64,
+    /// Rectangle around the teeth and a margin: as far as centre lines go.
+    extent: Bounds,
 }
 
 impl Contours {
@@ -37,7 +37,7 @@ impl Contours {
         contours.push((ROOT, root));
         Self {
             contours,
-            reach: 1.08 * gear.radii().1,
+            extent: extent(gear),
         }
     }
 
@@ -61,10 +61,10 @@ impl Contours {
 pub(super) fn gear(contours: &Contours) -> Drawing {
     let mut drawing = layers();
     contours.draw(&mut drawing, &Isometry2::identity());
-    for v in [Vector::x(), Vector::y()] {
-        let end = Point::from(v * contours.reach);
-        drawing.draw(CENTER, Shape::Line(-end, end));
-    }
+    let Bounds { min, max } = contours.extent;
+    let p = Point::new;
+    drawing.draw(CENTER, Shape::Line(p(min.x, 0.0), p(max.x, 0.0)));
+    drawing.draw(CENTER, Shape::Line(p(0.0, min.y), p(0.0, max.y)));
     drawing.draw(CENTER, Shape::Mark(Point::origin()));
     drawing
 }
@@ -75,17 +75,20 @@ pub(super) fn assembly(pair: &GearPair, [driver, driven]: [&Contours; 2]) -> Dra
     let a = pair.center_distance();
     for (contours, x) in [(driver, 0.0), (driven, a)] {
         contours.draw(&mut drawing, &Isometry2::translation(x, 0.0));
-        let (center, up) = (Point::new(x, 0.0), Vector::new(0.0, contours.reach));
-        drawing.draw(CENTER, Shape::Line(center - up, center + up));
-        drawing.draw(CENTER, Shape::Mark(center));
+        let Bounds { min, max } = contours.extent;
+        drawing.draw(
+            CENTER,
+            Shape::Line(Point::new(x, min.y), Point::new(x, max.y)),
+        );
+        drawing.draw(CENTER, Shape::Mark(Point::new(x, 0.0)));
     }
-    let ends = [-driver.reach, a + driven.reach].map(|x| Point::new(x, 0.0));
+    let ends = [driver.extent.min.x, a + driven.extent.max.x].map(|x| Point::new(x, 0.0));
     drawing.draw(CENTER, Shape::Line(ends[0], ends[1]));
-    let height = 0.05 * a;
-    let low = -driver.reach.max(driven.reach);
+    let height = 0.038 * a;
+    let low = driver.extent.min.y.min(driven.extent.min.y);
     let line = |row: f64, words: String| {
         Shape::Text(Text {
-            at: Point::new(0.5 * a, low - (1.4 + 1.7 * row) * height),
+            at: Point::new(0.5 * a, low - (1.2 + 1.7 * row) * height),
             height,
             words,
             anchor: Anchor::Middle,
@@ -101,9 +104,19 @@ pub(super) fn assembly(pair: &GearPair, [driver, driven]: [&Contours; 2]) -> Dra
     drawing
 }
 
+/// The outline's bounds and a margin of a sixteenth, always round the axis.
+fn extent(gear: &Gear) -> Bounds {
+    let bounds = gear.outline().bounds().with(Point::origin());
+    let margin = Vector::repeat(bounds.diagonal() / 16.0);
+    Bounds {
+        min: bounds.min - margin,
+        max: bounds.max + margin,
+    }
+}
+
 fn figures(pair: &GearPair) -> String {
     format!(
-        "z = {} / {}   m = {:.4} mm   a = {:.4} mm",
+        "z = {} / {}, m = {:.4} mm, a = {:.4} mm",
         pair.driver().tooth_count(),
         pair.driven().tooth_count(),
         pair.module(),
@@ -111,14 +124,15 @@ fn figures(pair: &GearPair) -> String {
     )
 }
 
+/// The profile last, over the lines of reference.
 fn layers() -> Drawing {
     Drawing::default()
-        .layer(PROFILE, Color::Foreground, LineType::Continuous, 0.35)
-        .layer(BORE, Color::Foreground, LineType::Continuous, 0.35)
-        .layer(PITCH_CURVE, Color::Blue, LineType::Center, 0.18)
+        .layer(CENTER, Color::Red, LineType::Center, 0.13)
         .layer(TIP, Color::Gray, LineType::Hidden, 0.13)
         .layer(ROOT, Color::Gray, LineType::Hidden, 0.13)
-        .layer(CENTER, Color::Red, LineType::Center, 0.13)
+        .layer(PITCH_CURVE, Color::Blue, LineType::Center, 0.18)
+        .layer(BORE, Color::Foreground, LineType::Continuous, 0.35)
+        .layer(PROFILE, Color::Foreground, LineType::Continuous, 0.35)
 }
 
 fn tip_curve(pair: &GearPair, gear: &Gear, tolerance: Tolerance) -> Option<Outline> {
