@@ -51,7 +51,7 @@ impl Circle {
     pub(crate) fn follows(&self, nodes: &[Node], limit: f64) -> bool {
         let k = self.curvature;
         // A circle smaller than the distance follows nothing.
-        if !((k * limit).abs() < 0.1) || !self.is_near(&nodes[nodes.len() / 2], limit) {
+        if k.is_nan() || (k * limit).abs() >= 0.1 || !self.is_near(&nodes[nodes.len() / 2], limit) {
             return false;
         }
         let beside = |node: &Node| {
@@ -64,7 +64,7 @@ impl Circle {
         let (mut before, mut slope) = beside(&nodes[0]);
         for pair in nodes.windows(2) {
             let (d, s) = beside(&pair[1]);
-            if !(d.abs() <= limit) {
+            if d.is_nan() || d.abs() > limit {
                 return false;
             }
             // No cubic rises above its ends by more than its slopes let it.
