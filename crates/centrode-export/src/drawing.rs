@@ -1,6 +1,6 @@
 //! Drawings: shapes on layers.
 
-use centrode_geometry::{Arc, Bounds, Outline, Point, Tolerance};
+use centrode_geometry::{Arc, Bounds, Outline, Point};
 
 /// Lines, arcs, contours and texts on named layers, in millimetres: what every drawing format is
 /// written from.
@@ -61,7 +61,7 @@ impl LineType {
     pub fn pattern(self) -> &'static [f64] {
         match self {
             Self::Continuous => &[],
-            Self::Center => &[6.0, -1.5, 0.0, -1.5],
+            Self::Center => &[4.0, -1.0, 0.0, -1.0],
             Self::Hidden => &[2.0, -1.0],
         }
     }
@@ -149,17 +149,6 @@ impl Drawing {
     #[must_use]
     pub fn layer_of(&self, entity: &Entity) -> Option<&Layer> {
         self.layers.iter().find(|layer| layer.name == entity.layer)
-    }
-
-    /// The same drawing with every contour made of lines and arcs within the tolerance.
-    #[must_use]
-    pub fn with_arcs(mut self, tolerance: Tolerance) -> Self {
-        for entity in &mut self.entities {
-            if let Shape::Contour(outline) = &mut entity.shape {
-                *outline = outline.arcs(tolerance);
-            }
-        }
-        self
     }
 
     /// A rectangle around everything drawn, texts by their estimated width.

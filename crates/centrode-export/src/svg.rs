@@ -31,12 +31,12 @@ pub fn write(drawing: &Drawing, tolerance: Tolerance) -> String {
         let dashes = match layer.line_type {
             LineType::Continuous => String::new(),
             _ => {
-                // A dash of no length is drawn as a dot by the round caps.
+                // The round caps make a dot of a dash of next to no length; of none, not everywhere.
                 let dashes: Vec<String> = layer
                     .line_type
                     .pattern()
                     .iter()
-                    .map(|d| number(d.abs()))
+                    .map(|d| number(d.abs().max(0.01)))
                     .collect();
                 format!(" stroke-dasharray=\"{}\"", dashes.join(" "))
             }
@@ -213,7 +213,7 @@ mod tests {
         );
         assert!(svg.contains("M0,0 L10,-0.333333"));
         assert!(svg.contains("a &lt; b &amp; c"));
-        assert!(svg.contains("stroke-dasharray=\"6 1.5 0 1.5\""));
+        assert!(svg.contains("stroke-dasharray=\"4 1 0.01 1\""));
         assert!(!svg.contains("NaN") && !svg.contains("inf"));
         let empty = write(&Drawing::default(), Tolerance::new(1.0).expect("positive"));
         assert!(!empty.contains("inf") && !empty.contains("NaN"));

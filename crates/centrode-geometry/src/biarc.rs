@@ -2,9 +2,24 @@ use crate::{
     Arc, Point, Segment, Vector,
     smooth_run::{Node, hermite_peak},
 };
-use nalgebra::Rotation2;
 
-/// Two arcs, or one, that leave one node and reach another along their tangents.
+/// The tangent of a quarter of the turn of an arc between two directions, one of them its chord.
+pub(crate) fn bulge(from: Vector, to: Vector) -> f64 {
+    from.perp(&to) / (from.norm() * to.norm() + from.dot(&to))
+}
+
+/// An arc, or a line where the arc bulges by less than the rounding of its ends.
+pub(crate) fn arc(start: Point, end: Point, bulge: f64) -> Segment {
+    let rounding = 4.0 * f64::EPSILON * start.coords.amax().max(end.coords.amax());
+    // Not a number where the ends are one point: a line as well.
+    if bulge.abs() * (end - start).norm() > rounding {
+        Segment::Arc(Arc { start, end, bulge })
+    } else {
+        Segment::Line(start, end)
+    }
+}
+
+/// Two arcs that leave one node and reach another along their tangents.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Biarc {
     joint: Point,
@@ -15,13 +30,63 @@ pub(crate) struct Biarc {
 
 /// A circle, or a line where the curvature vanishes, through a point in a direction.
 #[derive(Clone, Copy, Debug)]
-struct Circle {
+pub(crate) struct Circle {
     point: Point,
     normal: Vector,
     curvature: f64,
 }
 
 impl Circle {
+    /// The circle from a point in a direction through another point.
+    pub(crate) fn through(start: Point, tangent: Vector, end: Point) -> Self {
+        let chord = end - start;
+        Self {
+            point: start,
+            normal: Vector::new(-tangent.y, tangent.x),
+            curvature: 2.0 * tangent.perp(&chord) / chord.norm_squared(),
+        }
+    }
+
+    /// Whether the curve through the nodes stays within a distance of the circle.
+    pub(crate) fn follows(&self, nodes: &[Node], limit: f64) -> bool {
+        let k = self.curvature;
+        // A circle smaller than the distance follows nothing.
+        if k.is_nan() || (k * limit).abs() >= 0.1 || !self.is_near(&nodes[nodes.len() / 2], limit) {
+            return false;
+        }
+        let beside = |node: &Node| {
+            let v = node.point - self.point;
+            let twice = 2.0 * v.dot(&self.normal) - k * v.norm_squared();
+            // `twice = d (2 - k d)`, solved for the small d.
+            let d = 0.5 * twice * (1.0 + 0.25 * k * twice);
+            (d, (self.normal - v * k).dot(&node.tangent) * (1.0 + k * d))
+        };
+        let (mut before, mut slope) = beside(&nodes[0]);
+        for pair in nodes.windows(2) {
+            let (d, s) = beside(&pair[1]);
+            if d.is_nan() || d.abs() > limit {
+                return false;
+            }
+            // No cubic rises above its ends by more than its slopes let it.
+            let square = (pair[1].point - pair[0].point).norm_squared();
+            let rise = 4.0 / 27.0 * (slope.abs() + s.abs());
+            let room = limit - before.abs().max(d.abs());
+            if rise * rise * square > room * room
+                && hermite_peak(before, slope, d, s, square.sqrt()) > limit
+            {
+                return false;
+            }
+            (before, slope) = (d, s);
+        }
+        true
+    }
+
+    /// Whether a node may lie within a distance of the circle that is less than a tenth of its radius.
+    fn is_near(&self, node: &Node, limit: f64) -> bool {
+        let v = node.point - self.point;
+        (2.0 * v.dot(&self.normal) - self.curvature * v.norm_squared()).abs() <= 2.2 * limit
+    }
+
     /// Signed distance to the left and its slope along a unit tangent.
     fn distance(&self, node: &Node) -> (f64, f64) {
         // 1/K - sqrt((1/K - y)² + x²) in the form that stays exact as K goes to zero.
@@ -52,24 +117,11 @@ impl Biarc {
         let b = end.point - t1 * second;
         let joint = a + (b - a) * (first / (first + second));
         let tangent = (b - a).try_normalize(0.0)?;
-        let bulge =
-            |from: Vector, to: Vector| from.perp(&to) / (from.norm() * to.norm() + from.dot(&to));
         let (chord0, chord1) = (joint - start.point, end.point - joint);
         let bulges = [bulge(t0, chord0), bulge(chord1, t1)];
         if !bulges.iter().all(|b| b.abs() < 0.99) {
             return None;
         }
-        let arc = |start: Point, end: Point, bulge: f64| {
-            let chord = (end - start).norm();
-            // Below this the sagitta is less than the rounding of the points.
-            if bulge.abs() * chord
-                <= 4.0 * f64::EPSILON * start.coords.amax().max(end.coords.amax())
-            {
-                Segment::Line(start, end)
-            } else {
-                Segment::Arc(Arc { start, end, bulge })
-            }
-        };
         let circle = |point: Point, tangent: Vector, bulge: f64, chord: f64| Circle {
             point,
             normal: Vector::new(-tangent.y, tangent.x),
@@ -142,96 +194,5 @@ impl Biarc {
             first *= (errors[1] / errors[0]).cbrt().clamp(0.5, 2.0);
         }
         None
-    }
-
-    /// Direction in which the biarc arrives.
-    pub(crate) fn arrival(&self) -> Vector {
-        let normal = self.arcs[1].normal;
-        Vector::new(normal.y, -normal.x)
-    }
-
-    /// The one arc that is both, if the curve is one circle to rounding.
-    pub(crate) fn single(&self) -> Option<Segment> {
-        let [first, second] = self.segments;
-        let (start, end) = (first.start(), second.end());
-        let (leave, arrive) = (first.tangent(-1.0), second.tangent(1.0));
-        let chord = end - start;
-        let half = |from: Vector, to: Vector| from.perp(&to).atan2(from.dot(&to));
-        let (a, b) = (half(leave, chord), half(chord, arrive));
-        if (a - b).abs() > 1e-8 || (a + b).abs() > 3.0 {
-            return None;
-        }
-        let bulge = (0.25 * (a + b)).tan();
-        Some(match (first, second) {
-            (Segment::Line(..), Segment::Line(..)) => Segment::Line(start, end),
-            _ => Segment::Arc(Arc { start, end, bulge }),
-        })
-    }
-}
-
-/// How arcs within a tolerance best follow a smooth curve: per node, the tangent they have there and
-/// the number of arcs up to there.
-///
-/// Where the curvature changes at the rate `κ'`, arcs of length `l` whose ends are on the curve stay
-/// closest to it, within `e = κ' l³ / 72√3`, if their tangents at the ends are turned from the curve's
-/// own by `-κ' l² / 12`: a third of the error of arcs with the curve's own tangents.
-pub(crate) struct ArcPlan {
-    pub(crate) tangents: Vec<Vector>,
-    pub(crate) count: Vec<f64>,
-}
-
-impl ArcPlan {
-    /// The ends of the run keep the curve's own tangent unless it is free.
-    pub(crate) fn new(nodes: &[Node], free: [bool; 2], tolerance: f64) -> Self {
-        let scale = 72.0 * 3.0_f64.sqrt() * tolerance;
-        let last = nodes.len() - 1;
-        let mut travelled = vec![0.0; nodes.len()];
-        let mut turned = vec![0.0; nodes.len()];
-        for i in 1..nodes.len() {
-            let (a, b) = (&nodes[i - 1], &nodes[i]);
-            travelled[i] = travelled[i - 1] + (b.point - a.point).norm();
-            turned[i] = turned[i - 1] + a.tangent.perp(&b.tangent).atan2(a.tangent.dot(&b.tangent));
-        }
-        let total = travelled[last];
-        let angle_at = |s: f64| {
-            let k = travelled.partition_point(|&t| t < s).clamp(1, last);
-            let share = (s - travelled[k - 1]) / (travelled[k] - travelled[k - 1]);
-            turned[k - 1] + (turned[k] - turned[k - 1]) * share
-        };
-        let mut plan = Self {
-            tangents: Vec::with_capacity(nodes.len()),
-            count: Vec::with_capacity(nodes.len()),
-        };
-        let (mut count, mut density) = (0.0, 0.0);
-        let mut length = total / 16.0;
-        for (i, node) in nodes.iter().enumerate() {
-            // The change of curvature as an arc of the length it allows would meet it; no lean where it
-            // is not of one sign.
-            let rate_over = |window: f64| {
-                let middle = travelled[i].clamp(window, total - window);
-                let angles = [middle - window, middle, middle + window].map(angle_at);
-                (angles[2] - 2.0 * angles[1] + angles[0]) / (window * window)
-            };
-            for _ in 0..if i == 0 { 6 } else { 2 } {
-                let allowed = (scale / f64::abs(rate_over(0.5 * length))).cbrt();
-                length = (length * allowed).sqrt().min(total / 4.0);
-            }
-            let rates = [1.0, 0.5].map(|share| rate_over(share * length));
-            let least = rates[0].abs().min(rates[1].abs());
-            let held = (i == 0 && !free[0]) || (i == last && !free[1]);
-            let lean = if held || rates[0] * rates[1] <= 0.0 {
-                0.0
-            } else {
-                -least.copysign(rates[0]) * 0.4 * length * length / 12.0
-            };
-            let before = density;
-            density = 1.0 / length;
-            if i > 0 {
-                count += 0.5 * (before + density) * (travelled[i] - travelled[i - 1]);
-            }
-            plan.count.push(count);
-            plan.tangents.push(Rotation2::new(lean) * node.tangent);
-        }
-        plan
     }
 }

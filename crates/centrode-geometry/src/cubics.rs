@@ -14,12 +14,14 @@ impl Outline {
         let mut out = Vec::new();
         for run in self.runs(tolerance.scaled(0.25)) {
             match run {
-                Run::Kept(Segment::Arc(arc)) => arc_cubics(&arc, limit, &mut out),
-                Run::Kept(segment) => {
-                    let (start, end) = (segment.start(), segment.end());
-                    let third = (end - start) / 3.0;
-                    out.push([start, start + third, end - third, end]);
-                }
+                Run::Kept(index) => match &self.segments()[index] {
+                    Segment::Arc(arc) => arc_cubics(arc, limit, &mut out),
+                    segment => {
+                        let (start, end) = (segment.start(), segment.end());
+                        let third = (end - start) / 3.0;
+                        out.push([start, start + third, end - third, end]);
+                    }
+                },
                 Run::Smooth { nodes, .. } => {
                     let last = nodes.len() - 1;
                     let (mut start, mut guess) = (0, 4);

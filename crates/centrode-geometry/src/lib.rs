@@ -3,6 +3,8 @@
 //! No gear word in this crate: it knows curves, not what they are for. Lengths are millimetres,
 //! angles radians, counter-clockwise positive.
 
+mod arc_chains;
+mod arc_plan;
 mod arcs;
 mod biarc;
 mod bounds;

@@ -38,6 +38,10 @@ impl Arc {
 
 /// One smooth part of an [`Outline`], parametrised over `[-1, 1]`.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[expect(
+    clippy::large_enum_variant,
+    reason = "an outline is nearly all splines; a box each would cost more than it saves"
+)]
 pub enum Segment {
     /// A straight line between two points.
     Line(Point, Point),

@@ -12,7 +12,8 @@ pub(crate) struct Node {
 /// Also a line or an arc by itself, which is kept as it is.
 #[derive(Debug)]
 pub(crate) enum Run {
-    Kept(Segment),
+    /// Index of the segment.
+    Kept(usize),
     Smooth {
         nodes: Vec<Node>,
         /// Whether the tangent at the start and at the end is free, the joint there being a corner.
@@ -59,7 +60,7 @@ impl Outline {
                     tangent: segment.tangent(place.u),
                 });
             } else if place.u == -1.0 {
-                runs.push(Run::Kept(*segment));
+                runs.push(Run::Kept(place.segment));
             }
         }
         finish(&mut runs, &mut nodes, first, self.segments().len());

@@ -8,16 +8,16 @@ mod simulator;
 use crate::{
     Bundle, BundleError,
     csv::{self, TableError},
+    drawing::Drawing,
     dxf::{self, DxfError},
     stl, svg,
     urdf::{self, UrdfError},
 };
 use centrode_geometry::{Mesh, Solid, SolidError, Tolerance};
 use centrode_mechanism::gear::{GearPair, Member};
+use sheet::Contours;
 use std::{fmt, str::FromStr};
 use thiserror::Error;
-
-pub use sheet::{assembly_drawing, gear_drawing};
 
 /// A kind of file a gear pair can be written as.
 #[derive(Clone, Copy, Debug, Eq, Hash, Ord, PartialEq, PartialOrd)]
@@ -167,32 +167,51 @@ fn draw(
     bundle: &mut Bundle,
 ) -> Result<(), GearPairFilesError> {
     let tolerance = options.tolerance;
-    let drawings = [
-        ("driver", gear_drawing(pair, Member::Driver, tolerance)),
-        ("driven", gear_drawing(pair, Member::Driven, tolerance)),
-        ("assembly", assembly_drawing(pair, tolerance)),
-    ];
+    let exact = contours(pair, tolerance);
     // Arcs are fitted once: fitting what is arcs already leaves it as it is.
-    let fitted = drawings
-        .clone()
-        .map(|(name, drawing)| (name, drawing.with_arcs(tolerance)));
+    let fitted = exact.clone().map(|c| c.with_arcs(tolerance));
     if wanted(Format::Dxf) {
         let source = match options.dxf_curves {
             dxf::Curves::Arcs => &fitted,
-            dxf::Curves::Splines => &drawings,
+            dxf::Curves::Splines => &exact,
         };
-        for (name, drawing) in source {
-            let bytes = dxf::write(drawing, options.dxf_version, options.dxf_curves, tolerance)?;
+        for (name, drawing) in sheets(pair, source) {
+            let bytes = dxf::write(&drawing, options.dxf_version, options.dxf_curves, tolerance)?;
             bundle.add(&format!("{name}.dxf"), bytes)?;
         }
     }
     if wanted(Format::Svg) {
-        for (name, drawing) in &fitted {
-            let picture = svg::write(drawing, tolerance);
+        for (name, drawing) in sheets(pair, &fitted) {
+            let picture = svg::write(&drawing, tolerance);
             bundle.add(&format!("{name}.svg"), picture.into_bytes())?;
         }
     }
     Ok(())
+}
+
+fn contours(pair: &GearPair, tolerance: Tolerance) -> [Contours; 2] {
+    [Member::Driver, Member::Driven].map(|member| Contours::new(pair, member, tolerance))
+}
+
+fn sheets(pair: &GearPair, [driver, driven]: &[Contours; 2]) -> [(&'static str, Drawing); 3] {
+    [
+        (Member::Driver.name(), sheet::gear(driver)),
+        (Member::Driven.name(), sheet::gear(driven)),
+        ("assembly", sheet::assembly(pair, [driver, driven])),
+    ]
+}
+
+/// The drawing of one gear, with exact contours.
+#[must_use]
+pub fn gear_drawing(pair: &GearPair, member: Member, tolerance: Tolerance) -> Drawing {
+    sheet::gear(&Contours::new(pair, member, tolerance))
+}
+
+/// The drawing of both gears in place at phi = 0, with exact contours.
+#[must_use]
+pub fn assembly_drawing(pair: &GearPair, tolerance: Tolerance) -> Drawing {
+    let [driver, driven] = &contours(pair, tolerance);
+    sheet::assembly(pair, [driver, driven])
 }
 
 /// A gear as a solid: toothed outline less the bore, from z = 0 to its width.

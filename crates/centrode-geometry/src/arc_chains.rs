@@ -1,0 +1,244 @@
+use crate::{
+    Point, Segment, Vector,
+    arc_plan::ArcPlan,
+    biarc::{Biarc, Circle, arc, bulge},
+    smooth_run::Node,
+};
+
+/// Chains followed side by side.
+const WIDTH: usize = 12;
+/// Nodes to which a chain is carried on.
+const BRANCHES: usize = 2;
+/// Lengths tried for the next arc, in arcs as planned.
+const REACHES: [f64; 20] = [
+    16.0, 4.0, 2.0, 1.7, 1.5, 1.4, 1.3, 1.2, 1.15, 1.1, 1.05, 1.0, 0.95, 0.9, 0.85, 0.8, 0.65, 0.5,
+    0.25, 0.0,
+];
+/// Where arcs may meet beside the curve, as shares of the limit.
+const SIDES: [f64; 3] = [0.0, 0.3, -0.3];
+/// Greatest angle, rad, one arc turns through.
+const HALF_TURN: f64 = 2.9;
+/// Planned arcs that a lean off by as much as the planned one costs.
+const LEAN_COST: f64 = 0.15;
+/// Share of the planned lean by which chains to one place must differ to be worth following both.
+const LEAN_CLASS: f64 = 0.35;
+
+/// A chain of arcs from the start of the run to a place at a node.
+#[derive(Clone, Copy, Debug)]
+struct Link {
+    node: usize,
+    /// Which of the [`SIDES`] of the node.
+    side: usize,
+    point: Point,
+    /// Direction in which it arrives.
+    tangent: Vector,
+    /// Angle between that and the planned direction, in classes.
+    lean: i32,
+    /// The chain without its last arc, as an index.
+    before: usize,
+    /// How good a chain it is: planned arcs up to here, less the cost of a wrong lean.
+    merit: f64,
+}
+
+/// Chains of arcs along a smooth run, each arc leaving in the direction in which the one before it
+/// arrived. All chains of as many arcs are carried on together, the best few of them: a beam search for
+/// the fewest arcs.
+pub(crate) struct ArcChains<'a> {
+    nodes: &'a [Node],
+    free: [bool; 2],
+    limit: f64,
+    plan: ArcPlan,
+    links: Vec<Link>,
+}
+
+impl<'a> ArcChains<'a> {
+    /// `free` tells at which ends the tangent need not be the curve's own.
+    pub(crate) fn new(nodes: &'a [Node], free: [bool; 2], limit: f64) -> Self {
+        Self {
+            nodes,
+            free,
+            limit,
+            plan: ArcPlan::new(nodes, free, limit),
+            links: Vec::with_capacity(1024),
+        }
+    }
+
+    /// Appends the arcs of the shortest chain found.
+    pub(crate) fn fewest(mut self, out: &mut Vec<Segment>) {
+        let last = self.nodes.len() - 1;
+        let mut front = self.starts();
+        // The first chain that a pair of arcs could bring to the end, and the count with them.
+        let mut closing: Option<(usize, usize, Biarc)> = None;
+        let mut count = 0;
+        loop {
+            if let Some(&done) = front.iter().find(|&&link| self.links[link].node == last) {
+                self.trace(done, out);
+                return;
+            }
+            if let Some((total, link, biarc)) = closing
+                && total <= count + 1
+            {
+                self.trace(link, out);
+                out.extend(biarc.segments);
+                return;
+            }
+            if !self.free[1] && closing.is_none() {
+                closing = front.iter().find_map(|&link| {
+                    let biarc = self.close(&self.links[link])?;
+                    Some((count + 2, link, biarc))
+                });
+            }
+            let mut next = Vec::with_capacity(WIDTH * BRANCHES * SIDES.len());
+            for &link in &front {
+                self.carry_on(link, &mut next);
+            }
+            if next.is_empty() && closing.is_none() {
+                // No arc fits even one step: the curve is bent tighter than its own nodes.
+                front.truncate(1);
+                next = front.iter().map(|&link| self.force(link)).collect();
+            }
+            front = self.best(next);
+            count += 1;
+        }
+    }
+
+    /// Chains of no arc yet: with the curve's tangent, and if the tangent is free with the planned one.
+    fn starts(&mut self) -> Vec<usize> {
+        let (own, planned) = (self.nodes[0].tangent, self.plan.tangents[0]);
+        let tangents = [own, planned, (own + planned).normalize()];
+        let count = if self.free[0] { 3 } else { 1 };
+        self.links
+            .extend(tangents[..count].iter().map(|&tangent| Link {
+                node: 0,
+                side: 0,
+                point: self.nodes[0].point,
+                tangent,
+                lean: 0,
+                before: usize::MAX,
+                merit: 0.0,
+            }));
+        (0..count).collect()
+    }
+
+    /// Adds the longest arcs that fit after a chain.
+    fn carry_on(&mut self, before: usize, next: &mut Vec<usize>) {
+        let from = self.links[before];
+        let last = self.nodes.len() - 1;
+        let (mut tried, mut found) = (last + 1, 0);
+        for reach in REACHES {
+            let target = self.plan.count[from.node] + reach;
+            let end = self.plan.count.partition_point(|&c| c <= target);
+            let end = end.saturating_sub(1).max(from.node + 1).min(last);
+            // The last node has a tangent of its own to arrive with, unless that is free; an arc of
+            // more than a half turn could go round the wrong side.
+            let turned = self.plan.turned[end] - self.plan.turned[from.node];
+            if end >= tried || (end == last && !self.free[1]) || turned.abs() > HALF_TURN {
+                continue;
+            }
+            tried = end;
+            let sides = if end == last { 1 } else { SIDES.len() };
+            let known = next.len();
+            for side in 0..sides {
+                if let Some(link) = self.link(before, end, side) {
+                    next.push(self.links.len());
+                    self.links.push(link);
+                }
+            }
+            found += usize::from(next.len() > known);
+            if found == BRANCHES {
+                return;
+            }
+        }
+    }
+
+    /// The chain with one more arc, to a side of a node, if that arc stays within the limit.
+    fn link(&self, before: usize, node: usize, side: usize) -> Option<Link> {
+        let from = &self.links[before];
+        let to = &self.nodes[node];
+        let normal = Vector::new(-to.tangent.y, to.tangent.x);
+        let point = to.point + normal * (SIDES[side] * self.limit);
+        let chord = (point - from.point).try_normalize(0.0)?;
+        let along = from.tangent.dot(&chord);
+        let circle = Circle::through(from.point, from.tangent, point);
+        if along < 0.1 || !circle.follows(&self.nodes[from.node..=node], self.limit) {
+            return None;
+        }
+        // An arc arrives as it left, mirrored in its chord.
+        let tangent = (chord * (2.0 * along) - from.tangent).normalize();
+        let lean = self.plan.tangents[node].perp(&tangent) / self.plan.lean[node];
+        Some(Link {
+            node,
+            side,
+            point,
+            tangent,
+            lean: (lean / LEAN_CLASS).round() as i32,
+            before,
+            merit: self.plan.count[node] - LEAN_COST * lean.abs(),
+        })
+    }
+
+    /// A step to the next node whatever its error, after which the curve's own tangent is taken up.
+    fn force(&mut self, before: usize) -> usize {
+        let node = self.links[before].node + 1;
+        self.links.push(Link {
+            node,
+            side: 0,
+            point: self.nodes[node].point,
+            tangent: self.nodes[node].tangent,
+            lean: 0,
+            before,
+            merit: 0.0,
+        });
+        self.links.len() - 1
+    }
+
+    /// The pair of arcs from the end of a chain to the end of the run.
+    fn close(&self, link: &Link) -> Option<Biarc> {
+        let last = self.nodes.len() - 1;
+        if self.plan.count[last] - self.plan.count[link.node] > 4.0 || link.side != 0 {
+            return None;
+        }
+        let tangents = [link.tangent, self.nodes[last].tangent];
+        Biarc::fit(&self.nodes[link.node..], tangents, self.limit)
+    }
+
+    /// The best chains, only one of those that arrive at a place alike.
+    fn best(&self, mut links: Vec<usize>) -> Vec<usize> {
+        links.sort_by(|&a, &b| self.links[b].merit.total_cmp(&self.links[a].merit));
+        let mut kept: Vec<usize> = Vec::with_capacity(WIDTH);
+        let place = |link: usize| {
+            let Link {
+                node, side, lean, ..
+            } = self.links[link];
+            (node, side, lean)
+        };
+        for link in links {
+            if kept.iter().all(|&other| place(other) != place(link)) {
+                kept.push(link);
+            }
+            if kept.len() == WIDTH {
+                break;
+            }
+        }
+        kept
+    }
+
+    /// Appends the arcs of a chain.
+    fn trace(&self, mut link: usize, out: &mut Vec<Segment>) {
+        let first = out.len();
+        while let Link {
+            point: end, before, ..
+        } = self.links[link]
+            && before != usize::MAX
+        {
+            let Link {
+                point: start,
+                tangent,
+                ..
+            } = self.links[before];
+            out.push(arc(start, end, bulge(tangent, end - start)));
+            link = before;
+        }
+        out[first..].reverse();
+    }
+}
