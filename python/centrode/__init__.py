@@ -1,32 +1,45 @@
 """Non-circular gears: pitch curve to proved pair, cutting file, solid and simulator model.
 
-Lengths are millimetres, angles radians, counter-clockwise positive.
+Lengths are millimetres, angles radians, counter-clockwise positive. Everything that cannot be made raises `Error`.
+
+>>> import centrode as ct
+>>> pitch = ct.pitch.ellipse(eccentricity=0.25, module=2.25, tooth_count=23)
+>>> pair = ct.GearPair(pitch, backlash=0.05)
+>>> pair.check().ok
+True
 """
 
-from . import pitch
-from ._centrode import (
-    DesignError,
-    Error,
-    Gear,
-    GearPair,
-    GearPairError,
-    Pitch,
-    PitchError,
-    Rack,
-    Shaper,
-    __version__,
-)
+from . import pitch, plot
+from ._centrode import Body, Gear, GearPair, Keyway, Pitch, Rack, Shaper, __version__, template
+from ._contact import Contact
+from ._design import load, schema
+from ._error import DesignError, Error, ExportError, GearPairError, PitchError
+from ._report import Finding, Place, Report
+from ._tooth import Tooth, ToothSide
 
 __all__ = [
+    "Body",
+    "Contact",
     "DesignError",
     "Error",
+    "ExportError",
+    "Finding",
     "Gear",
     "GearPair",
     "GearPairError",
+    "Keyway",
     "Pitch",
     "PitchError",
+    "Place",
     "Rack",
+    "Report",
     "Shaper",
+    "Tooth",
+    "ToothSide",
     "__version__",
+    "load",
     "pitch",
+    "plot",
+    "schema",
+    "template",
 ]

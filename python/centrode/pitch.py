@@ -1,9 +1,13 @@
-"""Pitch curves, each by the keys it has in a design file (angles in radians)."""
+"""Pitch curves, each by the keys it has in a design file (angles in radians).
+
+A curve with `module` and `tooth_count` has the length pi * module * tooth_count.
+"""
 
 from ._centrode import (
     bezier,
     bspline,
     circle,
+    conjugate,
     eccentric_circle,
     ellipse,
     from_ratio,
@@ -17,6 +21,7 @@ __all__ = [
     "bezier",
     "bspline",
     "circle",
+    "conjugate",
     "eccentric_circle",
     "ellipse",
     "from_ratio",

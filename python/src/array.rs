@@ -2,30 +2,106 @@
 
 use centrode_geometry::Point;
 use numpy::ndarray::{Array2, ArrayD};
-use numpy::{AllowTypeChange, IntoPyArray, PyArray2, PyArrayDyn, PyArrayLike1, PyArrayLikeDyn};
-use pyo3::prelude::{Bound, PyResult, Python};
+use numpy::{IntoPyArray, PyArray2, PyArrayDyn, PyArrayMethods};
+use pyo3::IntoPyObjectExt;
+use pyo3::exceptions::{PyTypeError, PyValueError};
+use pyo3::prelude::{
+    Borrowed, Bound, FromPyObject, Py, PyAny, PyAnyMethods, PyErr, PyResult, Python,
+};
+use pyo3::sync::PyOnceLock;
+use pyo3::types::{PyDict, PyDictMethods};
 
-use crate::error::Error;
+use crate::wait::wait;
 
-/// A list of numbers: anything `NumPy` can make a one-dimensional float array of.
-pub(crate) type Numbers<'py> = PyArrayLike1<'py, f64, AllowTypeChange>;
+/// Numbers in an array of any shape, or a single one: whatever `NumPy` makes real numbers of.
+#[derive(Debug)]
+pub(crate) struct Values(ArrayD<f64>);
 
-/// Numbers in an array of any shape, or a single one.
-pub(crate) type Values<'py> = PyArrayLikeDyn<'py, f64, AllowTypeChange>;
+/// A list of numbers.
+#[derive(Debug)]
+pub(crate) struct Numbers(Vec<f64>);
+
+impl<'a, 'py> FromPyObject<'a, 'py> for Values {
+    type Error = PyErr;
+
+    fn extract(object: Borrowed<'a, 'py, PyAny>) -> PyResult<Self> {
+        static ASARRAY: PyOnceLock<Py<PyAny>> = PyOnceLock::new();
+        let py = object.py();
+        if let Ok(number) = object.extract::<f64>() {
+            return Ok(Self(ArrayD::from_elem(vec![], number)));
+        }
+        let asarray = ASARRAY.import(py, "numpy", "asarray")?;
+        let given = asarray.call1((object,))?;
+        let dtype = given.getattr("dtype")?;
+        let kind: String = dtype.getattr("kind")?.extract()?;
+        // A forced cast would drop the imaginary part, and read words and dates as numbers.
+        if !matches!(kind.as_str(), "b" | "i" | "u" | "f" | "O") {
+            return Err(PyTypeError::new_err(format!(
+                "must be real numbers, not {dtype}"
+            )));
+        }
+        let options = PyDict::new(py);
+        options.set_item("dtype", "float64")?;
+        let array = asarray.call((given,), Some(&options))?;
+        let array = array.cast_into::<PyArrayDyn<f64>>()?;
+        Ok(Self(array.readonly().as_array().to_owned()))
+    }
+}
+
+impl<'a, 'py> FromPyObject<'a, 'py> for Numbers {
+    type Error = PyErr;
+
+    fn extract(object: Borrowed<'a, 'py, PyAny>) -> PyResult<Self> {
+        let Values(array) = Values::extract(object)?;
+        if array.ndim() == 1 {
+            Ok(Self(array.iter().copied().collect()))
+        } else {
+            Err(PyValueError::new_err(format!(
+                "must be a list of numbers, not an array of {} dimensions",
+                array.ndim()
+            )))
+        }
+    }
+}
+
+impl Numbers {
+    pub(crate) fn into_vec(self) -> Vec<f64> {
+        self.0
+    }
+}
 
 /// The numbers, or none.
-pub(crate) fn list(numbers: Option<Numbers<'_>>) -> Vec<f64> {
-    numbers.map_or_else(Vec::new, |n| n.as_array().to_vec())
+pub(crate) fn list(numbers: Option<Numbers>) -> Vec<f64> {
+    numbers.map_or_else(Vec::new, Numbers::into_vec)
 }
 
 /// A function applied to each number; the answer has the shape of the question.
-pub(crate) fn each<'py>(
+pub(crate) fn each(
+    py: Python<'_>,
+    Values(mut values): Values,
+    f: impl Fn(f64) -> f64 + Send + 'static,
+) -> PyResult<Bound<'_, PyAny>> {
+    if let (0, Some(&value)) = (values.ndim(), values.first()) {
+        return f(value).into_bound_py_any(py);
+    }
+    let answer = wait(py, move || {
+        values.mapv_inplace(f);
+        values
+    })?;
+    Ok(answer.into_pyarray(py).into_any())
+}
+
+/// Rows of numbers as an (N, COLUMNS) array.
+pub(crate) fn rows<'py, T: numpy::Element, const COLUMNS: usize>(
     py: Python<'py>,
-    values: &Values<'py>,
-    f: impl Fn(f64) -> f64,
-) -> Bound<'py, PyArrayDyn<f64>> {
-    let answer: ArrayD<f64> = values.as_array().mapv(f);
-    answer.into_pyarray(py)
+    rows: impl ExactSizeIterator<Item = [T; COLUMNS]>,
+) -> PyResult<Bound<'py, PyArray2<T>>> {
+    let count = rows.len();
+    let numbers: Vec<T> = rows.flatten().collect();
+    let array = Array2::from_shape_vec([count, COLUMNS], numbers);
+    Ok(array
+        .map_err(|error| PyValueError::new_err(error.to_string()))?
+        .into_pyarray(py))
 }
 
 /// Points as an (N, 2) array.
@@ -33,9 +109,5 @@ pub(crate) fn points<'py>(
     py: Python<'py>,
     points: &[Point],
 ) -> PyResult<Bound<'py, PyArray2<f64>>> {
-    let numbers: Vec<f64> = points.iter().flat_map(|p| [p.x, p.y]).collect();
-    let rows = Array2::from_shape_vec([points.len(), 2], numbers);
-    Ok(rows
-        .map_err(|error| Error::new_err(error.to_string()))?
-        .into_pyarray(py))
+    rows(py, points.iter().map(|p| [p.x, p.y]))
 }

@@ -1,42 +1,101 @@
+use std::error::Error as _;
+
+use centrode_export::BundleError;
+use centrode_export::gear_pair::GearPairFilesError;
+use centrode_geometry::{SolidError, Tolerance};
+use centrode_mechanism::design::{self, DesignFault};
+use centrode_mechanism::gear::design::SpecError;
 use centrode_mechanism::gear::{self, pitch};
-use pyo3::{PyErr, create_exception, exceptions::PyException};
+use pyo3::prelude::{PyErr, PyResult, Python};
 
-create_exception!(
-    centrode,
-    Error,
-    PyException,
-    "There is no mechanism: base of every error of this package."
-);
-create_exception!(
-    centrode,
-    DesignError,
-    Error,
-    "A design that breaks a rule; the message names the key."
-);
-create_exception!(
-    centrode,
-    PitchError,
-    DesignError,
-    "A pitch curve that cannot exist."
-);
+/// The exceptions, as the Python part of the package defines them.
+mod class {
+    pyo3::import_exception!(centrode._error, DesignError);
+    pyo3::import_exception!(centrode._error, PitchError);
+    pyo3::import_exception!(centrode._error, GearPairError);
+    pyo3::import_exception!(centrode._error, ExportError);
+}
 
-create_exception!(
-    centrode,
-    GearPairError,
-    DesignError,
-    "A gear pair that cannot exist: curves that do not roll, teeth that leave no contour."
-);
+/// A design that breaks a rule at a key.
+pub(crate) fn design_error(key: &str, rule: &str) -> PyErr {
+    class::DesignError::new_err((format!("{key} {rule}"), key.to_owned()))
+}
 
-/// The Python exception of a gear pair's error: the innermost rule broken.
+/// A word that is none of those allowed.
+pub(crate) fn unknown_word(key: &str, word: &str, known: &[&str]) -> PyErr {
+    let known = known.join(", ");
+    design_error(key, &format!("must be one of {known}, not {word:?}"))
+}
+
+/// The exception of a value that breaks a rule of its own.
+pub(crate) fn of_spec(error: &SpecError) -> PyErr {
+    class::DesignError::new_err((error.to_string(), error.key.clone()))
+}
+
+/// The exception of a pitch curve's error.
+pub(crate) fn of_pitch(error: &pitch::PitchError) -> PyErr {
+    class::PitchError::new_err((error.to_string(), format!("pitch.{}", error.key())))
+}
+
+/// The exception of a gear pair's error: the innermost rule broken.
 pub(crate) fn of_pair(error: &gear::GearPairError) -> PyErr {
     match error {
-        gear::GearPairError::Spec(_) => DesignError::new_err(error.to_string()),
+        gear::GearPairError::Spec(error) => of_spec(error),
         gear::GearPairError::Pitch(error) => of_pitch(error),
-        _ => GearPairError::new_err(format!("{}: {error}", error.key())),
+        _ => class::GearPairError::new_err((error.to_string(), error.key())),
     }
 }
 
-/// The Python exception of a pitch curve's error.
-pub(crate) fn of_pitch(error: &pitch::PitchError) -> PyErr {
-    PitchError::new_err(error.to_string())
+/// The exception of a design file's error, with its place.
+pub(crate) fn of_design(error: &design::DesignError) -> PyErr {
+    let arguments = (
+        error.to_string(),
+        error.key.clone(),
+        error.line,
+        error.column,
+    );
+    match error.fault {
+        DesignFault::Pitch(_) => class::PitchError::new_err(arguments),
+        DesignFault::GearPair(_) => class::GearPairError::new_err(arguments),
+        _ => class::DesignError::new_err(arguments),
+    }
+}
+
+/// The exception of files that cannot be made.
+pub(crate) fn of_files(error: &GearPairFilesError) -> PyErr {
+    class::ExportError::new_err(error.to_string())
+}
+
+/// The exception of files that cannot be written; its cause is the system's own.
+pub(crate) fn of_bundle(py: Python<'_>, error: &BundleError) -> PyErr {
+    let exception = class::ExportError::new_err(error.to_string());
+    let system = error
+        .source()
+        .and_then(|e| e.downcast_ref::<std::io::Error>());
+    if let Some(reason) = system {
+        let reason = match reason.raw_os_error() {
+            Some(code) => std::io::Error::from_raw_os_error(code),
+            None => std::io::Error::from(reason.kind()),
+        };
+        exception.set_cause(py, Some(reason.into()));
+    }
+    exception
+}
+
+/// A tolerance, if it is a positive length.
+pub(crate) fn tolerance(mm: f64) -> PyResult<Tolerance> {
+    Tolerance::new(mm).map_err(|e| class::DesignError::new_err((e.to_string(), "tolerance")))
+}
+
+/// A design of another family where a gear pair is wanted.
+pub(crate) fn not_a_gear_pair() -> PyErr {
+    class::DesignError::new_err(("family must be \"gear-pair\"", "family"))
+}
+
+/// The exception of a gear that is no solid.
+pub(crate) fn of_solid(error: &SolidError) -> PyErr {
+    match error {
+        SolidError::NoHeight { .. } => class::DesignError::new_err((error.to_string(), "width")),
+        _ => class::ExportError::new_err(error.to_string()),
+    }
 }

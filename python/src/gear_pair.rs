@@ -1,79 +1,116 @@
+use std::path::PathBuf;
 use std::sync::Arc;
 
-use centrode_geometry::Tolerance;
+use centrode_analysis::{Contact, check};
+use centrode_export::Bundle;
+use centrode_export::gear_pair as files;
+use centrode_mechanism::design::Design;
 use centrode_mechanism::gear as mechanism;
 use centrode_mechanism::gear::Member;
-use centrode_mechanism::gear::design::{Addendum, GearPairDesign, Phase, TeethSpec};
-use numpy::{PyArray2, PyArrayDyn};
-use pyo3::FromPyObject;
-use pyo3::prelude::{Bound, PyRef, PyResult, Python, pyclass, pymethods};
+use centrode_mechanism::gear::design::{Addendum, BodySpec, GearPairDesign, TeethSpec};
+use centrode_mechanism::gear::pitch::{Conjugate, PitchSpec};
+use pyo3::exceptions::PyTypeError;
+use pyo3::prelude::{
+    Bound, Py, PyAny, PyAnyMethods, PyDictMethods, PyModule, PyRef, PyResult, Python, pyclass,
+    pymethods,
+};
+use pyo3::types::{PyBytes, PyDict};
 
-use crate::array::{Values, each, points};
-use crate::error::{DesignError, of_pair};
+use crate::array::{Numbers, Values, each};
+use crate::body::Body;
+use crate::count::{Count, optional};
+use crate::design::pair_of_text;
+use crate::error::{of_bundle, of_design, of_files, of_pair};
+use crate::format::options;
+use crate::gear::Gear;
 use crate::pitch::Pitch;
-use crate::tool::Tool;
+use crate::place::{Place, addendum};
+use crate::record;
+use crate::tool::{self, Tool};
+use crate::wait::wait;
 
 /// A non-circular gear pair: exact pitch curves, finished teeth.
-#[pyclass(frozen, module = "centrode")]
+///
+/// The driver is centred at the origin, the driven gear at (center_distance, 0). At the driver angle phi the
+/// driver has turned by -phi and the driven gear by +driven_angle(phi).
+///
+/// Args:
+///     pitch: Pitch curve of the driver; that of the driven gear follows.
+///     mean_ratio: Turns of driver : turns of driven gear, in lowest terms.
+///     tooth_count: Teeth of the driver, for a pitch curve with a size of its own: the module follows.
+///     center_distance: mm; it follows from pitch curve and mean ratio, and is checked if given.
+///     tool: What cuts both gears; the rack of ISO 53, profile A, if left out.
+///     addendum: "full": every tooth as high as the tool asks. "fitted": each as high as works.
+///     phase: Where the teeth sit on the driver: "tooth" or "space" at the polar angle zero, "congruent" so that
+///         both gears come out the same part, "auto", or the pitches from the polar angle zero to a tooth.
+///     backlash: Play of the pair along the normal, mm.
+///     backlash_angle: Play of the driven gear at most, rad, instead of `backlash`.
+///     thickness_split: The driver's share of the pitch.
+///     least_tip_width_coefficient: Least width of a tooth at its tip, in modules, before it is reported.
+///     driver: Body of the driver.
+///     driven: Body of the driven gear.
+///     name: Short name: letters, digits, "-" and "_".
+///     title: One line for drawings and reports.
+///
+/// Raises:
+///     DesignError: A value breaks a rule; GearPairError and PitchError where curve or teeth cannot exist.
+///
+/// >>> import centrode as ct
+/// >>> pitch = ct.pitch.ellipse(eccentricity=0.2679491924311227, module=2.25, tooth_count=23)
+/// >>> pair = ct.GearPair(pitch)
+/// >>> round(pair.center_distance, 6)
+/// 52.709221
+/// >>> pair.congruent
+/// True
+#[pyclass(frozen, eq, module = "centrode")]
 #[derive(Debug)]
 pub(crate) struct GearPair {
-    pair: Arc<mechanism::GearPair>,
+    pub(crate) design: Arc<GearPairDesign>,
+    pub(crate) pair: Arc<mechanism::GearPair>,
 }
 
-/// One gear of a pair, in its own frame.
-#[pyclass(frozen, module = "centrode")]
-#[derive(Debug)]
-pub(crate) struct Gear {
-    pair: Arc<mechanism::GearPair>,
-    member: Member,
+impl PartialEq for GearPair {
+    fn eq(&self, other: &Self) -> bool {
+        self.design == other.design
+    }
 }
 
-/// Where the teeth sit: a word, or pitches from the polar angle zero to the middle of a tooth.
-#[derive(FromPyObject)]
-pub(crate) enum Place {
-    /// Pitches.
-    Pitches(f64),
-    /// A word.
-    Word(String),
-}
-
-impl Place {
-    fn phase(self) -> PyResult<Phase> {
-        match self {
-            Self::Pitches(pitches) => Ok(Phase::Pitches(pitches)),
-            Self::Word(word) => match word.as_str() {
-                "auto" => Ok(Phase::Auto),
-                "tooth" => Ok(Phase::Tooth),
-                "space" => Ok(Phase::Space),
-                "congruent" => Ok(Phase::Congruent),
-                _ => Err(DesignError::new_err(format!(
-                    "phase must be \"auto\", \"tooth\", \"space\", \"congruent\" or a number of pitches, not \"{word}\""
-                ))),
-            },
+impl GearPair {
+    fn gear(&self, member: Member) -> Gear {
+        Gear {
+            pair: Arc::clone(&self.pair),
+            member,
         }
     }
+
+    fn bundle(
+        &self,
+        py: Python<'_>,
+        formats: Option<Vec<String>>,
+        tolerance: f64,
+        dxf_version: &str,
+        dxf_curves: &str,
+    ) -> PyResult<Bundle> {
+        let (formats, options) = options(formats, tolerance, dxf_version, dxf_curves)?;
+        let pair = Arc::clone(&self.pair);
+        wait(py, move || files::files(&pair, &formats, &options))?.map_err(|e| of_files(&e))
+    }
 }
 
-fn addendum(word: &str) -> PyResult<Addendum> {
-    match word {
-        "full" => Ok(Addendum::Full),
-        "fitted" => Ok(Addendum::Fitted),
-        _ => Err(DesignError::new_err(format!(
-            "addendum must be \"full\" or \"fitted\", not \"{word}\""
-        ))),
-    }
+fn body(body: Option<PyRef<'_, Body>>) -> BodySpec {
+    body.map_or_else(BodySpec::default, |b| b.0.clone())
 }
 
 #[pymethods]
 impl GearPair {
     #[new]
-    #[pyo3(signature = (pitch, *, mean_ratio=(1, 1), tooth_count=None, center_distance=None, tool=None, addendum="full", phase=None, backlash=0.0, backlash_angle=None, thickness_split=0.5, least_tip_width_coefficient=0.2, name="gear-pair", title=""))]
+    #[pyo3(signature = (pitch, *, mean_ratio=[Count::Fits(1), Count::Fits(1)], tooth_count=None, center_distance=None, tool=None, addendum="full", phase=None, backlash=0.0, backlash_angle=None, thickness_split=0.5, least_tip_width_coefficient=0.2, driver=None, driven=None, name="gear-pair", title=""))]
     #[expect(clippy::too_many_arguments, reason = "keyword arguments")]
     fn new(
         py: Python<'_>,
         pitch: PyRef<'_, Pitch>,
-        mean_ratio: (u32, u32),
-        tooth_count: Option<u32>,
+        mean_ratio: [Count; 2],
+        tooth_count: Option<Count>,
         center_distance: Option<f64>,
         tool: Option<Tool<'_>>,
         addendum: &str,
@@ -82,30 +119,61 @@ impl GearPair {
         backlash_angle: Option<f64>,
         thickness_split: f64,
         least_tip_width_coefficient: f64,
+        driver: Option<PyRef<'_, Body>>,
+        driven: Option<PyRef<'_, Body>>,
         name: &str,
         title: &str,
     ) -> PyResult<Self> {
-        let mut design = GearPairDesign::new(pitch.spec.clone());
-        design.name = name.into();
-        design.title = title.into();
-        design.mean_ratio = mean_ratio.into();
-        design.tooth_count = tooth_count;
-        design.center_distance = center_distance;
-        design.tool = tool.map(|t| t.spec()).unwrap_or_default();
-        design.teeth = TeethSpec {
-            addendum: self::addendum(addendum)?,
-            phase: phase.map_or(Ok(Phase::Auto), Place::phase)?,
-            backlash,
-            backlash_angle,
-            thickness_split,
-            least_tip_width_coefficient,
+        let [driver_turns, driven_turns] = mean_ratio;
+        let design = GearPairDesign {
+            name: name.into(),
+            title: title.into(),
+            mean_ratio: [
+                driver_turns.of("mean_ratio")?,
+                driven_turns.of("mean_ratio")?,
+            ],
+            tooth_count: optional("tooth_count", tooth_count)?,
+            center_distance,
+            pitch: pitch.spec.clone(),
+            tool: tool.map(|t| t.spec()).unwrap_or_default(),
+            teeth: TeethSpec {
+                addendum: self::addendum(addendum)?,
+                phase: phase.map(|p| p.phase()).transpose()?.unwrap_or_default(),
+                backlash,
+                backlash_angle,
+                thickness_split,
+                least_tip_width_coefficient,
+            },
+            driver: body(driver),
+            driven: body(driven),
         };
-        let pair = py
-            .detach(|| mechanism::GearPair::resolve(&design))
-            .map_err(|e| of_pair(&e))?;
-        Ok(Self {
-            pair: Arc::new(pair),
-        })
+        let design = Arc::new(design);
+        let ours = Arc::clone(&design);
+        let pair = wait(py, move || mechanism::GearPair::resolve(&ours))?;
+        let pair = Arc::new(pair.map_err(|e| of_pair(&e))?);
+        Ok(Self { design, pair })
+    }
+
+    /// The pair of a design file's text.
+    ///
+    /// >>> import centrode as ct
+    /// >>> ct.GearPair.from_toml(ct.template("gear-pair")).driver.tooth_count
+    /// 23
+    #[staticmethod]
+    fn from_toml(py: Python<'_>, text: &str) -> PyResult<Self> {
+        pair_of_text(py, text.as_bytes())
+    }
+
+    /// The design file of the pair; `from_toml` reads it back.
+    ///
+    /// >>> import centrode as ct
+    /// >>> pair = ct.GearPair(ct.pitch.circle(module=2, tooth_count=20))
+    /// >>> print(pair.to_toml()[:21])
+    /// family = "gear-pair"
+    /// <BLANKLINE>
+    fn to_toml(&self) -> PyResult<String> {
+        let design = Design::GearPair(GearPairDesign::clone(&self.design));
+        design.to_toml().map_err(|e| of_design(&e))
     }
 
     /// Name, as written in the design.
@@ -114,13 +182,40 @@ impl GearPair {
         self.pair.name()
     }
 
+    /// Title, as written in the design.
+    #[getter]
+    fn title(&self) -> &str {
+        self.pair.title()
+    }
+
+    /// Pitch curve of the driver.
+    #[getter]
+    fn pitch(&self) -> PyResult<Pitch> {
+        Pitch::resolve(self.design.pitch.clone())
+    }
+
+    /// What cuts both gears.
+    #[getter]
+    fn tool(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
+        tool::object(py, &self.design.tool)
+    }
+
+    /// "full" or "fitted".
+    #[getter]
+    fn addendum(&self) -> &'static str {
+        match self.design.teeth.addendum {
+            Addendum::Full => "full",
+            Addendum::Fitted => "fitted",
+        }
+    }
+
     /// Distance between the shafts, mm.
     #[getter]
     fn center_distance(&self) -> f64 {
         self.pair.center_distance()
     }
 
-    /// Module, mm.
+    /// Module, mm: pitch length / (pi x tooth count).
     #[getter]
     fn module(&self) -> f64 {
         self.pair.module()
@@ -132,10 +227,16 @@ impl GearPair {
         self.pair.mean_ratio()
     }
 
-    /// Pitches from the polar angle zero to the middle of the driver's first tooth.
+    /// Pitches from the polar angle zero to the middle of the driver's tooth 0.
     #[getter]
     fn phase(&self) -> f64 {
         self.pair.phase()
+    }
+
+    /// Play along the common normal, mm.
+    #[getter]
+    fn backlash(&self) -> f64 {
+        self.pair.backlash()
     }
 
     /// Whether both gears are the same part.
@@ -150,100 +251,195 @@ impl GearPair {
         self.pair.cycle()
     }
 
-    /// The gear that is turned.
+    /// The gear that is turned, at the origin.
     #[getter]
     fn driver(&self) -> Gear {
         self.gear(Member::Driver)
     }
 
-    /// The gear that is driven.
+    /// The gear that is driven, at (center_distance, 0).
     #[getter]
     fn driven(&self) -> Gear {
         self.gear(Member::Driven)
     }
 
-    /// Driven angle at each driver angle, rad.
-    fn driven_angle<'py>(&self, py: Python<'py>, phi: Values<'py>) -> Bound<'py, PyArrayDyn<f64>> {
-        each(py, &phi, |phi| self.pair.driven_angle(phi))
+    /// Driven angle at a driver angle, rad; of an array, an array of the same shape.
+    ///
+    /// >>> import centrode as ct, numpy as np
+    /// >>> pair = ct.GearPair(ct.pitch.circle(module=2, tooth_count=20), mean_ratio=(2, 1))
+    /// >>> pair.driven_angle(1.0)
+    /// 0.5
+    /// >>> pair.driven_angle([[0, 1], [2, 3]])
+    /// array([[0. , 0.5],
+    ///        [1. , 1.5]])
+    fn driven_angle<'py>(&self, py: Python<'py>, phi: Values) -> PyResult<Bound<'py, PyAny>> {
+        let pair = Arc::clone(&self.pair);
+        each(py, phi, move |phi| pair.driven_angle(phi))
     }
 
-    /// Driven turn per driver turn at each driver angle.
-    fn ratio<'py>(&self, py: Python<'py>, phi: Values<'py>) -> Bound<'py, PyArrayDyn<f64>> {
-        each(py, &phi, |phi| self.pair.ratio(phi))
+    /// Driven turn per driver turn at a driver angle, rad; of an array, an array of the same shape.
+    ///
+    /// >>> import centrode as ct
+    /// >>> pitch = ct.pitch.ellipse(eccentricity=0.2679491924311227, module=2.25, tooth_count=23)
+    /// >>> pair = ct.GearPair(pitch)
+    /// >>> round(pair.ratio(0.0), 6)
+    /// 1.732051
+    fn ratio<'py>(&self, py: Python<'py>, phi: Values) -> PyResult<Bound<'py, PyAny>> {
+        let pair = Arc::clone(&self.pair);
+        each(py, phi, move |phi| pair.ratio(phi))
     }
 
-    /// Change of the ratio per radian at each driver angle.
-    fn ratio_slope<'py>(&self, py: Python<'py>, phi: Values<'py>) -> Bound<'py, PyArrayDyn<f64>> {
-        each(py, &phi, |phi| self.pair.ratio_slope(phi))
+    /// Change of the ratio per radian of driver angle; of an array, an array of the same shape.
+    fn ratio_slope<'py>(&self, py: Python<'py>, phi: Values) -> PyResult<Bound<'py, PyAny>> {
+        let pair = Arc::clone(&self.pair);
+        each(py, phi, move |phi| pair.ratio_slope(phi))
     }
 
-    fn __repr__(&self) -> String {
-        format!("GearPair({})", self.pair.definition())
-    }
-}
-
-impl GearPair {
-    fn gear(&self, member: Member) -> Gear {
-        Gear {
-            pair: Arc::clone(&self.pair),
-            member,
-        }
-    }
-}
-
-impl Gear {
-    fn inner(&self) -> &mechanism::Gear {
-        self.pair.gear(self.member)
-    }
-}
-
-#[pymethods]
-impl Gear {
-    /// Number of teeth.
-    #[getter]
-    fn tooth_count(&self) -> u32 {
-        self.inner().tooth_count()
+    /// The driven pitch curve, with its teeth counted: the driver of a next pair.
+    ///
+    /// >>> import centrode as ct
+    /// >>> pair = ct.GearPair(ct.pitch.polar("1 + 0.1*cos(phi)", module=2, tooth_count=20), mean_ratio=(2, 1))
+    /// >>> back = ct.GearPair(pair.conjugate(), mean_ratio=(1, 2))
+    /// >>> back.driven.tooth_count
+    /// 20
+    fn conjugate(&self) -> PyResult<Pitch> {
+        Pitch::resolve(PitchSpec::Conjugate(Conjugate {
+            mean_ratio: self.design.mean_ratio,
+            module: None,
+            tooth_count: Some(self.pair.driven().tooth_count()),
+            of: Box::new(self.design.pitch.clone()),
+        }))
     }
 
-    /// Length of the pitch curve, mm.
-    #[getter]
-    fn pitch_length(&self) -> f64 {
-        self.inner().pitch_length()
-    }
-
-    /// Area inside the outline, mm^2.
-    #[getter]
-    fn area(&self) -> f64 {
-        self.inner().outline().area()
-    }
-
-    /// The toothed contour within a tolerance, (N, 2), counter-clockwise; the last point joins the first.
-    #[pyo3(signature = (*, tolerance))]
-    fn outline<'py>(&self, py: Python<'py>, tolerance: f64) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let tolerance = within(tolerance)?;
-        points(py, &self.inner().outline().flatten(tolerance))
-    }
-
-    /// The pitch curve within a tolerance, (N, 2), counter-clockwise.
-    #[pyo3(signature = (*, tolerance))]
-    fn pitch_curve<'py>(
+    /// Contact analysis of the finished outlines along one whole cycle, or at given inputs.
+    ///
+    /// Args:
+    ///     per_pitch: Inputs a pitch, spaced evenly along the pitch curve and never in step with the teeth.
+    ///     inputs: Driver angles, rad, instead.
+    ///
+    /// >>> import centrode as ct
+    /// >>> pair = ct.GearPair(ct.pitch.ellipse(eccentricity=0.2, module=2, tooth_count=23))
+    /// >>> bool(abs(pair.contact().transmission_error).max() < 1e-8)
+    /// True
+    #[pyo3(signature = (per_pitch=None, *, inputs=None))]
+    fn contact<'py>(
         &self,
         py: Python<'py>,
+        per_pitch: Option<Count>,
+        inputs: Option<Numbers>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let per_pitch = optional("per_pitch", per_pitch)?;
+        let pair = Arc::clone(&self.pair);
+        let contact = match (per_pitch, inputs) {
+            (Some(_), Some(_)) => {
+                return Err(PyTypeError::new_err("give per_pitch or inputs, not both"));
+            }
+            (None, None) => wait(py, move || Contact::of(&pair)),
+            (Some(count), None) => wait(py, move || Contact::sampled(&pair, count)),
+            (None, Some(inputs)) => {
+                let inputs = inputs.into_vec();
+                wait(py, move || Contact::at(&pair, &inputs))
+            }
+        };
+        record::contact(py, contact?)
+    }
+
+    /// Checks pitch curves, every tooth, and the mesh along one whole cycle.
+    ///
+    /// >>> import centrode as ct
+    /// >>> report = ct.GearPair(ct.pitch.ellipse(eccentricity=0.2, module=2, tooth_count=23)).check()
+    /// >>> report.ok
+    /// True
+    /// >>> report.values["transmission_error_max"] < 1e-8
+    /// True
+    fn check<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let pair = Arc::clone(&self.pair);
+        let report = wait(py, move || check(&pair))?;
+        record::report(py, &report)
+    }
+
+    /// The files of the pair, name to contents, without writing them; `export` writes them.
+    ///
+    /// >>> import centrode as ct
+    /// >>> pair = ct.GearPair(ct.pitch.circle(module=2, tooth_count=20))
+    /// >>> sorted(pair.files(formats=["stl"]))
+    /// ['driven.stl', 'driver.stl']
+    #[pyo3(signature = (*, formats=None, tolerance=1e-3, dxf_version="R2010", dxf_curves="arcs"))]
+    fn files<'py>(
+        &self,
+        py: Python<'py>,
+        formats: Option<Vec<String>>,
         tolerance: f64,
-    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let tolerance = within(tolerance)?;
-        points(py, &self.inner().pitch_curve().flatten(tolerance))
+        dxf_version: &str,
+        dxf_curves: &str,
+    ) -> PyResult<Bound<'py, PyDict>> {
+        let bundle = self.bundle(py, formats, tolerance, dxf_version, dxf_curves)?;
+        let files = PyDict::new(py);
+        for (name, bytes) in bundle.files() {
+            files.set_item(name, PyBytes::new(py, bytes))?;
+        }
+        Ok(files)
+    }
+
+    /// Writes the pair's files into a directory, which is made if it is missing; gives their paths.
+    ///
+    /// Every file is written whole or not at all, and is the same from run to run.
+    ///
+    /// Args:
+    ///     directory: Where to.
+    ///     formats: Any of "dxf", "svg", "stl", "csv" and "urdf"; all if left out.
+    ///     tolerance: Greatest distance of every arc, point sequence and mesh from the exact curve, mm.
+    ///     dxf_version: "R2010" or "R12".
+    ///     dxf_curves: "arcs" or "splines".
+    ///
+    /// Raises:
+    ///     ExportError: A file cannot be made or written.
+    ///
+    /// >>> import centrode as ct, tempfile
+    /// >>> pair = ct.GearPair(ct.pitch.circle(module=2, tooth_count=20))
+    /// >>> with tempfile.TemporaryDirectory() as directory:
+    /// ...     [path.name for path in pair.export(directory, formats=["dxf"])]
+    /// ['driver.dxf', 'driven.dxf', 'assembly.dxf']
+    #[pyo3(signature = (directory, *, formats=None, tolerance=1e-3, dxf_version="R2010", dxf_curves="arcs"))]
+    fn export(
+        &self,
+        py: Python<'_>,
+        directory: PathBuf,
+        formats: Option<Vec<String>>,
+        tolerance: f64,
+        dxf_version: &str,
+        dxf_curves: &str,
+    ) -> PyResult<Vec<PathBuf>> {
+        let bundle = self.bundle(py, formats, tolerance, dxf_version, dxf_curves)?;
+        // Not left behind to run out unheard: it changes the disk.
+        py.detach(|| bundle.write_to(&directory))
+            .map_err(|e| of_bundle(py, &e))
     }
 
     fn __repr__(&self) -> String {
+        let pair = &self.pair;
         format!(
-            "Gear({}, {} teeth)",
-            self.member.name(),
-            self.inner().tooth_count()
+            "GearPair({:?}, {}, {}:{} teeth, module={:?}, center_distance={:?})",
+            pair.name(),
+            pair.definition(),
+            pair.driver().tooth_count(),
+            pair.driven().tooth_count(),
+            pair.module(),
+            pair.center_distance(),
         )
     }
-}
 
-fn within(tolerance: f64) -> PyResult<Tolerance> {
-    Tolerance::new(tolerance).map_err(|e| DesignError::new_err(e.to_string()))
+    fn __copy__(slf: Bound<'_, Self>) -> Bound<'_, Self> {
+        slf
+    }
+
+    fn __deepcopy__<'py>(slf: Bound<'py, Self>, _memo: &Bound<'py, PyAny>) -> Bound<'py, Self> {
+        slf
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, (Vec<u8>,))> {
+        let text = self.to_toml()?;
+        let module = PyModule::import(py, "centrode._centrode")?;
+        Ok((module.getattr("_load")?, (text.into_bytes(),)))
+    }
 }

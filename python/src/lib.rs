@@ -3,10 +3,18 @@
 use pyo3::prelude::pymodule;
 
 mod array;
+mod body;
+mod count;
+mod design;
 mod error;
+mod format;
+mod gear;
 mod gear_pair;
 mod pitch;
+mod place;
+mod record;
 mod tool;
+mod wait;
 
 /// Native part of the `centrode` package.
 #[pymodule]
@@ -14,19 +22,26 @@ mod _centrode {
     use pyo3::prelude::{Bound, PyModule, PyModuleMethods, PyResult};
 
     #[pymodule_export]
-    use crate::error::{DesignError, Error, GearPairError, PitchError};
+    use crate::body::{Body, Keyway};
     #[pymodule_export]
-    use crate::gear_pair::{Gear, GearPair};
+    use crate::design::{_load, _schema, template};
     #[pymodule_export]
-    use crate::pitch::{
-        Pitch, bezier, bspline, circle, eccentric_circle, ellipse, from_ratio, from_transmission,
-        limacon, lobed_ellipse, polar,
+    use crate::gear::Gear;
+    #[pymodule_export]
+    use crate::gear_pair::GearPair;
+    #[pymodule_export]
+    use crate::pitch::kinds::{
+        bezier, bspline, circle, conjugate, eccentric_circle, ellipse, from_ratio,
+        from_transmission, limacon, lobed_ellipse, polar,
     };
+    #[pymodule_export]
+    use crate::pitch::{_pitch_from_toml, Pitch};
     #[pymodule_export]
     use crate::tool::{Rack, Shaper};
 
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
+        module.add("_LARGEST_DESIGN", crate::design::LARGEST)?;
         module.add("__version__", env!("CARGO_PKG_VERSION"))
     }
 }

@@ -451,3 +451,26 @@ proptest! {
         prop_assert_eq!((again.pitch, again.teeth), (pair.pitch, pair.teeth));
     }
 }
+
+#[test]
+fn a_conjugate_curve_is_read_and_its_faults_are_placed() {
+    let text = |k: &str| {
+        format!(
+            "family = \"gear-pair\"\n[pitch]\nkind = \"conjugate\"\nmean_ratio = [2, 1]\ntooth_count = 40\n\
+             [pitch.of]\nkind = \"ellipse\"\neccentricity = {k}\nsemi_major_axis = 20\n"
+        )
+    };
+    let text_in = text("0.2").replace("[pitch]", "mean_ratio = [1, 2]\n[pitch]");
+    let file = DesignFile::read(text_in.as_bytes()).expect("a design");
+    let pair = file.gear_pair().expect("a pair");
+    assert_eq!(pair.driven().tooth_count(), 20);
+    let written = file.design().to_toml().expect("writable");
+    assert_eq!(
+        &Design::from_toml(&written).expect("readable"),
+        file.design()
+    );
+
+    let file = DesignFile::read(text("1.5").as_bytes()).expect("well-formed");
+    let error = file.gear_pair().expect_err("no ellipse");
+    assert_eq!((error.key.as_str(), error.line), ("pitch.of", 6));
+}

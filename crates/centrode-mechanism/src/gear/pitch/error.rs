@@ -1,5 +1,7 @@
 use thiserror::Error;
 
+use crate::gear::RollingError;
+
 /// Why a pitch curve does not exist.
 ///
 /// Angles are polar angles around the shaft axis, degrees.
@@ -212,6 +214,12 @@ pub enum PitchError {
         /// Polar angle, degrees.
         angle: f64,
     },
+    /// The curve whose conjugate is wanted does not exist.
+    #[error("of: {0}")]
+    Of(Box<PitchError>),
+    /// No closed curve rolls on the one given.
+    #[error("{0}")]
+    NoConjugate(Box<RollingError>),
     /// A formula that cannot be read.
     #[error("{key}: {reason} at character {column}")]
     Expression {
@@ -252,6 +260,8 @@ impl PitchError {
             Self::NoSize(key) | Self::SizeTwice(key) => key,
             Self::LengthMismatch { second, .. } => second,
             Self::AnglesNotIncreasing { .. } => "angle_deg",
+            Self::Of(_) => "of",
+            Self::NoConjugate(_) => "mean_ratio",
         }
     }
 }

@@ -13,6 +13,7 @@ use serde::{Deserialize, Deserializer, Serialize};
 mod bezier;
 mod bspline;
 mod circle;
+mod conjugate;
 mod ellipse;
 mod error;
 mod limacon;
@@ -28,6 +29,7 @@ mod transmission;
 pub use bezier::Bezier;
 pub use bspline::Bspline;
 pub use circle::{Circle, EccentricCircle};
+pub use conjugate::Conjugate;
 pub use ellipse::{Ellipse, LobedEllipse};
 pub use error::PitchError;
 pub use limacon::Limacon;
@@ -64,6 +66,8 @@ pub enum PitchSpec {
     Transmission(Transmission),
     /// Ratio as a function of the driver angle.
     Ratio(Ratio),
+    /// The curve that rolls on another.
+    Conjugate(Conjugate),
 }
 
 /// A resolved pitch curve.
@@ -95,6 +99,7 @@ impl PitchSpec {
         "polar",
         "transmission",
         "ratio",
+        "conjugate",
     ];
 
     /// Reads what stands beside the key `kind`.
@@ -110,6 +115,7 @@ impl PitchSpec {
             "polar" => Polar::deserialize(d).map(Self::Polar),
             "transmission" => Transmission::deserialize(d).map(Self::Transmission),
             "ratio" => Ratio::deserialize(d).map(Self::Ratio),
+            "conjugate" => Conjugate::deserialize(d).map(Self::Conjugate),
             other => Err(D::Error::unknown_variant(other, Self::KINDS)),
         }
     }
@@ -136,6 +142,7 @@ impl PitchSpec {
             Self::Polar(spec) => spec.tooth_count,
             Self::Transmission(spec) => spec.tooth_count,
             Self::Ratio(spec) => spec.tooth_count,
+            Self::Conjugate(spec) => spec.tooth_count,
         }
     }
 
@@ -151,6 +158,7 @@ impl PitchSpec {
             Self::Polar(spec) => spec.draft(),
             Self::Transmission(spec) => spec.draft(),
             Self::Ratio(spec) => spec.draft(),
+            Self::Conjugate(spec) => spec.draft(),
         }
     }
 }

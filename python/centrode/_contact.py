@@ -1,0 +1,45 @@
+from dataclasses import dataclass
+
+from numpy import float64, uint32
+from numpy.typing import NDArray
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Contact:
+    """The contact of a pair along its cycle, one value an input; made by `GearPair.contact`.
+
+    Where nothing is near enough to drive, the mesh has come apart: errors and play are infinite.
+    """
+
+    __module__ = "centrode"
+
+    input: NDArray[float64]
+    """Driver angle, rad."""
+    law: NDArray[float64]
+    """Driven angle the pitch curves ask for, rad."""
+    transmission_error: NDArray[float64]
+    """Driven angle when the driver pushes it on, less the law and the designed half backlash, rad."""
+    reverse_transmission_error: NDArray[float64]
+    """The same with the driver pushing it back."""
+    backlash: NDArray[float64]
+    """Play of the driven gear with the driver held, rad."""
+    normal_backlash: NDArray[float64]
+    """Play along the common normal of the driving contact, mm."""
+    contacts: NDArray[uint32]
+    """Pairs of teeth in contact when the driver pushes the driven gear on."""
+    overlap: NDArray[float64]
+    """Deepest overlap of the two outlines with the driven gear seated, mm."""
+    clearance: NDArray[float64]
+    """Least distance of a tip from a root, mm; infinite where none is near."""
+    fillet_clearance: NDArray[float64]
+    """Least distance of anything from a fillet, mm; infinite where nothing is near."""
+    sliding: NDArray[float64]
+    """Greatest sliding speed in the contact per driver speed, mm/rad."""
+
+    def __len__(self) -> int:
+        """Give the number of inputs."""
+        return len(self.input)
+
+    def __repr__(self) -> str:
+        """Name the number of inputs; the arrays are long."""
+        return f"Contact({len(self)} inputs)"

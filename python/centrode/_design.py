@@ -1,0 +1,33 @@
+import json
+from os import PathLike, fspath
+from typing import Any
+
+from ._centrode import _LARGEST_DESIGN, GearPair, _load, _schema
+from ._error import DesignError
+
+
+def load(path: str | PathLike[str]) -> GearPair:
+    """Read a design file and make its gear pair.
+
+    Raises:
+        DesignError: The design breaks a rule; its `key`, `line` and `column` say where.
+        OSError: The file cannot be read.
+    """
+    with open(path, "rb") as file:
+        contents = file.read(_LARGEST_DESIGN)
+    try:
+        return _load(contents)
+    except DesignError as error:
+        error.args = (f"{fspath(path)}: {error}",)
+        raise
+
+
+def schema() -> dict[str, Any]:
+    """Give the JSON schema of the design file.
+
+    >>> import centrode as ct
+    >>> "$schema" in ct.schema()
+    True
+    """
+    schema: dict[str, Any] = json.loads(_schema())
+    return schema

@@ -1,0 +1,50 @@
+class Error(Exception):
+    """There is no mechanism, or no file of it: base of every error of this package."""
+
+    __module__ = "centrode"
+
+
+class DesignError(Error, ValueError):
+    """A design that breaks a rule.
+
+    >>> import centrode as ct
+    >>> try:
+    ...     ct.Rack(pressure_angle=1.5)
+    ... except ct.DesignError as error:
+    ...     print(error.key)
+    tool.pressure_angle_deg
+    """
+
+    __module__ = "centrode"
+
+    key: str
+    """Key at fault as a design file has it, with the tables around it; empty where no key is to blame."""
+    line: int | None
+    """Line of the key in the design file, from one; None without a file."""
+    column: int | None
+    """Column of the key, in characters, from one."""
+
+    def __init__(self, message: str, key: str = "", line: int | None = None, column: int | None = None) -> None:
+        """Keep the message as the only argument."""
+        super().__init__(message)
+        self.key = key
+        self.line = line
+        self.column = column
+
+
+class PitchError(DesignError):
+    """A pitch curve that cannot exist."""
+
+    __module__ = "centrode"
+
+
+class GearPairError(DesignError):
+    """A gear pair that cannot exist: curves that do not roll, teeth that leave no contour."""
+
+    __module__ = "centrode"
+
+
+class ExportError(Error):
+    """A file that cannot be made or written; the system's reason, if any, is the cause."""
+
+    __module__ = "centrode"

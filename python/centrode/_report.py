@@ -1,0 +1,63 @@
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Literal
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """Where in the mechanism and its cycle a finding was made."""
+
+    __module__ = "centrode"
+
+    part: str | None
+    """Part, as named in the design."""
+    teeth: tuple[int, ...]
+    """Tooth numbers, from zero."""
+    input: float | None
+    """Driver angle, rad."""
+
+
+@dataclass(frozen=True, slots=True)
+class Finding:
+    """A way in which a mechanism is worse than it should be: measured, required, where."""
+
+    __module__ = "centrode"
+
+    rule: str
+    """Short stable name of the rule."""
+    severity: Literal["note", "warning", "error"]
+    """How much it matters: an error means the part does not do its job."""
+    message: str
+    """One sentence for a person."""
+    measured: float | None
+    """The measured figure, in `unit`."""
+    required: float | None
+    """The figure it is held against, in `unit`."""
+    unit: str
+    """"mm", "rad", or empty for a plain number."""
+    place: Place
+    """Where it was found."""
+
+    def __str__(self) -> str:
+        """Severity and message."""
+        return f"{self.severity}: {self.message}"
+
+
+@dataclass(frozen=True, slots=True)
+class Report:
+    """All findings and figures of one mechanism; made by `GearPair.check`."""
+
+    __module__ = "centrode"
+
+    ok: bool
+    """True when no finding is an error."""
+    findings: tuple[Finding, ...]
+    """What is wrong or worth knowing, worst first."""
+    values: Mapping[str, float]
+    """Figures by name: lengths in mm, angles in rad."""
+
+    def __str__(self) -> str:
+        """Every figure and every finding, a line each."""
+        width = max(map(len, self.values), default=0)
+        figures = [f"{name:{width}}  {value:.6g}" for name, value in self.values.items()]
+        return "\n".join([*figures, *map(str, self.findings)])

@@ -1,0 +1,197 @@
+"""Pictures of gear pairs; needs matplotlib: ``pip install centrode[plot]``.
+
+Every function draws into the given axes, or into new ones, and gives back what it drew in.
+"""
+
+from __future__ import annotations
+
+from os import PathLike, fspath
+from typing import TYPE_CHECKING, Any, cast
+
+import numpy as np
+
+from ._centrode import Gear, GearPair
+from ._contact import Contact
+
+if TYPE_CHECKING:
+    from matplotlib.animation import FuncAnimation
+    from matplotlib.axes import Axes
+    from matplotlib.patches import PathPatch
+    from numpy.typing import NDArray
+
+__all__ = ["animate", "contact", "motion", "pair"]
+
+_DRIVER, _DRIVEN = "#3b6ea5", "#c98a2b"
+_FINE = 1e-2
+"""Tolerance of what is drawn, in modules: below a pixel on any screen."""
+
+
+def pair(pair: GearPair, phi: float = 0.0, ax: Axes | None = None, *, pitch_curves: bool = True) -> Axes:
+    """Draw both gears in mesh at a driver angle.
+
+    Args:
+        pair: What to draw.
+        phi: Driver angle, rad.
+        ax: Where to; new axes if left out.
+        pitch_curves: Whether the pitch curves are drawn too.
+    """
+    scene = _Scene(pair, ax or _axes((8.0, 6.0)), pitch_curves=pitch_curves)
+    scene.turn(phi)
+    return scene.ax
+
+
+def animate(
+    pair: GearPair,
+    path: str | PathLike[str] | None = None,
+    *,
+    frames: int = 120,
+    fps: int = 30,
+    ax: Axes | None = None,
+) -> FuncAnimation:
+    """Animate the mesh over one driver turn.
+
+    Args:
+        pair: What to show.
+        path: File to write, .gif or .html; none is written if left out.
+        frames: Pictures of the turn.
+        fps: Pictures a second.
+        ax: Where to draw; new axes if left out.
+
+    Returns:
+        The animation; keep it as long as it is to be shown.
+    """
+    from matplotlib.animation import FuncAnimation
+
+    suffix = "" if path is None else fspath(path).rpartition(".")[2].lower()
+    if path is not None and suffix not in ("gif", "html"):
+        raise ValueError(f"path must end in .gif or .html, not {fspath(path)!r}")
+    if frames < 1 or fps < 1:
+        raise ValueError(f"frames and fps must be at least 1, not {frames} and {fps}")
+    scene = _Scene(pair, ax or _axes((8.0, 6.0)), pitch_curves=True)
+    angles = np.linspace(0.0, 2.0 * np.pi, frames, endpoint=False)
+    animation = FuncAnimation(
+        cast(Any, scene.ax.figure), lambda i: scene.turn(angles[i]), frames=frames, interval=1000 / fps
+    )
+    if path is not None and suffix == "gif":
+        animation.save(fspath(path), writer="pillow", fps=fps)
+    elif path is not None:
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(animation.to_jshtml(fps=fps))
+    return animation
+
+
+def motion(pair: GearPair, ax: Axes | None = None) -> Axes:
+    """Draw the ratio over one driver turn, and how far the driven angle leads the mean ratio."""
+    ax = ax or _axes((8.0, 4.5))
+    phi = np.linspace(0.0, 2.0 * np.pi, 721)
+    turns, driven_turns = pair.mean_ratio
+    mean = driven_turns / turns
+    degrees = np.degrees(phi)
+    (ratio,) = ax.plot(degrees, pair.ratio(phi), color=_DRIVER, label="ratio")
+    ax.axhline(mean, color=_DRIVER, linewidth=0.8, linestyle=":")
+    ax.set(xlim=(0, 360), xlabel="driver angle, deg", ylabel="driven turn per driver turn")
+    ax.set_xticks(range(0, 361, 60))
+    twin = ax.twinx()
+    lead = np.degrees(pair.driven_angle(phi) - mean * phi)
+    (swing,) = twin.plot(degrees, lead, color=_DRIVEN, linestyle="--", label="driven angle less the mean")
+    twin.set_ylabel("deg")
+    ax.legend(handles=[ratio, swing], loc="best")
+    ax.set_title(pair.title or pair.name)
+    return ax
+
+
+def contact(of: GearPair | Contact, axes: NDArray[Any] | None = None) -> NDArray[Any]:
+    """Draw a contact analysis: transmission error, teeth in contact, play, clearance.
+
+    Args:
+        of: A pair, which is analysed, or an analysis made before.
+        axes: Four axes to draw into; a new column of four if left out.
+    """
+    analysis = of if isinstance(of, Contact) else of.contact()
+    if axes is None:
+        from matplotlib import pyplot
+
+        _, axes = pyplot.subplots(4, 1, sharex=True, figsize=(8.0, 8.0), layout="constrained")
+    error, count, play, clearance = np.ravel(axes)
+    degrees = np.degrees(analysis.input)
+    error.plot(degrees, analysis.transmission_error, color=_DRIVER, label="driving on")
+    error.plot(degrees, analysis.reverse_transmission_error, color=_DRIVEN, label="driving back")
+    error.set_ylabel("transmission\nerror, rad")
+    error.legend(loc="upper right")
+    count.step(degrees, analysis.contacts, where="mid", color=_DRIVER)
+    count.set_ylabel("pairs of teeth\nin contact")
+    count.set_ylim(bottom=0)
+    play.plot(degrees, np.degrees(analysis.backlash), color=_DRIVER)
+    play.set_ylabel("play of the\ndriven gear, deg")
+    for values, color, label in (
+        (analysis.clearance, _DRIVER, "tip to root"),
+        (analysis.fillet_clearance, _DRIVEN, "to a fillet"),
+    ):
+        near = np.where(np.isfinite(values), values, np.nan)
+        clearance.plot(degrees, near, color=color, label=label)
+    clearance.set_ylabel("clearance, mm")
+    clearance.set_xlabel("driver angle, deg")
+    clearance.legend(loc="upper right")
+    return axes
+
+
+class _Part:
+    """One gear on the picture: its outlines in its own frame, and the patches that show them."""
+
+    def __init__(self, gear: Gear, ax: Axes, color: str, tolerance: float, *, pitch_curve: bool) -> None:
+        from matplotlib.patches import PathPatch
+        from matplotlib.path import Path
+
+        bore = gear.bore(tolerance)
+        contours = [gear.outline(tolerance)]
+        if bore is not None:
+            contours.append(bore[::-1])
+        closed = [np.vstack([contour, contour[:1]]) for contour in contours]
+        codes = np.concatenate(
+            [[Path.MOVETO, *[Path.LINETO] * (len(points) - 2), Path.CLOSEPOLY] for points in closed]
+        )
+        body = Path(np.concatenate(closed), codes)
+        self.patches: list[PathPatch] = [
+            PathPatch(body, facecolor=color, edgecolor="black", linewidth=0.6, alpha=0.85)
+        ]
+        if pitch_curve:
+            points = gear.pitch_curve(tolerance)
+            curve = Path(np.vstack([points, points[:1]]), closed=True)
+            self.patches.append(PathPatch(curve, fill=False, edgecolor="white", linewidth=0.8, linestyle="--"))
+        for patch in self.patches:
+            ax.add_patch(patch)
+
+    def place(self, angle: float, x: float, ax: Axes) -> None:
+        from matplotlib.transforms import Affine2D
+
+        for patch in self.patches:
+            patch.set_transform(Affine2D().rotate(angle).translate(x, 0.0) + ax.transData)
+
+
+class _Scene:
+    """Both gears in mesh, to be turned."""
+
+    def __init__(self, pair: GearPair, ax: Axes, *, pitch_curves: bool) -> None:
+        tolerance = _FINE * pair.module
+        self.pair, self.ax = pair, ax
+        self.driver = _Part(pair.driver, ax, _DRIVER, tolerance, pitch_curve=pitch_curves)
+        self.driven = _Part(pair.driven, ax, _DRIVEN, tolerance, pitch_curve=pitch_curves)
+        a = pair.center_distance
+        ax.plot([0.0, a], [0.0, 0.0], "+", color="black", markersize=9)
+        left, right = pair.driver.radii[1], pair.driven.radii[1]
+        height = max(left, right) + pair.module
+        ax.set(xlim=(-left - pair.module, a + right + pair.module), ylim=(-height, height))
+        ax.set(aspect="equal", xlabel="mm", ylabel="mm", title=pair.title or pair.name)
+
+    def turn(self, phi: float) -> list[PathPatch]:
+        """Pose both gears at a driver angle."""
+        self.driver.place(-phi, 0.0, self.ax)
+        self.driven.place(self.pair.driven_angle(phi), self.pair.center_distance, self.ax)
+        return [*self.driver.patches, *self.driven.patches]
+
+
+def _axes(size: tuple[float, float]) -> Axes:
+    from matplotlib import pyplot
+
+    _, ax = pyplot.subplots(figsize=size, layout="constrained")
+    return ax

@@ -1,0 +1,149 @@
+use centrode_mechanism::gear::design as spec;
+use pyo3::prelude::{Bound, PyDictMethods, PyRef, PyResult, Python, pyclass, pymethods};
+use pyo3::types::{PyDict, PyTuple};
+
+use crate::error::of_spec;
+
+/// The body of a gear: what is not teeth.
+///
+/// Args:
+///     width: Face width, mm.
+///     bore: Diameter of the bore, mm; 0 for none.
+///     keyway: Keyway in the bore.
+///     density: kg/m^3.
+///     material: For the drawing.
+///
+/// >>> import centrode as ct
+/// >>> ct.Body(bore=12, keyway=ct.Keyway(width=4, depth=1.8)).keyway.depth
+/// 1.8
+#[pyclass(frozen, eq, module = "centrode")]
+#[derive(Debug, PartialEq)]
+pub(crate) struct Body(pub(crate) spec::BodySpec);
+
+/// A keyway in the bore, along the body's x axis; its depth is measured from the bore's circle.
+///
+/// >>> import centrode as ct
+/// >>> ct.Keyway(width=4, depth=1.8)
+/// Keyway(width=4.0, depth=1.8)
+#[pyclass(frozen, eq, module = "centrode")]
+#[derive(Debug, PartialEq)]
+pub(crate) struct Keyway(spec::Keyway);
+
+#[pymethods]
+impl Keyway {
+    #[new]
+    #[pyo3(signature = (*, width, depth))]
+    fn new(width: f64, depth: f64) -> Self {
+        Self(spec::Keyway { width, depth })
+    }
+
+    /// Width, mm.
+    #[getter]
+    fn width(&self) -> f64 {
+        self.0.width
+    }
+
+    /// Depth below the bore's circle, mm.
+    #[getter]
+    fn depth(&self) -> f64 {
+        self.0.depth
+    }
+
+    fn __repr__(&self) -> String {
+        let spec::Keyway { width, depth } = self.0;
+        format!("Keyway(width={width:?}, depth={depth:?})")
+    }
+
+    fn __getnewargs_ex__<'py>(
+        &self,
+        py: Python<'py>,
+    ) -> PyResult<(Bound<'py, PyTuple>, Bound<'py, PyDict>)> {
+        let keywords = PyDict::new(py);
+        keywords.set_item("width", self.0.width)?;
+        keywords.set_item("depth", self.0.depth)?;
+        Ok((PyTuple::empty(py), keywords))
+    }
+}
+
+#[pymethods]
+impl Body {
+    #[new]
+    #[pyo3(signature = (*, width=None, bore=None, keyway=None, density=None, material=None))]
+    fn new(
+        width: Option<f64>,
+        bore: Option<f64>,
+        keyway: Option<PyRef<'_, Keyway>>,
+        density: Option<f64>,
+        material: Option<String>,
+    ) -> PyResult<Self> {
+        let usual = spec::BodySpec::default();
+        let body = spec::BodySpec {
+            width: width.unwrap_or(usual.width),
+            bore: bore.unwrap_or(usual.bore),
+            keyway: keyway.map(|k| k.0),
+            density: density.unwrap_or(usual.density),
+            material: material.unwrap_or(usual.material),
+        };
+        body.validate().map_err(|e| of_spec(&e))?;
+        Ok(Self(body))
+    }
+
+    /// Face width, mm.
+    #[getter]
+    fn width(&self) -> f64 {
+        self.0.width
+    }
+
+    /// Diameter of the bore, mm; 0 for none.
+    #[getter]
+    fn bore(&self) -> f64 {
+        self.0.bore
+    }
+
+    /// Keyway in the bore.
+    #[getter]
+    fn keyway(&self) -> Option<Keyway> {
+        self.0.keyway.map(Keyway)
+    }
+
+    /// Density, kg/m^3.
+    #[getter]
+    fn density(&self) -> f64 {
+        self.0.density
+    }
+
+    /// Material, for the drawing.
+    #[getter]
+    fn material(&self) -> &str {
+        &self.0.material
+    }
+
+    fn __repr__(&self) -> String {
+        let spec::BodySpec {
+            width,
+            bore,
+            density,
+            material,
+            ..
+        } = &self.0;
+        let keyway = self
+            .keyway()
+            .map_or_else(|| "None".into(), |k| k.__repr__());
+        format!(
+            "Body(width={width:?}, bore={bore:?}, keyway={keyway}, density={density:?}, material={material:?})"
+        )
+    }
+
+    fn __getnewargs_ex__<'py>(
+        &self,
+        py: Python<'py>,
+    ) -> PyResult<(Bound<'py, PyTuple>, Bound<'py, PyDict>)> {
+        let keywords = PyDict::new(py);
+        keywords.set_item("width", self.0.width)?;
+        keywords.set_item("bore", self.0.bore)?;
+        keywords.set_item("keyway", self.keyway())?;
+        keywords.set_item("density", self.0.density)?;
+        keywords.set_item("material", &self.0.material)?;
+        Ok((PyTuple::empty(py), keywords))
+    }
+}

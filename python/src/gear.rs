@@ -1,0 +1,205 @@
+use std::sync::Arc;
+
+use centrode_geometry::Solid;
+use centrode_mechanism::gear as mechanism;
+use centrode_mechanism::gear::Member;
+use numpy::{IntoPyArray, PyArray1, PyArray2, PyFixedUnicode};
+use pyo3::prelude::{Bound, PyDictMethods, PyResult, Python, pyclass, pymethods};
+use pyo3::types::{PyDict, PyTuple};
+
+use crate::array::{points, rows};
+use crate::body::Body;
+use crate::error::{of_solid, tolerance as within};
+use crate::record;
+use crate::wait::wait;
+
+/// One gear of a pair, in its own frame: axes parallel to the world's at phi = 0.
+#[pyclass(frozen, module = "centrode")]
+#[derive(Debug)]
+pub(crate) struct Gear {
+    pub(crate) pair: Arc<mechanism::GearPair>,
+    pub(crate) member: Member,
+}
+
+impl Gear {
+    fn inner(&self) -> &mechanism::Gear {
+        self.pair.gear(self.member)
+    }
+}
+
+/// A vertex of a mesh array, (V, 3), and a face of one, (F, 3).
+type Arrays<'py> = (Bound<'py, PyArray2<f64>>, Bound<'py, PyArray2<u32>>);
+
+/// A word in a fixed-width `NumPy` array; every role fits.
+fn fixed(word: &str) -> PyFixedUnicode<6> {
+    let mut letters = [0; 6];
+    for (cell, letter) in letters.iter_mut().zip(word.chars()) {
+        *cell = u32::from(letter);
+    }
+    PyFixedUnicode(letters)
+}
+
+#[pymethods]
+impl Gear {
+    /// "driver" or "driven".
+    #[getter]
+    fn member(&self) -> &'static str {
+        self.member.name()
+    }
+
+    /// Number of teeth.
+    #[getter]
+    fn tooth_count(&self) -> u32 {
+        self.inner().tooth_count()
+    }
+
+    /// Length of the pitch curve, mm.
+    #[getter]
+    fn pitch_length(&self) -> f64 {
+        self.inner().pitch_length()
+    }
+
+    /// Area inside the outline, mm^2, without the bore taken out.
+    #[getter]
+    fn area(&self) -> f64 {
+        self.inner().outline().area()
+    }
+
+    /// Least and greatest distance of the outline from the shaft axis, mm.
+    #[getter]
+    fn radii(&self) -> (f64, f64) {
+        self.inner().radii()
+    }
+
+    /// Width, bore and material.
+    #[getter]
+    fn body(&self) -> Body {
+        Body(self.inner().body().clone())
+    }
+
+    /// The teeth in the order they mesh.
+    #[getter]
+    fn teeth<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
+        record::teeth(py, self.inner().teeth())
+    }
+
+    /// The toothed contour, (N, 2), mm: corners of a closed polygon, counter-clockwise.
+    ///
+    /// The first point is not repeated at the end. The polygon is nowhere farther than `tolerance` (mm) from
+    /// the exact contour.
+    ///
+    /// >>> import centrode as ct
+    /// >>> pair = ct.GearPair(ct.pitch.circle(module=2, tooth_count=20))
+    /// >>> pair.driver.outline(tolerance=0.01).shape[1]
+    /// 2
+    #[pyo3(signature = (tolerance=1e-3))]
+    fn outline<'py>(&self, py: Python<'py>, tolerance: f64) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let (pair, member) = (Arc::clone(&self.pair), self.member);
+        let tolerance = within(tolerance)?;
+        let along = wait(py, move || pair.gear(member).outline().flatten(tolerance))?;
+        points(py, &along)
+    }
+
+    /// The pitch curve, (N, 2), mm: closed and counter-clockwise as `outline`.
+    #[pyo3(signature = (tolerance=1e-3))]
+    fn pitch_curve<'py>(
+        &self,
+        py: Python<'py>,
+        tolerance: f64,
+    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let (pair, member) = (Arc::clone(&self.pair), self.member);
+        let tolerance = within(tolerance)?;
+        let along = wait(py, move || {
+            pair.gear(member).pitch_curve().flatten(tolerance)
+        })?;
+        points(py, &along)
+    }
+
+    /// The bore with its keyway, (N, 2), mm, counter-clockwise; None for a gear without one.
+    #[pyo3(signature = (tolerance=1e-3))]
+    fn bore<'py>(
+        &self,
+        py: Python<'py>,
+        tolerance: f64,
+    ) -> PyResult<Option<Bound<'py, PyArray2<f64>>>> {
+        let tolerance = within(tolerance)?;
+        let bore = self.inner().bore();
+        bore.map(|bore| points(py, &bore.flatten(tolerance)))
+            .transpose()
+    }
+
+    /// The points of `outline` with what is known of each, in a dictionary of arrays.
+    ///
+    /// "points" and outward unit "normals" (N, 2); "curvature" (N,), 1/mm, positive where the gear is convex;
+    /// "role" (N,): "tip", "flank", "fillet" or "root"; "tooth" (N,): the tooth it belongs to, a space belonging
+    /// to the tooth before it. At a corner all are those of the part that begins there.
+    ///
+    /// >>> import centrode as ct
+    /// >>> gear = ct.GearPair(ct.pitch.circle(module=2, tooth_count=20)).driver
+    /// >>> samples = gear.samples()
+    /// >>> tips = samples["points"][samples["role"] == "tip"]
+    /// >>> float((tips ** 2).sum(axis=1).max() ** 0.5)  # half of m (z + 2)
+    /// 22.0
+    #[pyo3(signature = (tolerance=1e-3))]
+    fn samples<'py>(&self, py: Python<'py>, tolerance: f64) -> PyResult<Bound<'py, PyDict>> {
+        let (pair, member) = (Arc::clone(&self.pair), self.member);
+        let tolerance = within(tolerance)?;
+        let samples = wait(py, move || pair.gear(member).outline().samples(tolerance))?;
+        let gear = self.inner();
+        let owned = samples.iter().map(|s| gear.owners()[s.segment]);
+        let roles = samples
+            .iter()
+            .map(|s| fixed(gear.roles()[s.segment].name()));
+        let dictionary = PyDict::new(py);
+        let along = samples.iter().map(|s| [s.point.x, s.point.y]);
+        dictionary.set_item("points", rows(py, along)?)?;
+        let along = samples.iter().map(|s| [s.normal.x, s.normal.y]);
+        dictionary.set_item("normals", rows(py, along)?)?;
+        let along: Vec<f64> = samples.iter().map(|s| s.curvature).collect();
+        dictionary.set_item("curvature", along.into_pyarray(py))?;
+        let roles: Bound<'py, PyArray1<_>> = roles.collect::<Vec<_>>().into_pyarray(py);
+        dictionary.set_item("role", roles)?;
+        let owned = owned.collect::<Vec<u32>>();
+        dictionary.set_item("tooth", owned.into_pyarray(py))?;
+        Ok(dictionary)
+    }
+
+    /// The gear as a closed triangle mesh, from z = 0 to its width: vertices (V, 3), mm, and faces (F, 3).
+    ///
+    /// Faces list their vertices counter-clockwise seen from outside. `width` stands in for the body's.
+    ///
+    /// >>> import centrode as ct
+    /// >>> gear = ct.GearPair(ct.pitch.circle(module=2, tooth_count=20)).driver
+    /// >>> vertices, faces = gear.mesh(tolerance=0.01, width=5)
+    /// >>> float(vertices[:, 2].max())
+    /// 5.0
+    #[pyo3(signature = (tolerance=1e-3, width=None))]
+    fn mesh<'py>(
+        &self,
+        py: Python<'py>,
+        tolerance: f64,
+        width: Option<f64>,
+    ) -> PyResult<Arrays<'py>> {
+        let tolerance = within(tolerance)?;
+        let gear = self.inner();
+        let holes = gear.bore().into_iter().collect();
+        let width = width.unwrap_or(gear.body().width);
+        let solid =
+            Solid::new(gear.outline().clone(), holes, 0.0, width).map_err(|e| of_solid(&e))?;
+        let mesh = wait(py, move || solid.mesh(tolerance))?.map_err(|e| of_solid(&e))?;
+        Ok((
+            rows(py, mesh.vertices.into_iter())?,
+            rows(py, mesh.faces.into_iter())?,
+        ))
+    }
+
+    fn __repr__(&self) -> String {
+        let gear = self.inner();
+        format!(
+            "Gear({}, {} teeth, pitch_length={:?})",
+            self.member.name(),
+            gear.tooth_count(),
+            gear.pitch_length()
+        )
+    }
+}

@@ -1,0 +1,381 @@
+//! One function a kind of pitch curve: keywords as in the design file, angles in radians.
+
+use centrode_mechanism::gear::pitch as spec;
+use pyo3::prelude::{Borrowed, FromPyObject, PyAny, PyErr, PyRef, PyResult, pyfunction};
+
+use super::Pitch;
+use crate::array::{Numbers, list};
+use crate::count::{Count, optional};
+use crate::error::unknown_word;
+
+/// A function of one angle: a formula in `phi`, or values at equal steps of it.
+#[derive(Debug)]
+pub(crate) enum Law {
+    /// A formula.
+    Formula(String),
+    /// Sampled values.
+    Samples(Numbers),
+}
+
+impl<'a, 'py> FromPyObject<'a, 'py> for Law {
+    type Error = PyErr;
+
+    fn extract(object: Borrowed<'a, 'py, PyAny>) -> PyResult<Self> {
+        match object.extract() {
+            Ok(text) => Ok(Self::Formula(text)),
+            Err(_) => Ok(Self::Samples(object.extract()?)),
+        }
+    }
+}
+
+impl Law {
+    /// Formula and samples: one of them empty.
+    fn parts(law: Option<Self>) -> (Option<String>, Vec<f64>) {
+        match law {
+            None => (None, Vec::new()),
+            Some(Self::Formula(text)) => (Some(text), Vec::new()),
+            Some(Self::Samples(values)) => (None, values.into_vec()),
+        }
+    }
+}
+
+fn plane(word: &str) -> PyResult<spec::Plane> {
+    match word {
+        "polar" => Ok(spec::Plane::Polar),
+        "cartesian" => Ok(spec::Plane::Cartesian),
+        _ => Err(unknown_word("pitch.plane", word, &["polar", "cartesian"])),
+    }
+}
+
+fn interpolation(word: Option<&str>) -> PyResult<Option<spec::Interpolation>> {
+    let known = [
+        ("cubic", spec::Interpolation::Cubic),
+        ("quintic", spec::Interpolation::Quintic),
+        ("trigonometric", spec::Interpolation::Trigonometric),
+    ];
+    let Some(word) = word else {
+        return Ok(None);
+    };
+    let found = known.iter().find(|(name, _)| *name == word);
+    let found = found.map(|(_, interpolation)| *interpolation);
+    found.map(Some).ok_or_else(|| {
+        let known = known.map(|(name, _)| name);
+        unknown_word("pitch.interpolation", word, &known)
+    })
+}
+
+/// A circle around the shaft axis: an ordinary gear. Give `radius`, or `module` and `tooth_count`.
+///
+/// >>> import centrode as ct
+/// >>> ct.pitch.circle(radius=20, tooth_count=20).module
+/// 2.0
+#[pyfunction]
+#[pyo3(signature = (*, radius=None, module=None, tooth_count=None))]
+pub(crate) fn circle(
+    radius: Option<f64>,
+    module: Option<f64>,
+    tooth_count: Option<Count>,
+) -> PyResult<Pitch> {
+    Pitch::resolve(spec::PitchSpec::Circle(spec::Circle {
+        radius,
+        module,
+        tooth_count: optional("pitch.tooth_count", tooth_count)?,
+    }))
+}
+
+/// A circle whose shaft axis is off its centre, by `eccentricity` radii.
+///
+/// >>> import centrode as ct
+/// >>> ct.pitch.eccentric_circle(eccentricity=0.2, radius=20).points([0.0])
+/// array([[24.,  0.]])
+#[pyfunction]
+#[pyo3(signature = (*, eccentricity, radius=None, module=None, tooth_count=None))]
+pub(crate) fn eccentric_circle(
+    eccentricity: f64,
+    radius: Option<f64>,
+    module: Option<f64>,
+    tooth_count: Option<Count>,
+) -> PyResult<Pitch> {
+    Pitch::resolve(spec::PitchSpec::EccentricCircle(spec::EccentricCircle {
+        eccentricity,
+        radius,
+        module,
+        tooth_count: optional("pitch.tooth_count", tooth_count)?,
+    }))
+}
+
+/// An ellipse turning about a focus, its far end at the polar angle zero: r = A (1 - k^2) / (1 - k cos phi).
+///
+/// Give `semi_major_axis` A, or `module` and `tooth_count`; k is `eccentricity`.
+///
+/// >>> import centrode as ct
+/// >>> ct.pitch.ellipse(eccentricity=0.25, semi_major_axis=20).points([0.0])
+/// array([[25.,  0.]])
+#[pyfunction]
+#[pyo3(signature = (*, eccentricity, semi_major_axis=None, module=None, tooth_count=None))]
+pub(crate) fn ellipse(
+    eccentricity: f64,
+    semi_major_axis: Option<f64>,
+    module: Option<f64>,
+    tooth_count: Option<Count>,
+) -> PyResult<Pitch> {
+    Pitch::resolve(spec::PitchSpec::Ellipse(spec::Ellipse {
+        eccentricity,
+        semi_major_axis,
+        module,
+        tooth_count: optional("pitch.tooth_count", tooth_count)?,
+    }))
+}
+
+/// A focal ellipse drawn together so that it repeats `lobes` times in one turn.
+///
+/// >>> import centrode as ct
+/// >>> ct.pitch.lobed_ellipse(lobes=2, eccentricity=0.1, module=2, tooth_count=30).tooth_count
+/// 30
+#[pyfunction]
+#[pyo3(signature = (*, lobes, eccentricity, semi_major_axis=None, module=None, tooth_count=None))]
+pub(crate) fn lobed_ellipse(
+    lobes: Count,
+    eccentricity: f64,
+    semi_major_axis: Option<f64>,
+    module: Option<f64>,
+    tooth_count: Option<Count>,
+) -> PyResult<Pitch> {
+    Pitch::resolve(spec::PitchSpec::LobedEllipse(spec::LobedEllipse {
+        lobes: lobes.of("pitch.lobes")?,
+        eccentricity,
+        semi_major_axis,
+        module,
+        tooth_count: optional("pitch.tooth_count", tooth_count)?,
+    }))
+}
+
+/// A closed uniform B-spline, from control points or (`interpolate=True`) through the points.
+///
+/// Points are `radius` (mm) and `angle` (rad) in the polar plane, `x` and `y` (mm) in the cartesian one. The
+/// curve has a size of its own: `module` with `tooth_count` scales it, `tooth_count` alone gives the module.
+///
+/// >>> import centrode as ct
+/// >>> square = ct.pitch.bspline(x=[10, -10, -10, 10], y=[10, 10, -10, -10], plane="cartesian", degree=2)
+/// >>> square.period
+/// 4.0
+#[pyfunction]
+#[pyo3(signature = (*, radius=None, angle=None, x=None, y=None, degree=Count::Fits(3), plane="polar", interpolate=false, module=None, tooth_count=None))]
+#[expect(clippy::too_many_arguments, reason = "keyword arguments")]
+pub(crate) fn bspline(
+    radius: Option<Numbers>,
+    angle: Option<Numbers>,
+    x: Option<Numbers>,
+    y: Option<Numbers>,
+    degree: Count,
+    plane: &str,
+    interpolate: bool,
+    module: Option<f64>,
+    tooth_count: Option<Count>,
+) -> PyResult<Pitch> {
+    Pitch::resolve(spec::PitchSpec::Bspline(spec::Bspline {
+        plane: self::plane(plane)?,
+        degree: degree.of("pitch.degree")?,
+        interpolate,
+        radius: list(radius),
+        angle: list(angle),
+        x: list(x),
+        y: list(y),
+        module,
+        tooth_count: optional("pitch.tooth_count", tooth_count)?,
+    }))
+}
+
+/// A closed chain of Bezier arcs: of each arc all control points but the last, which is the next one's first.
+///
+/// >>> import centrode as ct
+/// >>> x, y = [10, 0, -10, -10, -10, 0, 10, 10], [10, 10, 10, 0, -10, -10, -10, 0]
+/// >>> ct.pitch.bezier(x=x, y=y, plane="cartesian", degree=2).points([0.0])
+/// array([[10., 10.]])
+#[pyfunction]
+#[pyo3(signature = (*, radius=None, angle=None, x=None, y=None, degree=Count::Fits(3), plane="polar", module=None, tooth_count=None))]
+#[expect(clippy::too_many_arguments, reason = "keyword arguments")]
+pub(crate) fn bezier(
+    radius: Option<Numbers>,
+    angle: Option<Numbers>,
+    x: Option<Numbers>,
+    y: Option<Numbers>,
+    degree: Count,
+    plane: &str,
+    module: Option<f64>,
+    tooth_count: Option<Count>,
+) -> PyResult<Pitch> {
+    Pitch::resolve(spec::PitchSpec::Bezier(spec::Bezier {
+        plane: self::plane(plane)?,
+        degree: degree.of("pitch.degree")?,
+        radius: list(radius),
+        angle: list(angle),
+        x: list(x),
+        y: list(y),
+        module,
+        tooth_count: optional("pitch.tooth_count", tooth_count)?,
+    }))
+}
+
+/// A limacon of Pascal: r = b + c cos(N phi), with `mean_radius` b, `amplitude` c and `lobes` N.
+///
+/// >>> import centrode as ct
+/// >>> ct.pitch.limacon(mean_radius=20, amplitude=2).points([0.0])
+/// array([[22.,  0.]])
+#[pyfunction]
+#[pyo3(signature = (*, mean_radius, amplitude, lobes=Count::Fits(1), module=None, tooth_count=None))]
+pub(crate) fn limacon(
+    mean_radius: f64,
+    amplitude: f64,
+    lobes: Count,
+    module: Option<f64>,
+    tooth_count: Option<Count>,
+) -> PyResult<Pitch> {
+    Pitch::resolve(spec::PitchSpec::Limacon(spec::Limacon {
+        mean_radius,
+        amplitude,
+        lobes: lobes.of("pitch.lobes")?,
+        module,
+        tooth_count: optional("pitch.tooth_count", tooth_count)?,
+    }))
+}
+
+/// Radius as a function of the polar angle: a formula in ``phi``, radii, or a Fourier series.
+///
+/// Args:
+///     radius: A formula; or radii, mm, over equal steps from the angle zero, or at `angle`.
+///     angle: Polar angles of the radii, rad, increasing within one turn.
+///     interpolation: Between the radii: "quintic" over equal steps, "cubic" with `angle`, or "trigonometric".
+///     mean: Mean radius of a Fourier series, mm.
+///     cos: Cosine coefficients from the first harmonic, mm.
+///     sin: Sine coefficients from the first harmonic, mm.
+///     module: Module, mm, with `tooth_count`: scales the curve.
+///     tooth_count: Number of teeth; alone, the module follows from the size of the curve.
+///
+/// >>> import centrode as ct
+/// >>> ct.pitch.polar("20 + 2*cos(2*phi)").points([0.0])
+/// array([[22.,  0.]])
+/// >>> ct.pitch.polar(mean=20, cos=[0, 2]).points([0.0])
+/// array([[22.,  0.]])
+#[pyfunction]
+#[pyo3(signature = (radius=None, *, angle=None, interpolation=None, mean=None, cos=None, sin=None, module=None, tooth_count=None))]
+#[expect(clippy::too_many_arguments, reason = "keyword arguments")]
+pub(crate) fn polar(
+    radius: Option<Law>,
+    angle: Option<Numbers>,
+    interpolation: Option<&str>,
+    mean: Option<f64>,
+    cos: Option<Numbers>,
+    sin: Option<Numbers>,
+    module: Option<f64>,
+    tooth_count: Option<Count>,
+) -> PyResult<Pitch> {
+    let (expression, radius) = Law::parts(radius);
+    Pitch::resolve(spec::PitchSpec::Polar(spec::Polar {
+        expression,
+        radius,
+        angle: list(angle),
+        interpolation: self::interpolation(interpolation)?,
+        mean,
+        cos: list(cos),
+        sin: list(sin),
+        module,
+        tooth_count: optional("pitch.tooth_count", tooth_count)?,
+    }))
+}
+
+/// The curve that turns the driven gear by a given law: a formula in ``phi``, or samples over one driver turn.
+///
+/// Args:
+///     driven_angle: Driven angle, rad, as a formula in the driver angle ``phi`` (rad); or at equal steps of one
+///         driver turn, both ends included.
+///     interpolation: Between the samples; "quintic" if left out.
+///     center_distance: mm; or give `module` and `tooth_count`.
+///     module: Module, mm.
+///     tooth_count: Number of teeth.
+///
+/// >>> import centrode as ct
+/// >>> pitch = ct.pitch.from_transmission("phi/2 - 0.05*sin(2*phi)", center_distance=60)
+/// >>> pitch.implied_ratio
+/// (2, 1)
+#[pyfunction]
+#[pyo3(signature = (driven_angle, *, interpolation=None, center_distance=None, module=None, tooth_count=None))]
+pub(crate) fn from_transmission(
+    driven_angle: Law,
+    interpolation: Option<&str>,
+    center_distance: Option<f64>,
+    module: Option<f64>,
+    tooth_count: Option<Count>,
+) -> PyResult<Pitch> {
+    let (expression, driven_angle) = Law::parts(Some(driven_angle));
+    Pitch::resolve(spec::PitchSpec::Transmission(spec::Transmission {
+        expression,
+        driven_angle,
+        interpolation: self::interpolation(interpolation)?,
+        center_distance,
+        module,
+        tooth_count: optional("pitch.tooth_count", tooth_count)?,
+    }))
+}
+
+/// The curve with a given ratio d driven / d driver: a formula in ``phi``, or samples over one driver turn.
+///
+/// Samples stand at equal steps of one driver turn, without the repeated end.
+///
+/// >>> import centrode as ct
+/// >>> pitch = ct.pitch.from_ratio("1 - 0.16*cos(2*phi)", center_distance=60)
+/// >>> pitch.implied_ratio
+/// (1, 1)
+#[pyfunction]
+#[pyo3(signature = (ratio, *, interpolation=None, center_distance=None, module=None, tooth_count=None))]
+pub(crate) fn from_ratio(
+    ratio: Law,
+    interpolation: Option<&str>,
+    center_distance: Option<f64>,
+    module: Option<f64>,
+    tooth_count: Option<Count>,
+) -> PyResult<Pitch> {
+    let (expression, ratio) = Law::parts(Some(ratio));
+    Pitch::resolve(spec::PitchSpec::Ratio(spec::Ratio {
+        expression,
+        ratio,
+        interpolation: self::interpolation(interpolation)?,
+        center_distance,
+        module,
+        tooth_count: optional("pitch.tooth_count", tooth_count)?,
+    }))
+}
+
+/// The curve that rolls on another: the driven curve of one pair as the driver of the next.
+///
+/// The conjugate of the conjugate, at the mean ratio turned round, is the original.
+///
+/// Args:
+///     of: The curve it rolls on.
+///     mean_ratio: Turns of `of` : turns of this curve.
+///     module: Module, mm, with `tooth_count`: scales the curve.
+///     tooth_count: Number of teeth; alone, the module follows from the size of the curve.
+///
+/// >>> import centrode as ct
+/// >>> wheel = ct.pitch.conjugate(ct.pitch.circle(radius=10), mean_ratio=(2, 1))
+/// >>> wheel.points([0.0]).round(12)
+/// array([[20.,  0.]])
+#[pyfunction]
+#[pyo3(signature = (of, *, mean_ratio=[Count::Fits(1), Count::Fits(1)], module=None, tooth_count=None))]
+pub(crate) fn conjugate(
+    of: PyRef<'_, Pitch>,
+    mean_ratio: [Count; 2],
+    module: Option<f64>,
+    tooth_count: Option<Count>,
+) -> PyResult<Pitch> {
+    let [driver, driven] = mean_ratio;
+    Pitch::resolve(spec::PitchSpec::Conjugate(spec::Conjugate {
+        mean_ratio: [
+            driver.of("pitch.mean_ratio")?,
+            driven.of("pitch.mean_ratio")?,
+        ],
+        module,
+        tooth_count: optional("pitch.tooth_count", tooth_count)?,
+        of: Box::new(of.spec.clone()),
+    }))
+}

@@ -1,0 +1,136 @@
+pub(crate) mod kinds;
+
+use centrode_geometry::Jet;
+use centrode_mechanism::design::Design;
+use centrode_mechanism::gear::design::GearPairDesign;
+use centrode_mechanism::gear::pitch as spec;
+use numpy::{IntoPyArray, PyArray1, PyArray2};
+use pyo3::prelude::{
+    Bound, PyAny, PyAnyMethods, PyModule, PyResult, Python, pyclass, pyfunction, pymethods,
+};
+
+use crate::array::{Numbers, points};
+use crate::error::{of_design, of_pitch};
+
+/// A pitch curve around the shaft axis at the origin, proved to go round it exactly once.
+///
+/// Made by the functions of ``centrode.pitch``.
+///
+/// >>> import centrode as ct
+/// >>> ct.pitch.circle(module=2, tooth_count=20)
+/// Pitch(circle: module 2.0 mm, 20 teeth)
+#[pyclass(frozen, eq, module = "centrode")]
+#[derive(Debug)]
+pub(crate) struct Pitch {
+    pub(crate) spec: spec::PitchSpec,
+    resolved: spec::Pitch,
+}
+
+impl PartialEq for Pitch {
+    fn eq(&self, other: &Self) -> bool {
+        self.spec == other.spec
+    }
+}
+
+impl Pitch {
+    /// The exact curve of a description.
+    pub(crate) fn resolve(spec: spec::PitchSpec) -> PyResult<Self> {
+        let resolved = spec.resolve().map_err(|e| of_pitch(&e))?;
+        Ok(Self { spec, resolved })
+    }
+
+    fn along(&self, parameters: Numbers) -> Vec<Jet> {
+        let at = |t| self.resolved.curve.at(t);
+        parameters.into_vec().into_iter().map(at).collect()
+    }
+}
+
+#[pymethods]
+impl Pitch {
+    /// What the curve is, in one line.
+    #[getter]
+    fn definition(&self) -> &str {
+        &self.resolved.definition
+    }
+
+    /// Module, mm, if the tooth count is given.
+    #[getter]
+    fn module(&self) -> Option<f64> {
+        self.resolved.module
+    }
+
+    /// Number of teeth, if given.
+    #[getter]
+    fn tooth_count(&self) -> Option<u32> {
+        self.resolved.tooth_count
+    }
+
+    /// Turns of driver and driven gear the description asks for, if it does.
+    #[getter]
+    fn implied_ratio(&self) -> Option<(u32, u32)> {
+        self.resolved.implied_ratio
+    }
+
+    /// Parameter over which the curve closes.
+    #[getter]
+    fn period(&self) -> f64 {
+        self.resolved.curve.period()
+    }
+
+    /// Points of the curve at the given parameters, (N, 2), mm.
+    ///
+    /// >>> import centrode as ct
+    /// >>> ct.pitch.circle(radius=10).points([0.0])
+    /// array([[10.,  0.]])
+    fn points<'py>(
+        &self,
+        py: Python<'py>,
+        parameters: Numbers,
+    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let along: Vec<_> = self.along(parameters).iter().map(|jet| jet.point).collect();
+        points(py, &along)
+    }
+
+    /// Curvature at the given parameters, (N,), 1/mm: positive where the curve is convex.
+    ///
+    /// >>> import centrode as ct
+    /// >>> ct.pitch.circle(radius=10).curvature([0.0])
+    /// array([0.1])
+    fn curvature<'py>(&self, py: Python<'py>, parameters: Numbers) -> Bound<'py, PyArray1<f64>> {
+        let along = self.along(parameters);
+        let curvature: Vec<f64> = along.iter().map(Jet::curvature).collect();
+        curvature.into_pyarray(py)
+    }
+
+    fn __repr__(&self) -> String {
+        let mut text = self.resolved.definition.clone();
+        if let (Some(module), Some(z)) = (self.resolved.module, self.resolved.tooth_count) {
+            text = format!("{text}: module {module:?} mm, {z} teeth");
+        }
+        format!("Pitch({text})")
+    }
+
+    fn __copy__(slf: Bound<'_, Self>) -> Bound<'_, Self> {
+        slf
+    }
+
+    fn __deepcopy__<'py>(slf: Bound<'py, Self>, _memo: &Bound<'py, PyAny>) -> Bound<'py, Self> {
+        slf
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, (String,))> {
+        let design = Design::GearPair(GearPairDesign::new(self.spec.clone()));
+        let text = design.to_toml().map_err(|e| of_design(&e))?;
+        let module = PyModule::import(py, "centrode._centrode")?;
+        Ok((module.getattr("_pitch_from_toml")?, (text,)))
+    }
+}
+
+/// The pitch curve of a design file: how a pitch curve is unpickled.
+#[pyfunction]
+pub(crate) fn _pitch_from_toml(text: &str) -> PyResult<Pitch> {
+    match Design::from_toml(text).map_err(|e| of_design(&e))? {
+        Design::GearPair(design) => Pitch::resolve(design.pitch),
+        _ => Err(crate::error::not_a_gear_pair()),
+    }
+}

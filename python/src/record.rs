@@ -1,0 +1,141 @@
+//! Results of many parts, handed over as the records of the Python part of the package.
+
+use centrode_analysis::{Contact, Finding, Report, Severity};
+use centrode_mechanism::gear::{Tooth, ToothSide};
+use numpy::IntoPyArray;
+use pyo3::prelude::{Bound, IntoPyObject, Py, PyAny, PyAnyMethods, PyResult, Python};
+use pyo3::sync::PyOnceLock;
+use pyo3::types::{PyDict, PyDictMethods, PyTuple, PyType};
+
+/// A Python class, looked up once.
+struct Class {
+    module: &'static str,
+    name: &'static str,
+    class: PyOnceLock<Py<PyType>>,
+}
+
+impl Class {
+    const fn new(module: &'static str, name: &'static str) -> Self {
+        let class = PyOnceLock::new();
+        Self {
+            module,
+            name,
+            class,
+        }
+    }
+
+    fn make<'py>(&self, keywords: &Bound<'py, PyDict>) -> PyResult<Bound<'py, PyAny>> {
+        let py = keywords.py();
+        let class = self.class.import(py, self.module, self.name)?;
+        class.call((), Some(keywords))
+    }
+}
+
+/// A list of results as a Python tuple.
+fn tuple<'py>(
+    py: Python<'py>,
+    items: impl Iterator<Item = PyResult<Bound<'py, PyAny>>>,
+) -> PyResult<Bound<'py, PyTuple>> {
+    PyTuple::new(py, items.collect::<PyResult<Vec<_>>>()?)
+}
+
+/// Named values as the keywords of a class.
+struct Keywords<'py>(Bound<'py, PyDict>);
+
+impl<'py> Keywords<'py> {
+    fn new(py: Python<'py>) -> Self {
+        Self(PyDict::new(py))
+    }
+
+    fn with(self, name: &str, value: impl IntoPyObject<'py>) -> PyResult<Self> {
+        self.0.set_item(name, value)?;
+        Ok(self)
+    }
+}
+
+/// A report.
+pub(crate) fn report<'py>(py: Python<'py>, report: &Report) -> PyResult<Bound<'py, PyAny>> {
+    static CLASS: Class = Class::new("centrode._report", "Report");
+    let findings = tuple(py, report.findings.iter().map(|f| finding(py, f)))?;
+    let keywords = Keywords::new(py)
+        .with("ok", report.ok())?
+        .with("findings", findings)?
+        .with("values", report.values.clone())?;
+    CLASS.make(&keywords.0)
+}
+
+fn finding<'py>(py: Python<'py>, finding: &Finding) -> PyResult<Bound<'py, PyAny>> {
+    static CLASS: Class = Class::new("centrode._report", "Finding");
+    static PLACE: Class = Class::new("centrode._report", "Place");
+    let severity = match finding.severity {
+        Severity::Note => "note",
+        Severity::Warning => "warning",
+        Severity::Error => "error",
+    };
+    let place = Keywords::new(py)
+        .with("part", finding.place.part.as_deref())?
+        .with("teeth", PyTuple::new(py, &finding.place.teeth)?)?
+        .with("input", finding.place.input)?;
+    let keywords = Keywords::new(py)
+        .with("rule", finding.rule)?
+        .with("severity", severity)?
+        .with("message", finding.message.as_str())?
+        .with("measured", finding.measured)?
+        .with("required", finding.required)?
+        .with("unit", finding.unit)?
+        .with("place", PLACE.make(&place.0)?)?;
+    CLASS.make(&keywords.0)
+}
+
+/// A contact analysis.
+pub(crate) fn contact(py: Python<'_>, contact: Contact) -> PyResult<Bound<'_, PyAny>> {
+    static CLASS: Class = Class::new("centrode._contact", "Contact");
+    let mut keywords = Keywords::new(py).with("contacts", contact.contacts.into_pyarray(py))?;
+    for (name, values) in [
+        ("input", contact.input),
+        ("law", contact.law),
+        ("transmission_error", contact.transmission_error),
+        (
+            "reverse_transmission_error",
+            contact.reverse_transmission_error,
+        ),
+        ("backlash", contact.backlash),
+        ("normal_backlash", contact.normal_backlash),
+        ("overlap", contact.overlap),
+        ("clearance", contact.clearance),
+        ("fillet_clearance", contact.fillet_clearance),
+        ("sliding", contact.sliding),
+    ] {
+        keywords = keywords.with(name, values.into_pyarray(py))?;
+    }
+    CLASS.make(&keywords.0)
+}
+
+/// The teeth of a gear, in order.
+pub(crate) fn teeth<'py>(py: Python<'py>, teeth: &[Tooth]) -> PyResult<Bound<'py, PyTuple>> {
+    static CLASS: Class = Class::new("centrode._tooth", "Tooth");
+    let one = |(number, tooth): (usize, &Tooth)| {
+        let keywords = Keywords::new(py)
+            .with("number", number)?
+            .with("leading", side(py, &tooth.leading)?)?
+            .with("trailing", side(py, &tooth.trailing)?)?
+            .with("tip_width", tooth.tip_width)?
+            .with("severed", tooth.severed)?;
+        CLASS.make(&keywords.0)
+    };
+    tuple(py, teeth.iter().enumerate().map(one))
+}
+
+fn side<'py>(py: Python<'py>, side: &ToothSide) -> PyResult<Bound<'py, PyAny>> {
+    static CLASS: Class = Class::new("centrode._tooth", "ToothSide");
+    let keywords = Keywords::new(py)
+        .with("crossing", side.crossing)?
+        .with("tip_height", side.tip_height)?
+        .with("shortened", side.shortened)?
+        .with("form_depth", side.form_depth)?
+        .with("needed", side.needed)?
+        .with("undercut", side.undercut)?
+        .with("active", side.active)?
+        .with("fillet_radius", side.fillet_radius)?;
+    CLASS.make(&keywords.0)
+}
