@@ -9,7 +9,7 @@ impl Outline {
     pub fn arcs(&self, tolerance: Tolerance) -> Self {
         // The check between nodes is of fourth order: this spacing leaves it a hundredth of the rest.
         let spacing = tolerance.scaled(0.5);
-        let limit = 0.998 * tolerance.mm();
+        let limit = 0.985 * tolerance.mm();
         let mut segments = Vec::new();
         for run in self.runs(spacing) {
             match run {

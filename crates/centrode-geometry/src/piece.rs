@@ -133,6 +133,13 @@ fn spline_bounds(c: &[Vector], half: f64) -> (f64, f64, f64) {
 }
 
 impl Segment {
+    /// Whether the segment is no longer than a dozen digits of its points can tell: it has no direction then.
+    pub(crate) fn is_null(&self) -> bool {
+        let start = self.start();
+        let rounding = 4096.0 * f64::EPSILON * start.coords.amax();
+        (self.end() - start).amax() <= rounding && self.length() <= rounding
+    }
+
     /// Unit tangent at `u`, the limit from inside where the speed vanishes at an end.
     #[must_use]
     pub fn tangent(&self, u: f64) -> Vector {
@@ -171,15 +178,17 @@ impl Outline {
         }
     }
 
-    /// Unsigned tangent jump at the start of each segment, rad.
+    /// Unsigned tangent jump at the start of each segment, rad; none at one without length, which is
+    /// looked over.
     pub(crate) fn jumps(&self) -> Vec<f64> {
-        let mut before = self
-            .segments()
-            .last()
-            .map_or(Vector::x(), |s| s.tangent(1.0));
+        let last = self.segments().iter().rev().find(|s| !s.is_null());
+        let mut before = last.map_or(Vector::x(), |s| s.tangent(1.0));
         self.segments()
             .iter()
             .map(|segment| {
+                if segment.is_null() {
+                    return 0.0;
+                }
                 let after = segment.tangent(-1.0);
                 let jump = before.perp(&after).atan2(before.dot(&after)).abs();
                 before = segment.tangent(1.0);
@@ -193,6 +202,9 @@ impl Outline {
         let mut out = Vec::with_capacity(self.segments().len());
         let mut stack = Vec::new();
         for (index, segment) in self.segments().iter().enumerate() {
+            if segment.is_null() {
+                continue;
+            }
             stack.push((Piece::new(segment, index, -1.0, 1.0), 0));
             while let Some((piece, depth)) = stack.pop() {
                 let matters = piece.sagitta() > tolerance.mm();
@@ -211,6 +223,15 @@ impl Outline {
     /// Places whose chords stay within the tolerance of the outline: every corner, and between corners
     /// the longest steps the bounds allow.
     pub(crate) fn places(&self, tolerance: Tolerance) -> Vec<Place> {
+        self.steps(tolerance, true)
+    }
+
+    /// The same with the start of every segment among them.
+    pub(crate) fn places_by_segment(&self, tolerance: Tolerance) -> Vec<Place> {
+        self.steps(tolerance, false)
+    }
+
+    fn steps(&self, tolerance: Tolerance, over_joints: bool) -> Vec<Place> {
         let pieces = self.pieces(tolerance);
         let jumps = self.jumps();
         let mut out = Vec::with_capacity(pieces.len());
@@ -226,7 +247,11 @@ impl Outline {
                 u += (piece.u1 - u) / (rest / own).ceil();
                 continue;
             }
-            (i, u) = self.stretch(&pieces, &jumps, i, rest, tolerance);
+            (i, u) = if over_joints {
+                self.stretch(&pieces, &jumps, i, rest, tolerance)
+            } else {
+                (i + 1, pieces.get(i + 1).map_or(1.0, |next| next.u0))
+            };
         }
         out
     }

@@ -35,9 +35,13 @@ impl Outline {
             if nodes.is_empty() {
                 return;
             }
-            let last = &self.segments()[next - 1];
+            let run = &self.segments()[first..next];
+            let Some(last) = run.iter().rev().find(|s| !s.is_null()) else {
+                return;
+            };
             nodes.push(Node {
-                point: last.end(),
+                // A segment without length may lie between.
+                point: run[run.len() - 1].end(),
                 tangent: last.tangent(1.0),
             });
             runs.push(Run::Smooth {
@@ -45,7 +49,8 @@ impl Outline {
                 free: [corner(first), corner(next)],
             });
         };
-        for place in self.places(spacing) {
+        // A step over a joint could hide a jump of the curvature from the checks between nodes.
+        for place in self.places_by_segment(spacing) {
             let segment = &self.segments()[place.segment];
             let is_spline = matches!(segment, Segment::Spline(_));
             if place.u == -1.0 && (corner(place.segment) || !is_spline) {
@@ -87,4 +92,40 @@ pub(crate) fn hermite_peak(d0: f64, s0: f64, d1: f64, s1: f64, h: f64) -> f64 {
         }
     }
     peak
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::{Outline, Point, Segment, Tolerance, shapes::rosette};
+
+    #[test]
+    fn a_segment_without_length_changes_nothing() {
+        let tolerance = Tolerance::new(1e-3).expect("positive");
+        let outline = rosette(40.0, 2.0, 5, Tolerance::new(1e-9).expect("positive"));
+        let mut segments = outline.segments().to_vec();
+        // Backwards by less than rounding, as constructions leave it.
+        let p = segments[3].start();
+        let q = Point::new(p.x.next_down(), p.y.next_up());
+        let Segment::Spline(before) = segments[2] else {
+            panic!("a spline")
+        };
+        segments[2] = before.pinned(before.start(), q).into();
+        segments.insert(3, Segment::Line(q, p));
+        let with_null = Outline::new(segments).expect("closed");
+        assert_eq!(with_null.crossing(), None);
+        assert_eq!(
+            with_null.flatten(tolerance).len(),
+            outline.flatten(tolerance).len()
+        );
+        let arcs = with_null.arcs(tolerance);
+        Outline::new(arcs.segments().to_vec()).expect("closed");
+        assert_eq!(
+            arcs.segments().len(),
+            outline.arcs(tolerance).segments().len()
+        );
+        assert_eq!(
+            with_null.cubics(tolerance).len(),
+            outline.cubics(tolerance).len()
+        );
+    }
 }
