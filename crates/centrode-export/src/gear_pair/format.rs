@@ -1,0 +1,57 @@
+use std::{fmt, str::FromStr};
+use thiserror::Error;
+
+/// A kind of file a gear pair can be written as.
+#[derive(Clone, Copy, Debug, Eq, Hash, Ord, PartialEq, PartialOrd)]
+#[non_exhaustive]
+pub enum Format {
+    /// Cutting files: each gear, and both in place.
+    Dxf,
+    /// Pictures of the same.
+    Svg,
+    /// Solids.
+    Stl,
+    /// Points of the outlines, and the motion.
+    Csv,
+    /// Simulator model, with the solids it shows.
+    Urdf,
+}
+
+impl Format {
+    /// Every format, in the order files are written.
+    pub const ALL: [Self; 5] = [Self::Dxf, Self::Svg, Self::Stl, Self::Csv, Self::Urdf];
+
+    /// The name a user writes.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Dxf => "dxf",
+            Self::Svg => "svg",
+            Self::Stl => "stl",
+            Self::Csv => "csv",
+            Self::Urdf => "urdf",
+        }
+    }
+}
+
+impl fmt::Display for Format {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+/// A word that names no format.
+#[derive(Clone, Debug, Error, PartialEq)]
+#[error("no format is named {0:?}; there are dxf, svg, stl, csv and urdf")]
+pub struct UnknownFormat(pub String);
+
+impl FromStr for Format {
+    type Err = UnknownFormat;
+
+    fn from_str(word: &str) -> Result<Self, UnknownFormat> {
+        Self::ALL
+            .into_iter()
+            .find(|format| format.name() == word)
+            .ok_or_else(|| UnknownFormat(word.to_owned()))
+    }
+}
