@@ -149,7 +149,7 @@ mod tests {
             6.02e23,
             0.0,
             f64::MIN_POSITIVE,
-            123456789.123456789,
+            123_456_789.123_456_79,
         ];
         let table = write(&[
             Column::numbers("x_mm", numbers),

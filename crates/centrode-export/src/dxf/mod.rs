@@ -10,10 +10,10 @@ use thiserror::Error;
 /// Which DXF is written.
 #[derive(Clone, Copy, Debug, Default, Eq, PartialEq)]
 pub enum Version {
-    /// AutoCAD 2010: lightweight polylines.
+    /// Release 2010: lightweight polylines.
     #[default]
     R2010,
-    /// AutoCAD R12: heavy polylines, for old controllers. Knows no splines.
+    /// Release 12: heavy polylines, for old controllers. Knows no splines.
     R12,
 }
 
