@@ -2,11 +2,63 @@
 
 use std::f64::consts::TAU;
 
+use centrode_mechanism::gear::GearPair;
+use centrode_mechanism::gear::design::{GearPairDesign, Phase, Rack, ToolSpec};
 use centrode_mechanism::gear::pitch::{
     Bspline, Circle, EccentricCircle, Ellipse, Limacon, LobedEllipse, PitchSpec, Plane, Polar,
     Transmission,
 };
 use proptest::prelude::{Just, Strategy, any, prop_oneof};
+
+/// A pair whose pitch curves bear full-depth teeth: as many teeth as it takes.
+pub fn sound_pair() -> impl Strategy<Value = GearPairDesign> {
+    let lobed = (1..4_u32, 1..3_u32, 0.0..0.15_f64).prop_map(|(n1, n2, eccentricity)| {
+        let divisor = if n1 == n2 { n1 } else { 1 };
+        let (n1, n2) = (n1 / divisor, n2 / divisor);
+        let curve = LobedEllipse {
+            lobes: n2,
+            eccentricity,
+            ..LobedEllipse::default()
+        };
+        (PitchSpec::LobedEllipse(curve), [n1, n2])
+    });
+    let any_curve = shape().prop_map(|shape| (shape, [1, 1]));
+    let finish = (0.0..0.1_f64, 0.44..0.56_f64, 0.0..1.0_f64);
+    (prop_oneof![lobed, any_curve], 0.5..4.0_f64, finish).prop_map(
+        |((mut shape, mut ratio), module, finish)| {
+            let (backlash, split, phase) = finish;
+            let mut z = 24 * ratio[1];
+            loop {
+                let mut design = GearPairDesign::new(sized(shape.clone(), module, z));
+                // Unequal teeth leave a space too narrow for the standard rounding.
+                design.tool = ToolSpec::Rack(Rack {
+                    tip_radius_coefficient: 0.25,
+                    ..Rack::default()
+                });
+                design.mean_ratio = ratio;
+                let pair = GearPair::resolve(&design).expect("the generator makes valid pairs");
+                let limits = pair.limits();
+                if limits.concave_curvature > 0.0 {
+                    // Full-depth teeth may run into each other there, however small.
+                    shape = PitchSpec::Ellipse(Ellipse {
+                        eccentricity: 0.3,
+                        ..Ellipse::default()
+                    });
+                    ratio = [1, 1];
+                    continue;
+                }
+                let needed = module / limits.largest_module;
+                if needed <= 1.0 {
+                    design.teeth.backlash = backlash * module;
+                    design.teeth.thickness_split = split;
+                    design.teeth.phase = Phase::Pitches(phase);
+                    return design;
+                }
+                z = ((f64::from(z) * needed * 1.02 / f64::from(ratio[1])).ceil() as u32) * ratio[1];
+            }
+        },
+    )
+}
 
 /// A module and a tooth count of ordinary size.
 pub fn size() -> impl Strategy<Value = (f64, u32)> {
@@ -15,21 +67,23 @@ pub fn size() -> impl Strategy<Value = (f64, u32)> {
 
 /// A pitch curve of any kind that has a closed form, scaled by module and tooth count.
 pub fn pitch() -> impl Strategy<Value = PitchSpec> {
-    (shape(), size()).prop_map(|(mut shape, (m, z))| {
-        let (module, tooth_count) = match &mut shape {
-            PitchSpec::Circle(spec) => (&mut spec.module, &mut spec.tooth_count),
-            PitchSpec::EccentricCircle(spec) => (&mut spec.module, &mut spec.tooth_count),
-            PitchSpec::Ellipse(spec) => (&mut spec.module, &mut spec.tooth_count),
-            PitchSpec::LobedEllipse(spec) => (&mut spec.module, &mut spec.tooth_count),
-            PitchSpec::Limacon(spec) => (&mut spec.module, &mut spec.tooth_count),
-            PitchSpec::Bspline(spec) => (&mut spec.module, &mut spec.tooth_count),
-            PitchSpec::Polar(spec) => (&mut spec.module, &mut spec.tooth_count),
-            PitchSpec::Transmission(spec) => (&mut spec.module, &mut spec.tooth_count),
-            other => unreachable!("no strategy makes {other:?}"),
-        };
-        (*module, *tooth_count) = (Some(m), Some(z));
-        shape
-    })
+    (shape(), size()).prop_map(|(shape, (m, z))| sized(shape, m, z))
+}
+
+fn sized(mut shape: PitchSpec, m: f64, z: u32) -> PitchSpec {
+    let (module, tooth_count) = match &mut shape {
+        PitchSpec::Circle(spec) => (&mut spec.module, &mut spec.tooth_count),
+        PitchSpec::EccentricCircle(spec) => (&mut spec.module, &mut spec.tooth_count),
+        PitchSpec::Ellipse(spec) => (&mut spec.module, &mut spec.tooth_count),
+        PitchSpec::LobedEllipse(spec) => (&mut spec.module, &mut spec.tooth_count),
+        PitchSpec::Limacon(spec) => (&mut spec.module, &mut spec.tooth_count),
+        PitchSpec::Bspline(spec) => (&mut spec.module, &mut spec.tooth_count),
+        PitchSpec::Polar(spec) => (&mut spec.module, &mut spec.tooth_count),
+        PitchSpec::Transmission(spec) => (&mut spec.module, &mut spec.tooth_count),
+        other => unreachable!("no strategy makes {other:?}"),
+    };
+    (*module, *tooth_count) = (Some(m), Some(z));
+    shape
 }
 
 fn shape() -> impl Strategy<Value = PitchSpec> {

@@ -1,4 +1,6 @@
 //! What holds for every design.
 
 mod design;
+mod mesh;
 mod pitch;
+mod teeth;

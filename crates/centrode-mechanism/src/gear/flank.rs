@@ -68,9 +68,12 @@ impl Flank<'_> {
         frame.tangent * sin - frame.normal * (self.side.sign() * cos)
     }
 
-    /// First parameter between `from` and `to` at which the flank stops moving on.
-    pub(crate) fn singularity(&self, from: f64, to: f64) -> Option<f64> {
+    /// First parameter between `from` and `to` at which the flank moves on more slowly than `least`
+    /// times a straight rack's would.
+    pub(crate) fn slower(&self, least: f64, from: f64, to: f64) -> Option<f64> {
         const SAMPLES: u32 = 12;
+        let floor = least * self.tool.pressure_angle.sin();
+        let speed = |frame: &Frame| self.speed_in(frame) - floor;
         let mut ends = vec![from];
         ends.extend(self.rolling.breaks_between(from, to));
         ends.push(to);
@@ -78,7 +81,7 @@ impl Flank<'_> {
             let (a, b) = (pair[0], pair[1]);
             let inward = if b > a { b.next_down() } else { b };
             let start = if b > a { a } else { a.next_down() };
-            let mut before = (start, self.speed_in(&self.frame(start)));
+            let mut before = (start, speed(&self.frame(start)));
             if before.1 <= 0.0 {
                 return Some(a);
             }
@@ -88,12 +91,12 @@ impl Flank<'_> {
                 } else {
                     a + (b - a) * f64::from(i) / f64::from(SAMPLES)
                 };
-                let speed = self.speed_in(&self.frame(t));
-                if speed <= 0.0 {
-                    let root = |t: f64| self.speed_in(&self.frame(t));
-                    return Some(bracketed_root(root, before.0, t, before.1, speed));
+                let now = speed(&self.frame(t));
+                if now <= 0.0 {
+                    let root = |t: f64| speed(&self.frame(t));
+                    return Some(bracketed_root(root, before.0, t, before.1, now));
                 }
-                before = (t, speed);
+                before = (t, now);
             }
         }
         None

@@ -145,6 +145,10 @@ impl Swing {
     }
 }
 
+/// Share of a straight rack's flank speed at which a flank too short for its height ends: beyond it the
+/// flank curls up on itself.
+const BLUNT: f64 = 0.02;
+
 /// The tips and ends of one flank, found.
 struct Ends {
     /// Parameter at the tip corner.
@@ -258,7 +262,7 @@ impl Cutter<'_> {
         let beyond = |t: f64| sign * (limit - t) > 0.0;
         if let Some((tip, foot)) = found
             && !beyond(tip)
-            && flank.singularity(start, tip).is_none()
+            && flank.slower(0.0, start, tip).is_none()
         {
             return Ends {
                 tip,
@@ -276,7 +280,7 @@ impl Cutter<'_> {
                 rolling.parameter(plan.crossing - sign * reach)
             }
         };
-        let tip = flank.singularity(start, farthest).unwrap_or(farthest);
+        let tip = flank.slower(BLUNT, start, farthest).unwrap_or(farthest);
         let (foot, height) = flank.foot(tip);
         Ends {
             tip,

@@ -489,18 +489,25 @@ fn reduced(ratio: (u32, u32)) -> Result<(u32, u32), RollingError> {
 fn axis_crossings(curve: &dyn Curve, period: f64) -> Result<(f64, f64), RollingError> {
     const SAMPLES: usize = 128;
     let t = |i: usize| period * i as f64 / SAMPLES as f64;
-    let points: Vec<Point> = (0..=SAMPLES).map(|i| curve.at(t(i)).point).collect();
+    let mut points: Vec<Point> = (0..SAMPLES).map(|i| curve.at(t(i)).point).collect();
+    // The end of the turn is its start, to the last digit.
+    points.push(points[0]);
     let mut turned = 0.0;
     let (mut start, mut half) = (None, None);
     for i in 0..SAMPLES {
         let (p, q) = (points[i], points[i + 1]);
         turned += p.coords.perp(&q.coords).atan2(p.coords.dot(&q.coords));
-        let height = |t: f64| curve.at(t).point.y;
-        if p.y <= 0.0 && q.y > 0.0 && start.is_none() && p.x + q.x > 0.0 {
-            start = Some(bracketed_root(height, t(i), t(i + 1), p.y, q.y));
+        let crossing = || bracketed_root(|t| curve.at(t).point.y, t(i), t(i + 1), p.y, q.y);
+        if p.y < 0.0 && q.y >= 0.0 {
+            let found = crossing();
+            start = Some(if found >= period {
+                found - period
+            } else {
+                found
+            });
         }
-        if p.y >= 0.0 && q.y < 0.0 && p.x + q.x < 0.0 {
-            half = Some(bracketed_root(height, t(i), t(i + 1), p.y, q.y));
+        if p.y >= 0.0 && q.y < 0.0 {
+            half = Some(crossing());
         }
     }
     match (start, half) {

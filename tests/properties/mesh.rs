@@ -1,0 +1,80 @@
+use centrode_analysis::{Contact, check};
+use centrode_geometry::{Point, Tolerance};
+use centrode_mechanism::gear::{Gear, GearPair};
+use centrode_tests::sound_pair;
+use i_overlay::core::fill_rule::FillRule;
+use i_overlay::core::overlay_rule::OverlayRule;
+use i_overlay::float::single::SingleFloatOverlay;
+use proptest::prelude::{ProptestConfig, prop_assert, proptest};
+
+/// Chord error of the polygons that another program intersects, in modules.
+const CHORD: f64 = 1e-5;
+
+fn polygon(gear: &Gear, module: f64, place: impl Fn(Point) -> Point) -> Vec<[f64; 2]> {
+    let tolerance = Tolerance::new(CHORD * module).expect("positive");
+    let points = gear.outline().flatten(tolerance);
+    points.into_iter().map(|p| place(p).into()).collect()
+}
+
+fn turned(p: Point, angle: f64) -> Point {
+    nalgebra::Rotation2::new(angle) * p
+}
+
+/// Overlapping area of the placed gears, by a polygon library that knows nothing of gears.
+fn overlap(pair: &GearPair, phi: f64, psi: f64) -> f64 {
+    let a = pair.center_distance();
+    let driver = polygon(pair.driver(), pair.module(), |p| turned(p, -phi));
+    let driven = polygon(pair.driven(), pair.module(), |p| {
+        turned(p, psi) + nalgebra::Vector2::new(a, 0.0)
+    });
+    let both = driver.overlay(&driven, OverlayRule::Intersect, FillRule::NonZero);
+    let area = |ring: &Vec<[f64; 2]>| -> f64 {
+        let next = ring.iter().cycle().skip(1);
+        0.5 * ring
+            .iter()
+            .zip(next)
+            .map(|(p, q)| p[0] * q[1] - p[1] * q[0])
+            .sum::<f64>()
+    };
+    both.iter().flatten().map(area).sum::<f64>().abs()
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(12))]
+
+    #[test]
+    fn meshed_gears_overlap_nowhere_and_overlap_after_a_small_turn_either_way(
+        design in sound_pair(),
+        inputs in proptest::collection::vec(0.0..1.0_f64, 4),
+    ) {
+        let pair = GearPair::resolve(&design).expect("valid");
+        let phis: Vec<f64> = inputs.iter().map(|x| x * pair.cycle()).collect();
+        let contact = Contact::at(&pair, &phis);
+        // Polygons stand inside convex arcs and outside concave ones by their chord error.
+        let module = pair.module();
+        let noise = 20.0 * module * CHORD * module;
+        let small = 0.02 * module / pair.center_distance();
+        for (i, &phi) in phis.iter().enumerate() {
+            let law = pair.driven_angle(phi);
+            let seated = overlap(&pair, phi, law);
+            prop_assert!(seated < noise, "{seated:e} mm2 at {phi}");
+            let play = contact.backlash[i];
+            for turn in [play + small, -play - small] {
+                let after = overlap(&pair, phi, law + turn);
+                prop_assert!(after > 3.0 * noise, "{after:e} mm2 at {phi} turned by {turn}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_sound_pair_drives_without_error(design in sound_pair()) {
+        let pair = GearPair::resolve(&design).expect("valid");
+        let report = check(&pair);
+        prop_assert!(report.ok(), "{:?}", report.findings);
+        prop_assert!(report.values["overlap_max"] < 1e-9 * pair.module());
+        prop_assert!(report.values["contact_ratio_min"] >= 1.0);
+        if pair.backlash() == 0.0 {
+            prop_assert!(report.values["transmission_error_max"] < 1e-8);
+        }
+    }
+}

@@ -1,0 +1,111 @@
+use centrode_geometry::Segment;
+use centrode_mechanism::gear::design::{Addendum, GearPairDesign};
+use centrode_mechanism::gear::{Conjugate, GearPair, Member, Rolling};
+use centrode_tests::{pitch, sound_pair};
+use proptest::prelude::{ProptestConfig, prop_assert, prop_assert_eq, proptest};
+use std::sync::Arc;
+
+fn assert_sound(pair: &GearPair) -> Result<(), proptest::test_runner::TestCaseError> {
+    for gear in [pair.driver(), pair.driven()] {
+        let outline = gear.outline();
+        let segments = outline.segments();
+        let last = segments.last().map(Segment::end);
+        prop_assert_eq!(last, segments.first().map(Segment::start));
+        prop_assert!(outline.is_counter_clockwise());
+        let crossing = outline.crossing();
+        prop_assert!(crossing.is_none(), "{}: {crossing:?}", gear.member().name());
+    }
+    Ok(())
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(24))]
+
+    #[test]
+    fn every_contour_is_closed_simple_and_counter_clockwise(design in sound_pair()) {
+        assert_sound(&GearPair::resolve(&design).expect("valid"))?;
+    }
+
+    #[test]
+    fn so_it_is_where_teeth_are_undercut_pointed_or_fitted(pitch in pitch(), fitted: bool, height in 0.6..1.3_f64) {
+        let mut design = GearPairDesign::new(pitch);
+        if fitted {
+            design.teeth.addendum = Addendum::Fitted;
+        }
+        if let centrode_mechanism::gear::design::ToolSpec::Rack(rack) = &mut design.tool {
+            rack.addendum_coefficient = height;
+            rack.dedendum_coefficient = height + 0.25;
+            rack.tip_radius_coefficient = 0.1;
+        }
+        // Teeth too large for their curve leave no contour: that is an error, never a bad contour.
+        if let Ok(pair) = GearPair::resolve(&design) {
+            assert_sound(&pair)?;
+        }
+    }
+
+    #[test]
+    fn rolled_arc_lengths_are_equal(design in sound_pair()) {
+        let pair = GearPair::resolve(&design).expect("valid");
+        let rolling = pair.rolling();
+        for member in [Member::Driver, Member::Driven] {
+            let measured = pair.gear(member).pitch_curve().length();
+            prop_assert!((measured / rolling.pitch_length(member) - 1.0).abs() < 1e-11);
+        }
+        let step = 1e-4 * pair.module();
+        for i in 0..40 {
+            let s = rolling.pitch_length(Member::Driven) * f64::from(i) / 40.0;
+            let (t, next) = (rolling.parameter(s), rolling.parameter(s + step));
+            let chord = |m| (rolling.frame(m, next).point - rolling.frame(m, t).point).norm();
+            prop_assert!((chord(Member::Driver) / chord(Member::Driven) - 1.0).abs() < 1e-7);
+        }
+    }
+
+    #[test]
+    fn the_conjugate_of_the_conjugate_is_the_original(design in sound_pair()) {
+        let pair = GearPair::resolve(&design).expect("valid");
+        let (n1, n2) = pair.mean_ratio();
+        let first = pair.rolling().clone();
+        let back = Rolling::of(Arc::new(Conjugate::of(first.clone())), (n2, n1)).expect("rolls");
+        prop_assert!((back.center_distance() / first.center_distance() - 1.0).abs() < 1e-12);
+        let again = Rolling::of(Arc::new(Conjugate::of(back)), (n1, n2)).expect("rolls");
+        for i in 0..64 {
+            let phi = f64::from(i) * 0.1;
+            prop_assert!((again.radius(phi) / first.radius(phi) - 1.0).abs() < 1e-10);
+        }
+        // The driver turns closed: n1 driver turns are n2 driven ones.
+        let turned = first.driven_angle(pair.cycle());
+        prop_assert!((turned - std::f64::consts::TAU * f64::from(n2)).abs() < 1e-12 * turned);
+    }
+
+    #[test]
+    fn scaling_a_design_scales_every_output(design in sound_pair(), factor in 0.1..20.0_f64) {
+        let text = toml::to_string(&design).expect("valid");
+        let mut table: toml::Table = text.parse().expect("TOML");
+        let scale = |table: &mut toml::Table, part: &str, key: &str| {
+            if let Some(value) = table.get_mut(part).and_then(|p| p.get_mut(key))
+                && let Some(length) = value.as_float()
+            {
+                *value = toml::Value::Float(length * factor);
+            }
+        };
+        for key in ["module", "mean_radius", "amplitude"] {
+            scale(&mut table, "pitch", key);
+        }
+        scale(&mut table, "teeth", "backlash");
+        let larger: GearPairDesign = toml::from_str(&table.to_string()).expect("valid");
+        let (pair, larger) = (
+            GearPair::resolve(&design).expect("valid"),
+            GearPair::resolve(&larger).expect("valid"),
+        );
+        let far = factor * pair.center_distance();
+        prop_assert!((larger.center_distance() / far - 1.0).abs() < 1e-11);
+        for member in [Member::Driver, Member::Driven] {
+            let (one, other) = (pair.gear(member).outline(), larger.gear(member).outline());
+            prop_assert_eq!(one.segments().len(), other.segments().len());
+            for (a, b) in one.segments().iter().zip(other.segments()) {
+                let (p, q) = (a.at(0.3).point * factor, b.at(0.3).point);
+                prop_assert!((p - q).norm() < 1e-9 * far, "{p} {q}");
+            }
+        }
+    }
+}
