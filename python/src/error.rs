@@ -6,6 +6,7 @@ use centrode_geometry::{SolidError, Tolerance};
 use centrode_mechanism::design::{self, DesignFault};
 use centrode_mechanism::gear::design::SpecError;
 use centrode_mechanism::gear::{self, pitch};
+use pyo3::exceptions::PyOSError;
 use pyo3::prelude::{PyErr, PyResult, Python};
 
 /// The exceptions, as the Python part of the package defines them.
@@ -73,11 +74,9 @@ pub(crate) fn of_bundle(py: Python<'_>, error: &BundleError) -> PyErr {
         .source()
         .and_then(|e| e.downcast_ref::<std::io::Error>());
     if let Some(reason) = system {
-        let reason = match reason.raw_os_error() {
-            Some(code) => std::io::Error::from_raw_os_error(code),
-            None => std::io::Error::from(reason.kind()),
-        };
-        exception.set_cause(py, Some(reason.into()));
+        // Python picks the class, such as PermissionError, by the number.
+        let cause = PyOSError::new_err((reason.raw_os_error(), reason.to_string()));
+        exception.set_cause(py, Some(cause));
     }
     exception
 }

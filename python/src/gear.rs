@@ -138,7 +138,7 @@ impl Gear {
     /// >>> gear = ct.GearPair(ct.pitch.circle(module=2, tooth_count=20)).driver
     /// >>> samples = gear.samples()
     /// >>> tips = samples["points"][samples["role"] == "tip"]
-    /// >>> float((tips ** 2).sum(axis=1).max() ** 0.5)  # half of m (z + 2)
+    /// >>> round(float((tips ** 2).sum(axis=1).max() ** 0.5), 9)  # half of m (z + 2)
     /// 22.0
     #[pyo3(signature = (tolerance=1e-3))]
     fn samples<'py>(&self, py: Python<'py>, tolerance: f64) -> PyResult<Bound<'py, PyDict>> {

@@ -489,7 +489,9 @@ fn reduced(ratio: (u32, u32)) -> Result<(u32, u32), RollingError> {
 fn axis_crossings(curve: &dyn Curve, period: f64) -> Result<(f64, f64), RollingError> {
     const SAMPLES: usize = 128;
     let t = |i: usize| period * i as f64 / SAMPLES as f64;
-    let points: Vec<Point> = (0..=SAMPLES).map(|i| curve.at(t(i)).point).collect();
+    let mut points: Vec<Point> = (0..SAMPLES).map(|i| curve.at(t(i)).point).collect();
+    // Closed whatever the rounding: a crossing at the seam must not fall between its two sides.
+    points.push(points[0]);
     let mut turned = 0.0;
     let (mut start, mut half) = (None, None);
     for i in 0..SAMPLES {
@@ -505,6 +507,8 @@ fn axis_crossings(curve: &dyn Curve, period: f64) -> Result<(f64, f64), RollingE
     }
     match (start, half) {
         (Some(start), Some(half)) if (turned - TAU).abs() < 1e-6 => {
+            let seam = period - start <= 1e-12 * period;
+            let start = if seam { 0.0 } else { start };
             let half = if half < start { half + period } else { half };
             Ok((start, half))
         }
