@@ -117,7 +117,7 @@ def contact(of: GearPair | Contact, axes: NDArray[Any] | None = None) -> NDArray
     error.plot(degrees, analysis.transmission_error, color=_DRIVER, label="driving on")
     error.plot(degrees, analysis.reverse_transmission_error, color=_DRIVEN, label="driving back")
     error.set_ylabel("transmission\nerror, rad")
-    error.legend(loc="upper right")
+    error.legend(loc="best")
     count.step(degrees, analysis.contacts, where="mid", color=_DRIVER)
     count.set_ylabel("pairs of teeth\nin contact")
     count.set_ylim(bottom=0)
@@ -132,7 +132,7 @@ def contact(of: GearPair | Contact, axes: NDArray[Any] | None = None) -> NDArray
     clearance.set_ylabel("clearance, mm")
     clearance.set_ylim(bottom=0)
     clearance.set_xlabel("driver angle, deg")
-    clearance.legend(loc="upper right")
+    clearance.legend(loc="best")
     return axes
 
 

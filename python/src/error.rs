@@ -81,9 +81,18 @@ pub(crate) fn of_bundle(py: Python<'_>, error: &BundleError) -> PyErr {
     exception
 }
 
-/// A tolerance, if it is a positive length.
-pub(crate) fn tolerance(mm: f64) -> PyResult<Tolerance> {
-    Tolerance::new(mm).map_err(|e| class::DesignError::new_err((e.to_string(), "tolerance")))
+/// A tolerance, if it is a positive length and no finer than a pair's outlines are exact.
+pub(crate) fn tolerance(mm: f64, pair: &gear::GearPair) -> PyResult<Tolerance> {
+    let refused = |message: String| class::DesignError::new_err((message, "tolerance"));
+    let tolerance = Tolerance::new(mm).map_err(|e| refused(e.to_string()))?;
+    let accuracy = pair.accuracy();
+    if mm < accuracy {
+        let message = format!(
+            "tolerance must be at least {accuracy:e} mm, as exact as the outline is, not {mm:e}"
+        );
+        return Err(refused(message));
+    }
+    Ok(tolerance)
 }
 
 /// A design of another family where a gear pair is wanted.

@@ -93,7 +93,7 @@ impl GearPair {
         dxf_version: &str,
         dxf_curves: &str,
     ) -> PyResult<Bundle> {
-        let (formats, options) = options(formats, tolerance, dxf_version, dxf_curves)?;
+        let (formats, options) = options(&self.pair, formats, tolerance, dxf_version, dxf_curves)?;
         let pair = Arc::clone(&self.pair);
         wait(py, move || files::files(&pair, &formats, &options))?.map_err(|e| of_files(&e))
     }

@@ -89,9 +89,9 @@ def test_a_gear_without_a_bore_has_none(pair):
     assert pair.driver.bore() is None
 
 
-@pytest.mark.parametrize("tolerance", [0.0, -1, math.nan, math.inf])
+@pytest.mark.parametrize("tolerance", [0.0, -1, 1e-14, math.nan, math.inf])
 @pytest.mark.parametrize("method", ["outline", "pitch_curve", "bore", "samples", "mesh"])
-def test_a_tolerance_must_be_a_positive_length(pair, method, tolerance):
+def test_a_tolerance_must_be_a_positive_length_no_finer_than_the_outline(pair, method, tolerance):
     with pytest.raises(ct.DesignError, match="tolerance") as caught:
         getattr(pair.driver, method)(tolerance)
     assert caught.value.key == "tolerance"
