@@ -70,7 +70,7 @@ def animate(
     scene = _Scene(pair, ax or _axes((8.0, 6.0)), pitch_curves=True)
     angles = np.linspace(0.0, 2.0 * np.pi, frames, endpoint=False)
     animation = FuncAnimation(
-        cast(Any, scene.ax.figure), lambda i: scene.turn(angles[i]), frames=frames, interval=1000 / fps
+        cast(Any, scene.ax.figure), lambda i: scene.turn(float(angles[i])), frames=frames, interval=1000 / fps
     )
     if path is not None and suffix == "gif":
         animation.save(fspath(path), writer="pillow", fps=fps)
@@ -117,7 +117,7 @@ def contact(of: GearPair | Contact, axes: NDArray[Any] | None = None) -> NDArray
     error.plot(degrees, analysis.transmission_error, color=_DRIVER, label="driving on")
     error.plot(degrees, analysis.reverse_transmission_error, color=_DRIVEN, label="driving back")
     error.set_ylabel("transmission\nerror, rad")
-    error.legend(loc="upper right")
+    error.legend(loc="best")
     count.step(degrees, analysis.contacts, where="mid", color=_DRIVER)
     count.set_ylabel("pairs of teeth\nin contact")
     count.set_ylim(bottom=0)
@@ -128,10 +128,11 @@ def contact(of: GearPair | Contact, axes: NDArray[Any] | None = None) -> NDArray
         (analysis.fillet_clearance, _DRIVEN, "to a fillet"),
     ):
         near = np.where(np.isfinite(values), values, np.nan)
-        clearance.plot(degrees, near, color=color, label=label)
+        clearance.plot(degrees, near, ".-", color=color, linewidth=0.8, markersize=3, label=label)
     clearance.set_ylabel("clearance, mm")
+    clearance.set_ylim(bottom=0)
     clearance.set_xlabel("driver angle, deg")
-    clearance.legend(loc="upper right")
+    clearance.legend(loc="best")
     return axes
 
 
@@ -147,13 +148,9 @@ class _Part:
         if bore is not None:
             contours.append(bore[::-1])
         closed = [np.vstack([contour, contour[:1]]) for contour in contours]
-        codes = np.concatenate(
-            [[Path.MOVETO, *[Path.LINETO] * (len(points) - 2), Path.CLOSEPOLY] for points in closed]
-        )
+        codes = np.concatenate([[Path.MOVETO, *[Path.LINETO] * (len(points) - 2), Path.CLOSEPOLY] for points in closed])
         body = Path(np.concatenate(closed), codes)
-        self.patches: list[PathPatch] = [
-            PathPatch(body, facecolor=color, edgecolor="black", linewidth=0.6, alpha=0.85)
-        ]
+        self.patches: list[PathPatch] = [PathPatch(body, facecolor=color, edgecolor="black", linewidth=0.6, alpha=0.85)]
         if pitch_curve:
             points = gear.pitch_curve(tolerance)
             curve = Path(np.vstack([points, points[:1]]), closed=True)

@@ -31,6 +31,9 @@ impl<'a, 'py> FromPyObject<'a, 'py> for Values {
             return Ok(Self(ArrayD::from_elem(vec![], number)));
         }
         let asarray = ASARRAY.import(py, "numpy", "asarray")?;
+        if object.is_none() {
+            return Err(PyTypeError::new_err("must be real numbers, not None"));
+        }
         let given = asarray.call1((object,))?;
         let dtype = given.getattr("dtype")?;
         let kind: String = dtype.getattr("kind")?.extract()?;

@@ -29,13 +29,18 @@ impl<'a, 'py> FromPyObject<'a, 'py> for Count {
 impl Count {
     /// The number, or an error that names the key.
     pub(crate) fn of(self, key: &str) -> PyResult<u32> {
-        match self {
-            Self::Fits(count) => Ok(count),
-            Self::Absurd(text) => Err(design_error(
-                key,
-                &format!("must be a whole number from 0 to {}, not {text}", u32::MAX),
-            )),
-        }
+        self.within(key, 0, u32::MAX)
+    }
+
+    /// The number, or an error that names the key and its range.
+    pub(crate) fn within(self, key: &str, least: u32, greatest: u32) -> PyResult<u32> {
+        let given = match self {
+            Self::Fits(count) if (least..=greatest).contains(&count) => return Ok(count),
+            Self::Fits(count) => count.to_string(),
+            Self::Absurd(text) => text,
+        };
+        let rule = format!("must be a whole number from {least} to {greatest}, not {given}");
+        Err(design_error(key, &rule))
     }
 }
 

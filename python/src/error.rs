@@ -6,6 +6,7 @@ use centrode_geometry::{SolidError, Tolerance};
 use centrode_mechanism::design::{self, DesignFault};
 use centrode_mechanism::gear::design::SpecError;
 use centrode_mechanism::gear::{self, pitch};
+use pyo3::exceptions::PyOSError;
 use pyo3::prelude::{PyErr, PyResult, Python};
 
 /// The exceptions, as the Python part of the package defines them.
@@ -73,18 +74,25 @@ pub(crate) fn of_bundle(py: Python<'_>, error: &BundleError) -> PyErr {
         .source()
         .and_then(|e| e.downcast_ref::<std::io::Error>());
     if let Some(reason) = system {
-        let reason = match reason.raw_os_error() {
-            Some(code) => std::io::Error::from_raw_os_error(code),
-            None => std::io::Error::from(reason.kind()),
-        };
-        exception.set_cause(py, Some(reason.into()));
+        // Python picks the class, such as PermissionError, by the number.
+        let cause = PyOSError::new_err((reason.raw_os_error(), reason.to_string()));
+        exception.set_cause(py, Some(cause));
     }
     exception
 }
 
-/// A tolerance, if it is a positive length.
-pub(crate) fn tolerance(mm: f64) -> PyResult<Tolerance> {
-    Tolerance::new(mm).map_err(|e| class::DesignError::new_err((e.to_string(), "tolerance")))
+/// A tolerance, if it is a positive length and no finer than a pair's outlines are exact.
+pub(crate) fn tolerance(mm: f64, pair: &gear::GearPair) -> PyResult<Tolerance> {
+    let refused = |message: String| class::DesignError::new_err((message, "tolerance"));
+    let tolerance = Tolerance::new(mm).map_err(|e| refused(e.to_string()))?;
+    let accuracy = pair.accuracy();
+    if mm < accuracy {
+        let message = format!(
+            "tolerance must be at least {accuracy:e} mm, as exact as the outline is, not {mm:e}"
+        );
+        return Err(refused(message));
+    }
+    Ok(tolerance)
 }
 
 /// A design of another family where a gear pair is wanted.

@@ -1,11 +1,13 @@
 use centrode_export::dxf::{Curves, Version};
 use centrode_export::gear_pair::{Format, Options};
+use centrode_mechanism::gear::GearPair;
 use pyo3::prelude::PyResult;
 
 use crate::error::{tolerance as within, unknown_word};
 
 /// Formats by their names, all if none are named, and how they are written.
 pub(crate) fn options(
+    pair: &GearPair,
     formats: Option<Vec<String>>,
     tolerance: f64,
     dxf_version: &str,
@@ -21,7 +23,7 @@ pub(crate) fn options(
             })
             .collect::<PyResult<_>>()?,
     };
-    let mut options = Options::new(within(tolerance)?);
+    let mut options = Options::new(within(tolerance, pair)?);
     options.dxf_version = match dxf_version {
         "R2010" => Version::R2010,
         "R12" => Version::R12,

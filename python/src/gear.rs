@@ -95,7 +95,7 @@ impl Gear {
     #[pyo3(signature = (tolerance=1e-3))]
     fn outline<'py>(&self, py: Python<'py>, tolerance: f64) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let (pair, member) = (Arc::clone(&self.pair), self.member);
-        let tolerance = within(tolerance)?;
+        let tolerance = within(tolerance, &self.pair)?;
         let along = wait(py, move || pair.gear(member).outline().flatten(tolerance))?;
         points(py, &along)
     }
@@ -108,7 +108,7 @@ impl Gear {
         tolerance: f64,
     ) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let (pair, member) = (Arc::clone(&self.pair), self.member);
-        let tolerance = within(tolerance)?;
+        let tolerance = within(tolerance, &self.pair)?;
         let along = wait(py, move || {
             pair.gear(member).pitch_curve().flatten(tolerance)
         })?;
@@ -122,7 +122,7 @@ impl Gear {
         py: Python<'py>,
         tolerance: f64,
     ) -> PyResult<Option<Bound<'py, PyArray2<f64>>>> {
-        let tolerance = within(tolerance)?;
+        let tolerance = within(tolerance, &self.pair)?;
         let bore = self.inner().bore();
         bore.map(|bore| points(py, &bore.flatten(tolerance)))
             .transpose()
@@ -138,12 +138,12 @@ impl Gear {
     /// >>> gear = ct.GearPair(ct.pitch.circle(module=2, tooth_count=20)).driver
     /// >>> samples = gear.samples()
     /// >>> tips = samples["points"][samples["role"] == "tip"]
-    /// >>> float((tips ** 2).sum(axis=1).max() ** 0.5)  # half of m (z + 2)
+    /// >>> round(float((tips ** 2).sum(axis=1).max() ** 0.5), 9)  # half of m (z + 2)
     /// 22.0
     #[pyo3(signature = (tolerance=1e-3))]
     fn samples<'py>(&self, py: Python<'py>, tolerance: f64) -> PyResult<Bound<'py, PyDict>> {
         let (pair, member) = (Arc::clone(&self.pair), self.member);
-        let tolerance = within(tolerance)?;
+        let tolerance = within(tolerance, &self.pair)?;
         let samples = wait(py, move || pair.gear(member).outline().samples(tolerance))?;
         let gear = self.inner();
         let owned = samples.iter().map(|s| gear.owners()[s.segment]);
@@ -180,7 +180,7 @@ impl Gear {
         tolerance: f64,
         width: Option<f64>,
     ) -> PyResult<Arrays<'py>> {
-        let tolerance = within(tolerance)?;
+        let tolerance = within(tolerance, &self.pair)?;
         let gear = self.inner();
         let holes = gear.bore().into_iter().collect();
         let width = width.unwrap_or(gear.body().width);

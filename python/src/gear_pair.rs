@@ -9,7 +9,6 @@ use centrode_mechanism::gear as mechanism;
 use centrode_mechanism::gear::Member;
 use centrode_mechanism::gear::design::{Addendum, BodySpec, GearPairDesign, TeethSpec};
 use centrode_mechanism::gear::pitch::{Conjugate, PitchSpec};
-use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::{
     Bound, Py, PyAny, PyAnyMethods, PyDictMethods, PyModule, PyRef, PyResult, Python, pyclass,
     pymethods,
@@ -28,6 +27,9 @@ use crate::place::{Place, addendum};
 use crate::record;
 use crate::tool::{self, Tool};
 use crate::wait::wait;
+
+/// Most inputs a pitch of a contact analysis.
+const MOST_PER_PITCH: u32 = 10_000;
 
 /// A non-circular gear pair: exact pitch curves, finished teeth.
 ///
@@ -91,7 +93,7 @@ impl GearPair {
         dxf_version: &str,
         dxf_curves: &str,
     ) -> PyResult<Bundle> {
-        let (formats, options) = options(formats, tolerance, dxf_version, dxf_curves)?;
+        let (formats, options) = options(&self.pair, formats, tolerance, dxf_version, dxf_curves)?;
         let pair = Arc::clone(&self.pair);
         wait(py, move || files::files(&pair, &formats, &options))?.map_err(|e| of_files(&e))
     }
@@ -104,7 +106,7 @@ fn body(body: Option<PyRef<'_, Body>>) -> BodySpec {
 #[pymethods]
 impl GearPair {
     #[new]
-    #[pyo3(signature = (pitch, *, mean_ratio=[Count::Fits(1), Count::Fits(1)], tooth_count=None, center_distance=None, tool=None, addendum="full", phase=None, backlash=0.0, backlash_angle=None, thickness_split=0.5, least_tip_width_coefficient=0.2, driver=None, driven=None, name="gear-pair", title=""))]
+    #[pyo3(signature = (pitch, *, mean_ratio=[Count::Fits(1), Count::Fits(1)], tooth_count=None, center_distance=None, tool=None, addendum="full", phase=Place::Auto, backlash=0.0, backlash_angle=None, thickness_split=0.5, least_tip_width_coefficient=0.2, driver=None, driven=None, name="gear-pair", title=""), text_signature = "(pitch, *, mean_ratio=(1, 1), tooth_count=None, center_distance=None, tool=None, addendum='full', phase='auto', backlash=0.0, backlash_angle=None, thickness_split=0.5, least_tip_width_coefficient=0.2, driver=None, driven=None, name='gear-pair', title='')")]
     #[expect(clippy::too_many_arguments, reason = "keyword arguments")]
     fn new(
         py: Python<'_>,
@@ -114,7 +116,7 @@ impl GearPair {
         center_distance: Option<f64>,
         tool: Option<Tool<'_>>,
         addendum: &str,
-        phase: Option<Place>,
+        phase: Place,
         backlash: f64,
         backlash_angle: Option<f64>,
         thickness_split: f64,
@@ -138,7 +140,7 @@ impl GearPair {
             tool: tool.map(|t| t.spec()).unwrap_or_default(),
             teeth: TeethSpec {
                 addendum: self::addendum(addendum)?,
-                phase: phase.map(|p| p.phase()).transpose()?.unwrap_or_default(),
+                phase: phase.phase()?,
                 backlash,
                 backlash_angle,
                 thickness_split,
@@ -267,11 +269,11 @@ impl GearPair {
     ///
     /// >>> import centrode as ct, numpy as np
     /// >>> pair = ct.GearPair(ct.pitch.circle(module=2, tooth_count=20), mean_ratio=(2, 1))
-    /// >>> pair.driven_angle(1.0)
+    /// >>> round(pair.driven_angle(1.0), 12)
     /// 0.5
-    /// >>> pair.driven_angle([[0, 1], [2, 3]])
-    /// array([[0. , 0.5],
-    ///        [1. , 1.5]])
+    /// >>> pair.driven_angle([[1, 2], [3, 4]]).round(12)
+    /// array([[0.5, 1. ],
+    ///        [1.5, 2. ]])
     fn driven_angle<'py>(&self, py: Python<'py>, phi: Values) -> PyResult<Bound<'py, PyAny>> {
         let pair = Arc::clone(&self.pair);
         each(py, phi, move |phi| pair.driven_angle(phi))
@@ -315,28 +317,24 @@ impl GearPair {
     ///
     /// Args:
     ///     per_pitch: Inputs a pitch, spaced evenly along the pitch curve and never in step with the teeth.
-    ///     inputs: Driver angles, rad, instead.
+    ///     inputs: Driver angles, rad, instead of these.
     ///
     /// >>> import centrode as ct
     /// >>> pair = ct.GearPair(ct.pitch.ellipse(eccentricity=0.2, module=2, tooth_count=23))
     /// >>> bool(abs(pair.contact().transmission_error).max() < 1e-8)
     /// True
-    #[pyo3(signature = (per_pitch=None, *, inputs=None))]
+    #[pyo3(signature = (per_pitch=Count::Fits(8), *, inputs=None), text_signature = "($self, per_pitch=8, *, inputs=None)")]
     fn contact<'py>(
         &self,
         py: Python<'py>,
-        per_pitch: Option<Count>,
+        per_pitch: Count,
         inputs: Option<Numbers>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let per_pitch = optional("per_pitch", per_pitch)?;
+        let per_pitch = per_pitch.within("per_pitch", 1, MOST_PER_PITCH)?;
         let pair = Arc::clone(&self.pair);
-        let contact = match (per_pitch, inputs) {
-            (Some(_), Some(_)) => {
-                return Err(PyTypeError::new_err("give per_pitch or inputs, not both"));
-            }
-            (None, None) => wait(py, move || Contact::of(&pair)),
-            (Some(count), None) => wait(py, move || Contact::sampled(&pair, count)),
-            (None, Some(inputs)) => {
+        let contact = match inputs {
+            None => wait(py, move || Contact::sampled(&pair, per_pitch)),
+            Some(inputs) => {
                 let inputs = inputs.into_vec();
                 wait(py, move || Contact::at(&pair, &inputs))
             }

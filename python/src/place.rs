@@ -9,6 +9,8 @@ use crate::error::unknown_word;
 /// Where the teeth sit: a word, or pitches from the polar angle zero to the middle of a tooth.
 #[derive(Debug)]
 pub(crate) enum Place {
+    /// Left out.
+    Auto,
     /// A word.
     Word(String),
     /// Pitches.
@@ -40,6 +42,7 @@ impl Place {
     /// The place as a design has it.
     pub(crate) fn phase(self) -> PyResult<Phase> {
         let word = match self {
+            Self::Auto => return Ok(Phase::Auto),
             Self::Pitches(pitches) => return Ok(Phase::Pitches(pitches)),
             Self::Word(word) => word,
         };

@@ -5,6 +5,8 @@ import math
 import centrode as ct
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 RADIUS = [21, 28, 50, 49, 58, 47, 18, 12, 28, 60, 48, 24]
 ANGLE = np.radians([20, 45, 76, 105, 132, 165, 195, 225, 255, 285, 316, 345])
@@ -41,6 +43,14 @@ def test_points_close_after_a_period_and_may_be_none():
         (lambda: ct.pitch.ellipse(eccentricity=math.nan, module=1, tooth_count=20), "eccentricity"),
         (lambda: ct.pitch.circle(module=0, tooth_count=20), "module"),
         (lambda: ct.pitch.circle(module=1, tooth_count=2), "tooth_count"),
+        (lambda: ct.pitch.circle(module=1, tooth_count=-1), "tooth_count"),
+        (lambda: ct.pitch.polar([20, -1, 20, 20, 20, 20, 20]), "radius"),
+        (lambda: ct.pitch.polar("20 + x"), "expression"),
+        (lambda: ct.pitch.polar("1/(phi-phi)"), "expression"),
+        (lambda: ct.pitch.polar([20] * 9, interpolation="linear"), "interpolation"),
+        (lambda: ct.pitch.from_transmission("phi*1.2345678", center_distance=40), "driven"),
+        (lambda: ct.pitch.bspline(radius=[20, 20, 20, 20], angle=[0, 2, 1, 3]), "angle_deg"),
+        (lambda: ct.pitch.conjugate(ct.pitch.polar("20 + cos(phi)"), mean_ratio=(1, 2)), "mean ratio"),
         (lambda: ct.pitch.circle(), "size"),
         (lambda: ct.pitch.bspline(radius=[1, 2], angle=[0, 1, 2]), "radius"),
         (lambda: ct.pitch.bspline(x=[1, 2, 3], y=[1, 2, 3], plane="sphere"), "plane"),
@@ -57,3 +67,23 @@ def test_wrong_kinds_of_argument_are_type_errors():
         ct.pitch.ellipse(0.2)
     with pytest.raises(TypeError):
         ct.pitch.circle(module="two", tooth_count=20)
+    with pytest.raises(TypeError, match="real numbers"):
+        ct.pitch.polar(np.array([20 + 1j] * 9))
+    with pytest.raises(ValueError, match="dimensions"):
+        ct.pitch.polar([[20, 21], [22, 23]])
+
+
+def test_curvature_is_that_of_the_curve():
+    pitch = ct.pitch.ellipse(eccentricity=0.5, semi_major_axis=20)
+    ends = pitch.curvature([0.0, math.pi])
+    np.testing.assert_allclose(ends, 20 / (20**2 * 0.75), rtol=1e-12)
+
+
+@given(eccentricity=st.floats(0, 0.9), module=st.floats(0.1, 100), teeth=st.integers(3, 500))
+@settings(max_examples=30, deadline=None)
+def test_module_and_tooth_count_set_the_length(eccentricity, module, teeth):
+    pitch = ct.pitch.ellipse(eccentricity=eccentricity, module=module, tooth_count=teeth)
+    phi = np.linspace(0, 2 * math.pi, 4097)
+    step = np.diff(pitch.points(phi), axis=0)
+    length = np.hypot(*step.T).sum()
+    assert length == pytest.approx(math.pi * module * teeth, rel=1e-5)

@@ -67,7 +67,7 @@ fn interpolation(word: Option<&str>) -> PyResult<Option<spec::Interpolation>> {
 /// A circle around the shaft axis: an ordinary gear. Give `radius`, or `module` and `tooth_count`.
 ///
 /// >>> import centrode as ct
-/// >>> ct.pitch.circle(radius=20, tooth_count=20).module
+/// >>> round(ct.pitch.circle(radius=20, tooth_count=20).module, 12)
 /// 2.0
 #[pyfunction]
 #[pyo3(signature = (*, radius=None, module=None, tooth_count=None))]
@@ -160,7 +160,7 @@ pub(crate) fn lobed_ellipse(
 /// >>> square.period
 /// 4.0
 #[pyfunction]
-#[pyo3(signature = (*, radius=None, angle=None, x=None, y=None, degree=Count::Fits(3), plane="polar", interpolate=false, module=None, tooth_count=None))]
+#[pyo3(signature = (*, radius=None, angle=None, x=None, y=None, degree=Count::Fits(3), plane="polar", interpolate=false, module=None, tooth_count=None), text_signature = "(*, radius=None, angle=None, x=None, y=None, degree=3, plane='polar', interpolate=False, module=None, tooth_count=None)")]
 #[expect(clippy::too_many_arguments, reason = "keyword arguments")]
 pub(crate) fn bspline(
     radius: Option<Numbers>,
@@ -193,7 +193,7 @@ pub(crate) fn bspline(
 /// >>> ct.pitch.bezier(x=x, y=y, plane="cartesian", degree=2).points([0.0])
 /// array([[10., 10.]])
 #[pyfunction]
-#[pyo3(signature = (*, radius=None, angle=None, x=None, y=None, degree=Count::Fits(3), plane="polar", module=None, tooth_count=None))]
+#[pyo3(signature = (*, radius=None, angle=None, x=None, y=None, degree=Count::Fits(3), plane="polar", module=None, tooth_count=None), text_signature = "(*, radius=None, angle=None, x=None, y=None, degree=3, plane='polar', module=None, tooth_count=None)")]
 #[expect(clippy::too_many_arguments, reason = "keyword arguments")]
 pub(crate) fn bezier(
     radius: Option<Numbers>,
@@ -223,7 +223,7 @@ pub(crate) fn bezier(
 /// >>> ct.pitch.limacon(mean_radius=20, amplitude=2).points([0.0])
 /// array([[22.,  0.]])
 #[pyfunction]
-#[pyo3(signature = (*, mean_radius, amplitude, lobes=Count::Fits(1), module=None, tooth_count=None))]
+#[pyo3(signature = (*, mean_radius, amplitude, lobes=Count::Fits(1), module=None, tooth_count=None), text_signature = "(*, mean_radius, amplitude, lobes=1, module=None, tooth_count=None)")]
 pub(crate) fn limacon(
     mean_radius: f64,
     amplitude: f64,
@@ -361,7 +361,7 @@ pub(crate) fn from_ratio(
 /// >>> wheel.points([0.0]).round(12)
 /// array([[20.,  0.]])
 #[pyfunction]
-#[pyo3(signature = (of, *, mean_ratio=[Count::Fits(1), Count::Fits(1)], module=None, tooth_count=None))]
+#[pyo3(signature = (of, *, mean_ratio=[Count::Fits(1), Count::Fits(1)], module=None, tooth_count=None), text_signature = "(of, *, mean_ratio=(1, 1), module=None, tooth_count=None)")]
 pub(crate) fn conjugate(
     of: PyRef<'_, Pitch>,
     mean_ratio: [Count; 2],

@@ -18,7 +18,7 @@ use crate::error::{of_design, of_pitch};
 ///
 /// >>> import centrode as ct
 /// >>> ct.pitch.circle(module=2, tooth_count=20)
-/// Pitch(circle: module 2.0 mm, 20 teeth)
+/// Pitch(circle, r = R: module 2.0 mm, 20 teeth)
 #[pyclass(frozen, eq, module = "centrode")]
 #[derive(Debug)]
 pub(crate) struct Pitch {

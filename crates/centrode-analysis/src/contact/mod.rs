@@ -19,6 +19,12 @@ const SAMPLES_PER_PITCH: u32 = 8;
 /// Places farther apart than this many modules are not looked at.
 const NEAR: f64 = 0.4;
 
+/// Flanks within this many modules of the designed play face each other as designed.
+const DESIGNED: f64 = 1e-6;
+
+/// Turn of the driven gear, rad, below which a seat is exact.
+const SETTLED: f64 = 1e-12;
+
 /// Overlaps no deeper than this many modules are taken as they are.
 const SHALLOW: f64 = 1e-3;
 
@@ -165,10 +171,12 @@ impl<'a> Meshing<'a> {
             out.sliding.push(0.0);
             return;
         };
-        out.transmission_error
-            .push(forward.angle - law + half / forward.lever);
-        out.reverse_transmission_error
-            .push(back.angle - law - half / back.lever);
+        let error = |seat: &Seat, sign: f64| {
+            let ideal = self.ideal(&places, phi, law, sign * half);
+            seat.angle - ideal.unwrap_or(law - sign * half / seat.lever)
+        };
+        out.transmission_error.push(error(&forward, 1.0));
+        out.reverse_transmission_error.push(error(&back, -1.0));
         let play = back.angle - forward.angle;
         out.backlash.push(play);
         out.normal_backlash.push(play * forward.lever);
@@ -300,6 +308,34 @@ impl<'a> Meshing<'a> {
         out
     }
 
+    /// The angle at which the driven gear would stand if the flanks held the designed play exactly.
+    ///
+    /// At the law's own angle flanks thinned for play are parallel and half the play apart; how far the
+    /// driven gear turns until they touch takes the same steps as the seating itself. Nothing where no
+    /// flanks face each other as designed.
+    fn ideal(&self, places: &[Place], phi: f64, law: f64, half: f64) -> Option<f64> {
+        if half == 0.0 {
+            return Some(law);
+        }
+        let off = |p: &&Place| (half.abs() - p.touch.gap).abs();
+        let place = places
+            .iter()
+            .filter(|p| half * p.touch.lever > 0.0)
+            .min_by(|p, q| off(p).total_cmp(&off(q)))
+            .filter(|p| off(p) < DESIGNED * self.module)?;
+        let wrong = (half.abs() - place.touch.gap) / place.touch.lever;
+        let (mut angle, mut place) = (law, *place);
+        for _ in 0..8 {
+            let step = place.touch.gap / place.touch.lever;
+            angle -= step;
+            if step.abs() < SETTLED {
+                break;
+            }
+            place = self.again(&place, &Pose::new(phi, angle, self.pair.center_distance()))?;
+        }
+        Some(angle - wrong)
+    }
+
     /// Whether a deep overlap is one: the far sides of two neighbouring teeth face each other too, but
     /// neither lies in the other.
     fn real(&self, touch: &Touch, pose: &Pose) -> bool {
@@ -329,7 +365,7 @@ impl<'a> Meshing<'a> {
             let next = bound(first, angle);
             lever = Some(first.touch.lever.abs());
             let moved = (next - angle).abs() * a;
-            let settled = moved < 1e-5 * self.module * 1e-2;
+            let settled = moved < 1e-7 * self.module;
             let slack = 4.0 * (next - angle).abs();
             at.retain(|p| sign * (bound(p, angle) - next) > -slack - 1e-3);
             if settled {

@@ -259,6 +259,12 @@ impl GearPair {
         self.module
     }
 
+    /// Greatest distance of the stored outlines from the exact ones, mm: no finer tolerance has a meaning.
+    #[must_use]
+    pub fn accuracy(&self) -> f64 {
+        OUTLINE_TOLERANCE * self.module
+    }
+
     /// Turns of driver : turns of driven.
     #[must_use]
     pub fn mean_ratio(&self) -> (u32, u32) {

@@ -133,6 +133,22 @@ mod tests {
     }
 
     #[test]
+    fn a_seam_on_the_axis_is_the_start_whatever_the_rounding() {
+        for amplitude in [0.0, 0.09375, 0.1, -0.2] {
+            for length in [1.0, 9.0, 17.3] {
+                for ratio in [[1, 1], [2, 1], [1, 2], [3, 2]] {
+                    let text = format!("{length}*(1 + {amplitude}*cos(2*phi))");
+                    let spec = PitchSpec::Polar(Polar::expression(text));
+                    let start = spec.resolve().expect("a curve").curve.at(0.0).point;
+                    let back = of(of(spec, ratio), [ratio[1], ratio[0]]);
+                    let curve = back.resolve().expect("a curve").curve;
+                    assert!((curve.at(0.0).point - start).norm() < 1e-12 * length);
+                }
+            }
+        }
+    }
+
+    #[test]
     fn module_and_tooth_count_set_its_size() {
         let spec = PitchSpec::Conjugate(Conjugate {
             mean_ratio: [2, 1],

@@ -1,0 +1,63 @@
+"""Files from Python."""
+
+import errno
+import os
+
+import centrode as ct
+import pytest
+
+
+def test_export_writes_the_files_and_names_them(pair, tmp_path):
+    out = tmp_path / "a" / "b"
+    paths = pair.export(out, formats=["dxf", "csv"], tolerance=0.01)
+    files = pair.files(formats=["dxf", "csv"], tolerance=0.01)
+    assert [path.name for path in paths] == list(files)
+    assert sorted(path.name for path in out.iterdir()) == sorted(files)
+    for path in paths:
+        assert path.read_bytes() == files[path.name]
+    names = list(pair.files(tolerance=0.1))
+    assert {name.rpartition(".")[2] for name in names} >= {"dxf", "svg", "stl", "csv", "urdf"}
+
+
+def test_options_reach_the_writers(pair):
+    def dxf(**options):
+        return pair.files(formats=["dxf"], tolerance=0.01, **options)["driver.dxf"].decode()
+
+    assert "LWPOLYLINE" in dxf()
+    assert "AC1009" in dxf(dxf_version="R12")
+    assert "SPLINE" in dxf(dxf_curves="splines")
+    assert len(pair.files(formats=["stl"], tolerance=0.1)["driver.stl"]) < len(
+        pair.files(formats=["stl"])["driver.stl"]
+    )
+
+
+@pytest.mark.parametrize(
+    ("options", "text"),
+    [
+        ({"formats": ["dwg"]}, "formats"),
+        ({"dxf_version": "R14"}, "dxf_version"),
+        ({"dxf_curves": "lines"}, "dxf_curves"),
+        ({"tolerance": 0}, "tolerance"),
+    ],
+)
+def test_unknown_words_write_nothing(pair, tmp_path, options, text):
+    with pytest.raises(ct.DesignError, match=text):
+        pair.export(tmp_path / "out", **options)
+    assert not (tmp_path / "out").exists()
+
+
+def test_what_cannot_be_made_is_an_export_error(pair):
+    with pytest.raises(ct.ExportError, match="R12"):
+        pair.files(formats=["dxf"], dxf_version="R12", dxf_curves="splines")
+    with pytest.raises(TypeError):
+        pair.files(formats="dxf")
+
+
+def test_the_system_s_refusal_is_the_cause(pair, tmp_path):
+    blocked = tmp_path / "file"
+    blocked.write_text("in the way")
+    with pytest.raises(ct.ExportError, match="file") as caught:
+        pair.export(blocked / "out", formats=["csv"])
+    assert isinstance(caught.value.__cause__, OSError)
+    assert caught.value.__cause__.errno in (errno.ENOTDIR, errno.EEXIST)
+    assert os.listdir(tmp_path) == ["file"]

@@ -1,0 +1,83 @@
+"""Plots from Python."""
+
+import centrode as ct
+import matplotlib as mpl
+import numpy as np
+import pytest
+from matplotlib import pyplot
+from PIL import Image
+
+mpl.use("Agg")
+
+
+@pytest.fixture(autouse=True)
+def _close():
+    yield
+    pyplot.close("all")
+
+
+def shown(ax):
+    """The picture as an array of grey levels."""
+    figure = ax.figure
+    figure.canvas.draw()
+    return np.asarray(figure.canvas.buffer_rgba())[..., :3].mean(axis=2)
+
+
+def test_a_turned_pair_stands_as_the_law_says(pair):
+    ax = ct.plot.pair(pair, 0.7, pitch_curves=False)
+    driver, driven = ax.patches
+    to_mm = ax.transData.inverted()
+
+    def posed(patch):
+        return to_mm.transform(patch.get_transform().transform(patch.get_path().vertices))
+
+    turn = np.exp(-0.7j)
+    at = pair.driver.outline(0.01 * pair.module) @ [1, 1j]
+    np.testing.assert_allclose(posed(driver)[: len(at)] @ [1, 1j], at * turn, atol=1e-9)
+    turn = np.exp(1j * pair.driven_angle(0.7))
+    at = pair.driven.outline(0.01 * pair.module) @ [1, 1j]
+    np.testing.assert_allclose(posed(driven)[: len(at)] @ [1, 1j], at * turn + pair.center_distance, atol=1e-9)
+
+
+def test_pairs_are_drawn_into_given_axes(design):
+    pair = ct.load(design)
+    _, axes = pyplot.subplots(1, 2)
+    assert ct.plot.pair(pair, ax=axes[0]) is axes[0]
+    assert len(axes[0].patches) == 4
+    assert ct.plot.motion(pair, ax=axes[1]) is axes[1]
+    grey = shown(axes[0])
+    assert (grey < 200).mean() > 0.05
+
+
+def test_motion_shows_the_ratio(pair):
+    ax = ct.plot.motion(pair)
+    ratio = ax.lines[0].get_ydata()
+    assert (ratio.max(), ratio.min()) == pytest.approx((3**0.5, 3**-0.5), rel=1e-9)
+
+
+def test_contact_takes_a_pair_or_an_analysis(pair):
+    contact = pair.contact(2)
+    for axes in (ct.plot.contact(contact), ct.plot.contact(pair)):
+        assert len(axes) == 4
+    drawn = ct.plot.contact(contact)[1].lines[0].get_ydata()
+    np.testing.assert_array_equal(drawn, contact.contacts)
+
+
+def test_an_animation_moves(pair, tmp_path):
+    ct.plot.animate(pair, tmp_path / "mesh.gif", frames=3, fps=10)
+    with Image.open(tmp_path / "mesh.gif") as film:
+        assert film.n_frames == 3
+        pictures = []
+        for i in range(3):
+            film.seek(i)
+            pictures.append(np.asarray(film.convert("L"), dtype=float))
+    assert np.abs(pictures[0] - pictures[1]).max() > 50
+    ct.plot.animate(pair, str(tmp_path / "mesh.html"), frames=2)
+    assert "<script" in (tmp_path / "mesh.html").read_text()
+
+
+def test_other_kinds_of_film_are_refused(pair, tmp_path):
+    with pytest.raises(ValueError, match="gif"):
+        ct.plot.animate(pair, tmp_path / "mesh.png")
+    with pytest.raises(ValueError, match="frames"):
+        ct.plot.animate(pair, frames=0)
