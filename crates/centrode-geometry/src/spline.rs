@@ -38,13 +38,12 @@ impl Spline {
         let middle = 0.5 * (t0 + t1);
         let half = 0.5 * (t1 - t0);
         let mut values = [Point::origin(); NODES];
-        for (value, &node) in values.iter_mut().zip(&tables.nodes) {
-            *value = curve(middle + half * node);
+        for j in 1..NODES - 1 {
+            values[j] = curve(middle + half * tables.nodes[j]);
         }
         // The end nodes must not be moved by rounding in the parameter.
-        let (start, end) = (curve(t0), curve(t1));
-        values[0] = end;
-        values[NODES - 1] = start;
+        values[0] = curve(t1);
+        values[NODES - 1] = curve(t0);
         Self::through(&values, tables)
     }
 

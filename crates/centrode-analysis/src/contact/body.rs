@@ -21,6 +21,10 @@ pub(super) struct Part<'a> {
     pub(super) center: Point,
     pub(super) radius: f64,
     pub(super) normals: Cone,
+    pub(super) start: Point,
+    pub(super) end: Point,
+    /// Greatest distance from the chord.
+    pub(super) sagitta: f64,
 }
 
 /// A corner of an outline: an edge of the gear.
@@ -40,7 +44,12 @@ pub(super) struct Body<'a> {
     pub(super) corners: Vec<Corner>,
     /// Greatest distance from the axis.
     pub(super) reach: f64,
+    /// The same, sector by sector of the body's own polar angle.
+    sectors: Vec<f64>,
 }
+
+/// Sectors in which a body's reach is kept.
+const SECTORS: usize = 72;
 
 impl<'a> Body<'a> {
     pub(super) fn of(gear: &'a Gear) -> Self {
@@ -75,12 +84,53 @@ impl<'a> Body<'a> {
             .iter()
             .map(|p| p.center.coords.norm() + p.radius)
             .fold(0.0, f64::max);
+        let sectors = sectors(&parts);
         Self {
             parts,
             corners,
             reach,
+            sectors,
         }
     }
+
+    /// Greatest distance from the axis near a direction in the body's own frame.
+    pub(super) fn reach_towards(&self, direction: &Vector) -> f64 {
+        self.sectors[sector(angle(direction.y, direction.x)) % SECTORS]
+    }
+}
+
+fn sector(angle: f64) -> usize {
+    let share = angle.rem_euclid(std::f64::consts::TAU) / std::f64::consts::TAU;
+    (share * SECTORS as f64) as usize
+}
+
+/// Reach by sector, each with its neighbours': what is near a direction may lie just beside it.
+fn sectors(parts: &[Part<'_>]) -> Vec<f64> {
+    let mut own = vec![0.0_f64; SECTORS];
+    for part in parts {
+        let away = part.center.coords.norm();
+        let far = away + part.radius;
+        let middle = angle(part.center.y, part.center.x);
+        // A part about the axis itself, or reaching it, is in every sector.
+        let spread = if part.radius < away {
+            (part.radius / away).asin()
+        } else {
+            std::f64::consts::PI
+        };
+        let width = std::f64::consts::TAU / SECTORS as f64;
+        let count = (2.0 * spread / width).ceil() as usize + 1;
+        for k in 0..=count.min(SECTORS) {
+            let at = sector(middle - spread + k as f64 * width) % SECTORS;
+            own[at] = own[at].max(far);
+        }
+    }
+    (0..SECTORS)
+        .map(|k| {
+            own[k]
+                .max(own[(k + 1) % SECTORS])
+                .max(own[(k + SECTORS - 1) % SECTORS])
+        })
+        .collect()
 }
 
 fn angle(y: f64, x: f64) -> f64 {
@@ -100,6 +150,11 @@ fn part(segment: &Segment, role: Role, owner: u32) -> Part<'_> {
     let radius = jets
         .iter()
         .map(|j| (j.point - center).norm())
+        .fold(0.0, f64::max);
+    let chord = (jets[SAMPLES].point - jets[0].point).normalize();
+    let sagitta = jets
+        .iter()
+        .map(|j| chord.perp(&(j.point - jets[0].point)).abs())
         .fold(0.0, f64::max);
     let mut direction_now = direction(&jets[0]);
     let (mut low, mut high) = (direction_now, direction_now);
@@ -121,5 +176,8 @@ fn part(segment: &Segment, role: Role, owner: u32) -> Part<'_> {
             middle: 0.5 * (low + high),
             half: half * 1.05 + 1e-3,
         },
+        start: jets[0].point,
+        end: jets[SAMPLES].point,
+        sagitta: 1.1 * sagitta,
     }
 }

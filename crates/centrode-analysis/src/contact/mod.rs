@@ -7,17 +7,22 @@
 mod body;
 mod touch;
 
-use body::{Body, Cone};
-use centrode_mechanism::gear::{GearPair, Member, Role};
+use body::{Body, Cone, Part};
+use centrode_geometry::{Point, Vector};
+use centrode_mechanism::gear::design::Addendum;
+use centrode_mechanism::gear::{GearPair, Member, Role, Tooth, ToothSide};
 use touch::{Pose, Touch};
 
 use std::f64::consts::{PI, TAU};
 
-/// Samples a pitch if nothing else is asked for.
-const SAMPLES_PER_PITCH: u32 = 8;
+/// Samples a pitch of sound teeth.
+const SAMPLES_PER_PITCH: u32 = 6;
+
+/// Samples a pitch where contact may be lost.
+const FINE_SAMPLES_PER_PITCH: u32 = 48;
 
 /// Places farther apart than this many modules are not looked at.
-const NEAR: f64 = 0.4;
+const NEAR: f64 = 0.3;
 
 /// Flanks within this many modules of the designed play face each other as designed.
 const DESIGNED: f64 = 1e-6;
@@ -84,10 +89,25 @@ enum From {
 }
 
 impl Contact {
-    /// Analyses one whole cycle at eight inputs a pitch.
+    /// Analyses one whole cycle at six inputs a pitch, or at 48 where a tooth is not what the tool would
+    /// make of it or a pitch curve is concave: contact can then be lost over a small part of a pitch.
     #[must_use]
     pub fn of(pair: &GearPair) -> Self {
-        Self::sampled(pair, SAMPLES_PER_PITCH)
+        let whole = |tooth: &Tooth| {
+            let sound = |side: &ToothSide| side.undercut == 0.0 && side.shortened == 0.0;
+            !tooth.severed && sound(&tooth.leading) && sound(&tooth.trailing)
+        };
+        let teeth = || pair.driver().teeth().iter().chain(pair.driven().teeth());
+        if pair.teeth().addendum == Addendum::Full && teeth().all(whole) {
+            let found = Self::sampled(pair, SAMPLES_PER_PITCH);
+            let sure = |e: &f64| e.abs() < 1e-9;
+            if found.transmission_error.iter().all(sure)
+                && found.reverse_transmission_error.iter().all(sure)
+            {
+                return found;
+            }
+        }
+        Self::sampled(pair, FINE_SAMPLES_PER_PITCH)
     }
 
     /// Analyses one whole cycle at about `per_pitch` inputs a pitch, spaced evenly along the pitch curve
@@ -129,7 +149,7 @@ struct Meshing<'a> {
     near: f64,
     /// Where parts faced each other at the sample before.
     memory: Vec<(usize, usize, (f64, f64))>,
-    active: (Vec<usize>, Vec<(usize, centrode_geometry::Point)>),
+    active: (Vec<usize>, Vec<(usize, Point)>),
 }
 
 impl<'a> Meshing<'a> {
@@ -205,17 +225,25 @@ impl<'a> Meshing<'a> {
         let (near, module) = (self.near, self.module);
         self.active.0.clear();
         self.active.1.clear();
+        // Two bodies can meet only where each lies within what the other reaches in that direction.
         for (i, part) in self.driver.parts.iter().enumerate() {
-            let reach = self.driven.reach + part.radius + near;
-            if (part.center - pose.axis).norm_squared() < reach * reach {
-                self.active.0.push(i);
+            let from = part.center - pose.axis;
+            let farthest = self.driven.reach + part.radius + near;
+            if from.norm_squared() < farthest * farthest {
+                let reach = self.driven.reach_towards(&pose.turn_back(&from)) + part.radius + near;
+                if from.norm_squared() < reach * reach {
+                    self.active.0.push(i);
+                }
             }
         }
         for (j, part) in self.driven.parts.iter().enumerate() {
-            let reach = self.driver.reach + part.radius + near;
+            let farthest = self.driver.reach + part.radius + near;
             let center = pose.place(&part.center);
-            if center.coords.norm_squared() < reach * reach {
-                self.active.1.push((j, center));
+            if center.coords.norm_squared() < farthest * farthest {
+                let reach = self.driver.reach_towards(&center.coords) + part.radius + near;
+                if center.coords.norm_squared() < reach * reach {
+                    self.active.1.push((j, center));
+                }
             }
         }
         let mut out = Vec::with_capacity(16);
@@ -229,6 +257,7 @@ impl<'a> Meshing<'a> {
                 let reach = a.radius + b.radius + near;
                 if (a.center - center).norm_squared() > reach * reach
                     || !facing(a.normals, b.normals, turned)
+                    || !in_range(a, b, pose, near, module)
                 {
                     continue;
                 }
@@ -417,6 +446,21 @@ struct Seat {
     places: Vec<Place>,
 }
 
+/// Whether two facing parts can be nearer than `near`, and no deeper in each other than half a module,
+/// along the first one's middle normal.
+fn in_range(a: &Part<'_>, b: &Part<'_>, pose: &Pose, near: f64, module: f64) -> bool {
+    let (sin, cos) = a.normals.middle.sin_cos();
+    let normal = Vector::new(cos, sin);
+    let along = |p: &Point| normal.dot(&p.coords);
+    let (a0, a1) = (along(&a.start), along(&a.end));
+    let (b0, b1) = (along(&pose.place(&b.start)), along(&pose.place(&b.end)));
+    let bulge = a.sagitta + b.sagitta;
+    // A gap along a normal within the cone is at most this much longer.
+    let slant = 1.0 / a.normals.half.min(1.2).cos();
+    b0.min(b1) - a0.max(a1) < slant * near + bulge
+        && b0.max(b1) - a0.min(a1) > -slant * 0.5 * module - bulge
+}
+
 /// Whether some outward normal of one opposes some outward normal of the other.
 fn facing(a: Cone, b: Cone, turned: f64) -> bool {
     let difference = a.middle - b.middle - turned - PI;
@@ -442,9 +486,9 @@ fn corner_kind(on_flank: bool, part: Role) -> Kind {
 
 /// Speed at which the gears slide on each other per speed of the driver, mm/rad.
 fn sliding(touch: &Touch, phi: f64, a: f64, ratio: f64) -> f64 {
-    let axis = centrode_geometry::Vector::new(a * phi.cos(), a * phi.sin());
+    let axis = Vector::new(a * phi.cos(), a * phi.sin());
     let arm = touch.point.coords - axis;
-    let across = |v: centrode_geometry::Vector| centrode_geometry::Vector::new(-v.y, v.x);
+    let across = |v: Vector| Vector::new(-v.y, v.x);
     let speed = across(axis) + across(arm) * (1.0 + ratio);
     speed.perp(&touch.normal).abs()
 }

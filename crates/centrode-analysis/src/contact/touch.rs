@@ -29,6 +29,13 @@ impl Pose {
         )
     }
 
+    pub(super) fn turn_back(&self, v: &Vector) -> Vector {
+        Vector::new(
+            self.cos * v.x + self.sin * v.y,
+            self.cos * v.y - self.sin * v.x,
+        )
+    }
+
     pub(super) fn place(&self, p: &Point) -> Point {
         self.axis + self.turn(&p.coords)
     }
@@ -132,6 +139,11 @@ fn newton(a: &Part<'_>, b: &Part<'_>, pose: &Pose, at: (f64, f64)) -> Option<Opt
             let touch = Touch::new(p.point, q.point, normal, (u, v), pose);
             let opening = bend_a + bend_b + bend_a * bend_b * touch.gap;
             return Some((opening > 0.0).then_some(touch));
+        }
+        // Twice well outside and still going: what faces lies on a neighbour, which will find it.
+        let outside = |x: f64, dx: f64| x.abs() > 1.25 && x * dx > 0.0;
+        if outside(u, du) || outside(v, dv) {
+            return Some(None);
         }
         // Steps beyond the parts' own length leave the region the parts describe.
         u = (u + du.clamp(-1.0, 1.0)).clamp(-1.6, 1.6);
