@@ -1,8 +1,8 @@
 use std::io::Write;
 use std::process::ExitCode;
 
-use centrode::export::gear_pair::{self, Format, Options};
 use centrode::export::dxf;
+use centrode::export::gear_pair::{self, Format, Options};
 
 use crate::args::{Dxf, Export, File};
 use crate::failure::Failure;

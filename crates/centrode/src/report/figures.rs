@@ -181,7 +181,8 @@ pub(super) fn write(report: &Report, out: &mut impl Write) -> Result<()> {
                 let figure = report.values.get(key).map(|value| unit.show(*value));
                 write!(out, "  {:>COLUMN$}", figure.unwrap_or_default())?;
             }
-            writeln!(out, "  {}", unit.name())?;
+            let unit = unit.name();
+            writeln!(out, "{}{unit}", if unit.is_empty() { "" } else { "  " })?;
         }
     }
     let mut heading = false;
@@ -217,28 +218,28 @@ impl Unit {
 
     /// The figure in few enough digits to read; what is smaller keeps its leading digits.
     fn show(self, value: f64) -> String {
-        let (value, digits) = match self {
-            Self::Count => (value, 0),
-            Self::Number | Self::PerMillimetre => (value, 6),
-            Self::Millimetre => (value, 4),
-            Self::Degree => (value.to_degrees(), 4),
-            Self::Radian => (value, 9),
-        };
-        figure(value, digits)
+        match self {
+            Self::Count => format!("{value:.0}"),
+            Self::Number | Self::PerMillimetre => figure(value, 6),
+            Self::Millimetre => figure(value, 4),
+            Self::Degree => figure(value.to_degrees(), 4),
+            Self::Radian => figure(value, 0),
+        }
     }
 }
 
-/// A number with so many decimals, or in powers of ten where they would hide it.
-pub(super) fn figure(value: f64, digits: usize) -> String {
-    let least = 0.5 * 0.1_f64.powi(i32::try_from(digits).unwrap_or(i32::MAX));
+/// A number with so many decimals, or in powers of ten where they would hide it; without decimals,
+/// always in powers of ten.
+pub(super) fn figure(value: f64, decimals: i32) -> String {
+    let hidden = 50.0 * 0.1_f64.powi(decimals);
     if value == 0.0 {
         "0".into()
     } else if !value.is_finite() {
         "none".into()
-    } else if value.abs() < 100.0 * least || value.abs() >= 1e9 {
+    } else if value.abs() < hidden || value.abs() >= 1e9 {
         format!("{value:.1e}")
     } else {
-        format!("{value:.digits$}")
+        format!("{value:.0$}", usize::try_from(decimals).unwrap_or(0))
     }
 }
 
@@ -254,6 +255,7 @@ mod tests {
         assert_eq!(Unit::Count.show(23.0), "23");
         assert_eq!(Unit::Radian.show(f64::INFINITY), "none");
         assert_eq!(Unit::Radian.show(-0.0), "0");
+        assert_eq!(Unit::Radian.show(2.489e-7), "2.5e-7");
     }
 
     #[test]
