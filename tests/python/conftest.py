@@ -15,6 +15,7 @@ ECCENTRICITY = 1 / (2 + math.sqrt(3))
 
 DESIGNS = {
     "elliptic": f"""
+family = "gear-pair"
 name = "elliptic"
 [pitch]
 kind = "ellipse"
@@ -22,14 +23,15 @@ eccentricity = {ECCENTRICITY!r}
 module = 2.25
 tooth_count = 23
 [driver]
-width = 12.0
-bore = 12.0
-keyway = {{ width = 4.0, depth = 1.8 }}
+width = 12
+bore = 12
+keyway = {{ width = 4, depth = 1.8 }}
 [driven]
-width = 12.0
-bore = 12.0
+width = 12
+bore = 12
 """,
     "two-to-one": """
+family = "gear-pair"
 name = "two-to-one"
 mean_ratio = [2, 1]
 [pitch]
@@ -41,6 +43,7 @@ tooth_count = 24
 backlash = 0.05
 """,
     "circle": """
+family = "gear-pair"
 name = "circle"
 [pitch]
 kind = "circle"

@@ -34,7 +34,7 @@ def test_the_mesh_is_a_solid_of_the_sections_volume(exported, gear):
 @pytest.mark.parametrize("gear", GEARS)
 def test_outline_normals_are_unit_and_point_outwards(exported, gear):
     table = rows(exported / f"{gear}.csv")
-    x, y, nx, ny = (np.array(column) for column in list(table.values())[:4])
+    x, y, nx, ny = (table[name] for name in ("x_mm", "y_mm", "normal_x", "normal_y"))
     np.testing.assert_allclose(np.hypot(nx, ny), 1, atol=1e-9)
     ahead = np.column_stack([np.roll(x, -1) - x, np.roll(y, -1) - y])
     # Counter-clockwise: outside is to the right of the way on, but at corners of the profile.

@@ -1,8 +1,12 @@
 use std::path::PathBuf;
 
+use centrode::geometry::Tolerance;
 use centrode::mechanism::design::Design;
 use clap::builder::PossibleValuesParser;
-use clap::{Args, Parser, Subcommand};
+use clap::{Args, Parser, Subcommand, ValueEnum};
+
+/// Finest tolerance that can be asked for, mm: below it lie the rounding errors of the outlines.
+const FINEST: f64 = 1e-7;
 
 /// Design, prove and export non-circular gears.
 #[derive(Debug, Parser)]
@@ -22,6 +26,8 @@ pub(crate) enum Command {
     New(New),
     /// Resolve a design and report its figures and findings
     Check(Check),
+    /// Write a design's drawings, solids, tables and simulator model
+    Export(Export),
     /// Print the JSON schema of the design file
     Schema,
     /// Print a completion script for a shell
@@ -48,6 +54,73 @@ pub(crate) struct Check {
     /// Print the report as JSON
     #[arg(long)]
     pub(crate) json: bool,
+}
+
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Example: centrode export pair.toml --to out --format dxf,json\n\nExit status: 0 good; 1 a finding of severity error (the files are written all the same); 2 no mechanism, or the files cannot be written."
+)]
+pub(crate) struct Export {
+    /// Design file, or - for standard input
+    pub(crate) design: PathBuf,
+    /// Folder for the files, made if it is missing
+    #[arg(long, value_name = "DIR")]
+    pub(crate) to: PathBuf,
+    /// Kinds of file, separated by commas; left out, all
+    #[arg(long, value_enum, value_delimiter = ',', value_name = "KINDS")]
+    pub(crate) format: Vec<File>,
+    /// Greatest distance of what is written from the exact curve, mm
+    #[arg(long, default_value = "0.001", value_parser = tolerance, allow_negative_numbers = true, value_name = "MM")]
+    pub(crate) tolerance: Tolerance,
+    /// Flavour of the DXF files
+    #[arg(long, value_enum, default_value_t = Dxf::R2010)]
+    pub(crate) dxf: Dxf,
+}
+
+impl Export {
+    /// Whether this kind of file is asked for.
+    pub(crate) fn wants(&self, file: File) -> bool {
+        self.format.is_empty() || self.format.contains(&file)
+    }
+}
+
+/// A kind of file.
+#[derive(Clone, Copy, Debug, Eq, PartialEq, ValueEnum)]
+pub(crate) enum File {
+    /// Cutting files: each gear, and both in place
+    Dxf,
+    /// Pictures of the same
+    Svg,
+    /// Solids
+    Stl,
+    /// Points of the outlines, and the motion
+    Csv,
+    /// Simulator model, with its solids and motion
+    Urdf,
+    /// Report: every figure and finding
+    Json,
+}
+
+/// A flavour of DXF.
+#[derive(Clone, Copy, Debug, Eq, PartialEq, ValueEnum)]
+pub(crate) enum Dxf {
+    /// AutoCAD 2010, lines and arcs
+    R2010,
+    /// AutoCAD R12, lines and arcs, for old controllers
+    R12,
+    /// AutoCAD 2010, splines
+    Spline,
+}
+
+fn tolerance(word: &str) -> Result<Tolerance, String> {
+    let mm: f64 = word
+        .parse()
+        .map_err(|_| "not a number of millimetres".to_owned())?;
+    let tolerance = Tolerance::new(mm).map_err(|error| error.to_string())?;
+    if mm < FINEST {
+        return Err(format!("tolerance must be at least {FINEST} mm"));
+    }
+    Ok(tolerance)
 }
 
 #[derive(Debug, Args)]

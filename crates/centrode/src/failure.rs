@@ -1,6 +1,8 @@
 use std::io::{self, Write};
 
 use anstyle::{AnsiColor, Style};
+use centrode::export::BundleError;
+use centrode::export::gear_pair::GearPairFilesError;
 use centrode::mechanism::design::DesignError;
 
 /// Longest part of a line shown below an error, in characters.
@@ -22,6 +24,8 @@ pub(crate) enum Failure {
     Input { name: String, error: io::Error },
     /// The output cannot be written.
     Output(io::Error),
+    /// The files of the design cannot be made or written.
+    Files(Box<GearPairFilesError>),
     /// A word on the command line that means nothing.
     Usage(String),
 }
@@ -29,6 +33,18 @@ pub(crate) enum Failure {
 impl From<io::Error> for Failure {
     fn from(error: io::Error) -> Self {
         Self::Output(error)
+    }
+}
+
+impl From<GearPairFilesError> for Failure {
+    fn from(error: GearPairFilesError) -> Self {
+        Self::Files(Box::new(error))
+    }
+}
+
+impl From<BundleError> for Failure {
+    fn from(error: BundleError) -> Self {
+        Self::Files(Box::new(error.into()))
     }
 }
 
@@ -40,6 +56,7 @@ impl Failure {
             Self::Design { name, text, error } => at_line(out, name, text, error),
             Self::Input { name, error } => writeln!(out, "cannot read {name}: {error}"),
             Self::Output(error) => writeln!(out, "cannot write the output: {error}"),
+            Self::Files(error) => writeln!(out, "{}", printable(&error.to_string())),
             Self::Usage(message) => writeln!(out, "{message}"),
         }
     }

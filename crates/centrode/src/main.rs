@@ -1,12 +1,15 @@
-//! The command line: `centrode new`, `check` and the rest.
+//! The command line: `centrode new`, `check`, `export` and the rest.
 
 mod args;
 mod check;
 mod completions;
+mod export;
 mod failure;
 mod input;
 mod man;
 mod new;
+mod progress;
+mod report;
 mod schema;
 
 use std::io::Write as _;
@@ -30,6 +33,7 @@ fn main() -> ExitCode {
     let result = match &arguments.command {
         Command::New(command) => new::run(command, &mut out),
         Command::Check(command) => check::run(command, &mut out),
+        Command::Export(command) => export::run(command, &mut out),
         Command::Schema => schema::run(&mut out),
         Command::Completions(command) => completions::run(command, &mut out),
         Command::Man(command) => man::run(command, &mut out),

@@ -48,12 +48,22 @@ impl Options {
 #[non_exhaustive]
 pub enum GearPairFilesError {
     /// A gear is no solid at this tolerance.
-    #[error("the {} is no solid: {source}", .member.name())]
+    #[error("the {} gear is no solid: {source}", .member.name())]
     Solid {
         /// Which gear.
         member: Member,
         /// Why.
         source: SolidError,
+    },
+    /// The tolerance is so coarse that no tooth would be left.
+    #[error(
+        "a tolerance of {tolerance} mm is too coarse: at most a tenth of the module, {largest:.4} mm"
+    )]
+    Tolerance {
+        /// The tolerance, mm.
+        tolerance: f64,
+        /// The coarsest one possible, mm.
+        largest: f64,
     },
     /// The drawing could not be written.
     #[error(transparent)]
@@ -78,6 +88,13 @@ pub fn files(
     formats: &[Format],
     options: &Options,
 ) -> Result<Bundle, GearPairFilesError> {
+    let largest = 0.1 * pair.module();
+    if options.tolerance.mm() > largest {
+        return Err(GearPairFilesError::Tolerance {
+            tolerance: options.tolerance.mm(),
+            largest,
+        });
+    }
     let wanted = |format: Format| formats.contains(&format);
     let mut bundle = Bundle::default();
     if wanted(Format::Dxf) || wanted(Format::Svg) {
@@ -264,6 +281,13 @@ mod tests {
             names,
             ["driver.stl", "driven.stl", "motion.csv", "pair.urdf"]
         );
+    }
+
+    #[test]
+    fn a_tolerance_that_leaves_no_teeth_is_refused() {
+        let coarse = Options::new(Tolerance::new(1.0).expect("positive"));
+        let error = files(&elliptic(), &[Format::Dxf], &coarse).expect_err("too coarse");
+        assert!(error.to_string().contains("0.2250 mm"), "{error}");
     }
 
     #[test]

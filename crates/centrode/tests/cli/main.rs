@@ -1,6 +1,9 @@
 //! The program as its user meets it: output, errors, exit status.
 #![cfg(feature = "cli")]
 
+mod bad_designs;
+mod export;
+
 use std::io::Write as _;
 use std::path::PathBuf;
 use std::process::{Command, Output, Stdio};
@@ -37,7 +40,7 @@ fn a_new_design_checks() {
     assert_eq!(new.status.code(), Some(0));
     let check = fed(&["check", "-"], &new.stdout);
     assert_eq!(check.status.code(), Some(0), "{}", text(&check.stderr));
-    assert!(text(&check.stdout).contains("center_distance"));
+    assert!(text(&check.stdout).contains("centre distance"));
 }
 
 #[test]
@@ -99,6 +102,9 @@ fn help_version_schema_completions_and_man_pages_are_printed() {
         (&["completions", "fish"], "complete -c centrode"),
         (&["man"], ".TH centrode"),
         (&["man", "check"], ".TH centrode-check"),
+        (&["man", "export"], "\\-\\-tolerance"),
+        (&["export", "--help"], "urdf"),
+        (&["completions", "bash"], "--tolerance"),
     ] {
         let output = centrode(arguments);
         assert_eq!(output.status.code(), Some(0), "{arguments:?}");

@@ -1,0 +1,67 @@
+use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
+use std::thread::JoinHandle;
+use std::time::Duration;
+
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+
+/// Work shorter than this shows no bar.
+const PATIENCE: Duration = Duration::from_secs(1);
+
+/// A bar on the terminal's standard error, there only while long work lasts.
+pub(crate) struct Progress {
+    bar: ProgressBar,
+    done: Option<Sender<()>>,
+    watch: Option<JoinHandle<()>>,
+}
+
+impl Progress {
+    /// A bar for so many steps.
+    pub(crate) fn new(steps: u64) -> Self {
+        let bar = ProgressBar::with_draw_target(Some(steps), ProgressDrawTarget::hidden());
+        // Off a terminal the standard error stays clean.
+        if !std::io::IsTerminal::is_terminal(&std::io::stderr()) {
+            return Self {
+                bar,
+                done: None,
+                watch: None,
+            };
+        }
+        if let Ok(style) = ProgressStyle::with_template("{bar:24} {pos}/{len} {msg} {elapsed}") {
+            bar.set_style(style);
+        }
+        let (done, finished) = channel();
+        let shown = bar.clone();
+        let watch = std::thread::spawn(move || show_late(&shown, &finished));
+        Self {
+            bar,
+            done: Some(done),
+            watch: Some(watch),
+        }
+    }
+
+    /// The next step begins.
+    pub(crate) fn step(&self, what: &'static str) {
+        if !self.bar.message().is_empty() {
+            self.bar.inc(1);
+        }
+        self.bar.set_message(what);
+    }
+}
+
+fn show_late(bar: &ProgressBar, finished: &Receiver<()>) {
+    if finished.recv_timeout(PATIENCE) == Err(RecvTimeoutError::Timeout) {
+        bar.set_draw_target(ProgressDrawTarget::stderr());
+        bar.enable_steady_tick(Duration::from_millis(100));
+    }
+}
+
+impl Drop for Progress {
+    fn drop(&mut self) {
+        drop(self.done.take());
+        if let Some(watch) = self.watch.take() {
+            // It only waits for the sender just dropped.
+            let _ = watch.join();
+        }
+        self.bar.finish_and_clear();
+    }
+}

@@ -1,0 +1,272 @@
+use std::collections::BTreeSet;
+use std::io::{Result, Write};
+
+use anstyle::Style;
+use centrode::analysis::Report;
+
+const HEADING: Style = Style::new().bold();
+/// Width of the names and of each column of figures.
+const NAME: usize = 32;
+const COLUMN: usize = 12;
+
+/// What a figure is measured in, which settles how it is shown.
+#[derive(Clone, Copy)]
+enum Unit {
+    Count,
+    Number,
+    Millimetre,
+    PerMillimetre,
+    /// Kept in rad, shown in degrees.
+    Degree,
+    /// Kept and shown in rad: errors too small for degrees.
+    Radian,
+}
+
+/// A line of the table: what it is called, the figures on it, their unit.
+struct Row(&'static str, &'static [&'static str], Unit);
+
+/// A part of the table: its heading, the columns, the rows.
+struct Group(&'static str, &'static [&'static str], &'static [Row]);
+
+const GROUPS: [Group; 4] = [
+    Group(
+        "Pitch curves",
+        &["driver", "driven"],
+        &[
+            Row(
+                "teeth",
+                &["driver_tooth_count", "driven_tooth_count"],
+                Unit::Count,
+            ),
+            Row(
+                "length",
+                &["driver_pitch_length", "driven_pitch_length"],
+                Unit::Millimetre,
+            ),
+            Row(
+                "least radius",
+                &["driver_radius_min", "driven_radius_min"],
+                Unit::Millimetre,
+            ),
+            Row(
+                "greatest radius",
+                &["driver_radius_max", "driven_radius_max"],
+                Unit::Millimetre,
+            ),
+            Row(
+                "least curvature",
+                &["driver_curvature_min", "driven_curvature_min"],
+                Unit::PerMillimetre,
+            ),
+            Row(
+                "greatest curvature",
+                &["driver_curvature_max", "driven_curvature_max"],
+                Unit::PerMillimetre,
+            ),
+        ],
+    ),
+    Group(
+        "Teeth",
+        &["driver", "driven"],
+        &[
+            Row(
+                "tip radius, greatest",
+                &["driver_tip_radius_max", "driven_tip_radius_max"],
+                Unit::Millimetre,
+            ),
+            Row(
+                "root radius, least",
+                &["driver_root_radius_min", "driven_root_radius_min"],
+                Unit::Millimetre,
+            ),
+            Row(
+                "tip width, least",
+                &["driver_tip_width_min", "driven_tip_width_min"],
+                Unit::Millimetre,
+            ),
+            Row(
+                "fillet radius, least",
+                &["driver_fillet_radius_min", "driven_fillet_radius_min"],
+                Unit::Millimetre,
+            ),
+        ],
+    ),
+    Group(
+        "Mesh, over the whole cycle",
+        &["least", "greatest"],
+        &[
+            Row(
+                "ratio, driven to driver",
+                &["ratio_min", "ratio_max"],
+                Unit::Number,
+            ),
+            Row(
+                "contacts at once",
+                &["contact_ratio_min", "contact_ratio_max"],
+                Unit::Count,
+            ),
+            Row("contact ratio, mean", &["contact_ratio_mean"], Unit::Number),
+            Row(
+                "backlash of the driven gear",
+                &["backlash_min", "backlash_max"],
+                Unit::Degree,
+            ),
+            Row(
+                "backlash, normal",
+                &["normal_backlash_min", "normal_backlash_max"],
+                Unit::Millimetre,
+            ),
+            Row(
+                "transmission error",
+                &["", "transmission_error_max"],
+                Unit::Radian,
+            ),
+            Row("overlap", &["", "overlap_max"], Unit::Millimetre),
+            Row("pressure angle", &["", "pressure_angle_max"], Unit::Degree),
+            Row(
+                "sliding a rad of the driver",
+                &["", "sliding_max"],
+                Unit::Millimetre,
+            ),
+            Row(
+                "clearance, tip to root",
+                &["clearance_min"],
+                Unit::Millimetre,
+            ),
+            Row(
+                "clearance, tip to fillet",
+                &["fillet_clearance_min"],
+                Unit::Millimetre,
+            ),
+        ],
+    ),
+    Group(
+        "Limits and settings",
+        &[""],
+        &[
+            Row("centre distance", &["center_distance"], Unit::Millimetre),
+            Row("module", &["module"], Unit::Millimetre),
+            Row(
+                "largest module, no undercut",
+                &["largest_module"],
+                Unit::Millimetre,
+            ),
+            Row(
+                "largest addendum, no undercut",
+                &["largest_addendum"],
+                Unit::Millimetre,
+            ),
+            Row("phase of the first tooth", &["phase"], Unit::Millimetre),
+            Row("closure error", &["closure_error"], Unit::Radian),
+        ],
+    ),
+];
+
+/// Writes every figure in its group; figures of no group come last, as they are.
+pub(super) fn write(report: &Report, out: &mut impl Write) -> Result<()> {
+    let mut shown = BTreeSet::from([""]);
+    for Group(heading, columns, rows) in &GROUPS {
+        write!(out, "\n{HEADING}{heading:NAME$}{HEADING:#}")?;
+        for column in *columns {
+            write!(out, "  {column:>COLUMN$}")?;
+        }
+        writeln!(out)?;
+        for Row(name, keys, unit) in *rows {
+            if !keys.iter().any(|key| report.values.contains_key(key)) {
+                continue;
+            }
+            write!(out, "  {name:width$}", width = NAME - 2)?;
+            for key in *keys {
+                shown.insert(key);
+                let figure = report.values.get(key).map(|value| unit.show(*value));
+                write!(out, "  {:>COLUMN$}", figure.unwrap_or_default())?;
+            }
+            let unit = unit.name();
+            writeln!(out, "{}{unit}", if unit.is_empty() { "" } else { "  " })?;
+        }
+    }
+    let mut heading = false;
+    for (key, value) in report
+        .values
+        .iter()
+        .filter(|(key, _)| !shown.contains(*key))
+    {
+        if !heading {
+            writeln!(out, "\n{HEADING}More{HEADING:#}")?;
+            heading = true;
+        }
+        writeln!(
+            out,
+            "  {key:width$}  {:>COLUMN$}",
+            Unit::Number.show(*value),
+            width = NAME - 2
+        )?;
+    }
+    Ok(())
+}
+
+impl Unit {
+    fn name(self) -> &'static str {
+        match self {
+            Self::Count | Self::Number => "",
+            Self::Millimetre => "mm",
+            Self::PerMillimetre => "1/mm",
+            Self::Degree => "deg",
+            Self::Radian => "rad",
+        }
+    }
+
+    /// The figure in few enough digits to read; what is smaller keeps its leading digits.
+    fn show(self, value: f64) -> String {
+        match self {
+            Self::Count => format!("{value:.0}"),
+            Self::Number | Self::PerMillimetre => figure(value, 6),
+            Self::Millimetre => figure(value, 4),
+            Self::Degree => figure(value.to_degrees(), 4),
+            Self::Radian => figure(value, 0),
+        }
+    }
+}
+
+/// A number with so many decimals, or in powers of ten where they would hide it; without decimals,
+/// always in powers of ten.
+pub(super) fn figure(value: f64, decimals: i32) -> String {
+    let hidden = 50.0 * 0.1_f64.powi(decimals);
+    if value == 0.0 {
+        "0".into()
+    } else if !value.is_finite() {
+        "none".into()
+    } else if value.abs() < hidden || value.abs() >= 1e9 {
+        format!("{value:.1e}")
+    } else {
+        format!("{value:.0$}", usize::try_from(decimals).unwrap_or(0))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn figures_keep_what_matters() {
+        assert_eq!(Unit::Millimetre.show(52.709_221), "52.7092");
+        assert_eq!(Unit::Millimetre.show(-3.2e-7), "-3.2e-7");
+        assert_eq!(Unit::Degree.show(std::f64::consts::PI), "180.0000");
+        assert_eq!(Unit::Count.show(23.0), "23");
+        assert_eq!(Unit::Radian.show(f64::INFINITY), "none");
+        assert_eq!(Unit::Radian.show(-0.0), "0");
+        assert_eq!(Unit::Radian.show(2.489e-7), "2.5e-7");
+    }
+
+    #[test]
+    fn a_figure_of_no_group_is_shown_too() {
+        let mut report = Report::default();
+        report.values.insert("module", 2.25);
+        report.values.insert("swing", 0.5);
+        let mut out = Vec::new();
+        write(&report, &mut out).expect("written");
+        let text = String::from_utf8(out).expect("text");
+        assert!(text.contains("More") && text.contains("swing"), "{text}");
+        assert!(text.contains("2.2500  mm"), "{text}");
+    }
+}

@@ -1,0 +1,120 @@
+//! Designs without a mechanism: one clear message at its line, quickly, and nothing written.
+
+use std::fs;
+use std::time::{Duration, Instant};
+
+use crate::{centrode, text};
+
+/// What the message must contain, and the line it must point to, for a design.
+fn refused(design: &[u8], words: &[&str], line: usize) {
+    let folder = tempfile::tempdir().expect("a place to write");
+    let file = folder.path().join("pair.toml");
+    let out = folder.path().join("out");
+    fs::write(&file, design).expect("written");
+    let [file, to] = [&file, &out].map(|path| path.display().to_string());
+    let start = Instant::now();
+    let done = centrode(&["export", &file, "--to", &to]);
+    let shown = String::from_utf8_lossy(&design[..design.len().min(300)]);
+    assert!(start.elapsed() < Duration::from_secs(1), "slow: {shown}");
+    let message = text(&done.stderr);
+    assert_eq!(done.status.code(), Some(2), "{shown}{message}");
+    assert!(done.stdout.is_empty(), "{shown}");
+    assert!(!out.exists(), "{shown}");
+    for word in words {
+        assert!(message.contains(word), "{word:?} for\n{shown}{message}");
+    }
+    assert!(message.contains(&format!("pair.toml:{line}:")), "{message}");
+}
+
+fn pitch(keys: &str) -> String {
+    format!("family = \"gear-pair\"\n[pitch]\n{keys}\n")
+}
+
+fn ellipse(eccentricity: &str, module: &str, teeth: &str) -> String {
+    pitch(&format!(
+        "kind = \"ellipse\"\neccentricity = {eccentricity}\nmodule = {module}\ntooth_count = {teeth}"
+    ))
+}
+
+fn sized(kind: &str, keys: &str) -> String {
+    pitch(&format!(
+        "kind = \"{kind}\"\n{keys}\nmodule = 2\ntooth_count = 20"
+    ))
+}
+
+#[test]
+fn numbers_out_of_range_are_refused() {
+    for value in ["nan", "inf", "-0.1", "1.0", "1e308"] {
+        refused(
+            ellipse(value, "2", "20").as_bytes(),
+            &["eccentricity must"],
+            4,
+        );
+    }
+    for value in ["0", "-2", "nan", "-inf"] {
+        refused(ellipse("0.1", value, "20").as_bytes(), &["module must"], 5);
+    }
+    for value in ["2", "0", "4000000000"] {
+        refused(
+            ellipse("0.1", "2", value).as_bytes(),
+            &["tooth_count must"],
+            6,
+        );
+    }
+    let body = sized("circle", "") + "[driver]\nwidth = -1\n";
+    refused(body.as_bytes(), &["driver.width", "greater than 0"], 8);
+    let body = sized("circle", "") + "[driver]\nbore = 50\n";
+    refused(body.as_bytes(), &["driver.bore"], 8);
+}
+
+#[test]
+fn curves_that_roll_on_nothing_are_refused() {
+    let falls = sized("polar", "expression = \"cos(phi)\"");
+    refused(falls.as_bytes(), &["expression", "must stay above 0"], 4);
+    let negative = sized("polar", "radius = [1, 1, 1, -1]");
+    refused(negative.as_bytes(), &["pitch.radius"], 4);
+    let backwards = sized("transmission", "expression = \"phi - 0.8*sin(2*phi)\"");
+    refused(
+        backwards.as_bytes(),
+        &["expression", "must stay above 0"],
+        4,
+    );
+    let crossing = pitch(
+        "kind = \"bspline\"\ndegree = 2\nplane = \"cartesian\"\nx = [30, 10, -30, 30, -30, 10]\n\
+         y = [-20, 30, 20, 10, -20, -30]\nmodule = 2\ntooth_count = 20",
+    );
+    refused(crossing.as_bytes(), &["pitch.x"], 6);
+    let apart = format!("center_distance = 7\n{}", sized("circle", ""));
+    refused(apart.as_bytes(), &["center_distance is 7 mm"], 1);
+}
+
+#[test]
+fn bad_formulas_are_refused() {
+    let name = sized("polar", "expression = \"1 + x\"");
+    refused(name.as_bytes(), &["expression", "unknown name \"x\""], 4);
+    let zero = sized("polar", "expression = \"1/(phi - phi)\"");
+    refused(zero.as_bytes(), &["expression", "not a finite number"], 4);
+    let deep = sized(
+        "polar",
+        &format!("expression = \"{}1\"", "(".repeat(50_000)),
+    );
+    refused(deep.as_bytes(), &["expression"], 4);
+}
+
+#[test]
+fn bad_files_are_refused() {
+    let unknown = sized("circle", "tooth_cuont = 20");
+    refused(
+        unknown.as_bytes(),
+        &["tooth_cuont: unknown key", "did you mean \"tooth_count\""],
+        4,
+    );
+    refused(
+        b"family = \"gear-pair\"\n[pitch]\nkind = \"circ",
+        &["string"],
+        3,
+    );
+    refused(b"", &["empty"], 1);
+    refused(&[b'x'; 10_000_000], &["at most 1048576"], 1);
+    refused(b"family = \"gear-pair\"\nname = \"\xff\"\n", &["UTF-8"], 2);
+}

@@ -1,0 +1,129 @@
+//! Goldens: every design of `tests/designs/`, its figures, findings and files, against `tests/golden/`.
+//!
+//! `UPDATE_GOLDEN=1 cargo test -p centrode-tests --test golden` writes them anew; read the diff.
+
+mod entities;
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use centrode_export::gear_pair::{Format, Options, files};
+use centrode_geometry::Tolerance;
+use centrode_mechanism::design::DesignFile;
+use serde_json::{Value, json};
+
+/// Greatest difference of a figure, of its size or of 1 mm or 1 rad, whichever is more.
+const DIFFERENCE: f64 = 1e-9;
+
+fn folder(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join(name)
+}
+
+/// Names of the files with an extension, without it.
+fn stems(folder: &Path, extension: &str) -> Vec<String> {
+    let entries = fs::read_dir(folder).expect("the folder is checked in");
+    let paths = entries.map(|entry| entry.expect("entry").path());
+    let mut names: Vec<String> = paths
+        .filter(|path| path.extension().is_some_and(|e| e == extension))
+        .map(|path| {
+            path.file_stem()
+                .expect("a name")
+                .to_string_lossy()
+                .into_owned()
+        })
+        .collect();
+    names.sort();
+    names
+}
+
+/// What a golden holds: figures, findings without their words, files and what is in them.
+fn outcome(name: &str) -> Value {
+    let path = folder("designs").join(format!("{name}.toml"));
+    let design = DesignFile::read(&fs::read(path).expect("readable")).expect("a design");
+    let pair = design.gear_pair().expect("a pair");
+    let report = centrode_analysis::check(&pair);
+    let findings: Vec<Value> = report
+        .findings
+        .iter()
+        .map(|f| json!({"rule": f.rule, "severity": f.severity, "part": f.place.part, "teeth": f.place.teeth}))
+        .collect();
+    let options = Options::new(Tolerance::new(1e-3).expect("positive"));
+    let written = match files(&pair, &Format::ALL, &options) {
+        Ok(bundle) => bundle
+            .files()
+            .map(|(name, bytes)| (name.to_owned(), json!(entities::count(name, bytes))))
+            .collect(),
+        Err(error) => BTreeMap::from([("refused".to_owned(), json!(error.to_string()))]),
+    };
+    json!({"values": report.values, "findings": findings, "files": written})
+}
+
+/// Every place where two values differ, numbers within [`DIFFERENCE`] aside.
+fn differences(place: &str, golden: &Value, now: &Value, found: &mut Vec<String>) {
+    match (golden, now) {
+        (Value::Number(a), Value::Number(b)) => {
+            let [a, b] = [a, b].map(|n| n.as_f64().expect("a float"));
+            if (a - b).abs() > DIFFERENCE * a.abs().max(1.0) {
+                found.push(format!("{place}: {a:e} was golden, now {b:e}"));
+            }
+        }
+        (Value::Object(a), Value::Object(b)) => {
+            for key in a.keys().chain(b.keys().filter(|key| !a.contains_key(*key))) {
+                let side = |object: &serde_json::Map<String, Value>| {
+                    object.get(key).cloned().unwrap_or(json!("absent"))
+                };
+                differences(&format!("{place}.{key}"), &side(a), &side(b), found);
+            }
+        }
+        _ if golden == now => {}
+        _ => found.push(format!("{place}: {golden} was golden, now {now}")),
+    }
+}
+
+#[test]
+fn every_design_is_as_it_was() {
+    let goldens = folder("golden");
+    let update = std::env::var_os("UPDATE_GOLDEN").is_some();
+    let designs = stems(&folder("designs"), "toml");
+    assert!(!designs.is_empty(), "no design in tests/designs");
+    let mut found = Vec::new();
+    for name in &designs {
+        let now = outcome(name);
+        let file = goldens.join(format!("{name}.json"));
+        if update {
+            fs::write(&file, format!("{now:#}\n")).expect("written");
+            continue;
+        }
+        match fs::read(&file) {
+            Ok(bytes) => {
+                let golden = serde_json::from_slice(&bytes).expect("a golden is JSON");
+                differences(name, &golden, &now, &mut found);
+            }
+            Err(_) => found.push(format!("{name}: no golden")),
+        }
+    }
+    for name in stems(&goldens, "json") {
+        if !designs.contains(&name) {
+            found.push(format!("{name}: a golden without a design"));
+        }
+    }
+    assert!(
+        found.is_empty(),
+        "{}\nRight so? UPDATE_GOLDEN=1 cargo test -p centrode-tests --test golden",
+        found.join("\n")
+    );
+}
+
+#[test]
+fn a_difference_is_found_and_rounding_is_not() {
+    let golden = json!({"values": {"a": 50.0, "b": null}, "files": {"x.dxf": {"LINE": 2}}});
+    let mut found = Vec::new();
+    let close = json!({"values": {"a": 50.000_000_01, "b": null}, "files": {"x.dxf": {"LINE": 2}}});
+    differences("pair", &golden, &close, &mut found);
+    assert!(found.is_empty(), "{found:?}");
+    let other =
+        json!({"values": {"a": 50.000_001, "b": 1.0}, "files": {"x.dxf": {"LINE": 3}, "y": {}}});
+    differences("pair", &golden, &other, &mut found);
+    assert_eq!(found.len(), 4, "{found:?}");
+}
