@@ -30,6 +30,9 @@ const DESIGNED: f64 = 1e-6;
 /// Turn of the driven gear, rad, below which a seat is exact.
 const SETTLED: f64 = 1e-12;
 
+/// Play, in modules, beyond which the gears are taken not to hold each other.
+const FARTHEST: f64 = 2.0;
+
 /// Overlaps no deeper than this many modules are taken as they are.
 const SHALLOW: f64 = 1e-3;
 
@@ -168,9 +171,16 @@ impl<'a> Meshing<'a> {
     fn sample(&mut self, phi: f64, law: f64, out: &mut Contact) {
         let a = self.pair.center_distance();
         let pose = Pose::new(phi, law, a);
-        let places = self.places(&pose, phi + law);
-        let forward = self.seat(&places, phi, law, 1.0);
-        let back = self.seat(&places, phi, law, -1.0);
+        let near = self.near;
+        let mut places = self.places(&pose, phi + law);
+        let mut seats = [1.0, -1.0].map(|sign| self.seat(&places, phi, law, sign));
+        while seats.iter().any(Option::is_none) && self.near < FARTHEST * self.module {
+            self.near *= 2.0;
+            places = self.places(&pose, phi + law);
+            seats = [1.0, -1.0].map(|sign| self.seat(&places, phi, law, sign));
+        }
+        self.near = near;
+        let [forward, back] = seats;
         out.input.push(phi);
         out.law.push(law);
         let half = 0.5 * self.pair.backlash();
