@@ -93,20 +93,16 @@ const SETTLED: f64 = 3e-7;
 ///
 /// Solves A' x B' = 0 and (A - B).A' = 0; regular while the two parts do not hug each other.
 pub(super) fn parts(a: &Part<'_>, b: &Part<'_>, pose: &Pose, at: (f64, f64)) -> Option<Touch> {
-    // What was remembered may lead astray; the middle hardly does.
-    let mut known = newton(a, b, pose, at);
-    if at != (0.0, 0.0) && !matches!(known, Some(Some(_))) {
-        known = newton(a, b, pose, (0.0, 0.0));
-    }
-    // Mating flanks are walked against each other: where one starts the other ends.
-    known
-        .or_else(|| newton(a, b, pose, (0.8, -0.8)))
-        .or_else(|| newton(a, b, pose, (-0.8, 0.8)))
-        .flatten()
+    // Mating flanks are walked against each other: where one starts the other ends, and from the middle
+    // a step may overshoot a place just inside an end.
+    let starts = [at, (-0.9, 0.9), (0.9, -0.9), (0.0, 0.0)];
+    let count = if at == (0.0, 0.0) { 3 } else { 4 };
+    starts[..count]
+        .iter()
+        .find_map(|&start| newton(a, b, pose, start))
 }
 
-/// `None` where Newton's method got lost; `Some(None)` where it found that nothing faces.
-fn newton(a: &Part<'_>, b: &Part<'_>, pose: &Pose, at: (f64, f64)) -> Option<Option<Touch>> {
+fn newton(a: &Part<'_>, b: &Part<'_>, pose: &Pose, at: (f64, f64)) -> Option<Touch> {
     let (mut u, mut v) = at;
     for _ in 0..8 {
         let p = a.segment.at(u);
@@ -129,7 +125,7 @@ fn newton(a: &Part<'_>, b: &Part<'_>, pose: &Pose, at: (f64, f64)) -> Option<Opt
         if settled {
             // A little beyond an end belongs to the neighbour just as well.
             if u.abs() > 1.0 + 1e-3 || v.abs() > 1.0 + 1e-3 {
-                return Some(None);
+                return None;
             }
             let size = p.first.norm();
             let normal = Vector::new(p.first.y, -p.first.x) / size;
@@ -138,12 +134,12 @@ fn newton(a: &Part<'_>, b: &Part<'_>, pose: &Pose, at: (f64, f64)) -> Option<Opt
             let bend_b = q.first.perp(&q.second) / q.first.norm().powi(3);
             let touch = Touch::new(p.point, q.point, normal, (u, v), pose);
             let opening = bend_a + bend_b + bend_a * bend_b * touch.gap;
-            return Some((opening > 0.0).then_some(touch));
+            return (opening > 0.0).then_some(touch);
         }
         // Twice well outside and still going: what faces lies on a neighbour, which will find it.
         let outside = |x: f64, dx: f64| x.abs() > 1.25 && x * dx > 0.0;
         if outside(u, du) || outside(v, dv) {
-            return Some(None);
+            return None;
         }
         // Steps beyond the parts' own length leave the region the parts describe.
         u = (u + du.clamp(-1.0, 1.0)).clamp(-1.6, 1.6);
