@@ -38,8 +38,9 @@ impl Spline {
         let middle = 0.5 * (t0 + t1);
         let half = 0.5 * (t1 - t0);
         let mut values = [Point::origin(); NODES];
-        for j in 1..NODES - 1 {
-            values[j] = curve(middle + half * tables.nodes[j]);
+        let inner = values.iter_mut().zip(&tables.nodes);
+        for (value, node) in inner.take(NODES - 1).skip(1) {
+            *value = curve(middle + half * node);
         }
         // The end nodes must not be moved by rounding in the parameter.
         values[0] = curve(t1);

@@ -104,11 +104,11 @@ pub(crate) enum File {
 /// A flavour of DXF.
 #[derive(Clone, Copy, Debug, Eq, PartialEq, ValueEnum)]
 pub(crate) enum Dxf {
-    /// AutoCAD 2010, lines and arcs
+    /// Release 2010, lines and arcs
     R2010,
-    /// AutoCAD R12, lines and arcs, for old controllers
+    /// Release 12, lines and arcs, for old controllers
     R12,
-    /// AutoCAD 2010, splines
+    /// Release 2010, splines
     Spline,
 }
 

@@ -28,8 +28,8 @@ impl Side {
 ///
 /// While the pitch curve rolls on the tool's pitch line, the contact point of the straight flank that
 /// crosses at arc length `s_j` is the foot of the perpendicular from the pitch point P:
-/// Q(s) = P + (s_j - s) cos alpha (cos alpha T + sigma sin alpha N), with speed
-/// sin alpha + sigma kappa (s_j - s) cos alpha along e = sin alpha T - sigma cos alpha N. The flank is
+/// Q(s) = P + (`s_j` - s) cos alpha (cos alpha T + sigma sin alpha N), with speed
+/// sin alpha + sigma kappa (`s_j` - s) cos alpha along e = sin alpha T - sigma cos alpha N. The flank is
 /// regular while that speed is positive; it is undercut where the speed ends below the pitch curve.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Flank<'a> {

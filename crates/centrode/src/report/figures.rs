@@ -142,7 +142,7 @@ const GROUPS: [Group; 4] = [
     ),
     Group(
         "Limits and settings",
-        &[""],
+        &[],
         &[
             Row("centre distance", &["center_distance"], Unit::Millimetre),
             Row("module", &["module"], Unit::Millimetre),
@@ -166,7 +166,8 @@ const GROUPS: [Group; 4] = [
 pub(super) fn write(report: &Report, out: &mut impl Write) -> Result<()> {
     let mut shown = BTreeSet::from([""]);
     for Group(heading, columns, rows) in &GROUPS {
-        write!(out, "\n{HEADING}{heading:NAME$}{HEADING:#}")?;
+        let width = if columns.is_empty() { 0 } else { NAME };
+        write!(out, "\n{HEADING}{heading:width$}{HEADING:#}")?;
         for column in *columns {
             write!(out, "  {column:>COLUMN$}")?;
         }
