@@ -201,7 +201,7 @@ impl<'a> Meshing<'a> {
             out.sliding.push(0.0);
             return;
         };
-        let error = |seat: &Seat, sign: f64| {
+        let mut error = |seat: &Seat, sign: f64| {
             let ideal = self.ideal(&places, phi, law, sign * half);
             seat.angle - ideal.unwrap_or(law - sign * half / seat.lever)
         };
@@ -210,7 +210,10 @@ impl<'a> Meshing<'a> {
         let play = back.angle - forward.angle;
         out.backlash.push(play);
         out.normal_backlash.push(play * forward.lever);
-        out.overlap.push((-play * 0.5 * forward.lever).max(0.0));
+        // Stuck between two sides: half of what is missing, but never more than what overlaps.
+        let deepest = places.iter().map(|p| -p.touch.gap).fold(0.0, f64::max);
+        let stuck = (-play * 0.5 * forward.lever.min(back.lever)).max(0.0);
+        out.overlap.push(stuck.min(deepest));
         let least = |kind: Kind| {
             let gaps = places
                 .iter()
@@ -352,7 +355,7 @@ impl<'a> Meshing<'a> {
     /// At the law's own angle flanks thinned for play are parallel and half the play apart; how far the
     /// driven gear turns until they touch takes the same steps as the seating itself. Nothing where no
     /// flanks face each other as designed.
-    fn ideal(&self, places: &[Place], phi: f64, law: f64, half: f64) -> Option<f64> {
+    fn ideal(&mut self, places: &[Place], phi: f64, law: f64, half: f64) -> Option<f64> {
         if half == 0.0 {
             return Some(law);
         }
@@ -386,7 +389,7 @@ impl<'a> Meshing<'a> {
     }
 
     /// Turns the driven gear until the first place on the side of `sign` touches.
-    fn seat(&self, places: &[Place], phi: f64, law: f64, sign: f64) -> Option<Seat> {
+    fn seat(&mut self, places: &[Place], phi: f64, law: f64, sign: f64) -> Option<Seat> {
         let a = self.pair.center_distance();
         let mut at: Vec<Place> = places
             .iter()
@@ -413,7 +416,13 @@ impl<'a> Meshing<'a> {
             }
             angle = next;
             let pose = Pose::new(phi, angle, a);
-            at = at.iter().filter_map(|p| self.again(p, &pose)).collect();
+            let again: Option<Vec<Place>> = at.iter().map(|p| self.again(p, &pose)).collect();
+            // A place that left its part is found anew on the neighbour.
+            at = again.unwrap_or_else(|| {
+                let mut all = self.places(&pose, phi + angle);
+                all.retain(|p| sign * p.touch.lever > 0.0);
+                all
+            });
         }
         let seated = SEATED * self.module;
         at.retain(|p| p.touch.gap.abs() <= seated || p.touch.gap < 0.0);
