@@ -499,12 +499,7 @@ fn axis_crossings(curve: &dyn Curve, period: f64) -> Result<(f64, f64), RollingE
         turned += p.coords.perp(&q.coords).atan2(p.coords.dot(&q.coords));
         let crossing = || bracketed_root(|t| curve.at(t).point.y, t(i), t(i + 1), p.y, q.y);
         if p.y < 0.0 && q.y >= 0.0 {
-            let found = crossing();
-            start = Some(if found >= period {
-                found - period
-            } else {
-                found
-            });
+            start = Some(crossing());
         }
         if p.y >= 0.0 && q.y < 0.0 {
             half = Some(crossing());
@@ -512,6 +507,12 @@ fn axis_crossings(curve: &dyn Curve, period: f64) -> Result<(f64, f64), RollingE
     }
     match (start, half) {
         (Some(start), Some(half)) if (turned - TAU).abs() < 1e-6 => {
+            // A start at the very end of the turn is one at its start.
+            let start = if period - start <= 1e-12 * period {
+                0.0
+            } else {
+                start
+            };
             let half = if half < start { half + period } else { half };
             Ok((start, half))
         }
