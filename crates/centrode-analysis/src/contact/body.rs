@@ -1,3 +1,5 @@
+use std::f64::consts::{PI, TAU};
+
 use centrode_geometry::{Outline, Point, Segment, SegmentJet, Vector};
 use centrode_mechanism::gear::{Gear, Role};
 
@@ -8,8 +10,38 @@ const CORNER: f64 = 1e-4;
 /// Directions of the outward normals of a part: the middle one and how far the rest turn from it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Cone {
-    pub(super) middle: f64,
-    pub(super) half: f64,
+    pub(super) direction: Vector,
+    half: f64,
+    sin: f64,
+    cos: f64,
+}
+
+impl Cone {
+    fn new(middle: f64, half: f64) -> Self {
+        let (sin, cos) = half.sin_cos();
+        Self {
+            direction: Vector::new(middle.cos(), middle.sin()),
+            half,
+            sin,
+            cos,
+        }
+    }
+
+    /// The same cone with its body turned.
+    pub(super) fn turned(&self, direction: Vector) -> Self {
+        Self { direction, ..*self }
+    }
+
+    /// Whether some direction of one opposes some direction of the other.
+    pub(super) fn opposes(&self, other: &Self) -> bool {
+        self.half + other.half >= PI
+            || self.direction.dot(&other.direction) <= self.sin * other.sin - self.cos * other.cos
+    }
+
+    /// How much longer than along the middle a length along any direction of the cone can be.
+    pub(super) fn slant(&self) -> f64 {
+        1.0 / self.cos.max(0.4)
+    }
 }
 
 /// A smooth part of an outline with what tells quickly whether it can touch another.
@@ -25,6 +57,8 @@ pub(super) struct Part<'a> {
     pub(super) end: Point,
     /// Greatest distance from the chord.
     pub(super) sagitta: f64,
+    /// Bound of the curvature from above, positive where the gear is convex.
+    pub(super) bend: f64,
 }
 
 /// A corner of an outline: an edge of the gear.
@@ -73,10 +107,7 @@ impl<'a> Body<'a> {
                     point: start.point,
                     owner: before.owner,
                     on_flank: before.role == Role::Flank || after.role == Role::Flank,
-                    normals: Cone {
-                        middle: from + 0.5 * turn,
-                        half: 0.5 * turn,
-                    },
+                    normals: Cone::new(from + 0.5 * turn, 0.5 * turn),
                 });
             }
         }
@@ -100,7 +131,7 @@ impl<'a> Body<'a> {
 }
 
 fn sector(angle: f64) -> usize {
-    let share = angle.rem_euclid(std::f64::consts::TAU) / std::f64::consts::TAU;
+    let share = angle.rem_euclid(TAU) / TAU;
     (share * SECTORS as f64) as usize
 }
 
@@ -115,9 +146,9 @@ fn sectors(parts: &[Part<'_>]) -> Vec<f64> {
         let spread = if part.radius < away {
             (part.radius / away).asin()
         } else {
-            std::f64::consts::PI
+            PI
         };
-        let width = std::f64::consts::TAU / SECTORS as f64;
+        let width = TAU / SECTORS as f64;
         let count = (2.0 * spread / width).ceil() as usize + 1;
         for k in 0..=count.min(SECTORS) {
             let at = sector(middle - spread + k as f64 * width) % SECTORS;
@@ -172,12 +203,22 @@ fn part(segment: &Segment, role: Role, owner: u32) -> Part<'_> {
         owner,
         center,
         radius: radius * 1.02,
-        normals: Cone {
-            middle: 0.5 * (low + high),
-            half: half * 1.05 + 1e-3,
-        },
+        normals: Cone::new(0.5 * (low + high), half * 1.05 + 1e-3),
         start: jets[0].point,
         end: jets[SAMPLES].point,
         sagitta: 1.1 * sagitta,
+        bend: bend(&jets),
     }
+}
+
+/// Greatest curvature among samples, raised by half its spread.
+fn bend(jets: &[SegmentJet]) -> f64 {
+    let curvature = |j: &SegmentJet| j.first.perp(&j.second) / j.first.norm().powi(3);
+    let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+    for jet in jets {
+        let k = curvature(jet);
+        low = low.min(k);
+        high = high.max(k);
+    }
+    high + 0.5 * (high - low)
 }
