@@ -77,4 +77,14 @@ proptest! {
             prop_assert!(report.values["transmission_error_max"] < 1e-8);
         }
     }
+
+    #[test]
+    fn play_bounded_in_angle_stays_within_the_bound(design in sound_pair(), bound in 1e-4..5e-3_f64) {
+        let mut design = design;
+        design.teeth.backlash = 0.0;
+        design.teeth.backlash_angle = Some(bound);
+        let report = check(&GearPair::resolve(&design).expect("valid"));
+        let greatest = report.values["backlash_max"];
+        prop_assert!(greatest < bound * (1.0 + 2.0 * bound) && greatest > 0.99 * bound, "{greatest} of {bound}");
+    }
 }

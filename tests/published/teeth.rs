@@ -165,3 +165,35 @@ proptest! {
         }
     }
 }
+
+#[test]
+fn the_2018_ellipse_bears_modules_up_to_2_8616_and_none_above() {
+    let pair_at = |tooth_count: u32, pitches: f64| {
+        let mut design = GearPairDesign::new(PitchSpec::Ellipse(Ellipse {
+            eccentricity: 1.0 / (2.0 + 3.0_f64.sqrt()),
+            semi_major_axis: Some(26.354_610_379),
+            ..Ellipse::default()
+        }));
+        design.tooth_count = Some(tooth_count);
+        design.teeth.phase = Phase::Pitches(pitches);
+        GearPair::resolve(&design).expect("the pair exists")
+    };
+    let limits = pair_at(23, 0.0).limits();
+    // 24.46243 sin^2 20 deg, for a straight flank exactly one module deep.
+    assert!((limits.largest_addendum - 2.861_561).abs() < 1e-6);
+    assert!((limits.largest_module - 2.8616).abs() < 1e-4);
+    let undercut = |tooth_count: u32| {
+        (0..40).any(|i| {
+            let pair = pair_at(tooth_count, f64::from(i) / 40.0);
+            let sides = pair
+                .driver()
+                .teeth()
+                .iter()
+                .flat_map(|t| [t.leading, t.trailing]);
+            sides.map(|s| s.undercut).fold(0.0, f64::max) > 0.0
+        })
+    };
+    // Nineteen teeth have the module 2.7237, eighteen 2.8750.
+    assert!(!undercut(23) && !undercut(19));
+    assert!(undercut(18));
+}

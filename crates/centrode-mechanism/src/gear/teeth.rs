@@ -1,3 +1,5 @@
+use centrode_geometry::bracketed_minimum;
+
 use super::{
     design::{Addendum, Phase},
     fitted::Fitting,
@@ -183,22 +185,27 @@ pub(crate) fn layout(
     })
 }
 
-/// Least distance from the driven shaft to the common normal over the cycle, mm: what turns play
-/// along the normal into an angle.
-pub(crate) fn least_lever(rolling: &Rolling, pressure_angle: f64) -> f64 {
-    const SAMPLES: u32 = 512;
+/// The length that turns play along the normal into the greatest play in angle over the cycle, mm: the
+/// least harmonic mean of the driven shaft's distances from the two common normals.
+fn least_lever(rolling: &Rolling, pressure_angle: f64) -> f64 {
+    const SAMPLES: u32 = 256;
     let (sin, cos) = pressure_angle.sin_cos();
-    let length = rolling.pitch_length(Member::Driver);
-    let mut least = f64::INFINITY;
-    for i in 0..SAMPLES {
-        let t = rolling.parameter(length * f64::from(i) / f64::from(SAMPLES));
-        let frame = rolling.frame(Member::Driven, t);
-        for side in [-1.0, 1.0] {
+    let step = rolling.pitch_length(Member::Driver) / f64::from(SAMPLES);
+    let lever = |arc: f64| {
+        let frame = rolling.frame(Member::Driven, rolling.parameter(arc));
+        let distance = |side: f64| {
             let line = frame.tangent * cos + frame.normal * (side * sin);
-            least = least.min(frame.point.coords.perp(&line).abs());
-        }
-    }
-    least
+            frame.point.coords.perp(&line).abs()
+        };
+        2.0 / (1.0 / distance(-1.0) + 1.0 / distance(1.0))
+    };
+    let levers = (0..SAMPLES).map(|i| (f64::from(i) * step, lever(f64::from(i) * step)));
+    let least = levers.min_by(|a, b| a.1.total_cmp(&b.1));
+    least.map_or(f64::INFINITY, |(arc, value)| {
+        bracketed_minimum(lever, arc - step, arc + step)
+            .1
+            .min(value)
+    })
 }
 
 /// Pitches from phi = 0 to the middle of a driver tooth, and whether the gears are congruent.

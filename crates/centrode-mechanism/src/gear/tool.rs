@@ -88,3 +88,61 @@ impl Tool {
         ((0.5 * space - depth * sin / cos) * cos / (1.0 - sin)).min(depth)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn tool(kind: ToolKind) -> Tool {
+        Tool {
+            pressure_angle: 20_f64.to_radians(),
+            addendum: 1.0,
+            dedendum: 1.25,
+            tip_radius: 0.2,
+            profile_shift: 0.0,
+            kind,
+        }
+    }
+
+    #[test]
+    fn a_large_shaper_cuts_as_a_rack_does() {
+        let rack = tool(ToolKind::Rack).corner(1.25, 0.2);
+        let mut before = f64::INFINITY;
+        for radius in [1e2, 1e3, 1e4, 1e5] {
+            let shaper = tool(ToolKind::Shaper { radius }).corner(1.25, 0.2);
+            let off = (shaper.center - rack.center)
+                .abs()
+                .max((shaper.end - rack.end).abs());
+            // The difference falls with the curvature of the cutter.
+            assert!(off < 0.2 * before, "{radius}: {off}");
+            before = off;
+        }
+    }
+
+    #[test]
+    fn a_shaper_tip_touches_its_own_flank() {
+        // The flank is the involute of the base circle; a rounding tangent to it from inside has its centre
+        // on the parallel involute, a tip radius nearer to the base circle along the generating line.
+        let radius = 10.0;
+        let shaper = tool(ToolKind::Shaper { radius });
+        let corner = shaper.corner(1.25, 0.2);
+        let base = radius * shaper.pressure_angle.cos();
+        let center = radius + 1.05;
+        let line = (center * center - base * base).sqrt();
+        let end = (line + 0.2) - radius * shaper.pressure_angle.sin();
+        assert!((corner.end * shaper.pressure_angle.cos() - end).abs() < 1e-14);
+        // From the flank's crossing to the centre, as an angle at the cutter's axis.
+        let involute = |t: f64| t - t.atan();
+        let unrolled = involute(line / base) + 0.2 / base - involute(shaper.pressure_angle.tan());
+        assert!((corner.center / radius - unrolled).abs() < 1e-14);
+        assert!(shaper.addendum_reach() < radius);
+    }
+
+    #[test]
+    fn the_greatest_rounding_leaves_no_land() {
+        let rack = tool(ToolKind::Rack);
+        let space = 0.5 * std::f64::consts::PI;
+        let radius = rack.greatest_tip_radius(1.25, space);
+        assert!((2.0 * rack.corner(1.25, radius).center - space).abs() < 1e-14);
+    }
+}
