@@ -297,6 +297,36 @@ impl GearPair {
         each(py, phi, move |phi| pair.ratio_slope(phi))
     }
 
+    /// Curvature (1/mm) of the driver's pitch curve where it touches at a driver angle; positive where convex.
+    fn driver_curvature<'py>(&self, py: Python<'py>, phi: Values) -> PyResult<Bound<'py, PyAny>> {
+        let pair = Arc::clone(&self.pair);
+        each(py, phi, move |phi| pair.pitch_point(phi).driver_curvature)
+    }
+
+    /// Curvature (1/mm) of the driven gear's pitch curve where it touches at a driver angle; positive where convex.
+    fn driven_curvature<'py>(&self, py: Python<'py>, phi: Values) -> PyResult<Bound<'py, PyAny>> {
+        let pair = Arc::clone(&self.pair);
+        each(py, phi, move |phi| pair.pitch_point(phi).driven_curvature)
+    }
+
+    /// Angle (rad) between the common normal and the driven gear's motion, the driver pushing it on: |alpha - mu|, tan mu = r'/r.
+    fn pressure_angle<'py>(&self, py: Python<'py>, phi: Values) -> PyResult<Bound<'py, PyAny>> {
+        let pair = Arc::clone(&self.pair);
+        each(py, phi, move |phi| pair.pitch_point(phi).pressure_angle)
+    }
+
+    /// The same with the driver pushing it back: |alpha + mu|.
+    fn reverse_pressure_angle<'py>(
+        &self,
+        py: Python<'py>,
+        phi: Values,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let pair = Arc::clone(&self.pair);
+        each(py, phi, move |phi| {
+            pair.pitch_point(phi).reverse_pressure_angle
+        })
+    }
+
     /// The driven pitch curve, with its teeth counted: the driver of a next pair.
     ///
     /// >>> import centrode as ct

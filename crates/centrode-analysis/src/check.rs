@@ -134,16 +134,13 @@ fn greatest_pressure_angle(pair: &GearPair) -> (f64, f64) {
     const SAMPLES: u32 = 360;
     let rolling = pair.rolling();
     let length = rolling.pitch_length(Member::Driver);
-    let alpha = pair.teeth().tool.pressure_angle;
     let mut greatest = (0.0, 0.0);
     for i in 0..SAMPLES {
         let t = rolling.parameter(length * f64::from(i) / f64::from(SAMPLES));
-        let frame = rolling.frame(Member::Driver, t);
-        // Inclination of the pitch curve: its tangent against the circle's.
-        let radial = frame.point.coords.normalize();
-        let inclination = frame.tangent.dot(&radial).abs().asin();
-        if inclination + alpha > greatest.0 {
-            greatest = (inclination + alpha, rolling.angle(t));
+        let point = pair.pitch_point(rolling.angle(t));
+        let angle = point.pressure_angle.max(point.reverse_pressure_angle);
+        if angle > greatest.0 {
+            greatest = (angle, point.input);
         }
     }
     greatest

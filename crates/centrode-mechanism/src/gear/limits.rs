@@ -79,7 +79,58 @@ impl CurvatureRange {
     }
 }
 
+/// Both pitch curves where they touch at one driver angle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PitchPoint {
+    /// Driver angle, rad.
+    pub input: f64,
+    /// Radius of the driver's pitch curve, mm.
+    pub driver_radius: f64,
+    /// Radius of the driven gear's pitch curve, mm.
+    pub driven_radius: f64,
+    /// Curvature of the driver's pitch curve, 1/mm, positive where it is convex.
+    pub driver_curvature: f64,
+    /// Curvature of the driven gear's pitch curve, 1/mm.
+    pub driven_curvature: f64,
+    /// Angle between the common normal and the driven gear's motion while the driver pushes it on, rad:
+    /// |alpha - mu|, with mu the inclination of the pitch curve, tan mu = r'/r.
+    pub pressure_angle: f64,
+    /// The same while the driver pushes it back: |alpha + mu|.
+    pub reverse_pressure_angle: f64,
+}
+
+impl PitchPoint {
+    /// Whether both pitch curves are convex here.
+    #[must_use]
+    pub fn is_convex(&self) -> bool {
+        self.driver_curvature >= 0.0 && self.driven_curvature >= 0.0
+    }
+}
+
 impl GearPair {
+    /// Radii, curvatures and pressure angles where the pitch curves touch at a driver angle.
+    #[must_use]
+    pub fn pitch_point(&self, phi: f64) -> PitchPoint {
+        let rolling = self.rolling();
+        let t = rolling.parameter_at_angle(phi);
+        let [driver, driven] = [Member::Driver, Member::Driven].map(|m| rolling.frame(m, t));
+        let radial = driver.point.coords.normalize();
+        let inclination = driver
+            .tangent
+            .dot(&radial)
+            .atan2(radial.perp(&driver.tangent));
+        let alpha = self.teeth().tool.pressure_angle;
+        PitchPoint {
+            input: phi,
+            driver_radius: driver.point.coords.norm(),
+            driven_radius: driven.point.coords.norm(),
+            driver_curvature: driver.curvature,
+            driven_curvature: driven.curvature,
+            pressure_angle: (alpha - inclination).abs(),
+            reverse_pressure_angle: (alpha + inclination).abs(),
+        }
+    }
+
     /// What module and addendum these pitch curves and this tool allow.
     #[must_use]
     pub fn limits(&self) -> Limits {

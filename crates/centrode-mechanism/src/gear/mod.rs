@@ -15,7 +15,7 @@ mod tool;
 
 pub use conjugate::Conjugate;
 pub use flank::Side;
-pub use limits::{CurvatureRange, Limits};
+pub use limits::{CurvatureRange, Limits, PitchPoint};
 pub use pair::{Gear, GearPair, GearPairError};
 pub use profile::{ProfileError, Role, Tooth, ToothSide};
 pub use rolling::{Frame, Member, Rolling, RollingError};
