@@ -3,6 +3,7 @@ use centrode_mechanism::gear::design::{Addendum, GearPairDesign};
 use centrode_mechanism::gear::{Conjugate, GearPair, Member, Rolling};
 use centrode_tests::{pitch, sound_pair};
 use proptest::prelude::{ProptestConfig, prop_assert, prop_assert_eq, proptest};
+use proptest::test_runner::RngSeed;
 use std::sync::Arc;
 
 /// `speck` is the size, in modules, of a loop at a joint that is let pass.
@@ -29,23 +30,6 @@ proptest! {
     #[test]
     fn every_contour_is_closed_simple_and_counter_clockwise(design in sound_pair()) {
         assert_sound(&GearPair::resolve(&design).expect("valid"), 0.0)?;
-    }
-
-    #[test]
-    fn so_it_is_where_teeth_are_undercut_pointed_or_fitted(pitch in pitch(), fitted: bool, height in 0.6..1.3_f64) {
-        let mut design = GearPairDesign::new(pitch);
-        if fitted {
-            design.teeth.addendum = Addendum::Fitted;
-        }
-        if let centrode_mechanism::gear::design::ToolSpec::Rack(rack) = &mut design.tool {
-            rack.addendum_coefficient = height;
-            rack.dedendum_coefficient = height + 0.25;
-            rack.tip_radius_coefficient = 0.1;
-        }
-        // Teeth too large for their curve leave no contour: that is an error, never a bad contour.
-        if let Ok(pair) = GearPair::resolve(&design) {
-            assert_sound(&pair, 1e-5)?;
-        }
     }
 
     #[test]
@@ -111,6 +95,32 @@ proptest! {
                 let (p, q) = (a.at(0.3).point * factor, b.at(0.3).point);
                 prop_assert!((p - q).norm() < 1e-9 * far, "{p} {q}");
             }
+        }
+    }
+}
+
+proptest! {
+    // Wild curves with teeth far too large for them: the same ones every time, so that the suite is green or
+    // red for a reason. PROPTEST_CASES asks for more of them.
+    #![proptest_config(ProptestConfig {
+        rng_seed: RngSeed::Fixed(2021),
+        ..ProptestConfig::with_cases(48)
+    })]
+
+    #[test]
+    fn so_it_is_where_teeth_are_undercut_pointed_or_fitted(pitch in pitch(), fitted: bool, height in 0.6..1.3_f64) {
+        let mut design = GearPairDesign::new(pitch);
+        if fitted {
+            design.teeth.addendum = Addendum::Fitted;
+        }
+        if let centrode_mechanism::gear::design::ToolSpec::Rack(rack) = &mut design.tool {
+            rack.addendum_coefficient = height;
+            rack.dedendum_coefficient = height + 0.25;
+            rack.tip_radius_coefficient = 0.1;
+        }
+        // Teeth too large for their curve leave no contour: that is an error, never a bad contour.
+        if let Ok(pair) = GearPair::resolve(&design) {
+            assert_sound(&pair, 1e-5)?;
         }
     }
 }

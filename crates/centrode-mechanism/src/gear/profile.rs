@@ -114,6 +114,16 @@ struct Piece {
     side: Side,
 }
 
+impl Piece {
+    fn part(&self, kept: &Kept) -> Spline {
+        if (kept.from, kept.to) == (-1.0, 1.0) {
+            self.spline
+        } else {
+            self.spline.part(kept.from, kept.to)
+        }
+    }
+}
+
 /// The fillet's own parameter w, with roll = depth of the rounding's centre x sinh w: the distance
 /// from the pitch point to that centre is then entire, and the fillet far smoother than in the roll,
 /// which moves it slowly at the root and fast at the flank.
@@ -207,27 +217,60 @@ impl Cutter<'_> {
             );
             teeth.push(self.tooth(k as u32, plan, &next, &mut pieces));
         }
-        let segments: Vec<Segment> = pieces.iter().map(|p| Segment::Spline(p.spline)).collect();
-        let per_tooth = 1 + pieces.len() / plans.len();
-        let kept = without_loops(
-            &segments,
-            |i| {
-                // Up to the end of the next tooth: a longer detour is not one tooth's own.
-                let owner = pieces[i].tooth;
-                let count = pieces.len();
-                (1..4 * per_tooth)
+        let kept = self.without_loops(&pieces, plans.len() as u32)?;
+        self.join(&pieces, &kept, teeth)
+    }
+
+    /// What is left of the pieces. A second pass sees the loops the first one laid bare; sound teeth
+    /// have none and take one.
+    fn without_loops(&self, pieces: &[Piece], teeth: u32) -> Result<Vec<Kept>, ProfileError> {
+        const PASSES: u32 = 3;
+        let looped = ProfileError::Looped {
+            member: self.member,
+        };
+        let whole = |index| Kept {
+            index,
+            from: -1.0,
+            to: 1.0,
+        };
+        let mut left: Vec<Kept> = (0..pieces.len()).map(whole).collect();
+        for _ in 0..PASSES {
+            let segments: Vec<Segment> = left
+                .iter()
+                .map(|k| Segment::Spline(pieces[k.index].part(k)))
+                .collect();
+            let count = left.len();
+            // Up to the end of the next tooth: a longer detour is not one tooth's own.
+            let ahead = |i: usize| {
+                let owner = pieces[left[i].index].tooth;
+                (1..count)
                     .take_while(|step| {
-                        let ahead = pieces[(i + step) % count].tooth;
-                        (ahead + plans.len() as u32 - owner) % plans.len() as u32 <= 1
+                        let other = pieces[left[(i + step) % count].index].tooth;
+                        (other + teeth - owner) % teeth <= 1
                     })
                     .count()
-            },
-            self.tolerance,
-        )
-        .ok_or(ProfileError::Looped {
-            member: self.member,
-        })?;
-        self.join(&pieces, &kept, teeth)
+            };
+            let kept = without_loops(&segments, ahead, self.tolerance).ok_or(looped)?;
+            let done = kept.len() == count && kept.iter().all(|k| (k.from, k.to) == (-1.0, 1.0));
+            left = kept
+                .iter()
+                .map(|k| {
+                    let of = left[k.index];
+                    let at = |u: f64| of.from + 0.5 * (1.0 + u) * (of.to - of.from);
+                    let to = if k.to == 1.0 { of.to } else { at(k.to) };
+                    let from = if k.from == -1.0 { of.from } else { at(k.from) };
+                    Kept {
+                        index: of.index,
+                        from,
+                        to,
+                    }
+                })
+                .collect();
+            if done {
+                break;
+            }
+        }
+        Ok(left)
     }
 
     fn ends(&self, flank: &Flank<'_>, plan: &FlankPlan) -> Ends {
@@ -428,17 +471,7 @@ impl Cutter<'_> {
         kept: &[Kept],
         mut teeth: Vec<Tooth>,
     ) -> Result<Profile, ProfileError> {
-        let mut splines: Vec<Spline> = kept
-            .iter()
-            .map(|k| {
-                let spline = &pieces[k.index].spline;
-                if (k.from, k.to) == (-1.0, 1.0) {
-                    *spline
-                } else {
-                    spline.part(k.from, k.to)
-                }
-            })
-            .collect();
+        let mut splines: Vec<Spline> = kept.iter().map(|k| pieces[k.index].part(k)).collect();
         let count = splines.len();
         for i in 0..count {
             let end = splines[i].end();
