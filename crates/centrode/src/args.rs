@@ -97,7 +97,7 @@ pub(crate) enum File {
     Csv,
     /// Simulator model, with its solids and motion
     Urdf,
-    /// MuJoCo model with a convex body a tooth, its solids, motion and a script
+    /// Model with a convex body a tooth for contact, with its solids, motion and a script
     Mjcf,
     /// Report: every figure and finding
     Json,
