@@ -6,7 +6,7 @@ pub(crate) fn count(name: &str, bytes: &[u8]) -> BTreeMap<String, usize> {
     let mut add = |what: String| *counts.entry(what).or_default() += 1;
     match name.rsplit('.').next() {
         Some("dxf") => dxf(text(bytes), &mut add),
-        Some("svg" | "urdf") => {
+        Some("svg" | "urdf" | "xml") => {
             for element in text(bytes).split('<').skip(1) {
                 let word = element
                     .split([' ', '>', '/', '\n'])
@@ -21,6 +21,14 @@ pub(crate) fn count(name: &str, bytes: &[u8]) -> BTreeMap<String, usize> {
             let header = text(bytes).lines().next().unwrap_or_default();
             header.split(',').for_each(|column| add(column.to_owned()));
         }
+        Some("json") => text(bytes)
+            .lines()
+            .filter_map(|line| line.trim().strip_prefix('"')?.split_once('"'))
+            .for_each(|(key, _)| add(key.to_owned())),
+        Some("py") => text(bytes)
+            .lines()
+            .filter_map(|line| line.trim().strip_prefix("def ")?.split_once('('))
+            .for_each(|(name, _)| add(name.to_owned())),
         // Triangles depend on rounding: that there are some is enough.
         Some("stl") => {
             if bytes.len() > 84 {

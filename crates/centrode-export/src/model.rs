@@ -24,6 +24,17 @@ pub struct Link {
     pub mass: Option<MassProperties>,
     /// File name of its mesh in mm, beside the model file.
     pub mesh: Option<String>,
+    /// Convex bodies it touches other links with; together they need not be the whole link.
+    pub collision: Vec<Convex>,
+}
+
+/// The convex hull of points.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Convex {
+    /// Name, unlike any other in the model.
+    pub name: String,
+    /// The points in the link's frame, mm.
+    pub vertices: Vec<[f64; 3]>,
 }
 
 /// A joint between two links, turning about an axis.

@@ -182,6 +182,7 @@ mod tests {
             name: name.into(),
             mass: Some(disc.mass_properties(7850.0)),
             mesh: Some(format!("{name}.stl")),
+            collision: Vec::new(),
         };
         Model {
             name: "pair".into(),
@@ -191,6 +192,7 @@ mod tests {
                     name: "base".into(),
                     mass: None,
                     mesh: None,
+                    collision: Vec::new(),
                 },
                 body("driver"),
                 body("driven"),

@@ -97,6 +97,8 @@ pub(crate) enum File {
     Csv,
     /// Simulator model, with its solids and motion
     Urdf,
+    /// Model with a convex body a tooth for contact, with its solids, motion and a script
+    Mjcf,
     /// Report: every figure and finding
     Json,
 }

@@ -58,6 +58,7 @@ fn formats(command: &Export) -> Vec<Format> {
         (File::Stl, Format::Stl),
         (File::Csv, Format::Csv),
         (File::Urdf, Format::Urdf),
+        (File::Mjcf, Format::Mjcf),
     ];
     let wanted = pairs.into_iter().filter(|(file, _)| command.wants(*file));
     wanted.map(|(_, format)| format).collect()

@@ -15,11 +15,20 @@ pub enum Format {
     Csv,
     /// Simulator model, with the solids it shows.
     Urdf,
+    /// `MuJoCo` model, each tooth a convex body, with the solids it shows.
+    Mjcf,
 }
 
 impl Format {
     /// Every format, in the order files are written.
-    pub const ALL: [Self; 5] = [Self::Dxf, Self::Svg, Self::Stl, Self::Csv, Self::Urdf];
+    pub const ALL: [Self; 6] = [
+        Self::Dxf,
+        Self::Svg,
+        Self::Stl,
+        Self::Csv,
+        Self::Urdf,
+        Self::Mjcf,
+    ];
 
     /// The name a user writes.
     #[must_use]
@@ -30,6 +39,7 @@ impl Format {
             Self::Stl => "stl",
             Self::Csv => "csv",
             Self::Urdf => "urdf",
+            Self::Mjcf => "mjcf",
         }
     }
 }
@@ -42,7 +52,7 @@ impl fmt::Display for Format {
 
 /// A word that names no format.
 #[derive(Clone, Debug, Error, PartialEq)]
-#[error("no format is named {0:?}; there are dxf, svg, stl, csv and urdf")]
+#[error("no format is named {0:?}; there are dxf, svg, stl, csv, urdf and mjcf")]
 pub struct UnknownFormat(pub String);
 
 impl FromStr for Format {

@@ -5,12 +5,14 @@ mod motion;
 mod outline;
 mod sheet;
 mod simulator;
+mod tooth_body;
 
 use crate::{
     Bundle, BundleError,
     csv::{self, TableError},
     drawing::Drawing,
     dxf::{self, DxfError},
+    mjcf::{self, MjcfError},
     stl, svg,
     urdf::{self, UrdfError},
 };
@@ -74,12 +76,22 @@ pub enum GearPairFilesError {
     /// The simulator model could not be written.
     #[error(transparent)]
     Urdf(#[from] UrdfError),
+    /// The `MuJoCo` model could not be written.
+    #[error(transparent)]
+    Mjcf(#[from] MjcfError),
     /// The files do not go together.
     #[error(transparent)]
     Bundle(#[from] BundleError),
 }
 
-/// The files of a pair in the formats asked for, not yet on disk. URDF brings the STL files it names.
+/// Plays the MJCF model by its law or through tooth contact alone.
+const PLAY_MUJOCO: &str = include_str!("play_mujoco.py");
+
+/// Plays the URDF model by its law.
+const PLAY_PYBULLET: &str = include_str!("play_pybullet.py");
+
+/// The files of a pair in the formats asked for, not yet on disk. URDF and MJCF bring the STL files they
+/// name, the law of motion and a script that plays them.
 ///
 /// # Errors
 /// [`GearPairFilesError`], for instance if the tolerance is too coarse for the bore to clear the teeth.
@@ -96,11 +108,12 @@ pub fn files(
         });
     }
     let wanted = |format: Format| formats.contains(&format);
+    let simulated = wanted(Format::Urdf) || wanted(Format::Mjcf);
     let mut bundle = Bundle::default();
     if wanted(Format::Dxf) || wanted(Format::Svg) {
         draw(pair, &wanted, options, &mut bundle)?;
     }
-    if wanted(Format::Stl) || wanted(Format::Urdf) {
+    if wanted(Format::Stl) || simulated {
         for member in [Member::Driver, Member::Driven] {
             let mesh = mesh(pair, member, options.tolerance)?;
             bundle.add(&format!("{}.stl", member.name()), stl::write(&mesh))?;
@@ -112,13 +125,22 @@ pub fn files(
             bundle.add(&format!("{}.csv", member.name()), csv::write(&table)?)?;
         }
     }
-    if wanted(Format::Csv) || wanted(Format::Urdf) {
+    if wanted(Format::Csv) || simulated {
         let table = motion::columns(pair, options.tolerance);
         bundle.add("motion.csv", csv::write(&table)?)?;
+        bundle.add("motion.json", motion::sidecar(pair, options.tolerance))?;
     }
-    if wanted(Format::Urdf) {
+    if simulated {
         let model = simulator::model(pair)?;
-        bundle.add("pair.urdf", urdf::write(&model)?)?;
+        if wanted(Format::Urdf) {
+            bundle.add("pair.urdf", urdf::write(&model)?)?;
+            bundle.add("play_pybullet.py", PLAY_PYBULLET.into())?;
+        }
+        if wanted(Format::Mjcf) {
+            let model = simulator::with_teeth(model, pair, options.tolerance);
+            bundle.add("pair.xml", mjcf::write(&model)?)?;
+            bundle.add("play_mujoco.py", PLAY_MUJOCO.into())?;
+        }
     }
     Ok(bundle)
 }
@@ -205,10 +227,10 @@ pub fn mesh(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use centrode_geometry::Outline;
+    use centrode_geometry::{Outline, Point, Vector};
     use centrode_mechanism::gear::{
         design::{GearPairDesign, Keyway},
-        pitch::{Circle, Ellipse, PitchSpec},
+        pitch::{Circle, Ellipse, PitchSpec, Polar},
     };
 
     fn pair(pitch: PitchSpec) -> GearPair {
@@ -236,6 +258,16 @@ mod tests {
             module: Some(2.0),
             tooth_count: Some(20),
             ..Circle::default()
+        }))
+    }
+
+    /// A driver with a waist, whose tooth flanks there are hollow.
+    fn pair_of_lobes() -> GearPair {
+        pair(PitchSpec::Polar(Polar {
+            expression: Some("1 + 0.35*cos(2*phi)".into()),
+            module: Some(1.5),
+            tooth_count: Some(40),
+            ..Polar::default()
         }))
     }
 
@@ -268,7 +300,11 @@ mod tests {
             "driver.csv",
             "driven.csv",
             "motion.csv",
+            "motion.json",
             "pair.urdf",
+            "play_pybullet.py",
+            "pair.xml",
+            "play_mujoco.py",
         ];
         assert_eq!(names, expected);
         assert_eq!(
@@ -279,7 +315,14 @@ mod tests {
         let names: Vec<&str> = model.files().map(|(name, _)| name).collect();
         assert_eq!(
             names,
-            ["driver.stl", "driven.stl", "motion.csv", "pair.urdf"]
+            [
+                "driver.stl",
+                "driven.stl",
+                "motion.csv",
+                "motion.json",
+                "pair.urdf",
+                "play_pybullet.py",
+            ]
         );
     }
 
@@ -322,6 +365,40 @@ mod tests {
             linear.contains("<mimic") && linear.contains("multiplier=\"-1\""),
             "{linear}"
         );
+    }
+
+    #[test]
+    fn every_tooth_is_a_convex_body_and_hollow_flanks_are_told() {
+        let pair = elliptic();
+        let model = simulator::with_teeth(
+            simulator::model(&pair).expect("made"),
+            &pair,
+            options().tolerance,
+        );
+        assert_eq!(model.links[1].collision.len(), 23);
+        assert!(
+            model.note.ends_with("tip without fillets."),
+            "{}",
+            model.note
+        );
+        for (link, gear) in model.links[1..].iter().zip([pair.driver(), pair.driven()]) {
+            for body in &link.collision {
+                let corners = body.vertices.iter();
+                let corners: Vec<Point> = corners.map(|&[x, y, _]| Point::new(x, y)).collect();
+                let sum: Vector = corners.iter().map(|p| p.coords).sum();
+                let middle = Point::from(sum / corners.len() as f64);
+                for p in corners {
+                    let inner = p + (middle - p).normalize() * 0.01;
+                    assert!(gear.outline().contains(inner), "{} at {p}", body.name);
+                }
+                let width = gear.body().width;
+                assert!(body.vertices.iter().all(|v| v[2] == 0.0 || v[2] == width));
+            }
+        }
+        let undercut = pair_of_lobes();
+        let made = simulator::model(&undercut).expect("made");
+        let model = simulator::with_teeth(made, &undercut, options().tolerance);
+        assert!(model.note.contains("stand out by up to"), "{}", model.note);
     }
 
     #[test]

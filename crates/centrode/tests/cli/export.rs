@@ -7,7 +7,7 @@ use std::process::{Command, Stdio};
 
 use crate::{centrode, fed, shipped, text};
 
-const ALL: [&str; 13] = [
+const ALL: [&str; 17] = [
     "assembly.dxf",
     "assembly.svg",
     "driven.csv",
@@ -19,7 +19,11 @@ const ALL: [&str; 13] = [
     "driver.stl",
     "driver.svg",
     "motion.csv",
+    "motion.json",
     "pair.urdf",
+    "pair.xml",
+    "play_mujoco.py",
+    "play_pybullet.py",
     "report.json",
 ];
 
@@ -80,9 +84,30 @@ fn the_kinds_asked_for_and_no_others_are_written() {
         ),
         (
             "urdf",
-            &["driven.stl", "driver.stl", "motion.csv", "pair.urdf"],
+            &[
+                "driven.stl",
+                "driver.stl",
+                "motion.csv",
+                "motion.json",
+                "pair.urdf",
+                "play_pybullet.py",
+            ],
         ),
-        ("csv,csv", &["driven.csv", "driver.csv", "motion.csv"]),
+        (
+            "mjcf",
+            &[
+                "driven.stl",
+                "driver.stl",
+                "motion.csv",
+                "motion.json",
+                "pair.xml",
+                "play_mujoco.py",
+            ],
+        ),
+        (
+            "csv,csv",
+            &["driven.csv", "driver.csv", "motion.csv", "motion.json"],
+        ),
     ] {
         let folder = tempfile::tempdir().expect("a place to write");
         let done = export(folder.path(), &["--format", kinds]);

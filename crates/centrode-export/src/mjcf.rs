@@ -1,0 +1,348 @@
+//! MJCF, the model files of `MuJoCo`.
+
+use crate::model::{Convex, Joint, JointKind, Link, Model};
+use centrode_geometry::MassProperties;
+use std::fmt::Write;
+use thiserror::Error;
+
+/// Metres to the millimetre.
+const METRE: f64 = 1e-3;
+
+/// Stiff contacts, resolved finely: a tooth sinks into its mate by less than a micrometre under a small load.
+const OPTIONS: &str = r#"  <compiler angle="radian" autolimits="true"/>
+  <option timestep="0.0002" ccd_tolerance="1e-9" ccd_iterations="100"/>
+  <default>
+    <default class="visual">
+      <geom type="mesh" contype="0" conaffinity="0" group="2" mass="0"/>
+    </default>
+    <default class="collision">
+      <geom type="mesh" condim="1" solref="0.001 1" group="3" mass="0" rgba="0.8 0.5 0.2 0.5"/>
+    </default>
+  </default>
+"#;
+
+/// Why a model could not be written.
+#[derive(Clone, Debug, Error, PartialEq)]
+#[non_exhaustive]
+pub enum MjcfError {
+    /// A joint names a link that is not there.
+    #[error("joint {joint:?} names link {link:?}, which the model has not")]
+    Link {
+        /// The joint.
+        joint: String,
+        /// The missing link.
+        link: String,
+    },
+    /// The joints do not hang every link from the first one, once.
+    #[error("link {link:?} hangs from the first link by {ways} chains of joints, not by one")]
+    Tree {
+        /// The link.
+        link: String,
+        /// How many chains there are; none may mean a ring.
+        ways: usize,
+    },
+    /// A link that turns has no mass.
+    #[error("link {link:?} turns and has no mass")]
+    Massless {
+        /// The link.
+        link: String,
+    },
+}
+
+/// A model as MJCF: metres, kilograms, radians; meshes to look at by file name beside it, scaled from mm,
+/// and convex bodies, inline, to touch with.
+///
+/// # Errors
+/// [`MjcfError`] where the links are no tree or one that turns has no mass.
+pub fn write(model: &Model) -> Result<Vec<u8>, MjcfError> {
+    is_tree(model)?;
+    let mut xml = format!("<mujoco model={}>\n", quoted(&model.name));
+    if !model.note.is_empty() {
+        // Two hyphens would end the comment.
+        let note = model.note.replace("--", "- -");
+        line(&mut xml, 1, format_args!("<!-- {note} -->"));
+    }
+    xml.push_str(OPTIONS);
+    xml.push_str("  <asset>\n");
+    for link in &model.links {
+        assets(&mut xml, link);
+    }
+    xml.push_str("  </asset>\n  <worldbody>\n");
+    line(&mut xml, 2, format_args!(r#"<light pos="0 0 1"/>"#));
+    if let Some(root) = model.links.first() {
+        geoms(&mut xml, root, 2);
+        children(&mut xml, model, root, 2)?;
+    }
+    xml.push_str("  </worldbody>\n");
+    equalities(&mut xml, model);
+    xml.push_str("</mujoco>\n");
+    Ok(xml.into_bytes())
+}
+
+/// Every link is carried by one joint, the first by none, and hangs from the first in the end.
+fn is_tree(model: &Model) -> Result<(), MjcfError> {
+    for joint in &model.joints {
+        for end in [&joint.parent, &joint.child] {
+            if !model.links.iter().any(|link| link.name == *end) {
+                return Err(MjcfError::Link {
+                    joint: joint.name.clone(),
+                    link: end.clone(),
+                });
+            }
+        }
+    }
+    for (i, link) in model.links.iter().enumerate() {
+        let carriers = |name: &str| model.joints.iter().filter(|j| j.child == name).count();
+        let ways = carriers(&link.name) + usize::from(i == 0);
+        if ways != 1 {
+            return Err(MjcfError::Tree {
+                link: link.name.clone(),
+                ways,
+            });
+        }
+        // Carried once each, links that never come to the first go round a ring.
+        let mut at = &link.name;
+        let mut steps = 0;
+        while let Some(joint) = model.joints.iter().find(|j| j.child == *at) {
+            at = &joint.parent;
+            steps += 1;
+            if steps > model.joints.len() {
+                return Err(MjcfError::Tree {
+                    link: link.name.clone(),
+                    ways: 0,
+                });
+            }
+        }
+    }
+    Ok(())
+}
+
+fn assets(xml: &mut String, link: &Link) {
+    if let Some(file) = &link.mesh {
+        let (name, file) = (quoted(&link.name), quoted(file));
+        let scale = numbers([METRE; 3]);
+        line(
+            xml,
+            2,
+            format_args!("<mesh name={name} file={file} scale={scale}/>"),
+        );
+    }
+    for Convex { name, vertices } in &link.collision {
+        let name = quoted(name);
+        let vertices = numbers(vertices.iter().flatten().map(|x| x * METRE));
+        line(
+            xml,
+            2,
+            format_args!("<mesh name={name} vertex={vertices}/>"),
+        );
+    }
+}
+
+fn geoms(xml: &mut String, link: &Link, depth: usize) {
+    let mesh = link.mesh.as_ref().map(|_| ("visual", &link.name));
+    let bodies = link.collision.iter().map(|body| ("collision", &body.name));
+    for (class, mesh) in mesh.into_iter().chain(bodies) {
+        let mesh = quoted(mesh);
+        line(
+            xml,
+            depth,
+            format_args!(r#"<geom class="{class}" mesh={mesh}/>"#),
+        );
+    }
+}
+
+/// The links a link carries, each with all that it carries in turn.
+fn children(xml: &mut String, model: &Model, of: &Link, depth: usize) -> Result<(), MjcfError> {
+    for joint in model.joints.iter().filter(|j| j.parent == of.name) {
+        let Some(link) = model.links.iter().find(|l| l.name == joint.child) else {
+            continue;
+        };
+        let place = numbers(joint.origin.map(|x| x * METRE));
+        let name = quoted(&link.name);
+        line(xml, depth, format_args!("<body name={name} pos={place}>"));
+        match joint.kind {
+            JointKind::Fixed => {}
+            JointKind::Continuous => hinge(xml, joint, depth + 1),
+        }
+        match link.mass {
+            Some(mass) => inertial(xml, &mass, depth + 1),
+            None if joint.kind == JointKind::Fixed => {}
+            None => {
+                return Err(MjcfError::Massless {
+                    link: link.name.clone(),
+                });
+            }
+        }
+        geoms(xml, link, depth + 1);
+        children(xml, model, link, depth + 1)?;
+        line(xml, depth, format_args!("</body>"));
+    }
+    Ok(())
+}
+
+fn hinge(xml: &mut String, joint: &Joint, depth: usize) {
+    let (name, axis) = (quoted(&joint.name), numbers(joint.axis));
+    line(
+        xml,
+        depth,
+        format_args!(r#"<joint name={name} type="hinge" axis={axis}/>"#),
+    );
+}
+
+fn inertial(xml: &mut String, mass: &MassProperties, depth: usize) {
+    // kg mm² to kg m².
+    let i = mass.inertia * (METRE * METRE);
+    let pairs = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)];
+    let inertia = numbers(pairs.map(|at| i[at]));
+    let place = numbers([mass.center.x, mass.center.y, mass.center.z].map(|x| x * METRE));
+    let mass = numbers([mass.mass]);
+    line(
+        xml,
+        depth,
+        format_args!("<inertial pos={place} mass={mass} fullinertia={inertia}/>"),
+    );
+}
+
+fn equalities(xml: &mut String, model: &Model) {
+    let followers = model
+        .joints
+        .iter()
+        .filter_map(|j| j.mimic.as_ref().map(|m| (j, m)));
+    let mut lines = String::new();
+    for (joint, mimic) in followers {
+        let (follower, followed) = (quoted(&joint.name), quoted(&mimic.joint));
+        let law = numbers([mimic.offset, mimic.multiplier, 0.0, 0.0, 0.0]);
+        line(
+            &mut lines,
+            2,
+            format_args!("<joint joint1={follower} joint2={followed} polycoef={law}/>"),
+        );
+    }
+    if !lines.is_empty() {
+        *xml += &format!("  <equality>\n{lines}  </equality>\n");
+    }
+}
+
+fn line(xml: &mut String, depth: usize, words: std::fmt::Arguments<'_>) {
+    // Writing to a string cannot fail.
+    let _ = writeln!(xml, "{:1$}{words}", "", 2 * depth);
+}
+
+/// Numbers as the value of an attribute, with the fewest digits that read back to the same numbers.
+fn numbers(values: impl IntoIterator<Item = f64>) -> String {
+    let words: Vec<String> = values
+        .into_iter()
+        .map(|x| format!("{:?}", x + 0.0))
+        .collect();
+    format!("\"{}\"", words.join(" "))
+}
+
+/// Words as the value of an attribute.
+fn quoted(words: &str) -> String {
+    let words = words
+        .replace('&', "&amp;")
+        .replace('<', "&lt;")
+        .replace('"', "&quot;");
+    format!("\"{words}\"")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::Mimic;
+    use nalgebra::{Matrix3, Point3};
+
+    fn sample() -> Model {
+        let body = |name: &str| Link {
+            name: name.into(),
+            mass: Some(MassProperties {
+                mass: 0.25,
+                center: Point3::new(1.0, 2.0, 5.0),
+                inertia: Matrix3::new(10.0, 1.0, 0.0, 1.0, 12.0, 0.0, 0.0, 0.0, 20.0),
+            }),
+            mesh: Some(format!("{name}.stl")),
+            collision: vec![Convex {
+                name: format!("{name}_tooth_0"),
+                vertices: vec![
+                    [0.0, 0.0, 0.0],
+                    [2.0, 0.0, 0.0],
+                    [0.0, 2.0, 0.0],
+                    [0.0, 0.0, -4.0],
+                ],
+            }],
+        };
+        let turning = |name: &str, x: f64, mimic: Option<Mimic>| Joint {
+            name: format!("{name}_joint"),
+            kind: JointKind::Continuous,
+            parent: "base".into(),
+            child: name.into(),
+            origin: [x, 0.0, 0.0],
+            axis: [0.0, 0.0, 1.0],
+            mimic,
+        };
+        Model {
+            name: "\"a\" & <b>".into(),
+            note: "law -- in motion.csv".into(),
+            links: vec![
+                Link {
+                    name: "base".into(),
+                    mass: None,
+                    mesh: None,
+                    collision: Vec::new(),
+                },
+                body("driver"),
+                body("driven"),
+            ],
+            joints: vec![
+                turning("driver", 0.0, None),
+                turning(
+                    "driven",
+                    52.5,
+                    Some(Mimic {
+                        joint: "driver_joint".into(),
+                        multiplier: -2.0,
+                        offset: 0.5,
+                    }),
+                ),
+            ],
+        }
+    }
+
+    #[test]
+    fn lengths_are_metres_and_text_is_escaped() {
+        let text = String::from_utf8(write(&sample()).expect("written")).expect("text");
+        for part in [
+            r#"<mujoco model="&quot;a&quot; &amp; &lt;b>">"#,
+            "<!-- law - - in motion.csv -->",
+            r#"<mesh name="driven" file="driven.stl" scale="0.001 0.001 0.001"/>"#,
+            r#"vertex="0.0 0.0 0.0 0.002 0.0 0.0 0.0 0.002 0.0 0.0 0.0 -0.004""#,
+            r#"<body name="driven" pos="0.0525 0.0 0.0">"#,
+            r#"<joint joint1="driven_joint" joint2="driver_joint" polycoef="0.5 -2.0 0.0 0.0 0.0"/>"#,
+            r#"<geom class="collision" mesh="driven_tooth_0"/>"#,
+        ] {
+            assert!(text.contains(part), "{part} is not in\n{text}");
+        }
+        assert!(text.contains(r#"pos="0.001 0.002 0.005" mass="0.25""#));
+    }
+
+    #[test]
+    fn what_is_no_tree_of_bodies_is_refused() {
+        let mut lost = sample();
+        lost.joints[0].child = "lost".into();
+        assert!(matches!(write(&lost), Err(MjcfError::Link { .. })));
+        let mut twice = sample();
+        twice.joints[1].child = "driver".into();
+        assert!(matches!(
+            write(&twice),
+            Err(MjcfError::Tree { ways: 2, .. })
+        ));
+        let mut ring = sample();
+        ring.joints[0].parent = "driven".into();
+        ring.joints[1].parent = "driver".into();
+        assert!(matches!(write(&ring), Err(MjcfError::Tree { ways: 0, .. })));
+        let mut light = sample();
+        light.links[2].mass = None;
+        let driven = "driven".to_owned();
+        assert_eq!(write(&light), Err(MjcfError::Massless { link: driven }));
+    }
+}

@@ -1,0 +1,145 @@
+import json
+import math
+import subprocess
+import sys
+import xml.etree.ElementTree as ElementTree
+
+import mujoco
+import numpy as np
+import pytest
+import trimesh
+from reading import GEARS, outline, rows
+from shapely.geometry import MultiPoint
+
+TEETH = {"elliptic": (23, 23), "two-to-one": (24, 48), "circle": (20, 20)}
+
+
+@pytest.fixture
+def model(exported):
+    return mujoco.MjModel.from_xml_path(str(exported / "pair.xml"))
+
+
+def play(folder, *arguments, script="play_mujoco.py"):
+    """The script's verdict."""
+    command = [sys.executable, str(folder / script), "--check", *arguments]
+    done = subprocess.run(command, check=True, capture_output=True, text=True, timeout=120, cwd="/")
+    return json.loads(done.stdout.splitlines()[-1])
+
+
+def place(model, data, table, row):
+    """Puts both joints where a row has them, by hand rather than by the script."""
+    for joint, angle in (
+        ("driver_joint", -table["driver_angle_rad"][row]),
+        ("driven_joint", table["driven_angle_rad"][row]),
+    ):
+        data.qpos[model.joint(joint).qposadr] = angle
+    mujoco.mj_forward(model, data)
+
+
+def inertia(model, gear):
+    """A body's inertia tensor in the axes of the link, kg m²."""
+    body = model.body(gear)
+    turn = np.empty(9)
+    mujoco.mju_quat2Mat(turn, body.iquat)
+    turn = turn.reshape(3, 3)
+    return turn @ np.diag(body.inertia) @ turn.T
+
+
+def test_each_tooth_is_one_body_to_touch_with(exported, model):
+    for gear, teeth in zip(GEARS, TEETH[exported.name], strict=True):
+        body = model.body(gear)
+        geoms = range(body.geomadr[0], body.geomadr[0] + body.geomnum[0])
+        assert sum(model.geom_contype[g] > 0 for g in geoms) == teeth
+        assert sum(model.geom_contype[g] == 0 for g in geoms) == 1
+    assert model.njnt == 2
+    assert model.neq == (exported.name == "circle")
+
+
+def test_the_tooth_bodies_are_the_teeth(exported):
+    root = ElementTree.parse(exported / "pair.xml").getroot()
+    for gear in GEARS:
+        whole = outline(exported, gear)
+        for mesh in root.iter("mesh"):
+            if mesh.get("name").startswith(f"{gear}_tooth"):
+                points = 1e3 * np.array(mesh.get("vertex").split(), dtype=float).reshape(-1, 3)
+                tooth = MultiPoint(points[:, :2]).convex_hull
+                assert tooth.area > 1.0
+                assert tooth.difference(whole).area < 1e-3 * tooth.area
+
+
+def test_inertias_are_those_of_the_solid(exported, run, tmp_path):
+    run("export", exported.design, "--to", tmp_path, "--format", "mjcf", "--tolerance", "0.00001")
+    model = mujoco.MjModel.from_xml_path(str(tmp_path / "pair.xml"))
+    for gear in GEARS:
+        mesh = trimesh.load_mesh(tmp_path / f"{gear}.stl")
+        mesh.apply_scale(1e-3)
+        mesh.density = 7850.0
+        body = model.body(gear)
+        assert body.mass[0] == pytest.approx(mesh.mass, rel=1e-6)
+        np.testing.assert_allclose(body.ipos, mesh.center_mass, atol=1e-8)
+        scale = mesh.moment_inertia[2, 2]
+        np.testing.assert_allclose(inertia(model, gear), mesh.moment_inertia, atol=1e-6 * scale)
+
+
+def test_placed_by_the_table_no_teeth_overlap(exported, model):
+    table = rows(exported / "motion.csv")
+    data = mujoco.MjData(model)
+    deepest = 0.0
+    for row in range(0, len(table["driver_angle_rad"]), 4):
+        place(model, data, table, row)
+        deepest = max(deepest, *(-data.contact.dist), 0.0)
+    assert deepest < 2e-6  # metres
+    # The bodies do touch: a driven gear a quarter of a tooth too far does not fit.
+    pitch = 2 * math.pi / TEETH[exported.name][1]
+    data.qpos[model.joint("driven_joint").qposadr] += pitch / 4
+    mujoco.mj_forward(model, data)
+    assert np.any(data.contact.dist < -1e-4)
+
+
+def test_the_sidecar_describes_the_table(exported):
+    about = json.loads((exported / "motion.json").read_text())
+    table = rows(exported / "motion.csv")
+    assert [column["name"] for column in about["columns"]] == list(table)
+    assert about["rows"] == len(table["ratio"])
+    driver, driven = table["driver_angle_rad"], table["driven_angle_rad"]
+    assert about["continuation"]["driver_angle_rad"] == pytest.approx(driver[-1], rel=1e-12)
+    assert about["continuation"]["driven_angle_rad"] == pytest.approx(driven[-1], rel=1e-9)
+    line = about["linear_stand_in"]
+    off = np.abs(driven + line["multiplier"] * driver - line["offset_rad"]).max()
+    assert line["error_max_rad"] == pytest.approx(off, rel=1e-3, abs=1e-9)
+    assert line["is_the_law"] == (exported.name == "circle")
+    # The bound between rows holds on every second row, taken over twice the step: four times the error.
+    between = np.abs(driven[1:-1] - (driven[:-2] + driven[2:]) / 2).max()
+    assert between <= 4.01 * about["interpolation"]["error_max_rad"] + 1e-12
+
+
+def test_the_script_plays_the_law(exported, tmp_path):
+    result = play(exported.folder)
+    assert result["mode"] == "law"
+    assert result["off_law_max_deg"] < 1e-9
+    assert result["overlap_max_mm"] < 2e-3
+
+
+@pytest.mark.parametrize("way", [(), ("--backward",)])
+def test_teeth_alone_carry_the_driven_gear_by_the_law(exported, way):
+    result = play(exported.folder, "--contact", *way)
+    assert abs(result["turns"]) == 2
+    assert result["off_law_range_deg"] < 0.02
+    # The rest is half the backlash: 0.025 mm along the normal, on the driven gear of some 36 mm radius.
+    assert result["off_law_max_deg"] < (0.06 if exported.name == "two-to-one" else 0.02)
+
+
+def test_without_teeth_the_driven_gear_does_not_follow(exported, tmp_path):
+    for file in exported.folder.iterdir():
+        (tmp_path / file.name).write_bytes(file.read_bytes())
+    model = tmp_path / "pair.xml"
+    bare = model.read_text().replace('<geom type="mesh" condim="1"', '<geom type="mesh" contype="0" conaffinity="0"')
+    assert bare != model.read_text()
+    model.write_text(bare)
+    assert play(tmp_path, "--contact")["off_law_range_deg"] > 10
+
+
+def test_the_pybullet_script_plays_the_law(exported):
+    compile((exported / "play_pybullet.py").read_text(), "play_pybullet.py", "exec")
+    pytest.importorskip("pybullet", reason="has no wheel for every Python")
+    assert play(exported.folder, script="play_pybullet.py")["off_law_max_deg"] < 1e-9
