@@ -13,7 +13,8 @@ def test_the_curvatures_of_the_2018_pair_are_those_of_one_ellipse():
     assert np.isclose(1 / driver.max(), 24.46243, atol=1e-5)
     # Congruent curves: the driven gear shows the driver's far side.
     assert np.allclose(np.sort(driver)[[0, -1]], np.sort(driven)[[0, -1]])
-    assert (driver > 0).all() and (driven > 0).all()
+    assert (driver > 0).all()
+    assert (driven > 0).all()
 
 
 def test_pressure_angles_differ_by_the_inclination_of_the_pitch_curve():
