@@ -26,7 +26,6 @@ def test_a_file_and_keywords_give_the_same_pair(design):
     made = ct.GearPair(
         ct.pitch.ellipse(eccentricity=0.2679491924311227, module=2.25, tooth_count=23),
         phase="congruent",
-        backlash=0.05,
         driver=body,
         driven=body,
         name=loaded.name,
