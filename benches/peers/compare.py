@@ -113,7 +113,7 @@ def our_pair(case):
 
 def our_command(case, folder):
     design, out = Path(folder, "pair.toml"), Path(folder, "out")
-    design.write_text(case.toml)
+    design.write_text('family = "gear-pair"\n' + case.toml)
     command = [os.environ["CENTRODE_BIN"], "export", design, "--to", out, "--format", "dxf,svg,stl,csv,urdf"]
     subprocess.run([*command, "--tolerance", "0.001"], check=True, stdout=subprocess.DEVNULL)
     return out

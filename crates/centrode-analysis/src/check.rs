@@ -1,6 +1,6 @@
 use std::f64::consts::PI;
 
-use centrode_mechanism::gear::{CurvatureRange, Gear, GearPair, Member, ToolKind, Tooth};
+use centrode_mechanism::gear::{Gear, GearPair, Member, ToolKind, Tooth};
 
 use crate::{Contact, Finding, Place, Report, Severity};
 
@@ -35,6 +35,7 @@ pub fn check_contact(pair: &GearPair, contact: &Contact) -> Report {
 
 fn pitch_curves(pair: &GearPair, report: &mut Report) {
     let rolling = pair.rolling();
+    let limits = pair.limits();
     let values = &mut report.values;
     values.insert("center_distance", pair.center_distance());
     values.insert("module", pair.module());
@@ -65,7 +66,7 @@ fn pitch_curves(pair: &GearPair, report: &mut Report) {
     for member in [Member::Driver, Member::Driven] {
         let gear = pair.gear(member);
         let radii = rolling.radii(member);
-        let range = CurvatureRange::of(rolling, member);
+        let range = limits.ranges[usize::from(member == Member::Driven)];
         let figures = [
             f64::from(gear.tooth_count()),
             gear.pitch_length(),
@@ -116,7 +117,6 @@ fn pitch_curves(pair: &GearPair, report: &mut Report) {
             },
         });
     }
-    let limits = pair.limits();
     report
         .values
         .insert("largest_module", limits.largest_module);

@@ -13,7 +13,7 @@ use centrode_mechanism::gear::{GearPair, Member, Tooth, ToothSide};
 use meshing::Meshing;
 
 /// Samples a pitch of sound teeth.
-const SAMPLES_PER_PITCH: u32 = 6;
+const SAMPLES_PER_PITCH: u32 = 4;
 
 /// Samples a pitch where contact may be lost.
 const FINE_SAMPLES_PER_PITCH: u32 = 48;
@@ -46,7 +46,7 @@ pub struct Contact {
 }
 
 impl Contact {
-    /// Analyses one whole cycle at six inputs a pitch, or at 48 where a tooth is not what the tool would
+    /// Analyses one whole cycle at four inputs a pitch, or at 48 where a tooth is not what the tool would
     /// make of it or a pitch curve is concave: contact can then be lost over a small part of a pitch.
     #[must_use]
     pub fn of(pair: &GearPair) -> Self {

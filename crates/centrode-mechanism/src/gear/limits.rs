@@ -20,6 +20,8 @@ pub struct Limits {
     /// Largest addendum, mm, with every flank regular wherever the teeth fall, and every tooth as cut
     /// no thinner at its tip than asked for.
     pub largest_addendum: f64,
+    /// Range of curvature of the driver's and of the driven gear's pitch curve.
+    pub ranges: [CurvatureRange; 2],
 }
 
 /// Least and greatest curvature of a member's pitch curve (1/mm), and the arc lengths they are at.
@@ -155,6 +157,7 @@ impl GearPair {
             concave_curvature: concave,
             largest_module: bound(convex, depth).min(bound(concave, height)),
             largest_addendum: self.widest_height(regular),
+            ranges,
         }
     }
 
