@@ -1,6 +1,6 @@
 use std::f64::consts::PI;
 
-use centrode_mechanism::gear::{Gear, GearPair, Member, ToolKind, Tooth};
+use centrode_mechanism::gear::{Gear, GearPair, Limits, Member, ToolKind, Tooth};
 
 use crate::{Contact, Finding, Place, Report, Severity};
 
@@ -22,9 +22,10 @@ pub fn check(pair: &GearPair) -> Report {
 #[must_use]
 pub fn check_contact(pair: &GearPair, contact: &Contact) -> Report {
     let mut report = Report::default();
-    pitch_curves(pair, &mut report);
+    let limits = pair.limits();
+    pitch_curves(pair, &limits, &mut report);
     for gear in [pair.driver(), pair.driven()] {
-        teeth(pair, gear, &mut report);
+        teeth(pair, gear, &limits, &mut report);
     }
     mesh(pair, contact, &mut report);
     report
@@ -33,9 +34,8 @@ pub fn check_contact(pair: &GearPair, contact: &Contact) -> Report {
     report
 }
 
-fn pitch_curves(pair: &GearPair, report: &mut Report) {
+fn pitch_curves(pair: &GearPair, limits: &Limits, report: &mut Report) {
     let rolling = pair.rolling();
-    let limits = pair.limits();
     let values = &mut report.values;
     values.insert("center_distance", pair.center_distance());
     values.insert("module", pair.module());
@@ -146,7 +146,7 @@ fn greatest_pressure_angle(pair: &GearPair) -> (f64, f64) {
     greatest
 }
 
-fn teeth(pair: &GearPair, gear: &Gear, report: &mut Report) {
+fn teeth(pair: &GearPair, gear: &Gear, limits: &Limits, report: &mut Report) {
     let part = gear.member().name();
     let least = pair.teeth().least_tip_width;
     let small = 1e-9 * pair.module();
@@ -160,13 +160,10 @@ fn teeth(pair: &GearPair, gear: &Gear, report: &mut Report) {
     };
     let sides = |tooth: &Tooth| [tooth.leading, tooth.trailing];
     let remedy = "a smaller module, or addendum = \"fitted\", avoids it";
-    let limits = || {
-        let limits = pair.limits();
-        format!(
-            "the largest module without it is {:.4} mm",
-            limits.largest_module
-        )
-    };
+    let largest = format!(
+        "the largest module without it is {:.4} mm",
+        limits.largest_module
+    );
     let mut add = |rule,
                    severity,
                    (teeth, worst): (Vec<u32>, f64),
@@ -199,7 +196,7 @@ fn teeth(pair: &GearPair, gear: &Gear, report: &mut Report) {
     add("severed", Severity::Error, severed, None, "", &|who, _| {
         format!(
             "{who} are cut off at the root by undercut from both sides; {}",
-            limits()
+            largest
         )
     });
     let undercut = collect(&|t| {
@@ -215,7 +212,7 @@ fn teeth(pair: &GearPair, gear: &Gear, report: &mut Report) {
         &|who, worst| {
             format!(
                 "{who} are undercut, up to {worst:.4} mm of roll; {}; {remedy}",
-                limits()
+                largest
             )
         },
     );

@@ -171,8 +171,7 @@ impl<'a> Meshing<'a> {
         out.clearance.push(least(Kind::TipAndRoot));
         out.fillet_clearance.push(least(Kind::Fillet));
         out.contacts.push(forward.contacts);
-        let r = self.pair.rolling().radius(phi);
-        let ratio = r / (a - r);
+        let ratio = self.pair.ratio(phi);
         let sliding = forward
             .places
             .iter()

@@ -285,8 +285,8 @@ impl Cutter<'_> {
                         .addendum_reach()
                         .min(0.25 * rolling.pitch_length(self.member)),
         );
-        let found = match plan.top {
-            Top::Height(height) => flank.at_height(height),
+        let wanted = match plan.top {
+            Top::Height(height) => height,
             Top::Reach(reach) => {
                 let tip = rolling.parameter(plan.crossing - sign * reach);
                 let (foot, height) = flank.foot(tip);
@@ -298,10 +298,7 @@ impl Cutter<'_> {
                 };
             }
         };
-        let wanted = match plan.top {
-            Top::Height(height) => height,
-            Top::Reach(_) => 0.0,
-        };
+        let found = flank.at_height(wanted);
         let beyond = |t: f64| sign * (limit - t) > 0.0;
         if let Some((tip, foot)) = found
             && !beyond(tip)

@@ -1,7 +1,7 @@
 /// The generating tool, resolved: lengths in mm, angles in rad.
 ///
-/// `addendum` and `dedendum` are those of the driver's teeth about the rolling line, profile shift
-/// included; the driven gear is cut with the opposite shift.
+/// Heights are about the tool's own datum; the driver is cut with `profile_shift`, the driven gear with
+/// the opposite one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tool {
     /// Pressure angle, rad.
