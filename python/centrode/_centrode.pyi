@@ -43,7 +43,7 @@ _Real: TypeAlias = float | SupportsFloat
 _Plane: TypeAlias = Literal["polar", "cartesian"]
 _Interpolation: TypeAlias = Literal["cubic", "quintic", "trigonometric"]
 _Phase: TypeAlias = _Real | Literal["auto", "tooth", "space", "congruent"]
-_Format: TypeAlias = Literal["dxf", "svg", "stl", "csv", "urdf", "mjcf"]
+_Format: TypeAlias = Literal["dxf", "svg", "stl", "step", "3mf", "csv", "urdf", "mjcf"]
 _DxfVersion: TypeAlias = Literal["R2010", "R12"]
 _DxfCurves: TypeAlias = Literal["arcs", "splines"]
 

@@ -415,7 +415,7 @@ impl GearPair {
     ///
     /// Args:
     ///     directory: Where to.
-    ///     formats: Any of "dxf", "svg", "stl", "csv", "urdf" and "mjcf"; all if left out.
+    ///     formats: Any of "dxf", "svg", "stl", "step", "3mf", "csv", "urdf" and "mjcf"; all if left out.
     ///     tolerance: Greatest distance of every arc, point sequence and mesh from the exact curve, mm.
     ///     dxf_version: "R2010" or "R12".
     ///     dxf_curves: "arcs" or "splines".

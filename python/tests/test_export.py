@@ -16,7 +16,7 @@ def test_export_writes_the_files_and_names_them(pair, tmp_path):
     for path in paths:
         assert path.read_bytes() == files[path.name]
     names = list(pair.files(tolerance=0.1))
-    assert {name.rpartition(".")[2] for name in names} >= {"dxf", "svg", "stl", "csv", "urdf"}
+    assert {name.rpartition(".")[2] for name in names} >= {"dxf", "svg", "stl", "step", "3mf", "csv", "urdf"}
 
 
 def test_options_reach_the_writers(pair):

@@ -29,10 +29,26 @@ pub(crate) fn count(name: &str, bytes: &[u8]) -> BTreeMap<String, usize> {
             .lines()
             .filter_map(|line| line.trim().strip_prefix("def ")?.split_once('('))
             .for_each(|(name, _)| add(name.to_owned())),
+        Some("step") => {
+            for line in text(bytes).lines() {
+                let entity = line.split(['=', '(']).nth(1).unwrap_or_default();
+                if matches!(
+                    entity,
+                    "ADVANCED_FACE" | "EDGE_CURVE" | "MANIFOLD_SOLID_BREP"
+                ) {
+                    add(entity.to_owned());
+                }
+            }
+        }
         // Triangles depend on rounding: that there are some is enough.
         Some("stl") => {
             if bytes.len() > 84 {
                 add("solid".into());
+            }
+        }
+        Some("3mf") => {
+            if bytes.starts_with(b"PK") {
+                add("package".into());
             }
         }
         _ => add("unknown kind".into()),

@@ -1,4 +1,4 @@
-//! One writer for each file format: DXF, SVG, STL, CSV, URDF, MJCF.
+//! One writer for each file format: DXF, SVG, STL, STEP, 3MF, CSV, URDF, MJCF.
 //!
 //! Writers are pure: they turn a plain value into bytes. Only [`Bundle`] touches the disk.
 
@@ -9,8 +9,10 @@ pub mod dxf;
 pub mod gear_pair;
 pub mod mjcf;
 pub mod model;
+pub mod step;
 pub mod stl;
 pub mod svg;
+pub mod threemf;
 pub mod urdf;
 
 pub use bundle::{Bundle, BundleError};

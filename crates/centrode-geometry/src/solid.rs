@@ -89,6 +89,18 @@ impl Solid {
         &self.holes
     }
 
+    /// Height of the lower face, mm.
+    #[must_use]
+    pub fn bottom(&self) -> f64 {
+        self.bottom
+    }
+
+    /// Height of the upper face, mm.
+    #[must_use]
+    pub fn top(&self) -> f64 {
+        self.top
+    }
+
     /// Area moments of the cross-section about the origin, exact to rounding.
     #[must_use]
     pub fn section(&self) -> AreaMoments {

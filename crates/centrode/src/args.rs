@@ -93,6 +93,11 @@ pub(crate) enum File {
     Svg,
     /// Solids
     Stl,
+    /// Exact solids for CAD
+    Step,
+    /// Solids with their unit, for printing
+    #[value(name = "3mf")]
+    ThreeMf,
     /// Points of the outlines, and the motion
     Csv,
     /// Simulator model, with its solids and motion

@@ -56,6 +56,8 @@ fn formats(command: &Export) -> Vec<Format> {
         (File::Dxf, Format::Dxf),
         (File::Svg, Format::Svg),
         (File::Stl, Format::Stl),
+        (File::Step, Format::Step),
+        (File::ThreeMf, Format::ThreeMf),
         (File::Csv, Format::Csv),
         (File::Urdf, Format::Urdf),
         (File::Mjcf, Format::Mjcf),

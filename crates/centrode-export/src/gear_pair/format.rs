@@ -11,6 +11,10 @@ pub enum Format {
     Svg,
     /// Solids.
     Stl,
+    /// Exact solids for CAD.
+    Step,
+    /// Solids with their unit, for printing.
+    ThreeMf,
     /// Points of the outlines, and the motion.
     Csv,
     /// Simulator model, with the solids it shows.
@@ -21,10 +25,12 @@ pub enum Format {
 
 impl Format {
     /// Every format, in the order files are written.
-    pub const ALL: [Self; 6] = [
+    pub const ALL: [Self; 8] = [
         Self::Dxf,
         Self::Svg,
+        Self::Step,
         Self::Stl,
+        Self::ThreeMf,
         Self::Csv,
         Self::Urdf,
         Self::Mjcf,
@@ -37,6 +43,8 @@ impl Format {
             Self::Dxf => "dxf",
             Self::Svg => "svg",
             Self::Stl => "stl",
+            Self::Step => "step",
+            Self::ThreeMf => "3mf",
             Self::Csv => "csv",
             Self::Urdf => "urdf",
             Self::Mjcf => "mjcf",
@@ -52,7 +60,7 @@ impl fmt::Display for Format {
 
 /// A word that names no format.
 #[derive(Clone, Debug, Error, PartialEq)]
-#[error("no format is named {0:?}; there are dxf, svg, stl, csv, urdf and mjcf")]
+#[error("no format is named {0:?}; there are dxf, svg, stl, step, 3mf, csv, urdf and mjcf")]
 pub struct UnknownFormat(pub String);
 
 impl FromStr for Format {

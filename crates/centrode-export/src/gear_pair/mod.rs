@@ -5,6 +5,7 @@ mod motion;
 mod outline;
 mod sheet;
 mod simulator;
+mod solid;
 mod tooth_body;
 
 use crate::{
@@ -13,13 +14,16 @@ use crate::{
     drawing::Drawing,
     dxf::{self, DxfError},
     mjcf::{self, MjcfError},
-    stl, svg,
+    step::StepError,
+    svg,
+    threemf::PackageError,
     urdf::{self, UrdfError},
 };
-use centrode_geometry::{Mesh, Solid, SolidError, Tolerance};
+use centrode_geometry::{SolidError, Tolerance};
 use centrode_mechanism::gear::{GearPair, Member};
 pub use format::{Format, UnknownFormat};
 use sheet::Contours;
+pub use solid::{mesh, solid};
 use thiserror::Error;
 
 /// How the files are written.
@@ -70,6 +74,17 @@ pub enum GearPairFilesError {
     /// The drawing could not be written.
     #[error(transparent)]
     Dxf(#[from] DxfError),
+    /// A gear cannot be written as STEP.
+    #[error("the {} gear cannot be written as STEP: {source}", .member.name())]
+    Step {
+        /// Which gear.
+        member: Member,
+        /// Why.
+        source: StepError,
+    },
+    /// A 3MF package could not be made.
+    #[error(transparent)]
+    Package(#[from] PackageError),
     /// A table could not be written.
     #[error(transparent)]
     Table(#[from] TableError),
@@ -113,12 +128,7 @@ pub fn files(
     if wanted(Format::Dxf) || wanted(Format::Svg) {
         draw(pair, &wanted, options, &mut bundle)?;
     }
-    if wanted(Format::Stl) || simulated {
-        for member in [Member::Driver, Member::Driven] {
-            let mesh = mesh(pair, member, options.tolerance)?;
-            bundle.add(&format!("{}.stl", member.name()), stl::write(&mesh))?;
-        }
-    }
+    solid::add(pair, &wanted, options, &mut bundle)?;
     if wanted(Format::Csv) {
         for member in [Member::Driver, Member::Driven] {
             let table = outline::columns(pair.gear(member), options.tolerance);
@@ -199,31 +209,6 @@ pub fn assembly_drawing(pair: &GearPair, tolerance: Tolerance) -> Drawing {
     sheet::assembly(pair, [driver, driven])
 }
 
-/// A gear as a solid: toothed outline less the bore, from z = 0 to its width.
-///
-/// # Errors
-/// [`GearPairFilesError::Solid`] if the width is not positive.
-pub fn solid(pair: &GearPair, member: Member) -> Result<Solid, GearPairFilesError> {
-    let gear = pair.gear(member);
-    let holes = gear.bore().into_iter().collect();
-    Solid::new(gear.outline().clone(), holes, 0.0, gear.body().width)
-        .map_err(|source| GearPairFilesError::Solid { member, source })
-}
-
-/// A gear as a closed triangle mesh.
-///
-/// # Errors
-/// [`GearPairFilesError::Solid`] if the flattened outline and bore meet.
-pub fn mesh(
-    pair: &GearPair,
-    member: Member,
-    tolerance: Tolerance,
-) -> Result<Mesh, GearPairFilesError> {
-    solid(pair, member)?
-        .mesh(tolerance)
-        .map_err(|source| GearPairFilesError::Solid { member, source })
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -295,8 +280,12 @@ mod tests {
             "driver.svg",
             "driven.svg",
             "assembly.svg",
+            "driver.step",
             "driver.stl",
+            "driver.3mf",
+            "driven.step",
             "driven.stl",
+            "driven.3mf",
             "driver.csv",
             "driven.csv",
             "motion.csv",

@@ -7,15 +7,19 @@ use std::process::{Command, Stdio};
 
 use crate::{centrode, fed, shipped, text};
 
-const ALL: [&str; 17] = [
+const ALL: [&str; 21] = [
     "assembly.dxf",
     "assembly.svg",
+    "driven.3mf",
     "driven.csv",
     "driven.dxf",
+    "driven.step",
     "driven.stl",
     "driven.svg",
+    "driver.3mf",
     "driver.csv",
     "driver.dxf",
+    "driver.step",
     "driver.stl",
     "driver.svg",
     "motion.csv",
@@ -107,6 +111,10 @@ fn the_kinds_asked_for_and_no_others_are_written() {
         (
             "csv,csv",
             &["driven.csv", "driver.csv", "motion.csv", "motion.json"],
+        ),
+        (
+            "step,3mf",
+            &["driven.3mf", "driven.step", "driver.3mf", "driver.step"],
         ),
     ] {
         let folder = tempfile::tempdir().expect("a place to write");

@@ -1,0 +1,52 @@
+//! Contours fit for a kernel: no side so short that it is nothing to it.
+
+use super::StepError;
+use centrode_geometry::{Arc, Outline, Point, Segment};
+
+/// Shortest side of a contour, mm: ten times the accuracy the file claims, under which a kernel takes
+/// two points for one.
+const SHORTEST: f64 = 1e-6;
+/// Height over its chord, mm, below which an arc is a straight line to a kernel.
+const FLAT: f64 = 1e-9;
+
+/// The sides of a contour, each starting exactly where the one before it ends.
+pub(super) fn sides(contour: usize, outline: &Outline) -> Result<Vec<Segment>, StepError> {
+    let finite = |p: Point| p.x.is_finite() && p.y.is_finite();
+    let all = outline.segments();
+    if !all
+        .iter()
+        .all(|s| finite(s.start()) && s.length().is_finite())
+    {
+        return Err(StepError::NotFinite { contour });
+    }
+    let mut kept: Vec<Segment> = Vec::with_capacity(all.len());
+    for segment in all.iter().filter(|s| s.length() >= SHORTEST) {
+        let start = kept.last().map_or_else(|| segment.start(), Segment::end);
+        kept.push(between(segment, start, segment.end()));
+    }
+    if let [first, .., last] = kept.as_mut_slice() {
+        *last = between(last, last.start(), first.start());
+    }
+    // A chord there and back bounds nothing; one side alone cannot be closed.
+    if kept.len() < 2 || outline.area().abs() < SHORTEST * SHORTEST {
+        return Err(StepError::NoRegion { contour });
+    }
+    Ok(kept)
+}
+
+/// The segment with its ends moved by what a side left out was long; an arc that is flat becomes a line.
+fn between(segment: &Segment, start: Point, end: Point) -> Segment {
+    match segment {
+        Segment::Line(..) => Segment::Line(start, end),
+        Segment::Arc(arc) if 0.5 * (arc.bulge * (end - start).norm()).abs() < FLAT => {
+            Segment::Line(start, end)
+        }
+        Segment::Arc(arc) => Segment::Arc(Arc {
+            start,
+            end,
+            bulge: arc.bulge,
+        }),
+        Segment::Spline(spline) if spline.start() == start && spline.end() == end => *segment,
+        Segment::Spline(spline) => Segment::Spline(spline.pinned(start, end)),
+    }
+}
