@@ -3,10 +3,12 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+mod drawing;
 mod fault;
 mod file;
 mod keys;
 
+pub use drawing::{DrawingSpec, Projection, SheetSize};
 pub use fault::{DesignError, DesignFault};
 pub use file::DesignFile;
 

@@ -122,7 +122,8 @@ impl<'a> Reader<'a> {
             return Err(self.unknown_word("family", family, &families));
         }
         root.remove("family");
-        self.tables(&root, &["pitch", "tool", "teeth", "driver", "driven"])?;
+        const TABLES: [&str; 6] = ["pitch", "tool", "teeth", "driver", "driven", "drawing"];
+        self.tables(&root, &TABLES)?;
         self.tagged(&root, "pitch", PitchSpec::KINDS, |kind, d| {
             PitchSpec::of_kind(kind, d).map(drop)
         })?;

@@ -2,6 +2,8 @@ use std::f64::consts::{PI, TAU};
 
 use centrode_geometry::{Arc, Outline, Point, Segment, Spline, Tolerance};
 
+use crate::design::DrawingSpec;
+
 use super::{
     design::{BodySpec, GearPairDesign, SpecError, ToolSpec},
     pitch::PitchError,
@@ -29,6 +31,8 @@ pub struct GearPair {
     phase: f64,
     backlash: f64,
     congruent: bool,
+    pin_diameter: Option<f64>,
+    drawing: DrawingSpec,
     driver: Gear,
     driven: Gear,
 }
@@ -218,6 +222,8 @@ impl GearPair {
             phase: plan.phase,
             backlash: plan.backlash,
             congruent: plan.congruent,
+            pin_diameter: design.teeth.pin_diameter,
+            drawing: design.drawing.clone(),
             driver,
             driven,
         })
@@ -311,6 +317,16 @@ impl GearPair {
     #[must_use]
     pub fn ratio_slope(&self, phi: f64) -> f64 {
         self.rolling.ratio_slope(phi)
+    }
+
+    /// What the drawing sheets are to say and look like.
+    #[must_use]
+    pub fn drawing(&self) -> &DrawingSpec {
+        &self.drawing
+    }
+
+    pub(crate) fn written_pin_diameter(&self) -> Option<f64> {
+        self.pin_diameter
     }
 
     /// The gear that is turned.

@@ -1,7 +1,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::rule::{Rule, SpecError, broken, not_negative, positive};
+use super::rule::{Rule, SpecError, broken, line, not_negative, positive};
 
 /// The body of a gear: what is not teeth.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
@@ -18,6 +18,14 @@ pub struct BodySpec {
     pub density: f64,
     /// Material, for the drawing.
     pub material: String,
+    /// Tolerance class of the bore, ISO 286, for the drawing.
+    pub bore_fit: String,
+    /// Heat treatment, for the drawing.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub heat_treatment: String,
+    /// Accuracy class of the teeth, for the drawing.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub accuracy: String,
 }
 
 /// A keyway in the bore, along the body's x axis.
@@ -38,6 +46,9 @@ impl Default for BodySpec {
             keyway: None,
             density: 7850.0,
             material: "steel".into(),
+            bore_fit: "H7".into(),
+            heat_treatment: String::new(),
+            accuracy: String::new(),
         }
     }
 }
@@ -51,6 +62,15 @@ impl BodySpec {
         positive("width", self.width)?;
         not_negative("bore", self.bore)?;
         positive("density", self.density)?;
+        let words = [
+            ("material", &self.material),
+            ("bore_fit", &self.bore_fit),
+            ("heat_treatment", &self.heat_treatment),
+            ("accuracy", &self.accuracy),
+        ];
+        for (key, word) in words {
+            line(key, word)?;
+        }
         let Some(Keyway { width, depth }) = self.keyway else {
             return Ok(());
         };

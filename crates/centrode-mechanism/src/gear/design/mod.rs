@@ -4,9 +4,10 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::pitch::PitchSpec;
+use crate::design::DrawingSpec;
 
 mod body;
-mod rule;
+pub(crate) mod rule;
 mod teeth;
 mod tool;
 
@@ -15,7 +16,7 @@ pub use rule::{Rule, SpecError};
 pub use teeth::{Addendum, Phase, TeethSpec};
 pub use tool::{Rack, Shaper, ToolSpec};
 
-use rule::{broken, positive, within};
+use rule::{broken, line, positive, within};
 
 /// A non-circular gear pair.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
@@ -51,6 +52,9 @@ pub struct GearPairDesign {
     /// Body of the driven gear.
     #[serde(default)]
     pub driven: BodySpec,
+    /// The drawing sheets.
+    #[serde(default, skip_serializing_if = "DrawingSpec::is_default")]
+    pub drawing: DrawingSpec,
 }
 
 fn default_name() -> String {
@@ -79,6 +83,7 @@ impl GearPairDesign {
             teeth: TeethSpec::default(),
             driver: BodySpec::default(),
             driven: BodySpec::default(),
+            drawing: DrawingSpec::default(),
         }
     }
 
@@ -93,6 +98,7 @@ impl GearPairDesign {
             let name = self.name.chars().take(80).collect();
             return broken("name", Rule::Name(name));
         }
+        line("title", &self.title)?;
         let [n1, n2] = self.mean_ratio;
         within("mean_ratio", n1, 1, MOST_TURNS)?;
         within("mean_ratio", n2, 1, MOST_TURNS)?;
@@ -125,7 +131,8 @@ impl GearPairDesign {
         self.tool.validate().map_err(|e| e.inside("tool"))?;
         self.teeth.validate().map_err(|e| e.inside("teeth"))?;
         self.driver.validate().map_err(|e| e.inside("driver"))?;
-        self.driven.validate().map_err(|e| e.inside("driven"))
+        self.driven.validate().map_err(|e| e.inside("driven"))?;
+        self.drawing.validate().map_err(|e| e.inside("drawing"))
     }
 
     /// Teeth of the driver, from the pair or from its pitch curve.

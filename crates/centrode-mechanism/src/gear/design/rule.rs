@@ -41,6 +41,18 @@ pub enum Rule {
     /// A name that cannot name a file.
     #[error("must be 1 to 64 letters, digits, '-' or '_', not {0:?}")]
     Name(String),
+    /// Words that do not fit one line of a drawing.
+    #[error(
+        "must be one line of at most {most} characters, not {count} with {controls} control characters"
+    )]
+    Line {
+        /// Characters given.
+        count: usize,
+        /// Of which line ends, tabs and the like.
+        controls: usize,
+        /// Most characters allowed.
+        most: usize,
+    },
     /// A mean ratio with a common factor.
     #[error("must be in lowest terms: write {1:?} for {0:?}")]
     LowestTerms([u32; 2], [u32; 2]),
@@ -108,6 +120,22 @@ pub(crate) fn not_negative(key: &str, value: f64) -> Result<(), SpecError> {
     } else {
         broken(key, Rule::Negative(value))
     }
+}
+
+/// Words for a drawing: one line, not endless.
+pub(crate) fn line(key: &str, words: &str) -> Result<(), SpecError> {
+    const MOST: usize = 80;
+    let count = words.chars().count();
+    let controls = words.chars().filter(|c| c.is_control()).count();
+    if count <= MOST && controls == 0 {
+        return Ok(());
+    }
+    let rule = Rule::Line {
+        count,
+        controls,
+        most: MOST,
+    };
+    broken(key, rule)
 }
 
 pub(crate) fn within(key: &str, value: u32, least: u32, greatest: u32) -> Result<(), SpecError> {

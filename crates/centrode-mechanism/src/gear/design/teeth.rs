@@ -3,7 +3,7 @@ use std::fmt;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
 
-use super::rule::{Rule, SpecError, between, broken, finite, not_negative};
+use super::rule::{Rule, SpecError, between, broken, finite, not_negative, positive};
 use crate::degrees;
 
 /// The teeth of both gears.
@@ -28,6 +28,9 @@ pub struct TeethSpec {
     pub thickness_split: f64,
     /// Least width of a tooth at its tip, as a multiple of the module, before it is reported.
     pub least_tip_width_coefficient: f64,
+    /// Diameter of the measuring pins, mm; left out, a pin that touches near the pitch curve.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub pin_diameter: Option<f64>,
 }
 
 impl Default for TeethSpec {
@@ -39,6 +42,7 @@ impl Default for TeethSpec {
             backlash_angle: None,
             thickness_split: 0.5,
             least_tip_width_coefficient: 0.2,
+            pin_diameter: None,
         }
     }
 }
@@ -154,6 +158,9 @@ impl TeethSpec {
             if self.backlash != 0.0 {
                 return broken("backlash_angle_deg", Rule::Excludes("backlash"));
             }
+        }
+        if let Some(diameter) = self.pin_diameter {
+            positive("pin_diameter", diameter)?;
         }
         between("thickness_split", self.thickness_split, [0.2, 0.8], "")?;
         not_negative(

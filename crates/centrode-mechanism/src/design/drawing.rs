@@ -1,0 +1,138 @@
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::gear::design::SpecError;
+use crate::gear::design::rule::line;
+
+/// What the drawing sheets of a design say in their title block, and how they are laid out.
+///
+/// What is left empty stays empty on the sheet.
+#[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct DrawingSpec {
+    /// Drawing number; the part's name is added to it.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub number: String,
+    /// Revision.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub revision: String,
+    /// Date of issue, as it is to be printed.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub date: String,
+    /// Legal owner.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub owner: String,
+    /// Who has drawn it.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub drawn_by: String,
+    /// Who has approved it.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub approved_by: String,
+    /// Size of the sheets; left out, the smallest that takes the part.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub sheet: Option<SheetSize>,
+    /// How the views lie to each other.
+    pub projection: Projection,
+    /// General tolerances.
+    pub general_tolerance: String,
+    /// State of the edges.
+    pub edges: String,
+}
+
+/// Size of a drawing sheet, ISO 5457.
+#[derive(
+    Clone, Copy, Debug, Deserialize, Eq, JsonSchema, Ord, PartialEq, PartialOrd, Serialize,
+)]
+pub enum SheetSize {
+    /// 210 x 297 mm, upright.
+    A4,
+    /// 420 x 297 mm.
+    A3,
+    /// 594 x 420 mm.
+    A2,
+    /// 841 x 594 mm.
+    A1,
+    /// 1189 x 841 mm.
+    A0,
+}
+
+/// How the views of a part lie to each other, ISO 5456-2.
+#[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Projection {
+    /// A view stands on the far side of what it looks at: the view from the left on the right.
+    #[default]
+    FirstAngle,
+    /// A view stands on the side it is looked at from.
+    ThirdAngle,
+}
+
+impl Default for DrawingSpec {
+    fn default() -> Self {
+        Self {
+            number: String::new(),
+            revision: String::new(),
+            date: String::new(),
+            owner: String::new(),
+            drawn_by: String::new(),
+            approved_by: String::new(),
+            sheet: None,
+            projection: Projection::default(),
+            general_tolerance: "ISO 2768-mK".into(),
+            edges: "ISO 13715, -0.2 / +0.1".into(),
+        }
+    }
+}
+
+impl DrawingSpec {
+    /// Every word is one line of a drawing.
+    ///
+    /// # Errors
+    /// [`SpecError`] with the key at fault.
+    pub fn validate(&self) -> Result<(), SpecError> {
+        let words = [
+            ("number", &self.number),
+            ("revision", &self.revision),
+            ("date", &self.date),
+            ("owner", &self.owner),
+            ("drawn_by", &self.drawn_by),
+            ("approved_by", &self.approved_by),
+            ("general_tolerance", &self.general_tolerance),
+            ("edges", &self.edges),
+        ];
+        words.iter().try_for_each(|(key, word)| line(key, word))
+    }
+
+    pub(crate) fn is_default(&self) -> bool {
+        *self == Self::default()
+    }
+}
+
+impl SheetSize {
+    /// All sizes, smallest first.
+    pub const ALL: [Self; 5] = [Self::A4, Self::A3, Self::A2, Self::A1, Self::A0];
+
+    /// Width and height of the trimmed sheet, mm.
+    #[must_use]
+    pub fn size(self) -> [f64; 2] {
+        match self {
+            Self::A4 => [210.0, 297.0],
+            Self::A3 => [420.0, 297.0],
+            Self::A2 => [594.0, 420.0],
+            Self::A1 => [841.0, 594.0],
+            Self::A0 => [1189.0, 841.0],
+        }
+    }
+
+    /// Name: "A4".
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::A4 => "A4",
+            Self::A3 => "A3",
+            Self::A2 => "A2",
+            Self::A1 => "A1",
+            Self::A0 => "A0",
+        }
+    }
+}
