@@ -10,10 +10,11 @@ True
 """
 
 from . import pitch, plot
-from ._centrode import Body, Gear, GearPair, Keyway, Pitch, Rack, Shaper, __version__, template
+from ._centrode import Body, DrawingSpec, Gear, GearPair, Keyway, Pitch, Rack, Shaper, __version__, template
 from ._contact import Contact
 from ._design import load, schema
 from ._error import DesignError, Error, ExportError, GearPairError, PitchError
+from ._over_pins import OverPins
 from ._report import Finding, Place, Report
 from ._tooth import Tooth, ToothSide
 
@@ -21,6 +22,7 @@ __all__ = [
     "Body",
     "Contact",
     "DesignError",
+    "DrawingSpec",
     "Error",
     "ExportError",
     "Finding",
@@ -28,6 +30,7 @@ __all__ = [
     "GearPair",
     "GearPairError",
     "Keyway",
+    "OverPins",
     "Pitch",
     "PitchError",
     "Place",

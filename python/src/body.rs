@@ -12,6 +12,9 @@ use crate::error::of_spec;
 ///     keyway: Keyway in the bore.
 ///     density: kg/m^3.
 ///     material: For the drawing.
+///     bore_fit: Tolerance class of the bore, ISO 286, for the drawing.
+///     heat_treatment: For the drawing.
+///     accuracy: Accuracy class of the teeth, for the drawing.
 ///
 /// >>> import centrode as ct
 /// >>> ct.Body(bore=12, keyway=ct.Keyway(width=4, depth=1.8)).keyway.depth
@@ -68,13 +71,17 @@ impl Keyway {
 #[pymethods]
 impl Body {
     #[new]
-    #[pyo3(signature = (*, width=None, bore=None, keyway=None, density=None, material=None))]
+    #[pyo3(signature = (*, width=None, bore=None, keyway=None, density=None, material=None, bore_fit=None, heat_treatment="", accuracy=""))]
+    #[expect(clippy::too_many_arguments, reason = "keyword arguments")]
     fn new(
         width: Option<f64>,
         bore: Option<f64>,
         keyway: Option<PyRef<'_, Keyway>>,
         density: Option<f64>,
         material: Option<String>,
+        bore_fit: Option<String>,
+        heat_treatment: &str,
+        accuracy: &str,
     ) -> PyResult<Self> {
         let usual = spec::BodySpec::default();
         let body = spec::BodySpec {
@@ -83,6 +90,9 @@ impl Body {
             keyway: keyway.map(|k| k.0),
             density: density.unwrap_or(usual.density),
             material: material.unwrap_or(usual.material),
+            bore_fit: bore_fit.unwrap_or(usual.bore_fit),
+            heat_treatment: heat_treatment.into(),
+            accuracy: accuracy.into(),
         };
         body.validate().map_err(|e| of_spec(&e))?;
         Ok(Self(body))
@@ -118,19 +128,40 @@ impl Body {
         &self.0.material
     }
 
+    /// Tolerance class of the bore, for the drawing.
+    #[getter]
+    fn bore_fit(&self) -> &str {
+        &self.0.bore_fit
+    }
+
+    /// Heat treatment, for the drawing.
+    #[getter]
+    fn heat_treatment(&self) -> &str {
+        &self.0.heat_treatment
+    }
+
+    /// Accuracy class of the teeth, for the drawing.
+    #[getter]
+    fn accuracy(&self) -> &str {
+        &self.0.accuracy
+    }
+
     fn __repr__(&self) -> String {
         let spec::BodySpec {
             width,
             bore,
             density,
             material,
+            bore_fit,
+            heat_treatment,
+            accuracy,
             ..
         } = &self.0;
         let keyway = self
             .keyway()
             .map_or_else(|| "None".into(), |k| k.__repr__());
         format!(
-            "Body(width={width:?}, bore={bore:?}, keyway={keyway}, density={density:?}, material={material:?})"
+            "Body(width={width:?}, bore={bore:?}, keyway={keyway}, density={density:?}, material={material:?}, bore_fit={bore_fit:?}, heat_treatment={heat_treatment:?}, accuracy={accuracy:?})"
         )
     }
 
@@ -144,6 +175,9 @@ impl Body {
         keywords.set_item("keyway", self.keyway())?;
         keywords.set_item("density", self.0.density)?;
         keywords.set_item("material", &self.0.material)?;
+        keywords.set_item("bore_fit", &self.0.bore_fit)?;
+        keywords.set_item("heat_treatment", &self.0.heat_treatment)?;
+        keywords.set_item("accuracy", &self.0.accuracy)?;
         Ok((PyTuple::empty(py), keywords))
     }
 }

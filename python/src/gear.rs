@@ -4,7 +4,7 @@ use centrode_geometry::Solid;
 use centrode_mechanism::gear as mechanism;
 use centrode_mechanism::gear::Member;
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyFixedUnicode};
-use pyo3::prelude::{Bound, PyDictMethods, PyResult, Python, pyclass, pymethods};
+use pyo3::prelude::{Bound, PyAny, PyDictMethods, PyResult, Python, pyclass, pymethods};
 use pyo3::types::{PyDict, PyTuple};
 
 use crate::array::{points, rows};
@@ -81,6 +81,27 @@ impl Gear {
     #[getter]
     fn teeth<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
         record::teeth(py, self.inner().teeth())
+    }
+
+    /// A measuring pin laid into every space; the diameter (mm) is the design's, or chosen, if left out.
+    ///
+    /// >>> import centrode as ct
+    /// >>> pair = ct.GearPair(ct.pitch.circle(module=2, tooth_count=24))
+    /// >>> over = pair.driver.over_pins(diameter=3.5)
+    /// >>> print(f"{over.across[0]:.4f}")
+    /// 52.9513
+    #[pyo3(signature = (diameter=None))]
+    fn over_pins<'py>(
+        &self,
+        py: Python<'py>,
+        diameter: Option<f64>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let (pair, member) = (Arc::clone(&self.pair), self.member);
+        let over = wait(py, move || {
+            let diameter = diameter.unwrap_or_else(|| pair.pin_diameter(member));
+            pair.gear(member).over_pins(diameter)
+        })?;
+        record::over_pins(py, &over)
     }
 
     /// The toothed contour, (N, 2), mm: corners of a closed polygon, counter-clockwise.

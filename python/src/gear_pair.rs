@@ -19,6 +19,7 @@ use crate::array::{Numbers, Values, each};
 use crate::body::Body;
 use crate::count::{Count, optional};
 use crate::design::pair_of_text;
+use crate::drawing::DrawingSpec;
 use crate::error::{of_bundle, of_design, of_files, of_pair};
 use crate::format::options;
 use crate::gear::Gear;
@@ -49,8 +50,10 @@ const MOST_PER_PITCH: u32 = 10_000;
 ///     backlash_angle: Play of the driven gear at most, rad, instead of `backlash`.
 ///     thickness_split: The driver's share of the pitch.
 ///     least_tip_width_coefficient: Least width of a tooth at its tip, in modules, before it is reported.
+///     pin_diameter: Diameter of the measuring pins, mm; chosen if left out.
 ///     driver: Body of the driver.
 ///     driven: Body of the driven gear.
+///     drawing: What the drawing sheets say.
 ///     name: Short name: letters, digits, "-" and "_".
 ///     title: One line for drawings and reports.
 ///
@@ -106,7 +109,7 @@ fn body(body: Option<PyRef<'_, Body>>) -> BodySpec {
 #[pymethods]
 impl GearPair {
     #[new]
-    #[pyo3(signature = (pitch, *, mean_ratio=[Count::Fits(1), Count::Fits(1)], tooth_count=None, center_distance=None, tool=None, addendum="full", phase=Place::Auto, backlash=0.0, backlash_angle=None, thickness_split=0.5, least_tip_width_coefficient=0.2, driver=None, driven=None, name="gear-pair", title=""), text_signature = "(pitch, *, mean_ratio=(1, 1), tooth_count=None, center_distance=None, tool=None, addendum='full', phase='auto', backlash=0.0, backlash_angle=None, thickness_split=0.5, least_tip_width_coefficient=0.2, driver=None, driven=None, name='gear-pair', title='')")]
+    #[pyo3(signature = (pitch, *, mean_ratio=[Count::Fits(1), Count::Fits(1)], tooth_count=None, center_distance=None, tool=None, addendum="full", phase=Place::Auto, backlash=0.0, backlash_angle=None, thickness_split=0.5, least_tip_width_coefficient=0.2, pin_diameter=None, driver=None, driven=None, drawing=None, name="gear-pair", title=""), text_signature = "(pitch, *, mean_ratio=(1, 1), tooth_count=None, center_distance=None, tool=None, addendum='full', phase='auto', backlash=0.0, backlash_angle=None, thickness_split=0.5, least_tip_width_coefficient=0.2, pin_diameter=None, driver=None, driven=None, drawing=None, name='gear-pair', title='')")]
     #[expect(clippy::too_many_arguments, reason = "keyword arguments")]
     fn new(
         py: Python<'_>,
@@ -121,8 +124,10 @@ impl GearPair {
         backlash_angle: Option<f64>,
         thickness_split: f64,
         least_tip_width_coefficient: f64,
+        pin_diameter: Option<f64>,
         driver: Option<PyRef<'_, Body>>,
         driven: Option<PyRef<'_, Body>>,
+        drawing: Option<PyRef<'_, DrawingSpec>>,
         name: &str,
         title: &str,
     ) -> PyResult<Self> {
@@ -145,9 +150,11 @@ impl GearPair {
                 backlash_angle,
                 thickness_split,
                 least_tip_width_coefficient,
+                pin_diameter,
             },
             driver: body(driver),
             driven: body(driven),
+            drawing: drawing.map(|d| d.0.clone()).unwrap_or_default(),
         };
         let design = Arc::new(design);
         let ours = Arc::clone(&design);
@@ -233,6 +240,12 @@ impl GearPair {
     #[getter]
     fn phase(&self) -> f64 {
         self.pair.phase()
+    }
+
+    /// What the drawing sheets say.
+    #[getter]
+    fn drawing(&self) -> DrawingSpec {
+        DrawingSpec(self.pair.drawing().clone())
     }
 
     /// Play along the common normal, mm.

@@ -6,6 +6,7 @@ mod array;
 mod body;
 mod count;
 mod design;
+mod drawing;
 mod error;
 mod format;
 mod gear;
@@ -25,6 +26,8 @@ mod _centrode {
     use crate::body::{Body, Keyway};
     #[pymodule_export]
     use crate::design::{_load, _schema, template};
+    #[pymodule_export]
+    use crate::drawing::DrawingSpec;
     #[pymodule_export]
     use crate::gear::Gear;
     #[pymodule_export]

@@ -1,8 +1,8 @@
 //! Results of many parts, handed over as the records of the Python part of the package.
 
 use centrode_analysis::{Contact, Finding, Report, Severity};
-use centrode_mechanism::gear::{Tooth, ToothSide};
-use numpy::IntoPyArray;
+use centrode_mechanism::gear::{OverPins, Pin, Tooth, ToothSide};
+use numpy::{IntoPyArray, PyArrayMethods};
 use pyo3::prelude::{Bound, IntoPyObject, Py, PyAny, PyAnyMethods, PyResult, Python};
 use pyo3::sync::PyOnceLock;
 use pyo3::types::{PyDict, PyDictMethods, PyTuple, PyType};
@@ -108,6 +108,45 @@ pub(crate) fn contact(py: Python<'_>, contact: Contact) -> PyResult<Bound<'_, Py
     ] {
         keywords = keywords.with(name, values.into_pyarray(py))?;
     }
+    CLASS.make(&keywords.0)
+}
+
+/// Pins in the spaces of a gear.
+pub(crate) fn over_pins<'py>(py: Python<'py>, over: &OverPins) -> PyResult<Bound<'py, PyAny>> {
+    static CLASS: Class = Class::new("centrode._over_pins", "OverPins");
+    let rows = over.pins.len();
+    let coordinates = |of: &dyn Fn(&Pin) -> Vec<f64>, width: usize| -> Vec<f64> {
+        let unknown = || vec![f64::NAN; width];
+        let each = over
+            .pins
+            .iter()
+            .map(|p| p.as_ref().map_or_else(|_| unknown(), of));
+        each.flatten().collect()
+    };
+    let center = coordinates(&|p| p.center.coords.as_slice().to_vec(), 2);
+    let contacts = coordinates(&|p| p.contacts.iter().flat_map(|c| [c.x, c.y]).collect(), 4);
+    let radial = coordinates(&|p| vec![p.radial], 1);
+    let across: Vec<Option<(usize, f64)>> = (0..rows).map(|k| over.across(k)).collect();
+    let partner = across.iter().map(|a| a.map_or(-1, |(j, _)| j as i64));
+    let faults = over
+        .pins
+        .iter()
+        .map(|p| p.err().map(|fault| fault.to_string()));
+    let keywords = Keywords::new(py)
+        .with("diameter", over.diameter)?
+        .with("center", center.into_pyarray(py).reshape([rows, 2])?)?
+        .with("contacts", contacts.into_pyarray(py).reshape([rows, 2, 2])?)?
+        .with("radial", radial.into_pyarray(py))?
+        .with("partner", partner.collect::<Vec<i64>>().into_pyarray(py))?
+        .with(
+            "across",
+            across
+                .iter()
+                .map(|a| a.map_or(f64::NAN, |(_, measure)| measure))
+                .collect::<Vec<f64>>()
+                .into_pyarray(py),
+        )?
+        .with("faults", PyTuple::new(py, faults.collect::<Vec<_>>())?)?;
     CLASS.make(&keywords.0)
 }
 

@@ -98,7 +98,7 @@ pub(crate) enum File {
     /// Solids with their unit, for printing
     #[value(name = "3mf")]
     ThreeMf,
-    /// Points of the outlines, and the motion
+    /// Points of the outlines, measures over pins, and the motion
     Csv,
     /// Simulator model, with its solids and motion
     Urdf,

@@ -3,6 +3,7 @@
 mod format;
 mod motion;
 mod outline;
+mod pins;
 mod sheet;
 mod simulator;
 mod solid;
@@ -133,6 +134,8 @@ pub fn files(
         for member in [Member::Driver, Member::Driven] {
             let table = outline::columns(pair.gear(member), options.tolerance);
             bundle.add(&format!("{}.csv", member.name()), csv::write(&table)?)?;
+            let table = pins::columns(pair, member);
+            bundle.add(&format!("{}-pins.csv", member.name()), csv::write(&table)?)?;
         }
     }
     if wanted(Format::Csv) || simulated {
@@ -287,7 +290,9 @@ mod tests {
             "driven.stl",
             "driven.3mf",
             "driver.csv",
+            "driver-pins.csv",
             "driven.csv",
+            "driven-pins.csv",
             "motion.csv",
             "motion.json",
             "pair.urdf",

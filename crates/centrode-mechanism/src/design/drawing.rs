@@ -108,6 +108,17 @@ impl DrawingSpec {
     }
 }
 
+impl Projection {
+    /// Name, as written in the design.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::FirstAngle => "first-angle",
+            Self::ThirdAngle => "third-angle",
+        }
+    }
+}
+
 impl SheetSize {
     /// All sizes, smallest first.
     pub const ALL: [Self; 5] = [Self::A4, Self::A3, Self::A2, Self::A1, Self::A0];

@@ -117,7 +117,7 @@ impl Gear {
         let mut flanks: Vec<[Vec<&Segment>; 2]> = vec![Default::default(); teeth];
         let segments = self.outline().segments();
         let count = segments.len();
-        for k in 0..teeth {
+        for (k, sides) in flanks.iter_mut().enumerate() {
             // The segments of one tooth stand together: from the first that does not follow one of its own.
             let own = |i: usize| self.owners()[i % count] as usize == k;
             let Some(first) = (0..count).find(|&i| own(i) && !own(i + count - 1)) else {
@@ -130,7 +130,7 @@ impl Gear {
             let crest = crest(&run, segments, self.roles());
             for (place, &i) in run.iter().enumerate() {
                 if self.roles()[i] == Role::Flank {
-                    flanks[k][usize::from(place >= crest)].push(&segments[i]);
+                    sides[usize::from(place >= crest)].push(&segments[i]);
                 }
             }
         }

@@ -7,15 +7,17 @@ use std::process::{Command, Stdio};
 
 use crate::{centrode, fed, shipped, text};
 
-const ALL: [&str; 21] = [
+const ALL: [&str; 23] = [
     "assembly.dxf",
     "assembly.svg",
+    "driven-pins.csv",
     "driven.3mf",
     "driven.csv",
     "driven.dxf",
     "driven.step",
     "driven.stl",
     "driven.svg",
+    "driver-pins.csv",
     "driver.3mf",
     "driver.csv",
     "driver.dxf",
@@ -110,7 +112,14 @@ fn the_kinds_asked_for_and_no_others_are_written() {
         ),
         (
             "csv,csv",
-            &["driven.csv", "driver.csv", "motion.csv", "motion.json"],
+            &[
+                "driven-pins.csv",
+                "driven.csv",
+                "driver-pins.csv",
+                "driver.csv",
+                "motion.csv",
+                "motion.json",
+            ],
         ),
         (
             "step,3mf",

@@ -1,0 +1,55 @@
+use crate::csv::Column;
+use centrode_mechanism::gear::{GearPair, Member, Pin};
+
+/// Measuring pins, a row a tooth space: where the pin lies, and the measures over it. Cells of a space
+/// that cannot be measured are empty, and the last column says why.
+pub(super) fn columns(pair: &GearPair, member: Member) -> Vec<Column> {
+    let over = pair.gear(member).over_pins(pair.pin_diameter(member));
+    let cells = |figure: &dyn Fn(&Pin) -> f64| -> Vec<String> {
+        let each = over.pins.iter();
+        each.map(|pin| {
+            pin.as_ref()
+                .map_or_else(|_| String::new(), |p| figure(p).to_string())
+        })
+        .collect()
+    };
+    let across: Vec<Option<(usize, f64)>> = (0..over.pins.len()).map(|k| over.across(k)).collect();
+    let spaces = 0..over.pins.len();
+    vec![
+        Column::words("space", spaces.clone().map(|k| k.to_string())),
+        Column::numbers("pin_diameter_mm", spaces.map(|_| over.diameter)),
+        Column::words("pin_x_mm", cells(&|p| p.center.x)),
+        Column::words("pin_y_mm", cells(&|p| p.center.y)),
+        Column::words("pin_radius_mm", cells(&|p| p.center.coords.norm())),
+        Column::words("pin_angle_deg", cells(&|p| angle_deg(p))),
+        Column::words("axis_to_far_side_mm", cells(&|p| p.radial)),
+        Column::words(
+            "opposite_space",
+            across
+                .iter()
+                .map(|a| a.map_or_else(String::new, |(j, _)| j.to_string())),
+        ),
+        Column::words(
+            "over_two_pins_mm",
+            across
+                .iter()
+                .map(|a| a.map_or_else(String::new, |(_, m)| m.to_string())),
+        ),
+        Column::words(
+            "remark",
+            over.pins.iter().map(|pin| match pin {
+                Ok(_) => String::new(),
+                Err(fault) => fault.to_string().replace([',', '"'], ";"),
+            }),
+        ),
+    ]
+}
+
+/// Polar angle of a pin's center, 0 to 360 deg.
+fn angle_deg(pin: &Pin) -> f64 {
+    pin.center
+        .y
+        .atan2(pin.center.x)
+        .to_degrees()
+        .rem_euclid(360.0)
+}
