@@ -1,0 +1,205 @@
+//! Motion laws: how a follower gets from rest at 0 to rest at 1 while its input goes from 0 to 1.
+//!
+//! Names and characteristic values as in VDI 2143 part 1 (1980); the German name stands beside each.
+
+use std::fmt;
+use std::sync::Arc;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+mod constant_velocity;
+mod cycloidal;
+mod harmonic;
+mod modified_sine;
+mod modified_trapezoid;
+mod parabolic;
+mod polynomial;
+mod polynomial_345;
+mod polynomial_4567;
+mod sine_cosine;
+
+pub use polynomial::Polynomial;
+
+use crate::formula::Taylor;
+use crate::gear::design::SpecError;
+use crate::transmission::MotionJet;
+
+use super::extreme::{Extreme, greatest};
+
+/// A motion law as written: one of the kinds, by the key `kind`.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
+#[serde(tag = "kind", rename_all = "kebab-case")]
+#[non_exhaustive]
+pub enum LawSpec {
+    /// Straight line: no acceleration inside, a jump of velocity at rest.
+    ConstantVelocity,
+    /// Two parabolas: the least peak acceleration there is, with jumps of it.
+    Parabolic,
+    /// Half a cosine wave: acceleration jumps at rest.
+    Harmonic,
+    /// Inclined sine: one sine wave of acceleration.
+    #[default]
+    Cycloidal,
+    /// Sine of two lengths: low peak velocity and torque.
+    ModifiedSine,
+    /// Trapezoid of acceleration with sine ramps: low peak acceleration.
+    ModifiedTrapezoid,
+    /// Polynomial of fifth degree with no velocity and acceleration at both ends.
+    #[serde(rename = "polynomial-345")]
+    Polynomial345,
+    /// Polynomial of seventh degree with no velocity, acceleration and jerk at both ends.
+    #[serde(rename = "polynomial-4567")]
+    Polynomial4567,
+    /// Polynomial with the derivatives asked for at both ends.
+    Polynomial(Polynomial),
+}
+
+impl LawSpec {
+    /// The kinds without figures of their own, by the name they have in a file.
+    pub const NAMED: [(&'static str, Self); 8] = [
+        ("constant-velocity", Self::ConstantVelocity),
+        ("parabolic", Self::Parabolic),
+        ("harmonic", Self::Harmonic),
+        ("cycloidal", Self::Cycloidal),
+        ("modified-sine", Self::ModifiedSine),
+        ("modified-trapezoid", Self::ModifiedTrapezoid),
+        ("polynomial-345", Self::Polynomial345),
+        ("polynomial-4567", Self::Polynomial4567),
+    ];
+
+    /// The law of that name.
+    #[must_use]
+    pub fn named(name: &str) -> Option<Self> {
+        let found = Self::NAMED.into_iter().find(|(known, _)| *known == name);
+        found.map(|(_, law)| law)
+    }
+
+    /// The name of the kind, as in a file.
+    #[must_use]
+    pub fn name(&self) -> &'static str {
+        let found = Self::NAMED.iter().find(|(_, law)| law == self);
+        found.map_or("polynomial", |(name, _)| name)
+    }
+
+    /// The rules of a law's own figures.
+    ///
+    /// # Errors
+    /// [`SpecError`] with the key at fault.
+    pub fn validate(&self) -> Result<(), SpecError> {
+        match self {
+            Self::Polynomial(polynomial) => polynomial.validate(),
+            _ => Ok(()),
+        }
+    }
+
+    /// The law, ready to be evaluated.
+    ///
+    /// # Errors
+    /// [`SpecError`] with the key at fault.
+    pub fn resolve(&self) -> Result<Law, SpecError> {
+        self.validate()?;
+        let form: Arc<dyn Form> = match self {
+            Self::ConstantVelocity => Arc::new(constant_velocity::ConstantVelocity),
+            Self::Parabolic => Arc::new(parabolic::parabolic()),
+            Self::Harmonic => Arc::new(harmonic::Harmonic),
+            Self::Cycloidal => Arc::new(cycloidal::Cycloidal),
+            Self::ModifiedSine => Arc::new(modified_sine::modified_sine()),
+            Self::ModifiedTrapezoid => Arc::new(modified_trapezoid::modified_trapezoid()),
+            Self::Polynomial345 => Arc::new(polynomial_345::Polynomial345),
+            Self::Polynomial4567 => Arc::new(polynomial_4567::Polynomial4567),
+            Self::Polynomial(polynomial) => Arc::new(polynomial.coefficients()),
+        };
+        let name = self.name();
+        Ok(Law { form, name })
+    }
+}
+
+/// A law's own formula.
+trait Form: fmt::Debug + Send + Sync {
+    /// The law of a series: the law's derivatives are exact by the rules of Taylor arithmetic.
+    fn of(&self, x: Taylor) -> Taylor;
+
+    /// Places inside (0, 1) where a derivative jumps, ascending.
+    fn breaks(&self) -> Vec<f64> {
+        Vec::new()
+    }
+
+    /// Whether the acceleration jumps at one of them.
+    fn jerks(&self) -> bool {
+        false
+    }
+}
+
+/// A normalised motion law `s(x)`: `s(0) = 0`, `s(1) = 1`.
+#[derive(Clone, Debug)]
+pub struct Law {
+    form: Arc<dyn Form>,
+    name: &'static str,
+}
+
+/// How hard a law is on a machine: peaks of its derivatives.
+///
+/// A follower with the lift h over the cam angle B has the peak velocity `Cv h / B`, the peak
+/// acceleration `Ca h / B^2` and the peak jerk `Cj h / B^3` per radian of cam angle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CharacteristicValues {
+    /// `Cv`, greatest |s'|: also the static torque for a constant load.
+    pub velocity: f64,
+    /// `Ca`, greatest |s''|.
+    pub acceleration: f64,
+    /// `Cj`, greatest |s'''| inside the law; infinite where the acceleration jumps there.
+    pub jerk: f64,
+    /// `CM`, greatest |s' s''|: the dynamic torque of a mass.
+    pub torque: f64,
+}
+
+impl Law {
+    /// The name of the kind, as in a file.
+    #[must_use]
+    pub fn name(&self) -> &'static str {
+        self.name
+    }
+
+    /// The law and its first three derivatives at `x`, meant for 0 to 1.
+    #[must_use]
+    pub fn at(&self, x: f64) -> MotionJet {
+        MotionJet::of(&self.form.of(Taylor::variable(x)))
+    }
+
+    /// Places inside (0, 1) where a derivative jumps, ascending.
+    #[must_use]
+    pub fn breaks(&self) -> Vec<f64> {
+        self.form.breaks()
+    }
+
+    /// Peaks of the derivatives, to the float limit.
+    #[must_use]
+    pub fn characteristic_values(&self) -> CharacteristicValues {
+        let mut ends = vec![0.0];
+        ends.extend(self.breaks());
+        ends.push(1.0);
+        let peak = |of: &dyn Fn(MotionJet) -> f64| -> f64 {
+            let Extreme { value, .. } = greatest(|x| of(self.at(x)).abs(), &ends);
+            value
+        };
+        CharacteristicValues {
+            velocity: peak(&|s| s.velocity),
+            acceleration: peak(&|s| s.acceleration),
+            jerk: if self.form.jerks() {
+                f64::INFINITY
+            } else {
+                peak(&|s| s.jerk)
+            },
+            torque: peak(&|s| s.velocity * s.acceleration),
+        }
+    }
+
+    /// The law of a series.
+    pub(super) fn of(&self, x: Taylor) -> Taylor {
+        self.form.of(x)
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,373 @@
+//! What every joint follows: its position as a function of the machine's input.
+
+use std::fmt;
+use std::sync::Arc;
+
+use centrode_geometry::bracketed_root;
+
+use crate::formula::Taylor;
+
+/// A position and its first three derivatives with respect to the input.
+///
+/// For an input in radians the velocity is mm/rad or rad/rad, whatever the speed of the shaft: times
+/// the shaft's speed (rad/s) once, twice and three times it is velocity, acceleration and jerk by time.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct MotionJet {
+    /// Position: mm of a slide, rad of a turning joint.
+    pub position: f64,
+    /// First derivative.
+    pub velocity: f64,
+    /// Second derivative.
+    pub acceleration: f64,
+    /// Third derivative.
+    pub jerk: f64,
+}
+
+impl MotionJet {
+    /// The jet of this motion's output read as a function of what its input is a function of.
+    ///
+    /// `self` is f at g(t), `inner` is g at t: the result is f(g(t)), by the chain rule to third order.
+    #[must_use]
+    pub fn after(&self, inner: &Self) -> Self {
+        let (g1, g2, g3) = (inner.velocity, inner.acceleration, inner.jerk);
+        Self {
+            position: self.position,
+            velocity: self.velocity * g1,
+            acceleration: self.acceleration * g1 * g1 + self.velocity * g2,
+            jerk: self.jerk * g1 * g1 * g1 + 3.0 * self.acceleration * g1 * g2 + self.velocity * g3,
+        }
+    }
+
+    /// The jet of the inverse function at `self.position`, whose value there is `input`.
+    ///
+    /// Not finite where the velocity is zero.
+    #[must_use]
+    pub fn inverse(&self, input: f64) -> Self {
+        let (g1, g2, g3) = (self.velocity, self.acceleration, self.jerk);
+        Self {
+            position: input,
+            velocity: 1.0 / g1,
+            acceleration: -g2 / (g1 * g1 * g1),
+            jerk: (3.0 * g2 * g2 - g1 * g3) / g1.powi(5),
+        }
+    }
+
+    pub(crate) fn of(series: &Taylor) -> Self {
+        let [position, velocity, acceleration, jerk] = series.derivatives();
+        Self {
+            position,
+            velocity,
+            acceleration,
+            jerk,
+        }
+    }
+
+    /// The series of this jet; its last coefficient is not known and left zero.
+    pub(crate) fn series(&self) -> Taylor {
+        Taylor([
+            self.position,
+            self.velocity,
+            0.5 * self.acceleration,
+            self.jerk / 6.0,
+            0.0,
+        ])
+    }
+}
+
+/// A joint's position as a function of the machine's input.
+///
+/// `at(input + period)` is `at(input)` with `advance` added to the position. Between two neighbouring
+/// [`breaks`](Self::breaks) the function is analytic; at a break the jet is the limit from the right.
+pub trait Transmission: fmt::Debug + Send + Sync {
+    /// Position and derivatives at any input.
+    fn at(&self, input: f64) -> MotionJet;
+
+    /// Input after which the motion repeats.
+    fn period(&self) -> f64 {
+        std::f64::consts::TAU
+    }
+
+    /// How much the position has grown after one period: zero for what comes back.
+    fn advance(&self) -> f64 {
+        0.0
+    }
+
+    /// Inputs in `[0, period)` where a derivative may jump, ascending.
+    fn breaks(&self) -> Vec<f64> {
+        Vec::new()
+    }
+}
+
+/// A transmission given by a function.
+pub struct FromFn<F> {
+    function: F,
+    period: f64,
+    advance: f64,
+    breaks: Vec<f64>,
+}
+
+impl<F: Fn(f64) -> MotionJet + Send + Sync> FromFn<F> {
+    /// The transmission of `function`, which must repeat with `period` up to `advance`.
+    #[must_use]
+    pub fn new(period: f64, advance: f64, breaks: Vec<f64>, function: F) -> Self {
+        Self {
+            function,
+            period,
+            advance,
+            breaks,
+        }
+    }
+}
+
+impl<F> fmt::Debug for FromFn<F> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("FromFn")
+            .field("period", &self.period)
+            .field("advance", &self.advance)
+            .field("breaks", &self.breaks)
+            .finish_non_exhaustive()
+    }
+}
+
+impl<F: Fn(f64) -> MotionJet + Send + Sync> Transmission for FromFn<F> {
+    fn at(&self, input: f64) -> MotionJet {
+        (self.function)(input)
+    }
+
+    fn period(&self) -> f64 {
+        self.period
+    }
+
+    fn advance(&self) -> f64 {
+        self.advance
+    }
+
+    fn breaks(&self) -> Vec<f64> {
+        self.breaks.clone()
+    }
+}
+
+/// One transmission driven by another: `outer` of `inner`.
+#[derive(Clone, Debug)]
+pub struct Chain {
+    inner: Arc<dyn Transmission>,
+    outer: Arc<dyn Transmission>,
+}
+
+impl Chain {
+    /// Both must fit: what `inner` advances in its period is the period of `outer`.
+    ///
+    /// # Errors
+    /// [`TransmissionError::Periods`] where it is not.
+    pub fn new(
+        outer: Arc<dyn Transmission>,
+        inner: Arc<dyn Transmission>,
+    ) -> Result<Self, TransmissionError> {
+        let (advance, period) = (inner.advance().abs(), outer.period());
+        if (advance - period).abs() <= 1e-9 * period {
+            Ok(Self { inner, outer })
+        } else {
+            Err(TransmissionError::Periods { advance, period })
+        }
+    }
+}
+
+impl Transmission for Chain {
+    fn at(&self, input: f64) -> MotionJet {
+        let inner = self.inner.at(input);
+        self.outer.at(inner.position).after(&inner)
+    }
+
+    fn period(&self) -> f64 {
+        self.inner.period()
+    }
+
+    fn advance(&self) -> f64 {
+        self.outer.advance().copysign(self.inner.advance())
+    }
+
+    fn breaks(&self) -> Vec<f64> {
+        let period = self.inner.period();
+        let start = self.inner.at(0.0).position;
+        let end = start + self.inner.advance();
+        let outer = self.outer.breaks().into_iter().map(|b| {
+            // The one of the outer function's repeated breaks that the period meets.
+            let low = start.min(end);
+            let position = low + (b - low).rem_euclid(self.outer.period());
+            root(self.inner.as_ref(), position, 0.0, period).rem_euclid(period)
+        });
+        sorted(self.inner.breaks().into_iter().chain(outer), period)
+    }
+}
+
+/// The input as a function of the position of a transmission that never stands still.
+#[derive(Clone, Debug)]
+pub struct Inverse {
+    of: Arc<dyn Transmission>,
+    start: f64,
+}
+
+impl Inverse {
+    /// The inverse of a transmission that runs one way.
+    ///
+    /// # Errors
+    /// [`TransmissionError::StandsStill`] where its velocity is zero or against its advance, looked for
+    /// at a thousand inputs and at its breaks.
+    pub fn new(of: Arc<dyn Transmission>) -> Result<Self, TransmissionError> {
+        const LOOKS: u32 = 1000;
+        let (period, way) = (of.period(), of.advance().signum());
+        let even = (0..LOOKS).map(|i| period * f64::from(i) / f64::from(LOOKS));
+        for input in even.chain(of.breaks()) {
+            let velocity = of.at(input).velocity;
+            if of.advance() == 0.0 || velocity * way <= 0.0 || velocity.is_nan() {
+                return Err(TransmissionError::StandsStill { input, velocity });
+            }
+        }
+        let start = of.at(0.0).position;
+        Ok(Self { of, start })
+    }
+}
+
+impl Transmission for Inverse {
+    fn at(&self, position: f64) -> MotionJet {
+        let (period, advance) = (self.of.period(), self.of.advance());
+        let turns = ((position - self.start) / advance).floor();
+        let input = root(self.of.as_ref(), position - turns * advance, 0.0, period);
+        self.of.at(input).inverse(input + turns * period)
+    }
+
+    fn period(&self) -> f64 {
+        self.of.advance().abs()
+    }
+
+    fn advance(&self) -> f64 {
+        self.of.period().copysign(self.of.advance())
+    }
+
+    fn breaks(&self) -> Vec<f64> {
+        let period = self.period();
+        let breaks = self.of.breaks().into_iter();
+        sorted(
+            breaks.map(|b| self.of.at(b).position.rem_euclid(period)),
+            period,
+        )
+    }
+}
+
+/// Input in `[low, high]` at which a monotone transmission has a position; the nearer end where none.
+fn root(of: &dyn Transmission, position: f64, low: f64, high: f64) -> f64 {
+    let off = |input: f64| of.at(input).position - position;
+    let (at_low, at_high) = (off(low), off(high));
+    if at_low * at_high > 0.0 {
+        return if at_low.abs() < at_high.abs() {
+            low
+        } else {
+            high
+        };
+    }
+    bracketed_root(off, low, high, at_low, at_high)
+}
+
+/// Ascending, without those that differ by rounding only.
+fn sorted(breaks: impl Iterator<Item = f64>, period: f64) -> Vec<f64> {
+    let mut breaks: Vec<f64> = breaks.collect();
+    breaks.sort_by(f64::total_cmp);
+    breaks.dedup_by(|b, a| *b - *a <= 1e-12 * period);
+    if breaks.len() > 1 && breaks[0] + period - breaks[breaks.len() - 1] <= 1e-12 * period {
+        breaks.pop();
+    }
+    breaks
+}
+
+/// Why transmissions do not go together.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum TransmissionError {
+    /// The driving one does not run through whole cycles of the driven one.
+    #[error(
+        "a cycle of the driving motion advances it by {advance}, but the driven one repeats after {period}"
+    )]
+    Periods {
+        /// What the driving one advances in a period.
+        advance: f64,
+        /// Period of the driven one.
+        period: f64,
+    },
+    /// A motion that must run one way stands still or runs back.
+    #[error("the motion must run one way, but at the input {input} rad its velocity is {velocity}")]
+    StandsStill {
+        /// Where.
+        input: f64,
+        /// The velocity there.
+        velocity: f64,
+    },
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::TAU;
+
+    /// t + 0.3 sin t, and its mirror image.
+    fn wavy(sign: f64) -> Arc<dyn Transmission> {
+        Arc::new(FromFn::new(TAU, sign * TAU, vec![1.0], move |t: f64| {
+            MotionJet {
+                position: sign * (0.2 + t + 0.3 * t.sin()),
+                velocity: sign * (1.0 + 0.3 * t.cos()),
+                acceleration: -sign * 0.3 * t.sin(),
+                jerk: -sign * 0.3 * t.cos(),
+            }
+        }))
+    }
+
+    fn close(a: &MotionJet, b: &MotionJet) {
+        for (x, y) in [
+            (a.position, b.position),
+            (a.velocity, b.velocity),
+            (a.acceleration, b.acceleration),
+            (a.jerk, b.jerk),
+        ] {
+            assert!((x - y).abs() < 1e-12 * (1.0 + x.abs()), "{a:?} {b:?}");
+        }
+    }
+
+    #[test]
+    fn an_inverse_undoes_either_way_round() {
+        for sign in [1.0, -1.0] {
+            let law = wavy(sign);
+            let inverse: Arc<dyn Transmission> =
+                Arc::new(Inverse::new(law.clone()).expect("monotone"));
+            let there_and_back = Chain::new(inverse, law).expect("fits");
+            for i in -20..=20 {
+                let t = 0.7 * f64::from(i);
+                let expected = MotionJet {
+                    position: t,
+                    velocity: 1.0,
+                    acceleration: 0.0,
+                    jerk: 0.0,
+                };
+                close(&there_and_back.at(t), &expected);
+            }
+            assert_eq!(there_and_back.breaks().len(), 1);
+            assert!((there_and_back.breaks()[0] - 1.0).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn what_does_not_fit_or_stands_still_is_refused() {
+        let half = Arc::new(FromFn::new(TAU, 0.5, vec![], |t: f64| MotionJet {
+            position: t.sin() + 0.5 * t / TAU,
+            velocity: t.cos() + 0.5 / TAU,
+            acceleration: -t.sin(),
+            jerk: -t.cos(),
+        }));
+        assert!(matches!(
+            Chain::new(wavy(1.0), half.clone()),
+            Err(TransmissionError::Periods { .. })
+        ));
+        assert!(matches!(
+            Inverse::new(half),
+            Err(TransmissionError::StandsStill { .. })
+        ));
+    }
+}
