@@ -1,6 +1,8 @@
 use std::f64::consts::{PI, TAU};
 
-use centrode_geometry::{Arc, Outline, Point, Segment, Spline, Tolerance};
+use centrode_geometry::{Outline, Segment, Spline, Tolerance};
+
+use crate::bore;
 
 use crate::design::DrawingSpec;
 
@@ -383,10 +385,7 @@ impl Gear {
             teeth,
             body,
         };
-        let keyway = gear.body.keyway.map_or(0.0, |k| {
-            (0.5 * gear.body.bore + k.depth).hypot(0.5 * k.width)
-        });
-        let reach = keyway.max(0.5 * gear.body.bore);
+        let reach = bore::reach(&gear.body);
         let (root, _) = gear.radii();
         if reach >= root {
             return Err(GearPairError::Bore {
@@ -469,48 +468,7 @@ impl Gear {
     /// The bore with its keyway, counter-clockwise; `None` for a gear without one.
     #[must_use]
     pub fn bore(&self) -> Option<Outline> {
-        let radius = 0.5 * self.body.bore;
-        if radius <= 0.0 {
-            return None;
-        }
-        let segments = match self.body.keyway {
-            None => {
-                let (east, west) = (Point::new(radius, 0.0), Point::new(-radius, 0.0));
-                let half = |start, end| {
-                    Segment::Arc(Arc {
-                        start,
-                        end,
-                        bulge: 1.0,
-                    })
-                };
-                vec![half(east, west), half(west, east)]
-            }
-            Some(key) => {
-                let half = 0.5 * key.width;
-                let foot = (radius * radius - half * half).max(0.0).sqrt();
-                let top = radius + key.depth;
-                let west = Point::new(-radius, 0.0);
-                let corner = |x: f64, y: f64| Point::new(x, y);
-                let (start, end) = (corner(foot, half), corner(foot, -half));
-                let quarter = (0.25 * (PI - half.atan2(foot))).tan();
-                vec![
-                    Segment::Arc(Arc {
-                        start,
-                        end: west,
-                        bulge: quarter,
-                    }),
-                    Segment::Arc(Arc {
-                        start: west,
-                        end,
-                        bulge: quarter,
-                    }),
-                    Segment::Line(end, corner(top, -half)),
-                    Segment::Line(corner(top, -half), corner(top, half)),
-                    Segment::Line(corner(top, half), start),
-                ]
-            }
-        };
-        Outline::new(segments).ok()
+        bore::outline(&self.body)
     }
 }
 

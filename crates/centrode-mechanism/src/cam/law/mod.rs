@@ -6,7 +6,8 @@ use std::fmt;
 use std::sync::Arc;
 
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer, Serialize};
 
 mod constant_velocity;
 mod cycloidal;
@@ -19,6 +20,7 @@ mod polynomial_345;
 mod polynomial_4567;
 mod sine_cosine;
 
+pub(super) use polynomial::Coefficients;
 pub use polynomial::Polynomial;
 
 use crate::formula::Taylor;
@@ -28,7 +30,7 @@ use crate::transmission::MotionJet;
 use super::extreme::{Extreme, greatest};
 
 /// A motion law as written: one of the kinds, by the key `kind`.
-#[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, JsonSchema, PartialEq, Serialize)]
 #[serde(tag = "kind", rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum LawSpec {
@@ -66,6 +68,19 @@ impl LawSpec {
         ("modified-trapezoid", Self::ModifiedTrapezoid),
         ("polynomial-345", Self::Polynomial345),
         ("polynomial-4567", Self::Polynomial4567),
+    ];
+
+    /// Every `kind`.
+    const KINDS: &'static [&'static str] = &[
+        "constant-velocity",
+        "parabolic",
+        "harmonic",
+        "cycloidal",
+        "modified-sine",
+        "modified-trapezoid",
+        "polynomial-345",
+        "polynomial-4567",
+        "polynomial",
     ];
 
     /// The law of that name.
@@ -112,6 +127,34 @@ impl LawSpec {
         };
         let name = self.name();
         Ok(Law { form, name })
+    }
+}
+
+/// What may stand beside `kind`; a derived reader would look over stray keys beside the plain kinds.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Written {
+    kind: String,
+    start: Option<Vec<f64>>,
+    end: Option<Vec<f64>>,
+}
+
+impl<'de> Deserialize<'de> for LawSpec {
+    fn deserialize<D: Deserializer<'de>>(d: D) -> Result<Self, D::Error> {
+        const POLYNOMIAL: &str = "polynomial";
+        let Written { kind, start, end } = Written::deserialize(d)?;
+        if kind == POLYNOMIAL {
+            return Ok(Self::Polynomial(Polynomial {
+                start: start.unwrap_or_default(),
+                end: end.unwrap_or_default(),
+            }));
+        }
+        let stray = start.map(|_| "start").or(end.map(|_| "end"));
+        match (Self::named(&kind), stray) {
+            (Some(law), None) => Ok(law),
+            (Some(_), Some(key)) => Err(D::Error::unknown_field(key, &["kind"])),
+            (None, _) => Err(D::Error::unknown_variant(&kind, Self::KINDS)),
+        }
     }
 }
 

@@ -184,3 +184,11 @@ fn laws_read_and_write_as_in_a_file() {
     assert_eq!(law.name(), "polynomial");
     assert!(toml::from_str::<LawSpec>("kind = \"polynomial\"\nmiddle = 1").is_err());
 }
+
+#[test]
+fn a_key_that_means_nothing_is_refused_beside_any_kind() {
+    for (name, _) in LawSpec::NAMED {
+        let text = format!("kind = \"{name}\"\nmiddle = 1");
+        assert!(toml::from_str::<LawSpec>(&text).is_err(), "{name}");
+    }
+}

@@ -38,6 +38,12 @@ pub enum Rule {
     /// Two keys that exclude each other.
     #[error("cannot be given together with {0}")]
     Excludes(&'static str),
+    /// None of several keys one of which is needed.
+    #[error("is missing: give one of {0}")]
+    NeedsOneOf(&'static str),
+    /// Strokes of another kind than the follower makes.
+    #[error("needs {0} in every segment, for this follower")]
+    Stroke(&'static str),
     /// A name that cannot name a file.
     #[error("must be 1 to 64 letters, digits, '-' or '_', not {0:?}")]
     Name(String),

@@ -1,0 +1,454 @@
+//! A cycle of segments as one periodic motion.
+
+use std::f64::consts::TAU;
+
+use thiserror::Error;
+
+use super::design::{MotionSpec, SegmentSpec};
+use super::extreme::{Extreme, greatest};
+use super::law::{Coefficients, Law};
+use crate::formula::Taylor;
+use crate::gear::design::SpecError;
+use crate::transmission::{MotionJet, Transmission};
+
+/// Share of a whole turn, or of the greatest stroke or velocity, that sums of written figures may miss.
+const ROUNDING: f64 = 1e-9;
+
+/// What a follower does in one turn of the cam: exact, and without a jump of position or velocity.
+#[derive(Clone, Debug)]
+pub struct Motion {
+    /// Input at which the first segment starts, in `[0, 2 pi)`.
+    start: f64,
+    pieces: Vec<Piece>,
+}
+
+#[derive(Clone, Debug)]
+struct Piece {
+    /// Input from the start of the cycle.
+    from: f64,
+    span: f64,
+    /// Position at the start.
+    level: f64,
+    course: Course,
+}
+
+#[derive(Clone, Debug)]
+enum Course {
+    Rest,
+    /// A law and its stroke.
+    Law(Law, f64),
+    /// Of the share of the span.
+    Polynomial(Coefficients),
+}
+
+/// Where two segments meet, and what is not smooth there.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Join {
+    /// Cam angle, rad.
+    pub input: f64,
+    /// Acceleration after less acceleration before, per radian squared.
+    pub acceleration_jump: f64,
+    /// Jerk after less jerk before, per radian cubed.
+    pub jerk_jump: f64,
+}
+
+/// Greatest position, and greatest size of each derivative, of a motion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Peaks {
+    /// Greatest position, mm or rad.
+    pub lift: Extreme,
+    /// Greatest velocity either way, per radian.
+    pub velocity: Extreme,
+    /// Greatest acceleration either way, per radian squared.
+    pub acceleration: Extreme,
+    /// Greatest jerk either way between jumps of the acceleration, per radian cubed.
+    pub jerk: Extreme,
+}
+
+/// Why segments make no motion.
+#[derive(Clone, Debug, Error, PartialEq)]
+#[non_exhaustive]
+pub enum MotionError {
+    /// A value out of its range.
+    #[error(transparent)]
+    Spec(#[from] SpecError),
+    /// The spans are not a whole turn.
+    #[error("the spans of the segments add up to {degrees} deg, not 360")]
+    Spans {
+        /// Their sum.
+        degrees: f64,
+    },
+    /// What rises is not what returns.
+    #[error("the follower rises by {rise} and returns by {fall}: a cycle must end where it began")]
+    Open {
+        /// Sum of all strokes away from the axis, mm or rad.
+        rise: f64,
+        /// Sum of all strokes towards it.
+        fall: f64,
+    },
+    /// A segment starts at another velocity than the one before it ended with.
+    #[error(
+        "at {degrees} deg the velocity jumps from {before} to {after} per radian: an infinite acceleration"
+    )]
+    VelocityJump {
+        /// Cam angle.
+        degrees: f64,
+        /// Velocity just before, mm/rad or rad/rad.
+        before: f64,
+        /// Velocity just after.
+        after: f64,
+    },
+}
+
+impl MotionError {
+    /// Key of the design file at fault, inside the table of the motion.
+    #[must_use]
+    pub fn key(&self) -> String {
+        match self {
+            Self::Spec(error) => error.key.clone(),
+            _ => "segments".into(),
+        }
+    }
+}
+
+impl Motion {
+    /// Joins segments into a motion.
+    ///
+    /// # Errors
+    /// [`MotionError`] naming the rule broken: a value out of range, spans that are no whole turn, a
+    /// cycle that does not come back, a jump of the velocity.
+    pub fn resolve(spec: &MotionSpec) -> Result<Self, MotionError> {
+        spec.validate()?;
+        let total: f64 = spec.segments.iter().map(SegmentSpec::span).sum();
+        if (total - TAU).abs() > ROUNDING * TAU {
+            return Err(MotionError::Spans {
+                degrees: total.to_degrees(),
+            });
+        }
+        let changes: Vec<f64> = spec.segments.iter().map(SegmentSpec::change).collect();
+        let rise: f64 = changes.iter().filter(|c| **c > 0.0).sum();
+        let fall: f64 = -changes.iter().filter(|c| **c < 0.0).sum::<f64>();
+        if (rise - fall).abs() > ROUNDING * rise.max(fall) {
+            return Err(MotionError::Open { rise, fall });
+        }
+        let mut pieces = Vec::with_capacity(spec.segments.len());
+        let (mut from, mut level, mut lowest) = (0.0, 0.0_f64, 0.0_f64);
+        for segment in &spec.segments {
+            let span = segment.span();
+            pieces.push(Piece {
+                from,
+                span,
+                level,
+                course: Course::of(segment)?,
+            });
+            from += span;
+            lowest = lowest.min(level);
+            level += segment.change();
+        }
+        for piece in &mut pieces {
+            piece.level -= lowest;
+        }
+        let motion = Self {
+            start: spec.start.rem_euclid(TAU),
+            pieces,
+        };
+        motion.velocity_is_continuous()?;
+        Ok(motion)
+    }
+
+    fn velocity_is_continuous(&self) -> Result<(), MotionError> {
+        let scale = self.peaks().velocity.value;
+        for (input, before, after) in self.meetings() {
+            if (after.velocity - before.velocity).abs() > ROUNDING * scale {
+                return Err(MotionError::VelocityJump {
+                    degrees: input.to_degrees(),
+                    before: before.velocity,
+                    after: after.velocity,
+                });
+            }
+        }
+        Ok(())
+    }
+
+    /// Input where each segment starts, with the jets on both sides.
+    fn meetings(&self) -> impl Iterator<Item = (f64, MotionJet, MotionJet)> + '_ {
+        (0..self.pieces.len()).map(|index| {
+            let piece = &self.pieces[index];
+            let before = &self.pieces[(index + self.pieces.len() - 1) % self.pieces.len()];
+            let input = (self.start + piece.from).rem_euclid(TAU);
+            (input, before.at(before.span), piece.at(0.0))
+        })
+    }
+
+    /// The places where segments meet, in order from the start of the cycle.
+    #[must_use]
+    pub fn joins(&self) -> Vec<Join> {
+        self.meetings()
+            .map(|(input, before, after)| Join {
+                input,
+                acceleration_jump: after.acceleration - before.acceleration,
+                jerk_jump: after.jerk - before.jerk,
+            })
+            .collect()
+    }
+
+    /// Greatest position and derivatives over the cycle, to the float limit.
+    #[must_use]
+    pub fn peaks(&self) -> Peaks {
+        peaks(self)
+    }
+}
+
+/// Greatest position and derivatives of any motion over one period.
+#[must_use]
+pub(crate) fn peaks(motion: &dyn Transmission) -> Peaks {
+    let ends = ends(motion);
+    let peak = |of: &dyn Fn(MotionJet) -> f64| greatest(|input| of(motion.at(input)), &ends);
+    Peaks {
+        lift: peak(&|m| m.position),
+        velocity: peak(&|m| m.velocity.abs()),
+        acceleration: peak(&|m| m.acceleration.abs()),
+        jerk: peak(&|m| m.jerk.abs()),
+    }
+}
+
+/// Ends of the analytic parts of one period.
+pub(crate) fn ends(motion: &dyn Transmission) -> Vec<f64> {
+    let period = motion.period();
+    let mut ends = motion.breaks();
+    match ends.first().copied() {
+        // From break to break: no artificial seam at zero.
+        Some(first) => ends.push(first + period),
+        None => ends.extend([0.0, period]),
+    }
+    ends
+}
+
+impl Course {
+    fn of(segment: &SegmentSpec) -> Result<Self, SpecError> {
+        Ok(match segment {
+            SegmentSpec::Rise(travel) | SegmentSpec::Return(travel) => {
+                Self::Law(travel.law.resolve()?, segment.change())
+            }
+            SegmentSpec::Dwell(_) => Self::Rest,
+            SegmentSpec::Transition(t) => {
+                let (span, change) = (t.span, segment.change());
+                let start = [
+                    0.0,
+                    t.start_velocity * span,
+                    t.start_acceleration * span * span,
+                ];
+                let end = [
+                    change,
+                    t.end_velocity * span,
+                    t.end_acceleration * span * span,
+                ];
+                Self::Polynomial(Coefficients::meeting(&start, &end))
+            }
+        })
+    }
+}
+
+impl Piece {
+    /// At an input counted from the start of the piece.
+    fn at(&self, input: f64) -> MotionJet {
+        let mut x = Taylor::constant(input / self.span);
+        x.0[1] = 1.0 / self.span;
+        let moved = match &self.course {
+            Course::Rest => Taylor::constant(0.0),
+            Course::Law(law, stroke) => law.of(x) * Taylor::constant(*stroke),
+            Course::Polynomial(polynomial) => polynomial.of(x),
+        };
+        MotionJet::of(&(Taylor::constant(self.level) + moved))
+    }
+
+    fn breaks(&self) -> impl Iterator<Item = f64> + '_ {
+        let inner = match &self.course {
+            Course::Law(law, _) => law.breaks(),
+            Course::Rest | Course::Polynomial(_) => Vec::new(),
+        };
+        let inside = inner.into_iter().map(|x| self.from + x * self.span);
+        std::iter::once(self.from).chain(inside)
+    }
+}
+
+impl Transmission for Motion {
+    fn at(&self, input: f64) -> MotionJet {
+        let mut along = (input - self.start).rem_euclid(TAU);
+        if along >= TAU {
+            // A tiny negative remainder rounds to the whole turn.
+            along = 0.0;
+        }
+        let after = self.pieces.partition_point(|piece| piece.from <= along);
+        let piece = &self.pieces[after.max(1) - 1];
+        piece.at((along - piece.from).min(piece.span))
+    }
+
+    fn breaks(&self) -> Vec<f64> {
+        let of_pieces = self.pieces.iter().flat_map(Piece::breaks);
+        let mut breaks: Vec<f64> = of_pieces
+            .map(|from| (self.start + from).rem_euclid(TAU))
+            .collect();
+        breaks.sort_by(f64::total_cmp);
+        breaks
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cam::design::{Dwell, Transition, Travel};
+    use crate::cam::law::LawSpec;
+
+    fn travel(degrees: f64, lift: f64, law: &str) -> Travel {
+        Travel {
+            span: degrees.to_radians(),
+            lift: Some(lift),
+            swing: None,
+            law: LawSpec::named(law).expect("known"),
+        }
+    }
+
+    fn dwell(degrees: f64) -> SegmentSpec {
+        SegmentSpec::Dwell(Dwell {
+            span: degrees.to_radians(),
+        })
+    }
+
+    fn spec(segments: Vec<SegmentSpec>) -> MotionSpec {
+        MotionSpec {
+            start: 0.4,
+            segments,
+        }
+    }
+
+    /// Slow rise, dwell, quick drop, dwell.
+    fn quick_drop() -> MotionSpec {
+        spec(vec![
+            SegmentSpec::Rise(travel(150.0, 8.0, "modified-sine")),
+            dwell(100.0),
+            SegmentSpec::Return(travel(12.0, 8.0, "modified-trapezoid")),
+            dwell(98.0),
+        ])
+    }
+
+    #[test]
+    fn a_cycle_follows_its_laws_and_repeats() {
+        let motion = Motion::resolve(&quick_drop()).expect("sound");
+        let span = 150.0_f64.to_radians();
+        let law = LawSpec::ModifiedSine.resolve().expect("sound");
+        for i in 0..40 {
+            let x = f64::from(i) / 40.0;
+            let (at, s) = (motion.at(0.4 + x * span), law.at(x));
+            assert!((at.position - 8.0 * s.position).abs() < 1e-13);
+            assert!((at.velocity - 8.0 * s.velocity / span).abs() < 1e-12);
+            assert!((at.jerk - 8.0 * s.jerk / span.powi(3)).abs() < 1e-9);
+            let later = motion.at(0.4 + x * span - 3.0 * TAU);
+            assert!((later.position - at.position).abs() < 1e-12);
+        }
+        assert!((motion.at(0.4 + 200.0_f64.to_radians()).position - 8.0).abs() < 1e-14);
+        assert_eq!(motion.at(0.3), MotionJet::default());
+        assert_eq!(motion.breaks().len(), 4 + 2 + 2 + 4 - 2);
+        let peaks = motion.peaks();
+        let drop = 12.0_f64.to_radians();
+        let expected = 8.0 * 8.0 * std::f64::consts::PI / (2.0 + std::f64::consts::PI);
+        assert!((peaks.acceleration.value * drop * drop / expected - 1.0).abs() < 1e-9);
+        assert!((peaks.velocity.value * drop / 16.0 - 1.0).abs() < 1e-12);
+        let middle = (0.4 + 256.0_f64.to_radians() - peaks.velocity.input).abs();
+        assert!(middle < 1e-6, "{middle}");
+    }
+
+    #[test]
+    fn joins_tell_the_jumps_of_acceleration_and_jerk() {
+        let motion = Motion::resolve(&spec(vec![
+            SegmentSpec::Rise(travel(90.0, 5.0, "harmonic")),
+            dwell(90.0),
+            SegmentSpec::Return(travel(180.0, 5.0, "cycloidal")),
+        ]))
+        .expect("sound");
+        let joins = motion.joins();
+        // h pi^2 / (2 B^2) with B = pi / 2: 2 h.
+        assert!((joins[0].acceleration_jump - 2.0 * 5.0).abs() < 1e-12);
+        assert!((joins[1].acceleration_jump - 2.0 * 5.0).abs() < 1e-12);
+        assert!(joins[2].acceleration_jump.abs() < 1e-12);
+        let jerk = -5.0 * 4.0 * std::f64::consts::PI.powi(2) / std::f64::consts::PI.powi(3);
+        assert!((joins[2].jerk_jump - jerk).abs() < 1e-11);
+        assert!((joins[1].input - (0.4 + 0.5 * std::f64::consts::PI)).abs() < 1e-15);
+    }
+
+    #[test]
+    fn a_transition_takes_over_velocity_and_acceleration() {
+        let quarter = std::f64::consts::FRAC_PI_2;
+        let transition = |lift, start_velocity, end_velocity| {
+            SegmentSpec::Transition(Transition {
+                span: quarter,
+                lift: Some(lift),
+                start_velocity,
+                end_velocity,
+                ..Transition::default()
+            })
+        };
+        let steady = Travel {
+            span: quarter,
+            lift: Some(6.0),
+            law: LawSpec::ConstantVelocity,
+            swing: None,
+        };
+        let v = 6.0 / quarter;
+        let segments = vec![
+            transition(3.0, 0.0, v),
+            SegmentSpec::Rise(steady.clone()),
+            transition(1.0, v, 0.0),
+            SegmentSpec::Return(travel(90.0, 10.0, "polynomial-345")),
+        ];
+        let motion = Motion::resolve(&spec(segments.clone())).expect("sound");
+        for join in motion.joins() {
+            assert!(join.acceleration_jump.abs() < 1e-11, "{join:?}");
+        }
+        let mid = motion.at(0.4 + 1.5 * quarter);
+        assert!((mid.position - 6.0).abs() < 1e-12 && (mid.velocity - v).abs() < 1e-12);
+
+        let mut abrupt = segments;
+        abrupt[0] = transition(3.0, 0.0, 0.5 * v);
+        let Err(MotionError::VelocityJump {
+            degrees,
+            before,
+            after,
+        }) = Motion::resolve(&spec(abrupt))
+        else {
+            panic!("a jump of velocity")
+        };
+        assert!((degrees - (0.4_f64.to_degrees() + 90.0)).abs() < 1e-9);
+        assert!((before - 0.5 * v).abs() < 1e-12 && (after - v).abs() < 1e-12);
+    }
+
+    #[test]
+    fn the_lowest_level_is_zero_wherever_the_cycle_starts() {
+        let motion = Motion::resolve(&spec(vec![
+            SegmentSpec::Return(travel(100.0, 4.0, "cycloidal")),
+            SegmentSpec::Rise(travel(260.0, 4.0, "cycloidal")),
+        ]))
+        .expect("sound");
+        assert!((motion.at(0.4).position - 4.0).abs() < 1e-14);
+        assert!(motion.at(0.4 + 100.0_f64.to_radians()).position.abs() < 1e-14);
+    }
+
+    #[test]
+    fn cycles_that_do_not_close_are_refused() {
+        let rise = SegmentSpec::Rise(travel(100.0, 4.0, "cycloidal"));
+        let fall = |degrees, lift| SegmentSpec::Return(travel(degrees, lift, "cycloidal"));
+        assert!(matches!(
+            Motion::resolve(&spec(vec![rise.clone(), fall(250.0, 4.0)])),
+            Err(MotionError::Spans { degrees }) if (degrees - 350.0).abs() < 1e-9
+        ));
+        assert_eq!(
+            Motion::resolve(&spec(vec![rise.clone(), fall(260.0, 3.0)])).map(|_| ()),
+            Err(MotionError::Open {
+                rise: 4.0,
+                fall: 3.0
+            })
+        );
+        let error = Motion::resolve(&spec(vec![rise, fall(-1.0, 4.0)])).map(|_| ());
+        assert_eq!(error.expect_err("refused").key(), "segments.1.span_deg");
+    }
+}
