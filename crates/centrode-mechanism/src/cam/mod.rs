@@ -1,9 +1,20 @@
 //! Disc cams: motion laws, follower motion, exact profile.
 
+mod contact;
 pub mod design;
+mod disc;
 mod extreme;
 pub mod law;
+mod limits;
 mod motion;
+mod profile;
 
+pub use contact::Contact;
+pub use disc::{CamError, DiscCam};
 pub use extreme::Extreme;
+pub use limits::Limits;
 pub use motion::{Join, Motion, MotionError, Peaks};
+pub use profile::Profile;
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,169 @@
+//! How far a cam is from what it cannot do.
+
+use centrode_geometry::bracketed_root;
+
+use super::disc::DiscCam;
+use super::extreme::{Extreme, greatest, least};
+
+/// Pressure angles and radii of curvature of a cam, over a whole turn, to the float limit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Limits {
+    /// Greatest size of the pressure angle while the cam lifts the follower, rad.
+    pub rise_pressure_angle: Extreme,
+    /// Greatest size of the pressure angle while the follower comes back, rad.
+    pub return_pressure_angle: Extreme,
+    /// Least radius of curvature of the path of the roller's centre where it is convex, mm: the largest
+    /// roller the path allows without undercut. `None` for a flat face.
+    pub largest_roller: Option<Extreme>,
+    /// Least radius of curvature of the profile where it is convex, mm; at most zero where it is undercut.
+    pub least_radius: Extreme,
+    /// Least radius of curvature of the profile where it is hollow, mm: the largest grinding wheel;
+    /// infinite for a convex cam.
+    pub largest_wheel: Extreme,
+    /// Where along a flat face its contact goes, from the least to the greatest place, mm.
+    pub face: Option<(f64, f64)>,
+    /// Least [`regularity`](super::Contact::regularity): the profile is undercut where it is not
+    /// above zero.
+    pub regularity: Extreme,
+}
+
+/// Steps of a base radius tried one after the other.
+const STEP: f64 = 1.02;
+
+impl DiscCam {
+    /// What the cam's follower and curvature are up to.
+    #[must_use]
+    pub fn limits(&self) -> Limits {
+        let ends = self.ends();
+        let pressure = |sign: f64| {
+            greatest(
+                |input| {
+                    let contact = self.contact(input);
+                    if sign * contact.motion.velocity > 0.0 {
+                        contact.pressure_angle.abs()
+                    } else {
+                        0.0
+                    }
+                },
+                &ends,
+            )
+        };
+        let radius_of = |curvature: Extreme| Extreme {
+            input: curvature.input,
+            value: 1.0 / curvature.value.max(0.0),
+        };
+        let regularity = least(|input| self.contact(input).regularity, &ends);
+        let roller = self.follower().roller_radius().map(|roller| {
+            let pitch = |input: f64| self.contact(input).pitch_curvature.unwrap_or(0.0);
+            (
+                roller,
+                radius_of(greatest(pitch, &ends)),
+                radius_of(greatest(|input| -pitch(input), &ends)),
+            )
+        });
+        let (least_radius, largest_wheel) = match roller {
+            Some((roller, convex, hollow)) => (
+                Extreme {
+                    value: convex.value - roller,
+                    ..convex
+                },
+                Extreme {
+                    value: hollow.value + roller,
+                    ..hollow
+                },
+            ),
+            None => (
+                Extreme {
+                    value: regularity.value * self.base_radius(),
+                    ..regularity
+                },
+                Extreme {
+                    value: f64::INFINITY,
+                    ..regularity
+                },
+            ),
+        };
+        let face = roller.is_none().then(|| {
+            let place = |input: f64| self.contact(input).face.unwrap_or(0.0);
+            (least(place, &ends).value, greatest(place, &ends).value)
+        });
+        Limits {
+            rise_pressure_angle: pressure(1.0),
+            return_pressure_angle: pressure(-1.0),
+            largest_roller: roller.map(|(_, convex, _)| convex),
+            least_radius,
+            largest_wheel,
+            face,
+            regularity,
+        }
+    }
+
+    /// The least base radius, mm, at which the pressure angle stays below `rise` while the cam lifts and
+    /// below `fall` while the follower returns, rad; a right angle leaves a return by a spring free.
+    ///
+    /// Looked for upwards in steps of 2 % from a thousandth of the follower's size, then solved. `None`
+    /// where no base circle will do: an arm far from the axis cannot touch a large one.
+    #[must_use]
+    pub fn least_base_radius(&self, rise: f64, fall: f64) -> Option<f64> {
+        self.least_base(|cam| {
+            let limits = cam.limits();
+            let rising = limits.rise_pressure_angle.value - rise;
+            rising.max(limits.return_pressure_angle.value - fall)
+        })
+    }
+
+    /// The least base radius, mm, at which no convex part of the profile is sharper than `radius`, mm;
+    /// zero asks for no undercut alone. `None` where no base circle will do.
+    #[must_use]
+    pub fn least_regular_base_radius(&self, radius: f64) -> Option<f64> {
+        self.least_base(|cam| radius - cam.limits().least_radius.value)
+    }
+
+    /// The least base radius at which `excess` is not above zero.
+    fn least_base(&self, excess: impl Fn(&Self) -> f64) -> Option<f64> {
+        const MOST: u32 = 700;
+        let of = |radius: f64| match self.with_base_radius(radius) {
+            // Never a solution, and no number to interpolate with.
+            Err(_) => f64::INFINITY,
+            Ok(cam) => excess(&cam),
+        };
+        let roller = self.follower().roller_radius().unwrap_or(0.0);
+        let size = self
+            .peaks()
+            .lift
+            .value
+            .max(roller)
+            .max(1e-3 * self.base_radius());
+        let mut low = 1e-3 * size.min(self.base_radius());
+        let mut at_low = of(low);
+        if at_low <= 0.0 {
+            return Some(low);
+        }
+        for _ in 0..MOST {
+            let high = STEP * low;
+            let at_high = of(high);
+            if at_high <= 0.0 {
+                return Some(if at_low.is_finite() {
+                    bracketed_root(of, low, high, at_low, at_high)
+                } else {
+                    halved(of, low, high)
+                });
+            }
+            (low, at_low) = (high, at_high);
+        }
+        None
+    }
+}
+
+/// The least place above `low` where `excess` is not above zero, which it is not at `high`.
+fn halved(excess: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
+    while high - low > 4.0 * f64::EPSILON * high {
+        let middle = 0.5 * (low + high);
+        if excess(middle) <= 0.0 {
+            high = middle;
+        } else {
+            low = middle;
+        }
+    }
+    high
+}

@@ -1,0 +1,265 @@
+//! The contour of a cam: the envelope of its follower, cut as a tool of the follower's size would.
+
+use std::f64::consts::PI;
+
+use centrode_geometry::{Arc, Outline, Point, Segment, Spline, Tolerance, without_loops};
+
+use super::disc::{CamError, DiscCam};
+use super::extreme::least;
+
+/// The contour of a cam, counter-clockwise.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Profile {
+    outline: Outline,
+    inputs: Vec<(f64, f64)>,
+    undercut: Vec<(f64, f64)>,
+}
+
+impl Profile {
+    /// The contour.
+    #[must_use]
+    pub fn outline(&self) -> &Outline {
+        &self.outline
+    }
+
+    /// Cam angles, rad, at which each segment of the contour starts and ends its contact.
+    #[must_use]
+    pub fn inputs(&self) -> &[(f64, f64)] {
+        &self.inputs
+    }
+
+    /// Ranges of the cam angle, rad, whose contact is cut off: the follower does not keep to its motion
+    /// there. Empty for a sound cam.
+    #[must_use]
+    pub fn undercut(&self) -> &[(f64, f64)] {
+        &self.undercut
+    }
+
+    /// Least and greatest distance from the axis, mm, at nine places a segment.
+    pub(super) fn radii(&self) -> (f64, f64) {
+        let points = self.outline.segments().iter().flat_map(|segment| {
+            (0..=8).map(|i| segment.at(-1.0 + 0.25 * f64::from(i)).point.coords.norm())
+        });
+        points.fold((f64::INFINITY, 0.0), |(least, greatest), r| {
+            (r.min(least), r.max(greatest))
+        })
+    }
+}
+
+/// A part of the contour and the inputs of its ends.
+#[derive(Clone, Copy, Debug)]
+struct Part {
+    segment: Segment,
+    from: f64,
+    to: f64,
+}
+
+impl Part {
+    /// The part between two parameters of the segment.
+    fn between(&self, from: f64, to: f64) -> Self {
+        if (from, to) == (-1.0, 1.0) {
+            return *self;
+        }
+        let segment = match self.segment {
+            Segment::Line(..) => {
+                Segment::Line(self.segment.at(from).point, self.segment.at(to).point)
+            }
+            Segment::Arc(arc) => Segment::Arc(Arc {
+                start: self.segment.at(from).point,
+                end: self.segment.at(to).point,
+                bulge: (0.125 * (to - from) * arc.sweep()).tan(),
+            }),
+            Segment::Spline(spline) => Segment::Spline(spline.part(from, to)),
+        };
+        let input = |u: f64| self.from + 0.5 * (1.0 + u) * (self.to - self.from);
+        Self {
+            segment,
+            from: if from == -1.0 { self.from } else { input(from) },
+            to: if to == 1.0 { self.to } else { input(to) },
+        }
+    }
+
+    fn reversed(&self) -> Self {
+        Self {
+            segment: self.segment.reversed(),
+            from: self.to,
+            to: self.from,
+        }
+    }
+}
+
+impl DiscCam {
+    /// The contour within a tolerance of the exact envelope: arcs over the dwells, polynomials of degree
+    /// thirteen elsewhere.
+    ///
+    /// Where the envelope is singular it crosses itself; what a tool of the follower's size would take
+    /// away is taken away, and [`Profile::undercut`] tells what the follower loses.
+    ///
+    /// # Errors
+    /// [`CamError::Looped`] where nothing is left, [`CamError::AxisOutside`] where it leaves the axis out.
+    pub fn profile(&self, tolerance: Tolerance) -> Result<Profile, CamError> {
+        let whole = self.envelope(&|input| self.contact(input).point, &self.turns(), tolerance);
+        let kept = sound(whole, tolerance)?;
+        let ends = self.ends();
+        let (first, last) = (ends[0], ends[ends.len() - 1]);
+        let mut undercut: Vec<(f64, f64)> = Vec::new();
+        for (index, part) in kept.iter().enumerate() {
+            let next = kept.get(index + 1);
+            let resumed = next.map_or(kept[0].from + (last - first), |next| next.from);
+            if resumed > part.to {
+                undercut.push((part.to, resumed));
+            }
+        }
+        let (outline, inputs) = self.closed(kept)?;
+        if !outline.contains(Point::origin()) {
+            return Err(CamError::AxisOutside);
+        }
+        Ok(Profile {
+            outline,
+            inputs,
+            undercut,
+        })
+    }
+
+    /// The path of the roller's centre within a tolerance, counter-clockwise; `None` for a flat face.
+    ///
+    /// # Errors
+    /// [`CamError::Open`] where a point of it is not a number.
+    pub fn pitch_curve(&self, tolerance: Tolerance) -> Result<Option<Outline>, CamError> {
+        if self.follower().roller_radius().is_none() {
+            return Ok(None);
+        }
+        let center = |input: f64| {
+            let nowhere = Point::new(f64::NAN, f64::NAN);
+            self.roller_center(input).map_or(nowhere, |jet| jet.point)
+        };
+        let parts = self.envelope(&center, &self.ends(), tolerance);
+        self.closed(parts).map(|(outline, _)| Some(outline))
+    }
+
+    /// Ends of the analytic parts, and within each the middle of a run that goes backwards: the loop
+    /// round it, however small, then lies in two parts, where it is found.
+    fn turns(&self) -> Vec<f64> {
+        let ends = self.ends();
+        let mut turns = vec![ends[0]];
+        for pair in ends.windows(2) {
+            let middle = least(|input| self.contact(input).regularity, pair);
+            let inside = middle.input > pair[0] && middle.input < pair[1].next_down();
+            if middle.value <= 0.0 && inside {
+                turns.push(middle.input);
+            }
+            turns.push(pair[1]);
+        }
+        turns
+    }
+
+    /// Chain of parts along one turn, in the order of the input.
+    fn envelope(
+        &self,
+        curve: &dyn Fn(f64) -> Point,
+        ends: &[f64],
+        tolerance: Tolerance,
+    ) -> Vec<Part> {
+        let mut parts: Vec<Part> = Vec::new();
+        for pair in ends.windows(2) {
+            let (from, to) = (pair[0], pair[1]);
+            if self.rests(from, to) {
+                parts.extend(self.dwell(curve, from, to));
+            } else {
+                let fitted = Spline::fit_spans(curve, from, to, tolerance);
+                parts.extend(fitted.into_iter().map(|(spline, from, to)| Part {
+                    segment: Segment::Spline(spline),
+                    from,
+                    to,
+                }));
+            }
+        }
+        parts
+    }
+
+    /// Whether the follower stands still all the way between two breaks: between them the motion is
+    /// analytic, so a few places without any derivative tell.
+    fn rests(&self, from: f64, to: f64) -> bool {
+        [0.1, 0.3, 0.6, 0.8].into_iter().all(|share| {
+            let motion = self.motion().at(from + share * (to - from));
+            (motion.velocity, motion.acceleration, motion.jerk) == (0.0, 0.0, 0.0)
+        })
+    }
+
+    /// Arcs about the axis, of less than a third of a turn each.
+    fn dwell(
+        &self,
+        curve: &dyn Fn(f64) -> Point,
+        from: f64,
+        to: f64,
+    ) -> impl Iterator<Item = Part> {
+        let count = ((to - from) / (0.6 * PI)).ceil().max(1.0);
+        let step = (to - from) / count;
+        // The limit from the right: the break at the end already belongs to what follows.
+        let start = curve(from);
+        let sense = self.sense();
+        (0..count as u32).map(move |i| {
+            let turned = |i: u32| {
+                let (sin, cos) = (sense * step * f64::from(i)).sin_cos();
+                Point::new(start.x * cos - start.y * sin, start.x * sin + start.y * cos)
+            };
+            let arc = Arc {
+                start: turned(i),
+                end: turned(i + 1),
+                bulge: (0.25 * sense * step).tan(),
+            };
+            Part {
+                segment: Segment::Arc(arc),
+                from: from + step * f64::from(i),
+                to: from + step * f64::from(i + 1),
+            }
+        })
+    }
+
+    /// Parts pinned end to start, counter-clockwise.
+    fn closed(&self, mut parts: Vec<Part>) -> Result<(Outline, Vec<(f64, f64)>), CamError> {
+        let count = parts.len();
+        for i in 0..count {
+            let end = parts[i].segment.end();
+            let next = &mut parts[(i + 1) % count].segment;
+            if next.start() != end {
+                *next = moved_start(next, end);
+            }
+        }
+        if self.sense() < 0.0 {
+            parts = parts.iter().rev().map(Part::reversed).collect();
+        }
+        let outline = Outline::new(parts.iter().map(|part| part.segment).collect())?;
+        let inputs = parts.iter().map(|part| (part.from, part.to)).collect();
+        Ok((outline, inputs))
+    }
+}
+
+/// The segment with another start: a correction of rounding.
+fn moved_start(segment: &Segment, start: Point) -> Segment {
+    match segment {
+        Segment::Line(_, end) => Segment::Line(start, *end),
+        Segment::Arc(arc) => Segment::Arc(Arc { start, ..*arc }),
+        Segment::Spline(spline) => Segment::Spline(spline.pinned(start, spline.end())),
+    }
+}
+
+/// What is left of the parts without their loops. A further pass sees the loops an earlier one laid
+/// bare; a sound profile has none and takes one.
+fn sound(mut parts: Vec<Part>, tolerance: Tolerance) -> Result<Vec<Part>, CamError> {
+    const PASSES: u32 = 3;
+    for _ in 0..PASSES {
+        let segments: Vec<Segment> = parts.iter().map(|part| part.segment).collect();
+        let count = segments.len();
+        let kept = without_loops(&segments, |_| count / 2, tolerance).ok_or(CamError::Looped)?;
+        let done = kept.len() == count && kept.iter().all(|k| (k.from, k.to) == (-1.0, 1.0));
+        parts = kept
+            .iter()
+            .map(|k| parts[k.index].between(k.from, k.to))
+            .collect();
+        if done {
+            break;
+        }
+    }
+    Ok(parts)
+}
