@@ -183,7 +183,7 @@ impl Transmission for Chain {
     }
 
     fn advance(&self) -> f64 {
-        self.outer.advance().copysign(self.inner.advance())
+        self.outer.advance() * self.inner.advance().signum()
     }
 
     fn breaks(&self) -> Vec<f64> {
@@ -348,6 +348,7 @@ mod tests {
                 };
                 close(&there_and_back.at(t), &expected);
             }
+            assert_eq!(there_and_back.advance(), TAU);
             assert_eq!(there_and_back.breaks().len(), 1);
             assert!((there_and_back.breaks()[0] - 1.0).abs() < 1e-12);
         }

@@ -99,6 +99,18 @@ pub enum CamError {
         /// Cam angle.
         degrees: f64,
     },
+    /// A push rod wanted farther back than its fork can bring it.
+    #[error(
+        "at {degrees} deg the rod is to be {retraction} mm back, more than a lever of {length} mm can do"
+    )]
+    Retraction {
+        /// Cam angle.
+        degrees: f64,
+        /// Retraction of the rod, mm.
+        retraction: f64,
+        /// Length of the lever, mm.
+        length: f64,
+    },
     /// A motion with values that are not numbers.
     #[error("at {degrees} deg the follower's motion is not a number")]
     NotFinite {
@@ -142,6 +154,7 @@ impl CamError {
             Self::NotPeriodic { .. }
             | Self::ArmTurnsOver { .. }
             | Self::ThroughAxis { .. }
+            | Self::Retraction { .. }
             | Self::NotFinite { .. }
             | Self::Transmission(_) => "motion".into(),
         }
