@@ -6,4 +6,5 @@ mod degrees;
 pub mod design;
 mod formula;
 pub mod gear;
+pub mod linkage;
 pub mod transmission;

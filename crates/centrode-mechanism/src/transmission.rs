@@ -52,7 +52,7 @@ impl MotionJet {
         }
     }
 
-    pub(crate) fn of(series: &Taylor) -> Self {
+    pub(crate) fn of<const N: usize>(series: &Taylor<N>) -> Self {
         let [position, velocity, acceleration, jerk] = series.derivatives();
         Self {
             position,

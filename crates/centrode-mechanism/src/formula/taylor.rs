@@ -2,13 +2,12 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// Coefficients of a Taylor polynomial: value, slope, half the second derivative, and so on.
 ///
-/// Wide enough for the third derivative of a function given by its integral.
+/// Five of them are enough for the third derivative of a function given by its integral, four for the
+/// jerk of a linkage, two for a sensitivity, one for a position.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Taylor(pub(crate) [f64; ORDERS]);
+pub(crate) struct Taylor<const ORDERS: usize = 5>(pub(crate) [f64; ORDERS]);
 
-const ORDERS: usize = 5;
-
-impl Taylor {
+impl<const ORDERS: usize> Taylor<ORDERS> {
     pub(crate) fn constant(value: f64) -> Self {
         let mut c = [0.0; ORDERS];
         c[0] = value;
@@ -18,20 +17,23 @@ impl Taylor {
     pub(crate) fn variable(value: f64) -> Self {
         let mut c = [0.0; ORDERS];
         c[0] = value;
-        c[1] = 1.0;
+        if let Some(slope) = c.get_mut(1) {
+            *slope = 1.0;
+        }
         Self(c)
     }
 
     /// Value and first three derivatives.
     pub(crate) fn derivatives(&self) -> [f64; 4] {
-        let [a, b, c, d, _] = self.0;
-        [a, b, 2.0 * c, 6.0 * d]
+        let known = |k: usize| self.0.get(k).copied().unwrap_or_default();
+        [known(0), known(1), 2.0 * known(2), 6.0 * known(3)]
     }
 
     /// The slope's own series; its last coefficient is not known and left zero.
     pub(crate) fn differentiated(&self) -> Self {
-        let [_, b, c, d, e] = self.0;
-        Self([b, 2.0 * c, 3.0 * d, 4.0 * e, 0.0])
+        Self(std::array::from_fn(|k| {
+            self.0.get(k + 1).map_or(0.0, |next| (k + 1) as f64 * next)
+        }))
     }
 
     /// The series of `y` with the value `value` and `y' g = a'`, where `a` is this series.
@@ -57,6 +59,17 @@ impl Taylor {
             }
         }
         (Self(s), Self(c))
+    }
+
+    pub(crate) fn reciprocal(self) -> Self {
+        let mut q = [0.0; ORDERS];
+        let r = 1.0 / self.0[0];
+        q[0] = r;
+        for k in 1..ORDERS {
+            let known: f64 = (1..=k).map(|i| self.0[i] * q[k - i]).sum();
+            q[k] = -known * r;
+        }
+        Self(q)
     }
 
     pub(crate) fn sin_cos(self) -> (Self, Self) {
@@ -88,6 +101,24 @@ impl Taylor {
     pub(crate) fn asin(self) -> Self {
         let g = (Self::constant(1.0) - self * self).sqrt();
         self.integral_over(self.0[0].asin(), g)
+    }
+
+    /// The series of the direction of (x, y), where this series is y: its slope is exact however x and y
+    /// are scaled, its value the principal one.
+    pub(crate) fn atan2(self, x: Self) -> Self {
+        let g = x * x + self * self;
+        let mut a = [0.0; ORDERS];
+        a[0] = self.0[0].atan2(x.0[0]);
+        for k in 1..ORDERS {
+            // a' g = x y' - y x'
+            let mut turning = 0.0;
+            for i in 1..=k {
+                turning += i as f64 * (self.0[i] * x.0[k - i] - x.0[i] * self.0[k - i]);
+            }
+            let known: f64 = (1..k).map(|i| i as f64 * a[i] * g.0[k - i]).sum();
+            a[k] = (turning - known) / (k as f64 * g.0[0]);
+        }
+        Self(a)
     }
 
     pub(crate) fn sqrt(self) -> Self {
@@ -138,28 +169,28 @@ impl Taylor {
     }
 }
 
-impl Add for Taylor {
+impl<const ORDERS: usize> Add for Taylor<ORDERS> {
     type Output = Self;
     fn add(self, b: Self) -> Self {
         Self(std::array::from_fn(|k| self.0[k] + b.0[k]))
     }
 }
 
-impl Sub for Taylor {
+impl<const ORDERS: usize> Sub for Taylor<ORDERS> {
     type Output = Self;
     fn sub(self, b: Self) -> Self {
         Self(std::array::from_fn(|k| self.0[k] - b.0[k]))
     }
 }
 
-impl Neg for Taylor {
+impl<const ORDERS: usize> Neg for Taylor<ORDERS> {
     type Output = Self;
     fn neg(self) -> Self {
         Self(self.0.map(|c| -c))
     }
 }
 
-impl Mul for Taylor {
+impl<const ORDERS: usize> Mul for Taylor<ORDERS> {
     type Output = Self;
     fn mul(self, b: Self) -> Self {
         Self(std::array::from_fn(|k| {
@@ -168,7 +199,7 @@ impl Mul for Taylor {
     }
 }
 
-impl Div for Taylor {
+impl<const ORDERS: usize> Div for Taylor<ORDERS> {
     type Output = Self;
     fn div(self, b: Self) -> Self {
         let mut q = [0.0; ORDERS];
@@ -177,5 +208,28 @@ impl Div for Taylor {
             q[k] = (self.0[k] - known) / b.0[0];
         }
         Self(q)
+    }
+}
+
+impl<const ORDERS: usize> Mul<f64> for Taylor<ORDERS> {
+    type Output = Self;
+    fn mul(self, k: f64) -> Self {
+        Self(self.0.map(|c| c * k))
+    }
+}
+
+impl<const ORDERS: usize> Add<f64> for Taylor<ORDERS> {
+    type Output = Self;
+    fn add(mut self, k: f64) -> Self {
+        self.0[0] += k;
+        self
+    }
+}
+
+impl<const ORDERS: usize> Sub<f64> for Taylor<ORDERS> {
+    type Output = Self;
+    fn sub(mut self, k: f64) -> Self {
+        self.0[0] -= k;
+        self
     }
 }

@@ -1,0 +1,27 @@
+//! Planar linkages as compositions of Assur groups, in closed form with exact derivatives.
+//!
+//! A linkage of one input is a frame, a crank and dyads (groups of two links and three joints) added
+//! one after the other: each closes on what stands already. Every dyad has two assembly branches; the
+//! branch is a sign in its closed form, so it cannot jump along the cycle (Erdman and Sandor,
+//! *Mechanism Design*, 1984, chapter 3). Velocity, acceleration and jerk come from Taylor series of the
+//! same closed forms, not from differences.
+
+mod assembly;
+mod cycle;
+mod dyad;
+mod four_bar;
+mod point_series;
+mod six_bar;
+mod slider_crank;
+#[cfg(test)]
+mod tests;
+
+pub use assembly::{
+    Body, Connection, Joint, Line, Link, Linkage, LinkageError, LinkageParts, Pose, SliderDyad,
+    TwoBars,
+};
+pub use cycle::LinkTransmission;
+pub use dyad::Branch;
+pub use four_bar::{DeadCenters, FourBar, FourBarError, Grashof};
+pub use six_bar::{EffectorExtremes, SixBar, SixBarError, SixBarPosition, SwingSensitivity};
+pub use slider_crank::SliderCrank;

@@ -1,0 +1,442 @@
+use std::f64::consts::{PI, TAU};
+
+use centrode_geometry::{Jet, Point, Vector, bracketed_root};
+
+use super::cycle::wrapped;
+use super::four_bar::{FourBar, Grashof, joints};
+use super::point_series::PointSeries;
+use crate::formula::Taylor;
+use crate::transmission::{FromFn, MotionJet, Transmission};
+
+/// Why there is no such six-bar.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum SixBarError {
+    /// The four-bar in it is not a crank-rocker.
+    #[error(
+        "the four-bar must be a crank-rocker, but it is a {}: the crank must be the shortest, and shortest and longest together must stay below the two others (here by {margin} mm)", .class.name()
+    )]
+    NotCrankRocker {
+        /// What it is.
+        class: Grashof,
+        /// The two others less shortest and longest, mm.
+        margin: f64,
+    },
+    /// The effector's pivot lies on the path of the slider.
+    #[error(
+        "the effector's pivot ({x}, {y}) mm lies on the path of the slider: its angle has no value there"
+    )]
+    PivotOnPath {
+        /// Of the pivot, mm.
+        x: f64,
+        /// Of the pivot, mm.
+        y: f64,
+    },
+    /// A number that is not finite.
+    #[error("{name} is {value}; it must be finite, and a length above zero")]
+    Value {
+        /// Which one.
+        name: &'static str,
+        /// As given.
+        value: f64,
+    },
+}
+
+/// The ends of the effector's swing.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EffectorExtremes {
+    /// Crank angle and effector angle at the lower end, rad.
+    pub low: (f64, f64),
+    /// Crank angle and effector angle at the upper end, rad.
+    pub high: (f64, f64),
+}
+
+/// All of a six-bar at one crank angle, per radian of crank angle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SixBarPosition {
+    /// Joint of crank and coupler.
+    pub b: Jet,
+    /// Joint of coupler and rocker, and the slider.
+    pub c: Jet,
+    /// Tip of the effector.
+    pub e: Jet,
+    /// Angle of the effector, without jumps.
+    pub effector: MotionJet,
+}
+
+/// How the swing changes with each dimension: rad/mm.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SwingSensitivity {
+    /// With the lengths of crank, coupler, rocker and frame.
+    pub lengths: [f64; 4],
+    /// With the place of the effector's pivot.
+    pub pivot: Vector,
+}
+
+/// The picking six-bar: a crank-rocker ABCD that swings an end effector about a fixed pivot F through
+/// a slider at C.
+///
+/// A is the origin and D = (frame, 0). The effector's angle is the direction from F to C, unwrapped; its
+/// tip E is F + effector length (cos, sin). Ye et al. 2022, DOI 10.6041/j.issn.1000-1298.2022.05.010,
+/// equations (2) to (11), derived again: (5) and (10) need the two-argument arctangent, and (4) as
+/// printed is the lower branch.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SixBar {
+    four_bar: FourBar,
+    pivot: Point,
+    effector_length: f64,
+    extremes: EffectorExtremes,
+}
+
+impl SixBar {
+    /// A six-bar on a crank-rocker.
+    ///
+    /// # Errors
+    /// [`SixBarError`].
+    pub fn new(four_bar: FourBar, pivot: Point, effector_length: f64) -> Result<Self, SixBarError> {
+        for (name, value) in [("the pivot's x", pivot.x), ("the pivot's y", pivot.y)] {
+            if !value.is_finite() {
+                return Err(SixBarError::Value { name, value });
+            }
+        }
+        if !(effector_length.is_finite() && effector_length > 0.0) {
+            let (name, value) = ("the effector's length", effector_length);
+            return Err(SixBarError::Value { name, value });
+        }
+        let class = four_bar.grashof();
+        let margin = four_bar.grashof_margin();
+        let arc = SliderArc::of(&four_bar).ok_or(SixBarError::NotCrankRocker { class, margin })?;
+        if arc.distance(pivot) <= 0.0 {
+            let (x, y) = (pivot.x, pivot.y);
+            return Err(SixBarError::PivotOnPath { x, y });
+        }
+        Ok(Self {
+            four_bar,
+            pivot,
+            effector_length,
+            extremes: arc.extremes(pivot),
+        })
+    }
+
+    /// The crank-rocker in it.
+    #[must_use]
+    pub fn four_bar(&self) -> &FourBar {
+        &self.four_bar
+    }
+
+    /// The effector's pivot F.
+    #[must_use]
+    pub fn pivot(&self) -> Point {
+        self.pivot
+    }
+
+    /// Length of the effector from F to its tip, mm.
+    #[must_use]
+    pub fn effector_length(&self) -> f64 {
+        self.effector_length
+    }
+
+    /// Every joint at a crank angle.
+    #[must_use]
+    pub fn at(&self, input: f64) -> SixBarPosition {
+        let (lengths, branch) = (self.four_bar.lengths(), self.four_bar.branch());
+        let (b, c) = joints(lengths, branch, Taylor::<4>::variable(input));
+        let c = c.at;
+        let f = PointSeries::fixed(self.pivot);
+        let way = c.minus(f);
+        let s = way.dot(way);
+        let unit = way.times(s.sqrt().reciprocal());
+        let e = unit.times(self.effector_length).plus(f);
+        let mut effector = MotionJet::of(&way.angle());
+        effector.position = self.unwrapped(effector.position);
+        SixBarPosition {
+            b: b.jet(),
+            c: c.jet(),
+            e: e.jet(),
+            effector,
+        }
+    }
+
+    /// The angle that differs from a direction by whole turns and lies in the effector's range, which is
+    /// always less than a turn.
+    fn unwrapped(&self, direction: f64) -> f64 {
+        let middle = 0.5 * (self.extremes.low.1 + self.extremes.high.1);
+        middle + wrapped(direction - middle)
+    }
+
+    /// The effector's angle and its derivatives by the crank angle, without jumps.
+    #[must_use]
+    pub fn effector_angle(&self, input: f64) -> MotionJet {
+        let (lengths, branch) = (self.four_bar.lengths(), self.four_bar.branch());
+        let (_, c) = joints(lengths, branch, Taylor::<4>::variable(input));
+        let way = c.at.minus(PointSeries::fixed(self.pivot));
+        let mut effector = MotionJet::of(&way.angle());
+        effector.position = self.unwrapped(effector.position);
+        effector
+    }
+
+    /// Distance of the slider from the effector's pivot, and its derivatives by the crank angle.
+    #[must_use]
+    pub fn slider_distance(&self, input: f64) -> MotionJet {
+        let (lengths, branch) = (self.four_bar.lengths(), self.four_bar.branch());
+        let (_, c) = joints(lengths, branch, Taylor::<4>::variable(input));
+        let way = c.at.minus(PointSeries::fixed(self.pivot));
+        MotionJet::of(&way.dot(way).sqrt())
+    }
+
+    /// Least distance of the slider from the effector's pivot, mm.
+    #[must_use]
+    pub fn least_slider_distance(&self) -> f64 {
+        SliderArc::of(&self.four_bar).map_or(0.0, |arc| arc.distance(self.pivot))
+    }
+
+    /// The ends of the effector's swing.
+    ///
+    /// They are dead centres of the crank-rocker, or where the effector touches the slider's path.
+    #[must_use]
+    pub fn extremes(&self) -> EffectorExtremes {
+        self.extremes
+    }
+
+    /// Angle between the ends of the effector's motion, rad.
+    #[must_use]
+    pub fn swing(&self) -> f64 {
+        self.extremes.high.1 - self.extremes.low.1
+    }
+
+    /// How the swing changes with each dimension, exact.
+    ///
+    /// At an end of the swing the effector stands still, so the end's own shift along the cycle does not
+    /// count: the change of the swing is that of the effector's angle at the two crank angles.
+    #[must_use]
+    pub fn swing_sensitivity(&self) -> SwingSensitivity {
+        let slope = |dimension: usize, input: f64| {
+            let is = |k: usize, value: f64| {
+                if k == dimension {
+                    Taylor::<2>::variable(value)
+                } else {
+                    Taylor::constant(value)
+                }
+            };
+            let lengths = self.four_bar.lengths();
+            let lengths: [Taylor<2>; 4] = std::array::from_fn(|k| is(k, lengths[k]));
+            let pivot = PointSeries {
+                x: is(4, self.pivot.x),
+                y: is(5, self.pivot.y),
+            };
+            let input = Taylor::constant(input);
+            let (_, c) = joints(lengths, self.four_bar.branch(), input);
+            c.at.minus(pivot).angle().0[1]
+        };
+        let change = |dimension: usize| {
+            slope(dimension, self.extremes.high.0) - slope(dimension, self.extremes.low.0)
+        };
+        SwingSensitivity {
+            lengths: std::array::from_fn(change),
+            pivot: Vector::new(change(4), change(5)),
+        }
+    }
+
+    /// The effector's angle as a function of the crank angle.
+    #[must_use]
+    pub fn transmission(&self) -> impl Transmission + use<> {
+        let six_bar = *self;
+        FromFn::new(TAU, 0.0, Vec::new(), move |input| {
+            six_bar.effector_angle(input)
+        })
+    }
+
+    /// `count` places of the effector's pivot that all give this swing (rad), in order along a curve;
+    /// empty for a swing that is not between 0 and 2 pi, or for what is not a crank-rocker.
+    ///
+    /// The slider runs on an arc about D. Half a turn is seen from the chord between its dead centres,
+    /// and from nowhere else: from outside the circle the arc looks smaller, on the near side of the
+    /// chord larger. Every other swing is seen from an isoptic of the arc, found along rays from the
+    /// chord's middle, on which the swing falls all the way (and is below half a turn past the arc).
+    #[must_use]
+    pub fn pivots(four_bar: &FourBar, swing: f64, count: usize) -> Vec<Point> {
+        let Some(arc) = SliderArc::of(four_bar) else {
+            return Vec::new();
+        };
+        if !(swing > 0.0 && swing < TAU) || count == 0 {
+            return Vec::new();
+        }
+        let [from, to] = arc.ends();
+        let chord = to - from;
+        let share = |i: usize| (i as f64 + 0.5) / count as f64;
+        if swing == PI {
+            return (0..count).map(|i| from + chord * share(i)).collect();
+        }
+        let middle = from + 0.5 * chord;
+        let whole = if swing > PI { PI } else { TAU };
+        // Rays to the side of the arc first; the chord runs from its start to its end, clockwise seen
+        // from D's far side.
+        let across = arc.outwards(middle, chord);
+        let place = |i: usize| {
+            let (sin, cos) = (whole * share(i)).sin_cos();
+            let ray = chord.normalize() * cos + across * sin;
+            arc.seen_at(middle, ray, swing)
+        };
+        (0..count).filter_map(place).collect()
+    }
+}
+
+/// The arc about D on which the slider runs.
+struct SliderArc {
+    center: Point,
+    radius: f64,
+    /// Rocker angle and crank angle at the two ends, the lesser rocker angle first.
+    ends: [(f64, f64); 2],
+    four_bar: FourBar,
+}
+
+impl SliderArc {
+    fn of(four_bar: &FourBar) -> Option<Self> {
+        let dead = four_bar.dead_centers()?;
+        let mut ends =
+            [dead.stretched, dead.folded].map(|phi| (four_bar.unwrapped_rocker(phi), phi));
+        if ends[0].0 > ends[1].0 {
+            ends.reverse();
+        }
+        // Both unwrapped in [0, 2 pi) of the crank, where the rocker's angle has no jump.
+        let [_, _, radius, frame] = four_bar.lengths();
+        Some(Self {
+            center: Point::new(frame, 0.0),
+            radius,
+            ends,
+            four_bar: *four_bar,
+        })
+    }
+
+    fn at(&self, rocker: f64) -> Point {
+        self.center + self.radius * Vector::new(rocker.cos(), rocker.sin())
+    }
+
+    fn ends(&self) -> [Point; 2] {
+        self.ends.map(|(rocker, _)| self.at(rocker))
+    }
+
+    /// The angle in the arc's range of angles, or none.
+    fn within(&self, rocker: f64) -> Option<f64> {
+        let [low, high] = self.ends.map(|e| e.0);
+        let angle = low + (rocker - low).rem_euclid(TAU);
+        (angle <= high).then_some(angle)
+    }
+
+    fn distance(&self, from: Point) -> f64 {
+        let way = from - self.center;
+        if self.within(way.y.atan2(way.x)).is_some() {
+            return (way.norm() - self.radius).abs();
+        }
+        let [a, b] = self.ends();
+        (a - from).norm().min((b - from).norm())
+    }
+
+    /// Direction from `from` to the arc's point at a rocker angle, without jumps along the arc.
+    ///
+    /// With w the way from `from` to D as a complex number and r the arc's radius it is
+    /// arg(w + r e^(i theta)), taken as theta + arg(1 + w/r e^(-i theta)) inside the circle and as
+    /// arg w + arg(1 + r/w e^(i theta)) outside, where the second term never leaves (-pi/2, pi/2).
+    fn direction(&self, from: Point, rocker: f64) -> f64 {
+        let w = self.center - from;
+        let (sin, cos) = rocker.sin_cos();
+        let (r, s) = (self.radius, w.norm_squared());
+        if s <= r * r {
+            let turned = (w.x * cos + w.y * sin, w.y * cos - w.x * sin);
+            rocker + turned.1.atan2(r + turned.0)
+        } else {
+            let turned = (w.x * cos + w.y * sin, w.x * sin - w.y * cos);
+            w.y.atan2(w.x) + (r * turned.1).atan2(s + r * turned.0)
+        }
+    }
+
+    /// A crank angle at which the slider is at a rocker angle.
+    fn crank(&self, rocker: f64) -> f64 {
+        for (end, crank) in self.ends {
+            if rocker == end {
+                return crank;
+            }
+        }
+        let [a, b, _, _] = self.four_bar.lengths();
+        let c = self.at(rocker);
+        let reach = c.coords.norm();
+        let cosine = (a * a + reach * reach - b * b) / (2.0 * a * reach);
+        (c.y.atan2(c.x) + cosine.clamp(-1.0, 1.0).acos()).rem_euclid(TAU)
+    }
+
+    fn extremes(&self, from: Point) -> EffectorExtremes {
+        let mut rockers: Vec<f64> = self.ends.iter().map(|e| e.0).collect();
+        let way = from - self.center;
+        let distance = way.norm();
+        if distance > self.radius {
+            // The tangents from outside touch where the radius stands square to them.
+            let (towards, half) = (way.y.atan2(way.x), (self.radius / distance).acos());
+            let touching = [towards + half, towards - half];
+            rockers.extend(touching.into_iter().filter_map(|t| self.within(t)));
+        }
+        let end = |rocker: f64| (self.crank(rocker), self.direction(from, rocker));
+        let first = end(rockers[0]);
+        let mut extremes = EffectorExtremes {
+            low: first,
+            high: first,
+        };
+        for &rocker in &rockers[1..] {
+            let here = end(rocker);
+            if here.1 < extremes.low.1 {
+                extremes.low = here;
+            }
+            if here.1 > extremes.high.1 {
+                extremes.high = here;
+            }
+        }
+        extremes
+    }
+
+    fn swing(&self, from: Point) -> f64 {
+        let extremes = self.extremes(from);
+        extremes.high.1 - extremes.low.1
+    }
+
+    /// The unit vector square to the chord, towards the arc.
+    fn outwards(&self, middle: Point, chord: Vector) -> Vector {
+        let across = Vector::new(-chord.y, chord.x).normalize();
+        let half = 0.5 * (self.ends[0].0 + self.ends[1].0);
+        across * across.dot(&(self.at(half) - middle)).signum()
+    }
+
+    /// The point on a ray from the chord's middle from which the arc is seen at an angle.
+    fn seen_at(&self, middle: Point, ray: Vector, swing: f64) -> Option<Point> {
+        // Where the ray crosses the circle, on the far side of the middle.
+        let way = middle - self.center;
+        let along = way.dot(&ray);
+        let to_circle =
+            -along + (along * along + self.radius * self.radius - way.norm_squared()).sqrt();
+        let crossing = middle + ray * to_circle - self.center;
+        let crosses = self.within(crossing.y.atan2(crossing.x)).is_some();
+        let off = |t: f64| self.swing(middle + ray * t) - swing;
+        let small = 1e-12 * self.radius;
+        let (low, high) = match (swing > PI, crosses) {
+            (true, true) => (small, to_circle * (1.0 - 1e-12)),
+            (true, false) => return None,
+            (false, true) => {
+                let mut far = 2.0 * to_circle;
+                while off(far) > 0.0 && far < 1e9 * self.radius {
+                    far *= 2.0;
+                }
+                (to_circle * (1.0 + 1e-12), far)
+            }
+            (false, false) => {
+                let mut far = self.radius;
+                while off(far) > 0.0 && far < 1e9 * self.radius {
+                    far *= 2.0;
+                }
+                (small, far)
+            }
+        };
+        let (at_low, at_high) = (off(low), off(high));
+        if at_low * at_high > 0.0 {
+            return None;
+        }
+        Some(middle + ray * bracketed_root(off, low, high, at_low, at_high))
+    }
+}
