@@ -3,4 +3,5 @@
 mod data;
 mod feeder;
 mod pitch;
+mod shaft;
 mod teeth;

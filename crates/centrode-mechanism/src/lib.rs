@@ -7,4 +7,5 @@ pub mod design;
 mod formula;
 pub mod gear;
 pub mod linkage;
+pub mod shaft;
 pub mod transmission;

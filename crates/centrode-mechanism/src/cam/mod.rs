@@ -3,7 +3,7 @@
 mod contact;
 pub mod design;
 mod disc;
-mod extreme;
+pub(crate) mod extreme;
 mod fork;
 pub mod law;
 mod limits;

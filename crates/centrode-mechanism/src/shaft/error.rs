@@ -1,0 +1,131 @@
+use thiserror::Error;
+
+use crate::gear::design::SpecError;
+use crate::gear::pitch::PitchError;
+
+/// Why a spiral shaft does not exist.
+#[derive(Clone, Debug, Error, PartialEq)]
+#[non_exhaustive]
+pub enum ShaftError {
+    /// A value breaks a rule of its own.
+    #[error(transparent)]
+    Spec(#[from] SpecError),
+    /// A table or formula of the speed cannot be read.
+    #[error(transparent)]
+    Speed(#[from] PitchError),
+    /// The slider would stand still or run back on the way.
+    #[error(
+        "amplitude is {amplitude} mm, but with the harmonic {harmonic} and a lead of {lead} mm the slider only keeps moving one way below {limit:.6} mm"
+    )]
+    Amplitude {
+        /// Amplitude, mm.
+        amplitude: f64,
+        /// Waves a turn.
+        harmonic: u32,
+        /// Lead, mm a turn.
+        lead: f64,
+        /// Amplitude at which the speed falls to zero, mm.
+        limit: f64,
+    },
+    /// A speed law whose speed falls to zero.
+    #[error(
+        "the speed must stay above zero, but at {angle_deg:.4} deg it is {ratio:.6} of its mean"
+    )]
+    SpeedNotPositive {
+        /// Shaft angle, deg.
+        angle_deg: f64,
+        /// Speed there over its mean.
+        ratio: f64,
+    },
+    /// A distance no amplitude gives.
+    #[error(
+        "moved_distance must lie between {least:.6} mm, where the slider stands still, and {greatest:.6} mm, where its speed is constant, not {wanted}"
+    )]
+    MovedDistance {
+        /// What was asked for, mm.
+        wanted: f64,
+        /// Bound below, mm.
+        least: f64,
+        /// Bound above, mm.
+        greatest: f64,
+    },
+    /// A window that holds whole waves, over which no amplitude changes the distance.
+    #[error(
+        "window_deg is {window_deg}, whole waves of the harmonic {harmonic}: every amplitude moves the slider alike over it"
+    )]
+    Window {
+        /// Width of the window, deg.
+        window_deg: f64,
+        /// Waves a turn.
+        harmonic: u32,
+    },
+    /// Reversals after which the groove does not meet its own start.
+    #[error(
+        "reversal_angle_deg must be a whole number of half turns, or the groove does not close on the shaft; it is {0}"
+    )]
+    ReversalAngle(f64),
+    /// A law that does not bring the speed smoothly and evenly from one way to the other.
+    #[error(
+        "the law {law} does not reverse the slider: its acceleration must vanish at both ends and its halves be alike"
+    )]
+    ReversalLaw {
+        /// Name of the law.
+        law: &'static str,
+    },
+    /// A slider that turns round more than once in a reversal.
+    #[error("the slider turns round {0} times in one reversal: take a larger reversal angle")]
+    TurnsRound(usize),
+    /// A groove that leaves no land to the next turn of itself.
+    #[error(
+        "groove.width is {width} mm, but the next turn of the groove is only {room:.6} mm away along the normal"
+    )]
+    GrooveWidth {
+        /// Width of the groove, mm.
+        width: f64,
+        /// Least normal distance of neighbouring turns, mm.
+        room: f64,
+    },
+    /// A groove as deep as the shaft is thick.
+    #[error("groove.depth is {depth} mm, which at a radius of {radius} mm reaches {limit}")]
+    GrooveDepth {
+        /// Depth, mm.
+        depth: f64,
+        /// Radius of the shaft, mm.
+        radius: f64,
+        /// What is in the way.
+        limit: &'static str,
+    },
+    /// A slider of the groove's width cannot follow the bend.
+    #[error(
+        "the groove bends with a radius of {radius:.6} mm at {angle_deg:.3} deg, less than half its width of {width} mm: no slider cuts or follows it; take a larger reversal angle"
+    )]
+    Bend {
+        /// Least radius of curvature on the development, mm.
+        radius: f64,
+        /// Where, deg of shaft turn.
+        angle_deg: f64,
+        /// Width of the groove, mm.
+        width: f64,
+    },
+}
+
+impl ShaftError {
+    /// The key of the design to blame.
+    #[must_use]
+    pub fn key(&self) -> String {
+        match self {
+            Self::Spec(error) => error.key.clone(),
+            Self::Speed(error) => format!("law.{}", error.key()),
+            Self::Amplitude { .. } => "law.amplitude".into(),
+            Self::SpeedNotPositive { .. } => "law".into(),
+            Self::MovedDistance { .. } => "law.moved_distance".into(),
+            Self::Window { .. } => "law.window_deg".into(),
+            Self::ReversalAngle(_) | Self::TurnsRound(_) | Self::Bend { .. } => {
+                "reversal.angle_deg".into()
+            }
+            Self::ReversalLaw { .. } => "reversal.law".into(),
+            Self::GrooveWidth { .. } => "groove.width".into(),
+            Self::GrooveDepth { .. } => "groove.depth".into(),
+        }
+    }
+}

@@ -1,0 +1,192 @@
+use std::f64::consts::{FRAC_PI_2, TAU};
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::Groove;
+use crate::cam::Extreme;
+use crate::cam::extreme::{greatest, least};
+use crate::gear::design::SpecError;
+use crate::gear::design::rule::{not_negative, positive};
+use crate::transmission::{MotionJet, Transmission};
+
+/// Acceleration of free fall, m/s^2, as the paper has it.
+pub const GRAVITY: f64 = 9.81;
+
+/// What the slider moves, and how fast.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Load {
+    /// Speed of the shaft, turns a minute.
+    pub speed_rpm: f64,
+    /// Mass moved along the shaft, kg.
+    pub mass: f64,
+    /// Coefficient of friction between slider and groove.
+    pub groove_friction: f64,
+    /// Coefficient of friction between the box and its rails.
+    pub rail_friction: f64,
+}
+
+impl Default for Load {
+    fn default() -> Self {
+        Self {
+            speed_rpm: 200.0,
+            mass: 10.0,
+            groove_friction: 0.10,
+            rail_friction: 0.15,
+        }
+    }
+}
+
+/// Forces on the slider at one angle of the shaft.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SliderForce {
+    /// Push the groove must give the box along its way, N; negative where it holds the box back.
+    pub push: f64,
+    /// Normal force of the wall, N, never negative.
+    pub normal: f64,
+    /// Force round the shaft that the sleeve takes, N: positive where it resists the shaft.
+    pub transverse: f64,
+    /// Torque on the shaft, N mm: positive where the shaft drives.
+    pub torque: f64,
+    /// Whether the wall behind the slider pushes it; else the one in front holds it back.
+    pub driving: bool,
+}
+
+impl Load {
+    /// Ranges.
+    ///
+    /// # Errors
+    /// [`SpecError`] with the key at fault.
+    pub fn validate(&self) -> Result<(), SpecError> {
+        positive("speed_rpm", self.speed_rpm)?;
+        positive("mass", self.mass)?;
+        not_negative("groove_friction", self.groove_friction)?;
+        not_negative("rail_friction", self.rail_friction)
+    }
+
+    /// Speed of the shaft, rad/s.
+    #[must_use]
+    pub fn speed(&self) -> f64 {
+        self.speed_rpm * TAU / 60.0
+    }
+
+    /// Forces for a motion (mm, rad) along a shaft of this radius (mm), by equilibrium.
+    ///
+    /// With the lead angle `a`, the groove's friction angle `f` and the push `P = m (x'' + g mu)`, both
+    /// along the way of the box: `F_n = P cos f / cos(a + f)`, `F_oy = P tan(a + f)`. Where `P` is negative
+    /// the other wall holds the box back, and the sum becomes a difference. Replaces equations (14) and
+    /// (15) of Zhou et al. 2018.
+    #[must_use]
+    pub fn force(&self, motion: MotionJet, radius: f64) -> SliderForce {
+        let omega = self.speed();
+        let way = way(&motion);
+        let along = way * motion.acceleration * 1e-3 * omega * omega;
+        let push = self.mass * (along + GRAVITY * self.rail_friction);
+        let lead = (motion.velocity.abs() / radius).atan();
+        let friction = self.groove_friction.atan();
+        let driving = push >= 0.0;
+        let angle = if driving {
+            lead + friction
+        } else {
+            lead - friction
+        };
+        let transverse = push * angle.tan();
+        SliderForce {
+            push,
+            normal: push.abs() * friction.cos() / angle.cos(),
+            transverse,
+            torque: transverse * radius,
+            driving,
+        }
+    }
+
+    /// Normal and transverse force by equations (14) and (15) of the paper, N, with the true acceleration;
+    /// shown beside [`force`](Self::force), not used.
+    ///
+    /// They take load and acceleration for opposed, and (15) carries the wrong sign of (11) on.
+    #[must_use]
+    pub fn published(&self, motion: MotionJet, radius: f64) -> (f64, f64) {
+        let omega = self.speed();
+        let acceleration = motion.acceleration * 1e-3 * omega * omega;
+        let lead = (motion.velocity.abs() / radius).atan();
+        let friction = self.groove_friction.atan();
+        let load = self.mass * (GRAVITY * self.rail_friction - acceleration);
+        let cos = (lead + friction).cos();
+        (
+            load * friction.cos() / cos,
+            load * (lead - friction).sin() / cos,
+        )
+    }
+
+    /// Speed of the shaft, turns a minute, above which a motion whose deceleration along its way is at most
+    /// `deceleration` (mm/rad^2) leaves the driving wall: `omega^2 = g mu / deceleration`.
+    #[must_use]
+    pub fn contact_limit_rpm(&self, deceleration: f64) -> f64 {
+        (GRAVITY * self.rail_friction * 1e3 / deceleration.max(0.0)).sqrt() * 60.0 / TAU
+    }
+
+    /// Lead angle, rad, at which the shaft can no longer move the slider, whatever its torque.
+    #[must_use]
+    pub fn jamming_angle(&self) -> f64 {
+        FRAC_PI_2 - self.groove_friction.atan()
+    }
+}
+
+/// Way the box goes, or is about to go.
+fn way(motion: &MotionJet) -> f64 {
+    if motion.velocity == 0.0 {
+        motion.acceleration.signum()
+    } else {
+        motion.velocity.signum()
+    }
+}
+
+/// Extremes of the forces over a whole cycle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ForceRange {
+    /// Least and greatest normal force on the strokes, N.
+    pub normal: [Extreme; 2],
+    /// Greatest normal force in a reversal, N.
+    pub normal_of_reversal: Extreme,
+    /// Least and greatest torque over the cycle, N mm.
+    pub torque: [Extreme; 2],
+    /// Greatest deceleration along the way on the strokes, mm/rad^2.
+    pub deceleration: Extreme,
+    /// The same over the whole cycle, with the reversals.
+    pub deceleration_of_cycle: Extreme,
+}
+
+impl Groove {
+    /// Forces on the slider at an angle of the shaft.
+    #[must_use]
+    pub fn force(&self, theta: f64, load: &Load) -> SliderForce {
+        load.force(self.traverse().at(theta), self.radius())
+    }
+
+    /// Least and greatest forces over the cycle.
+    #[must_use]
+    pub fn force_range(&self, load: &Load) -> ForceRange {
+        let ends = self.ends();
+        let stroke = self.traverse().stroke();
+        let turn = self.traverse().reversal();
+        let part = |low: f64, high: f64| -> Vec<f64> {
+            let inside = ends.iter().copied();
+            inside.filter(|&t| t >= low && t <= high).collect()
+        };
+        let (out, back) = (part(0.0, stroke), part(stroke, stroke + turn));
+        let normal = |theta: f64| self.force(theta, load).normal;
+        let torque = |theta: f64| self.force(theta, load).torque;
+        let slowing = |theta: f64| {
+            let motion = self.traverse().at(theta);
+            -way(&motion) * motion.acceleration
+        };
+        ForceRange {
+            normal: [least(normal, &out), greatest(normal, &out)],
+            normal_of_reversal: greatest(normal, &back),
+            torque: [least(torque, &ends), greatest(torque, &ends)],
+            deceleration: greatest(slowing, &out),
+            deceleration_of_cycle: greatest(slowing, &ends),
+        }
+    }
+}

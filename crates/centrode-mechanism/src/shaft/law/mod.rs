@@ -1,0 +1,164 @@
+//! The slider's place along the shaft as a function of the shaft's angle.
+
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+mod general;
+mod rotated;
+mod sine;
+
+pub use general::{SpeedFormula, SpeedKnots, SpeedTable};
+pub use rotated::RotatedSine;
+pub use sine::{AmplitudeFor, Sine};
+
+use super::ShaftError;
+use crate::cam::Extreme;
+use crate::cam::extreme::{greatest, least};
+use crate::gear::design::rule::positive;
+use crate::transmission::{MotionJet, Transmission};
+
+/// The law along the shaft as written: one of the kinds, by the key `kind`.
+#[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
+#[serde(tag = "kind", rename_all = "kebab-case")]
+#[non_exhaustive]
+pub enum SpeedLaw {
+    /// A cosine on the speed: the integral of equation (1).
+    Sine(Sine),
+    /// A sine turned onto the helix, equations (3) to (5).
+    RotatedSine(RotatedSine),
+    /// Speeds at chosen angles, joined by a motion law.
+    Knots(SpeedKnots),
+    /// Speeds at equal steps of a turn.
+    Table(SpeedTable),
+    /// A formula for the speed.
+    Formula(SpeedFormula),
+}
+
+impl Default for SpeedLaw {
+    fn default() -> Self {
+        Self::Sine(Sine::default())
+    }
+}
+
+impl SpeedLaw {
+    /// Every `kind`.
+    pub const KINDS: &'static [&'static str] =
+        &["sine", "rotated-sine", "knots", "table", "formula"];
+
+    /// The exact law for a lead (mm a turn), proved to run one way. `radius` (mm) is that of the shaft;
+    /// only the rotated sine depends on it.
+    ///
+    /// # Errors
+    /// [`ShaftError`] naming the violated rule and its numbers.
+    pub fn resolve(&self, lead: f64, radius: f64) -> Result<ShaftLaw, ShaftError> {
+        positive("lead", lead)?;
+        positive("radius", radius)?;
+        let form: Arc<dyn Transmission> = match self {
+            Self::Sine(spec) => Arc::new(spec.resolve(lead)?),
+            Self::RotatedSine(spec) => Arc::new(spec.resolve(lead, radius)?),
+            Self::Knots(spec) => Arc::new(spec.resolve(lead)?),
+            Self::Table(spec) => Arc::new(spec.resolve(lead)?),
+            Self::Formula(spec) => Arc::new(spec.resolve(lead)?),
+        };
+        ShaftLaw::new(form)
+    }
+}
+
+/// A law along the shaft: `s(theta + one turn) = s(theta) + lead`, never standing still.
+#[derive(Clone, Debug)]
+pub struct ShaftLaw {
+    form: Arc<dyn Transmission>,
+    slowest: Extreme,
+    fastest: Extreme,
+}
+
+impl ShaftLaw {
+    /// Takes a transmission that advances by the lead in one turn.
+    ///
+    /// # Errors
+    /// [`ShaftError::SpeedNotPositive`] where it stands still or runs back.
+    pub fn new(form: Arc<dyn Transmission>) -> Result<Self, ShaftError> {
+        let mut ends: Vec<f64> = (0..=16).map(|i| TAU * f64::from(i) / 16.0).collect();
+        ends.extend(form.breaks());
+        ends.sort_by(f64::total_cmp);
+        ends.dedup();
+        let speed = |theta: f64| form.at(theta).velocity;
+        let (slowest, fastest) = (least(speed, &ends), greatest(speed, &ends));
+        let mean = form.advance() / TAU;
+        if slowest.value > 0.0 && fastest.value.is_finite() {
+            Ok(Self {
+                form,
+                slowest,
+                fastest,
+            })
+        } else {
+            Err(ShaftError::SpeedNotPositive {
+                angle_deg: slowest.input.to_degrees(),
+                ratio: slowest.value / mean,
+            })
+        }
+    }
+
+    /// Lead, mm a turn.
+    #[must_use]
+    pub fn lead(&self) -> f64 {
+        self.form.advance()
+    }
+
+    /// Mean speed, mm/rad.
+    #[must_use]
+    pub fn mean_speed(&self) -> f64 {
+        self.lead() / TAU
+    }
+
+    /// Where in a turn the slider is slowest, and its speed there, mm/rad.
+    #[must_use]
+    pub fn slowest(&self) -> Extreme {
+        self.slowest
+    }
+
+    /// Where in a turn the slider is fastest, and its speed there, mm/rad.
+    #[must_use]
+    pub fn fastest(&self) -> Extreme {
+        self.fastest
+    }
+
+    /// Distance moved from one shaft angle to another, mm.
+    #[must_use]
+    pub fn moved(&self, start: f64, stop: f64) -> f64 {
+        self.at(stop).position - self.at(start).position
+    }
+
+    /// Greatest distance between this law and another along the shaft over one turn, each counted from
+    /// its own place at `from`; mm.
+    #[must_use]
+    pub fn departure(&self, other: &Self, from: f64) -> f64 {
+        let apart = |theta: f64| (self.moved(from, theta) - other.moved(from, theta)).abs();
+        let ends: Vec<f64> = (0..=16).map(|i| from + TAU * f64::from(i) / 16.0).collect();
+        greatest(apart, &ends).value
+    }
+}
+
+impl Transmission for ShaftLaw {
+    fn at(&self, theta: f64) -> MotionJet {
+        self.form.at(theta)
+    }
+
+    fn period(&self) -> f64 {
+        self.form.period()
+    }
+
+    fn advance(&self) -> f64 {
+        self.form.advance()
+    }
+
+    fn breaks(&self) -> Vec<f64> {
+        self.form.breaks()
+    }
+}
+
+/// Most waves a turn.
+const MOST_HARMONICS: u32 = 60;

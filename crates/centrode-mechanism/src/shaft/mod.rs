@@ -1,0 +1,30 @@
+//! The variable-speed spiral shaft that moves a seedling box: motion, groove, slider, forces.
+//!
+//! The shaft turns by `theta` and carries the slider along its axis, z. Lengths are mm, angles rad,
+//! velocities mm a radian of shaft turn. After M. L. Zhou et al., "New type of transverse moving box
+//! mechanism for pot seedling transplanting machine", 2018, DOI 10.25165/j.ijabe.20181102.2867; its
+//! equations are cited by their numbers, and derived again where they do not hold.
+
+mod crossing;
+mod elliptic;
+mod error;
+mod force;
+mod groove;
+mod law;
+mod reversal;
+mod schedule;
+mod slider;
+mod traverse;
+
+pub use crossing::{ClearOffset, Crossing};
+pub use elliptic::EllipticDrive;
+pub use error::ShaftError;
+pub use force::{ForceRange, GRAVITY, Load, SliderForce};
+pub use groove::{Groove, Wall};
+pub use law::{
+    AmplitudeFor, RotatedSine, ShaftLaw, Sine, SpeedFormula, SpeedKnots, SpeedLaw, SpeedTable,
+};
+pub use reversal::Reversal;
+pub use schedule::{Pick, Schedule, Way};
+pub use slider::SliderSpec;
+pub use traverse::Traverse;

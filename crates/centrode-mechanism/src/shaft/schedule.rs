@@ -1,0 +1,110 @@
+use std::f64::consts::TAU;
+
+use super::Traverse;
+use crate::transmission::Transmission;
+
+/// Which way the box runs while a hole is picked.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+pub enum Way {
+    /// On the forward stroke.
+    Forward,
+    /// While turning round.
+    Reversing,
+    /// On the return stroke.
+    Return,
+}
+
+impl Way {
+    /// The word for it.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Forward => "forward",
+            Self::Reversing => "reversing",
+            Self::Return => "return",
+        }
+    }
+}
+
+/// One picking.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pick {
+    /// Turn of the shaft in the cycle, from 0.
+    pub turn: u32,
+    /// Shaft angle at the middle of the window, rad.
+    pub theta: f64,
+    /// Way of the box.
+    pub way: Way,
+    /// Place of the box, mm.
+    pub position: f64,
+    /// Number of the nearest hole, from 0.
+    pub hole: u32,
+    /// Place of the box over that of the nearest hole, mm.
+    pub misplacement: f64,
+    /// Distance the box sweeps in the window, mm.
+    pub swept: f64,
+}
+
+/// Which hole is picked at which turn over a whole way out and back, one pick a turn.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Schedule {
+    /// The picks in order.
+    pub picks: Vec<Pick>,
+    /// How often each hole is picked.
+    pub visits: Vec<u32>,
+}
+
+impl Schedule {
+    /// Picks at `pick + 2 pi k`, each in a window (rad) around that angle.
+    ///
+    /// The holes lie a lead apart, the first where the box is at the first pick; with a return offset
+    /// they are half of it nearer, so that both ways miss them alike.
+    #[must_use]
+    pub fn of(traverse: &Traverse, pick: f64, window: f64) -> Self {
+        let (stroke, turn) = (traverse.stroke(), traverse.reversal());
+        let lead = traverse.law().lead();
+        let first = traverse.at(pick).position - 0.5 * traverse.return_offset();
+        let last = traverse.holes() - 1;
+        let mut visits = vec![0; traverse.holes() as usize];
+        let picks = (0..traverse.turns()).map(|k| {
+            let theta = pick + TAU * f64::from(k);
+            let inside = theta.rem_euclid(traverse.period());
+            // The joint itself still belongs to the stroke.
+            let slack = 1e-9;
+            let way = if inside <= stroke + slack {
+                Way::Forward
+            } else if inside < stroke + turn - slack {
+                Way::Reversing
+            } else if inside <= 2.0 * stroke + turn + slack {
+                Way::Return
+            } else {
+                Way::Reversing
+            };
+            let position = traverse.at(theta).position;
+            let hole = ((position - first) / lead)
+                .round()
+                .clamp(0.0, f64::from(last)) as u32;
+            visits[hole as usize] += 1;
+            Pick {
+                turn: k,
+                theta,
+                way,
+                position,
+                hole,
+                misplacement: position - first - lead * f64::from(hole),
+                swept: traverse.swept(theta - 0.5 * window, theta + 0.5 * window),
+            }
+        });
+        Self {
+            picks: picks.collect(),
+            visits,
+        }
+    }
+
+    /// The pick that misses its hole most.
+    #[must_use]
+    pub fn worst(&self) -> Option<&Pick> {
+        let size = |pick: &&Pick| pick.misplacement.abs();
+        self.picks.iter().max_by(|a, b| size(a).total_cmp(&size(b)))
+    }
+}

@@ -1,0 +1,122 @@
+use centrode_geometry::{Arc, Outline, Point, Segment};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::Groove;
+use crate::gear::design::SpecError;
+use crate::gear::design::rule::{Rule, broken, not_negative, positive};
+
+/// The slider: an oblong follower with round ends that turns in its sleeve to lie along the groove.
+#[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct SliderSpec {
+    /// Length over both round ends, mm.
+    pub length: f64,
+    /// How much narrower than the groove it is, mm.
+    pub clearance: f64,
+    /// How deep it reaches into the groove, mm.
+    pub reach: f64,
+    /// Diameter of the pin it turns on, mm.
+    pub pin_diameter: f64,
+    /// Length of the pin above the shaft's surface, mm.
+    pub pin_length: f64,
+    /// Density, kg/m^3.
+    pub density: f64,
+}
+
+impl Default for SliderSpec {
+    fn default() -> Self {
+        Self {
+            length: 42.0,
+            clearance: 0.2,
+            reach: 3.5,
+            pin_diameter: 8.0,
+            pin_length: 12.0,
+            density: 7850.0,
+        }
+    }
+}
+
+impl SliderSpec {
+    /// Ranges, for a groove of this width and depth (mm).
+    ///
+    /// # Errors
+    /// [`SpecError`] with the key at fault.
+    pub fn validate(&self, width: f64, depth: f64) -> Result<(), SpecError> {
+        not_negative("clearance", self.clearance)?;
+        positive("length", self.length)?;
+        positive("reach", self.reach)?;
+        positive("pin_diameter", self.pin_diameter)?;
+        positive("pin_length", self.pin_length)?;
+        positive("density", self.density)?;
+        let least = width - self.clearance;
+        let range = |value, least, greatest| Rule::OutOfRange {
+            value,
+            least,
+            greatest,
+            unit: " mm",
+        };
+        if least <= 0.0 {
+            return broken("clearance", range(self.clearance, 0.0, width));
+        }
+        if self.length < least {
+            return broken("length", range(self.length, least, f64::INFINITY));
+        }
+        if self.reach > depth {
+            return broken("reach", range(self.reach, 0.0, depth));
+        }
+        Ok(())
+    }
+
+    /// Width for a groove of this width, mm.
+    #[must_use]
+    pub fn width(&self, groove: f64) -> f64 {
+        groove - self.clearance
+    }
+
+    /// The outline, mm, seen from outside along its pin, its length along x: two straight sides and two
+    /// half circles.
+    #[must_use]
+    pub fn outline(&self, groove: f64) -> Outline {
+        let half = 0.5 * self.width(groove);
+        let straight = (0.5 * self.length - half).max(0.0);
+        let p = Point::new;
+        let round = |from: Point, to: Point| {
+            Segment::Arc(Arc {
+                start: from,
+                end: to,
+                bulge: 1.0,
+            })
+        };
+        let corners = [
+            p(-straight, -half),
+            p(straight, -half),
+            p(straight, half),
+            p(-straight, half),
+        ];
+        let [a, b, c, d] = corners;
+        let mut segments = vec![round(b, c), round(d, a)];
+        if straight > 0.0 {
+            segments.insert(1, Segment::Line(c, d));
+            segments.insert(0, Segment::Line(a, b));
+        }
+        Outline::new(segments).unwrap_or_else(|_| Outline::circle(Point::origin(), half))
+    }
+
+    /// Clearance a straight slider of this length needs where the groove bends most, mm: the height of the
+    /// bend over the chord between the centres of its round ends.
+    ///
+    /// `rho - sqrt(rho^2 - l^2 / 4)` with `l` the length less the groove's width; infinite where the bend
+    /// is shorter than the slider.
+    #[must_use]
+    pub fn needed_clearance(&self, groove: &Groove) -> f64 {
+        let half = (0.5 * (self.length - groove.width())).max(0.0);
+        let bend = groove.tightest().value;
+        let share = half * bend;
+        if share >= 1.0 {
+            return f64::INFINITY;
+        }
+        // rho (1 - sqrt(1 - x^2)) without cancellation.
+        half * share / (1.0 + (1.0 - share * share).sqrt())
+    }
+}
