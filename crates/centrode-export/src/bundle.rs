@@ -1,4 +1,5 @@
 use std::{
+    ffi::OsStr,
     fs::{self, File},
     io::{self, Write},
     path::{Path, PathBuf},
@@ -16,7 +17,7 @@ pub struct Bundle {
 #[non_exhaustive]
 pub enum BundleError {
     /// A file name that could lead out of the directory.
-    #[error("{name:?} is not a plain file name")]
+    #[error("{name:?} is not a plain file name, alone or after those of folders")]
     Name {
         /// The name.
         name: String,
@@ -40,18 +41,13 @@ pub enum BundleError {
 }
 
 impl Bundle {
-    /// Adds a file.
+    /// Adds a file; its name may begin with folders, such as `collision/hub.stl`.
     ///
     /// # Errors
-    /// [`BundleError::Name`] unless the name is a plain one without path separators,
+    /// [`BundleError::Name`] unless folders and file have plain names,
     /// [`BundleError::Twice`] if a file of that name (letter case aside) is there already.
     pub fn add(&mut self, name: &str, bytes: Vec<u8>) -> Result<(), BundleError> {
-        let plain = !name.is_empty()
-            && !name.starts_with('.')
-            && !name
-                .chars()
-                .any(|c| matches!(c, '/' | '\\' | ':') || c.is_control());
-        if !plain {
+        if !name.split('/').all(is_plain) {
             return Err(BundleError::Name {
                 name: name.to_owned(),
             });
@@ -76,7 +72,8 @@ impl Bundle {
             .map(|(name, bytes)| (name.as_str(), bytes.as_slice()))
     }
 
-    /// Writes every file into a directory, which is made if it is missing. Returns the paths.
+    /// Writes every file into a directory, which is made if it is missing, as are folders in it.
+    /// Returns the paths.
     ///
     /// All contents are first written and flushed under temporary names, then renamed: a file is there
     /// whole or, after an error, as it was before; no temporary is left behind.
@@ -92,7 +89,10 @@ impl Bundle {
                 let source = io::Error::from(io::ErrorKind::IsADirectory);
                 return Err(failed("write", &target)(source));
             }
-            let temporary = directory.join(format!(".{name}.{}.part", std::process::id()));
+            let (folder, file) = name.rsplit_once('/').unwrap_or(("", name));
+            let folder = directory.join(folder);
+            fs::create_dir_all(&folder).map_err(failed("create the directory", &folder))?;
+            let temporary = folder.join(format!(".{file}.{}.part", std::process::id()));
             staged.paths.push((temporary.clone(), target));
             let mut file = File::create(&temporary).map_err(failed("create", &temporary))?;
             file.write_all(bytes).map_err(failed("write", &temporary))?;
@@ -105,6 +105,30 @@ impl Bundle {
         }
         Ok(written)
     }
+}
+
+/// Writes one file whole or, after an error, leaves what was there; the folder it goes into is made if it
+/// is missing.
+///
+/// # Errors
+/// [`BundleError::Name`] if the path does not end in a plain file name, [`BundleError::Disk`] with the
+/// system's reason.
+pub fn write_file(path: &Path, bytes: Vec<u8>) -> Result<(), BundleError> {
+    let name = path.file_name().and_then(OsStr::to_str);
+    let name = name.ok_or_else(|| BundleError::Name {
+        name: path.display().to_string(),
+    })?;
+    let mut bundle = Bundle::default();
+    bundle.add(name, bytes)?;
+    let folder = path.parent().filter(|folder| *folder != Path::new(""));
+    bundle.write_to(folder.unwrap_or(Path::new(".")))?;
+    Ok(())
+}
+
+/// A name that stays where it is put, and is seen, on every system.
+fn is_plain(name: &str) -> bool {
+    let apart = |c: char| matches!(c, '/' | '\\' | ':') || c.is_control();
+    !name.is_empty() && !name.starts_with('.') && !name.chars().any(apart)
 }
 
 fn failed(action: &'static str, path: &Path) -> impl FnOnce(io::Error) -> BundleError {
@@ -191,10 +215,37 @@ mod tests {
     }
 
     #[test]
+    fn folders_of_a_bundle_are_made() {
+        let root = tempfile::tempdir().expect("a place to write");
+        let mut bundle = Bundle::default();
+        bundle.add("top.txt", b"top".to_vec()).expect("plain");
+        bundle.add("a/b/low.txt", b"low".to_vec()).expect("plain");
+        bundle.write_to(root.path()).expect("written");
+        assert_eq!(names(root.path()), ["a", "top.txt"]);
+        let low = root.path().join("a").join("b");
+        assert_eq!(names(&low), ["low.txt"]);
+        assert_eq!(fs::read(low.join("low.txt")).expect("there"), b"low");
+    }
+
+    #[test]
+    fn one_file_is_written_over_the_old_one_or_not_at_all() {
+        let root = tempfile::tempdir().expect("a place to write");
+        let path = root.path().join("new").join("gear.step");
+        write_file(&path, b"first".to_vec()).expect("written");
+        write_file(&path, b"second".to_vec()).expect("written over");
+        assert_eq!(fs::read(&path).expect("there"), b"second");
+        for bad in ["..", "/", "new/gear.step/below", "new/.hidden"] {
+            assert!(write_file(&root.path().join(bad), vec![]).is_err(), "{bad}");
+        }
+        assert_eq!(names(path.parent().expect("a folder")), ["gear.step"]);
+    }
+
+    #[test]
     fn names_that_lead_elsewhere_or_repeat_are_refused() {
         let mut bundle = Bundle::default();
         for name in [
-            "", "..", ".hidden", "a/b", "a\\b", "c:d", "/etc", "a\nb", "../x",
+            "", "..", ".hidden", "a//b", "a\\b", "c:d", "/etc", "a\nb", "../x", "a/../b", "a/",
+            "a/.b",
         ] {
             assert!(
                 matches!(bundle.add(name, vec![]), Err(BundleError::Name { .. })),

@@ -1,6 +1,6 @@
 //! One writer for each file format: DXF, SVG, STL, STEP, 3MF, CSV, URDF, MJCF.
 //!
-//! Writers are pure: they turn a plain value into bytes. Only [`Bundle`] touches the disk.
+//! Writers are pure: they turn a plain value into bytes. Only [`Bundle`] and [`write_file`] touch the disk.
 
 mod bundle;
 pub mod csv;
@@ -15,4 +15,4 @@ pub mod svg;
 pub mod threemf;
 pub mod urdf;
 
-pub use bundle::{Bundle, BundleError};
+pub use bundle::{Bundle, BundleError, write_file};

@@ -127,9 +127,9 @@ fn assets(xml: &mut String, link: &Link) {
             format_args!("<mesh name={name} file={file} scale={scale}/>"),
         );
     }
-    for Convex { name, vertices } in &link.collision {
+    for Convex { name, mesh } in &link.collision {
         let name = quoted(name);
-        let vertices = numbers(vertices.iter().flatten().map(|x| x * METRE));
+        let vertices = numbers(mesh.vertices.iter().flatten().map(|x| x * METRE));
         line(
             xml,
             2,
@@ -250,9 +250,11 @@ fn quoted(words: &str) -> String {
 mod tests {
     use super::*;
     use crate::model::Mimic;
+    use centrode_geometry::{Mesh, Point};
     use nalgebra::{Matrix3, Point3};
 
     fn sample() -> Model {
+        let corners = [[0.0, 0.0], [2.0, 0.0], [0.0, 2.0]];
         let body = |name: &str| Link {
             name: name.into(),
             mass: Some(MassProperties {
@@ -263,12 +265,7 @@ mod tests {
             mesh: Some(format!("{name}.stl")),
             collision: vec![Convex {
                 name: format!("{name}_tooth_0"),
-                vertices: vec![
-                    [0.0, 0.0, 0.0],
-                    [2.0, 0.0, 0.0],
-                    [0.0, 2.0, 0.0],
-                    [0.0, 0.0, -4.0],
-                ],
+                mesh: Mesh::prism(&corners.map(|[x, y]| Point::new(x, y)), -4.0, 0.0),
             }],
         };
         let turning = |name: &str, x: f64, mimic: Option<Mimic>| Joint {
@@ -315,7 +312,7 @@ mod tests {
             r#"<mujoco model="&quot;a&quot; &amp; &lt;b>">"#,
             "<!-- law - - in motion.csv -->",
             r#"<mesh name="driven" file="driven.stl" scale="0.001 0.001 0.001"/>"#,
-            r#"vertex="0.0 0.0 0.0 0.002 0.0 0.0 0.0 0.002 0.0 0.0 0.0 -0.004""#,
+            r#"vertex="0.0 0.0 -0.004 0.002 0.0 -0.004 0.0 0.002 -0.004 0.0 0.0 0.0 "#,
             r#"<body name="driven" pos="0.0525 0.0 0.0">"#,
             r#"<joint joint1="driven_joint" joint2="driver_joint" polycoef="0.5 -2.0 0.0 0.0 0.0"/>"#,
             r#"<geom class="collision" mesh="driven_tooth_0"/>"#,

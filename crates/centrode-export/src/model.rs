@@ -1,6 +1,6 @@
 //! Models for simulators: links and joints.
 
-use centrode_geometry::MassProperties;
+use centrode_geometry::{MassProperties, Mesh};
 
 /// Rigid links joined by joints, as simulators want them; lengths in mm here, whatever a format uses.
 #[derive(Clone, Debug, PartialEq)]
@@ -28,13 +28,13 @@ pub struct Link {
     pub collision: Vec<Convex>,
 }
 
-/// The convex hull of points.
+/// A convex body.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Convex {
     /// Name, unlike any other in the model.
     pub name: String,
-    /// The points in the link's frame, mm.
-    pub vertices: Vec<[f64; 3]>,
+    /// Its surface in the link's frame, mm.
+    pub mesh: Mesh,
 }
 
 /// A joint between two links, turning about an axis.

@@ -27,7 +27,19 @@ pub enum UrdfError {
     Library(#[from] urdf_rs::UrdfError),
 }
 
-/// A model as URDF: metres, kilograms, radians; meshes by file name beside it, scaled from mm.
+/// Makes `MuJoCo` look for meshes in the folders they are named with; other readers pass over it.
+const FOLDERS: &str = "\n  <mujoco><compiler strippath=\"false\"/></mujoco>";
+
+/// Name of the STL file a model's convex body is named by, in a folder beside the URDF file.
+///
+/// One file a body: several in one file, as OBJ has it, are one hull to `MuJoCo` and one trimesh to others.
+#[must_use]
+pub fn collision_file(body: &str) -> String {
+    format!("collision/{body}.stl")
+}
+
+/// A model as URDF: metres, kilograms, radians; meshes by file name beside it, scaled from mm, those to
+/// touch with as [`collision_file`] names them.
 ///
 /// # Errors
 /// [`UrdfError`] where a joint names a link the model has not.
@@ -53,19 +65,22 @@ pub fn write(model: &Model) -> Result<Vec<u8>, UrdfError> {
     Ok(with_note(&xml, &model.note).into_bytes())
 }
 
-/// Puts the note as a comment inside the outermost element, where every reader allows it.
+/// Puts the note as a comment, and a word to one reader, inside the outermost element, where every reader
+/// allows it.
 fn with_note(xml: &str, note: &str) -> String {
     let end = xml
         .find("<robot")
         .and_then(|at| xml[at..].find('>').map(|close| at + close + 1));
-    // Two hyphens would end the comment.
-    match (note.is_empty(), end) {
-        (false, Some(end)) => {
-            let note = note.replace("--", "- -");
-            format!("{}\n  <!-- {note} -->{}", &xml[..end], &xml[end..])
-        }
-        _ => xml.to_owned(),
-    }
+    let Some(end) = end else {
+        return xml.to_owned();
+    };
+    let note = if note.is_empty() {
+        String::new()
+    } else {
+        // Two hyphens would end the comment.
+        format!("\n  <!-- {} -->", note.replace("--", "- -"))
+    };
+    format!("{}{note}{FOLDERS}{}", &xml[..end], &xml[end..])
 }
 
 fn metres(v: [f64; 3]) -> Vec3 {
@@ -73,8 +88,8 @@ fn metres(v: [f64; 3]) -> Vec3 {
 }
 
 fn link(link: &Link) -> urdf_rs::Link {
-    let geometry = |mesh: &String| Geometry::Mesh {
-        filename: mesh.clone(),
+    let geometry = |filename: String| Geometry::Mesh {
+        filename,
         scale: Some(Vec3([METRE; 3])),
     };
     let inertial = link.mass.map_or_else(Inertial::default, |m| {
@@ -103,15 +118,16 @@ fn link(link: &Link) -> urdf_rs::Link {
             .mesh
             .iter()
             .map(|mesh| Visual {
-                geometry: geometry(mesh),
+                geometry: geometry(mesh.clone()),
                 ..Visual::default()
             })
             .collect(),
         collision: link
-            .mesh
+            .collision
             .iter()
-            .map(|mesh| Collision {
-                geometry: geometry(mesh),
+            .map(|body| Collision {
+                name: Some(body.name.clone()),
+                geometry: geometry(collision_file(&body.name)),
                 ..Collision::default()
             })
             .collect(),
@@ -158,8 +174,8 @@ fn joint(joint: &crate::model::Joint) -> Joint {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::{Joint, Mimic};
-    use centrode_geometry::{Outline, Point, Solid};
+    use crate::model::{Convex, Joint, Mimic};
+    use centrode_geometry::{Outline, Point, Solid, Tolerance};
 
     fn sample() -> Model {
         let disc = Solid::new(
@@ -182,7 +198,12 @@ mod tests {
             name: name.into(),
             mass: Some(disc.mass_properties(7850.0)),
             mesh: Some(format!("{name}.stl")),
-            collision: Vec::new(),
+            collision: vec![Convex {
+                name: format!("{name}_hub"),
+                mesh: disc
+                    .mesh(Tolerance::new(0.1).expect("positive"))
+                    .expect("a solid"),
+            }],
         };
         Model {
             name: "pair".into(),
@@ -238,6 +259,14 @@ mod tests {
             (filename.as_str(), scale.map(|s| s.0)),
             ("driven.stl", Some([0.001; 3]))
         );
+        let [touching] = &robot.links[2].collision[..] else {
+            panic!("one body to touch with")
+        };
+        assert!(
+            matches!(&touching.geometry, Geometry::Mesh { filename, scale: Some(scale) }
+                if filename == "collision/driven_hub.stl" && scale.0 == [0.001; 3])
+        );
+        assert!(text.contains("strippath=\"false\""), "{text}");
     }
 
     #[test]

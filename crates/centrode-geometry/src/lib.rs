@@ -9,6 +9,7 @@ mod arcs;
 mod biarc;
 mod bounds;
 mod containment;
+mod convex;
 mod crossing;
 mod cubics;
 mod curve;
@@ -32,6 +33,7 @@ mod spline;
 mod tolerance;
 
 pub use bounds::Bounds;
+pub use convex::{ConvexPieces, convex_pieces};
 pub use crossing::Crossing;
 pub use curve::{Curve, Jet};
 pub use flatten::Sample;

@@ -1,3 +1,5 @@
+use crate::Point;
+
 /// A triangle mesh; a face lists its vertices counter-clockwise seen from outside.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Mesh {
@@ -8,6 +10,23 @@ pub struct Mesh {
 }
 
 impl Mesh {
+    /// The prism between two heights over a convex section, its corners counter-clockwise; the bottom
+    /// vertices come first, then the top ones in the same order.
+    #[must_use]
+    pub fn prism(section: &[Point], bottom: f64, top: f64) -> Self {
+        let n = section.len() as u32;
+        let at = |z: f64| section.iter().map(move |p| [p.x, p.y, z]);
+        let caps = (2..n).flat_map(|k| [[0, k, k - 1], [n, n + k - 1, n + k]]);
+        let walls = (0..n).flat_map(|a| {
+            let b = (a + 1) % n;
+            [[a, b, b + n], [a, b + n, a + n]]
+        });
+        Self {
+            vertices: at(bottom).chain(at(top)).collect(),
+            faces: caps.chain(walls).collect(),
+        }
+    }
+
     /// Corners of one triangle, mm.
     #[must_use]
     pub fn triangle(&self, face: &[u32; 3]) -> [[f64; 3]; 3] {
@@ -46,12 +65,25 @@ impl Mesh {
 #[cfg(test)]
 mod tests {
     use crate::{
-        Outline, Point, Solid, SolidError, Tolerance,
+        Mesh, Outline, Point, Solid, SolidError, Tolerance,
         shapes::{rosette, tooth_ring},
     };
 
     fn tolerance(mm: f64) -> Tolerance {
         Tolerance::new(mm).expect("positive")
+    }
+
+    #[test]
+    fn a_prism_is_closed_and_has_its_volume() {
+        let section = [
+            Point::new(0.0, 0.0),
+            Point::new(3.0, 0.0),
+            Point::new(4.0, 2.0),
+            Point::new(1.0, 2.0),
+        ];
+        let prism = Mesh::prism(&section, -1.0, 2.0);
+        assert!(prism.is_watertight());
+        assert_eq!(prism.volume(), 18.0);
     }
 
     fn keyed_bore(radius: f64) -> Outline {

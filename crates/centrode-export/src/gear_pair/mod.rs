@@ -1,5 +1,6 @@
 //! The files of a gear pair.
 
+mod contact_body;
 mod format;
 mod motion;
 mod outline;
@@ -7,7 +8,6 @@ mod pins;
 mod sheet;
 mod simulator;
 mod solid;
-mod tooth_body;
 
 use crate::{
     Bundle, BundleError,
@@ -16,7 +16,7 @@ use crate::{
     dxf::{self, DxfError},
     mjcf::{self, MjcfError},
     step::StepError,
-    svg,
+    stl, svg,
     threemf::PackageError,
     urdf::{self, UrdfError},
 };
@@ -24,7 +24,7 @@ use centrode_geometry::{SolidError, Tolerance};
 use centrode_mechanism::gear::{GearPair, Member};
 pub use format::{Format, UnknownFormat};
 use sheet::Contours;
-pub use solid::{mesh, solid};
+pub use solid::{mesh, solid, step_file, stl_file, threemf_file};
 use thiserror::Error;
 
 /// How the files are written.
@@ -107,7 +107,7 @@ const PLAY_MUJOCO: &str = include_str!("play_mujoco.py");
 const PLAY_PYBULLET: &str = include_str!("play_pybullet.py");
 
 /// The files of a pair in the formats asked for, not yet on disk. URDF and MJCF bring the STL files they
-/// name, the law of motion and a script that plays them.
+/// name (URDF a folder of them to touch with), the law of motion and a script that plays them.
 ///
 /// # Errors
 /// [`GearPairFilesError`], for instance if the tolerance is too coarse for the bore to clear the teeth.
@@ -144,13 +144,15 @@ pub fn files(
         bundle.add("motion.json", motion::sidecar(pair, options.tolerance))?;
     }
     if simulated {
-        let model = simulator::model(pair)?;
+        let model = simulator::model(pair, options.tolerance)?;
         if wanted(Format::Urdf) {
             bundle.add("pair.urdf", urdf::write(&model)?)?;
+            for body in model.links.iter().flat_map(|link| &link.collision) {
+                bundle.add(&urdf::collision_file(&body.name), stl::write(&body.mesh))?;
+            }
             bundle.add("play_pybullet.py", PLAY_PYBULLET.into())?;
         }
         if wanted(Format::Mjcf) {
-            let model = simulator::with_teeth(model, pair, options.tolerance);
             bundle.add("pair.xml", mjcf::write(&model)?)?;
             bundle.add("play_mujoco.py", PLAY_MUJOCO.into())?;
         }
@@ -217,9 +219,11 @@ mod tests {
     use super::*;
     use centrode_geometry::{Outline, Point, Vector};
     use centrode_mechanism::gear::{
+        Gear,
         design::{GearPairDesign, Keyway},
         pitch::{Circle, Ellipse, PitchSpec, Polar},
     };
+    use std::f64::consts::TAU;
 
     fn pair(pitch: PitchSpec) -> GearPair {
         let mut design = GearPairDesign::new(pitch);
@@ -271,11 +275,19 @@ mod tests {
         String::from_utf8(bytes.to_vec()).expect("text")
     }
 
+    /// Names of the files but those of the convex bodies.
+    fn beside(bundle: &Bundle) -> Vec<&str> {
+        let names = bundle.files().map(|(name, _)| name);
+        names
+            .filter(|name| !name.starts_with("collision/"))
+            .collect()
+    }
+
     #[test]
     fn every_format_is_there_and_the_same_twice() {
         let pair = elliptic();
         let bundle = files(&pair, &Format::ALL, &options()).expect("made");
-        let names: Vec<&str> = bundle.files().map(|(name, _)| name).collect();
+        let names = beside(&bundle);
         let expected = [
             "driver.dxf",
             "driven.dxf",
@@ -306,9 +318,8 @@ mod tests {
             files(&elliptic(), &Format::ALL, &options()).expect("made again")
         );
         let model = files(&pair, &[Format::Urdf], &options()).expect("made");
-        let names: Vec<&str> = model.files().map(|(name, _)| name).collect();
         assert_eq!(
-            names,
+            beside(&model),
             [
                 "driver.stl",
                 "driven.stl",
@@ -361,38 +372,66 @@ mod tests {
         );
     }
 
+    /// How far a point lies outside a gear, mm, judged by circles round it: whether any reaches inside.
+    fn outside(gear: &Gear, point: Point) -> f64 {
+        let reaches = |radius: f64| {
+            (0..32).any(|k| {
+                let (sin, cos) = (TAU * f64::from(k) / 32.0).sin_cos();
+                gear.outline()
+                    .contains(point + Vector::new(cos, sin) * radius)
+            })
+        };
+        let radii = [0.0, 1e-4, 2e-4, 5e-4, 1e-3, 2e-3, 5e-3];
+        radii
+            .into_iter()
+            .find(|&r| reaches(r))
+            .unwrap_or(f64::INFINITY)
+    }
+
     #[test]
-    fn every_tooth_is_a_convex_body_and_hollow_flanks_are_told() {
-        let pair = elliptic();
-        let model = simulator::with_teeth(
-            simulator::model(&pair).expect("made"),
-            &pair,
-            options().tolerance,
-        );
-        assert_eq!(model.links[1].collision.len(), 23);
-        assert!(
-            model.note.ends_with("tip without fillets."),
-            "{}",
-            model.note
-        );
-        for (link, gear) in model.links[1..].iter().zip([pair.driver(), pair.driven()]) {
-            for body in &link.collision {
-                let corners = body.vertices.iter();
-                let corners: Vec<Point> = corners.map(|&[x, y, _]| Point::new(x, y)).collect();
-                let sum: Vector = corners.iter().map(|p| p.coords).sum();
-                let middle = Point::from(sum / corners.len() as f64);
-                for p in corners {
-                    let inner = p + (middle - p).normalize() * 0.01;
-                    assert!(gear.outline().contains(inner), "{} at {p}", body.name);
-                }
+    fn teeth_are_one_convex_body_each_or_several_where_they_are_hollow() {
+        let (plain, hollow) = (elliptic(), pair_of_lobes());
+        for pair in [&plain, &hollow] {
+            let model = simulator::model(pair, options().tolerance).expect("made");
+            assert!(model.note.contains("by at most"), "{}", model.note);
+            for (link, gear) in model.links[1..].iter().zip([pair.driver(), pair.driven()]) {
                 let width = gear.body().width;
-                assert!(body.vertices.iter().all(|v| v[2] == 0.0 || v[2] == width));
+                let (hub, teeth): (Vec<_>, Vec<_>) = link
+                    .collision
+                    .iter()
+                    .partition(|body| body.name.contains("hub"));
+                assert!(!hub.is_empty());
+                let volume: f64 = teeth.iter().map(|body| body.mesh.volume()).sum();
+                let share = volume / (gear.outline().area() * width);
+                assert!((0.05..0.5).contains(&share), "{share}");
+                let count = gear.tooth_count() as usize;
+                if std::ptr::eq(pair, &raw const plain) {
+                    assert_eq!((teeth.len(), hub.len()), (count, 1));
+                } else {
+                    assert!(
+                        (count..16 * count).contains(&teeth.len()),
+                        "{}",
+                        teeth.len()
+                    );
+                }
+                for body in &link.collision {
+                    assert!(
+                        body.mesh.is_watertight() && body.mesh.volume() > 0.0,
+                        "{}",
+                        body.name
+                    );
+                    let vertices = &body.mesh.vertices;
+                    let (low, high) = vertices.split_at(vertices.len() / 2);
+                    assert!(low.iter().all(|v| v[2] == 0.0) && high.iter().all(|v| v[2] == width));
+                    // The hull's edges, which bridge hollows, in their middles.
+                    for (a, b) in low.iter().zip(low.iter().cycle().skip(1)) {
+                        let middle = Point::new(0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1]));
+                        let out = outside(gear, middle);
+                        assert!(out <= 1e-3, "{} at {middle}: {out}", body.name);
+                    }
+                }
             }
         }
-        let undercut = pair_of_lobes();
-        let made = simulator::model(&undercut).expect("made");
-        let model = simulator::with_teeth(made, &undercut, options().tolerance);
-        assert!(model.note.contains("stand out by up to"), "{}", model.note);
     }
 
     #[test]

@@ -1,10 +1,12 @@
-use super::{GearPairFilesError, motion, solid, tooth_body};
+use super::{GearPairFilesError, contact_body, motion, solid};
 use crate::model::{Joint, JointKind, Link, Mimic, Model};
 use centrode_geometry::Tolerance;
 use centrode_mechanism::gear::{GearPair, Member};
 
 /// A frame with both gears turning about z, the driver at its origin.
-pub(super) fn model(pair: &GearPair) -> Result<Model, GearPairFilesError> {
+///
+/// Its note tells the law of motion and how truly the convex bodies stand for the teeth.
+pub(super) fn model(pair: &GearPair, tolerance: Tolerance) -> Result<Model, GearPairFilesError> {
     let (slope, offset, error) = motion::line(pair);
     // At the driver polar angle phi the driver has turned by -phi, the driven gear by its driven angle.
     let mimic = (error <= motion::LINEAR).then(|| Mimic {
@@ -29,13 +31,16 @@ pub(super) fn model(pair: &GearPair) -> Result<Model, GearPairFilesError> {
         collision: Vec::new(),
     }];
     let mut joints = Vec::new();
+    let mut excess: f64 = 0.0;
     for member in [Member::Driver, Member::Driven] {
         let density = pair.gear(member).body().density;
+        let touching = contact_body::all(pair.gear(member), tolerance);
+        excess = excess.max(touching.excess);
         links.push(Link {
             name: member.name().into(),
             mass: Some(solid(pair, member)?.mass_properties(density)),
             mesh: Some(format!("{}.stl", member.name())),
-            collision: Vec::new(),
+            collision: touching.bodies,
         });
         let is_driven = member == Member::Driven;
         joints.push(Joint {
@@ -58,30 +63,13 @@ pub(super) fn model(pair: &GearPair) -> Result<Model, GearPairFilesError> {
     }
     Ok(Model {
         name: pair.name().to_owned(),
-        note: law,
+        note: format!(
+            "{law} Teeth touch as convex bodies, of flanks and tip without fillets, over a hub without bore; these stand \
+             out of the gears by at most {excess:.1e} mm."
+        ),
         links,
         joints,
     })
-}
-
-/// The model with a convex body for each tooth, and how truly they stand for the teeth in its note.
-pub(super) fn with_teeth(mut model: Model, pair: &GearPair, tolerance: Tolerance) -> Model {
-    let mut hollow: f64 = 0.0;
-    for member in [Member::Driver, Member::Driven] {
-        let teeth = tooth_body::all(pair.gear(member), tolerance);
-        hollow = teeth.iter().map(|t| t.hollow).fold(hollow, f64::max);
-        if let Some(link) = model.links.iter_mut().find(|l| l.name == member.name()) {
-            link.collision = teeth.into_iter().map(|t| t.body).collect();
-        }
-    }
-    model.note +=
-        " The teeth touch as convex bodies, one a tooth, of flanks and tip without fillets";
-    model.note += &if hollow > tolerance.mm() {
-        format!("; over hollow flanks these stand out by up to {hollow:.4} mm.")
-    } else {
-        ".".to_owned()
-    };
-    model
 }
 
 pub(super) fn joint_name(member: Member) -> String {

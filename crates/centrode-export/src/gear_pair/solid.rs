@@ -28,6 +28,53 @@ pub fn mesh(
         .map_err(|source| GearPairFilesError::Solid { member, source })
 }
 
+/// A gear as an exact STEP file, named after the gear.
+///
+/// # Errors
+/// [`GearPairFilesError::Solid`] if the width is not positive, [`GearPairFilesError::Step`] if a contour is
+/// too short to be written.
+pub fn step_file(pair: &GearPair, member: Member) -> Result<Vec<u8>, GearPairFilesError> {
+    step::write(&solid(pair, member)?, member.name(), &title(pair, member))
+        .map_err(|source| GearPairFilesError::Step { member, source })
+}
+
+/// A gear as a binary STL file in mm.
+///
+/// # Errors
+/// As [`mesh`].
+pub fn stl_file(
+    pair: &GearPair,
+    member: Member,
+    tolerance: Tolerance,
+) -> Result<Vec<u8>, GearPairFilesError> {
+    Ok(stl::write(&mesh(pair, member, tolerance)?))
+}
+
+/// A gear as a 3MF package, named after the gear.
+///
+/// # Errors
+/// As [`mesh`], and [`GearPairFilesError::Package`].
+pub fn threemf_file(
+    pair: &GearPair,
+    member: Member,
+    tolerance: Tolerance,
+) -> Result<Vec<u8>, GearPairFilesError> {
+    package(pair, member, &mesh(pair, member, tolerance)?)
+}
+
+fn package(pair: &GearPair, member: Member, mesh: &Mesh) -> Result<Vec<u8>, GearPairFilesError> {
+    Ok(threemf::write(mesh, member.name(), &title(pair, member))?)
+}
+
+/// What a file says it holds: the design, and which of its gears.
+fn title(pair: &GearPair, member: Member) -> String {
+    let design = match pair.title() {
+        "" => pair.name(),
+        title => title,
+    };
+    format!("{design}: {} gear", member.name())
+}
+
 /// Adds the files of both solids; the simulator models show the STL ones.
 pub(super) fn add(
     pair: &GearPair,
@@ -36,17 +83,10 @@ pub(super) fn add(
     bundle: &mut Bundle,
 ) -> Result<(), GearPairFilesError> {
     let stl = wanted(Format::Stl) || wanted(Format::Urdf) || wanted(Format::Mjcf);
-    let named = match pair.title() {
-        "" => pair.name(),
-        title => title,
-    };
     for member in [Member::Driver, Member::Driven] {
         let name = member.name();
-        let title = format!("{named}: {name} gear");
         if wanted(Format::Step) {
-            let file = step::write(&solid(pair, member)?, name, &title)
-                .map_err(|source| GearPairFilesError::Step { member, source })?;
-            bundle.add(&format!("{name}.step"), file)?;
+            bundle.add(&format!("{name}.step"), step_file(pair, member)?)?;
         }
         if stl || wanted(Format::ThreeMf) {
             let mesh = mesh(pair, member, options.tolerance)?;
@@ -54,7 +94,7 @@ pub(super) fn add(
                 bundle.add(&format!("{name}.stl"), stl::write(&mesh))?;
             }
             if wanted(Format::ThreeMf) {
-                bundle.add(&format!("{name}.3mf"), threemf::write(&mesh, name, &title)?)?;
+                bundle.add(&format!("{name}.3mf"), package(pair, member, &mesh)?)?;
             }
         }
     }
