@@ -1,5 +1,8 @@
+use std::path::PathBuf;
 use std::sync::Arc;
 
+use centrode_export::gear_pair::{self as files, GearPairFilesError};
+use centrode_export::write_file;
 use centrode_geometry::Solid;
 use centrode_mechanism::gear as mechanism;
 use centrode_mechanism::gear::Member;
@@ -9,7 +12,7 @@ use pyo3::types::{PyDict, PyTuple};
 
 use crate::array::{points, rows};
 use crate::body::Body;
-use crate::error::{of_solid, tolerance as within};
+use crate::error::{of_bundle, of_files, of_solid, tolerance as within};
 use crate::record;
 use crate::wait::wait;
 
@@ -24,6 +27,23 @@ pub(crate) struct Gear {
 impl Gear {
     fn inner(&self) -> &mechanism::Gear {
         self.pair.gear(self.member)
+    }
+
+    /// Makes a file and writes it whole or not at all.
+    fn write(
+        &self,
+        py: Python<'_>,
+        path: PathBuf,
+        make: impl FnOnce(&mechanism::GearPair, Member) -> Result<Vec<u8>, GearPairFilesError>
+        + Send
+        + 'static,
+    ) -> PyResult<PathBuf> {
+        let (pair, member) = (Arc::clone(&self.pair), self.member);
+        let bytes = wait(py, move || make(&pair, member))?.map_err(|e| of_files(&e))?;
+        // Not left behind to run out unheard: it changes the disk.
+        py.detach(|| write_file(&path, bytes))
+            .map_err(|e| of_bundle(py, &e))?;
+        Ok(path)
     }
 }
 
@@ -212,6 +232,39 @@ impl Gear {
             rows(py, mesh.vertices.into_iter())?,
             rows(py, mesh.faces.into_iter())?,
         ))
+    }
+
+    /// Writes the gear as an exact STEP solid (AP214, mm), named after it; gives the path.
+    ///
+    /// Written whole or not at all, as `GearPair.export` does; `GearPair.files` gives the bytes instead.
+    ///
+    /// >>> import centrode as ct, pathlib, tempfile
+    /// >>> gear = ct.GearPair(ct.pitch.circle(module=2, tooth_count=20)).driver
+    /// >>> with tempfile.TemporaryDirectory() as directory:
+    /// ...     gear.step(pathlib.Path(directory, "pinion.step")).read_text()[:13]
+    /// 'ISO-10303-21;'
+    fn step(&self, py: Python<'_>, path: PathBuf) -> PyResult<PathBuf> {
+        self.write(py, path, files::step_file)
+    }
+
+    /// Writes the gear as a binary STL mesh, mm; gives the path.
+    ///
+    /// Written whole or not at all. The mesh is nowhere farther than `tolerance` (mm) from the exact solid.
+    #[pyo3(signature = (path, tolerance=1e-3))]
+    fn stl(&self, py: Python<'_>, path: PathBuf, tolerance: f64) -> PyResult<PathBuf> {
+        let tolerance = within(tolerance, &self.pair)?;
+        self.write(py, path, move |pair, member| {
+            files::stl_file(pair, member, tolerance)
+        })
+    }
+
+    /// Writes the gear as a 3MF package, the mesh of `stl` with its unit and name; gives the path.
+    #[pyo3(signature = (path, tolerance=1e-3))]
+    fn threemf(&self, py: Python<'_>, path: PathBuf, tolerance: f64) -> PyResult<PathBuf> {
+        let tolerance = within(tolerance, &self.pair)?;
+        self.write(py, path, move |pair, member| {
+            files::threemf_file(pair, member, tolerance)
+        })
     }
 
     fn __repr__(&self) -> String {

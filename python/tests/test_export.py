@@ -61,3 +61,33 @@ def test_the_system_s_refusal_is_the_cause(pair, tmp_path):
     assert isinstance(caught.value.__cause__, OSError)
     assert caught.value.__cause__.errno in (errno.ENOTDIR, errno.EEXIST)
     assert os.listdir(tmp_path) == ["file"]
+
+
+def test_a_part_is_written_in_each_solid_format(pair, tmp_path):
+    files = pair.files(formats=["step", "stl", "3mf"], tolerance=0.01)
+    gear = pair.driven
+    paths = [
+        gear.step(tmp_path / "made" / "a.step"),
+        gear.stl(str(tmp_path / "a.stl"), tolerance=0.01),
+        gear.threemf(tmp_path / "a.3mf", 0.01),
+    ]
+    for path in paths:
+        assert path.read_bytes() == files[f"driven{path.suffix}"]
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["a.3mf", "a.stl", "made"]
+
+
+def test_a_part_is_written_into_the_working_folder(pair, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert str(pair.driver.stl("here.stl", tolerance=0.1)) == "here.stl"
+    assert os.listdir(tmp_path) == ["here.stl"]
+
+
+def test_a_part_that_cannot_be_written_leaves_what_was_there(pair, tmp_path):
+    (tmp_path / "old").mkdir()
+    with pytest.raises(ct.ExportError, match="old"):
+        pair.driver.step(tmp_path / "old")
+    with pytest.raises(ct.ExportError, match="plain"):
+        pair.driver.step(tmp_path / "..")
+    with pytest.raises(ct.DesignError, match="tolerance"):
+        pair.driver.stl(tmp_path / "gear.stl", tolerance=0)
+    assert os.listdir(tmp_path) == ["old"]
