@@ -236,13 +236,13 @@ fn six_bars_are_compositions() {
 
 #[test]
 fn a_linkage_that_cannot_turn_says_where_it_stops() {
-    let lengths = [90.0, 55.0, 70.0, 100.0];
+    let lengths = [90.0, 65.0, 70.0, 100.0];
     let bar = four_bar(lengths, Branch::Upper);
     assert_eq!(bar.grashof(), Grashof::TripleRocker);
     let (low, high) = bar.crank_limits().expect("it closes");
-    // Stretched: cos = (90² + 100² - 125²) / (2 90 100); folded: with 15² for 125².
-    assert!((high - (2475.0_f64 / 18000.0).acos()).abs() < 1e-14);
-    assert!((low - (17875.0_f64 / 18000.0).acos()).abs() < 1e-14);
+    // Stretched: cos = (90² + 100² - 135²) / (2 90 100); the frame line itself is passed.
+    assert!((high - (-125.0_f64 / 18000.0).acos()).abs() < 1e-14);
+    assert_eq!(low, 0.0);
     let (linkage, _, bars) = composed(lengths, Branch::Upper);
     let open = linkage.closing_inputs();
     for &(from, to) in &open {
@@ -254,7 +254,7 @@ fn a_linkage_that_cannot_turn_says_where_it_stops() {
         panic!("past the limit");
     };
     let far = (90.0_f64.powi(2) + 100.0_f64.powi(2) - 18000.0 * (high + 0.1).cos()).sqrt();
-    assert!((missing - (far - 125.0)).abs() < 1e-12);
+    assert!((missing - (far - 135.0)).abs() < 1e-12);
     assert!(matches!(
         linkage.transmission(bars.second),
         Err(LinkageError::DoesNotClose { dyad: 0, .. })
@@ -272,7 +272,7 @@ fn grashof_names_what_turns() {
         ([105.0, 147.0, 127.0, 77.0], Grashof::DoubleCrank),
         ([127.0, 147.0, 77.0, 105.0], Grashof::RockerCrank),
         ([147.0, 77.0, 127.0, 105.0], Grashof::DoubleRocker),
-        ([90.0, 55.0, 70.0, 100.0], Grashof::TripleRocker),
+        ([90.0, 65.0, 70.0, 100.0], Grashof::TripleRocker),
         ([50.0, 80.0, 90.0, 60.0], Grashof::ChangePoint),
     ] {
         let bar = four_bar(lengths, Branch::Upper);
