@@ -1,6 +1,7 @@
 //! Drawings: shapes on layers.
 
-use centrode_geometry::{Arc, Bounds, Outline, Point};
+use centrode_geometry::{Arc, Bounds, Outline, Point, Vector};
+use nalgebra::Isometry2;
 
 /// Lines, arcs, contours and texts on named layers, in millimetres: what every drawing format is
 /// written from.
@@ -53,9 +54,14 @@ pub enum LineType {
     Center,
     /// Short dashes: hidden edges and limits.
     Hidden,
+    /// Long dash, two dots: outlines of adjacent parts.
+    Phantom,
 }
 
 impl LineType {
+    /// All of them.
+    pub const ALL: [Self; 4] = [Self::Continuous, Self::Center, Self::Hidden, Self::Phantom];
+
     /// Dashes (positive) and gaps (negative), mm; a dot is a dash of no length.
     #[must_use]
     pub fn pattern(self) -> &'static [f64] {
@@ -63,6 +69,7 @@ impl LineType {
             Self::Continuous => &[],
             Self::Center => &[4.0, -1.0, 0.0, -1.0],
             Self::Hidden => &[2.0, -1.0],
+            Self::Phantom => &[5.0, -1.0, 0.0, -1.0, 0.0, -1.0],
         }
     }
 }
@@ -94,6 +101,8 @@ pub enum Shape {
     },
     /// A circular arc.
     Arc(Arc),
+    /// A filled triangle: the head of an arrow.
+    Triangle([Point; 3]),
     /// A point mark.
     Mark(Point),
     /// One line of text.
@@ -111,6 +120,45 @@ pub struct Text {
     pub words: String,
     /// Where the anchor lies on the text's baseline.
     pub anchor: Anchor,
+    /// Direction of the baseline, rad.
+    pub rotation: f64,
+    /// Length of the baseline, mm, to which a reader with another font is to fit the words; `None` where
+    /// it does not matter.
+    pub width: Option<f64>,
+}
+
+impl Text {
+    /// A level line of text of no set length.
+    #[must_use]
+    pub fn new(at: Point, height: f64, words: impl Into<String>, anchor: Anchor) -> Self {
+        Self {
+            at,
+            height,
+            words: words.into(),
+            anchor,
+            rotation: 0.0,
+            width: None,
+        }
+    }
+
+    /// Length of the baseline: as set, or estimated.
+    fn length(&self) -> f64 {
+        self.width
+            .unwrap_or(0.75 * self.height * self.words.chars().count() as f64)
+    }
+
+    /// Both ends of the baseline.
+    #[must_use]
+    pub fn baseline(&self) -> [Point; 2] {
+        let along = Vector::new(self.rotation.cos(), self.rotation.sin()) * self.length();
+        let before = match self.anchor {
+            Anchor::Left => 0.0,
+            Anchor::Middle => 0.5,
+            Anchor::Right => 1.0,
+        };
+        let start = self.at - along * before;
+        [start, start + along]
+    }
 }
 
 /// Where a text's anchor lies on its baseline.
@@ -161,7 +209,36 @@ impl Drawing {
 }
 
 impl Shape {
-    fn bounds(&self) -> Bounds {
+    /// The shape moved, not turned.
+    #[must_use]
+    pub fn moved(&self, by: Vector) -> Self {
+        match self {
+            Self::Contour(outline) => {
+                Self::Contour(outline.transformed(&Isometry2::translation(by.x, by.y)))
+            }
+            Self::Polyline(points) => Self::Polyline(points.iter().map(|p| p + by).collect()),
+            Self::Line(start, end) => Self::Line(start + by, end + by),
+            Self::Circle { center, radius } => Self::Circle {
+                center: center + by,
+                radius: *radius,
+            },
+            Self::Arc(arc) => Self::Arc(Arc {
+                start: arc.start + by,
+                end: arc.end + by,
+                bulge: arc.bulge,
+            }),
+            Self::Triangle(corners) => Self::Triangle(corners.map(|p| p + by)),
+            Self::Mark(point) => Self::Mark(point + by),
+            Self::Text(text) => Self::Text(Text {
+                at: text.at + by,
+                ..text.clone()
+            }),
+        }
+    }
+
+    /// A rectangle around the shape, a text by its set or estimated width.
+    #[must_use]
+    pub fn bounds(&self) -> Bounds {
         let of = |points: &[Point]| points.iter().fold(Bounds::EMPTY, |b, p| b.with(*p));
         match self {
             Self::Contour(outline) => outline.bounds(),
@@ -178,18 +255,11 @@ impl Shape {
                 }
             }
             Self::Mark(point) => of(&[*point]),
+            Self::Triangle(corners) => of(corners),
             Self::Text(text) => {
-                let width = 0.75 * text.height * text.words.chars().count() as f64;
-                let left = match text.anchor {
-                    Anchor::Left => 0.0,
-                    Anchor::Middle => 0.5,
-                    Anchor::Right => 1.0,
-                };
-                let corner = Point::new(text.at.x - left * width, text.at.y - 0.3 * text.height);
-                of(&[
-                    corner,
-                    Point::new(corner.x + width, text.at.y + text.height),
-                ])
+                let [start, end] = text.baseline();
+                let up = Vector::new(-text.rotation.sin(), text.rotation.cos()) * text.height;
+                of(&[start - up * 0.3, end - up * 0.3, start + up, end + up])
             }
         }
     }

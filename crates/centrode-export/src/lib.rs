@@ -1,4 +1,4 @@
-//! One writer for each file format: DXF, SVG, STL, STEP, 3MF, CSV, URDF, MJCF.
+//! One writer for each file format: DXF, SVG, PDF, STL, STEP, 3MF, CSV, URDF, MJCF.
 //!
 //! Writers are pure: they turn a plain value into bytes. Only [`Bundle`] and [`write_file`] touch the disk.
 
@@ -9,6 +9,8 @@ pub mod dxf;
 pub mod gear_pair;
 pub mod mjcf;
 pub mod model;
+pub mod pdf;
+pub mod sheet;
 pub mod step;
 pub mod stl;
 pub mod svg;

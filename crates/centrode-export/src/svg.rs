@@ -1,8 +1,11 @@
 //! SVG pictures.
 
-use crate::drawing::{Anchor, Color, Drawing, LineType, Shape, Text};
+use crate::{
+    drawing::{Anchor, Color, Drawing, LineType, Shape, Text},
+    sheet::{Sheet, lettering},
+};
 use centrode_geometry::{Arc, Outline, Point, Segment, Tolerance, Vector};
-use std::fmt::Write;
+use std::{collections::BTreeMap, fmt::Write};
 
 /// A drawing as an SVG picture, one user unit to the millimetre, with lines and true arcs.
 ///
@@ -27,6 +30,71 @@ pub fn write(drawing: &Drawing, tolerance: Tolerance) -> String {
         number(low.x),
         number(-high.y),
     );
+    layers(&mut out, drawing, tolerance, false);
+    out.push_str("</svg>\n");
+    out
+}
+
+/// A drawing sheet as an SVG picture of its size. Words are drawn with the outlines of the sheet's own
+/// font, each line a group that carries its words as a label, so that every viewer shows the same.
+#[must_use]
+pub fn sheet(sheet: &Sheet, tolerance: Tolerance) -> String {
+    let [width, height] = sheet.size.size().map(number);
+    let mut out = String::new();
+    let _ = writeln!(
+        out,
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" xmlns:xlink=\"http://www.w3.org/1999/xlink\" \
+         width=\"{width}mm\" height=\"{height}mm\" viewBox=\"0 -{height} {width} {height}\">\n\
+         <rect x=\"0\" y=\"-{height}\" width=\"{width}\" height=\"{height}\" fill=\"#fff\"/>",
+    );
+    let mut glyphs = BTreeMap::new();
+    for entity in &sheet.drawing.entities {
+        if let Shape::Text(text) = &entity.shape {
+            glyphs.extend(lettering::letters(&text.words).map(|l| (l.glyph.0, l.glyph)));
+        }
+    }
+    out.push_str("<defs>\n");
+    for (id, glyph) in glyphs {
+        let _ = writeln!(out, "<path id=\"g{id}\" d=\"{}\"/>", lettering::path(glyph));
+    }
+    out.push_str("</defs>\n");
+    layers(&mut out, &sheet.drawing, tolerance, true);
+    out.push_str("</svg>\n");
+    out
+}
+
+/// A line of words as glyphs placed one by one.
+fn outlined_words(out: &mut String, text: &Text, color: Color) {
+    let natural = lettering::width(&text.words, text.height);
+    let squeeze = text.width.map_or(1.0, |width| width / natural);
+    let unit = lettering::em(text.height) / 1024.0;
+    let [start, _] = text.baseline();
+    let _ = write!(
+        out,
+        "<g aria-label=\"{}\" fill=\"{}\" stroke=\"none\" transform=\"translate({} {})",
+        escaped(&text.words),
+        paint(color),
+        number(start.x),
+        number(-start.y),
+    );
+    if text.rotation != 0.0 {
+        let _ = write!(out, " rotate({})", number(-text.rotation.to_degrees()));
+    }
+    let _ = write!(out, " scale({:.9} {unit:.9})\">", unit * squeeze);
+    let mut x = 0.0;
+    for letter in lettering::letters(&text.words) {
+        let _ = write!(
+            out,
+            "<use xlink:href=\"#g{}\" x=\"{}\"/>",
+            letter.glyph.0,
+            number(x)
+        );
+        x += 1024.0 * letter.advance;
+    }
+    out.push_str("</g>\n");
+}
+
+fn layers(out: &mut String, drawing: &Drawing, tolerance: Tolerance, outlined: bool) {
     for layer in &drawing.layers {
         let dashes = match layer.line_type {
             LineType::Continuous => String::new(),
@@ -50,18 +118,14 @@ pub fn write(drawing: &Drawing, tolerance: Tolerance) -> String {
             number(layer.line_width),
         );
         for entity in drawing.entities.iter().filter(|e| e.layer == layer.name) {
-            shape(
-                &mut out,
-                &entity.shape,
-                layer.color,
-                layer.line_width,
-                tolerance,
-            );
+            if let (true, Shape::Text(text)) = (outlined, &entity.shape) {
+                outlined_words(out, text, layer.color);
+                continue;
+            }
+            shape(out, &entity.shape, layer.color, layer.line_width, tolerance);
         }
         out.push_str("</g>\n");
     }
-    out.push_str("</svg>\n");
-    out
 }
 
 fn shape(out: &mut String, shape: &Shape, color: Color, line_width: f64, tolerance: Tolerance) {
@@ -99,6 +163,14 @@ fn shape(out: &mut String, shape: &Shape, color: Color, line_width: f64, toleran
                 pair(&(point + y)),
             )
         }
+        Shape::Triangle(corners) => writeln!(
+            out,
+            "<path d=\"M{} L{} L{} Z\" fill=\"{}\" stroke=\"none\"/>",
+            pair(&corners[0]),
+            pair(&corners[1]),
+            pair(&corners[2]),
+            paint(color),
+        ),
         Shape::Text(text) => words(out, text, color),
     };
 }
@@ -199,12 +271,12 @@ mod tests {
         );
         drawing.draw(
             "CUT",
-            Shape::Text(Text {
-                at: Point::new(1.0, 9.0),
-                height: 3.5,
-                words: "a < b & c".into(),
-                anchor: Anchor::Left,
-            }),
+            Shape::Text(Text::new(
+                Point::new(1.0, 9.0),
+                3.5,
+                "a < b & c",
+                Anchor::Left,
+            )),
         );
         let svg = write(&drawing, Tolerance::new(1e-3).expect("positive"));
         assert!(

@@ -75,6 +75,15 @@ pub(crate) struct Export {
     /// Flavour of the DXF files
     #[arg(long, value_enum, default_value_t = Dxf::R2010)]
     pub(crate) dxf: Dxf,
+    /// Parts to write files of, separated by commas; left out, all
+    #[arg(long, value_enum, value_delimiter = ',', value_name = "PARTS")]
+    pub(crate) part: Vec<Part>,
+    /// Size of the drawing sheets; left out, the design's, or the smallest that takes the part
+    #[arg(long, value_enum, ignore_case = true, value_name = "SIZE")]
+    pub(crate) sheet: Option<Size>,
+    /// How views lie to each other on the drawing sheets; left out, as the design says
+    #[arg(long, value_enum, value_name = "METHOD")]
+    pub(crate) projection: Option<Method>,
 }
 
 impl Export {
@@ -91,6 +100,10 @@ pub(crate) enum File {
     Dxf,
     /// Pictures of the same
     Svg,
+    /// Drawing sheets with dimensions and tables, as DXF and SVG
+    Sheet,
+    /// The same sheets as PDF
+    Pdf,
     /// Solids
     Stl,
     /// Exact solids for CAD
@@ -106,6 +119,46 @@ pub(crate) enum File {
     Mjcf,
     /// Report: every figure and finding
     Json,
+}
+
+/// A part of the pair, or the pair.
+#[derive(Clone, Copy, Debug, Eq, PartialEq, ValueEnum)]
+pub(crate) enum Part {
+    /// The driver
+    Driver,
+    /// The driven gear
+    Driven,
+    /// Both in place
+    Assembly,
+}
+
+/// A size of sheet, ISO 5457.
+#[derive(Clone, Copy, Debug, Eq, PartialEq, ValueEnum)]
+pub(crate) enum Size {
+    /// 210 x 297 mm
+    #[value(name = "A4")]
+    A4,
+    /// 420 x 297 mm
+    #[value(name = "A3")]
+    A3,
+    /// 594 x 420 mm
+    #[value(name = "A2")]
+    A2,
+    /// 841 x 594 mm
+    #[value(name = "A1")]
+    A1,
+    /// 1189 x 841 mm
+    #[value(name = "A0")]
+    A0,
+}
+
+/// A method of projection, ISO 5456-2.
+#[derive(Clone, Copy, Debug, Eq, PartialEq, ValueEnum)]
+pub(crate) enum Method {
+    /// A view stands on the far side of what it looks at
+    FirstAngle,
+    /// A view stands on the side it is looked at from
+    ThirdAngle,
 }
 
 /// A flavour of DXF.

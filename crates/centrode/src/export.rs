@@ -1,10 +1,12 @@
 use std::io::Write;
 use std::process::ExitCode;
 
+use centrode::analysis::Report;
 use centrode::export::dxf;
-use centrode::export::gear_pair::{self, Format, Options};
+use centrode::export::gear_pair::{self, Format, Options, SheetOptions, Subject};
+use centrode::mechanism::design::{Projection, SheetSize};
 
-use crate::args::{Dxf, Export, File};
+use crate::args::{Dxf, Export, File, Method, Part, Size};
 use crate::failure::Failure;
 use crate::input::Source;
 use crate::progress::Progress;
@@ -12,6 +14,7 @@ use crate::report;
 
 /// Resolves a design, checks it and writes its files.
 pub(crate) fn run(command: &Export, out: &mut impl Write) -> Result<ExitCode, Failure> {
+    refuse_useless(command)?;
     let source = Source::open(&command.design)?;
     let design = source.design()?;
     let progress = Progress::new(4);
@@ -20,7 +23,7 @@ pub(crate) fn run(command: &Export, out: &mut impl Write) -> Result<ExitCode, Fa
     progress.step("running the gears together");
     let found = centrode::analysis::check(&pair);
     progress.step("drawing");
-    let mut bundle = gear_pair::files(&pair, &formats(command), &options(command))?;
+    let mut bundle = gear_pair::files(&pair, &formats(command), &options(command, &found))?;
     if command.wants(File::Json) {
         bundle.add("report.json", report::json(&found)?.into_bytes())?;
     }
@@ -55,6 +58,8 @@ fn formats(command: &Export) -> Vec<Format> {
     let pairs = [
         (File::Dxf, Format::Dxf),
         (File::Svg, Format::Svg),
+        (File::Sheet, Format::Sheet),
+        (File::Pdf, Format::Pdf),
         (File::Stl, Format::Stl),
         (File::Step, Format::Step),
         (File::ThreeMf, Format::ThreeMf),
@@ -66,12 +71,66 @@ fn formats(command: &Export) -> Vec<Format> {
     wanted.map(|(_, format)| format).collect()
 }
 
-fn options(command: &Export) -> Options {
+/// Refuses options that none of the files asked for has a use for.
+fn refuse_useless(command: &Export) -> Result<(), Failure> {
+    let sheets = command.wants(File::Sheet) || command.wants(File::Pdf);
+    let refused = |option: &str, formats: &str| {
+        let message = format!("{option} is for {formats}; add one of these to --format");
+        Err(Failure::Usage(message))
+    };
+    if command.sheet.is_some() && !sheets {
+        return refused("--sheet", "the formats sheet and pdf");
+    }
+    if command.projection.is_some() && !sheets {
+        return refused("--projection", "the formats sheet and pdf");
+    }
+    let drawn = [File::Dxf, File::Svg, File::Sheet, File::Pdf];
+    let solid = [File::Stl, File::Step, File::ThreeMf, File::Csv];
+    let any = |files: &[File]| files.iter().any(|file| command.wants(*file));
+    if command.part.is_empty() || any(&drawn) {
+        return Ok(());
+    }
+    if command.part == [Part::Assembly] {
+        return refused("--part assembly", "drawings: dxf, svg, sheet and pdf");
+    }
+    if !any(&solid) {
+        return refused(
+            "--part",
+            "files of one part, and a simulator model is of both",
+        );
+    }
+    Ok(())
+}
+
+fn options(command: &Export, found: &Report) -> Options {
     let mut options = Options::new(command.tolerance);
     match command.dxf {
         Dxf::R2010 => {}
         Dxf::R12 => options.dxf_version = dxf::Version::R12,
         Dxf::Spline => options.dxf_curves = dxf::Curves::Splines,
     }
+    if !command.part.is_empty() {
+        let pairs = [
+            (Part::Driver, Subject::Driver),
+            (Part::Driven, Subject::Driven),
+            (Part::Assembly, Subject::Assembly),
+        ];
+        let wanted = pairs.into_iter().filter(|p| command.part.contains(&p.0));
+        options.subjects = wanted.map(|(_, subject)| subject).collect();
+    }
+    options.sheet = SheetOptions {
+        size: command.sheet.map(|size| match size {
+            Size::A4 => SheetSize::A4,
+            Size::A3 => SheetSize::A3,
+            Size::A2 => SheetSize::A2,
+            Size::A1 => SheetSize::A1,
+            Size::A0 => SheetSize::A0,
+        }),
+        projection: command.projection.map(|method| match method {
+            Method::FirstAngle => Projection::FirstAngle,
+            Method::ThirdAngle => Projection::ThirdAngle,
+        }),
+        meshing: centrode::meshing(found),
+    };
     options
 }

@@ -6,3 +6,19 @@ pub use centrode_analysis as analysis;
 pub use centrode_export as export;
 pub use centrode_geometry as geometry;
 pub use centrode_mechanism as mechanism;
+
+use export::gear_pair::Meshing;
+
+/// What drawing sheets tell of a report: the pairs of teeth in contact, and the play along the common
+/// normal, mm. `None` for gears that do not hold each other.
+#[must_use]
+pub fn meshing(report: &analysis::Report) -> Option<Meshing> {
+    let range = |least: &str, greatest: &str| {
+        let ends = [report.values.get(least)?, report.values.get(greatest)?];
+        ends.iter().all(|x| x.is_finite()).then(|| ends.map(|x| *x))
+    };
+    Some(Meshing {
+        contact_ratio: range("contact_ratio_min", "contact_ratio_max")?,
+        backlash: range("normal_backlash_min", "normal_backlash_max")?,
+    })
+}

@@ -3,7 +3,7 @@
 mod r12;
 mod r2010;
 
-use crate::drawing::{Drawing, LineType};
+use crate::drawing::{Anchor, Drawing, LineType, Shape, Text};
 use centrode_geometry::{Arc, Outline, Point, Segment, Tolerance};
 use thiserror::Error;
 
@@ -97,11 +97,45 @@ fn angles(arc: &Arc) -> [f64; 2] {
     ends.map(angle)
 }
 
+/// Text style of fitted texts: the ISO 3098 shapes that drawing programs bring along.
+const STYLE: &str = "ISO3098";
+const STYLE_FONT: &str = "isocp.shx";
+
+/// How a text stands between its two points. A fitted text has the same length whatever font a program
+/// has at hand; of very short ones a program would stretch a single letter.
+fn justification(text: &Text) -> (u32, [Point; 2]) {
+    match (text.width, text.anchor) {
+        (Some(_), _) if text.words.chars().count() > 3 => (5, text.baseline()),
+        (_, Anchor::Left) => (0, [text.at; 2]),
+        (_, Anchor::Middle) => (1, [text.at; 2]),
+        (_, Anchor::Right) => (2, [text.at; 2]),
+    }
+}
+
+/// The line types a file lists: those every program knows, and what else the drawing has.
+fn line_types(drawing: &Drawing, continuous: bool) -> Vec<LineType> {
+    let used = |line_type| drawing.layers.iter().any(|l| l.line_type == line_type);
+    LineType::ALL
+        .into_iter()
+        .filter(|&line_type| match line_type {
+            LineType::Continuous => continuous,
+            LineType::Center | LineType::Hidden => true,
+            LineType::Phantom => used(line_type),
+        })
+        .collect()
+}
+
+fn has_fitted_text(drawing: &Drawing) -> bool {
+    let mut shapes = drawing.entities.iter().map(|entity| &entity.shape);
+    shapes.any(|shape| matches!(shape, Shape::Text(text) if text.width.is_some()))
+}
+
 fn line_type_name(line_type: LineType) -> &'static str {
     match line_type {
         LineType::Continuous => "CONTINUOUS",
         LineType::Center => "CENTER",
         LineType::Hidden => "HIDDEN",
+        LineType::Phantom => "PHANTOM",
     }
 }
 
@@ -110,6 +144,7 @@ fn description(line_type: LineType) -> &'static str {
         LineType::Continuous => "Solid line",
         LineType::Center => "Center ____ . ____ . ____",
         LineType::Hidden => "Hidden __ __ __ __ __",
+        LineType::Phantom => "Phantom ____ . . ____ . . ____",
     }
 }
 
@@ -130,7 +165,7 @@ fn color_index(color: crate::drawing::Color) -> u8 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::drawing::{Anchor, Color, Shape, Text};
+    use crate::drawing::Color;
     use dxf::{Drawing as File, entities::EntityType, enums::Units};
 
     fn sample() -> Drawing {
@@ -163,12 +198,7 @@ mod tests {
         drawing.draw("AXES", Shape::Mark(p(0.0, 0.0)));
         drawing.draw(
             "AXES",
-            Shape::Text(Text {
-                at: p(0.0, -15.0),
-                height: 3.5,
-                words: "z = 23".into(),
-                anchor: Anchor::Middle,
-            }),
+            Shape::Text(Text::new(p(0.0, -15.0), 3.5, "z = 23", Anchor::Middle)),
         );
         drawing
     }

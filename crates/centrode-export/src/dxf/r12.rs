@@ -1,7 +1,9 @@
 //! DXF R12, which is simple enough to be written line by line; old controllers want nothing beside.
 
-use super::{angles, bulges, color_index, description, line_type_name};
-use crate::drawing::{Anchor, Drawing, LineType, Shape, Text};
+use super::{
+    STYLE, STYLE_FONT, angles, bulges, color_index, description, justification, line_type_name,
+};
+use crate::drawing::{Drawing, LineType, Shape, Text};
 use centrode_geometry::{Point, Tolerance};
 
 pub(super) fn write(drawing: &Drawing, tolerance: Tolerance) -> Vec<u8> {
@@ -64,7 +66,7 @@ fn header(file: &mut Pairs, drawing: &Drawing) {
 
 fn tables(file: &mut Pairs, drawing: &Drawing) {
     file.word(0, "SECTION").word(2, "TABLES");
-    let line_types = [LineType::Continuous, LineType::Center, LineType::Hidden];
+    let line_types = super::line_types(drawing, true);
     file.word(0, "TABLE")
         .word(2, "LTYPE")
         .whole(70, line_types.len() as u32);
@@ -97,17 +99,26 @@ fn tables(file: &mut Pairs, drawing: &Drawing) {
         layer(&l.name, color_index(l.color), l.line_type);
     }
     file.word(0, "ENDTAB");
-    file.word(0, "TABLE").word(2, "STYLE").whole(70, 1);
-    file.word(0, "STYLE")
-        .word(2, "STANDARD")
-        .whole(70, 0)
-        .number(40, 0.0)
-        .number(41, 1.0);
-    file.number(50, 0.0)
-        .whole(71, 0)
-        .number(42, 2.5)
-        .word(3, "txt")
-        .word(4, "");
+    let styles: &[(&str, &str)] = if super::has_fitted_text(drawing) {
+        &[("STANDARD", "txt"), (STYLE, STYLE_FONT)]
+    } else {
+        &[("STANDARD", "txt")]
+    };
+    file.word(0, "TABLE")
+        .word(2, "STYLE")
+        .whole(70, styles.len() as u32);
+    for (name, font) in styles {
+        file.word(0, "STYLE")
+            .word(2, name)
+            .whole(70, 0)
+            .number(40, 0.0)
+            .number(41, 1.0);
+        file.number(50, 0.0)
+            .whole(71, 0)
+            .number(42, 2.5)
+            .word(3, font)
+            .word(4, "");
+    }
     file.word(0, "ENDTAB").word(0, "ENDSEC");
 }
 
@@ -139,6 +150,14 @@ fn shape(file: &mut Pairs, layer: &str, shape: &Shape, tolerance: Tolerance) {
                 .number(50, start)
                 .number(51, end);
         }
+        Shape::Triangle([a, b, c]) => {
+            // A fourth corner on the third: that is how a triangle is written.
+            file.word(0, "SOLID")
+                .word(8, layer)
+                .point(10, a)
+                .point(11, b);
+            file.point(12, c).point(13, c);
+        }
         Shape::Mark(point) => {
             file.word(0, "POINT").word(8, layer).point(10, point);
         }
@@ -165,17 +184,21 @@ fn polyline(
 }
 
 fn line_of_text(file: &mut Pairs, layer: &str, text: &Text) {
+    let (justification, [start, end]) = justification(text);
     file.word(0, "TEXT")
         .word(8, layer)
-        .point(10, &text.at)
+        .point(10, &start)
         .number(40, text.height);
     file.word(1, &ascii(&text.words));
-    let justification = match text.anchor {
-        Anchor::Left => return,
-        Anchor::Middle => 1,
-        Anchor::Right => 2,
-    };
-    file.whole(72, justification).point(11, &text.at);
+    if text.rotation != 0.0 {
+        file.number(50, text.rotation.to_degrees());
+    }
+    if text.width.is_some() {
+        file.word(7, STYLE);
+    }
+    if justification != 0 {
+        file.whole(72, justification).point(11, &end);
+    }
 }
 
 /// R12 knows no letters beyond ASCII: others by their code, line ends as spaces.

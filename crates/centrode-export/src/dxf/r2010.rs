@@ -1,7 +1,10 @@
 //! DXF of 2010, through the dxf library.
 
-use super::{Curves, DxfError, angles, bulges, color_index, description, line_type_name};
-use crate::drawing::{Anchor, Drawing, Layer, LineType, Shape, Text};
+use super::{
+    Curves, DxfError, STYLE, STYLE_FONT, angles, bulges, color_index, description, justification,
+    line_type_name,
+};
+use crate::drawing::{Drawing, Layer, LineType, Shape, Text};
 use centrode_geometry::{Arc, Outline, Point, Tolerance};
 use chrono::{Local, NaiveDate, TimeZone};
 use dxf::{
@@ -21,8 +24,15 @@ pub(super) fn write(
 ) -> Result<Vec<u8>, DxfError> {
     let mut file = File::new();
     header(&mut file, drawing);
-    for line_type in [LineType::Center, LineType::Hidden] {
+    for line_type in super::line_types(drawing, false) {
         file.add_line_type(pattern(line_type));
+    }
+    if super::has_fitted_text(drawing) {
+        file.add_style(tables::Style {
+            name: STYLE.to_owned(),
+            primary_font_file_name: STYLE_FONT.to_owned(),
+            ..Default::default()
+        });
     }
     for layer in &drawing.layers {
         file.add_layer(table_layer(layer));
@@ -213,6 +223,12 @@ fn entry(shape: &Shape, curves: Curves, tolerance: Tolerance) -> EntityType {
             EntityType::Circle(entities::Circle::new(position(center), *radius))
         }
         Shape::Arc(arc) => EntityType::Arc(circle_arc(arc)),
+        Shape::Triangle([a, b, c]) => EntityType::Solid(entities::Solid::new(
+            position(a),
+            position(b),
+            position(c),
+            position(c),
+        )),
         Shape::Mark(point) => EntityType::ModelPoint(entities::ModelPoint::new(position(point))),
         Shape::Text(text) => EntityType::Text(line_of_text(text)),
     }
@@ -224,15 +240,22 @@ fn circle_arc(arc: &Arc) -> entities::Arc {
 }
 
 fn line_of_text(text: &Text) -> entities::Text {
+    let (justification, [start, end]) = justification(text);
     entities::Text {
-        location: position(&text.at),
-        second_alignment_point: position(&text.at),
+        location: position(&start),
+        second_alignment_point: position(&end),
         text_height: text.height,
         value: text.words.clone(),
-        horizontal_text_justification: match text.anchor {
-            Anchor::Left => HorizontalTextJustification::Left,
-            Anchor::Middle => HorizontalTextJustification::Center,
-            Anchor::Right => HorizontalTextJustification::Right,
+        rotation: text.rotation.to_degrees(),
+        text_style_name: match text.width {
+            Some(_) => STYLE.to_owned(),
+            None => entities::Text::default().text_style_name,
+        },
+        horizontal_text_justification: match justification {
+            5 => HorizontalTextJustification::Fit,
+            1 => HorizontalTextJustification::Center,
+            2 => HorizontalTextJustification::Right,
+            _ => HorizontalTextJustification::Left,
         },
         ..Default::default()
     }

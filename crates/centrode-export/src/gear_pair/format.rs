@@ -9,6 +9,10 @@ pub enum Format {
     Dxf,
     /// Pictures of the same.
     Svg,
+    /// Drawing sheets with views, dimensions and tables, as DXF and as pictures.
+    Sheet,
+    /// The same sheets as PDF.
+    Pdf,
     /// Solids.
     Stl,
     /// Exact solids for CAD.
@@ -25,9 +29,11 @@ pub enum Format {
 
 impl Format {
     /// Every format, in the order files are written.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 10] = [
         Self::Dxf,
         Self::Svg,
+        Self::Sheet,
+        Self::Pdf,
         Self::Step,
         Self::Stl,
         Self::ThreeMf,
@@ -42,6 +48,8 @@ impl Format {
         match self {
             Self::Dxf => "dxf",
             Self::Svg => "svg",
+            Self::Sheet => "sheet",
+            Self::Pdf => "pdf",
             Self::Stl => "stl",
             Self::Step => "step",
             Self::ThreeMf => "3mf",
@@ -60,7 +68,9 @@ impl fmt::Display for Format {
 
 /// A word that names no format.
 #[derive(Clone, Debug, Error, PartialEq)]
-#[error("no format is named {0:?}; there are dxf, svg, stl, step, 3mf, csv, urdf and mjcf")]
+#[error(
+    "no format is named {0:?}; there are dxf, svg, sheet, pdf, stl, step, 3mf, csv, urdf and mjcf"
+)]
 pub struct UnknownFormat(pub String);
 
 impl FromStr for Format {

@@ -6,6 +6,8 @@ mod motion;
 mod outline;
 mod pins;
 mod sheet;
+mod sheet_set;
+mod sheets;
 mod simulator;
 mod solid;
 
@@ -15,6 +17,8 @@ use crate::{
     drawing::Drawing,
     dxf::{self, DxfError},
     mjcf::{self, MjcfError},
+    pdf::PdfError,
+    sheet::SheetError,
     step::StepError,
     stl, svg,
     threemf::PackageError,
@@ -24,11 +28,13 @@ use centrode_geometry::{SolidError, Tolerance};
 use centrode_mechanism::gear::{GearPair, Member};
 pub use format::{Format, UnknownFormat};
 use sheet::Contours;
+pub use sheet_set::SheetSet;
+pub use sheets::{Meshing, SheetOptions, Subject, sheets};
 pub use solid::{mesh, solid, step_file, stl_file, threemf_file};
 use thiserror::Error;
 
 /// How the files are written.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Options {
     /// Greatest distance of every arc, point sequence and mesh from the exact curve.
     pub tolerance: Tolerance,
@@ -36,17 +42,32 @@ pub struct Options {
     pub dxf_version: dxf::Version,
     /// Arcs or splines in the DXF.
     pub dxf_curves: dxf::Curves,
+    /// How the drawing sheets are laid out.
+    pub sheet: SheetOptions,
+    /// What drawings, sheets, solids and tables are of; models and motion are of the pair.
+    pub subjects: Vec<Subject>,
 }
 
 impl Options {
-    /// DXF R2010 with arcs.
+    /// DXF R2010 with arcs, of everything.
     #[must_use]
     pub fn new(tolerance: Tolerance) -> Self {
         Self {
             tolerance,
             dxf_version: dxf::Version::default(),
             dxf_curves: dxf::Curves::default(),
+            sheet: SheetOptions::default(),
+            subjects: Subject::ALL.to_vec(),
         }
+    }
+}
+
+impl Options {
+    /// The gears asked for.
+    fn members(&self) -> impl Iterator<Item = Member> + '_ {
+        [Member::Driver, Member::Driven]
+            .into_iter()
+            .filter(|&member| self.subjects.contains(&member.into()))
     }
 }
 
@@ -75,6 +96,17 @@ pub enum GearPairFilesError {
     /// The drawing could not be written.
     #[error(transparent)]
     Dxf(#[from] DxfError),
+    /// The drawing sheets cannot be laid out.
+    #[error("{} drawing: {source}", .subject.name())]
+    Sheet {
+        /// What the sheets are of.
+        subject: Subject,
+        /// Why.
+        source: SheetError,
+    },
+    /// The drawing sheets could not be written as PDF.
+    #[error(transparent)]
+    Pdf(#[from] PdfError),
     /// A gear cannot be written as STEP.
     #[error("the {} gear cannot be written as STEP: {source}", .member.name())]
     Step {
@@ -129,9 +161,15 @@ pub fn files(
     if wanted(Format::Dxf) || wanted(Format::Svg) {
         draw(pair, &wanted, options, &mut bundle)?;
     }
+    if wanted(Format::Sheet) || wanted(Format::Pdf) {
+        for &subject in &options.subjects {
+            let set = SheetSet::new(pair, subject, options)?;
+            set.add(&wanted, options, &mut bundle)?;
+        }
+    }
     solid::add(pair, &wanted, options, &mut bundle)?;
     if wanted(Format::Csv) {
-        for member in [Member::Driver, Member::Driven] {
+        for member in options.members() {
             let table = outline::columns(pair.gear(member), options.tolerance);
             bundle.add(&format!("{}.csv", member.name()), csv::write(&table)?)?;
             let table = pins::columns(pair, member);
@@ -175,13 +213,13 @@ fn draw(
             dxf::Curves::Arcs => &fitted,
             dxf::Curves::Splines => &exact,
         };
-        for (name, drawing) in sheets(pair, source) {
+        for (name, drawing) in drawings(pair, source, options) {
             let bytes = dxf::write(&drawing, options.dxf_version, options.dxf_curves, tolerance)?;
             bundle.add(&format!("{name}.dxf"), bytes)?;
         }
     }
     if wanted(Format::Svg) {
-        for (name, drawing) in sheets(pair, &fitted) {
+        for (name, drawing) in drawings(pair, &fitted, options) {
             let picture = svg::write(&drawing, tolerance);
             bundle.add(&format!("{name}.svg"), picture.into_bytes())?;
         }
@@ -193,12 +231,20 @@ fn contours(pair: &GearPair, tolerance: Tolerance) -> [Contours; 2] {
     [Member::Driver, Member::Driven].map(|member| Contours::new(pair, member, tolerance))
 }
 
-fn sheets(pair: &GearPair, [driver, driven]: &[Contours; 2]) -> [(&'static str, Drawing); 3] {
-    [
-        (Member::Driver.name(), sheet::gear(driver)),
-        (Member::Driven.name(), sheet::gear(driven)),
-        ("assembly", sheet::assembly(pair, [driver, driven])),
-    ]
+fn drawings(
+    pair: &GearPair,
+    [driver, driven]: &[Contours; 2],
+    options: &Options,
+) -> Vec<(&'static str, Drawing)> {
+    let draw = |&subject: &Subject| {
+        let drawing = match subject {
+            Subject::Driver => sheet::gear(driver),
+            Subject::Driven => sheet::gear(driven),
+            Subject::Assembly => sheet::assembly(pair, [driver, driven]),
+        };
+        (subject.name(), drawing)
+    };
+    options.subjects.iter().map(draw).collect()
 }
 
 /// The drawing of one gear, with exact contours.
@@ -295,6 +341,19 @@ mod tests {
             "driver.svg",
             "driven.svg",
             "assembly.svg",
+            "driver-sheet-1.dxf",
+            "driver-sheet-1.svg",
+            "driver-sheet-2.dxf",
+            "driver-sheet-2.svg",
+            "driver.pdf",
+            "driven-sheet-1.dxf",
+            "driven-sheet-1.svg",
+            "driven-sheet-2.dxf",
+            "driven-sheet-2.svg",
+            "driven.pdf",
+            "assembly-sheet.dxf",
+            "assembly-sheet.svg",
+            "assembly.pdf",
             "driver.step",
             "driver.stl",
             "driver.3mf",

@@ -87,15 +87,15 @@ pub(super) fn assembly(pair: &GearPair, [driver, driven]: [&Contours; 2]) -> Dra
     let height = 0.038 * a;
     let low = driver.extent.min.y.min(driven.extent.min.y);
     let line = |row: f64, words: String| {
-        Shape::Text(Text {
-            at: Point::new(
+        Shape::Text(Text::new(
+            Point::new(
                 0.5 * (ends[0].x + ends[1].x),
                 low - (1.2 + 1.7 * row) * height,
             ),
             height,
             words,
-            anchor: Anchor::Middle,
-        })
+            Anchor::Middle,
+        ))
     };
     let title = if pair.title().is_empty() {
         pair.name()

@@ -83,17 +83,24 @@ pub(super) fn add(
     bundle: &mut Bundle,
 ) -> Result<(), GearPairFilesError> {
     let stl = wanted(Format::Stl) || wanted(Format::Urdf) || wanted(Format::Mjcf);
+    // A model shows both gears, whichever parts are asked for.
+    let shown = wanted(Format::Urdf) || wanted(Format::Mjcf);
     for member in [Member::Driver, Member::Driven] {
+        let own = options.members().any(|m| m == member);
+        if !own && !shown {
+            continue;
+        }
         let name = member.name();
-        if wanted(Format::Step) {
+        if own && wanted(Format::Step) {
             bundle.add(&format!("{name}.step"), step_file(pair, member)?)?;
         }
-        if stl || wanted(Format::ThreeMf) {
+        let packaged = own && wanted(Format::ThreeMf);
+        if stl || packaged {
             let mesh = mesh(pair, member, options.tolerance)?;
             if stl {
                 bundle.add(&format!("{name}.stl"), stl::write(&mesh))?;
             }
-            if wanted(Format::ThreeMf) {
+            if packaged {
                 bundle.add(&format!("{name}.3mf"), package(pair, member, &mesh)?)?;
             }
         }

@@ -1,0 +1,246 @@
+//! The face of a gear, and the section through its axis.
+
+use super::part::{Extremes, Part, degrees, number};
+use crate::{
+    drawing::{Anchor, Shape},
+    sheet::{Draft, Pen, Scale, fit, lettering},
+};
+use centrode_geometry::{Bounds, Outline, Point, Vector};
+use centrode_mechanism::design::Projection;
+
+/// Distance of the numbers of the spaces from the teeth, mm.
+const RING: f64 = 3.4;
+/// Height of the numbers of the spaces, mm.
+const NUMBERS: f64 = 2.5;
+/// Room between a view and the next, mm.
+const APART: f64 = 16.0;
+
+/// Face view and section A-A, aligned on the axis.
+pub(super) fn views(part: &Part<'_>, scale: Scale, projection: Projection) -> Draft {
+    let mut draft = face(part, scale);
+    let whole = draft.bounds();
+    let section = section(part, scale);
+    let own = section.bounds();
+    // The section is seen from above: below the face in first angle, above it in third.
+    let y = match projection {
+        Projection::FirstAngle => whole.min.y - APART - own.max.y,
+        Projection::ThirdAngle => whole.max.y + APART - own.min.y,
+    };
+    draft.add(&section, Vector::new(0.0, y));
+    draft
+}
+
+fn face(part: &Part<'_>, scale: Scale) -> Draft {
+    let k = scale.factor();
+    let mut draft = Draft::default();
+    draft.draw(Pen::Outline, Shape::Contour(part.outline.scaled(k)));
+    draft.draw(Pen::Axis, Shape::Contour(part.pitch_curve.scaled(k)));
+    if let Some(bore) = &part.bore {
+        draft.draw(Pen::Outline, Shape::Contour(bore.scaled(k)));
+    }
+    let Bounds { min, max } = part.bounds();
+    let (min, max) = (min * k, max * k);
+    let p = Point::new;
+    draft.line(Pen::Axis, p(min.x - 2.0, 0.0), p(max.x + 2.0, 0.0));
+    draft.line(Pen::Axis, p(0.0, min.y - 2.0), p(0.0, max.y + 2.0));
+    let ring = RING + NUMBERS + 2.0;
+    let left = p(min.x - ring - 1.0, 0.0);
+    let right = p(max.x + ring + 1.0, 0.0);
+    cutting_plane(&mut draft, left, right);
+    let margin = Vector::new(ring + 12.0, 0.0);
+    let around = Bounds {
+        min: p(min.x, min.y) - margin,
+        max: p(max.x, max.y) + margin,
+    };
+    draft.callouts(around, [-9.0, 3.0], &notes(part, k));
+    numbers(part, k, &mut draft);
+    draft
+}
+
+/// The ends of the cutting plane, with the direction it is seen in.
+fn cutting_plane(draft: &mut Draft, left: Point, right: Point) {
+    for (at, out) in [(left, -1.0), (right, 1.0)] {
+        let end = at + Vector::new(7.0 * out, 0.0);
+        draft.line(Pen::Outline, at, end);
+        let tip = end - Vector::new(1.0 * out, 7.0);
+        draft.line(Pen::Dimension, tip + Vector::new(0.0, 7.0), tip);
+        draft.arrow(tip, -Vector::y());
+        let letter = tip + Vector::new(-3.2 * out, 1.2);
+        draft.text(letter, 3.5, "A", Anchor::Middle);
+    }
+}
+
+fn notes(part: &Part<'_>, k: f64) -> Vec<(Point, Vec<String>)> {
+    let mut notes = Vec::new();
+    let radius = |p: Point, what: &str| {
+        let size = format!("R{:.3} at {:.2}°", p.coords.norm(), degrees(p));
+        (p * k, vec![size, what.to_owned()])
+    };
+    for (kind, extremes) in [("tip", part.tips()), ("root", part.roots())] {
+        let Some(Extremes { greatest, least }) = extremes else {
+            continue;
+        };
+        if greatest.coords.norm() - least.coords.norm() < 5e-4 {
+            let size = format!("Ø{:.3}", 2.0 * greatest.coords.norm());
+            notes.push((greatest * k, vec![size, format!("{kind} circle")]));
+        } else {
+            notes.push(radius(greatest, &format!("largest {kind} radius")));
+            notes.push(radius(least, &format!("least {kind} radius")));
+        }
+    }
+    let body = part.gear.body();
+    if body.bore > 0.0 {
+        let at = Vector::new(-0.6, 0.8) * (0.5 * body.bore * k);
+        let words = if body.keyway.is_some() {
+            vec!["bore and keyway:".to_owned(), "detail B".to_owned()]
+        } else {
+            vec![fit::bore(body.bore, &body.bore_fit)]
+        };
+        notes.push((Point::from(at), words));
+    }
+    let start = part.frame(0.0).point;
+    let words = vec![
+        format!("pitch point at φ = 0, R{:.3}", start.coords.norm()),
+        format!(
+            "mate's axis at {:.3} in this direction",
+            part.pair.center_distance()
+        ),
+    ];
+    notes.push((start * k, words));
+    let tooth = part.middle(0, 0.0);
+    let words = vec![
+        format!("middle of tooth 0 at {:.3}°", degrees(tooth.point)),
+        format!("spaces numbered {}", part.sense()),
+    ];
+    notes.push((tooth.point * k, words));
+    notes
+}
+
+/// Numbers of the tooth spaces around the face, as many as there is room for.
+fn numbers(part: &Part<'_>, k: f64, draft: &mut Draft) {
+    let count = part.gear.tooth_count();
+    let step = part.pitch() * k;
+    let every = [1_u32, 2, 5, 10, 20, 50, 100]
+        .into_iter()
+        .find(|&n| f64::from(n) * step >= 8.0)
+        .unwrap_or(count);
+    let height = part.pair.teeth().tool.addendum * k + RING;
+    let lines = draft.clone();
+    for space in (0..count).step_by(every as usize) {
+        let words = space.to_string();
+        let width = lettering::width(&words, NUMBERS);
+        let frame = part.middle(space, 0.5);
+        // Leaders go by: the number makes way, first outwards and then along.
+        for (out, along) in [
+            (0.0, 0.0),
+            (2.0, 0.0),
+            (0.0, 2.5),
+            (0.0, -2.5),
+            (3.0, 2.5),
+            (3.0, -2.5),
+        ] {
+            let middle = frame.point * k
+                + frame.normal * (height + 0.5 * NUMBERS + out)
+                + frame.tangent * along;
+            let at = middle - Vector::new(0.0, 0.5 * NUMBERS);
+            let room = Vector::new(0.5 * width + 0.6, 0.5 * NUMBERS + 0.6);
+            let own = Bounds {
+                min: middle - room,
+                max: middle + room,
+            };
+            if !lines.touches(own) {
+                draft.text(at, NUMBERS, &words, Anchor::Middle);
+                break;
+            }
+        }
+    }
+}
+
+/// The section through axis and keyway, seen from above; teeth are not cut, ISO 2203.
+fn section(part: &Part<'_>, scale: Scale) -> Draft {
+    let k = scale.factor();
+    let body = part.gear.body();
+    let width = body.width * k;
+    let half = 0.5 * body.bore * k;
+    let mut draft = Draft::default();
+    let [right_tip, right_root] = part.reach(0.0).map(|r| r * k);
+    let [left_tip, left_root] = part.reach(std::f64::consts::PI).map(|r| -r * k);
+    let p = Point::new;
+    let rectangle = |from: f64, to: f64| Bounds {
+        min: p(from, 0.0),
+        max: p(to, width),
+    };
+    draft.rectangle(Pen::Outline, rectangle(left_tip, right_tip));
+    let upright = |draft: &mut Draft, pen: Pen, x: f64, beyond: f64| {
+        draft.line(pen, p(x, -beyond), p(x, width + beyond));
+    };
+    for root in [left_root, right_root] {
+        upright(&mut draft, Pen::Outline, root, 0.0);
+    }
+    let start = part.frame(0.0).point.coords.norm() * k;
+    let pitch = match part.toward_mate().x > 0.0 {
+        true => start,
+        false => -start,
+    };
+    upright(&mut draft, Pen::Axis, pitch, 2.0);
+    upright(&mut draft, Pen::Axis, 0.0, 4.0);
+    let mut solid = vec![rectangle(left_root, right_root)];
+    if half > 0.0 {
+        let edge = body.keyway.map_or(half, |key| half + key.depth * k);
+        solid = vec![rectangle(left_root, -half), rectangle(edge, right_root)];
+        upright(&mut draft, Pen::Outline, -half, 0.0);
+        upright(&mut draft, Pen::Outline, edge, 0.0);
+        if let Some(key) = body.keyway {
+            // Where the wall of the keyway leaves the bore.
+            let wide = 0.5 * key.width * k;
+            let foot = (half * half - wide * wide).max(0.0).sqrt();
+            upright(&mut draft, Pen::Outline, foot, 0.0);
+        }
+    }
+    for Bounds { min, max } in solid {
+        if max.x > min.x {
+            let corners = [min, p(max.x, min.y), max, p(min.x, max.y)];
+            draft.hatch(&[Outline::polygon(&corners)], part.tolerance);
+        }
+    }
+    let beside = p(right_tip + 10.0, 0.0);
+    let edges = [p(right_tip, 0.0), p(right_tip, width)];
+    draft.dimension(edges, Vector::y(), beside, &number(body.width, 3));
+    let title = p(0.0, width + 7.0);
+    draft.text(title, 5.0, "A-A", Anchor::Middle);
+    draft
+}
+
+/// Bore and keyway, enlarged, with their dimensions; `None` without a keyway.
+pub(super) fn bore(part: &Part<'_>) -> Option<Draft> {
+    let body = part.gear.body();
+    let key = body.keyway?;
+    let outline = part.bore.as_ref()?;
+    let scale = Scale::largest(body.bore + key.depth, 45.0);
+    let k = scale.factor();
+    let half = 0.5 * body.bore * k;
+    let top = half + key.depth * k;
+    let wide = 0.5 * key.width * k;
+    let mut draft = Draft::default();
+    let p = Point::new;
+    let rim = Outline::circle(Point::origin(), 1.25 * top);
+    draft.hatch(&[rim.clone(), outline.scaled(k)], part.tolerance);
+    draft.draw(Pen::Outline, Shape::Contour(outline.scaled(k)));
+    draft.draw(Pen::Thin, Shape::Contour(rim));
+    let reach = 1.25 * top + 3.0;
+    draft.line(Pen::Axis, p(-reach, 0.0), p(reach, 0.0));
+    draft.line(Pen::Axis, p(0.0, -reach), p(0.0, reach));
+    let below = p(0.0, -reach - 6.0);
+    let depth = number(body.bore + key.depth, 3);
+    draft.dimension([p(-half, 0.0), p(top, wide)], Vector::x(), below, &depth);
+    let beside = p(reach + 5.0, 0.0);
+    let width = number(key.width, 3);
+    draft.dimension([p(top, -wide), p(top, wide)], Vector::y(), beside, &width);
+    let tip = p(-0.5 * half, 0.75_f64.sqrt() * half);
+    let elbow = p(-0.75 * reach, reach + 3.0);
+    draft.leader(tip, elbow, &[fit::bore(body.bore, &body.bore_fit)]);
+    let bounds = draft.bounds();
+    let title = p(0.0, bounds.max.y + 5.0);
+    draft.text(title, 5.0, &format!("B ({scale})"), Anchor::Middle);
+    Some(draft)
+}

@@ -1,0 +1,256 @@
+//! The drawing sheets of a gear pair.
+
+mod assembly;
+mod face;
+mod part;
+mod tables;
+mod tooth;
+
+use crate::{
+    drawing::Anchor,
+    sheet::{Corner, Draft, Piece, Scale, Sheet, SheetError, Table, TitleBlock, compose},
+};
+use centrode_geometry::{Point, Tolerance};
+use centrode_mechanism::{
+    design::{Projection, SheetSize},
+    gear::{GearPair, Member},
+};
+use part::{Part, number};
+
+/// What a sheet is of.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+pub enum Subject {
+    /// The driver.
+    Driver,
+    /// The driven gear.
+    Driven,
+    /// Both in place.
+    Assembly,
+}
+
+impl Subject {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Driver, Self::Driven, Self::Assembly];
+
+    /// The name its files have.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Driver => "driver",
+            Self::Driven => "driven",
+            Self::Assembly => "assembly",
+        }
+    }
+}
+
+impl From<Member> for Subject {
+    fn from(member: Member) -> Self {
+        match member {
+            Member::Driver => Self::Driver,
+            Member::Driven => Self::Driven,
+        }
+    }
+}
+
+/// What the contact analysis has found, for the tables of the sheets.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Meshing {
+    /// Least and greatest number of tooth pairs in contact.
+    pub contact_ratio: [f64; 2],
+    /// Least and greatest play along the common normal, mm.
+    pub backlash: [f64; 2],
+}
+
+/// How sheets are laid out where it is not to be as the design says.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SheetOptions {
+    /// Size; left out, the design's, and without one there the smallest that takes the part.
+    pub size: Option<SheetSize>,
+    /// How views lie to each other; left out, as the design says.
+    pub projection: Option<Projection>,
+    /// What the contact analysis has found; left out, the sheets do not tell.
+    pub meshing: Option<Meshing>,
+}
+
+/// The sheets of one gear, or of both in place: views, dimensions, data, tables.
+///
+/// # Errors
+/// [`SheetError`] if the size asked for is too small.
+pub fn sheets(
+    pair: &GearPair,
+    subject: Subject,
+    options: &SheetOptions,
+    tolerance: Tolerance,
+) -> Result<Vec<Sheet>, SheetError> {
+    match subject {
+        Subject::Driver => gear(pair, Member::Driver, options, tolerance),
+        Subject::Driven => gear(pair, Member::Driven, options, tolerance),
+        Subject::Assembly => both(pair, options, tolerance),
+    }
+}
+
+/// The title block of a subject's sheets, and the size and projection that hold.
+fn block(pair: &GearPair, subject: Subject, options: &SheetOptions) -> TitleBlock {
+    let spec = pair.drawing();
+    let mut block = TitleBlock::of(spec);
+    if !spec.number.is_empty() {
+        block.number = format!("{}-{}", spec.number, subject.name());
+    }
+    block.projection = options.projection.unwrap_or(spec.projection);
+    let (title, supplement) = match subject {
+        Subject::Driver => ("Driver gear", pair.title()),
+        Subject::Driven => ("Driven gear", pair.title()),
+        Subject::Assembly => ("Gear pair", pair.title()),
+    };
+    block.title = title.to_owned();
+    block.supplement = match supplement {
+        "" => pair.name(),
+        title => title,
+    }
+    .to_owned();
+    block
+}
+
+fn gear(
+    pair: &GearPair,
+    member: Member,
+    options: &SheetOptions,
+    tolerance: Tolerance,
+) -> Result<Vec<Sheet>, SheetError> {
+    let part = Part::new(pair, member, tolerance);
+    let mut block = block(pair, member.into(), options);
+    block.document = "Part drawing".into();
+    block.material = part.gear.body().material.clone();
+    block.mass = mass(&part);
+    let data = tables::data(&part, options.meshing);
+    let details: Vec<Draft> = tooth::extremes(&part)
+        .into_iter()
+        .zip(['C', 'D'])
+        .map(|((tooth, place), letter)| tooth::detail(&part, letter, tooth, place))
+        .collect();
+    let projection = block.projection;
+    let pieces = |scale: Scale| {
+        let mut pieces = vec![
+            table_piece("gear data table", &data),
+            Piece {
+                name: "face view with section",
+                draft: face::views(&part, scale, projection),
+                corner: Corner::UpperLeft,
+                is_view: true,
+            },
+        ];
+        pieces.extend(face::bore(&part).map(|draft| Piece {
+            name: "bore detail",
+            draft,
+            corner: Corner::UpperLeft,
+            is_view: true,
+        }));
+        pieces.extend(details.iter().map(|draft| Piece {
+            name: "tooth detail",
+            draft: draft.clone(),
+            corner: Corner::UpperLeft,
+            is_view: true,
+        }));
+        pieces.push(notes_piece(&notes(&part)));
+        pieces
+    };
+    let bounds = part.bounds();
+    let extent = (bounds.max - bounds.min).amax();
+    let flowing = [tables::over_pins(&part), tables::profile(&part)];
+    let size = options.size.or(pair.drawing().sheet);
+    compose(size, &block, extent, &pieces, &flowing)
+}
+
+fn both(
+    pair: &GearPair,
+    options: &SheetOptions,
+    tolerance: Tolerance,
+) -> Result<Vec<Sheet>, SheetError> {
+    let [driver, driven] =
+        [Member::Driver, Member::Driven].map(|member| Part::new(pair, member, tolerance));
+    let mut block = block(pair, Subject::Assembly, options);
+    block.document = "Assembly drawing".into();
+    let data = tables::pair_data(pair, options.meshing);
+    let lines = [
+        "Shown at φ = 0: pitch point on the line of centres.".to_owned(),
+        "φ is the polar angle of the pitch point on the driver;".to_owned(),
+        "the driver has then turned clockwise by φ,".to_owned(),
+        "the driven gear counter-clockwise by the angle of the table.".to_owned(),
+        "Driver tooth k runs in driven space k - 1,".to_owned(),
+        "driven tooth k in driver space k.".to_owned(),
+    ];
+    let pieces = |scale: Scale| {
+        vec![
+            table_piece("gear pair data table", &data),
+            Piece {
+                name: "view of both gears",
+                draft: assembly::view(&driver, &driven, scale),
+                corner: Corner::UpperLeft,
+                is_view: true,
+            },
+            notes_piece(&lines),
+        ]
+    };
+    let a = pair.center_distance();
+    let width = driven.bounds().max.x + a - driver.bounds().min.x;
+    let size = options.size.or(pair.drawing().sheet);
+    compose(size, &block, width, &pieces, &[tables::motion(pair)])
+}
+
+fn table_piece(name: &'static str, table: &Table) -> Piece {
+    Piece {
+        name,
+        draft: table.whole(),
+        corner: Corner::UpperRight,
+        is_view: false,
+    }
+}
+
+fn notes_piece(lines: &[String]) -> Piece {
+    let mut draft = Draft::default();
+    for (row, line) in lines.iter().enumerate() {
+        let at = Point::new(0.0, -5.5 * row as f64);
+        draft.text(at, 3.5, line, Anchor::Left);
+    }
+    Piece {
+        name: "notes",
+        draft,
+        corner: Corner::LowerLeft,
+        is_view: false,
+    }
+}
+
+fn notes(part: &Part<'_>) -> Vec<String> {
+    let name = part.member.name();
+    let mut lines = vec![
+        format!("Exact tooth profile: {name}.step, points {name}.csv."),
+        "Polar angles from the line of centres at φ = 0,".to_owned(),
+        format!(
+            "counter-clockwise; the mate's axis lies at {}°.",
+            if part.member == Member::Driver {
+                0
+            } else {
+                180
+            }
+        ),
+    ];
+    if part.gear.body().keyway.is_some() {
+        lines.push("Keyway on the x axis, at polar angle 0°.".to_owned());
+    }
+    if part.pair.congruent() {
+        lines.push("Driver and driven gear are the same part.".to_owned());
+    }
+    lines
+}
+
+/// Mass of the gear, for the title block.
+fn mass(part: &Part<'_>) -> String {
+    let body = part.gear.body();
+    let bore = part.bore.as_ref().map_or(0.0, |bore| bore.area());
+    let grams = (part.gear.outline().area() - bore) * body.width * body.density * 1e-6;
+    if grams >= 1000.0 {
+        format!("{} kg", number(grams / 1000.0, 3))
+    } else {
+        format!("{} g", number(grams, 1))
+    }
+}

@@ -1,0 +1,150 @@
+use centrode_geometry::{Bounds, Outline, Point, Tolerance, Vector, bracketed_minimum};
+use centrode_mechanism::gear::{Frame, Gear, GearPair, Member, Role};
+use std::f64::consts::TAU;
+
+/// A gear with what its sheets ask of it, millimetres of the part.
+pub(super) struct Part<'a> {
+    pub(super) pair: &'a GearPair,
+    pub(super) gear: &'a Gear,
+    pub(super) member: Member,
+    /// The toothed contour in lines and arcs.
+    pub(super) outline: Outline,
+    pub(super) pitch_curve: Outline,
+    pub(super) bore: Option<Outline>,
+    pub(super) tolerance: Tolerance,
+    /// The outermost point of each tooth.
+    tips: Vec<Point>,
+    /// The innermost point of each space.
+    roots: Vec<Point>,
+}
+
+/// The points with the greatest and the least radius of a kind.
+pub(super) struct Extremes {
+    pub(super) greatest: Point,
+    pub(super) least: Point,
+}
+
+impl<'a> Part<'a> {
+    pub(super) fn new(pair: &'a GearPair, member: Member, tolerance: Tolerance) -> Self {
+        let gear = pair.gear(member);
+        let teeth = gear.tooth_count() as usize;
+        let (mut tips, mut roots) = (vec![None; teeth], vec![None; teeth]);
+        let parts = gear.outline().segments().iter().zip(gear.roles());
+        for ((segment, role), &owner) in parts.zip(gear.owners()) {
+            let (list, sign) = match role {
+                Role::Tip | Role::Flank => (&mut tips, -1.0),
+                Role::Root | Role::Fillet => (&mut roots, 1.0),
+            };
+            let radius = |u: f64| sign * segment.at(u).point.coords.norm();
+            for i in 0..8 {
+                let low = -1.0 + 0.25 * f64::from(i);
+                let (u, _) = bracketed_minimum(radius, low, low + 0.25);
+                for u in [low, u, low + 0.25] {
+                    let found: &mut Option<(f64, Point)> = &mut list[owner as usize];
+                    if found.is_none_or(|(best, _)| radius(u) < best) {
+                        *found = Some((radius(u), segment.at(u).point));
+                    }
+                }
+            }
+        }
+        let points = |list: Vec<Option<(f64, Point)>>| -> Vec<Point> {
+            list.into_iter().flatten().map(|(_, p)| p).collect()
+        };
+        Self {
+            pair,
+            gear,
+            member,
+            outline: gear.outline().arcs(tolerance),
+            pitch_curve: gear.pitch_curve().arcs(tolerance),
+            bore: gear.bore(),
+            tolerance,
+            tips: points(tips),
+            roots: points(roots),
+        }
+    }
+
+    pub(super) fn tips(&self) -> Option<Extremes> {
+        extremes(&self.tips)
+    }
+
+    pub(super) fn roots(&self) -> Option<Extremes> {
+        extremes(&self.roots)
+    }
+
+    /// The outermost point of the contour and the innermost, among those nearest in polar angle.
+    pub(super) fn reach(&self, angle: f64) -> [f64; 2] {
+        let off = |p: &Point| (p.y.atan2(p.x) - angle + 0.5 * TAU).rem_euclid(TAU) - 0.5 * TAU;
+        let nearest = |points: &[Point]| {
+            let found = points
+                .iter()
+                .min_by(|a, b| off(a).abs().total_cmp(&off(b).abs()));
+            found.map_or(0.0, |p| p.coords.norm())
+        };
+        [nearest(&self.tips), nearest(&self.roots)]
+    }
+
+    pub(super) fn bounds(&self) -> Bounds {
+        self.outline.bounds().with(Point::origin())
+    }
+
+    /// Distance of the teeth along the pitch curve.
+    pub(super) fn pitch(&self) -> f64 {
+        self.gear.pitch_length() / f64::from(self.gear.tooth_count())
+    }
+
+    /// The pitch curve's frame in the middle of a tooth, or `half` pitches after it.
+    pub(super) fn middle(&self, tooth: u32, half: f64) -> Frame {
+        let own = match self.member {
+            Member::Driver => 0.0,
+            Member::Driven => 0.5,
+        };
+        let arc = (f64::from(tooth) + self.pair.phase() + own + half) * self.pitch();
+        self.frame(arc)
+    }
+
+    pub(super) fn frame(&self, arc: f64) -> Frame {
+        let rolling = self.pair.rolling();
+        rolling.frame(self.member, rolling.parameter(arc))
+    }
+
+    /// Direction of the mate's axis, where the pitch curves touch at phi = 0.
+    pub(super) fn toward_mate(&self) -> Vector {
+        match self.member {
+            Member::Driver => Vector::x(),
+            Member::Driven => -Vector::x(),
+        }
+    }
+
+    /// In which sense the teeth are numbered.
+    pub(super) fn sense(&self) -> &'static str {
+        match self.member {
+            Member::Driver => "counter-clockwise",
+            Member::Driven => "clockwise",
+        }
+    }
+}
+
+fn extremes(points: &[Point]) -> Option<Extremes> {
+    let by = |a: &&Point, b: &&Point| a.coords.norm().total_cmp(&b.coords.norm());
+    Some(Extremes {
+        greatest: *points.iter().max_by(by)?,
+        least: *points.iter().min_by(by)?,
+    })
+}
+
+/// Polar angle of a point in degrees, 0 to below 360.
+pub(super) fn degrees(p: Point) -> f64 {
+    let angle = p.y.atan2(p.x).to_degrees().rem_euclid(360.0);
+    // What would be written as 360.00 is nought.
+    if angle > 359.995 { 0.0 } else { angle }
+}
+
+/// A number to so many places, without trailing zeros.
+pub(super) fn number(x: f64, places: usize) -> String {
+    let text = format!("{x:.places$}");
+    let text = match text.contains('.') {
+        true => text.trim_end_matches('0').trim_end_matches('.'),
+        false => &text,
+    };
+    if text == "-0" { "0" } else { text }.to_owned()
+}

@@ -1,0 +1,167 @@
+//! One tooth, enlarged.
+
+use super::part::{Part, degrees, number};
+use crate::{
+    drawing::{Anchor, Shape},
+    sheet::{Draft, Pen, Scale},
+};
+use centrode_geometry::{Point, Tolerance, Vector};
+use nalgebra::Rotation2;
+
+/// Length on paper of what is shown, mm.
+const SHOWN: f64 = 62.0;
+
+/// The teeth where the pitch curve bends most and least towards the axis; one where it is a circle.
+pub(super) fn extremes(part: &Part<'_>) -> Vec<(u32, &'static str)> {
+    let teeth = part.gear.teeth();
+    let sound: Vec<(u32, f64)> = (0_u32..)
+        .zip(teeth)
+        .filter(|(_, tooth)| !tooth.severed)
+        .map(|(k, _)| (k, part.middle(k, 0.0).curvature))
+        .collect();
+    let by = |a: &&(u32, f64), b: &&(u32, f64)| a.1.total_cmp(&b.1);
+    let (Some(least), Some(most)) = (sound.iter().min_by(by), sound.iter().max_by(by)) else {
+        return Vec::new();
+    };
+    if most.1 - least.1 < 1e-9 / part.pair.module() {
+        return vec![(0, "every tooth alike")];
+    }
+    let hollow = if least.1 < 0.0 {
+        "where the pitch curve is most concave"
+    } else {
+        "where the pitch curve bends least"
+    };
+    vec![
+        (most.0, "where the pitch curve bends most"),
+        (least.0, hollow),
+    ]
+}
+
+/// A tooth upright, with half a space on both sides.
+pub(super) fn detail(part: &Part<'_>, letter: char, tooth: u32, place: &str) -> Draft {
+    let pitch = part.pitch();
+    let scale = Scale::largest(1.8 * pitch, SHOWN);
+    let k = scale.factor();
+    let frame = part.middle(tooth, 0.0);
+    let turn = Rotation2::new(std::f64::consts::FRAC_PI_2 - frame.normal.y.atan2(frame.normal.x));
+    let upright = |p: Point| Point::from(turn * (p - frame.point) * k);
+    let fine = Tolerance::new(0.01 / k).unwrap_or(part.tolerance);
+    let reach = 0.9 * pitch * k;
+    let mut draft = Draft::default();
+    let profile = near(&part.gear.outline().flatten(fine), &upright, reach);
+    let curve = near(
+        &part.gear.pitch_curve().flatten(fine),
+        &upright,
+        reach + 4.0,
+    );
+    let heights = |points: &[Point], pick: fn(f64, f64) -> f64, start: f64| {
+        points.iter().map(|p| p.y).fold(start, pick)
+    };
+    let low = heights(&profile, f64::min, 0.0);
+    let central = |p: &&Point| p.x.abs() < 0.3 * pitch * k;
+    let crown: Vec<Point> = profile.iter().filter(central).copied().collect();
+    let high = heights(&crown, f64::max, 0.0);
+    let base = low - 7.0;
+    let p = Point::new;
+    if let (Some(&first), Some(&last)) = (profile.first(), profile.last()) {
+        draft.line(Pen::Thin, first, p(first.x, base));
+        draft.line(Pen::Thin, last, p(last.x, base));
+        let wave = (0..=48).map(|i| {
+            let x = first.x + (last.x - first.x) * f64::from(i) / 48.0;
+            p(
+                x,
+                base + 0.8 * (0.9 * f64::from(i)).sin() * (1.0 - (f64::from(i) / 24.0 - 1.0).abs()),
+            )
+        });
+        draft.draw(Pen::Thin, Shape::Polyline(wave.collect()));
+    }
+    draft.draw(Pen::Outline, Shape::Polyline(profile.clone()));
+    draft.draw(Pen::Axis, Shape::Polyline(curve));
+    draft.line(Pen::Axis, p(0.0, low - 3.0), p(0.0, high + 3.0));
+    let side = &part.gear.teeth()[tooth as usize];
+    let foot = [side.leading, side.trailing].map(|s| upright(part.frame(s.crossing).point));
+    let thick = (foot[1] - foot[0]).norm() / k;
+    let above = p(0.0, high + 9.0);
+    draft.dimension(foot, Vector::x(), above, &format!("{thick:.3}"));
+    let right = reach + 9.0;
+    let crest = p(0.0, high);
+    let words = format!("{:.3}", high / k);
+    draft.dimension(
+        [p(reach + 4.0, 0.0), crest],
+        Vector::y(),
+        p(right, 0.0),
+        &words,
+    );
+    let words = format!("{:.3}", (high - low) / k);
+    let floor = p(reach, low);
+    draft.dimension([floor, crest], Vector::y(), p(right + 10.0, 0.0), &words);
+    let fillet = side.leading.fillet_radius.min(side.trailing.fillet_radius);
+    let fillets = profile.iter().filter(|q| q.x < 0.0 && q.y < 0.6 * low);
+    let at = fillets.min_by(|a, b| {
+        let off = |q: &Point| (q.y - 0.85 * low).abs() - 0.2 * q.x.abs() / k;
+        off(a).total_cmp(&off(b))
+    });
+    if let (Some(&at), true) = (at, fillet.is_finite() && fillet > 0.0) {
+        let elbow = p(-reach - 5.0, high.max(3.0) + 2.0);
+        let words = format!("fillet R ≥ {}", number(fillet, 3));
+        draft.leader(at, elbow, &[words]);
+    }
+    let radius = 1.0 / frame.curvature;
+    let bend = if frame.curvature.abs() * part.gear.pitch_length() < 1e-6 {
+        "straight".to_owned()
+    } else {
+        format!("radius of curvature {}", number(radius, 3))
+    };
+    let lines = [
+        format!(
+            "tooth {tooth} at {:.2}°, pitch radius {:.3}",
+            degrees(frame.point),
+            frame.point.coords.norm()
+        ),
+        format!("{place}: {bend}"),
+    ];
+    let bounds = draft.bounds();
+    let center = 0.5 * (bounds.min.x + bounds.max.x);
+    for (row, line) in lines.iter().enumerate() {
+        let at = p(center, bounds.max.y + 9.0 - 4.6 * row as f64);
+        draft.text(at, 2.5, line, Anchor::Middle);
+    }
+    let title = p(center, bounds.max.y + 15.0);
+    draft.text(title, 5.0, &format!("{letter} ({scale})"), Anchor::Middle);
+    draft
+}
+
+/// The run of a closed polyline around the origin, once mapped, out to |x| = reach.
+fn near(points: &[Point], map: &impl Fn(Point) -> Point, reach: f64) -> Vec<Point> {
+    let mapped: Vec<Point> = points.iter().map(|p| map(*p)).collect();
+    let count = mapped.len();
+    let nearest = (0..count).min_by(|&a, &b| {
+        let far = |i: usize| mapped[i].coords.norm();
+        far(a).total_cmp(&far(b))
+    });
+    let Some(start) = nearest else {
+        return Vec::new();
+    };
+    let walk = |step: usize| {
+        let mut run = vec![mapped[start]];
+        for i in 1..count {
+            let q = mapped[(start + i * step) % count];
+            let before = run[run.len() - 1];
+            if q.x.abs() > reach {
+                let t = (reach - before.x.abs()) / (q.x.abs() - before.x.abs());
+                run.push(before + (q - before) * t);
+                break;
+            }
+            run.push(q);
+        }
+        run
+    };
+    let mut back = walk(count - 1);
+    back.reverse();
+    back.pop();
+    back.extend(walk(1));
+    if back.first().map(|p| p.x) > back.last().map(|p| p.x) {
+        back.reverse();
+    }
+    back
+}

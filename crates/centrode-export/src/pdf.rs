@@ -1,0 +1,233 @@
+//! PDF pages.
+
+use crate::{
+    drawing::{LineType, Shape, Text},
+    sheet::{Sheet, lettering},
+};
+use centrode_geometry::{Outline, Point, Segment, Tolerance};
+use krilla::{
+    Document,
+    color::luma,
+    geom::{Path, PathBuilder, Point as Place, Transform},
+    metadata::Metadata,
+    num::NormalizedF32,
+    page::PageSettings,
+    paint::{Fill, LineCap, LineJoin, Stroke, StrokeDash},
+    surface::Surface,
+    text::{Font, GlyphId, KrillaGlyph},
+};
+use thiserror::Error;
+
+/// Points a millimetre.
+const POINT: f64 = 72.0 / 25.4;
+
+/// Why sheets could not be written as PDF.
+#[derive(Clone, Debug, Error, PartialEq)]
+#[non_exhaustive]
+pub enum PdfError {
+    /// The lettering font cannot be read.
+    #[error("the lettering font cannot be read")]
+    Font,
+    /// The PDF library refused.
+    #[error("cannot write PDF: {0}")]
+    Library(String),
+}
+
+/// Sheets as the pages of one PDF: exact sizes, strokes of true width, the font embedded.
+///
+/// The same sheets always give the same bytes: there are no dates and identifiers in it.
+///
+/// # Errors
+/// [`PdfError`] if the library refuses.
+pub fn write(sheets: &[Sheet], title: &str, tolerance: Tolerance) -> Result<Vec<u8>, PdfError> {
+    let font = Font::new(lettering::FONT.into(), 0).ok_or(PdfError::Font)?;
+    let mut document = Document::new();
+    document.set_metadata(Metadata::new().title(title.to_owned()));
+    for sheet in sheets {
+        let [width, height] = sheet.size.size().map(|mm| (mm * POINT) as f32);
+        let settings = PageSettings::from_wh(width, height)
+            .ok_or_else(|| PdfError::Library(format!("no page of {width} x {height} pt")))?;
+        let mut page = document.start_page_with(settings);
+        let mut surface = page.surface();
+        let writer = Writer {
+            font: font.clone(),
+            height: sheet.size.size()[1],
+            tolerance,
+        };
+        for layer in &sheet.drawing.layers {
+            let entities = sheet.drawing.entities.iter();
+            for entity in entities.filter(|e| e.layer == layer.name) {
+                writer.shape(
+                    &mut surface,
+                    &entity.shape,
+                    layer.line_type,
+                    layer.line_width,
+                );
+            }
+        }
+        surface.finish();
+        page.finish();
+    }
+    document
+        .finish()
+        .map_err(|error| PdfError::Library(format!("{error:?}")))
+}
+
+struct Writer {
+    font: Font,
+    height: f64,
+    tolerance: Tolerance,
+}
+
+impl Writer {
+    /// A point of the sheet in points from the upper left corner.
+    fn place(&self, p: &Point) -> (f32, f32) {
+        let (x, y) = (p.x * POINT, (self.height - p.y) * POINT);
+        (x as f32, y as f32)
+    }
+
+    fn shape(&self, surface: &mut Surface<'_>, shape: &Shape, line_type: LineType, width: f64) {
+        match shape {
+            Shape::Text(text) => return self.text(surface, text),
+            Shape::Triangle(corners) => {
+                surface.set_fill(Some(black()));
+                surface.set_stroke(None);
+                if let Some(path) = self.polygon(corners, true) {
+                    surface.draw_path(&path);
+                }
+                return;
+            }
+            _ => {}
+        }
+        surface.set_fill(None);
+        surface.set_stroke(Some(stroke(line_type, width)));
+        let paths = match shape {
+            Shape::Contour(outline) => vec![self.curve(&outline.cubics(self.tolerance), true)],
+            Shape::Circle { center, radius } => {
+                let circle = Outline::circle(*center, *radius);
+                vec![self.curve(&circle.cubics(self.tolerance), true)]
+            }
+            Shape::Arc(arc) => {
+                // Quarters of an arc are cubics to a few parts in ten thousand of the radius at most.
+                let parts = (arc.sweep().abs() / 0.4).ceil().max(1.0);
+                let segment = Segment::Arc(*arc);
+                let at = |i: f64| segment.at(-1.0 + 2.0 * i / parts);
+                let cubics: Vec<[Point; 4]> = (0..parts as u32)
+                    .map(|i| {
+                        let (a, b) = (at(f64::from(i)), at(f64::from(i) + 1.0));
+                        let third = 2.0 / (3.0 * parts);
+                        [
+                            a.point,
+                            a.point + a.first * third,
+                            b.point - b.first * third,
+                            b.point,
+                        ]
+                    })
+                    .collect();
+                vec![self.curve(&cubics, false)]
+            }
+            Shape::Polyline(points) => vec![self.polygon(points, false)],
+            Shape::Line(a, b) => vec![self.polygon(&[*a, *b], false)],
+            Shape::Mark(p) => {
+                let reach = 6.0 * width;
+                let q = |x: f64, y: f64| Point::new(p.x + x, p.y + y);
+                vec![
+                    self.polygon(&[q(-reach, 0.0), q(reach, 0.0)], false),
+                    self.polygon(&[q(0.0, -reach), q(0.0, reach)], false),
+                ]
+            }
+            Shape::Text(_) | Shape::Triangle(_) => Vec::new(),
+        };
+        for path in paths.into_iter().flatten() {
+            surface.draw_path(&path);
+        }
+    }
+
+    fn polygon(&self, points: &[Point], closed: bool) -> Option<Path> {
+        let mut builder = PathBuilder::new();
+        for (index, point) in points.iter().enumerate() {
+            let (x, y) = self.place(point);
+            if index == 0 {
+                builder.move_to(x, y);
+            } else {
+                builder.line_to(x, y);
+            }
+        }
+        if closed {
+            builder.close();
+        }
+        builder.finish()
+    }
+
+    fn curve(&self, cubics: &[[Point; 4]], closed: bool) -> Option<Path> {
+        let mut builder = PathBuilder::new();
+        for (index, cubic) in cubics.iter().enumerate() {
+            let [a, b, c, d] = cubic.map(|p| self.place(&p));
+            if index == 0 {
+                builder.move_to(a.0, a.1);
+            }
+            builder.cubic_to(b.0, b.1, c.0, c.1, d.0, d.1);
+        }
+        if closed {
+            builder.close();
+        }
+        builder.finish()
+    }
+
+    fn text(&self, surface: &mut Surface<'_>, text: &Text) {
+        let natural = lettering::width(&text.words, text.height);
+        let squeeze = text.width.map_or(1.0, |width| width / natural);
+        let glyphs: Vec<KrillaGlyph> = lettering::letters(&text.words)
+            .map(|letter| {
+                let glyph = GlyphId::new(u32::from(letter.glyph.0));
+                let advance = letter.advance as f32;
+                KrillaGlyph::new(glyph, advance, 0.0, 0.0, 0.0, letter.bytes, None)
+            })
+            .collect();
+        let (x, y) = self.place(&text.baseline()[0]);
+        let (sin, cos) = (text.rotation.sin() as f32, text.rotation.cos() as f32);
+        let wide = squeeze as f32;
+        surface.push_transform(&Transform::from_row(
+            cos * wide,
+            -sin * wide,
+            sin,
+            cos,
+            x,
+            y,
+        ));
+        surface.set_fill(Some(black()));
+        surface.set_stroke(None);
+        surface.draw_glyphs(
+            Place::from_xy(0.0, 0.0),
+            &glyphs,
+            self.font.clone(),
+            &text.words,
+            (lettering::em(text.height) * POINT) as f32,
+            false,
+        );
+        surface.pop();
+    }
+}
+
+fn black() -> Fill {
+    Fill {
+        paint: luma::Color::black().into(),
+        opacity: NormalizedF32::ONE,
+        ..Fill::default()
+    }
+}
+
+fn stroke(line_type: LineType, width: f64) -> Stroke {
+    let array: Vec<f32> = line_type
+        .pattern()
+        .iter()
+        .map(|d| (d.abs().max(0.01) * POINT) as f32)
+        .collect();
+    Stroke {
+        width: (width * POINT) as f32,
+        line_cap: LineCap::Round,
+        line_join: LineJoin::Round,
+        dash: (!array.is_empty()).then_some(StrokeDash { array, offset: 0.0 }),
+        ..Stroke::default()
+    }
+}

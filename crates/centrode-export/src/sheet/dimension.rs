@@ -1,0 +1,179 @@
+//! Dimensions and notes with leaders, ISO 129-1.
+
+use super::{Draft, Pen, draft::ARROW, lettering};
+use crate::drawing::{Anchor, Shape};
+use centrode_geometry::{Arc, Bounds, Point, Vector};
+
+/// Height of the letters of dimensions, mm.
+pub(crate) const LETTERS: f64 = 3.5;
+/// Distance of words from their line, mm.
+const LIFT: f64 = 1.0;
+/// How far an extension line goes beyond the dimension line, mm.
+const BEYOND: f64 = 2.0;
+/// Distance of an extension line from what it is about, mm.
+const CLEAR: f64 = 0.8;
+
+impl Draft {
+    /// A dimension between two points, measured along a direction, its line through `at`.
+    ///
+    /// Words that do not fit between the arrows stand beyond the second point.
+    pub fn dimension(&mut self, [a, b]: [Point; 2], along: Vector, at: Point, words: &str) {
+        let mut along = along.normalize();
+        let upwards = along.x.abs() < 1e-9;
+        if along.x < -1e-9 || (upwards && along.y < 0.0) {
+            along = -along;
+        }
+        let up = Vector::new(-along.y, along.x);
+        let foot = |p: Point| at + along * (p - at).dot(&along);
+        for p in [a, b] {
+            let away = foot(p) - p;
+            if away.norm() > CLEAR {
+                let out = away.normalize();
+                self.line(Pen::Dimension, p + out * CLEAR, foot(p) + out * BEYOND);
+            }
+        }
+        let (start, end) = if (b - a).dot(&along) >= 0.0 {
+            (foot(a), foot(b))
+        } else {
+            (foot(b), foot(a))
+        };
+        let length = (end - start).norm();
+        let width = lettering::width(words, LETTERS);
+        let rotation = along.y.atan2(along.x);
+        let inside = length >= 2.5 * ARROW;
+        let between = inside && width + 1.0 <= length;
+        let (from, to) = if inside {
+            (start, end)
+        } else {
+            (start - along * (ARROW + 3.0), end + along * (ARROW + 3.0))
+        };
+        let to = if between {
+            to
+        } else {
+            end + along * (ARROW + 2.0 + width)
+        };
+        self.line(Pen::Dimension, from, to);
+        let sense = if inside { along } else { -along };
+        self.arrow(start, -sense);
+        self.arrow(end, sense);
+        let middle = if between {
+            start + along * (0.5 * length)
+        } else {
+            end + along * (ARROW + 1.5 + 0.5 * width)
+        };
+        let at = middle + up * LIFT;
+        self.turned_text(at, LETTERS, words, Anchor::Middle, rotation);
+    }
+
+    /// A note with an arrow: a line from `tip` to `elbow`, then level under the words; a second line of
+    /// words stands below.
+    pub fn leader(&mut self, tip: Point, elbow: Point, words: &[String]) {
+        self.arrow(tip, tip - elbow);
+        self.line(Pen::Dimension, tip, elbow);
+        let width = words
+            .iter()
+            .map(|w| lettering::width(w, LETTERS))
+            .fold(0.0, f64::max);
+        let side = if elbow.x >= tip.x { 1.0 } else { -1.0 };
+        let end = elbow + Vector::new(side * (width + 2.0), 0.0);
+        self.line(Pen::Dimension, elbow, end);
+        let left = elbow.x.min(end.x) + 1.0;
+        for (row, line) in words.iter().enumerate() {
+            let y = if row == 0 {
+                LIFT
+            } else {
+                -(LETTERS + LIFT + 0.2) - 5.5 * (row as f64 - 1.0)
+            };
+            let at = Point::new(left, elbow.y + y);
+            self.text(at, LETTERS, line, Anchor::Left);
+        }
+    }
+
+    /// Notes in two columns left and right of a view, each with a leader to its point, in the order of
+    /// the points so that leaders do not cross. `band` of heights is left free.
+    pub fn callouts(&mut self, around: Bounds, band: [f64; 2], notes: &[(Point, Vec<String>)]) {
+        let middle = 0.5 * (around.min.x + around.max.x);
+        for right in [false, true] {
+            let mut column: Vec<&(Point, Vec<String>)> = notes
+                .iter()
+                .filter(|(p, _)| (p.x >= middle) == right)
+                .collect();
+            column.sort_by(|a, b| a.0.y.total_cmp(&b.0.y));
+            let x = if right {
+                around.max.x + 4.0
+            } else {
+                around.min.x - 4.0
+            };
+            let halfway = 0.5 * (band[0] + band[1]);
+            let above = column.partition_point(|(p, _)| p.y < halfway);
+            // Upwards from the band, then downwards from it.
+            let mut floor = band[1];
+            for (tip, words) in &column[above..] {
+                let y = tip.y.max(floor + below(words));
+                self.leader(*tip, Point::new(x, y), words);
+                floor = y + ABOVE;
+            }
+            let mut ceiling = band[0];
+            for (tip, words) in column[..above].iter().rev() {
+                let y = tip.y.min(ceiling - ABOVE);
+                self.leader(*tip, Point::new(x, y), words);
+                ceiling = y - below(words);
+            }
+        }
+    }
+
+    /// An arc about a centre with an arrow at its end, angles in rad.
+    pub fn turning_arrow(&mut self, center: Point, radius: f64, from: f64, to: f64) {
+        let at = |angle: f64| center + Vector::new(angle.cos(), angle.sin()) * radius;
+        let arc = Arc {
+            start: at(from),
+            end: at(to),
+            bulge: (0.25 * (to - from)).tan(),
+        };
+        self.draw(Pen::Dimension, Shape::Arc(arc));
+        let sense = (to - from).signum();
+        // The head is a chord: it points a little inwards.
+        let lean = to - sense * 0.5 * ARROW / radius;
+        let direction = Vector::new(-lean.sin(), lean.cos()) * sense;
+        self.arrow(at(to), direction);
+    }
+}
+
+/// Room above the line of a note, mm.
+const ABOVE: f64 = LETTERS + LIFT + 1.5;
+
+/// Room below the line of a note, mm.
+fn below(words: &[String]) -> f64 {
+    1.0 + 5.5 * (words.len() as f64 - 1.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::drawing::Shape;
+
+    #[test]
+    fn notes_keep_their_order_their_distance_and_the_free_band() {
+        let around = Bounds {
+            min: Point::new(-20.0, -30.0),
+            max: Point::new(20.0, 30.0),
+        };
+        let heights = [-2.0, -1.0, 0.5, 1.0, 1.5];
+        let notes = heights.map(|y| (Point::new(15.0, y), vec![format!("{y}"), "of two".into()]));
+        let mut draft = Draft::default();
+        draft.callouts(around, [-5.0, 5.0], &notes);
+        let mut found: Vec<(f64, String)> = Vec::new();
+        for entity in draft.into_entities() {
+            if let Shape::Text(text) = entity.shape
+                && text.words != "of two"
+            {
+                found.push((text.at.y, text.words));
+            }
+        }
+        found.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let order: Vec<&str> = found.iter().map(|f| &*f.1).collect();
+        assert_eq!(order, ["-2", "-1", "0.5", "1", "1.5"]);
+        assert!(found.windows(2).all(|w| w[1].0 - w[0].0 > 2.0 * LETTERS));
+        assert!(found.iter().all(|f| f.0 > 5.0 || f.0 + LETTERS < -5.0));
+    }
+}

@@ -1,0 +1,133 @@
+use super::{Pen, lettering, overlap};
+use crate::drawing::{Anchor, Entity, Shape, Text};
+use centrode_geometry::{Bounds, Outline, Point, Vector};
+
+/// Length of an arrow head, mm.
+pub(super) const ARROW: f64 = 3.0;
+
+/// Narrowest a line of text may be squeezed, as a share of its natural length.
+const SQUEEZE: f64 = 0.7;
+
+/// A piece of a sheet in paper millimetres, its origin wherever is handy until it is placed.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Draft {
+    entities: Vec<Entity>,
+}
+
+impl Draft {
+    /// Draws a shape.
+    pub fn draw(&mut self, pen: Pen, shape: Shape) {
+        self.entities.push(Entity {
+            layer: pen.layer().to_owned(),
+            shape,
+        });
+    }
+
+    /// Draws a straight line.
+    pub fn line(&mut self, pen: Pen, start: Point, end: Point) {
+        self.draw(pen, Shape::Line(start, end));
+    }
+
+    /// Draws the four sides of a rectangle.
+    pub fn rectangle(&mut self, pen: Pen, Bounds { min, max }: Bounds) {
+        let corners = [min, Point::new(max.x, min.y), max, Point::new(min.x, max.y)];
+        self.draw(pen, Shape::Contour(Outline::polygon(&corners)));
+    }
+
+    /// Draws an arrow head with its tip at a point.
+    pub fn arrow(&mut self, tip: Point, direction: Vector) {
+        let back = -direction.normalize() * ARROW;
+        let side = Vector::new(-back.y, back.x) * 0.16;
+        let corners = [tip, tip + back + side, tip + back - side];
+        self.draw(Pen::Dimension, Shape::Triangle(corners));
+    }
+
+    /// Writes a level line of words.
+    pub fn text(&mut self, at: Point, height: f64, words: &str, anchor: Anchor) {
+        self.turned_text(at, height, words, anchor, 0.0);
+    }
+
+    /// Writes a line of words along a direction, rad.
+    pub fn turned_text(
+        &mut self,
+        at: Point,
+        height: f64,
+        words: &str,
+        anchor: Anchor,
+        rotation: f64,
+    ) {
+        if words.trim().is_empty() {
+            return;
+        }
+        let text = Text {
+            rotation,
+            width: Some(lettering::width(words, height)),
+            ..Text::new(at, height, words, anchor)
+        };
+        self.draw(Pen::Text, Shape::Text(text));
+    }
+
+    /// Writes words no longer than a room: in the first height that fits, squeezed if none does, and cut
+    /// short with dots if that is not enough either.
+    pub fn text_within(
+        &mut self,
+        at: Point,
+        heights: &[f64],
+        words: &str,
+        anchor: Anchor,
+        room: f64,
+    ) {
+        let fitting = heights
+            .iter()
+            .find(|&&h| lettering::width(words, h) <= room);
+        let Some(&height) = fitting.or(heights.last()) else {
+            return;
+        };
+        let mut words = words.to_owned();
+        while lettering::width(&words, height) * SQUEEZE > room && !words.is_empty() {
+            words = words.trim_end_matches('…').to_owned();
+            words.pop();
+            words.push('…');
+            if words == "…" {
+                break;
+            }
+        }
+        if words.trim().is_empty() {
+            return;
+        }
+        let text = Text {
+            width: Some(lettering::width(&words, height).min(room)),
+            ..Text::new(at, height, words, anchor)
+        };
+        self.draw(Pen::Text, Shape::Text(text));
+    }
+
+    /// Takes over all of another draft, moved.
+    pub fn add(&mut self, other: &Self, by: Vector) {
+        let moved = other.entities.iter().map(|entity| Entity {
+            layer: entity.layer.clone(),
+            shape: entity.shape.moved(by),
+        });
+        self.entities.extend(moved);
+    }
+
+    /// Whether a line or words come into a rectangle.
+    #[must_use]
+    pub fn touches(&self, rectangle: Bounds) -> bool {
+        let shapes = self.entities.iter().map(|entity| &entity.shape);
+        overlap::enters(shapes, rectangle)
+    }
+
+    /// A rectangle around everything.
+    #[must_use]
+    pub fn bounds(&self) -> Bounds {
+        let shapes = self.entities.iter().map(|entity| entity.shape.bounds());
+        shapes.fold(Bounds::EMPTY, Bounds::union)
+    }
+
+    /// The shapes, on the layers of their pens.
+    #[must_use]
+    pub fn into_entities(self) -> Vec<Entity> {
+        self.entities
+    }
+}

@@ -1,0 +1,58 @@
+use std::fmt;
+
+/// Scale of a view, one of those ISO 5455 recommends.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+pub struct Scale {
+    drawn: u32,
+    real: u32,
+}
+
+impl Scale {
+    /// Recommended scales, the largest first.
+    pub const RECOMMENDED: [Self; 19] = [
+        Self::of(100, 1),
+        Self::of(50, 1),
+        Self::of(20, 1),
+        Self::of(10, 1),
+        Self::of(5, 1),
+        Self::of(2, 1),
+        Self::of(1, 1),
+        Self::of(1, 2),
+        Self::of(1, 5),
+        Self::of(1, 10),
+        Self::of(1, 20),
+        Self::of(1, 50),
+        Self::of(1, 100),
+        Self::of(1, 200),
+        Self::of(1, 500),
+        Self::of(1, 1000),
+        Self::of(1, 2000),
+        Self::of(1, 5000),
+        Self::of(1, 10_000),
+    ];
+
+    const fn of(drawn: u32, real: u32) -> Self {
+        Self { drawn, real }
+    }
+
+    /// Millimetres on paper for one of the part.
+    #[must_use]
+    pub fn factor(self) -> f64 {
+        f64::from(self.drawn) / f64::from(self.real)
+    }
+
+    /// The largest scale at which a length is no longer on paper than a room, mm.
+    #[must_use]
+    pub fn largest(length: f64, room: f64) -> Self {
+        Self::RECOMMENDED
+            .into_iter()
+            .find(|scale| length * scale.factor() <= room)
+            .unwrap_or(Self::RECOMMENDED[18])
+    }
+}
+
+impl fmt::Display for Scale {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}:{}", self.drawn, self.real)
+    }
+}

@@ -1,0 +1,140 @@
+use super::{Draft, Pen, lettering};
+use crate::drawing::Anchor;
+use centrode_geometry::{Bounds, Point};
+use std::ops::Range;
+
+/// Height of the letters, mm.
+const LETTERS: f64 = 2.5;
+/// Height of the letters of a table's title, mm.
+const TITLE: f64 = 3.5;
+/// Height of a row, mm.
+pub(super) const ROW: f64 = 4.6;
+/// Height of the title's row, mm.
+const TITLE_ROW: f64 = 7.0;
+/// Room on each side of a cell's words, mm.
+const PAD: f64 = 1.6;
+
+/// A table of words: a title, headings, and rows as long as the headings.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Table {
+    /// The title above.
+    pub title: String,
+    /// Headings; none for a table that needs none.
+    pub headings: Vec<String>,
+    /// Where words stand in each column.
+    pub columns: Vec<Anchor>,
+    /// The cells, row by row.
+    pub rows: Vec<Vec<String>>,
+    /// Lines of words below.
+    pub notes: Vec<String>,
+}
+
+impl Table {
+    /// Width of each column, mm: that of its longest cell.
+    fn widths(&self) -> Vec<f64> {
+        let longest = |k: usize| {
+            let cells = self.rows.iter().chain([&self.headings]);
+            let widths = cells.filter_map(|row| row.get(k)).map(|w| width(w));
+            widths.fold(0.0, f64::max) + 2.0 * PAD
+        };
+        let mut widths: Vec<f64> = (0..self.columns.len()).map(longest).collect();
+        let least = lettering::width(&self.title, TITLE) + 2.0 * PAD;
+        let total: f64 = widths.iter().sum();
+        if let Some(last) = widths.last_mut() {
+            *last += (least - total).max(0.0);
+        }
+        widths
+    }
+
+    /// Width of the table, mm.
+    pub(super) fn width(&self) -> f64 {
+        let notes = self.notes.iter().map(|line| width(line));
+        let table: f64 = self.widths().iter().sum();
+        notes.fold(table, f64::max)
+    }
+
+    /// Height of the table with this many rows, mm; the notes stand below its last part.
+    pub(super) fn height(&self, rows: usize, last: bool) -> f64 {
+        let notes = if last { self.notes.len() } else { 0 };
+        self.head() + ROW * (rows + notes) as f64 + if notes > 0 { 1.5 } else { 0.0 }
+    }
+
+    /// How many rows go into a height, mm.
+    pub(super) fn rows_in(&self, height: f64) -> usize {
+        ((height - self.head()) / ROW + 1e-9).floor().max(0.0) as usize
+    }
+
+    fn head(&self) -> f64 {
+        let headings = if self.headings.is_empty() { 0.0 } else { ROW };
+        TITLE_ROW + headings
+    }
+
+    /// All of it, the upper left corner in the origin.
+    pub(crate) fn whole(&self) -> Draft {
+        self.draft(0..self.rows.len(), false, true)
+    }
+
+    /// Some of its rows, the upper left corner in the origin.
+    pub(super) fn draft(&self, rows: Range<usize>, continued: bool, last: bool) -> Draft {
+        let mut draft = Draft::default();
+        let widths = self.widths();
+        let total: f64 = widths.iter().sum();
+        let title = if continued {
+            format!("{} (continued)", self.title)
+        } else {
+            self.title.clone()
+        };
+        let at = Point::new(PAD, -TITLE_ROW + 0.5 * (TITLE_ROW - TITLE));
+        draft.text_within(
+            at,
+            &[TITLE, LETTERS],
+            &title,
+            Anchor::Left,
+            total - 2.0 * PAD,
+        );
+        let mut top = -TITLE_ROW;
+        let headings = [&self.headings].into_iter().filter(|h| !h.is_empty());
+        let body = self.rows[rows].iter();
+        for (index, row) in headings.chain(body).enumerate() {
+            let mut x = 0.0;
+            for ((words, width), anchor) in row.iter().zip(&widths).zip(&self.columns) {
+                let anchor = if index == 0 && !self.headings.is_empty() {
+                    Anchor::Middle
+                } else {
+                    *anchor
+                };
+                let at = match anchor {
+                    Anchor::Left => x + PAD,
+                    Anchor::Middle => x + 0.5 * width,
+                    Anchor::Right => x + width - PAD,
+                };
+                let baseline = top - ROW + 0.5 * (ROW - LETTERS);
+                draft.text(Point::new(at, baseline), LETTERS, words, anchor);
+                x += width;
+            }
+            draft.line(Pen::Rule, Point::new(0.0, top), Point::new(total, top));
+            top -= ROW;
+        }
+        let mut x = 0.0;
+        for width in &widths[..widths.len().saturating_sub(1)] {
+            x += width;
+            draft.line(Pen::Rule, Point::new(x, -TITLE_ROW), Point::new(x, top));
+        }
+        let frame = Bounds {
+            min: Point::new(0.0, top),
+            max: Point::new(total, 0.0),
+        };
+        draft.rectangle(Pen::Outline, frame);
+        if last {
+            for (i, line) in self.notes.iter().enumerate() {
+                let at = Point::new(0.0, top - 1.5 - ROW * (i as f64 + 1.0) + 1.0);
+                draft.text(at, LETTERS, line, Anchor::Left);
+            }
+        }
+        draft
+    }
+}
+
+fn width(words: &str) -> f64 {
+    lettering::width(words, LETTERS)
+}

@@ -1,0 +1,123 @@
+use super::{Draft, Pen, projection};
+use crate::drawing::Anchor;
+use centrode_geometry::{Bounds, Point};
+use centrode_mechanism::design::{DrawingSpec, Projection};
+
+/// Width of a title block, mm, ISO 7200.
+pub(super) const WIDTH: f64 = 180.0;
+/// Height of ours, mm.
+pub(super) const HEIGHT: f64 = 45.0;
+
+/// Height of the names of the fields, mm.
+const CAPTION: f64 = 1.8;
+
+/// What the title block of a sheet says, ISO 7200; what is not known stays empty.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct TitleBlock {
+    /// Legal owner.
+    pub owner: String,
+    /// Title.
+    pub title: String,
+    /// Supplementary title.
+    pub supplement: String,
+    /// Drawing number.
+    pub number: String,
+    /// Revision.
+    pub revision: String,
+    /// Date of issue.
+    pub date: String,
+    /// Who drew it.
+    pub drawn_by: String,
+    /// Who approved it.
+    pub approved_by: String,
+    /// Kind of document: "Part drawing".
+    pub document: String,
+    /// Scale of the main view.
+    pub scale: String,
+    /// Material.
+    pub material: String,
+    /// Mass, with its unit.
+    pub mass: String,
+    /// General tolerances.
+    pub general_tolerance: String,
+    /// State of the edges.
+    pub edges: String,
+    /// How the views lie to each other.
+    pub projection: Projection,
+}
+
+impl TitleBlock {
+    /// The fields a design's file gives.
+    #[must_use]
+    pub fn of(spec: &DrawingSpec) -> Self {
+        Self {
+            owner: spec.owner.clone(),
+            number: spec.number.clone(),
+            revision: spec.revision.clone(),
+            date: spec.date.clone(),
+            drawn_by: spec.drawn_by.clone(),
+            approved_by: spec.approved_by.clone(),
+            general_tolerance: spec.general_tolerance.clone(),
+            edges: spec.edges.clone(),
+            projection: spec.projection,
+            ..Self::default()
+        }
+    }
+
+    /// The block, its lower left corner in the origin, on the sheet `page` of `pages`.
+    pub(super) fn draft(&self, size: &str, page: usize, pages: usize) -> Draft {
+        let mut draft = Draft::default();
+        let sheet = format!("{page}/{pages}");
+        let cells: [(&str, &str, [f64; 4]); 16] = [
+            ("Material", &self.material, [0.0, 60.0, 36.0, 45.0]),
+            (
+                "General tolerances",
+                &self.general_tolerance,
+                [60.0, 115.0, 36.0, 45.0],
+            ),
+            ("Edges", &self.edges, [115.0, 180.0, 36.0, 45.0]),
+            ("", "", [0.0, 35.0, 18.0, 36.0]),
+            ("Created by", &self.drawn_by, [35.0, 85.0, 27.0, 36.0]),
+            ("Approved by", &self.approved_by, [85.0, 135.0, 27.0, 36.0]),
+            ("Document type", &self.document, [135.0, 180.0, 27.0, 36.0]),
+            ("Scale", &self.scale, [35.0, 60.0, 18.0, 27.0]),
+            ("Mass", &self.mass, [60.0, 85.0, 18.0, 27.0]),
+            ("Date of issue", &self.date, [85.0, 113.0, 18.0, 27.0]),
+            ("Language", "en", [113.0, 135.0, 18.0, 27.0]),
+            ("Format", size, [135.0, 157.5, 18.0, 27.0]),
+            ("Sheet", &sheet, [157.5, 180.0, 18.0, 27.0]),
+            ("Legal owner", &self.owner, [0.0, 60.0, 0.0, 18.0]),
+            ("Drawing number", &self.number, [135.0, 180.0, 9.0, 18.0]),
+            ("Revision", &self.revision, [135.0, 180.0, 0.0, 9.0]),
+        ];
+        for (caption, value, [left, right, low, high]) in cells {
+            draft.rectangle(Pen::Rule, cell(left, right, low, high));
+            let at = Point::new(left + 1.2, high - CAPTION - 1.0);
+            draft.text(at, CAPTION, caption, Anchor::Left);
+            let at = Point::new(left + 2.0, low + 0.5 * (high - low - CAPTION) - 1.6);
+            let room = right - left - 4.0;
+            draft.text_within(at, &[3.5, 2.5], value, Anchor::Left, room);
+        }
+        self.titles(&mut draft);
+        let center = Point::new(17.5, 27.0);
+        projection::symbol(&mut draft, center, 9.0, self.projection);
+        draft.rectangle(Pen::Outline, cell(0.0, WIDTH, 0.0, HEIGHT));
+        draft
+    }
+
+    fn titles(&self, draft: &mut Draft) {
+        draft.rectangle(Pen::Rule, cell(60.0, 135.0, 0.0, 18.0));
+        let at = Point::new(61.2, 18.0 - CAPTION - 1.0);
+        draft.text(at, CAPTION, "Title, supplementary title", Anchor::Left);
+        let line = |y: f64| Point::new(62.0, y);
+        draft.text_within(line(8.3), &[5.0, 3.5], &self.title, Anchor::Left, 71.0);
+        draft.text_within(line(2.6), &[3.5, 2.5], &self.supplement, Anchor::Left, 71.0);
+    }
+}
+
+fn cell(left: f64, right: f64, low: f64, high: f64) -> Bounds {
+    Bounds {
+        min: Point::new(left, low),
+        max: Point::new(right, high),
+    }
+}
