@@ -3,6 +3,7 @@
 //! Writers are pure: they turn a plain value into bytes. Only [`Bundle`] and [`write_file`] touch the disk.
 
 mod bundle;
+pub mod cam;
 pub mod csv;
 pub mod drawing;
 pub mod dxf;

@@ -1,6 +1,6 @@
 //! The contour of a cam: the envelope of its follower, cut as a tool of the follower's size would.
 
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 
 use centrode_geometry::{Arc, Outline, Point, Segment, Spline, Tolerance, without_loops};
 
@@ -33,6 +33,13 @@ impl Profile {
     #[must_use]
     pub fn undercut(&self) -> &[(f64, f64)] {
         &self.undercut
+    }
+
+    /// Whether the contact at a cam angle is cut off.
+    #[must_use]
+    pub fn is_undercut(&self, input: f64) -> bool {
+        let within = |&(from, to): &(f64, f64)| (input - from).rem_euclid(TAU) <= to - from;
+        self.undercut.iter().any(within)
     }
 
     /// Least and greatest distance from the axis, mm, at nine places a segment.

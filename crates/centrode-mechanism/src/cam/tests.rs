@@ -408,13 +408,6 @@ fn a_roller_larger_than_the_path_allows_undercuts() {
     let profile = cam.profile(fine()).expect("there is one");
     assert_eq!(profile.outline().crossing(), None);
     let radius = 1.2 * largest;
-    let lost = |input: f64| {
-        let inside = |&(from, to): &(f64, f64)| {
-            let input = from + (input - from).rem_euclid(TAU);
-            input <= to
-        };
-        profile.undercut().iter().any(inside)
-    };
     let mut losses = 0;
     for i in 0..180 {
         let input = TAU * f64::from(i) / 180.0;
@@ -423,7 +416,7 @@ fn a_roller_larger_than_the_path_allows_undercuts() {
             cam.contact(input).roller.expect("a roller"),
         );
         assert!(found > radius - 1e-9, "{input} {found}");
-        if lost(input) {
+        if profile.is_undercut(input) {
             losses += 1;
             assert!(found > radius + 1e-9, "{input} {found}");
         } else {

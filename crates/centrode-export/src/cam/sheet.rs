@@ -1,0 +1,154 @@
+use crate::drawing::{Anchor, Color, Drawing, LineType, Shape, Text};
+use centrode_geometry::{Bounds, Outline, Point, Tolerance, Vector};
+use centrode_mechanism::cam::design::{Follower, Turn};
+use centrode_mechanism::cam::{Cam, CamError};
+
+const PROFILE: &str = "PROFILE";
+const BORE: &str = "BORE";
+const PITCH_CURVE: &str = "PITCH_CURVE";
+const BASE_CIRCLE: &str = "BASE_CIRCLE";
+const FOLLOWER: &str = "FOLLOWER";
+const CENTER: &str = "CENTER";
+const TEXT: &str = "TEXT";
+
+/// The contours of a cam in its own frame.
+#[derive(Clone, Debug)]
+pub(super) struct Contours {
+    contours: Vec<(&'static str, Outline)>,
+    /// Rectangle around the cam, the roller's path and a margin: as far as centre lines go.
+    extent: Bounds,
+}
+
+impl Contours {
+    pub(super) fn new(cam: &Cam, tolerance: Tolerance) -> Result<Self, CamError> {
+        let disc = cam.disc();
+        let base = Outline::circle(Point::origin(), disc.base_radius());
+        let mut contours = vec![(PROFILE, cam.profile().outline().clone())];
+        contours.extend(cam.bore().map(|bore| (BORE, bore)));
+        let path = disc.pitch_curve(tolerance.scaled(1e-3))?;
+        contours.extend(path.map(|path| (PITCH_CURVE, path)));
+        contours.push((BASE_CIRCLE, base));
+        let bounds = contours
+            .iter()
+            .fold(Bounds::EMPTY, |b, (_, outline)| b.union(outline.bounds()));
+        let margin = Vector::repeat(bounds.diagonal() / 16.0);
+        Ok(Self {
+            contours,
+            extent: Bounds {
+                min: bounds.min - margin,
+                max: bounds.max + margin,
+            },
+        })
+    }
+
+    /// The same with every contour made of lines and arcs.
+    pub(super) fn with_arcs(mut self, tolerance: Tolerance) -> Self {
+        for (_, outline) in &mut self.contours {
+            *outline = outline.arcs(tolerance);
+        }
+        self
+    }
+}
+
+/// A cam in its own frame: profile and bore to cut; the path of the roller's centre, base circle and
+/// centre lines for reference.
+pub(super) fn cam(contours: &Contours) -> Drawing {
+    let mut drawing = layers();
+    for (layer, outline) in &contours.contours {
+        drawing.draw(layer, Shape::Contour(outline.clone()));
+    }
+    let Bounds { min, max } = contours.extent;
+    let p = Point::new;
+    drawing.draw(CENTER, Shape::Line(p(min.x, 0.0), p(max.x, 0.0)));
+    drawing.draw(CENTER, Shape::Line(p(0.0, min.y), p(0.0, max.y)));
+    drawing.draw(CENTER, Shape::Mark(Point::origin()));
+    drawing
+}
+
+/// The cam with its follower at the input zero.
+pub(super) fn assembly(part: &Cam, contours: &Contours) -> Drawing {
+    let mut drawing = cam(contours)
+        .layer(FOLLOWER, Color::Green, LineType::Continuous, 0.25)
+        .layer(TEXT, Color::Foreground, LineType::Continuous, 0.25);
+    follower(part, contours, &mut drawing);
+    let Bounds { min, max } = contours.extent;
+    let height = 0.025 * contours.extent.diagonal();
+    let line = |row: f64, words: String| {
+        Shape::Text(Text {
+            at: Point::new(0.5 * (min.x + max.x), min.y - (1.2 + 1.7 * row) * height),
+            height,
+            words,
+            anchor: Anchor::Middle,
+        })
+    };
+    let title = if part.title().is_empty() {
+        part.name()
+    } else {
+        part.title()
+    };
+    drawing.draw(TEXT, line(0.0, title.to_owned()));
+    drawing.draw(TEXT, line(1.0, figures(part)));
+    drawing
+}
+
+/// The follower at the input zero, its slide along the x axis or its pivot on it.
+fn follower(part: &Cam, contours: &Contours, drawing: &mut Drawing) {
+    let disc = part.disc();
+    let contact = disc.contact(0.0);
+    let mut draw = |shape: Shape| drawing.draw(FOLLOWER, shape);
+    if let (Some(center), Some(radius)) = (contact.roller, disc.follower().roller_radius()) {
+        if radius > 0.0 {
+            draw(Shape::Circle { center, radius });
+        }
+        draw(Shape::Mark(center));
+    }
+    let along = Vector::new(-contact.normal.y, contact.normal.x);
+    let far = contours.extent.max.x;
+    match disc.follower() {
+        Follower::TranslatingRoller(slide) => {
+            let start = contact.roller.unwrap_or(contact.point);
+            draw(Shape::Line(start, Point::new(far, slide.offset)));
+        }
+        Follower::SwingingRoller(arm) => {
+            let pivot = Point::new(arm.center_distance, 0.0);
+            draw(Shape::Line(contact.roller.unwrap_or(contact.point), pivot));
+            draw(Shape::Mark(pivot));
+        }
+        Follower::SwingingFlat(arm) => {
+            let pivot = Point::new(arm.center_distance, 0.0);
+            let foot = contact.point + along * (pivot - contact.point).dot(&along);
+            draw(Shape::Line(contact.point, foot));
+            draw(Shape::Line(foot, pivot));
+            draw(Shape::Mark(pivot));
+        }
+        _ => {
+            let (low, high) = disc.limits().face.unwrap_or((0.0, 0.0));
+            let middle = Point::new(contact.point.x, 0.0);
+            draw(Shape::Line(middle + along * low, middle + along * high));
+            draw(Shape::Line(middle, Point::new(far, 0.0)));
+        }
+    }
+}
+
+fn figures(part: &Cam) -> String {
+    let disc = part.disc();
+    let turns = match disc.rotation() {
+        Turn::CounterClockwise => "counter-clockwise",
+        Turn::Clockwise => "clockwise",
+    };
+    let base = format!("base radius {:.4} mm", disc.base_radius());
+    match disc.follower().roller_radius() {
+        Some(radius) => format!("{base}, roller radius {radius:.4} mm, turns {turns}"),
+        None => format!("{base}, flat face, turns {turns}"),
+    }
+}
+
+/// The profile last, over the lines of reference.
+fn layers() -> Drawing {
+    Drawing::default()
+        .layer(CENTER, Color::Red, LineType::Center, 0.13)
+        .layer(BASE_CIRCLE, Color::Gray, LineType::Hidden, 0.13)
+        .layer(PITCH_CURVE, Color::Blue, LineType::Center, 0.18)
+        .layer(BORE, Color::Foreground, LineType::Continuous, 0.35)
+        .layer(PROFILE, Color::Foreground, LineType::Continuous, 0.35)
+}
