@@ -9,19 +9,21 @@ Lengths are millimetres, angles radians, counter-clockwise positive. Everything 
 True
 """
 
-from . import pitch, plot
-from ._centrode import Body, DrawingSpec, Gear, GearPair, Keyway, Pitch, Rack, Shaper, __version__, template
+from . import cam, pitch, plot
+from ._centrode import Body, DiscCam, DrawingSpec, Gear, GearPair, Keyway, Pitch, Rack, Shaper, __version__, template
 from ._contact import Contact
 from ._design import load, schema
-from ._error import DesignError, Error, ExportError, GearPairError, PitchError
+from ._error import CamError, DesignError, Error, ExportError, GearPairError, PitchError
 from ._over_pins import OverPins
 from ._report import Finding, Place, Report
 from ._tooth import Tooth, ToothSide
 
 __all__ = [
     "Body",
+    "CamError",
     "Contact",
     "DesignError",
+    "DiscCam",
     "DrawingSpec",
     "Error",
     "ExportError",
@@ -40,6 +42,7 @@ __all__ = [
     "Tooth",
     "ToothSide",
     "__version__",
+    "cam",
     "load",
     "pitch",
     "plot",

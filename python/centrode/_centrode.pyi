@@ -14,12 +14,16 @@ from ._tooth import Tooth
 __all__ = [
     "_LARGEST_DESIGN",
     "Body",
+    "DiscCam",
     "DrawingSpec",
+    "Follower",
     "Gear",
     "GearPair",
     "Keyway",
+    "Law",
     "Pitch",
     "Rack",
+    "Segment",
     "Shaper",
     "__version__",
     "_load",
@@ -29,14 +33,24 @@ __all__ = [
     "bspline",
     "circle",
     "conjugate",
+    "dwell",
     "eccentric_circle",
     "ellipse",
     "from_ratio",
     "from_transmission",
+    "law",
     "limacon",
     "lobed_ellipse",
     "polar",
+    "polynomial",
+    "return_",
+    "rise",
+    "swinging_flat",
+    "swinging_roller",
     "template",
+    "transition",
+    "translating_flat",
+    "translating_roller",
 ]
 
 _Count: TypeAlias = SupportsIndex
@@ -48,6 +62,18 @@ _Phase: TypeAlias = _Real | Literal["auto", "tooth", "space", "congruent"]
 _Format: TypeAlias = Literal["dxf", "svg", "stl", "step", "3mf", "csv", "urdf", "mjcf"]
 _SheetSize: TypeAlias = Literal["A4", "A3", "A2", "A1", "A0"]
 _Projection: TypeAlias = Literal["first-angle", "third-angle"]
+_CamFormat: TypeAlias = Literal["dxf", "svg", "stl", "step", "3mf", "csv"]
+_Turn: TypeAlias = Literal["counter-clockwise", "clockwise"]
+_LawName: TypeAlias = Literal[
+    "constant-velocity",
+    "parabolic",
+    "harmonic",
+    "cycloidal",
+    "modified-sine",
+    "modified-trapezoid",
+    "polynomial-345",
+    "polynomial-4567",
+]
 _DxfVersion: TypeAlias = Literal["R2010", "R12"]
 _DxfCurves: TypeAlias = Literal["arcs", "splines"]
 
@@ -196,6 +222,82 @@ class DrawingSpec:
     def __eq__(self, other: object, /) -> bool: ...
     def __ne__(self, other: object, /) -> bool: ...
     def __getnewargs_ex__(self) -> tuple[tuple[()], dict[str, Any]]: ...
+
+@final
+class Law:
+    __hash__: ClassVar[None]  # type: ignore[assignment]
+    @property
+    def name(self) -> str: ...
+    def at(self, x: ArrayLike) -> NDArray[float64]: ...
+    @property
+    def characteristic_values(self) -> dict[str, float]: ...
+    def __eq__(self, other: object, /) -> bool: ...
+    def __ne__(self, other: object, /) -> bool: ...
+
+@final
+class Segment:
+    __hash__: ClassVar[None]  # type: ignore[assignment]
+    @property
+    def span(self) -> float: ...
+    @property
+    def change(self) -> float: ...
+    def __eq__(self, other: object, /) -> bool: ...
+    def __ne__(self, other: object, /) -> bool: ...
+
+@final
+class Follower:
+    __hash__: ClassVar[None]  # type: ignore[assignment]
+    @property
+    def swings(self) -> bool: ...
+    @property
+    def roller_radius(self) -> float | None: ...
+    def __eq__(self, other: object, /) -> bool: ...
+    def __ne__(self, other: object, /) -> bool: ...
+
+@final
+class DiscCam:
+    def __new__(
+        cls,
+        follower: Follower,
+        segments: Sequence[Segment],
+        *,
+        base_radius: _Real,
+        rotation: _Turn = "counter-clockwise",
+        start: _Real = 0.0,
+        body: Body | None = None,
+        name: str = "cam",
+        title: str = "",
+    ) -> DiscCam: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def base_radius(self) -> float: ...
+    @property
+    def start_angle(self) -> float: ...
+    @property
+    def radii(self) -> tuple[float, float]: ...
+    def motion(self, theta: ArrayLike) -> NDArray[float64]: ...
+    def points(self, theta: ArrayLike) -> NDArray[float64]: ...
+    def normals(self, theta: ArrayLike) -> NDArray[float64]: ...
+    def roller(self, theta: ArrayLike) -> NDArray[float64]: ...
+    def pressure_angle(self, theta: ArrayLike) -> NDArray[float64]: ...
+    def curvature(self, theta: ArrayLike) -> NDArray[float64]: ...
+    def pitch_curvature(self, theta: ArrayLike) -> NDArray[float64]: ...
+    def profile(self, tolerance: _Real = 1e-3) -> NDArray[float64]: ...
+    def pitch_curve(self, tolerance: _Real = 1e-3) -> NDArray[float64] | None: ...
+    @property
+    def undercut(self) -> list[tuple[float, float]]: ...
+    @property
+    def peaks(self) -> dict[str, tuple[float, float]]: ...
+    @property
+    def limits(self) -> dict[str, tuple[float, float]]: ...
+    def least_base_radius(self, *, rise: _Real, fall: _Real | None = None) -> float | None: ...
+    def files(
+        self,
+        *,
+        formats: Sequence[_CamFormat] | None = None,
+        tolerance: _Real = 1e-3,
+    ) -> dict[str, bytes]: ...
 
 @final
 class Gear:
@@ -447,3 +549,30 @@ def template(family: str = "gear-pair") -> str: ...
 def _load(contents: bytes) -> GearPair: ...
 def _pitch_from_toml(text: str) -> Pitch: ...
 def _schema() -> str: ...
+def law(name: _LawName, /) -> Law: ...
+def polynomial(*, start: ArrayLike | None = None, end: ArrayLike | None = None) -> Law: ...
+def rise(
+    *, span: _Real, lift: _Real | None = None, swing: _Real | None = None, law: Law | _LawName | None = None
+) -> Segment: ...
+def return_(
+    *, span: _Real, lift: _Real | None = None, swing: _Real | None = None, law: Law | _LawName | None = None
+) -> Segment: ...
+def dwell(*, span: _Real) -> Segment: ...
+def transition(
+    *,
+    span: _Real,
+    lift: _Real | None = None,
+    swing: _Real | None = None,
+    start_velocity: _Real = 0.0,
+    start_acceleration: _Real = 0.0,
+    end_velocity: _Real = 0.0,
+    end_acceleration: _Real = 0.0,
+) -> Segment: ...
+def translating_roller(*, roller_radius: _Real, offset: _Real = 0.0) -> Follower: ...
+def translating_flat() -> Follower: ...
+def swinging_roller(
+    *, roller_radius: _Real, center_distance: _Real, arm_length: _Real, lifts: _Turn = "counter-clockwise"
+) -> Follower: ...
+def swinging_flat(
+    *, center_distance: _Real, face_offset: _Real = 0.0, lifts: _Turn = "counter-clockwise"
+) -> Follower: ...

@@ -44,6 +44,12 @@ class GearPairError(DesignError):
     __module__ = "centrode"
 
 
+class CamError(DesignError):
+    """A cam that cannot exist: segments that make no motion, a follower that cannot follow it."""
+
+    __module__ = "centrode"
+
+
 class ExportError(Error):
     """A file that cannot be made or written; the system's reason, if any, is the cause."""
 

@@ -1,8 +1,10 @@
 use std::error::Error as _;
 
 use centrode_export::BundleError;
+use centrode_export::cam::CamFilesError;
 use centrode_export::gear_pair::GearPairFilesError;
 use centrode_geometry::{SolidError, Tolerance};
+use centrode_mechanism::cam;
 use centrode_mechanism::design::{self, DesignFault};
 use centrode_mechanism::gear::design::SpecError;
 use centrode_mechanism::gear::{self, pitch};
@@ -14,6 +16,7 @@ mod class {
     pyo3::import_exception!(centrode._error, DesignError);
     pyo3::import_exception!(centrode._error, PitchError);
     pyo3::import_exception!(centrode._error, GearPairError);
+    pyo3::import_exception!(centrode._error, CamError);
     pyo3::import_exception!(centrode._error, ExportError);
 }
 
@@ -60,6 +63,19 @@ pub(crate) fn of_design(error: &design::DesignError) -> PyErr {
         DesignFault::GearPair(_) => class::GearPairError::new_err(arguments),
         _ => class::DesignError::new_err(arguments),
     }
+}
+
+/// The exception of a cam's error: the innermost rule broken.
+pub(crate) fn of_cam(error: &cam::CamError) -> PyErr {
+    match error {
+        cam::CamError::Spec(error) => of_spec(error),
+        _ => class::CamError::new_err((error.to_string(), error.key())),
+    }
+}
+
+/// The exception of a cam's files that cannot be made.
+pub(crate) fn of_cam_files(error: &CamFilesError) -> PyErr {
+    class::ExportError::new_err(error.to_string())
 }
 
 /// The exception of files that cannot be made.

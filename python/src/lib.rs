@@ -4,6 +4,7 @@ use pyo3::prelude::pymodule;
 
 mod array;
 mod body;
+mod cam;
 mod count;
 mod design;
 mod drawing;
@@ -24,6 +25,11 @@ mod _centrode {
 
     #[pymodule_export]
     use crate::body::{Body, Keyway};
+    #[pymodule_export]
+    use crate::cam::{
+        DiscCam, Follower, Law, Segment, dwell, law, law_of_polynomial, return_, rise,
+        swinging_flat, swinging_roller, transition, translating_flat, translating_roller,
+    };
     #[pymodule_export]
     use crate::design::{_load, _schema, template};
     #[pymodule_export]

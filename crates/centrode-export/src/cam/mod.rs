@@ -21,6 +21,16 @@ pub use solid::{mesh, solid};
 pub use table::columns;
 use thiserror::Error;
 
+/// The formats a cam can be written as, in the order files are written.
+pub const FORMATS: [Format; 6] = [
+    Format::Dxf,
+    Format::Svg,
+    Format::Step,
+    Format::Stl,
+    Format::ThreeMf,
+    Format::Csv,
+];
+
 /// Rows of the profile table: every half degree.
 const ROWS: u32 = 720;
 

@@ -1,4 +1,4 @@
-use super::{CamFilesError, drawing, files, mesh, solid};
+use super::{CamFilesError, FORMATS, drawing, files, mesh, solid};
 use crate::csv::Values;
 use crate::drawing::Shape;
 use crate::dxf;
@@ -56,23 +56,14 @@ fn tolerance() -> Tolerance {
     Tolerance::new(1e-3).expect("positive")
 }
 
-const PART: [Format; 6] = [
-    Format::Dxf,
-    Format::Svg,
-    Format::Step,
-    Format::Stl,
-    Format::ThreeMf,
-    Format::Csv,
-];
-
 #[test]
 fn a_cam_has_a_file_of_every_format_of_parts_the_same_each_time() {
     for cam in [swinging(), flat()] {
         for curves in [dxf::Curves::Arcs, dxf::Curves::Splines] {
             let mut options = Options::new(tolerance());
             options.dxf_curves = curves;
-            let bundle = files(&cam, &PART, &options).expect("written");
-            let again = files(&cam, &PART, &options).expect("written");
+            let bundle = files(&cam, &FORMATS, &options).expect("written");
+            let again = files(&cam, &FORMATS, &options).expect("written");
             let names: Vec<&str> = bundle.files().map(|(name, _)| name).collect();
             assert_eq!(names.len(), 8);
             assert!(names.iter().all(|name| name.starts_with(cam.name())));

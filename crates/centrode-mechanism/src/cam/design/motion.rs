@@ -1,5 +1,3 @@
-use std::f64::consts::TAU;
-
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -133,8 +131,9 @@ impl SegmentSpec {
     }
 
     fn validate(&self) -> Result<(), SpecError> {
-        positive("span_deg", self.span().to_degrees())?;
-        between("span_deg", self.span(), [0.0, TAU], " rad")?;
+        let degrees = (self.span().to_degrees() * 1e9).round() / 1e9;
+        positive("span_deg", degrees)?;
+        between("span_deg", degrees, [0.0, 360.0], " deg")?;
         match self.strokes() {
             None => return Ok(()),
             Some((Some(_), Some(_))) => return broken("swing_deg", Rule::Excludes("lift")),

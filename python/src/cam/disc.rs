@@ -1,0 +1,287 @@
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use centrode_export::cam as export;
+use centrode_export::gear_pair::{Format, Options};
+use centrode_geometry::{Point, Tolerance};
+use centrode_mechanism::cam::{Cam, Contact, Extreme, design as spec};
+use numpy::{IntoPyArray, PyArray1, PyArray2};
+use pyo3::prelude::{Bound, PyDictMethods, PyRef, PyResult, Python, pyclass, pymethods};
+use pyo3::types::{PyBytes, PyDict};
+
+use super::parts::{Follower, Segment};
+use super::{row, turn};
+use crate::array::{Numbers, points, rows};
+use crate::body::Body;
+use crate::error::{design_error, of_cam, of_cam_files, unknown_word};
+use crate::wait::wait;
+
+/// An extreme as the pair of cam angle and value.
+type Peak = (f64, f64);
+
+/// A disc cam, in its own frame: at the cam angle zero the slide points, or the arm's pivot lies, along x.
+///
+/// Args:
+///     follower: What rides on it.
+///     segments: What the follower does in one turn; the spans add up to a whole turn.
+///     base_radius: Radius of the base circle, mm.
+///     rotation: Which way the cam turns, "counter-clockwise" or "clockwise".
+///     start: Cam angle at which the first segment begins, rad.
+///     body: Width, bore and material.
+///     name: Used for file names.
+///     title: One line for drawings.
+///
+/// >>> import centrode as ct
+/// >>> from math import pi
+/// >>> cam = ct.DiscCam(
+/// ...     ct.cam.translating_roller(roller_radius=7),
+/// ...     [ct.cam.rise(span=2 * pi / 3, lift=9), ct.cam.dwell(span=pi / 3), ct.cam.return_(span=pi, lift=9)],
+/// ...     base_radius=40,
+/// ... )
+/// >>> cam.motion([2.5])
+/// array([[9., 0., 0., 0.]])
+/// >>> round(cam.limits["rise_pressure_angle"][1], 3)
+/// 0.166
+#[pyclass(frozen, module = "centrode")]
+#[derive(Debug)]
+pub(crate) struct DiscCam(Arc<Cam>);
+
+impl DiscCam {
+    fn contacts(&self, theta: Numbers) -> impl ExactSizeIterator<Item = Contact> {
+        let cam = self.0.clone();
+        theta
+            .into_vec()
+            .into_iter()
+            .map(move |input| cam.disc().contact(input))
+    }
+
+    fn column<'py>(
+        &self,
+        py: Python<'py>,
+        theta: Numbers,
+        of: impl Fn(&Contact) -> f64,
+    ) -> Bound<'py, PyArray1<f64>> {
+        let values: Vec<f64> = self.contacts(theta).map(|contact| of(&contact)).collect();
+        values.into_pyarray(py)
+    }
+}
+
+fn tolerance(mm: f64) -> PyResult<Tolerance> {
+    Tolerance::new(mm).map_err(|e| design_error("tolerance", &e.to_string()))
+}
+
+fn peak(extreme: Extreme) -> Peak {
+    (extreme.input, extreme.value)
+}
+
+#[pymethods]
+impl DiscCam {
+    #[new]
+    #[pyo3(signature = (follower, segments, *, base_radius, rotation="counter-clockwise", start=0.0, body=None,
+        name="cam", title=""))]
+    #[expect(clippy::too_many_arguments, reason = "the keywords of the design file")]
+    fn new(
+        py: Python<'_>,
+        follower: PyRef<'_, Follower>,
+        segments: Vec<PyRef<'_, Segment>>,
+        base_radius: f64,
+        rotation: &str,
+        start: f64,
+        body: Option<PyRef<'_, Body>>,
+        name: &str,
+        title: &str,
+    ) -> PyResult<Self> {
+        let motion = spec::MotionSpec {
+            start,
+            segments: segments.iter().map(|segment| segment.0.clone()).collect(),
+        };
+        let mut design = spec::CamSpec::new(base_radius, follower.0.clone(), motion);
+        design.rotation = turn("rotation", rotation)?;
+        design.name = name.to_owned();
+        design.title = title.to_owned();
+        if let Some(body) = body {
+            design.body = body.0.clone();
+        }
+        let cam = wait(py, move || Cam::resolve(&design))?.map_err(|e| of_cam(&e))?;
+        Ok(Self(Arc::new(cam)))
+    }
+
+    /// Name, as given.
+    #[getter]
+    fn name(&self) -> &str {
+        self.0.name()
+    }
+
+    /// Radius of the base circle, mm.
+    #[getter]
+    fn base_radius(&self) -> f64 {
+        self.0.disc().base_radius()
+    }
+
+    /// Angle of a swinging arm to the line of centres on the base circle, rad; zero for a slide.
+    #[getter]
+    fn start_angle(&self) -> f64 {
+        self.0.disc().start_angle()
+    }
+
+    /// Least and greatest distance of the profile from the axis, mm.
+    #[getter]
+    fn radii(&self) -> (f64, f64) {
+        self.0.radii()
+    }
+
+    /// The follower's position, velocity, acceleration and jerk at cam angles, (N, 4): mm or rad, and
+    /// per radian.
+    fn motion<'py>(&self, py: Python<'py>, theta: Numbers) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        rows(py, self.contacts(theta).map(|contact| row(&contact.motion)))
+    }
+
+    /// Points of the profile that touch the follower at cam angles, (N, 2), mm.
+    fn points<'py>(&self, py: Python<'py>, theta: Numbers) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        rows(py, self.contacts(theta).map(|c| [c.point.x, c.point.y]))
+    }
+
+    /// Unit normals of the profile there, (N, 2), out of the cam.
+    fn normals<'py>(&self, py: Python<'py>, theta: Numbers) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        rows(py, self.contacts(theta).map(|c| [c.normal.x, c.normal.y]))
+    }
+
+    /// Centres of the roller at cam angles, (N, 2), mm; not a number for a flat face.
+    fn roller<'py>(&self, py: Python<'py>, theta: Numbers) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let nowhere = Point::new(f64::NAN, f64::NAN);
+        let centers = self.contacts(theta).map(|c| c.roller.unwrap_or(nowhere));
+        rows(py, centers.map(|p| [p.x, p.y]))
+    }
+
+    /// Angles from the direction of lift to the normal at cam angles, (N,), rad.
+    fn pressure_angle<'py>(&self, py: Python<'py>, theta: Numbers) -> Bound<'py, PyArray1<f64>> {
+        self.column(py, theta, |contact| contact.pressure_angle)
+    }
+
+    /// Curvature of the profile at cam angles, (N,), 1/mm: positive where it is convex.
+    fn curvature<'py>(&self, py: Python<'py>, theta: Numbers) -> Bound<'py, PyArray1<f64>> {
+        self.column(py, theta, |contact| contact.curvature)
+    }
+
+    /// Curvature of the path of the roller's centre, (N,), 1/mm; not a number for a flat face.
+    fn pitch_curvature<'py>(&self, py: Python<'py>, theta: Numbers) -> Bound<'py, PyArray1<f64>> {
+        self.column(py, theta, |contact| {
+            contact.pitch_curvature.unwrap_or(f64::NAN)
+        })
+    }
+
+    /// Corners of a polygon within the tolerance of the profile, (N, 2), mm, counter-clockwise.
+    #[pyo3(signature = (tolerance=1e-3))]
+    fn profile<'py>(&self, py: Python<'py>, tolerance: f64) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let tolerance = self::tolerance(tolerance)?;
+        points(py, &self.0.profile().outline().flatten(tolerance))
+    }
+
+    /// The same of the path of the roller's centre; None for a flat face.
+    #[pyo3(signature = (tolerance=1e-3))]
+    fn pitch_curve<'py>(
+        &self,
+        py: Python<'py>,
+        tolerance: f64,
+    ) -> PyResult<Option<Bound<'py, PyArray2<f64>>>> {
+        let tolerance = self::tolerance(tolerance)?;
+        let exact = tolerance.scaled(1e-3);
+        let path = self.0.disc().pitch_curve(exact).map_err(|e| of_cam(&e))?;
+        path.map(|path| points(py, &path.flatten(tolerance)))
+            .transpose()
+    }
+
+    /// Ranges of the cam angle whose contact is cut off by undercut, rad; none for a sound cam.
+    #[getter]
+    fn undercut(&self) -> Vec<(f64, f64)> {
+        self.0.profile().undercut().to_vec()
+    }
+
+    /// Greatest "lift", "velocity", "acceleration" and "jerk" of the follower, each with its cam angle.
+    #[getter]
+    fn peaks(&self) -> BTreeMap<&'static str, Peak> {
+        let peaks = self.0.disc().peaks();
+        BTreeMap::from([
+            ("lift", peak(peaks.lift)),
+            ("velocity", peak(peaks.velocity)),
+            ("acceleration", peak(peaks.acceleration)),
+            ("jerk", peak(peaks.jerk)),
+        ])
+    }
+
+    /// What the cam is up to, each with its cam angle: "rise_pressure_angle" and "return_pressure_angle"
+    /// (rad), "largest_roller" (rollers only), "least_radius" of the convex profile, at most zero where it
+    /// is undercut, "largest_wheel" that can grind it (mm), and "regularity", above zero for a sound cam.
+    #[getter]
+    fn limits(&self) -> BTreeMap<&'static str, Peak> {
+        let limits = self.0.disc().limits();
+        let mut named = BTreeMap::from([
+            ("rise_pressure_angle", peak(limits.rise_pressure_angle)),
+            ("return_pressure_angle", peak(limits.return_pressure_angle)),
+            ("least_radius", peak(limits.least_radius)),
+            ("largest_wheel", peak(limits.largest_wheel)),
+            ("regularity", peak(limits.regularity)),
+        ]);
+        named.extend(limits.largest_roller.map(|r| ("largest_roller", peak(r))));
+        named
+    }
+
+    /// The least base radius, mm, that keeps the pressure angle below `rise` while the cam lifts and
+    /// below `fall` while the follower returns, rad (any, if left out); None where none does.
+    #[pyo3(signature = (*, rise, fall=None))]
+    fn least_base_radius(
+        &self,
+        py: Python<'_>,
+        rise: f64,
+        fall: Option<f64>,
+    ) -> PyResult<Option<f64>> {
+        let cam = self.0.clone();
+        let fall = fall.unwrap_or(std::f64::consts::FRAC_PI_2);
+        wait(py, move || cam.disc().least_base_radius(rise, fall))
+    }
+
+    /// The cam's files by name, not written.
+    ///
+    /// Args:
+    ///     formats: Any of "dxf", "svg", "stl", "step", "3mf" and "csv"; all of these if left out.
+    ///     tolerance: Greatest distance of every arc and mesh from the exact curve, mm.
+    ///
+    /// Raises:
+    ///     ExportError: A file cannot be made.
+    #[pyo3(signature = (*, formats=None, tolerance=1e-3))]
+    fn files<'py>(
+        &self,
+        py: Python<'py>,
+        formats: Option<Vec<String>>,
+        tolerance: f64,
+    ) -> PyResult<Bound<'py, PyDict>> {
+        let known = export::FORMATS.map(Format::name);
+        let formats: Vec<Format> = match formats {
+            None => export::FORMATS.to_vec(),
+            Some(words) => words
+                .iter()
+                .map(|word| {
+                    word.parse()
+                        .map_err(|_| unknown_word("formats", word, &known))
+                })
+                .collect::<PyResult<_>>()?,
+        };
+        let options = Options::new(self::tolerance(tolerance)?);
+        let cam = self.0.clone();
+        let bundle = wait(py, move || export::files(&cam, &formats, &options))?;
+        let files = PyDict::new(py);
+        for (name, bytes) in bundle.map_err(|e| of_cam_files(&e))?.files() {
+            files.set_item(name, PyBytes::new(py, bytes))?;
+        }
+        Ok(files)
+    }
+
+    fn __repr__(&self) -> String {
+        let disc = self.0.disc();
+        format!(
+            "DiscCam({}, base_radius={:?})",
+            self.0.name(),
+            disc.base_radius()
+        )
+    }
+}

@@ -1,0 +1,106 @@
+use std::collections::BTreeMap;
+
+use centrode_mechanism::cam::law as mechanism;
+use numpy::PyArray2;
+use pyo3::prelude::{Bound, PyResult, Python, pyclass, pyfunction, pymethods};
+
+use super::row;
+use crate::array::{Numbers, list, rows};
+use crate::error::{of_spec, unknown_word};
+
+/// A normalised motion law: from 0 to 1 while its input goes from 0 to 1.
+///
+/// Made by ``centrode.cam.law`` and ``centrode.cam.polynomial``.
+///
+/// >>> import centrode as ct
+/// >>> ct.cam.law("cycloidal")
+/// Law('cycloidal')
+#[pyclass(frozen, eq, module = "centrode.cam")]
+#[derive(Debug)]
+pub(crate) struct Law {
+    pub(crate) spec: mechanism::LawSpec,
+    law: mechanism::Law,
+}
+
+impl PartialEq for Law {
+    fn eq(&self, other: &Self) -> bool {
+        self.spec == other.spec
+    }
+}
+
+impl Law {
+    fn resolve(spec: mechanism::LawSpec) -> PyResult<Self> {
+        let law = spec.resolve().map_err(|e| of_spec(&e))?;
+        Ok(Self { spec, law })
+    }
+}
+
+/// The law of that name, as in VDI 2143: "constant-velocity", "parabolic", "harmonic", "cycloidal",
+/// "modified-sine", "modified-trapezoid", "polynomial-345" or "polynomial-4567".
+///
+/// >>> import centrode as ct
+/// >>> round(ct.cam.law("modified-sine").characteristic_values["acceleration"], 4)
+/// 5.528
+#[pyfunction]
+#[pyo3(signature = (name, /))]
+pub(crate) fn law(name: &str) -> PyResult<Law> {
+    let known = mechanism::LawSpec::NAMED.map(|(name, _)| name);
+    let spec = mechanism::LawSpec::named(name);
+    Law::resolve(spec.ok_or_else(|| unknown_word("law.kind", name, &known))?)
+}
+
+/// The polynomial of least degree from 0 to 1 with the derivatives asked for at both ends: velocity,
+/// acceleration and so on, per unit of the law's own input and lift.
+///
+/// >>> import centrode as ct
+/// >>> ct.cam.polynomial(start=[0, 0], end=[2, 0]).at([1])
+/// array([[  1.,   2.,   0., -12.]])
+#[pyfunction]
+#[pyo3(name = "polynomial", signature = (*, start=None, end=None))]
+pub(crate) fn law_of_polynomial(start: Option<Numbers>, end: Option<Numbers>) -> PyResult<Law> {
+    Law::resolve(mechanism::LawSpec::Polynomial(mechanism::Polynomial {
+        start: list(start),
+        end: list(end),
+    }))
+}
+
+#[pymethods]
+impl Law {
+    /// Name of the kind, as in a design file.
+    #[getter]
+    fn name(&self) -> &'static str {
+        self.law.name()
+    }
+
+    /// The law and its first three derivatives at inputs from 0 to 1, (N, 4).
+    ///
+    /// >>> import centrode as ct
+    /// >>> ct.cam.law("parabolic").at([0.25])
+    /// array([[0.125, 1.   , 4.   , 0.   ]])
+    fn at<'py>(&self, py: Python<'py>, x: Numbers) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let jets: Vec<[f64; 4]> = x.into_vec().iter().map(|&x| row(&self.law.at(x))).collect();
+        rows(py, jets.into_iter())
+    }
+
+    /// Peaks of the derivatives: "velocity" Cv, "acceleration" Ca, "jerk" Cj (infinite where the
+    /// acceleration jumps inside the law), and "torque", that of velocity times acceleration.
+    #[getter]
+    fn characteristic_values(&self) -> BTreeMap<&'static str, f64> {
+        let values = self.law.characteristic_values();
+        BTreeMap::from([
+            ("velocity", values.velocity),
+            ("acceleration", values.acceleration),
+            ("jerk", values.jerk),
+            ("torque", values.torque),
+        ])
+    }
+
+    fn __repr__(&self) -> String {
+        match &self.spec {
+            mechanism::LawSpec::Polynomial(p) => {
+                format!("Law('polynomial', start={:?}, end={:?})", p.start, p.end)
+            }
+            _ => format!("Law('{}')", self.law.name()),
+        }
+    }
+}

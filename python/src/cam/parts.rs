@@ -1,0 +1,217 @@
+//! Segments of a motion and kinds of follower: keywords as in the design file, angles in radians.
+
+use centrode_mechanism::cam::design as spec;
+use centrode_mechanism::cam::law::LawSpec;
+use pyo3::prelude::{
+    Borrowed, FromPyObject, PyAny, PyErr, PyRef, PyResult, pyclass, pyfunction, pymethods,
+};
+
+use super::laws::{Law, law as named};
+use super::turn;
+use crate::error::of_spec;
+
+/// One part of a follower's motion; made by the functions of ``centrode.cam``.
+#[pyclass(frozen, eq, module = "centrode.cam")]
+#[derive(Debug, PartialEq)]
+pub(crate) struct Segment(pub(crate) spec::SegmentSpec);
+
+/// What rides on a cam and how it is guided; made by the functions of ``centrode.cam``.
+#[pyclass(frozen, eq, module = "centrode.cam")]
+#[derive(Debug, PartialEq)]
+pub(crate) struct Follower(pub(crate) spec::Follower);
+
+/// A law, or the name of one.
+#[derive(Debug)]
+pub(crate) struct AnyLaw(LawSpec);
+
+impl<'a, 'py> FromPyObject<'a, 'py> for AnyLaw {
+    type Error = PyErr;
+
+    fn extract(object: Borrowed<'a, 'py, PyAny>) -> PyResult<Self> {
+        if let Ok(name) = object.extract::<String>() {
+            return named(&name).map(|law| Self(law.spec));
+        }
+        let law: PyRef<'_, Law> = object.extract()?;
+        Ok(Self(law.spec.clone()))
+    }
+}
+
+#[pymethods]
+impl Segment {
+    /// Cam angle it takes, rad.
+    #[getter]
+    fn span(&self) -> f64 {
+        self.0.span()
+    }
+
+    /// Change of the follower's position, mm or rad.
+    #[getter]
+    fn change(&self) -> f64 {
+        self.0.change()
+    }
+
+    fn __repr__(&self) -> String {
+        let kind = match self.0 {
+            spec::SegmentSpec::Rise(_) => "rise",
+            spec::SegmentSpec::Dwell(_) => "dwell",
+            spec::SegmentSpec::Return(_) => "return",
+            _ => "transition",
+        };
+        format!(
+            "Segment({kind}, span={:?}, change={:?})",
+            self.span(),
+            self.change()
+        )
+    }
+}
+
+#[pymethods]
+impl Follower {
+    /// Whether its motion is an angle.
+    #[getter]
+    fn swings(&self) -> bool {
+        self.0.swings()
+    }
+
+    /// Radius of the roller, mm; None for a flat face.
+    #[getter]
+    fn roller_radius(&self) -> Option<f64> {
+        self.0.roller_radius()
+    }
+
+    fn __repr__(&self) -> String {
+        format!("Follower({:?})", self.0)
+    }
+}
+
+fn travel(span: f64, lift: Option<f64>, swing: Option<f64>, law: Option<AnyLaw>) -> spec::Travel {
+    let law = law.map_or_else(LawSpec::default, |law| law.0);
+    spec::Travel {
+        span,
+        lift,
+        swing,
+        law,
+    }
+}
+
+/// A rise over the cam angle `span` by `lift` (mm, a slide) or `swing` (rad, an arm); the law is
+/// "cycloidal" if left out.
+///
+/// >>> import centrode as ct
+/// >>> ct.cam.rise(span=2, lift=10, law="modified-sine")
+/// Segment(rise, span=2.0, change=10.0)
+#[pyfunction]
+#[pyo3(signature = (*, span, lift=None, swing=None, law=None))]
+pub(crate) fn rise(
+    span: f64,
+    lift: Option<f64>,
+    swing: Option<f64>,
+    law: Option<AnyLaw>,
+) -> Segment {
+    Segment(spec::SegmentSpec::Rise(travel(span, lift, swing, law)))
+}
+
+/// A return over the cam angle `span` by `lift` (mm, a slide) or `swing` (rad, an arm), both positive.
+///
+/// >>> import centrode as ct
+/// >>> ct.cam.return_(span=0.5, lift=10, law=ct.cam.law("modified-trapezoid"))
+/// Segment(return, span=0.5, change=-10.0)
+#[pyfunction]
+#[pyo3(signature = (*, span, lift=None, swing=None, law=None))]
+pub(crate) fn return_(
+    span: f64,
+    lift: Option<f64>,
+    swing: Option<f64>,
+    law: Option<AnyLaw>,
+) -> Segment {
+    Segment(spec::SegmentSpec::Return(travel(span, lift, swing, law)))
+}
+
+/// No motion over the cam angle `span`.
+#[pyfunction]
+#[pyo3(signature = (*, span))]
+pub(crate) fn dwell(span: f64) -> Segment {
+    Segment(spec::SegmentSpec::Dwell(spec::Dwell { span }))
+}
+
+/// The fifth-degree polynomial between given velocities and accelerations, per radian of cam angle.
+#[pyfunction]
+#[pyo3(signature = (*, span, lift=None, swing=None, start_velocity=0.0, start_acceleration=0.0,
+    end_velocity=0.0, end_acceleration=0.0))]
+pub(crate) fn transition(
+    span: f64,
+    lift: Option<f64>,
+    swing: Option<f64>,
+    start_velocity: f64,
+    start_acceleration: f64,
+    end_velocity: f64,
+    end_acceleration: f64,
+) -> Segment {
+    Segment(spec::SegmentSpec::Transition(spec::Transition {
+        span,
+        lift,
+        swing,
+        start_velocity,
+        start_acceleration,
+        end_velocity,
+        end_acceleration,
+    }))
+}
+
+fn follower(follower: spec::Follower) -> PyResult<Follower> {
+    let sound = follower.validate();
+    sound.map_err(|e| of_spec(&e))?;
+    Ok(Follower(follower))
+}
+
+/// A roller, or with no radius a point, on a slide that passes the axis at `offset`, mm.
+///
+/// >>> import centrode as ct
+/// >>> ct.cam.translating_roller(roller_radius=8).swings
+/// False
+#[pyfunction]
+#[pyo3(signature = (*, roller_radius, offset=0.0))]
+pub(crate) fn translating_roller(roller_radius: f64, offset: f64) -> PyResult<Follower> {
+    follower(spec::Follower::TranslatingRoller(spec::TranslatingRoller {
+        roller_radius,
+        offset,
+    }))
+}
+
+/// A flat face square to its slide.
+#[pyfunction]
+pub(crate) fn translating_flat() -> PyResult<Follower> {
+    follower(spec::Follower::TranslatingFlat(spec::TranslatingFlat {}))
+}
+
+/// A roller, or with no radius a point, on a swinging arm; `lifts` is the way it turns when lifted.
+#[pyfunction]
+#[pyo3(signature = (*, roller_radius, center_distance, arm_length, lifts="counter-clockwise"))]
+pub(crate) fn swinging_roller(
+    roller_radius: f64,
+    center_distance: f64,
+    arm_length: f64,
+    lifts: &str,
+) -> PyResult<Follower> {
+    follower(spec::Follower::SwingingRoller(spec::SwingingRoller {
+        roller_radius,
+        center_distance,
+        arm_length,
+        lifts: turn("follower.lifts", lifts)?,
+    }))
+}
+
+/// A flat face on a swinging arm, standing `face_offset` before the pivot towards the cam, mm.
+#[pyfunction]
+#[pyo3(signature = (*, center_distance, face_offset=0.0, lifts="counter-clockwise"))]
+pub(crate) fn swinging_flat(
+    center_distance: f64,
+    face_offset: f64,
+    lifts: &str,
+) -> PyResult<Follower> {
+    follower(spec::Follower::SwingingFlat(spec::SwingingFlat {
+        center_distance,
+        face_offset,
+        lifts: turn("follower.lifts", lifts)?,
+    }))
+}
