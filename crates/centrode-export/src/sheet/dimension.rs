@@ -7,7 +7,7 @@ use centrode_geometry::{Arc, Bounds, Point, Vector};
 /// Height of the letters of dimensions, mm.
 pub(crate) const LETTERS: f64 = 3.5;
 /// Distance of words from their line, mm.
-const LIFT: f64 = 1.0;
+const LIFT: f64 = 1.3;
 /// How far an extension line goes beyond the dimension line, mm.
 const BEYOND: f64 = 2.0;
 /// Distance of an extension line from what it is about, mm.
@@ -140,7 +140,7 @@ impl Draft {
 }
 
 /// Room above the line of a note, mm.
-const ABOVE: f64 = LETTERS + LIFT + 1.5;
+const ABOVE: f64 = LETTERS + LIFT + 1.2;
 
 /// Room below the line of a note, mm.
 fn below(words: &[String]) -> f64 {

@@ -6,7 +6,7 @@ use centrode_geometry::{Bounds, Point, Vector};
 /// Least distance between pieces, mm.
 const GAP: f64 = 6.0;
 /// Fewest rows worth starting a part of a table for.
-const FEWEST: usize = 4;
+const FEWEST: usize = 10;
 
 /// A corner of the drawing space that a piece is to be near.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
@@ -17,6 +17,8 @@ pub enum Corner {
     UpperRight,
     /// Lower left.
     LowerLeft,
+    /// Lower right.
+    LowerRight,
 }
 
 /// A page while pieces are placed on it: the greatest empty rectangles, overlapping each other.
@@ -95,6 +97,7 @@ impl Page {
             Corner::UpperLeft => Point::new(self.room.min.x, self.room.max.y),
             Corner::UpperRight => self.room.max,
             Corner::LowerLeft => self.room.min,
+            Corner::LowerRight => Point::new(self.room.max.x, self.room.min.y),
         };
         let fits = |f: &&Bounds| {
             let room = f.max - f.min;
@@ -104,12 +107,14 @@ impl Page {
             Corner::UpperLeft => Point::new(f.min.x, f.max.y - size.y),
             Corner::UpperRight => f.max - size,
             Corner::LowerLeft => f.min,
+            Corner::LowerRight => Point::new(f.max.x - size.x, f.min.y),
         };
         let distance = |p: &Point| {
             let own = match corner {
                 Corner::UpperLeft => Point::new(p.x, p.y + size.y),
                 Corner::UpperRight => p + size,
                 Corner::LowerLeft => *p,
+                Corner::LowerRight => Point::new(p.x + size.x, p.y),
             };
             (own - target).norm()
         };
@@ -140,22 +145,22 @@ impl Page {
     pub(crate) fn place_rows(&mut self, table: &Table, first: usize) -> Option<usize> {
         let left = table.rows.len() - first;
         let width = table.width();
-        // The leftmost room that takes the most rows.
+        // The room that takes the most rows, the leftmost of equals.
         let fits = |f: &&Bounds| width <= f.max.x - f.min.x + 1e-9;
         let room = |f: &Bounds| f.max.y - f.min.y;
+        let rows = |f: &Bounds| table.rows_in(room(f)).min(left);
         let best = self
             .free
             .iter()
             .filter(fits)
-            .filter(|f| table.rows_in(room(f)) >= FEWEST.min(left))
-            .min_by(|a, b| {
-                a.min
-                    .x
-                    .total_cmp(&b.min.x)
-                    .then(b.max.y.total_cmp(&a.max.y))
-            })
+            .filter(|f| rows(f) >= FEWEST.min(left))
+            .max_by(|a, b| rows(a).cmp(&rows(b)).then(b.min.x.total_cmp(&a.min.x)))
             .copied()?;
         let whole = table.height(left, true) <= room(&best) + 1e-9;
+        // Beside views a table is not broken.
+        if !whole && self.pieces.iter().any(|(_, _, floats)| *floats) {
+            return None;
+        }
         let rows = if whole {
             left
         } else {

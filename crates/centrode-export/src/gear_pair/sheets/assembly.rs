@@ -59,44 +59,21 @@ pub(super) fn view(driver: &Part<'_>, driven: &Part<'_>, scale: Scale) -> Draft 
     });
     draft.dimension(axes, Vector::x(), below, &words);
     let touch = driver.frame(0.0).point * k;
-    let tooth =
-        |part: &Part<'_>, x: f64, n: u32| part.middle(n, 0.0).point * k + Vector::new(x, 0.0);
     let last = driven.gear.tooth_count() - 1;
-    let notes = [
+    for (part, x, side, words) in [
         (
-            touch,
-            vec![
-                format!(
-                    "pitch point at φ = 0, {:.4} from the driver's axis",
-                    touch.x / k
-                ),
-                format!("ratio there {:.5}", pair.ratio(0.0)),
-            ],
+            driver,
+            0.0,
+            -1.0,
+            ["driver tooth 0", &format!("in driven space {last}")],
         ),
-        (
-            tooth(driver, 0.0, 0),
-            vec![
-                "driver tooth 0".to_owned(),
-                format!("runs in driven space {last}"),
-            ],
-        ),
-        (
-            tooth(driven, a, 0),
-            vec![
-                "driven tooth 0".to_owned(),
-                "runs in driver space 0".to_owned(),
-            ],
-        ),
-    ];
-    // Notes stand above: the gears take the sides.
-    let top = whole.max.y + 8.0;
-    let mut order: Vec<_> = notes.into_iter().collect();
-    order.sort_by(|p, q| p.0.y.total_cmp(&q.0.y));
-    let x = whole.max.x + 8.0;
-    let mut y = f64::NEG_INFINITY;
-    for (tip, words) in order {
-        y = f64::max(tip.y, y + 13.0);
-        draft.leader(tip, Point::new(x, y.min(top + 30.0)), &words);
+        (driven, a, 1.0, ["driven tooth 0", "in driver space 0"]),
+    ] {
+        let frame = part.middle(0, 0.0);
+        let height = 0.5 * pair.teeth().tool.addendum;
+        let tip = (frame.point + frame.normal * height) * k + Vector::new(x, 0.0);
+        let elbow = Point::new(touch.x + 6.0 * side, whole.max.y + 12.0);
+        draft.leader(tip, elbow, &words.map(str::to_owned));
     }
     draft
 }

@@ -92,29 +92,38 @@ fn notes(part: &Part<'_>, k: f64) -> Vec<(Point, Vec<String>)> {
     if body.bore > 0.0 {
         let at = Vector::new(-0.6, 0.8) * (0.5 * body.bore * k);
         let words = if body.keyway.is_some() {
-            vec!["bore and keyway:".to_owned(), "detail B".to_owned()]
+            vec!["detail B".to_owned()]
         } else {
             vec![fit::bore(body.bore, &body.bore_fit)]
         };
         notes.push((Point::from(at), words));
     }
     let start = part.frame(0.0).point;
-    let words = vec![
-        format!("pitch point at φ = 0, R{:.3}", start.coords.norm()),
-        format!(
-            "mate's axis at {:.3} in this direction",
-            part.pair.center_distance()
-        ),
-    ];
-    notes.push((start * k, words));
+    let mate = format!("mate's axis at {:.3}", part.pair.center_distance());
+    let mut words = vec![format!("φ = 0, R{:.3}", start.coords.norm()), mate];
     let tooth = part.middle(0, 0.0);
-    let words = vec![
-        format!("middle of tooth 0 at {:.3}°", degrees(tooth.point)),
-        format!("spaces numbered {}", part.sense()),
-    ];
-    notes.push((tooth.point * k, words));
+    let name = format!("tooth 0 at {:.3}°", degrees(tooth.point));
+    if (tooth.point - start).norm() * k < 4.0 {
+        words.insert(1, name);
+    } else {
+        notes.push((tooth.point * k, vec![name]));
+    }
+    notes.push((start * k, words));
     notes
 }
+
+/// Where a number may stand, mm outwards and along the pitch curve, the best first.
+const PLACES: [(f64, f64); 9] = [
+    (0.0, 0.0),
+    (0.0, 1.5),
+    (0.0, -1.5),
+    (2.0, 0.0),
+    (2.0, 2.5),
+    (2.0, -2.5),
+    (4.0, 0.0),
+    (4.0, 3.0),
+    (4.0, -3.0),
+];
 
 /// Numbers of the tooth spaces around the face, as many as there is room for.
 fn numbers(part: &Part<'_>, k: f64, draft: &mut Draft) {
@@ -131,14 +140,7 @@ fn numbers(part: &Part<'_>, k: f64, draft: &mut Draft) {
         let width = lettering::width(&words, NUMBERS);
         let frame = part.middle(space, 0.5);
         // Leaders go by: the number makes way, first outwards and then along.
-        for (out, along) in [
-            (0.0, 0.0),
-            (2.0, 0.0),
-            (0.0, 2.5),
-            (0.0, -2.5),
-            (3.0, 2.5),
-            (3.0, -2.5),
-        ] {
+        for (out, along) in PLACES {
             let middle = frame.point * k
                 + frame.normal * (height + 0.5 * NUMBERS + out)
                 + frame.tangent * along;

@@ -128,30 +128,26 @@ fn gear(
         .zip(['C', 'D'])
         .map(|((tooth, place), letter)| tooth::detail(&part, letter, tooth, place))
         .collect();
+    let bore = face::bore(&part);
+    let lines = notes(&part);
     let projection = block.projection;
     let pieces = |scale: Scale| {
+        let view = |name, draft, corner| Piece {
+            name,
+            draft,
+            corner,
+            is_view: true,
+        };
+        let face = face::views(&part, scale, projection);
         let mut pieces = vec![
             table_piece("gear data table", &data),
-            Piece {
-                name: "face view with section",
-                draft: face::views(&part, scale, projection),
-                corner: Corner::UpperLeft,
-                is_view: true,
-            },
+            notes_piece(&lines, Corner::UpperRight),
+            view("face view with section", face, Corner::UpperLeft),
         ];
-        pieces.extend(face::bore(&part).map(|draft| Piece {
-            name: "bore detail",
-            draft,
-            corner: Corner::UpperLeft,
-            is_view: true,
-        }));
-        pieces.extend(details.iter().map(|draft| Piece {
-            name: "tooth detail",
-            draft: draft.clone(),
-            corner: Corner::UpperLeft,
-            is_view: true,
-        }));
-        pieces.push(notes_piece(&notes(&part)));
+        let bore = bore.iter().cloned();
+        pieces.extend(bore.map(|draft| view("bore detail", draft, Corner::LowerRight)));
+        let details = details.iter().cloned();
+        pieces.extend(details.map(|draft| view("tooth detail", draft, Corner::LowerLeft)));
         pieces
     };
     let bounds = part.bounds();
@@ -179,22 +175,34 @@ fn both(
         "Driver tooth k runs in driven space k - 1,".to_owned(),
         "driven tooth k in driver space k.".to_owned(),
     ];
+    let motion = tables::motion(pair);
+    // One turn of a table goes beside the gears, more on to the next sheet.
+    let (beside, flowing) = if motion.rows.len() <= 40 {
+        (Some(motion), Vec::new())
+    } else {
+        (None, vec![motion])
+    };
     let pieces = |scale: Scale| {
-        vec![
+        let mut pieces = vec![
             table_piece("gear pair data table", &data),
+            notes_piece(&lines, Corner::UpperRight),
             Piece {
                 name: "view of both gears",
                 draft: assembly::view(&driver, &driven, scale),
                 corner: Corner::UpperLeft,
                 is_view: true,
             },
-            notes_piece(&lines),
-        ]
+        ];
+        pieces.extend(beside.iter().map(|table| Piece {
+            corner: Corner::UpperLeft,
+            ..table_piece("motion table", table)
+        }));
+        pieces
     };
     let a = pair.center_distance();
     let width = driven.bounds().max.x + a - driver.bounds().min.x;
     let size = options.size.or(pair.drawing().sheet);
-    compose(size, &block, width, &pieces, &[tables::motion(pair)])
+    compose(size, &block, width, &pieces, &flowing)
 }
 
 fn table_piece(name: &'static str, table: &Table) -> Piece {
@@ -206,16 +214,16 @@ fn table_piece(name: &'static str, table: &Table) -> Piece {
     }
 }
 
-fn notes_piece(lines: &[String]) -> Piece {
+fn notes_piece(lines: &[String], corner: Corner) -> Piece {
     let mut draft = Draft::default();
     for (row, line) in lines.iter().enumerate() {
-        let at = Point::new(0.0, -5.5 * row as f64);
-        draft.text(at, 3.5, line, Anchor::Left);
+        let at = Point::new(0.0, -4.6 * row as f64);
+        draft.text(at, 2.5, line, Anchor::Left);
     }
     Piece {
         name: "notes",
         draft,
-        corner: Corner::LowerLeft,
+        corner,
         is_view: false,
     }
 }
@@ -234,6 +242,7 @@ fn notes(part: &Part<'_>) -> Vec<String> {
             }
         ),
     ];
+    lines.push(format!("Teeth and spaces are numbered {}.", part.sense()));
     if part.gear.body().keyway.is_some() {
         lines.push("Keyway on the x axis, at polar angle 0°.".to_owned());
     }

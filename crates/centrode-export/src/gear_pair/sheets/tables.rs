@@ -10,7 +10,7 @@ use centrode_mechanism::gear::{
 };
 
 /// Most points of the contour on paper.
-const POINTS: usize = 220;
+const POINTS: usize = 150;
 
 /// The gear data, in the order of ISO 1340 as far as it goes.
 pub(super) fn data(part: &Part<'_>, meshing: Option<Meshing>) -> Table {
@@ -131,6 +131,9 @@ pub(super) fn pair_data(pair: &GearPair, meshing: Option<Meshing>) -> Table {
     );
     rows.add_long("Driver's pitch curve", "", pair.definition());
     pair_rows(pair, meshing, &mut rows);
+    let radius = pair.rolling().radius(0.0);
+    rows.add("Pitch point at φ = 0, from driver", "r", number(radius, 6));
+    rows.add("Ratio at φ = 0", "i", number(pair.ratio(0.0), 6));
     rows.table("Gear pair data")
 }
 

@@ -9,7 +9,7 @@ use centrode_geometry::{Point, Tolerance, Vector};
 use nalgebra::Rotation2;
 
 /// Length on paper of what is shown, mm.
-const SHOWN: f64 = 62.0;
+const SHOWN: f64 = 72.0;
 
 /// The teeth where the pitch curve bends most and least towards the axis; one where it is a circle.
 pub(super) fn extremes(part: &Part<'_>) -> Vec<(u32, &'static str)> {
@@ -81,7 +81,7 @@ pub(super) fn detail(part: &Part<'_>, letter: char, tooth: u32, place: &str) -> 
     let side = &part.gear.teeth()[tooth as usize];
     let foot = [side.leading, side.trailing].map(|s| upright(part.frame(s.crossing).point));
     let thick = (foot[1] - foot[0]).norm() / k;
-    let above = p(0.0, high + 9.0);
+    let above = p(0.0, heights(&profile, f64::max, high) + 9.0);
     draft.dimension(foot, Vector::x(), above, &format!("{thick:.3}"));
     let right = reach + 9.0;
     let crest = p(0.0, high);
@@ -96,9 +96,9 @@ pub(super) fn detail(part: &Part<'_>, letter: char, tooth: u32, place: &str) -> 
     let floor = p(reach, low);
     draft.dimension([floor, crest], Vector::y(), p(right + 10.0, 0.0), &words);
     let fillet = side.leading.fillet_radius.min(side.trailing.fillet_radius);
-    let fillets = profile.iter().filter(|q| q.x < 0.0 && q.y < 0.6 * low);
-    let at = fillets.min_by(|a, b| {
-        let off = |q: &Point| (q.y - 0.85 * low).abs() - 0.2 * q.x.abs() / k;
+    let own = |q: &&Point| q.x < 0.0 && q.x > -0.5 * pitch * k && q.y < 0.0;
+    let at = profile.iter().filter(own).min_by(|a, b| {
+        let off = |q: &Point| (q.y - 0.85 * low).abs();
         off(a).total_cmp(&off(b))
     });
     if let (Some(&at), true) = (at, fillet.is_finite() && fillet > 0.0) {
@@ -131,13 +131,14 @@ pub(super) fn detail(part: &Part<'_>, letter: char, tooth: u32, place: &str) -> 
     draft
 }
 
-/// The run of a closed polyline around the origin, once mapped, out to |x| = reach.
+/// The run of a closed polyline around the origin, once mapped, out to a distance.
 fn near(points: &[Point], map: &impl Fn(Point) -> Point, reach: f64) -> Vec<Point> {
     let mapped: Vec<Point> = points.iter().map(|p| map(*p)).collect();
     let count = mapped.len();
+    let far = |p: &Point| p.x.abs().max(0.85 * p.coords.norm());
     let nearest = (0..count).min_by(|&a, &b| {
-        let far = |i: usize| mapped[i].coords.norm();
-        far(a).total_cmp(&far(b))
+        let off = |i: usize| mapped[i].coords.norm();
+        off(a).total_cmp(&off(b))
     });
     let Some(start) = nearest else {
         return Vec::new();
@@ -147,9 +148,9 @@ fn near(points: &[Point], map: &impl Fn(Point) -> Point, reach: f64) -> Vec<Poin
         for i in 1..count {
             let q = mapped[(start + i * step) % count];
             let before = run[run.len() - 1];
-            if q.x.abs() > reach {
-                let t = (reach - before.x.abs()) / (q.x.abs() - before.x.abs());
-                run.push(before + (q - before) * t);
+            if far(&q) > reach {
+                let t = (reach - far(&before)) / (far(&q) - far(&before));
+                run.push(before + (q - before) * t.clamp(0.0, 1.0));
                 break;
             }
             run.push(q);
