@@ -86,3 +86,11 @@ def exported(request, tmp_path_factory):
     out = folder / "out"
     centrode("export", design, "--to", out, "--tolerance", "0.001")
     return Export(request.param, design, out)
+
+
+@pytest.fixture(scope="session")
+def fine(exported, tmp_path_factory):
+    """The URDF of a design beside meshes so fine that their volumes are those of the curves."""
+    folder = tmp_path_factory.mktemp("fine")
+    centrode("export", exported.design, "--to", folder, "--format", "urdf", "--tolerance", "3e-6")
+    return folder

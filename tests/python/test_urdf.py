@@ -7,6 +7,7 @@ import pytest
 import trimesh
 import yourdfpy
 from reading import GEARS, rows
+from test_mjcf import TEETH
 
 DENSITY = 7850.0
 
@@ -21,37 +22,62 @@ def gear_links(robot):
 
 
 def test_yourdfpy_loads_the_pair_with_its_meshes(exported):
-    model = yourdfpy.URDF.load(str(exported / "pair.urdf"), load_meshes=True)
+    model = yourdfpy.URDF.load(
+        str(exported / "pair.urdf"),
+        load_meshes=True,
+        load_collision_meshes=True,
+        build_collision_scene_graph=True,
+    )
     assert model.validate()
     assert len([j for j in model.robot.joints if j.type == "continuous"]) == 2
     extents = model.scene.extents
     assert 0.01 < max(extents) < 1  # metres
+    # The bodies of each link, which this reader joins into one mesh.
+    assert len(model.collision_scene.geometry) == 2
+    np.testing.assert_allclose(model.collision_scene.extents, extents, rtol=1e-3)
 
 
-def test_mujoco_loads_and_steps_the_pair(exported):
+def test_every_body_to_touch_with_is_convex(exported):
+    files = list((exported / "collision").iterdir())
+    assert len(files) == sum(TEETH[exported.name]) + 2
+    for file in files:
+        body = trimesh.load_mesh(file)
+        assert body.is_volume
+        # Vertices are single precision.
+        assert body.convex_hull.volume == pytest.approx(body.volume, rel=1e-6)
+
+
+def test_mujoco_loads_the_pair_and_its_teeth_mesh(exported):
     model = mujoco.MjModel.from_xml_path(str(exported / "pair.urdf"))
-    data = mujoco.MjData(model)
     assert model.njnt == 2
-    data.qvel[:] = 1.0
-    for _ in range(100):
-        mujoco.mj_step(model, data)
-    assert np.isfinite(data.qpos).all()
-    assert abs(data.qpos[0]) > 0.01
+    assert model.ngeom == sum(TEETH[exported.name]) + 2
+    data = mujoco.MjData(model)
+    table = rows(exported / "motion.csv")
+    deepest = 0.0
+    for driver, driven in zip(table["driver_angle_rad"][::8], table["driven_angle_rad"][::8], strict=True):
+        data.qpos[:] = -driver, driven
+        mujoco.mj_forward(model, data)
+        deepest = max(deepest, *(-data.contact.dist), 0.0)
+    assert deepest < 2e-6  # metres
+    # The bodies do touch: a driven gear a quarter of a tooth too far does not fit.
+    data.qpos[1] += math.pi / 2 / TEETH[exported.name][1]
+    mujoco.mj_forward(model, data)
+    assert np.any(data.contact.dist < -1e-4)
 
 
-def test_inertias_are_those_of_the_solid(exported, robot):
-    for gear, link in gear_links(robot).items():
-        mesh = trimesh.load_mesh(exported / f"{gear}.stl")
+def test_inertias_are_those_of_the_solid(fine):
+    for gear, link in gear_links(ElementTree.parse(fine / "pair.urdf").getroot()).items():
+        mesh = trimesh.load_mesh(fine / f"{gear}.stl")
         mesh.apply_scale(1e-3)
         mesh.density = DENSITY
         inertial = link.find("inertial")
-        assert float(inertial.find("mass").get("value")) == pytest.approx(mesh.mass, rel=2e-4)
+        assert float(inertial.find("mass").get("value")) == pytest.approx(mesh.mass, rel=1e-6)
         stated = inertial.find("inertia")
+        scale = mesh.moment_inertia[2, 2]
         for key, (i, j) in {"ixx": (0, 0), "iyy": (1, 1), "izz": (2, 2), "ixy": (0, 1)}.items():
-            scale = mesh.moment_inertia[2, 2]
-            assert float(stated.get(key)) == pytest.approx(mesh.moment_inertia[i, j], abs=5e-4 * scale)
+            assert float(stated.get(key)) == pytest.approx(mesh.moment_inertia[i, j], abs=1e-6 * scale)
         place = [float(v) for v in inertial.find("origin").get("xyz").split()]
-        np.testing.assert_allclose(place, mesh.center_mass, atol=2e-6)
+        np.testing.assert_allclose(place, mesh.center_mass, atol=1e-8)
 
 
 def test_a_mimic_only_where_the_law_is_linear(exported, robot):

@@ -5,6 +5,7 @@ mod format;
 mod motion;
 mod outline;
 mod pins;
+mod play;
 mod sheet;
 mod sheet_set;
 mod sheets;
@@ -132,12 +133,6 @@ pub enum GearPairFilesError {
     Bundle(#[from] BundleError),
 }
 
-/// Plays the MJCF model by its law or through tooth contact alone.
-const PLAY_MUJOCO: &str = include_str!("play_mujoco.py");
-
-/// Plays the URDF model by its law.
-const PLAY_PYBULLET: &str = include_str!("play_pybullet.py");
-
 /// The files of a pair in the formats asked for, not yet on disk. URDF and MJCF bring the STL files they
 /// name (URDF a folder of them to touch with), the law of motion and a script that plays them.
 ///
@@ -188,11 +183,11 @@ pub fn files(
             for body in model.links.iter().flat_map(|link| &link.collision) {
                 bundle.add(&urdf::collision_file(&body.name), stl::write(&body.mesh))?;
             }
-            bundle.add("play_pybullet.py", PLAY_PYBULLET.into())?;
+            bundle.add("play_pybullet.py", play::pybullet())?;
         }
         if wanted(Format::Mjcf) {
             bundle.add("pair.xml", mjcf::write(&model)?)?;
-            bundle.add("play_mujoco.py", PLAY_MUJOCO.into())?;
+            bundle.add("play_mujoco.py", play::mujoco())?;
         }
     }
     Ok(bundle)

@@ -16,25 +16,10 @@ from pathlib import Path
 import mujoco
 import numpy as np
 
+# isort: split
+from law import Law
+
 FOLDER = Path(__file__).resolve().parent
-
-
-class Law:
-    """Joint angles over the driver's travel, as motion.json describes motion.csv."""
-
-    def __init__(self, folder):
-        """Reads both files."""
-        about = json.loads((folder / "motion.json").read_text())
-        table = np.genfromtxt(folder / about["table"], delimiter=",", names=True)
-        self.cycle = about["continuation"]
-        self.joints = {j["name"]: (table[j["column"]], j["factor"], self.cycle[j["column"]]) for j in about["joints"]}
-        self.travel = table["driver_angle_rad"]
-
-    def __call__(self, joint, travel):
-        """Angle of a joint, linear between rows and repeated beyond them."""
-        angles, factor, per_cycle = self.joints[joint]
-        whole, rest = np.divmod(travel, self.cycle["driver_angle_rad"])
-        return factor * (np.interp(rest, self.travel, angles) + whole * per_cycle)
 
 
 class Pair:
