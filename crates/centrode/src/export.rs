@@ -74,8 +74,8 @@ fn formats(command: &Export) -> Vec<Format> {
 /// Refuses options that none of the files asked for has a use for.
 fn refuse_useless(command: &Export) -> Result<(), Failure> {
     let sheets = command.wants(File::Sheet) || command.wants(File::Pdf);
-    let refused = |option: &str, formats: &str| {
-        let message = format!("{option} is for {formats}; add one of these to --format");
+    let refused = |option: &str, files: &str| {
+        let message = format!("{option} is for {files}, and --format names none");
         Err(Failure::Usage(message))
     };
     if command.sheet.is_some() && !sheets {
@@ -96,7 +96,7 @@ fn refuse_useless(command: &Export) -> Result<(), Failure> {
     if !any(&solid) {
         return refused(
             "--part",
-            "files of one part, and a simulator model is of both",
+            "drawings, solids and tables",
         );
     }
     Ok(())

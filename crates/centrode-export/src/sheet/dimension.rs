@@ -4,8 +4,6 @@ use super::{Draft, Pen, draft::ARROW, lettering};
 use crate::drawing::{Anchor, Shape};
 use centrode_geometry::{Arc, Bounds, Point, Vector};
 
-/// Height of the letters of dimensions, mm.
-pub(crate) const LETTERS: f64 = 3.5;
 /// Distance of words from their line, mm.
 const LIFT: f64 = 1.3;
 /// How far an extension line goes beyond the dimension line, mm.
@@ -38,7 +36,7 @@ impl Draft {
             (foot(b), foot(a))
         };
         let length = (end - start).norm();
-        let width = lettering::width(words, LETTERS);
+        let width = lettering::width(words, self.letters);
         let rotation = along.y.atan2(along.x);
         let inside = length >= 2.5 * ARROW;
         let between = inside && width + 1.0 <= length;
@@ -62,7 +60,7 @@ impl Draft {
             end + along * (ARROW + 1.5 + 0.5 * width)
         };
         let at = middle + up * LIFT;
-        self.turned_text(at, LETTERS, words, Anchor::Middle, rotation);
+        self.turned_text(at, self.letters, words, Anchor::Middle, rotation);
     }
 
     /// A note with an arrow: a line from `tip` to `elbow`, then level under the words; a second line of
@@ -72,7 +70,7 @@ impl Draft {
         self.line(Pen::Dimension, tip, elbow);
         let width = words
             .iter()
-            .map(|w| lettering::width(w, LETTERS))
+            .map(|w| lettering::width(w, self.letters))
             .fold(0.0, f64::max);
         let side = if elbow.x >= tip.x { 1.0 } else { -1.0 };
         let end = elbow + Vector::new(side * (width + 2.0), 0.0);
@@ -82,10 +80,10 @@ impl Draft {
             let y = if row == 0 {
                 LIFT
             } else {
-                -(LETTERS + LIFT + 0.2) - 5.5 * (row as f64 - 1.0)
+                -(self.letters + LIFT + 0.2) - (self.letters + 2.0) * (row as f64 - 1.0)
             };
             let at = Point::new(left, elbow.y + y);
-            self.text(at, LETTERS, line, Anchor::Left);
+            self.text(at, self.letters, line, Anchor::Left);
         }
     }
 
@@ -105,19 +103,19 @@ impl Draft {
                 around.min.x - 4.0
             };
             let halfway = 0.5 * (band[0] + band[1]);
-            let above = column.partition_point(|(p, _)| p.y < halfway);
+            let upper = column.partition_point(|(p, _)| p.y < halfway);
             // Upwards from the band, then downwards from it.
             let mut floor = band[1];
-            for (tip, words) in &column[above..] {
-                let y = tip.y.max(floor + below(words));
+            for (tip, words) in &column[upper..] {
+                let y = tip.y.max(floor + below(words, self.letters));
                 self.leader(*tip, Point::new(x, y), words);
-                floor = y + ABOVE;
+                floor = y + above(self.letters);
             }
             let mut ceiling = band[0];
-            for (tip, words) in column[..above].iter().rev() {
-                let y = tip.y.min(ceiling - ABOVE);
+            for (tip, words) in column[..upper].iter().rev() {
+                let y = tip.y.min(ceiling - above(self.letters));
                 self.leader(*tip, Point::new(x, y), words);
-                ceiling = y - below(words);
+                ceiling = y - below(words, self.letters);
             }
         }
     }
@@ -140,11 +138,13 @@ impl Draft {
 }
 
 /// Room above the line of a note, mm.
-const ABOVE: f64 = LETTERS + LIFT + 1.2;
+fn above(letters: f64) -> f64 {
+    letters + LIFT + 1.2
+}
 
 /// Room below the line of a note, mm.
-fn below(words: &[String]) -> f64 {
-    1.0 + 5.5 * (words.len() as f64 - 1.0)
+fn below(words: &[String], letters: f64) -> f64 {
+    1.0 + (letters + 2.0) * (words.len() as f64 - 1.0)
 }
 
 #[cfg(test)]
@@ -173,7 +173,7 @@ mod tests {
         found.sort_by(|a, b| a.0.total_cmp(&b.0));
         let order: Vec<&str> = found.iter().map(|f| &*f.1).collect();
         assert_eq!(order, ["-2", "-1", "0.5", "1", "1.5"]);
-        assert!(found.windows(2).all(|w| w[1].0 - w[0].0 > 2.0 * LETTERS));
-        assert!(found.iter().all(|f| f.0 > 5.0 || f.0 + LETTERS < -5.0));
+        assert!(found.windows(2).all(|w| w[1].0 - w[0].0 > 7.0));
+        assert!(found.iter().all(|f| f.0 > 5.0 || f.0 + 3.5 < -5.0));
     }
 }

@@ -9,12 +9,30 @@ pub(super) const ARROW: f64 = 3.0;
 const SQUEEZE: f64 = 0.7;
 
 /// A piece of a sheet in paper millimetres, its origin wherever is handy until it is placed.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Draft {
     entities: Vec<Entity>,
+    /// Height of the letters of dimensions and notes, mm.
+    pub(super) letters: f64,
+}
+
+impl Default for Draft {
+    /// Nothing, to be dimensioned in letters of 3.5 mm.
+    fn default() -> Self {
+        Self::lettered(3.5)
+    }
 }
 
 impl Draft {
+    /// Nothing, to be dimensioned in letters of this height, mm.
+    #[must_use]
+    pub fn lettered(letters: f64) -> Self {
+        Self {
+            entities: Vec::new(),
+            letters,
+        }
+    }
+
     /// Draws a shape.
     pub fn draw(&mut self, pen: Pen, shape: Shape) {
         self.entities.push(Entity {

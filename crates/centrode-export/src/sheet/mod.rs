@@ -48,9 +48,10 @@ pub struct Piece {
     pub draft: Draft,
     /// The corner of the sheet it is to be near.
     pub corner: Corner,
-    /// Whether it must stand on the first page, in the middle of the room it has; others move on to the
-    /// next page where there is none.
-    pub is_view: bool,
+    /// Whether it stands in the middle of the room it has, as views do.
+    pub floats: bool,
+    /// Whether it must stand on the first page; others move on to the next where there is no room.
+    pub leads: bool,
 }
 
 /// Why there is no sheet.
@@ -58,14 +59,14 @@ pub struct Piece {
 #[non_exhaustive]
 pub enum SheetError {
     /// The views do not fit, not even at the smallest scale.
-    #[error("the views do not fit on {}: at scale {scale} the longest is {extent:.0} mm and needs room for its dimensions, and the drawing space is {:.0} x {:.0} mm", size.name(), room[0], room[1])]
+    #[error("the views with their dimensions do not fit on {}: at scale {scale} they still take {:.0} x {:.0} mm of {:.0} x {:.0} mm", size.name(), needed[0], needed[1], room[0], room[1])]
     Views {
         /// The sheet asked for.
         size: SheetSize,
         /// The smallest scale.
         scale: Scale,
-        /// The longest side of a view at that scale, mm.
-        extent: f64,
+        /// Width and height taken at that scale, mm.
+        needed: [f64; 2],
         /// Width and height of the drawing space, mm.
         room: [f64; 2],
     },
@@ -95,7 +96,7 @@ pub fn compose(
     wanted: Option<SheetSize>,
     block: &TitleBlock,
     extent: f64,
-    pieces: &dyn Fn(Scale) -> Vec<Piece>,
+    pieces: &dyn Fn(Scale, SheetSize) -> Vec<Piece>,
     tables: &[Table],
 ) -> Result<Vec<Sheet>, SheetError> {
     let possible = |size: SheetSize, scale: &&Scale| {
@@ -111,7 +112,7 @@ pub fn compose(
         full.iter()
             .filter(|s| possible(size, s))
             .find_map(|&scale| {
-                let (page, rest) = place(size, pieces(scale))?;
+                let (page, rest) = place(size, pieces(scale, size))?;
                 rest.is_empty().then_some((scale, page))
             })
     };
@@ -123,17 +124,23 @@ pub fn compose(
     }
     let size = wanted.unwrap_or(SheetSize::A0);
     for &scale in full.iter().chain(reduced).filter(|s| possible(size, s)) {
-        if let Some((page, rest)) = place(size, pieces(scale)) {
+        if let Some((page, rest)) = place(size, pieces(scale, size)) {
             return pages(size, scale, block, page, rest, tables);
         }
     }
     let scale = Scale::RECOMMENDED[Scale::RECOMMENDED.len() - 1];
     let room = room(size).max - room(size).min;
+    // At the smallest scale little is left of a view but its dimensions.
+    let leading = pieces(scale, size).into_iter().filter(|p| p.leads);
+    let needed = leading
+        .map(|piece| piece.draft.bounds())
+        .map(|bounds| bounds.max - bounds.min)
+        .fold(Vector::zeros(), |a: Vector, b| a.sup(&b));
     Err(SheetError::Views {
         size,
         scale,
-        extent: extent * scale.factor(),
-        room: [room.x, room.y],
+        needed: needed.into(),
+        room: room.into(),
     })
 }
 
@@ -163,25 +170,25 @@ fn blank(size: SheetSize) -> Page {
 fn place(size: SheetSize, pieces: Vec<Piece>) -> Option<(Page, Vec<Piece>)> {
     let mut page = blank(size);
     let mut rest = Vec::new();
-    let (views, others): (Vec<Piece>, Vec<Piece>) = pieces.into_iter().partition(|p| p.is_view);
+    let (views, others): (Vec<Piece>, Vec<Piece>) = pieces.into_iter().partition(|p| p.floats);
     // With all the pieces, if that works; the views alone otherwise.
     let mut whole = page.clone();
     let all = others
         .iter()
         .chain(&views)
-        .all(|piece| whole.place(piece.draft.clone(), piece.corner, piece.is_view));
+        .all(|piece| whole.place(piece.draft.clone(), piece.corner, piece.floats));
     if all {
         return Some((whole, rest));
     }
-    for view in views {
-        if !page.place(view.draft, view.corner, true) {
+    let (first, later): (Vec<Piece>, Vec<Piece>) = views.into_iter().partition(|p| p.leads);
+    for piece in first.into_iter().chain(later).chain(others) {
+        if page.place(piece.draft.clone(), piece.corner, piece.floats) {
+            continue;
+        }
+        if piece.leads {
             return None;
         }
-    }
-    for piece in others {
-        if !page.place(piece.draft.clone(), piece.corner, false) {
-            rest.push(piece);
-        }
+        rest.push(piece);
     }
     Some((page, rest))
 }
@@ -202,12 +209,12 @@ fn pages(
     let mut page = first;
     let width = room(size).max.x - room(size).min.x;
     for piece in rest {
-        if page.place(piece.draft.clone(), Corner::UpperLeft, false) {
+        if page.place(piece.draft.clone(), piece.corner, piece.floats) {
             continue;
         }
         done.push(std::mem::replace(&mut page, blank(size)));
         let bounds = piece.draft.bounds();
-        if !page.place(piece.draft, Corner::UpperLeft, false) {
+        if !page.place(piece.draft, piece.corner, piece.floats) {
             return Err(SheetError::Table {
                 size,
                 title: piece.name.to_owned(),
@@ -259,8 +266,8 @@ mod tests {
     use centrode_geometry::{Outline, Point, Tolerance};
 
     /// A plate of this width with a hole, dimensioned.
-    fn plate(width: f64) -> impl Fn(Scale) -> Vec<Piece> {
-        move |scale| {
+    fn plate(width: f64) -> impl Fn(Scale, SheetSize) -> Vec<Piece> {
+        move |scale, _| {
             let k = scale.factor();
             let mut draft = Draft::default();
             let corner = Point::new(k * width, 0.5 * k * width);
@@ -302,7 +309,8 @@ mod tests {
                 name: "plate",
                 draft,
                 corner: Corner::UpperLeft,
-                is_view: true,
+                floats: true,
+                leads: true,
             }]
         }
     }
@@ -379,7 +387,7 @@ mod tests {
         assert!(
             error
                 .to_string()
-                .contains("do not fit on A4: at scale 1:10000"),
+                .contains("do not fit on A4: at scale 1:10000 they still take"),
             "{error}"
         );
         let mut wide = long_table(5);

@@ -11,11 +11,11 @@ use nalgebra::Isometry2;
 use std::f64::consts::PI;
 
 /// Both gears at phi = 0, the driver's axis in the origin.
-pub(super) fn view(driver: &Part<'_>, driven: &Part<'_>, scale: Scale) -> Draft {
+pub(super) fn view(driver: &Part<'_>, driven: &Part<'_>, scale: Scale, letters: f64) -> Draft {
     let k = scale.factor();
     let pair = driver.pair;
     let a = pair.center_distance() * k;
-    let mut draft = Draft::default();
+    let mut draft = Draft::lettered(letters);
     let mut whole = Bounds::EMPTY;
     for (part, x) in [(driver, 0.0), (driven, a)] {
         let place = Isometry2::translation(x, 0.0);

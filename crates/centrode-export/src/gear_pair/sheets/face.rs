@@ -16,8 +16,8 @@ const NUMBERS: f64 = 2.5;
 const APART: f64 = 16.0;
 
 /// Face view and section A-A, aligned on the axis.
-pub(super) fn views(part: &Part<'_>, scale: Scale, projection: Projection) -> Draft {
-    let mut draft = face(part, scale);
+pub(super) fn views(part: &Part<'_>, scale: Scale, letters: f64, projection: Projection) -> Draft {
+    let mut draft = face(part, scale, letters);
     let whole = draft.bounds();
     let section = section(part, scale);
     let own = section.bounds();
@@ -30,9 +30,9 @@ pub(super) fn views(part: &Part<'_>, scale: Scale, projection: Projection) -> Dr
     draft
 }
 
-fn face(part: &Part<'_>, scale: Scale) -> Draft {
+fn face(part: &Part<'_>, scale: Scale, letters: f64) -> Draft {
     let k = scale.factor();
-    let mut draft = Draft::default();
+    let mut draft = Draft::lettered(letters);
     draft.draw(Pen::Outline, Shape::Contour(part.outline.scaled(k)));
     draft.draw(Pen::Axis, Shape::Contour(part.pitch_curve.scaled(k)));
     if let Some(bore) = &part.bore {
@@ -47,7 +47,7 @@ fn face(part: &Part<'_>, scale: Scale) -> Draft {
     let left = p(min.x - ring - 1.0, 0.0);
     let right = p(max.x + ring + 1.0, 0.0);
     cutting_plane(&mut draft, left, right);
-    let margin = Vector::new(ring + 12.0, 0.0);
+    let margin = Vector::new(ring + 9.0, 0.0);
     let around = Bounds {
         min: p(min.x, min.y) - margin,
         max: p(max.x, max.y) + margin,
@@ -134,7 +134,6 @@ fn numbers(part: &Part<'_>, k: f64, draft: &mut Draft) {
         .find(|&n| f64::from(n) * step >= 8.0)
         .unwrap_or(count);
     let height = part.pair.teeth().tool.addendum * k + RING;
-    let lines = draft.clone();
     for space in (0..count).step_by(every as usize) {
         let words = space.to_string();
         let width = lettering::width(&words, NUMBERS);
@@ -150,7 +149,7 @@ fn numbers(part: &Part<'_>, k: f64, draft: &mut Draft) {
                 min: middle - room,
                 max: middle + room,
             };
-            if !lines.touches(own) {
+            if !draft.touches(own) {
                 draft.text(at, NUMBERS, &words, Anchor::Middle);
                 break;
             }

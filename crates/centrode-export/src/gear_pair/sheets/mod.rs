@@ -131,23 +131,24 @@ fn gear(
     let bore = face::bore(&part);
     let lines = notes(&part);
     let projection = block.projection;
-    let pieces = |scale: Scale| {
-        let view = |name, draft, corner| Piece {
+    let pieces = |scale: Scale, size: SheetSize| {
+        let view = |name, draft, corner, leads| Piece {
             name,
             draft,
             corner,
-            is_view: true,
+            floats: true,
+            leads,
         };
-        let face = face::views(&part, scale, projection);
+        let face = face::views(&part, scale, letters(size), projection);
         let mut pieces = vec![
             table_piece("gear data table", &data),
             notes_piece(&lines, Corner::UpperRight),
-            view("face view with section", face, Corner::UpperLeft),
+            view("face view with section", face, Corner::UpperLeft, true),
         ];
         let bore = bore.iter().cloned();
-        pieces.extend(bore.map(|draft| view("bore detail", draft, Corner::LowerRight)));
+        pieces.extend(bore.map(|draft| view("bore detail", draft, Corner::LowerRight, false)));
         let details = details.iter().cloned();
-        pieces.extend(details.map(|draft| view("tooth detail", draft, Corner::LowerLeft)));
+        pieces.extend(details.map(|draft| view("tooth detail", draft, Corner::LowerLeft, false)));
         pieces
     };
     let bounds = part.bounds();
@@ -182,15 +183,16 @@ fn both(
     } else {
         (None, vec![motion])
     };
-    let pieces = |scale: Scale| {
+    let pieces = |scale: Scale, size: SheetSize| {
         let mut pieces = vec![
             table_piece("gear pair data table", &data),
             notes_piece(&lines, Corner::UpperRight),
             Piece {
                 name: "view of both gears",
-                draft: assembly::view(&driver, &driven, scale),
+                draft: assembly::view(&driver, &driven, scale, letters(size)),
                 corner: Corner::UpperLeft,
-                is_view: true,
+                floats: true,
+                leads: true,
             },
         ];
         pieces.extend(beside.iter().map(|table| Piece {
@@ -205,12 +207,21 @@ fn both(
     compose(size, &block, width, &pieces, &flowing)
 }
 
+/// Height of the letters of the views, mm: smaller on the smallest sheet.
+fn letters(size: SheetSize) -> f64 {
+    match size {
+        SheetSize::A4 => 2.5,
+        _ => 3.5,
+    }
+}
+
 fn table_piece(name: &'static str, table: &Table) -> Piece {
     Piece {
         name,
         draft: table.whole(),
         corner: Corner::UpperRight,
-        is_view: false,
+        floats: false,
+        leads: false,
     }
 }
 
@@ -224,7 +235,8 @@ fn notes_piece(lines: &[String], corner: Corner) -> Piece {
         name: "notes",
         draft,
         corner,
-        is_view: false,
+        floats: false,
+        leads: false,
     }
 }
 
