@@ -35,6 +35,8 @@ class Finding:
     """The figure it is held against, in `unit`."""
     unit: str
     """"mm", "rad", or empty for a plain number."""
+    remedy: str | None
+    """What usually helps."""
     place: Place
     """Where it was found."""
 

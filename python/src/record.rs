@@ -83,6 +83,7 @@ fn finding<'py>(py: Python<'py>, finding: &Finding) -> PyResult<Bound<'py, PyAny
         .with("measured", finding.measured)?
         .with("required", finding.required)?
         .with("unit", finding.unit)?
+        .with("remedy", finding.remedy)?
         .with("place", PLACE.make(&place.0)?)?;
     CLASS.make(&keywords.0)
 }

@@ -2,6 +2,7 @@ use std::f64::consts::PI;
 
 use centrode_mechanism::gear::{Gear, GearPair, Limits, Member, ToolKind, Tooth};
 
+use crate::remedy::remedy;
 use crate::{Contact, Finding, Place, Report, Severity};
 
 /// Overlap, in modules, above which two outlines are said to run into each other.
@@ -85,6 +86,7 @@ fn pitch_curves(pair: &GearPair, limits: &Limits, report: &mut Report) {
         {
             report.findings.push(Finding {
                 rule: "shaper-radius",
+                remedy: remedy("shaper-radius"),
                 severity: Severity::Error,
                 message: format!(
                     "the shaper's pitch radius of {radius:.4} mm does not fit the {}'s concave arc, whose radius falls to {:.4} mm",
@@ -103,6 +105,7 @@ fn pitch_curves(pair: &GearPair, limits: &Limits, report: &mut Report) {
     if steepest > PRESSURE_ANGLE {
         report.findings.push(Finding {
             rule: "pressure-angle",
+            remedy: remedy("pressure-angle"),
             severity: Severity::Note,
             message: format!(
                 "the force on the driven gear stands up to {:.1} deg off its direction of turning",
@@ -159,7 +162,6 @@ fn teeth(pair: &GearPair, gear: &Gear, limits: &Limits, report: &mut Report) {
         (found.into_iter().map(|f| f.0).collect(), worst)
     };
     let sides = |tooth: &Tooth| [tooth.leading, tooth.trailing];
-    let remedy = "a smaller module, or addendum = \"fitted\", avoids it";
     let largest = format!(
         "the largest module without it is {:.4} mm",
         limits.largest_module
@@ -180,6 +182,7 @@ fn teeth(pair: &GearPair, gear: &Gear, limits: &Limits, report: &mut Report) {
         );
         report.findings.push(Finding {
             rule,
+            remedy: remedy(rule),
             severity,
             message: say(&who, worst),
             measured: Some(worst),
@@ -211,7 +214,7 @@ fn teeth(pair: &GearPair, gear: &Gear, limits: &Limits, report: &mut Report) {
         "mm",
         &|who, worst| {
             format!(
-                "{who} are undercut, up to {worst:.4} mm of roll; {}; {remedy}",
+                "{who} are undercut, up to {worst:.4} mm of roll; {}",
                 largest
             )
         },
@@ -228,7 +231,7 @@ fn teeth(pair: &GearPair, gear: &Gear, limits: &Limits, report: &mut Report) {
         "mm",
         &|who, worst| {
             format!(
-                "{who} cannot be cut to full height, up to {worst:.4} mm is missing: the pitch curve is concave there, or the shaper ends; {remedy}"
+                "{who} cannot be cut to full height, up to {worst:.4} mm is missing: the pitch curve is concave there, or the shaper ends"
             )
         },
     );
@@ -344,6 +347,7 @@ fn mesh(pair: &GearPair, contact: &Contact, report: &mut Report) {
     if let Some((_, &input)) = loose {
         report.findings.push(Finding {
             rule: "disengaged",
+            remedy: remedy("disengaged"),
             severity: Severity::Error,
             message: "nothing holds the driven gear: no tooth of one gear reaches the other".into(),
             measured: None,
@@ -364,6 +368,7 @@ fn mesh(pair: &GearPair, contact: &Contact, report: &mut Report) {
     if deepest.0 > OVERLAP * module {
         report.findings.push(Finding {
             rule: "interference",
+            remedy: remedy("interference"),
             severity: Severity::Error,
             message: format!("the gears overlap by up to {:.3e} mm", deepest.0),
             measured: Some(deepest.0),
@@ -387,6 +392,7 @@ fn mesh(pair: &GearPair, contact: &Contact, report: &mut Report) {
             / contact.input.len() as f64;
         report.findings.push(Finding {
             rule: "contact-lost",
+            remedy: remedy("contact-lost"),
             severity: Severity::Warning,
             message: format!(
                 "over {:.1} % of the cycle the flanks do not carry the motion: a tooth edge does, and the driven angle is off by up to {:.3e} rad",

@@ -2,6 +2,7 @@
 
 mod check;
 mod contact;
+mod remedy;
 mod report;
 
 pub use check::{check, check_contact};

@@ -45,6 +45,9 @@ pub struct Finding {
     pub required: Option<f64>,
     /// Unit of both figures: `mm`, `rad`, or empty for a plain number.
     pub unit: &'static str,
+    /// What usually helps.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub remedy: Option<&'static str>,
     /// Where it was found.
     pub place: Place,
 }

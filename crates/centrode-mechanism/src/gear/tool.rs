@@ -1,3 +1,5 @@
+use centrode_geometry::bracketed_root;
+
 /// The generating tool, resolved: lengths in mm, angles in rad.
 ///
 /// Heights are about the tool's own datum; the driver is cut with `profile_shift`, the driven gear with
@@ -82,10 +84,25 @@ impl Tool {
     }
 
     /// Greatest rounding that leaves the tool's tip a flat, for a space of pitch-line width `space`
-    /// and `depth`, mm. Source: the two roundings of a rack tooth meet at its middle.
+    /// and `depth`, mm: the two roundings of a tool tooth meet at its middle. Not positive where the tip is
+    /// pointed without any.
     pub(crate) fn greatest_tip_radius(&self, depth: f64, space: f64) -> f64 {
         let (sin, cos) = self.pressure_angle.sin_cos();
-        ((0.5 * space - depth * sin / cos) * cos / (1.0 - sin)).min(depth)
+        match self.kind {
+            ToolKind::Rack => ((0.5 * space - depth * sin / cos) * cos / (1.0 - sin)).min(depth),
+            ToolKind::Shaper { .. } => {
+                // The centre moves towards the middle of the tooth as the rounding grows.
+                let beyond = |radius: f64| self.corner(depth, radius).center - 0.5 * space;
+                let (sharp, round) = (beyond(0.0), beyond(depth));
+                if sharp >= 0.0 {
+                    -sharp
+                } else if round <= 0.0 {
+                    depth
+                } else {
+                    bracketed_root(beyond, 0.0, depth, sharp, round)
+                }
+            }
+        }
     }
 }
 
@@ -140,9 +157,31 @@ mod tests {
 
     #[test]
     fn the_greatest_rounding_leaves_no_land() {
-        let rack = tool(ToolKind::Rack);
         let space = 0.5 * std::f64::consts::PI;
-        let radius = rack.greatest_tip_radius(1.25, space);
-        assert!((2.0 * rack.corner(1.25, radius).center - space).abs() < 1e-14);
+        for kind in [
+            ToolKind::Rack,
+            ToolKind::Shaper { radius: 10.0 },
+            ToolKind::Shaper { radius: 40.0 },
+        ] {
+            let tool = tool(kind);
+            let radius = tool.greatest_tip_radius(1.25, space);
+            assert!((0.2..0.5).contains(&radius), "{kind:?}: {radius}");
+            assert!((2.0 * tool.corner(1.25, radius).center - space).abs() < 1e-14);
+        }
+    }
+
+    #[test]
+    fn a_shapers_tip_is_narrower_than_a_racks_and_may_be_pointed() {
+        let space = 0.5 * std::f64::consts::PI;
+        let greatest = |kind: ToolKind, space: f64| tool(kind).greatest_tip_radius(1.25, space);
+        let rack = greatest(ToolKind::Rack, space);
+        let shaper = greatest(ToolKind::Shaper { radius: 10.0 }, space);
+        assert!(shaper < 0.9 * rack, "{shaper}, {rack}");
+        let large = greatest(ToolKind::Shaper { radius: 1e6 }, space);
+        assert!((large - rack).abs() < 1e-5, "{large}, {rack}");
+        // The flanks meet below the tip.
+        assert!(greatest(ToolKind::Shaper { radius: 10.0 }, 1.0) < 0.0);
+        // Wider than any rounding of the whole depth.
+        assert_eq!(greatest(ToolKind::Shaper { radius: 10.0 }, 9.0), 1.25);
     }
 }

@@ -80,31 +80,10 @@ fn one(finding: &Finding, out: &mut impl Write) -> Result<()> {
         }
         writeln!(out)?;
     }
-    if let Some(remedy) = remedy(finding.rule) {
+    if let Some(remedy) = finding.remedy {
         writeln!(out, "    remedy: {remedy}")?;
     }
     Ok(())
-}
-
-/// What usually helps against a finding.
-fn remedy(rule: &str) -> Option<&'static str> {
-    Some(match rule {
-        "severed" | "undercut" | "short-tooth" => {
-            "more teeth of a smaller module, or teeth.addendum = \"fitted\""
-        }
-        "pointed" | "thin-tip" => {
-            "a smaller addendum or pressure angle, or a smaller profile shift"
-        }
-        "no-flank" | "disengaged" | "contact-lost" => {
-            "a pitch curve of gentler curvature, or more teeth of a smaller module"
-        }
-        "interference" => "more tip clearance or backlash, or a smaller module",
-        "pressure-angle" => {
-            "a pitch curve whose radius changes more slowly, or a smaller tool pressure angle"
-        }
-        "shaper-radius" => "a shaper of fewer teeth, or a pitch curve less concave",
-        _ => return None,
-    })
 }
 
 /// Tooth numbers in rising order, runs of three or more shortened to first and last.
@@ -142,6 +121,7 @@ mod tests {
                 measured: Some(0.0312),
                 required: Some(0.0),
                 unit: "mm",
+                remedy: Some("fewer teeth of a larger module"),
                 place: Place {
                     part: Some("driver".into()),
                     teeth: vec![4, 5, 6],
@@ -157,7 +137,7 @@ mod tests {
             text,
             "1 warning\nwarning [undercut] 3 of 23 teeth of the driver are undercut\n    \
              where: driver, teeth 4-6; driver at 180.00 deg\n    measured 0.0312 mm, required 0\u{20}mm\n    \
-             remedy: more teeth of a smaller module, or teeth.addendum = \"fitted\"\n"
+             remedy: fewer teeth of a larger module\n"
         );
     }
 }
