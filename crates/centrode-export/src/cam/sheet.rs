@@ -74,12 +74,8 @@ pub(super) fn assembly(part: &Cam, contours: &Contours) -> Drawing {
     let Bounds { min, max } = contours.extent;
     let height = 0.025 * contours.extent.diagonal();
     let line = |row: f64, words: String| {
-        Shape::Text(Text {
-            at: Point::new(0.5 * (min.x + max.x), min.y - (1.2 + 1.7 * row) * height),
-            height,
-            words,
-            anchor: Anchor::Middle,
-        })
+        let at = Point::new(0.5 * (min.x + max.x), min.y - (1.2 + 1.7 * row) * height);
+        Shape::Text(Text::new(at, height, words, Anchor::Middle))
     };
     let title = if part.title().is_empty() {
         part.name()
