@@ -10,7 +10,21 @@ True
 """
 
 from . import cam, pitch, plot
-from ._centrode import Body, DiscCam, DrawingSpec, Gear, GearPair, Keyway, Pitch, Rack, Shaper, __version__, template
+from ._centrode import (
+    Body,
+    DiscCam,
+    Drawing,
+    DrawingSpec,
+    Gear,
+    GearPair,
+    Keyway,
+    Pitch,
+    Rack,
+    Shaper,
+    Sheets,
+    __version__,
+    template,
+)
 from ._contact import Contact
 from ._design import load, schema
 from ._error import CamError, DesignError, Error, ExportError, GearPairError, PitchError
@@ -24,6 +38,7 @@ __all__ = [
     "Contact",
     "DesignError",
     "DiscCam",
+    "Drawing",
     "DrawingSpec",
     "Error",
     "ExportError",
@@ -39,6 +54,7 @@ __all__ = [
     "Rack",
     "Report",
     "Shaper",
+    "Sheets",
     "Tooth",
     "ToothSide",
     "__version__",

@@ -15,6 +15,7 @@ __all__ = [
     "_LARGEST_DESIGN",
     "Body",
     "DiscCam",
+    "Drawing",
     "DrawingSpec",
     "Follower",
     "Gear",
@@ -25,6 +26,7 @@ __all__ = [
     "Rack",
     "Segment",
     "Shaper",
+    "Sheets",
     "__version__",
     "_load",
     "_pitch_from_toml",
@@ -59,7 +61,7 @@ _Real: TypeAlias = float | SupportsFloat
 _Plane: TypeAlias = Literal["polar", "cartesian"]
 _Interpolation: TypeAlias = Literal["cubic", "quintic", "trigonometric"]
 _Phase: TypeAlias = _Real | Literal["auto", "tooth", "space", "congruent"]
-_Format: TypeAlias = Literal["dxf", "svg", "stl", "step", "3mf", "csv", "urdf", "mjcf"]
+_Format: TypeAlias = Literal["dxf", "svg", "sheet", "pdf", "stl", "step", "3mf", "csv", "urdf", "mjcf"]
 _SheetSize: TypeAlias = Literal["A4", "A3", "A2", "A1", "A0"]
 _Projection: TypeAlias = Literal["first-angle", "third-angle"]
 _CamFormat: TypeAlias = Literal["dxf", "svg", "stl", "step", "3mf", "csv"]
@@ -324,6 +326,35 @@ class Gear:
     def step(self, path: str | PathLike[str]) -> Path: ...
     def stl(self, path: str | PathLike[str], tolerance: _Real = 1e-3) -> Path: ...
     def threemf(self, path: str | PathLike[str], tolerance: _Real = 1e-3) -> Path: ...
+    def drawing(self, tolerance: _Real = 1e-3) -> Drawing: ...
+    def sheet(
+        self,
+        size: _SheetSize | None = None,
+        *,
+        projection: _Projection | None = None,
+        tolerance: _Real = 1e-3,
+    ) -> Sheets: ...
+
+@final
+class Drawing:
+    @property
+    def dxf(self) -> bytes: ...
+    @property
+    def svg(self) -> bytes: ...
+    def write(self, path: str | PathLike[str]) -> Path: ...
+
+@final
+class Sheets:
+    @property
+    def size(self) -> _SheetSize: ...
+    @property
+    def dxf(self) -> tuple[bytes, ...]: ...
+    @property
+    def svg(self) -> tuple[bytes, ...]: ...
+    @property
+    def pdf(self) -> bytes: ...
+    def write(self, path: str | PathLike[str]) -> list[Path]: ...
+    def __len__(self) -> int: ...
 
 @final
 class GearPair:
@@ -413,6 +444,13 @@ class GearPair:
     def conjugate(self) -> Pitch: ...
     def contact(self, per_pitch: _Count = 8, *, inputs: ArrayLike | None = None) -> Contact: ...
     def check(self) -> Report: ...
+    def sheet(
+        self,
+        size: _SheetSize | None = None,
+        *,
+        projection: _Projection | None = None,
+        tolerance: _Real = 1e-3,
+    ) -> Sheets: ...
     def files(
         self,
         *,

@@ -14,6 +14,7 @@ use crate::array::{points, rows};
 use crate::body::Body;
 use crate::error::{of_bundle, of_files, of_solid, tolerance as within};
 use crate::record;
+use crate::sheet::{Drawing, Sheets, layout};
 use crate::wait::wait;
 
 /// One gear of a pair, in its own frame: axes parallel to the world's at phi = 0.
@@ -265,6 +266,44 @@ impl Gear {
         self.write(py, path, move |pair, member| {
             files::threemf_file(pair, member, tolerance)
         })
+    }
+
+    /// The cutting drawing of the gear, in its own frame.
+    #[pyo3(signature = (tolerance=1e-3))]
+    fn drawing(&self, py: Python<'_>, tolerance: f64) -> PyResult<Drawing> {
+        let (pair, member) = (Arc::clone(&self.pair), self.member);
+        let tolerance = within(tolerance, &self.pair)?;
+        wait(py, move || Drawing::make(&pair, member, tolerance))?.map_err(|e| of_files(&e))
+    }
+
+    /// The drawing sheets of the gear: views, dimensions, gear data, measures over pins, profile.
+    ///
+    /// Args:
+    ///     size: "A4" to "A0"; left out, the design's, or the smallest that takes the gear.
+    ///     projection: "first-angle" or "third-angle"; left out, the design's.
+    ///     tolerance: Greatest distance of a drawn line from the exact one on the part, mm.
+    ///
+    /// Raises:
+    ///     ExportError: The gear does not fit on that size.
+    ///
+    /// >>> import centrode as ct
+    /// >>> ct.GearPair(ct.pitch.circle(module=2, tooth_count=20)).driver.sheet()
+    /// Sheets(2 of A3)
+    #[pyo3(signature = (size=None, *, projection=None, tolerance=1e-3))]
+    fn sheet(
+        &self,
+        py: Python<'_>,
+        size: Option<&str>,
+        projection: Option<&str>,
+        tolerance: f64,
+    ) -> PyResult<Sheets> {
+        let (pair, member) = (Arc::clone(&self.pair), self.member);
+        let tolerance = within(tolerance, &self.pair)?;
+        let sheet = layout(size, projection)?;
+        wait(py, move || {
+            Sheets::make(&pair, member.into(), sheet, tolerance)
+        })?
+        .map_err(|e| of_files(&e))
     }
 
     fn __repr__(&self) -> String {

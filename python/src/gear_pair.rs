@@ -1,9 +1,11 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use centrode::meshing;
 use centrode_analysis::{Contact, check};
 use centrode_export::Bundle;
 use centrode_export::gear_pair as files;
+use centrode_export::gear_pair::{Format, Subject};
 use centrode_mechanism::design::Design;
 use centrode_mechanism::gear as mechanism;
 use centrode_mechanism::gear::Member;
@@ -20,12 +22,13 @@ use crate::body::Body;
 use crate::count::{Count, optional};
 use crate::design::pair_of_text;
 use crate::drawing::DrawingSpec;
-use crate::error::{of_bundle, of_design, of_files, of_pair};
+use crate::error::{of_bundle, of_design, of_files, of_pair, tolerance as within};
 use crate::format::options;
 use crate::gear::Gear;
 use crate::pitch::Pitch;
 use crate::place::{Place, addendum};
 use crate::record;
+use crate::sheet::{Sheets, layout};
 use crate::tool::{self, Tool};
 use crate::wait::wait;
 
@@ -98,7 +101,14 @@ impl GearPair {
     ) -> PyResult<Bundle> {
         let (formats, options) = options(&self.pair, formats, tolerance, dxf_version, dxf_curves)?;
         let pair = Arc::clone(&self.pair);
-        wait(py, move || files::files(&pair, &formats, &options))?.map_err(|e| of_files(&e))
+        wait(py, move || {
+            let mut options = options;
+            if formats.contains(&Format::Sheet) || formats.contains(&Format::Pdf) {
+                options.sheet.meshing = meshing(&check(&pair));
+            }
+            files::files(&pair, &formats, &options)
+        })?
+        .map_err(|e| of_files(&e))
     }
 }
 
@@ -397,6 +407,24 @@ impl GearPair {
         let pair = Arc::clone(&self.pair);
         let report = wait(py, move || check(&pair))?;
         record::report(py, &report)
+    }
+
+    /// The drawing sheets of both gears in place: centre distance, data, motion; as `Gear.sheet`.
+    #[pyo3(signature = (size=None, *, projection=None, tolerance=1e-3))]
+    fn sheet(
+        &self,
+        py: Python<'_>,
+        size: Option<&str>,
+        projection: Option<&str>,
+        tolerance: f64,
+    ) -> PyResult<Sheets> {
+        let pair = Arc::clone(&self.pair);
+        let tolerance = within(tolerance, &self.pair)?;
+        let sheet = layout(size, projection)?;
+        wait(py, move || {
+            Sheets::make(&pair, Subject::Assembly, sheet, tolerance)
+        })?
+        .map_err(|e| of_files(&e))
     }
 
     /// The files of the pair, name to contents, without writing them; `export` writes them.

@@ -15,6 +15,7 @@ mod gear_pair;
 mod pitch;
 mod place;
 mod record;
+mod sheet;
 mod tool;
 mod wait;
 
@@ -45,6 +46,8 @@ mod _centrode {
     };
     #[pymodule_export]
     use crate::pitch::{_pitch_from_toml, Pitch};
+    #[pymodule_export]
+    use crate::sheet::{Drawing, Sheets};
     #[pymodule_export]
     use crate::tool::{Rack, Shaper};
 

@@ -3,4 +3,5 @@
 mod design;
 mod mesh;
 mod pitch;
+mod sheet;
 mod teeth;

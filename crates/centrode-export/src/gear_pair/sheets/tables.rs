@@ -10,7 +10,7 @@ use centrode_mechanism::gear::{
 };
 
 /// Most points of the contour on paper.
-const POINTS: usize = 150;
+const POINTS: usize = 138;
 
 /// The gear data, in the order of ISO 1340 as far as it goes.
 pub(super) fn data(part: &Part<'_>, meshing: Option<Meshing>) -> Table {

@@ -3,7 +3,7 @@
 use super::part::{Part, degrees, number};
 use crate::{
     drawing::{Anchor, Shape},
-    sheet::{Draft, Pen, Scale},
+    sheet::{Draft, Pen, Scale, lettering},
 };
 use centrode_geometry::{Point, Tolerance, Vector};
 use nalgebra::Rotation2;
@@ -82,8 +82,11 @@ pub(super) fn detail(part: &Part<'_>, letter: char, tooth: u32, place: &str) -> 
     let foot = [side.leading, side.trailing].map(|s| upright(part.frame(s.crossing).point));
     let thick = (foot[1] - foot[0]).norm() / k;
     let above = p(0.0, heights(&profile, f64::max, high) + 9.0);
-    draft.dimension(foot, Vector::x(), above, &format!("{thick:.3}"));
-    let right = reach + 9.0;
+    let words = format!("{thick:.3}");
+    // Where the thickness stands beside its arrows the heights keep clear of it.
+    let beyond = foot[0].x.max(foot[1].x) + lettering::width(&words, 3.5) + 13.0;
+    draft.dimension(foot, Vector::x(), above, &words);
+    let right = (reach + 9.0).max(beyond);
     let crest = p(0.0, high);
     let words = format!("{:.3}", high / k);
     draft.dimension(
@@ -92,13 +95,20 @@ pub(super) fn detail(part: &Part<'_>, letter: char, tooth: u32, place: &str) -> 
         p(right, 0.0),
         &words,
     );
-    let words = format!("{:.3}", (high - low) / k);
-    let floor = p(reach, low);
+    // The spaces beside the tooth, not what a bent pitch curve brings into view farther off.
+    let beside: Vec<Point> = profile
+        .iter()
+        .filter(|q| q.x.abs() < 0.6 * pitch * k)
+        .copied()
+        .collect();
+    let root = heights(&beside, f64::min, 0.0);
+    let words = format!("{:.3}", (high - root) / k);
+    let floor = p(reach, root);
     draft.dimension([floor, crest], Vector::y(), p(right + 10.0, 0.0), &words);
     let fillet = side.leading.fillet_radius.min(side.trailing.fillet_radius);
     let own = |q: &&Point| q.x < 0.0 && q.x > -0.5 * pitch * k && q.y < 0.0;
     let at = profile.iter().filter(own).min_by(|a, b| {
-        let off = |q: &Point| (q.y - 0.85 * low).abs();
+        let off = |q: &Point| (q.y - 0.85 * root).abs();
         off(a).total_cmp(&off(b))
     });
     if let (Some(&at), true) = (at, fillet.is_finite() && fillet > 0.0) {

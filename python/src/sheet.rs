@@ -1,0 +1,202 @@
+use std::path::{Path, PathBuf};
+
+use centrode::meshing;
+use centrode_analysis::check;
+use centrode_export::gear_pair::{
+    GearPairFilesError, Options, SheetOptions, SheetSet, Subject, gear_drawing,
+};
+use centrode_export::{dxf, svg, write_file};
+use centrode_geometry::Tolerance;
+use centrode_mechanism::gear::{GearPair, Member};
+use pyo3::prelude::{Bound, PyResult, Python, pyclass, pymethods};
+use pyo3::types::{PyBytes, PyTuple};
+
+use crate::drawing::{projection, size};
+use crate::error::{of_bundle, of_files, unknown_word};
+
+/// The drawing sheets of a gear, or of both in place, as `Gear.sheet` and `GearPair.sheet` lay them out.
+///
+/// >>> import centrode as ct
+/// >>> sheets = ct.GearPair(ct.pitch.circle(module=2, tooth_count=20)).driver.sheet(size="A3")
+/// >>> sheets.size, len(sheets) == len(sheets.svg)
+/// ('A3', True)
+/// >>> sheets.pdf[:5]
+/// b'%PDF-'
+#[pyclass(frozen, module = "centrode")]
+#[derive(Debug)]
+pub(crate) struct Sheets {
+    set: SheetSet,
+    dxf: Vec<Vec<u8>>,
+    pdf: Vec<u8>,
+}
+
+/// The cutting drawing of a gear: profile and bore, and lines of reference.
+///
+/// >>> import centrode as ct
+/// >>> drawing = ct.GearPair(ct.pitch.circle(module=2, tooth_count=20)).driver.drawing()
+/// >>> b"LWPOLYLINE" in drawing.dxf
+/// True
+#[pyclass(frozen, module = "centrode")]
+#[derive(Debug)]
+pub(crate) struct Drawing {
+    dxf: Vec<u8>,
+    svg: Vec<u8>,
+}
+
+impl Sheets {
+    /// Lays out and writes the sheets of a subject; the contact analysis is made for their tables.
+    pub(crate) fn make(
+        pair: &GearPair,
+        subject: Subject,
+        sheet: SheetOptions,
+        tolerance: Tolerance,
+    ) -> Result<Self, GearPairFilesError> {
+        let mut options = Options::new(tolerance);
+        options.sheet = SheetOptions {
+            meshing: meshing(&check(pair)),
+            ..sheet
+        };
+        let set = SheetSet::new(pair, subject, &options)?;
+        let dxf = set.dxf(dxf::Version::default())?;
+        let pdf = set.pdf()?;
+        Ok(Self { set, dxf, pdf })
+    }
+}
+
+impl Drawing {
+    pub(crate) fn make(
+        pair: &GearPair,
+        member: Member,
+        tolerance: Tolerance,
+    ) -> Result<Self, GearPairFilesError> {
+        let drawing = gear_drawing(pair, member, tolerance);
+        let (version, curves) = (dxf::Version::default(), dxf::Curves::default());
+        Ok(Self {
+            dxf: dxf::write(&drawing, version, curves, tolerance)?,
+            svg: svg::write(&drawing, tolerance).into_bytes(),
+        })
+    }
+}
+
+/// Size and projection by their names.
+pub(crate) fn layout(
+    size_name: Option<&str>,
+    projection_name: Option<&str>,
+) -> PyResult<SheetOptions> {
+    Ok(SheetOptions {
+        size: size_name.map(size).transpose()?,
+        projection: projection_name.map(projection).transpose()?,
+        meshing: None,
+    })
+}
+
+/// The ending of a path, one of those known.
+fn ending<'a>(path: &Path, known: &[&'a str]) -> PyResult<&'a str> {
+    let found = path.extension().and_then(|e| e.to_str()).unwrap_or("");
+    let same = known.iter().find(|k| k.eq_ignore_ascii_case(found));
+    same.copied()
+        .ok_or_else(|| unknown_word("path", found, known))
+}
+
+/// Writes files, each whole or not at all.
+fn write(py: Python<'_>, files: Vec<(PathBuf, Vec<u8>)>) -> PyResult<Vec<PathBuf>> {
+    let mut written = Vec::with_capacity(files.len());
+    for (path, bytes) in files {
+        py.detach(|| write_file(&path, bytes))
+            .map_err(|e| of_bundle(py, &e))?;
+        written.push(path);
+    }
+    Ok(written)
+}
+
+#[pymethods]
+impl Sheets {
+    /// Size of the sheets: "A4" to "A0".
+    #[getter]
+    fn size(&self) -> &'static str {
+        self.set.sheets().first().map_or("", |s| s.size.name())
+    }
+
+    /// A DXF file a sheet, R2010, in paper millimetres.
+    #[getter]
+    fn dxf<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
+        PyTuple::new(py, self.dxf.iter().map(|bytes| PyBytes::new(py, bytes)))
+    }
+
+    /// An SVG picture a sheet.
+    #[getter]
+    fn svg<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
+        let pictures = self.set.svg();
+        PyTuple::new(
+            py,
+            pictures
+                .iter()
+                .map(|text| PyBytes::new(py, text.as_bytes())),
+        )
+    }
+
+    /// One PDF, a page a sheet.
+    #[getter]
+    fn pdf<'py>(&self, py: Python<'py>) -> Bound<'py, PyBytes> {
+        PyBytes::new(py, &self.pdf)
+    }
+
+    /// Writes the sheets in the format the path ends in, .pdf, .dxf or .svg; gives the paths.
+    ///
+    /// Several sheets make one PDF, but a file each of the others: name-1.dxf, name-2.dxf.
+    fn write(&self, py: Python<'_>, path: PathBuf) -> PyResult<Vec<PathBuf>> {
+        let pages = match ending(&path, &["pdf", "dxf", "svg"])? {
+            "pdf" => vec![self.pdf.clone()],
+            "dxf" => self.dxf.clone(),
+            _ => self.set.svg().into_iter().map(String::into_bytes).collect(),
+        };
+        let several = pages.len() > 1;
+        let named = pages.into_iter().enumerate().map(|(index, bytes)| {
+            let mut target = path.clone();
+            if let (true, Some(stem)) = (several, path.file_stem()) {
+                let ending = path.extension().unwrap_or_default().to_string_lossy();
+                let stem = stem.to_string_lossy();
+                target.set_file_name(format!("{stem}-{}.{ending}", index + 1));
+            }
+            (target, bytes)
+        });
+        write(py, named.collect())
+    }
+
+    fn __len__(&self) -> usize {
+        self.set.sheets().len()
+    }
+
+    fn __repr__(&self) -> String {
+        format!("Sheets({} of {})", self.__len__(), self.size())
+    }
+}
+
+#[pymethods]
+impl Drawing {
+    /// DXF R2010: closed contours of lines and arcs.
+    #[getter]
+    fn dxf<'py>(&self, py: Python<'py>) -> Bound<'py, PyBytes> {
+        PyBytes::new(py, &self.dxf)
+    }
+
+    /// A picture of the same.
+    #[getter]
+    fn svg<'py>(&self, py: Python<'py>) -> Bound<'py, PyBytes> {
+        PyBytes::new(py, &self.svg)
+    }
+
+    /// Writes the drawing in the format the path ends in, .dxf or .svg; gives the path.
+    fn write(&self, py: Python<'_>, path: PathBuf) -> PyResult<PathBuf> {
+        let bytes = match ending(&path, &["dxf", "svg"])? {
+            "dxf" => self.dxf.clone(),
+            _ => self.svg.clone(),
+        };
+        write(py, vec![(path.clone(), bytes)])?;
+        Ok(path)
+    }
+
+    fn __repr__(&self) -> String {
+        format!("Drawing({} bytes of DXF)", self.dxf.len())
+    }
+}

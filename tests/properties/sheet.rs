@@ -1,0 +1,87 @@
+use std::fs;
+use std::path::Path;
+
+use centrode_export::gear_pair::{Options, SheetOptions, SheetSet, Subject};
+use centrode_export::sheet::overlaps;
+use centrode_geometry::Tolerance;
+use centrode_mechanism::design::{DesignFile, Projection, SheetSize};
+use centrode_mechanism::gear::GearPair;
+use centrode_mechanism::gear::design::Keyway;
+use centrode_tests::sound_pair;
+use proptest::prelude::{ProptestConfig, any, prop_assert, proptest};
+
+const PROJECTIONS: [Projection; 2] = [Projection::FirstAngle, Projection::ThirdAngle];
+
+/// Words on a pair's sheets that touch anything, by subject and page; or why there is no sheet.
+fn unreadable(pair: &GearPair, sheet: SheetOptions) -> Vec<String> {
+    let mut options = Options::new(Tolerance::new(1e-3 * pair.module()).expect("positive"));
+    options.sheet = sheet;
+    let mut found = Vec::new();
+    for subject in Subject::ALL {
+        match SheetSet::new(pair, subject, &options) {
+            Ok(set) => {
+                for (page, sheet) in set.sheets().iter().enumerate() {
+                    let faults = overlaps(sheet);
+                    let told = faults.iter().map(|f| format!("{subject:?} {page}: {f:?}"));
+                    found.extend(told);
+                }
+            }
+            Err(error) => found.push(error.to_string()),
+        }
+    }
+    found
+}
+
+#[test]
+fn words_touch_nothing_on_the_sheets_of_every_design_at_every_size() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("designs");
+    let mut count = 0;
+    for entry in fs::read_dir(folder).expect("the designs") {
+        let path = entry.expect("an entry").path();
+        let file = DesignFile::read(&fs::read(&path).expect("readable")).expect("a design");
+        // Folders hold designs of other families too.
+        let Ok(pair) = file.gear_pair() else { continue };
+        let sizes = SheetSize::ALL.map(Some).into_iter().chain([None]);
+        for (index, size) in sizes.enumerate() {
+            let sheet = SheetOptions {
+                size,
+                projection: Some(PROJECTIONS[index % 2]),
+                ..SheetOptions::default()
+            };
+            let found = unreadable(&pair, sheet);
+            assert!(found.is_empty(), "{} {size:?}: {found:#?}", path.display());
+            count += 1;
+        }
+    }
+    assert!(count >= 6 * 7, "only {count} sets of sheets");
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 24, ..ProptestConfig::default() })]
+
+    #[test]
+    fn words_touch_nothing_on_the_sheets_of_random_designs(
+        mut design in sound_pair(),
+        bore in 0.1..0.9_f64,
+        keyed in any::<bool>(),
+        width in 0.3..3.0_f64,
+        third in any::<bool>(),
+    ) {
+        let plain = GearPair::resolve(&design).expect("valid");
+        for (gear, body) in [(plain.driver(), &mut design.driver), (plain.driven(), &mut design.driven)] {
+            body.bore = 1.2 * bore * gear.radii().0;
+            body.width = width * gear.radii().0;
+            body.keyway = keyed.then_some(Keyway {
+                width: 0.3 * body.bore,
+                depth: 0.15 * body.bore,
+            });
+        }
+        let pair = GearPair::resolve(&design).expect("still valid");
+        let sheet = SheetOptions {
+            projection: Some(PROJECTIONS[usize::from(third)]),
+            ..SheetOptions::default()
+        };
+        let found = unreadable(&pair, sheet);
+        prop_assert!(found.is_empty(), "{found:#?}");
+    }
+}

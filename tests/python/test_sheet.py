@@ -1,0 +1,201 @@
+"""Drawing sheets as other programs read and draw them."""
+
+import io
+from collections import Counter
+
+import ezdxf
+import numpy as np
+import pypdf
+import pypdfium2
+import pytest
+import resvg_py
+from ezdxf import units
+from ezdxf.addons.drawing import Frontend, RenderContext
+from ezdxf.addons.drawing.config import BackgroundPolicy, ColorPolicy, Configuration, LineweightPolicy
+from ezdxf.addons.drawing.matplotlib import MatplotlibBackend
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+from PIL import Image
+from scipy import ndimage
+
+SUBJECTS = ("driver", "driven", "assembly")
+SIZES = {"A4": (210, 297), "A3": (420, 297), "A2": (594, 420), "A1": (841, 594), "A0": (1189, 841)}
+WIDTHS = {"OUTLINE": 50, "CUTTING_PLANE": 50, "FRAME": 70, "HATCH": 18}
+DPMM = 4
+
+
+def pages(exported, subject, ending):
+    """The files of a subject's sheets in order."""
+    found = sorted(exported.folder.glob(f"{subject}-sheet*.{ending}"))
+    assert found
+    return found
+
+
+def millimetres(page):
+    return tuple(round(float(side) * 25.4 / 72, 3) for side in (page.mediabox.width, page.mediabox.height))
+
+
+def size_of(document):
+    """The name of the sheet, as its title block has it."""
+    texts = {e.dxf.text for e in document.modelspace().query("TEXT")}
+    (name,) = texts & set(SIZES)
+    return name
+
+
+@pytest.mark.parametrize("subject", SUBJECTS)
+@pytest.mark.parametrize("flavour", ["r2010", "r12"])
+def test_the_audit_finds_nothing_in_either_release(exported, run, tmp_path, subject, flavour):
+    run("export", exported.design, "--to", tmp_path, "--format", "sheet", "--dxf", flavour, "--part", subject)
+    for file in sorted(tmp_path.glob("*.dxf")):
+        document = ezdxf.readfile(file)
+        audit = document.audit()
+        assert not audit.errors, [error.message for error in audit.errors]
+        assert not audit.fixes, [fix.message for fix in audit.fixes]
+        assert document.header["$INSUNITS"] == units.MM
+        assert document.dxfversion == {"r2010": "AC1024", "r12": "AC1009"}[flavour]
+        assert "ISO3098" in document.styles
+        assert {"CENTER", "PHANTOM"} <= {t.dxf.name.upper() for t in document.linetypes}
+
+
+@pytest.mark.parametrize("subject", SUBJECTS)
+def test_everything_lies_on_the_sheet_and_on_a_layer_of_its_width(exported, subject):
+    for file in pages(exported, subject, "dxf"):
+        document = ezdxf.readfile(file)
+        width, height = SIZES[size_of(document)]
+        layers = {layer.dxf.name for layer in document.layers}
+        for entity in document.modelspace():
+            assert entity.dxf.layer in layers
+            assert entity.dxf.lineweight == WIDTHS.get(entity.dxf.layer, 25)
+            if entity.dxftype() in {"TEXT", "LINE", "SOLID"}:
+                points = [entity.dxf.insert] if entity.dxftype() == "TEXT" else [entity.dxf.get("start", entity.dxf.get("vtx0"))]
+                assert all(0 <= p.x <= width and 0 <= p.y <= height for p in points)
+
+
+def test_the_first_sheet_has_the_views_it_should(exported):
+    document = ezdxf.readfile(pages(exported, "driver", "dxf")[0])
+    space = document.modelspace()
+    counts = Counter((e.dxftype(), e.dxf.layer) for e in space)
+    closed = [e for e in space.query("LWPOLYLINE[layer=='OUTLINE']") if e.closed]
+    values = exported.report()["values"]
+    # The toothed contour has an arc or two for every part of every tooth.
+    assert max(len(e) for e in closed) > 8 * values["driver_tooth_count"]
+    assert counts["LINE", "HATCH"] > 10
+    assert counts["SOLID", "DIMENSION"] >= 12
+    words = {e.dxf.text for e in space.query("TEXT")}
+    assert {"A-A", "Gear data", "Module", "Scale", "Driver gear"} <= words
+    assert f"{int(values['driver_tooth_count'])}" in words
+
+
+@pytest.mark.parametrize("gear", ["driver", "driven"])
+def test_a_shop_finds_its_measures_on_the_sheet(exported, gear):
+    text = "\n".join(page.extract_text() for page in pypdf.PdfReader(exported / f"{gear}.pdf").pages)
+    values = exported.report()["values"]
+    greatest, least = values[f"{gear}_tip_radius_max"], values[f"{gear}_root_radius_min"]
+    if exported.name == "circle":
+        assert f"Ø{2 * greatest:.3f}" in text and f"Ø{2 * least:.3f}" in text
+    else:
+        assert f"R{greatest:.3f}" in text and f"R{least:.3f}" in text
+    pins = exported.folder.joinpath(f"{gear}-pins.csv").read_text().splitlines()
+    header, first = pins[0].split(","), pins[1].split(",")
+    row = dict(zip(header, first, strict=True))
+    assert f"{float(row['axis_to_far_side_mm']):.4f}" in text
+    assert "Backlash, as proved" in text
+    assert "ISO 2768-mK" in text
+
+
+@pytest.mark.parametrize("subject", SUBJECTS)
+def test_pdf_pages_have_their_exact_size_and_carry_the_font(exported, subject):
+    reader = pypdf.PdfReader(exported / f"{subject}.pdf")
+    sheets = pages(exported, subject, "dxf")
+    assert len(reader.pages) == len(sheets)
+    for page, file in zip(reader.pages, sheets, strict=True):
+        assert millimetres(page) == pytest.approx(SIZES[size_of(ezdxf.readfile(file))], abs=0.01)
+        fonts = [font.get_object() for font in page["/Resources"]["/Font"].values()]
+        assert fonts
+        for font in fonts:
+            inner = font["/DescendantFonts"][0].get_object()
+            descriptor = inner["/FontDescriptor"].get_object()
+            assert "CentrodeLettering" in inner["/BaseFont"]
+            assert {"/FontFile2", "/FontFile3"} & set(descriptor)
+        assert "Sheet" in page.extract_text()
+
+
+def shrunk(image):
+    return np.asarray(image.convert("L")) < 160
+
+
+def dxf_picture(file, width, height):
+    figure = Figure(figsize=(width / 25.4, height / 25.4), dpi=25.4 * DPMM)
+    FigureCanvasAgg(figure)
+    axes = figure.add_axes((0, 0, 1, 1))
+    document = ezdxf.readfile(file)
+    configuration = Configuration(
+        background_policy=BackgroundPolicy.WHITE,
+        color_policy=ColorPolicy.BLACK,
+        lineweight_policy=LineweightPolicy.ABSOLUTE,
+    )
+    backend = MatplotlibBackend(axes)
+    Frontend(RenderContext(document), backend, config=configuration).draw_layout(document.modelspace())
+    axes.set_xlim(0, width)
+    axes.set_ylim(0, height)
+    axes.set_aspect("equal")
+    axes.margins(0)
+    buffer = io.BytesIO()
+    figure.savefig(buffer, format="png", dpi=25.4 * DPMM)
+    return shrunk(Image.open(buffer))
+
+
+def svg_picture(file, width):
+    png = resvg_py.svg_to_bytes(svg_string=file.read_text(), width=width * DPMM)
+    return shrunk(Image.open(io.BytesIO(bytes(png))))
+
+
+def pdf_picture(file, page):
+    rendered = pypdfium2.PdfDocument(file)[page].render(scale=DPMM * 25.4 / 72)
+    return shrunk(rendered.to_pil())
+
+
+def share_near(ink, other, millimetres_off):
+    """The share of one picture's ink that has ink of the other's near it."""
+    rows, columns = (min(a, b) for a, b in zip(ink.shape, other.shape, strict=True))
+    ink, other = ink[:rows, :columns], other[:rows, :columns]
+    far = ndimage.distance_transform_edt(~other) > millimetres_off * DPMM
+    return 1 - (ink & far).sum() / ink.sum()
+
+
+@pytest.mark.parametrize("subject", SUBJECTS)
+def test_dxf_svg_and_pdf_show_the_same(exported, subject):
+    sheets = zip(pages(exported, subject, "dxf"), pages(exported, subject, "svg"), strict=True)
+    for page, (dxf, svg) in enumerate(sheets):
+        width, height = SIZES[size_of(ezdxf.readfile(dxf))]
+        pdf = pdf_picture(exported / f"{subject}.pdf", page)
+        assert pdf.shape == pytest.approx((height * DPMM, width * DPMM), abs=2)
+        assert 0.01 < pdf.mean() < 0.15
+        picture = svg_picture(svg, width)
+        for a, b in [(pdf, picture), (picture, pdf)]:
+            assert share_near(a, b, 0.5) > 0.995
+        # The reader has another font at hand: letters differ within their line, lines do not.
+        picture = dxf_picture(dxf, width, height)
+        for a, b in [(pdf, picture), (picture, pdf)]:
+            assert share_near(a, b, 1.2) > 0.99
+
+
+def test_options_that_no_file_has_a_use_for_are_refused(exported, run, tmp_path):
+    for options, word in [
+        (("--format", "stl", "--sheet", "A3"), "--sheet"),
+        (("--format", "dxf", "--projection", "third-angle"), "--projection"),
+        (("--format", "stl", "--part", "assembly"), "--part assembly"),
+        (("--format", "urdf", "--part", "driver"), "--part"),
+    ]:
+        told = run("export", exported.design, "--to", tmp_path / "none", *options, check=False)
+        assert told.returncode == 2 and word in told.stderr, told.stderr
+        assert not (tmp_path / "none").exists()
+
+
+def test_parts_and_sizes_are_as_asked_for(exported, run, tmp_path):
+    options = ("--format", "sheet,pdf", "--part", "driven", "--sheet", "A2", "--projection", "third-angle")
+    run("export", exported.design, "--to", tmp_path, *options)
+    assert {file.name.split("-")[0].split(".")[0] for file in tmp_path.iterdir()} == {"driven"}
+    assert millimetres(pypdf.PdfReader(tmp_path / "driven.pdf").pages[0]) == pytest.approx(SIZES["A2"], abs=0.01)
+    run("export", exported.design, "--to", tmp_path / "first", *options[:-1], "first-angle")
+    assert (tmp_path / "first" / "driven.pdf").read_bytes() != (tmp_path / "driven.pdf").read_bytes()
