@@ -3,6 +3,7 @@
 mod check;
 mod contact;
 mod remedy;
+pub mod optimise;
 mod report;
 
 pub use check::{check, check_contact};

@@ -1,0 +1,19 @@
+//! Search for the best dimensions: one small interface, three methods.
+//!
+//! A [`Problem`] gives bounds and evaluates a point; a [`Search`] improves a population generation by
+//! generation. Randomness comes from the seed and the number of the generation alone, and the points of
+//! a generation are drawn before any of them is evaluated: the same seed gives the same answer on any
+//! number of cores, and a stored search continues as if it had never stopped.
+
+mod cma_es;
+mod differential_evolution;
+mod genetic;
+mod problem;
+mod random;
+mod search;
+pub mod six_bar;
+#[cfg(test)]
+mod tests;
+
+pub use problem::{Candidate, Evaluation, Problem};
+pub use search::{Ended, Method, Progress, Search, SearchError, Settings, minimise};

@@ -1,0 +1,334 @@
+use std::ops::ControlFlow;
+
+use rayon::prelude::{IntoParallelIterator, ParallelIterator};
+use serde::{Deserialize, Serialize};
+
+use super::cma_es::CmaEs;
+use super::differential_evolution::DifferentialEvolution;
+use super::genetic;
+use super::problem::{Candidate, Problem};
+use super::random::Random;
+
+/// How to search.
+#[derive(Clone, Copy, Debug, Default, Deserialize, Eq, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+#[non_exhaustive]
+pub enum Method {
+    /// A real-coded genetic algorithm.
+    #[serde(rename = "ga")]
+    Genetic,
+    /// Differential evolution that learns its parameters.
+    #[default]
+    #[serde(rename = "de")]
+    DifferentialEvolution,
+    /// Covariance matrix adaptation, with restarts.
+    CmaEs,
+}
+
+impl Method {
+    /// Every method by its name.
+    pub const NAMES: [(&'static str, Self); 3] = [
+        ("ga", Self::Genetic),
+        ("de", Self::DifferentialEvolution),
+        ("cma-es", Self::CmaEs),
+    ];
+}
+
+/// How long to search, and from where.
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
+pub struct Settings {
+    /// How to search.
+    pub method: Method,
+    /// Same seed, same answer.
+    pub seed: u64,
+    /// Points a generation; by the method and the number of variables if left out.
+    pub population: Option<usize>,
+    /// Most evaluations; the generation under way is finished.
+    pub evaluations: u64,
+    /// Objective at which a feasible point is good enough.
+    pub target: Option<f64>,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            method: Method::default(),
+            seed: 1,
+            population: None,
+            evaluations: 20_000,
+            target: None,
+        }
+    }
+}
+
+/// The best found up to the end of a generation.
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
+pub struct Progress {
+    /// Generations done.
+    pub generation: u64,
+    /// Evaluations done.
+    pub evaluations: u64,
+    /// Objective of the best point.
+    pub objective: f64,
+    /// How much the best point breaks its constraints.
+    pub violation: f64,
+}
+
+/// Why a search stopped.
+#[derive(Clone, Copy, Debug, Deserialize, Eq, PartialEq, Serialize)]
+pub enum Ended {
+    /// The target was reached.
+    Target,
+    /// The evaluations are used up.
+    Evaluations,
+    /// The observer asked for it.
+    Stopped,
+}
+
+/// Why there is nothing to search.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum SearchError {
+    /// No variable.
+    #[error("the problem has no variable")]
+    NoVariable,
+    /// A variable with no room.
+    #[error("variable {index} runs from {low} to {high}: the bounds must be finite and ascending")]
+    Bounds {
+        /// Its number.
+        index: usize,
+        /// Least value.
+        low: f64,
+        /// Greatest value.
+        high: f64,
+    },
+    /// Too few points for a generation.
+    #[error("a population of {count} is too small; it must be at least {least}")]
+    Population {
+        /// As given.
+        count: usize,
+        /// What the methods need.
+        least: usize,
+    },
+}
+
+/// Fewest points a generation.
+const LEAST_POPULATION: usize = 5;
+
+#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
+enum State {
+    Genetic,
+    DifferentialEvolution(DifferentialEvolution),
+    CmaEs(CmaEs),
+}
+
+/// A search under way: keep it, store it, go on with it.
+#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
+pub struct Search {
+    settings: Settings,
+    bounds: Vec<(f64, f64)>,
+    state: State,
+    /// Points with every variable from 0 to 1.
+    population: Vec<Candidate>,
+    best: Candidate,
+    generation: u64,
+    evaluations: u64,
+    history: Vec<Progress>,
+}
+
+impl Search {
+    /// The first generation: a Latin hypercube, or the points of the first distribution.
+    ///
+    /// # Errors
+    /// [`SearchError`].
+    pub fn new(problem: &dyn Problem, settings: Settings) -> Result<Self, SearchError> {
+        let bounds = problem.bounds();
+        if bounds.is_empty() {
+            return Err(SearchError::NoVariable);
+        }
+        for (index, &(low, high)) in bounds.iter().enumerate() {
+            if !(low.is_finite() && high.is_finite() && low <= high) {
+                return Err(SearchError::Bounds { index, low, high });
+            }
+        }
+        let n = bounds.len();
+        let usual = match settings.method {
+            Method::CmaEs => 4 + (3.0 * (n as f64).ln()) as usize,
+            _ => (10 * n).clamp(20, 200),
+        };
+        let count = settings.population.unwrap_or(usual);
+        if count < LEAST_POPULATION {
+            let least = LEAST_POPULATION;
+            return Err(SearchError::Population { count, least });
+        }
+        let mut random = Random::new(settings.seed, 0);
+        let (state, points) = match settings.method {
+            Method::CmaEs => {
+                let mut cma_es = CmaEs::new(n, count, &mut random);
+                let points = cma_es.points(&mut random);
+                (State::CmaEs(cma_es), points)
+            }
+            method => {
+                let state = if method == Method::Genetic {
+                    State::Genetic
+                } else {
+                    State::DifferentialEvolution(DifferentialEvolution::new())
+                };
+                (state, latin_hypercube(n, count, &mut random))
+            }
+        };
+        let population = evaluated(problem, &bounds, points);
+        let mut search = Self {
+            settings,
+            bounds,
+            state,
+            best: population[0].clone(),
+            population: Vec::new(),
+            generation: 0,
+            evaluations: 0,
+            history: Vec::new(),
+        };
+        search.take_in(&population);
+        match &mut search.state {
+            State::CmaEs(cma_es) => cma_es.update(&population),
+            _ => search.population = population,
+        }
+        Ok(search)
+    }
+
+    /// One generation more.
+    pub fn step(&mut self, problem: &dyn Problem) {
+        let mut random = Random::new(self.settings.seed, self.generation);
+        let points = match &mut self.state {
+            State::Genetic => genetic::children(&self.population, &mut random),
+            State::DifferentialEvolution(de) => de.trials(&self.population, &mut random),
+            State::CmaEs(cma_es) => cma_es.points(&mut random),
+        };
+        let points = evaluated(problem, &self.bounds, points);
+        self.take_in(&points);
+        match &mut self.state {
+            State::Genetic => genetic::select(&mut self.population, points),
+            State::DifferentialEvolution(de) => de.select(&mut self.population, points),
+            State::CmaEs(cma_es) => cma_es.update(&points),
+        }
+    }
+
+    /// Searches until the target is reached, the evaluations are used up or `observe` breaks off; the
+    /// best so far is kept in every case.
+    pub fn run(
+        &mut self,
+        problem: &dyn Problem,
+        observe: &mut dyn FnMut(&Progress) -> ControlFlow<()>,
+    ) -> Ended {
+        loop {
+            let evaluation = &self.best.evaluation;
+            let reached = |target| evaluation.feasible() && evaluation.objective <= target;
+            if self.settings.target.is_some_and(reached) {
+                return Ended::Target;
+            }
+            if self.evaluations >= self.settings.evaluations {
+                return Ended::Evaluations;
+            }
+            if let Some(progress) = self.history.last()
+                && observe(progress).is_break()
+            {
+                return Ended::Stopped;
+            }
+            self.step(problem);
+        }
+    }
+
+    /// Allows more evaluations than the settings did.
+    pub fn extend(&mut self, evaluations: u64) {
+        self.settings.evaluations = self.settings.evaluations.max(evaluations);
+    }
+
+    fn take_in(&mut self, points: &[Candidate]) {
+        self.generation += 1;
+        self.evaluations += points.len() as u64;
+        for candidate in points {
+            if candidate.evaluation.order(&self.best.evaluation).is_lt() {
+                self.best = candidate.clone();
+            }
+        }
+        self.history.push(Progress {
+            generation: self.generation,
+            evaluations: self.evaluations,
+            objective: self.best.evaluation.objective,
+            violation: self.best.evaluation.violation(),
+        });
+    }
+
+    /// The best point found.
+    #[must_use]
+    pub fn best(&self) -> Candidate {
+        Candidate {
+            point: inside(&self.bounds, &self.best.point),
+            evaluation: self.best.evaluation.clone(),
+        }
+    }
+
+    /// The best after each generation.
+    #[must_use]
+    pub fn history(&self) -> &[Progress] {
+        &self.history
+    }
+
+    /// Evaluations done.
+    #[must_use]
+    pub fn evaluations(&self) -> u64 {
+        self.evaluations
+    }
+}
+
+/// Searches from the start.
+///
+/// # Errors
+/// [`SearchError`].
+pub fn minimise(
+    problem: &dyn Problem,
+    settings: Settings,
+    observe: &mut dyn FnMut(&Progress) -> ControlFlow<()>,
+) -> Result<(Search, Ended), SearchError> {
+    let mut search = Search::new(problem, settings)?;
+    let ended = search.run(problem, observe);
+    Ok((search, ended))
+}
+
+fn inside(bounds: &[(f64, f64)], shares: &[f64]) -> Vec<f64> {
+    let bounds = bounds.iter().zip(shares);
+    bounds
+        .map(|(&(low, high), share)| (low + (high - low) * share).clamp(low, high))
+        .collect()
+}
+
+fn evaluated(
+    problem: &dyn Problem,
+    bounds: &[(f64, f64)],
+    points: Vec<Vec<f64>>,
+) -> Vec<Candidate> {
+    let candidate = |point: Vec<f64>| Candidate {
+        evaluation: problem.evaluate(&inside(bounds, &point)),
+        point,
+    };
+    if problem.is_costly() {
+        points.into_par_iter().map(candidate).collect()
+    } else {
+        points.into_iter().map(candidate).collect()
+    }
+}
+
+/// Points of which each variable falls once into each of `count` equal parts of its range.
+fn latin_hypercube(dimension: usize, count: usize, random: &mut Random) -> Vec<Vec<f64>> {
+    let mut points = vec![vec![0.0; dimension]; count];
+    for k in 0..dimension {
+        let mut parts: Vec<usize> = (0..count).collect();
+        for i in (1..count).rev() {
+            parts.swap(i, random.index(i + 1));
+        }
+        for (point, part) in points.iter_mut().zip(parts) {
+            point[k] = (part as f64 + random.share()) / count as f64;
+        }
+    }
+    points
+}
