@@ -3,9 +3,13 @@
 mod check;
 mod contact;
 mod remedy;
+mod kinetostatics;
 pub mod optimise;
 mod report;
+mod swing_spread;
 
 pub use check::{check, check_contact};
 pub use contact::Contact;
+pub use kinetostatics::{CrankMotion, ForceError, Forces, Kinetostatics, LinkMass, Load, Reaction};
 pub use report::{Finding, Place, Report, Severity};
+pub use swing_spread::{SixBarTolerances, SwingSpread};

@@ -9,7 +9,7 @@ const MUTATION: (f64, f64) = (0.3, 40.0);
 const CROSSED: f64 = 0.9;
 
 /// Children of a real-coded genetic algorithm: tournaments of two, simulated binary crossover (Deb and
-/// Agrawal 1995), and in each child on the average one mutation of a size even in its logarithm, as in the
+/// Agrawal 1995), and in each child on the average one mutation of any order of size, the greater ones more often, after the
 /// breeder genetic algorithm (Mühlenbein and Schlierkamp-Voosen 1993, DOI 10.1162/evco.1993.1.1.25).
 pub(super) fn children(population: &[Candidate], random: &mut Random) -> Vec<Vec<f64>> {
     let mut children = Vec::with_capacity(population.len() + 1);
@@ -40,7 +40,7 @@ pub(super) fn children(population: &[Candidate], random: &mut Random) -> Vec<Vec
             let chance = 1.0 / child.len() as f64;
             for x in &mut child {
                 if random.share() < chance {
-                    let size = MUTATION.0 * (-MUTATION.1 * random.share()).exp2();
+                    let size = MUTATION.0 * (-MUTATION.1 * random.share().powi(3)).exp2();
                     *x += if random.share() < 0.5 { size } else { -size };
                 }
                 *x = x.clamp(0.0, 1.0);

@@ -16,4 +16,5 @@ pub mod six_bar;
 mod tests;
 
 pub use problem::{Candidate, Evaluation, Problem};
+pub(crate) use random::Random;
 pub use search::{Ended, Method, Progress, Search, SearchError, Settings, minimise};

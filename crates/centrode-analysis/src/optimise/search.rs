@@ -154,7 +154,8 @@ impl Search {
         let n = bounds.len();
         let usual = match settings.method {
             Method::CmaEs => 4 + (3.0 * (n as f64).ln()) as usize,
-            _ => (10 * n).clamp(20, 200),
+            Method::Genetic => (20 * n).clamp(60, 400),
+            Method::DifferentialEvolution => (10 * n).clamp(20, 200),
         };
         let count = settings.population.unwrap_or(usual);
         if count < LEAST_POPULATION {

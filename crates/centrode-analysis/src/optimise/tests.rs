@@ -57,7 +57,7 @@ fn a_curved_valley_is_followed_to_its_bottom() {
     for (method, n, evaluations, least) in [
         (Method::DifferentialEvolution, 5, 40_000, 1e-10),
         (Method::CmaEs, 10, 40_000, 1e-12),
-        (Method::Genetic, 2, 20_000, 1e-4),
+        (Method::Genetic, 2, 20_000, 1e-3),
     ] {
         let (search, _) = minimise(&Rosenbrock(n), settings(method, evaluations), &mut on)
             .expect("a good problem");
