@@ -157,6 +157,16 @@ impl SixBar {
         }
     }
 
+    /// B, C and E at a crank angle, without derivatives.
+    #[must_use]
+    pub fn joints(&self, input: f64) -> [Point; 3] {
+        let (lengths, branch) = (self.four_bar.lengths(), self.four_bar.branch());
+        let (b, c) = joints(lengths, branch, Taylor::<1>::constant(input));
+        let c = c.at.value();
+        let e = self.pivot + (c - self.pivot).normalize() * self.effector_length;
+        [b.value(), c, e]
+    }
+
     /// The angle that differs from a direction by whole turns and lies in the effector's range, which is
     /// always less than a turn.
     fn unwrapped(&self, direction: f64) -> f64 {
