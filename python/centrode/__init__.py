@@ -22,20 +22,23 @@ from ._centrode import (
     Rack,
     Shaper,
     Sheets,
+    SixBar,
     __version__,
     template,
 )
 from ._contact import Contact
 from ._design import load, schema
-from ._error import CamError, DesignError, Error, ExportError, GearPairError, PitchError
+from ._error import CamError, DesignError, Error, ExportError, GearPairError, LinkageError, PitchError
 from ._over_pins import OverPins
 from ._report import Finding, Place, Report
+from ._six_bar import DeadCenters
 from ._tooth import Tooth, ToothSide
 
 __all__ = [
     "Body",
     "CamError",
     "Contact",
+    "DeadCenters",
     "DesignError",
     "DiscCam",
     "Drawing",
@@ -47,6 +50,7 @@ __all__ = [
     "GearPair",
     "GearPairError",
     "Keyway",
+    "LinkageError",
     "OverPins",
     "Pitch",
     "PitchError",
@@ -55,6 +59,7 @@ __all__ = [
     "Report",
     "Shaper",
     "Sheets",
+    "SixBar",
     "Tooth",
     "ToothSide",
     "__version__",

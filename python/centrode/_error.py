@@ -50,6 +50,21 @@ class CamError(DesignError):
     __module__ = "centrode"
 
 
+class LinkageError(DesignError):
+    """A linkage that cannot exist or turn.
+
+    >>> import centrode as ct
+    >>> try:
+    ...     ct.SixBar(crank=77, coupler=147, rocker=127, frame=45, pivot=(100, 67), effector_length=200)
+    ... except ct.LinkageError as error:
+    ...     print(error)
+    the four-bar must be a crank-rocker, but it is a double crank: the crank must be the shortest, and shortest \
+and longest together must stay below the two others (here by 12 mm)
+    """
+
+    __module__ = "centrode"
+
+
 class ExportError(Error):
     """A file that cannot be made or written; the system's reason, if any, is the cause."""
 

@@ -94,6 +94,21 @@ pub(crate) fn each(
     Ok(answer.into_pyarray(py).into_any())
 }
 
+/// A function applied to each number; the answer has the shape of the question and then that of one
+/// answer, `tail`.
+pub(crate) fn each_array<const COUNT: usize>(
+    py: Python<'_>,
+    Values(values): Values,
+    tail: &[usize],
+    f: impl Fn(f64) -> [f64; COUNT] + Send + 'static,
+) -> PyResult<Py<PyAny>> {
+    let shape = [values.shape(), tail].concat();
+    let answer: Vec<f64> = wait(py, move || values.iter().flat_map(|&v| f(v)).collect())?;
+    let array = ArrayD::from_shape_vec(shape, answer);
+    let array = array.map_err(|error| PyValueError::new_err(error.to_string()))?;
+    Ok(array.into_pyarray(py).into_any().unbind())
+}
+
 /// Rows of numbers as an (N, COLUMNS) array.
 pub(crate) fn rows<'py, T: numpy::Element, const COLUMNS: usize>(
     py: Python<'py>,

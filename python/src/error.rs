@@ -8,6 +8,7 @@ use centrode_mechanism::cam;
 use centrode_mechanism::design::{self, DesignFault};
 use centrode_mechanism::gear::design::SpecError;
 use centrode_mechanism::gear::{self, pitch};
+use centrode_mechanism::linkage::{FourBarError, SixBarError};
 use pyo3::exceptions::PyOSError;
 use pyo3::prelude::{PyErr, PyResult, Python};
 
@@ -17,6 +18,7 @@ mod class {
     pyo3::import_exception!(centrode._error, PitchError);
     pyo3::import_exception!(centrode._error, GearPairError);
     pyo3::import_exception!(centrode._error, CamError);
+    pyo3::import_exception!(centrode._error, LinkageError);
     pyo3::import_exception!(centrode._error, ExportError);
 }
 
@@ -121,5 +123,26 @@ pub(crate) fn of_solid(error: &SolidError) -> PyErr {
     match error {
         SolidError::NoHeight { .. } => class::DesignError::new_err((error.to_string(), "width")),
         _ => class::ExportError::new_err(error.to_string()),
+    }
+}
+
+/// The exception of lengths that make no four-bar.
+pub(crate) fn of_four_bar(error: &FourBarError) -> PyErr {
+    match error {
+        FourBarError::Length { name, .. } => {
+            class::DesignError::new_err((error.to_string(), *name))
+        }
+        _ => class::LinkageError::new_err(error.to_string()),
+    }
+}
+
+/// The exception of a six-bar that cannot turn.
+pub(crate) fn of_six_bar(error: &SixBarError) -> PyErr {
+    match error {
+        SixBarError::Value { .. } => class::DesignError::new_err(error.to_string()),
+        SixBarError::PivotOnPath { .. } => {
+            class::LinkageError::new_err((error.to_string(), "pivot"))
+        }
+        _ => class::LinkageError::new_err(error.to_string()),
     }
 }

@@ -16,6 +16,7 @@ mod pitch;
 mod place;
 mod record;
 mod sheet;
+mod six_bar;
 mod tool;
 mod wait;
 
@@ -48,6 +49,8 @@ mod _centrode {
     use crate::pitch::{_pitch_from_toml, Pitch};
     #[pymodule_export]
     use crate::sheet::{Drawing, Sheets};
+    #[pymodule_export]
+    use crate::six_bar::SixBar;
     #[pymodule_export]
     use crate::tool::{Rack, Shaper};
 

@@ -2,6 +2,7 @@
 
 use centrode_analysis::{Contact, Finding, Report, Severity};
 use centrode_mechanism::gear::{OverPins, Pin, Tooth, ToothSide};
+use centrode_mechanism::linkage;
 use numpy::{IntoPyArray, PyArrayMethods};
 use pyo3::prelude::{Bound, IntoPyObject, Py, PyAny, PyAnyMethods, PyResult, Python};
 use pyo3::sync::PyOnceLock;
@@ -177,5 +178,19 @@ fn side<'py>(py: Python<'py>, side: &ToothSide) -> PyResult<Bound<'py, PyAny>> {
         .with("undercut", side.undercut)?
         .with("active", side.active)?
         .with("fillet_radius", side.fillet_radius)?;
+    CLASS.make(&keywords.0)
+}
+
+/// Dead centres of a six-bar.
+pub(crate) fn dead_centers<'py>(
+    py: Python<'py>,
+    dead: &linkage::DeadCenters,
+) -> PyResult<Bound<'py, PyAny>> {
+    static CLASS: Class = Class::new("centrode._six_bar", "DeadCenters");
+    let keywords = Keywords::new(py)
+        .with("stretched", dead.stretched)?
+        .with("folded", dead.folded)?
+        .with("stretched_at", (dead.stretched_at.x, dead.stretched_at.y))?
+        .with("folded_at", (dead.folded_at.x, dead.folded_at.y))?;
     CLASS.make(&keywords.0)
 }

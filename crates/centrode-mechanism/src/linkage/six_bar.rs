@@ -262,7 +262,8 @@ impl SixBar {
     /// The slider runs on an arc about D. Half a turn is seen from the chord between its dead centres,
     /// and from nowhere else: from outside the circle the arc looks smaller, on the near side of the
     /// chord larger. Every other swing is seen from an isoptic of the arc, found along rays from the
-    /// chord's middle, on which the swing falls all the way (and is below half a turn past the arc).
+    /// chord's middle, on which the swing falls all the way (and is below half a turn past the arc). No
+    /// pivot sees more than half a turn and half the rocker's swing.
     #[must_use]
     pub fn pivots(four_bar: &FourBar, swing: f64, count: usize) -> Vec<Point> {
         let Some(arc) = SliderArc::of(four_bar) else {

@@ -1,0 +1,199 @@
+use std::collections::BTreeMap;
+
+use centrode_geometry::Point;
+use centrode_mechanism::linkage::{self, Branch, FourBar};
+use numpy::PyArray2;
+use pyo3::prelude::{Bound, Py, PyAny, PyResult, Python, pyclass, pymethods};
+
+use crate::array::{Values, each, each_array, points};
+use crate::error::{of_four_bar, of_six_bar, unknown_word};
+use crate::record;
+
+/// A crank-rocker that swings an end effector through a slider: the picking mechanism of 2022.
+///
+/// The crank AB turns about the origin A, the rocker CD about D = (frame, 0). The slider at the joint C of coupler
+/// and rocker runs along the effector, which turns about the fixed pivot F: its angle is the direction from F to C,
+/// without jumps, and its tip E lies at the effector's length from F.
+///
+/// Args:
+///     crank: Length AB, mm; the shortest.
+///     coupler: Length BC, mm.
+///     rocker: Length CD, mm.
+///     frame: Length AD, mm.
+///     pivot: The effector's pivot F, mm.
+///     effector_length: Length FE, mm.
+///     branch: "upper" with C left of the way from B to D, or "lower".
+///
+/// Raises:
+///     LinkageError: The four-bar is no crank-rocker, or the pivot lies on the slider's path.
+///     DesignError: A value breaks a rule of its own.
+///
+/// >>> import centrode as ct
+/// >>> six = ct.SixBar(crank=77, coupler=147, rocker=127, frame=105, pivot=(100, 67), effector_length=200)
+/// >>> round(six.quick_return, 4)
+/// 2.4015
+#[pyclass(frozen, eq, module = "centrode")]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct SixBar(linkage::SixBar);
+
+#[pymethods]
+impl SixBar {
+    #[new]
+    #[pyo3(signature = (*, crank, coupler, rocker, frame, pivot, effector_length, branch="upper"))]
+    #[expect(clippy::too_many_arguments, reason = "keyword arguments")]
+    fn new(
+        crank: f64,
+        coupler: f64,
+        rocker: f64,
+        frame: f64,
+        pivot: (f64, f64),
+        effector_length: f64,
+        branch: &str,
+    ) -> PyResult<Self> {
+        let branch = match branch {
+            "upper" => Branch::Upper,
+            "lower" => Branch::Lower,
+            other => return Err(unknown_word("branch", other, &["upper", "lower"])),
+        };
+        let four_bar = FourBar::new(crank, coupler, rocker, frame, branch);
+        let four_bar = four_bar.map_err(|e| of_four_bar(&e))?;
+        let six_bar = linkage::SixBar::new(four_bar, Point::new(pivot.0, pivot.1), effector_length);
+        six_bar.map(Self).map_err(|e| of_six_bar(&e))
+    }
+
+    /// The joints B and C and the tip E at a crank angle, mm: an array of the shape of `phi` and then (3, 2).
+    ///
+    /// >>> import centrode as ct
+    /// >>> six = ct.SixBar(crank=77, coupler=147, rocker=127, frame=105, pivot=(100, 67), effector_length=200)
+    /// >>> six.position(0.0).round(6)
+    /// array([[ 77.      ,   0.      ],
+    ///        [188.857143,  95.378088],
+    ///        [290.519775, 127.845833]])
+    fn position(&self, py: Python<'_>, phi: Values) -> PyResult<Py<PyAny>> {
+        let six_bar = self.0;
+        each_array(py, phi, &[3, 2], move |phi| {
+            let [b, c, e] = six_bar.joints(phi);
+            [b.x, b.y, c.x, c.y, e.x, e.y]
+        })
+    }
+
+    /// The effector's angle at a crank angle, rad; of an array, an array of the same shape.
+    fn effector_angle<'py>(&self, py: Python<'py>, phi: Values) -> PyResult<Bound<'py, PyAny>> {
+        let six_bar = self.0;
+        each(py, phi, move |phi| six_bar.effector_angle(phi).position)
+    }
+
+    /// The effector's angle and its first three derivatives by the crank angle: an array of the shape of `phi` and
+    /// then (4,).
+    ///
+    /// >>> import centrode as ct
+    /// >>> six = ct.SixBar(crank=77, coupler=147, rocker=127, frame=105, pivot=(100, 67), effector_length=200)
+    /// >>> bool(abs(six.effector_motion(six.dead_centers.folded)[1]) < 1e-12)
+    /// True
+    fn effector_motion(&self, py: Python<'_>, phi: Values) -> PyResult<Py<PyAny>> {
+        let six_bar = self.0;
+        each_array(py, phi, &[4], move |phi| {
+            let jet = six_bar.effector_angle(phi);
+            [jet.position, jet.velocity, jet.acceleration, jet.jerk]
+        })
+    }
+
+    /// The effector's tip E at a crank angle, mm: an array of the shape of `phi` and then (2,).
+    fn effector_tip(&self, py: Python<'_>, phi: Values) -> PyResult<Py<PyAny>> {
+        let six_bar = self.0;
+        each_array(py, phi, &[2], move |phi| {
+            let [_, _, e] = six_bar.joints(phi);
+            [e.x, e.y]
+        })
+    }
+
+    /// The angle at C between coupler and rocker, in (0, pi), rad; of an array, an array of the same shape.
+    fn transmission_angle<'py>(&self, py: Python<'py>, phi: Values) -> PyResult<Bound<'py, PyAny>> {
+        let four_bar = *self.0.four_bar();
+        each(py, phi, move |phi| four_bar.transmission_angle(phi))
+    }
+
+    /// Angle between the ends of the effector's motion, rad.
+    ///
+    /// >>> import centrode as ct
+    /// >>> import math
+    /// >>> six = ct.SixBar(crank=77, coupler=147, rocker=127, frame=105, pivot=(100, 67), effector_length=200)
+    /// >>> round(math.degrees(six.swing), 6)
+    /// 179.744327
+    #[getter]
+    fn swing(&self) -> f64 {
+        self.0.swing()
+    }
+
+    /// Least angle between the lines of coupler and rocker over the cycle, rad.
+    #[getter]
+    fn least_transmission_angle(&self) -> f64 {
+        self.0.four_bar().least_transmission_angle()
+    }
+
+    /// Angle between the rocker's ends, rad.
+    #[getter]
+    fn rocker_swing(&self) -> Option<f64> {
+        self.0.four_bar().rocker_swing()
+    }
+
+    /// Time of the rocker's slower stroke over that of the quicker one.
+    #[getter]
+    fn quick_return(&self) -> Option<f64> {
+        self.0.four_bar().quick_return()
+    }
+
+    /// Crank angle of the rocker's slower stroke, rad.
+    #[getter]
+    fn slow_stroke(&self) -> Option<f64> {
+        self.0.four_bar().slow_stroke()
+    }
+
+    /// Where crank and coupler lie in one line.
+    #[getter]
+    fn dead_centers<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
+        let dead = self.0.four_bar().dead_centers();
+        dead.map(|d| record::dead_centers(py, &d)).transpose()
+    }
+
+    /// How the swing changes with each dimension, rad/mm: exact derivatives by name.
+    ///
+    /// >>> import centrode as ct
+    /// >>> six = ct.SixBar(crank=77, coupler=147, rocker=127, frame=105, pivot=(100, 67), effector_length=200)
+    /// >>> sorted(six.swing_sensitivity)
+    /// ['coupler', 'crank', 'frame', 'pivot_x', 'pivot_y', 'rocker']
+    #[getter]
+    fn swing_sensitivity(&self) -> BTreeMap<&'static str, f64> {
+        let sensitivity = self.0.swing_sensitivity();
+        let [crank, coupler, rocker, frame] = sensitivity.lengths;
+        BTreeMap::from([
+            ("crank", crank),
+            ("coupler", coupler),
+            ("rocker", rocker),
+            ("frame", frame),
+            ("pivot_x", sensitivity.pivot.x),
+            ("pivot_y", sensitivity.pivot.y),
+        ])
+    }
+
+    /// Places of the effector's pivot that all give this swing (rad) with these four lengths, in order along a curve:
+    /// an array (N, 2). Half a turn is seen from the chord between the slider's dead centres, and from nowhere else; more
+    /// than half a turn and half the rocker's swing from nowhere.
+    ///
+    /// >>> import centrode as ct
+    /// >>> import math
+    /// >>> six = ct.SixBar(crank=77, coupler=147, rocker=127, frame=105, pivot=(100, 67), effector_length=200)
+    /// >>> six.pivots(math.pi, 2).round(3)
+    /// array([[160.729,  65.584],
+    ///        [ 52.929,  68.523]])
+    #[pyo3(signature = (swing, count=100))]
+    fn pivots<'py>(
+        &self,
+        py: Python<'py>,
+        swing: f64,
+        count: usize,
+    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let places = linkage::SixBar::pivots(self.0.four_bar(), swing, count);
+        points(py, &places)
+    }
+}
