@@ -4,6 +4,7 @@ mod conjugate;
 pub mod design;
 mod fitted;
 mod flank;
+mod incomplete;
 mod interference;
 mod limits;
 mod over_pins;
@@ -16,6 +17,7 @@ mod tool;
 
 pub use conjugate::Conjugate;
 pub use flank::Side;
+pub use incomplete::{IncompleteDrive, IncompleteError};
 pub use limits::{CurvatureRange, Limits, PitchPoint};
 pub use over_pins::{OverPins, Pin, PinFault};
 pub use pair::{Gear, GearPair, GearPairError};
