@@ -14,6 +14,7 @@ mod law;
 mod reversal;
 mod schedule;
 mod slider;
+mod solid;
 mod traverse;
 
 pub use crossing::{ClearOffset, Crossing};
@@ -27,4 +28,5 @@ pub use law::{
 pub use reversal::Reversal;
 pub use schedule::{Pick, Schedule, Way};
 pub use slider::SliderSpec;
+pub use solid::{ShaftBody, ShaftSolid};
 pub use traverse::Traverse;

@@ -1,0 +1,75 @@
+//! The grooved shaft as a solid.
+
+mod blank;
+mod plan;
+mod surface;
+
+use centrode_geometry::{Mesh, Tolerance};
+
+pub use blank::ShaftBody;
+
+use super::{Groove, ShaftError};
+use blank::Rings;
+use plan::Plan;
+
+/// The shaft with its groove: a cylinder, the groove's radial walls and its floor, journals and a keyway.
+///
+/// The walls stand on the exact offset of the centre line on the shaft's surface and run straight towards
+/// the axis, as a mill slightly thinner than the groove leaves them when it follows both walls.
+/// [`Groove::wall_deviation`] says how far the walls of a mill as wide as the groove differ.
+#[derive(Clone, Debug)]
+pub struct ShaftSolid<'a> {
+    groove: &'a Groove,
+    body: &'a ShaftBody,
+    /// Lower and upper end of the thick part, mm.
+    ends: [f64; 2],
+}
+
+impl<'a> ShaftSolid<'a> {
+    /// The solid of a groove in a body.
+    ///
+    /// # Errors
+    /// [`ShaftError`] where body and groove do not go together.
+    pub fn new(groove: &'a Groove, body: &'a ShaftBody) -> Result<Self, ShaftError> {
+        body.validate(groove)?;
+        let (near, far) = groove.traverse().reach();
+        let beyond = 0.5 * groove.width() + body.margin;
+        Ok(Self {
+            groove,
+            body,
+            ends: [near - beyond, far + beyond],
+        })
+    }
+
+    /// Lower and upper end of the thick part along the axis, mm.
+    #[must_use]
+    pub fn ends(&self) -> [f64; 2] {
+        self.ends
+    }
+
+    /// Lower and upper end of the whole shaft along the axis, mm.
+    #[must_use]
+    pub fn whole(&self) -> [f64; 2] {
+        let [low, high] = self.ends;
+        [
+            low - self.body.journal_length,
+            high + self.body.journal_length,
+        ]
+    }
+
+    /// A closed triangle mesh with outward normals, every triangle within the tolerance of the surface.
+    ///
+    /// Cost grows as the inverse square root of the tolerance.
+    #[must_use]
+    pub fn mesh(&self, tolerance: Tolerance) -> Mesh {
+        let plan = Plan::new(self.groove, self.body.fillet, tolerance);
+        let mut surface = surface::Surface::new(&plan, self.groove.radius(), self.ends);
+        surface.fill();
+        let (mut mesh, lower, upper) = surface.finish();
+        Rings::new(self.body, self.groove.radius(), tolerance).close(&mut mesh, &lower, &upper);
+        mesh
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,226 @@
+use std::collections::{BTreeMap, HashMap};
+
+use centrode_geometry::Mesh;
+
+use super::plan::Plan;
+use crate::shaft::Wall;
+
+/// Which surface a vertex belongs to: the shaft's, or a level of the groove.
+const LAND: usize = usize::MAX;
+
+/// A height as a key that sorts as the number does.
+fn key(z: f64) -> u64 {
+    let bits = (z + 0.0).to_bits();
+    if bits >> 63 == 0 {
+        bits | 1 << 63
+    } else {
+        !bits
+    }
+}
+
+/// Part of the surface between two lines and two edges.
+#[derive(Debug)]
+struct Cell {
+    /// The first of its two lines.
+    line: usize,
+    /// Lower and upper edge: height on both lines, and the level seen from this cell.
+    low: ([f64; 2], usize),
+    high: ([f64; 2], usize),
+}
+
+/// The shaft's surface with the groove in it, between two heights: an open mesh.
+#[derive(Debug)]
+pub(super) struct Surface<'a> {
+    plan: &'a Plan<'a>,
+    radius: f64,
+    ends: [f64; 2],
+    vertices: Vec<[f64; 3]>,
+    faces: Vec<[u32; 3]>,
+    index: HashMap<(usize, u64, usize), u32>,
+    /// Levels of the vertices on each line, by height.
+    on_line: Vec<BTreeMap<u64, Vec<usize>>>,
+    cells: Vec<Cell>,
+}
+
+impl<'a> Surface<'a> {
+    pub(super) fn new(plan: &'a Plan<'a>, radius: f64, ends: [f64; 2]) -> Self {
+        Self {
+            plan,
+            radius,
+            ends,
+            vertices: Vec::new(),
+            faces: Vec::new(),
+            index: HashMap::new(),
+            on_line: vec![BTreeMap::new(); plan.lines.len()],
+            cells: Vec::new(),
+        }
+    }
+
+    pub(super) fn fill(&mut self) {
+        let count = self.plan.lines.len();
+        let mut here = self.plan.heights(0);
+        for line in 0..count {
+            let next = self.plan.heights(line + 1);
+            self.strip(line, &here, &next);
+            here = next;
+        }
+        for cell in std::mem::take(&mut self.cells) {
+            let left = self.chain(cell.line, 0, &cell);
+            let right = self.chain((cell.line + 1) % count, 1, &cell);
+            self.zip(&left, &right);
+        }
+    }
+
+    /// The cells between a line and the next, and the walls between them.
+    fn strip(&mut self, line: usize, here: &[f64], next: &[f64]) {
+        let middle = |edge: usize| here[edge] + next[edge];
+        let mut visible: Vec<usize> = Vec::new();
+        let row = 2 * self.plan.turns;
+        for level in 0..self.plan.levels.len() {
+            // Left and right wall of a turn stand side by side in the numbering.
+            let mut turns: Vec<[usize; 2]> = (level * row..(level + 1) * row)
+                .step_by(2)
+                .map(|left| [left + 1, left])
+                .collect();
+            turns.sort_by(|a, b| middle(a[0]).total_cmp(&middle(b[0])));
+            let mut merged: Vec<[usize; 2]> = Vec::new();
+            for turn in turns {
+                match merged.last_mut() {
+                    Some(last) if middle(turn[0]) <= middle(last[1]) => {
+                        if middle(turn[1]) > middle(last[1]) {
+                            last[1] = turn[1];
+                        }
+                    }
+                    _ => merged.push(turn),
+                }
+            }
+            visible.extend(merged.into_iter().flatten());
+        }
+        visible.sort_by(|&a, &b| {
+            let by_height = middle(a).total_cmp(&middle(b));
+            by_height.then(self.plan.edge(a).level.cmp(&self.plan.edge(b).level))
+        });
+        let mut low = ([self.ends[0]; 2], LAND);
+        for &edge in &visible {
+            let heights = [here[edge], next[edge]];
+            let (level, wall) = (self.plan.edge(edge).level, self.plan.edge(edge).wall);
+            let outside = if level == 0 { LAND } else { level };
+            // A right wall is passed into the groove, a left one out of it.
+            let (below, above) = match wall {
+                Wall::Right => (outside, level),
+                Wall::Left => (level, outside),
+            };
+            self.cell(Cell {
+                line,
+                low,
+                high: (heights, below),
+            });
+            low = (heights, above);
+            if level == 0 {
+                self.upright(line, heights, wall);
+            }
+        }
+        self.cell(Cell {
+            line,
+            low,
+            high: ([self.ends[1]; 2], LAND),
+        });
+    }
+
+    fn cell(&mut self, cell: Cell) {
+        let count = self.plan.lines.len();
+        for (heights, level) in [cell.low, cell.high] {
+            for side in 0..2 {
+                self.vertex((cell.line + side) % count, heights[side], level);
+            }
+        }
+        self.cells.push(cell);
+    }
+
+    /// The upright wall along an edge between a line and the next.
+    fn upright(&mut self, line: usize, heights: [f64; 2], wall: Wall) {
+        let next = (line + 1) % self.plan.lines.len();
+        let corners = [
+            self.vertex(line, heights[0], 0),
+            self.vertex(line, heights[0], LAND),
+            self.vertex(next, heights[1], LAND),
+            self.vertex(next, heights[1], 0),
+        ];
+        let [a, b, c, d] = corners;
+        match wall {
+            Wall::Right => self.faces.extend([[a, b, c], [a, c, d]]),
+            Wall::Left => self.faces.extend([[a, c, b], [a, d, c]]),
+        }
+    }
+
+    fn vertex(&mut self, line: usize, z: f64, level: usize) -> u32 {
+        let (vertices, plan) = (&mut self.vertices, self.plan);
+        let radius = if level == LAND {
+            self.radius
+        } else {
+            plan.levels[level].radius
+        };
+        let on_line = &mut self.on_line[line];
+        *self.index.entry((line, key(z), level)).or_insert_with(|| {
+            let (sin, cos) = plan.lines[line].sin_cos();
+            vertices.push([radius * cos, radius * sin, z]);
+            on_line.entry(key(z)).or_default().push(level);
+            (vertices.len() - 1) as u32
+        })
+    }
+
+    /// Vertices along one side of a cell, upwards: its corners, and what neighbours have between them.
+    fn chain(&self, line: usize, side: usize, cell: &Cell) -> Vec<(f64, u32)> {
+        let (low, high) = (key(cell.low.0[side]), key(cell.high.0[side]));
+        let of = |z: u64, level: usize| {
+            let vertex = self.index[&(line, z, level)];
+            (self.vertices[vertex as usize][2], vertex)
+        };
+        let mut chain = vec![of(low, cell.low.1)];
+        if low < high {
+            let land = cell.low.1 == LAND && cell.high.1 == LAND;
+            for (&z, levels) in self.on_line[line].range(low + 1..high) {
+                for &level in levels.iter().filter(|&&level| (level == LAND) == land) {
+                    chain.push(of(z, level));
+                }
+            }
+        }
+        chain.push(of(high, cell.high.1));
+        chain.dedup_by_key(|(_, vertex)| *vertex);
+        chain
+    }
+
+    /// Triangles between two chains that run upwards, the second on the right seen from outside.
+    fn zip(&mut self, left: &[(f64, u32)], right: &[(f64, u32)]) {
+        let (mut i, mut j) = (0, 0);
+        while i + 1 < left.len() || j + 1 < right.len() {
+            let up_left = j + 1 >= right.len()
+                || (i + 1 < left.len() && left[i + 1].0 + left[i].0 <= right[j + 1].0 + right[j].0);
+            let face = if up_left {
+                i += 1;
+                [left[i - 1].1, right[j].1, left[i].1]
+            } else {
+                j += 1;
+                [left[i].1, right[j - 1].1, right[j].1]
+            };
+            let [a, b, c] = face;
+            if a != b && b != c && c != a {
+                self.faces.push(face);
+            }
+        }
+    }
+
+    /// The mesh, and the vertices along its lower and its upper rim, counter-clockwise seen from above.
+    pub(super) fn finish(self) -> (Mesh, Vec<u32>, Vec<u32>) {
+        let rim = |z: f64| -> Vec<u32> {
+            let lines = 0..self.plan.lines.len();
+            lines.map(|l| self.index[&(l, key(z), LAND)]).collect()
+        };
+        let (lower, upper) = (rim(self.ends[0]), rim(self.ends[1]));
+        let mesh = Mesh {
+            vertices: self.vertices,
+            faces: self.faces,
+        };
+        (mesh, lower, upper)
+    }
+}

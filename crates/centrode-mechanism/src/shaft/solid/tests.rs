@@ -1,0 +1,168 @@
+use std::f64::consts::{PI, TAU};
+
+use centrode_geometry::Tolerance;
+
+use super::{ShaftBody, ShaftSolid};
+use crate::shaft::{Groove, Reversal, Sine, SpeedLaw, Traverse, Wall};
+use crate::transmission::Transmission;
+
+fn groove(holes: u32, offset: f64, phase: f64, width: f64) -> Groove {
+    let law = SpeedLaw::Sine(Sine {
+        amplitude: 1.283_333,
+        harmonic: 1,
+        phase,
+    });
+    let law = law.resolve(20.0, 15.0).expect("runs one way");
+    let traverse = Traverse::new(law, holes, &Reversal::default(), offset).expect("closes");
+    Groove::new(traverse, 15.0, width, 4.0).expect("fits")
+}
+
+fn tolerance(mm: f64) -> Tolerance {
+    Tolerance::new(mm).expect("positive")
+}
+
+fn sharp() -> ShaftBody {
+    ShaftBody {
+        fillet: 0.0,
+        chamfer: 0.0,
+        keyway: None,
+        ..ShaftBody::default()
+    }
+}
+
+/// Area of the groove on the development, by a fine midpoint rule over the angle: at each, the union of
+/// the heights within half the width of the centre line, found on a dense polyline of it.
+fn developed_area(groove: &Groove) -> f64 {
+    let (r, half) = (groove.radius(), 0.5 * groove.width());
+    let traverse = groove.traverse();
+    let turns = traverse.turns();
+    let (columns, steps) = (600_u32, 400_i32);
+    let dx = TAU * r / f64::from(columns);
+    let mut area = 0.0;
+    for column in 0..columns {
+        let phi = TAU * (f64::from(column) + 0.5) / f64::from(columns);
+        let mut spans: Vec<[f64; 2]> = (0..turns)
+            .map(|turn| {
+                let middle = phi + TAU * f64::from(turn);
+                let mut span = [f64::INFINITY, f64::NEG_INFINITY];
+                // A disc of half the width rolls along: its chord over this angle.
+                for i in -steps..=steps {
+                    let x = half * f64::from(i) / f64::from(steps);
+                    let height = (half * half - x * x).sqrt();
+                    let z = traverse.at(middle + x / r).position;
+                    span = [span[0].min(z - height), span[1].max(z + height)];
+                }
+                span
+            })
+            .collect();
+        spans.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        let mut end = f64::NEG_INFINITY;
+        for [low, high] in spans {
+            area += (high - low.max(end)).max(0.0) * dx;
+            end = end.max(high);
+        }
+    }
+    area
+}
+
+#[test]
+fn the_volume_is_that_of_the_developed_area() {
+    let groove = groove(5, 0.0, 0.0, 8.0);
+    let body = sharp();
+    let solid = ShaftSolid::new(&groove, &body).expect("fits");
+    let [low, high] = solid.ends();
+    let (r, floor, journal) = (15.0, 11.0, 0.5 * body.journal_diameter);
+    let removed = developed_area(&groove) * (r * r - floor * floor) / (2.0 * r);
+    let exact = PI * r * r * (high - low) + TAU * journal * journal * body.journal_length - removed;
+    let mut before = f64::INFINITY;
+    for tol in [0.1, 0.01, 0.001] {
+        let mesh = solid.mesh(tolerance(tol));
+        assert!(mesh.is_watertight(), "at {tol}");
+        let error = (mesh.volume() / exact - 1.0).abs();
+        assert!(error < 0.5 * before, "{error} after {before}");
+        before = error;
+    }
+    assert!(before < 1e-4, "{before}");
+}
+
+#[test]
+fn every_kind_of_shaft_is_watertight() {
+    let keyed = ShaftBody::default();
+    for (holes, offset, phase, width) in [
+        (2, 0.0, 0.0, 10.0),
+        (3, 0.0, 0.0, 3.0),
+        (4, 0.7, 0.0, 8.0),
+        (3, 0.0, 0.4, 10.0),
+        (6, 9.9, 1.0, 12.0),
+        (14, 0.0, 0.0, 10.0),
+    ] {
+        let groove = groove(holes, offset, phase, width);
+        for body in [sharp(), keyed.clone()] {
+            for tol in [0.2, 0.02] {
+                let solid = ShaftSolid::new(&groove, &body).expect("fits");
+                let mesh = solid.mesh(tolerance(tol));
+                assert!(
+                    mesh.is_watertight(),
+                    "{holes} {offset} {phase} {width} {tol}"
+                );
+                assert!(mesh.volume() > 0.0);
+            }
+        }
+    }
+}
+
+#[test]
+fn vertices_of_the_walls_lie_half_the_width_from_the_centre_line() {
+    let groove = groove(4, 0.0, 0.0, 8.0);
+    let body = sharp();
+    let solid = ShaftSolid::new(&groove, &body).expect("fits");
+    let mesh = solid.mesh(tolerance(0.02));
+    let [low, high] = solid.ends();
+    let samples: Vec<_> = (0..groove.traverse().turns() * 1600)
+        .map(|i| groove.center(TAU * f64::from(i) / 1600.0))
+        .collect();
+    let mut counted = 0;
+    for [x, y, z] in mesh.vertices {
+        let on_surface = (x.hypot(y) - 15.0).abs() < 1e-9;
+        if !on_surface || z <= low + 1e-9 || z >= high - 1e-9 {
+            continue;
+        }
+        counted += 1;
+        let phi = y.atan2(x).rem_euclid(TAU);
+        let nearest = samples
+            .iter()
+            .map(|p| {
+                let round = 15.0 * TAU;
+                let mut dx = (p.x - 15.0 * phi).rem_euclid(round);
+                dx = dx.min(round - dx);
+                dx.hypot(p.y - z)
+            })
+            .fold(f64::INFINITY, f64::min);
+        assert!((nearest - 4.0).abs() < 2e-4, "{nearest}");
+    }
+    assert!(counted > 1000);
+}
+
+#[test]
+fn the_wall_is_an_exact_offset_and_unwraps_unchanged() {
+    let groove = groove(4, 0.3, 0.2, 8.0);
+    for i in 0..500 {
+        let theta = f64::from(i) * 0.1;
+        for wall in Wall::BOTH {
+            let point = groove.wall(theta, wall);
+            let gap = point - groove.center(theta);
+            assert!((gap.norm() - 4.0).abs() < 1e-12);
+            let slope = groove.traverse().at(theta).velocity;
+            assert!((gap.x * 15.0 + gap.y * slope).abs() < 1e-10);
+            let back = groove.unwrapped(groove.wrapped(point, 15.0), point.x);
+            assert!((back - point).norm() < 1e-12 * (1.0 + point.x.abs()));
+            // The mill's wall has its own development at its own height.
+            let [x, y, z] = groove.cut_wall(theta, wall, 15.0);
+            let (sin, cos) = theta.sin_cos();
+            let across = y * cos - x * sin;
+            let along = z - groove.traverse().at(theta).position;
+            assert!((across.hypot(along) - 4.0).abs() < 1e-12);
+        }
+    }
+    assert!(groove.wall_deviation() > 0.01 && groove.wall_deviation() < 0.2);
+}
