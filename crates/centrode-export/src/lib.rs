@@ -12,6 +12,7 @@ pub mod mjcf;
 pub mod model;
 pub mod pdf;
 pub mod sheet;
+pub mod shaft;
 pub mod step;
 pub mod stl;
 pub mod svg;

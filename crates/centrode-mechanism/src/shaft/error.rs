@@ -118,8 +118,8 @@ impl ShaftError {
             Self::Speed(error) => format!("law.{}", error.key()),
             Self::Amplitude { .. } => "law.amplitude".into(),
             Self::SpeedNotPositive { .. } => "law".into(),
-            Self::MovedDistance { .. } => "law.moved_distance".into(),
-            Self::Window { .. } => "law.window_deg".into(),
+            Self::MovedDistance { .. } => "moved_distance".into(),
+            Self::Window { .. } => "window_deg".into(),
             Self::ReversalAngle(_) | Self::TurnsRound(_) | Self::Bend { .. } => {
                 "reversal.angle_deg".into()
             }

@@ -71,19 +71,20 @@ impl Load {
         self.speed_rpm * TAU / 60.0
     }
 
-    /// Forces for a motion (mm, rad) along a shaft of this radius (mm), by equilibrium.
+    /// Forces for a motion (mm and rad of what turns at the load's speed) on a groove of this lead angle
+    /// (rad) and radius (mm), by equilibrium.
     ///
     /// With the lead angle `a`, the groove's friction angle `f` and the push `P = m (x'' + g mu)`, both
     /// along the way of the box: `F_n = P cos f / cos(a + f)`, `F_oy = P tan(a + f)`. Where `P` is negative
     /// the other wall holds the box back, and the sum becomes a difference. Replaces equations (14) and
     /// (15) of Zhou et al. 2018.
     #[must_use]
-    pub fn force(&self, motion: MotionJet, radius: f64) -> SliderForce {
+    pub fn force(&self, motion: MotionJet, lead_angle: f64, radius: f64) -> SliderForce {
         let omega = self.speed();
         let way = way(&motion);
         let along = way * motion.acceleration * 1e-3 * omega * omega;
         let push = self.mass * (along + GRAVITY * self.rail_friction);
-        let lead = (motion.velocity.abs() / radius).atan();
+        let lead = lead_angle.abs();
         let friction = self.groove_friction.atan();
         let driving = push >= 0.0;
         let angle = if driving {
@@ -106,10 +107,10 @@ impl Load {
     ///
     /// They take load and acceleration for opposed, and (15) carries the wrong sign of (11) on.
     #[must_use]
-    pub fn published(&self, motion: MotionJet, radius: f64) -> (f64, f64) {
+    pub fn published(&self, motion: MotionJet, lead_angle: f64) -> (f64, f64) {
         let omega = self.speed();
         let acceleration = motion.acceleration * 1e-3 * omega * omega;
-        let lead = (motion.velocity.abs() / radius).atan();
+        let lead = lead_angle.abs();
         let friction = self.groove_friction.atan();
         let load = self.mass * (GRAVITY * self.rail_friction - acceleration);
         let cos = (lead + friction).cos();
@@ -161,7 +162,11 @@ impl Groove {
     /// Forces on the slider at an angle of the shaft.
     #[must_use]
     pub fn force(&self, theta: f64, load: &Load) -> SliderForce {
-        load.force(self.traverse().at(theta), self.radius())
+        load.force(
+            self.traverse().at(theta),
+            self.lead_angle(theta),
+            self.radius(),
+        )
     }
 
     /// Least and greatest forces over the cycle.

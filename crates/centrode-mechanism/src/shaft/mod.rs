@@ -6,18 +6,23 @@
 //! equations are cited by their numbers, and derived again where they do not hold.
 
 mod crossing;
+mod design;
 mod elliptic;
 mod error;
 mod force;
 mod groove;
 mod law;
+mod moving_box;
 mod reversal;
 mod schedule;
 mod slider;
 mod solid;
+mod spiral_shaft;
+mod tool_path;
 mod traverse;
 
 pub use crossing::{ClearOffset, Crossing};
+pub use design::{GrooveSpec, SpiralShaftDesign};
 pub use elliptic::EllipticDrive;
 pub use error::ShaftError;
 pub use force::{ForceRange, GRAVITY, Load, SliderForce};
@@ -25,8 +30,14 @@ pub use groove::{Groove, Wall};
 pub use law::{
     AmplitudeFor, RotatedSine, ShaftLaw, Sine, SpeedFormula, SpeedKnots, SpeedLaw, SpeedTable,
 };
+pub use moving_box::{EllipticGears, MovingBox, MovingBoxDesign, Scheme};
 pub use reversal::Reversal;
 pub use schedule::{Pick, Schedule, Way};
 pub use slider::SliderSpec;
 pub use solid::{ShaftBody, ShaftSolid};
+pub use spiral_shaft::SpiralShaft;
+pub use tool_path::Mill;
 pub use traverse::Traverse;
+
+#[cfg(test)]
+mod tests;

@@ -16,10 +16,8 @@ pub struct SliderSpec {
     pub clearance: f64,
     /// How deep it reaches into the groove, mm.
     pub reach: f64,
-    /// Diameter of the pin it turns on, mm.
+    /// Diameter of the bore for the pin it turns on, mm.
     pub pin_diameter: f64,
-    /// Length of the pin above the shaft's surface, mm.
-    pub pin_length: f64,
     /// Density, kg/m^3.
     pub density: f64,
 }
@@ -28,10 +26,9 @@ impl Default for SliderSpec {
     fn default() -> Self {
         Self {
             length: 42.0,
-            clearance: 0.2,
+            clearance: 0.7,
             reach: 3.5,
-            pin_diameter: 8.0,
-            pin_length: 12.0,
+            pin_diameter: 5.0,
             density: 7850.0,
         }
     }
@@ -47,7 +44,6 @@ impl SliderSpec {
         positive("length", self.length)?;
         positive("reach", self.reach)?;
         positive("pin_diameter", self.pin_diameter)?;
-        positive("pin_length", self.pin_length)?;
         positive("density", self.density)?;
         let least = width - self.clearance;
         let range = |value, least, greatest| Rule::OutOfRange {
@@ -61,6 +57,9 @@ impl SliderSpec {
         }
         if self.length < least {
             return broken("length", range(self.length, least, f64::INFINITY));
+        }
+        if self.pin_diameter >= least {
+            return broken("pin_diameter", range(self.pin_diameter, 0.0, least));
         }
         if self.reach > depth {
             return broken("reach", range(self.reach, 0.0, depth));

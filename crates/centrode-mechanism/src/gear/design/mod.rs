@@ -16,7 +16,7 @@ pub use rule::{Rule, SpecError};
 pub use teeth::{Addendum, Phase, TeethSpec};
 pub use tool::{Rack, Shaper, ToolSpec};
 
-use rule::{broken, line, positive, within};
+use rule::{broken, line, name, positive, within};
 
 /// A non-circular gear pair.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
@@ -93,11 +93,7 @@ impl GearPairDesign {
     /// [`SpecError`] with the key at fault and the rule it breaks. The pitch curve's own rules are
     /// those of [`PitchSpec::resolve`].
     pub fn validate(&self) -> Result<(), SpecError> {
-        let safe = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
-        if self.name.is_empty() || self.name.len() > 64 || !self.name.chars().all(safe) {
-            let name = self.name.chars().take(80).collect();
-            return broken("name", Rule::Name(name));
-        }
+        name("name", &self.name)?;
         line("title", &self.title)?;
         let [n1, n2] = self.mean_ratio;
         within("mean_ratio", n1, 1, MOST_TURNS)?;

@@ -44,6 +44,9 @@ pub enum Rule {
     /// Strokes of another kind than the follower makes.
     #[error("needs {0} in every segment, for this follower")]
     Stroke(&'static str),
+    /// A key that must be given.
+    #[error("is needed {0}")]
+    Needed(&'static str),
     /// A name that cannot name a file.
     #[error("must be 1 to 64 letters, digits, '-' or '_', not {0:?}")]
     Name(String),
@@ -126,6 +129,15 @@ pub(crate) fn not_negative(key: &str, value: f64) -> Result<(), SpecError> {
     } else {
         broken(key, Rule::Negative(value))
     }
+}
+
+/// A name that can name a file.
+pub(crate) fn name(key: &str, name: &str) -> Result<(), SpecError> {
+    let safe = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
+    if name.is_empty() || name.len() > 64 || !name.chars().all(safe) {
+        return broken(key, Rule::Name(name.chars().take(80).collect()));
+    }
+    Ok(())
 }
 
 /// Words for a drawing: one line, not endless.

@@ -57,8 +57,8 @@ impl AmplitudeFor {
     /// [`ShaftError::Window`] for a window of whole waves.
     pub fn solve(self) -> Result<f64, ShaftError> {
         positive("lead", self.lead)?;
-        finite("law.moved_distance", self.moved_distance)?;
-        positive("law.window_deg", self.window.to_degrees())?;
+        finite("moved_distance", self.moved_distance)?;
+        positive("window_deg", self.window.to_degrees())?;
         within("law.harmonic", self.harmonic, 1, MOST_HARMONICS)?;
         let n = f64::from(self.harmonic);
         let sin = (0.5 * n * self.window).sin();

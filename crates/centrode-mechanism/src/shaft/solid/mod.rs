@@ -4,7 +4,7 @@ mod blank;
 mod plan;
 mod surface;
 
-use centrode_geometry::{Mesh, Tolerance};
+use centrode_geometry::{Mesh, Point, Tolerance};
 
 pub use blank::ShaftBody;
 
@@ -68,6 +68,16 @@ impl<'a> ShaftSolid<'a> {
         let (mut mesh, lower, upper) = surface.finish();
         Rings::new(self.body, self.groove.radius(), tolerance).close(&mut mesh, &lower, &upper);
         mesh
+    }
+
+    /// Upper edges of the groove's walls as far as they stand, on the development, mm: `(R phi, z)`, the
+    /// angle `phi` from 0 to one turn, each broken where it starts anew.
+    #[must_use]
+    pub fn wall_edges(&self, tolerance: Tolerance) -> Vec<Vec<Point>> {
+        let plan = Plan::new(self.groove, 0.0, tolerance);
+        let mut surface = surface::Surface::new(&plan, self.groove.radius(), self.ends);
+        surface.fill();
+        surface.wall_edges()
     }
 }
 

@@ -1,6 +1,8 @@
 use std::collections::{BTreeMap, HashMap};
 
-use centrode_geometry::Mesh;
+use std::f64::consts::TAU;
+
+use centrode_geometry::{Mesh, Point};
 
 use super::plan::Plan;
 use crate::shaft::Wall;
@@ -40,6 +42,8 @@ pub(super) struct Surface<'a> {
     /// Levels of the vertices on each line, by height.
     on_line: Vec<BTreeMap<u64, Vec<usize>>>,
     cells: Vec<Cell>,
+    /// Edges of the walls' tops: edge of the plan, line, heights there and on the next line.
+    tops: Vec<(usize, usize, [f64; 2])>,
 }
 
 impl<'a> Surface<'a> {
@@ -53,6 +57,7 @@ impl<'a> Surface<'a> {
             index: HashMap::new(),
             on_line: vec![BTreeMap::new(); plan.lines.len()],
             cells: Vec::new(),
+            tops: Vec::new(),
         }
     }
 
@@ -118,6 +123,7 @@ impl<'a> Surface<'a> {
             low = (heights, above);
             if level == 0 {
                 self.upright(line, heights, wall);
+                self.tops.push((edge, line, heights));
             }
         }
         self.cell(Cell {
@@ -130,8 +136,8 @@ impl<'a> Surface<'a> {
     fn cell(&mut self, cell: Cell) {
         let count = self.plan.lines.len();
         for (heights, level) in [cell.low, cell.high] {
-            for side in 0..2 {
-                self.vertex((cell.line + side) % count, heights[side], level);
+            for (side, z) in heights.into_iter().enumerate() {
+                self.vertex((cell.line + side) % count, z, level);
             }
         }
         self.cells.push(cell);
@@ -208,6 +214,23 @@ impl<'a> Surface<'a> {
                 self.faces.push(face);
             }
         }
+    }
+
+    /// The tops of the walls on the development, each as far as it stands within one turn.
+    pub(super) fn wall_edges(mut self) -> Vec<Vec<Point>> {
+        let angle = |line: usize| self.plan.lines.get(line).copied().unwrap_or(TAU);
+        let at = |line: usize, z: f64| Point::new(self.radius * angle(line), z);
+        self.tops.sort_by_key(|&(edge, line, _)| (edge, line));
+        let mut edges: Vec<Vec<Point>> = Vec::new();
+        let mut last = None;
+        for &(edge, line, [here, next]) in &self.tops {
+            match edges.last_mut() {
+                Some(points) if last == Some((edge, line)) => points.push(at(line + 1, next)),
+                _ => edges.push(vec![at(line, here), at(line + 1, next)]),
+            }
+            last = Some((edge, line + 1));
+        }
+        edges
     }
 
     /// The mesh, and the vertices along its lower and its upper rim, counter-clockwise seen from above.

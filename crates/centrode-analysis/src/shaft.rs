@@ -1,0 +1,464 @@
+use std::f64::consts::{FRAC_PI_6, TAU};
+
+use centrode_mechanism::shaft::{ClearOffset, Crossing, MovingBox, Pick, ShaftError, SpiralShaft};
+use centrode_mechanism::transmission::Transmission;
+
+use crate::{Finding, Place, Report, Severity};
+
+/// Pressure angle, rad, above which a follower moved along its guide runs badly: 30 deg.
+const PRESSURE_ANGLE: f64 = FRAC_PI_6;
+/// Misplacement, mm, below which a hole is met.
+const MET: f64 = 1e-6;
+/// Steps of one turn at which the box of a geared shaft is looked at.
+const STEPS: u32 = 3600;
+
+/// Checks a spiral shaft: what it moves while picking, its crossings, slider and forces.
+///
+/// Lengths are mm, angles rad, forces N, torques N mm; speeds and accelerations of the slider are by the
+/// radian of shaft turn unless the name ends in a unit. Names ending in `_min` and `_max` are over the
+/// whole cycle, those of the speed over the strokes.
+#[must_use]
+pub fn check_shaft(shaft: &SpiralShaft) -> Report {
+    let mut report = Report::default();
+    moved(shaft, shaft.moved_in_window(), &mut report);
+    motion(shaft, &mut report);
+    schedule(shaft, &mut report);
+    groove(shaft, &mut report);
+    crossings(shaft, &mut report);
+    slider(shaft, &mut report);
+    forces(shaft, &mut report);
+    sort(&mut report);
+    report
+}
+
+/// Checks a moving box: its shaft, and the motion its drive gives it. The figures of the box itself begin
+/// with `box_`; those without are the shaft's, turned evenly.
+#[must_use]
+pub fn check_moving_box(machine: &MovingBox) -> Report {
+    let mut report = check_shaft(machine.shaft());
+    report.findings.retain(|f| f.rule != "moved-distance");
+    let Some(drive) = machine.drive() else {
+        moved(machine.shaft(), machine.moved_in_window(), &mut report);
+        sort(&mut report);
+        return report;
+    };
+    moved(machine.shaft(), machine.moved_in_window(), &mut report);
+    let values = &mut report.values;
+    values.insert("gear_eccentricity", drive.eccentricity);
+    let k = drive.eccentricity;
+    values.insert("shaft_speed_ratio_min", (1.0 - k) / (1.0 + k));
+    values.insert("shaft_speed_ratio_max", (1.0 + k) / (1.0 - k));
+    values.insert("box_moved_distance", machine.moved_in_window());
+    let load = machine.shaft().load();
+    let mean = machine.shaft().law().mean_speed();
+    let inputs = (0..STEPS).map(|i| TAU * f64::from(i) / f64::from(STEPS));
+    let motions: Vec<_> = inputs.map(|input| machine.stroke_at(input)).collect();
+    let over = |of: &dyn Fn(usize) -> f64| {
+        (0..motions.len())
+            .map(of)
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| {
+                (a.min(x), b.max(x))
+            })
+    };
+    let (slow, fast) = over(&|i| motions[i].velocity / mean);
+    values.insert("box_speed_ratio_min", slow);
+    values.insert("box_speed_ratio_max", fast);
+    let (braking, speeding) = over(&|i| motions[i].acceleration);
+    values.insert("box_acceleration_max", speeding.max(-braking));
+    let limit = load.contact_limit_rpm(-braking);
+    values.insert("box_contact_limit_rpm", limit);
+    let input = |i: usize| TAU * i as f64 / f64::from(STEPS);
+    let stroke = |i: usize| {
+        let turn = machine.shaft_turn(input(i));
+        let lead = (machine.shaft().law().at(turn.position).velocity
+            / machine.shaft().groove().radius())
+        .atan();
+        load.force(motions[i], lead, machine.shaft().groove().radius())
+    };
+    let (least, greatest) = over(&|i| stroke(i).normal);
+    values.insert("box_normal_force_min", least);
+    values.insert("box_normal_force_max", greatest);
+    report.findings.retain(|f| f.rule != "contact-lost");
+    contact(limit, load.speed_rpm, &mut report);
+    sort(&mut report);
+    report
+}
+
+fn sort(report: &mut Report) {
+    report
+        .findings
+        .sort_by_key(|f| std::cmp::Reverse(f.severity));
+}
+
+fn at(theta: f64) -> Place {
+    Place {
+        part: Some("shaft".into()),
+        input: Some(theta),
+        ..Place::default()
+    }
+}
+
+/// What the box moves while a seedling is picked, against a sixth of the pot.
+fn moved(shaft: &SpiralShaft, moved: f64, report: &mut Report) {
+    let design = shaft.design();
+    let limit = design.pot_width / 6.0;
+    let plain = shaft.law().mean_speed() * design.window;
+    report.values.insert("moved_distance", moved);
+    report.values.insert("moved_distance_plain", plain);
+    report.values.insert("moved_distance_limit", limit);
+    if moved > limit {
+        report.findings.push(Finding {
+            rule: "moved-distance",
+            severity: Severity::Error,
+            message: format!(
+                "the box moves {moved:.4} mm while a seedling is picked, more than a sixth of the pot, {limit:.4} mm"
+            ),
+            measured: Some(moved),
+            required: Some(limit),
+            unit: "mm",
+            place: at(design.pick),
+        });
+    }
+}
+
+fn motion(shaft: &SpiralShaft, report: &mut Report) {
+    let (law, traverse) = (shaft.law(), shaft.traverse());
+    let mean = law.mean_speed();
+    let values = &mut report.values;
+    values.insert("lead", law.lead());
+    if let Some(amplitude) = shaft.amplitude() {
+        values.insert("amplitude", amplitude);
+    }
+    values.insert("speed_ratio_min", law.slowest().value / mean);
+    values.insert("speed_ratio_max", law.fastest().value / mean);
+    values.insert("speed_min", law.slowest().value);
+    values.insert("speed_max", law.fastest().value);
+    values.insert("cycle_turns", f64::from(traverse.turns()));
+    let [far, near] = traverse.overshoot();
+    values.insert("overshoot_far", far);
+    values.insert("overshoot_near", near);
+    let range = shaft.groove().force_range(shaft.load());
+    let omega = shaft.load().speed();
+    values.insert("deceleration_max", range.deceleration.value);
+    let metres = 1e-3 * omega * omega;
+    let braking = range.deceleration_of_cycle.value * metres;
+    values.insert("deceleration_max_m_s2", braking);
+}
+
+fn schedule(shaft: &SpiralShaft, report: &mut Report) {
+    let schedule = shaft.schedule();
+    let limit = shaft.design().pot_width / 6.0;
+    let worst = schedule.worst().map_or(0.0, |p| p.misplacement.abs());
+    report.values.insert("misplacement_max", worst);
+    let swept = schedule.picks.iter().map(|p| p.swept).fold(0.0, f64::max);
+    report.values.insert("moved_distance_of_cycle_max", swept);
+    if let Some(Pick {
+        turn,
+        hole,
+        misplacement,
+        theta,
+        ..
+    }) = schedule.worst()
+        && misplacement.abs() > MET
+    {
+        let severity = if misplacement.abs() > limit {
+            Severity::Error
+        } else {
+            Severity::Note
+        };
+        report.findings.push(Finding {
+            rule: "misplaced-hole",
+            severity,
+            message: format!(
+                "turn {turn} of the cycle picks {:.4} mm beside hole {hole}",
+                misplacement.abs()
+            ),
+            measured: Some(misplacement.abs()),
+            required: Some(limit),
+            unit: "mm",
+            place: at(*theta),
+        });
+    }
+    let uneven: Vec<u32> = (0..)
+        .zip(&schedule.visits)
+        .filter(|(_, visits)| **visits != 2)
+        .map(|(hole, _)| hole)
+        .collect();
+    if let Some(first) = uneven.first() {
+        report.findings.push(Finding {
+            rule: "hole-not-picked-twice",
+            severity: Severity::Error,
+            message: format!(
+                "{} of {} holes, hole {first} the first of them, are not picked exactly once each way",
+                uneven.len(),
+                schedule.visits.len()
+            ),
+            measured: Some(f64::from(schedule.visits[*first as usize])),
+            required: Some(2.0),
+            unit: "",
+            place: at(shaft.design().pick),
+        });
+    }
+}
+
+fn groove(shaft: &SpiralShaft, report: &mut Report) {
+    let groove = shaft.groove();
+    let steepest = groove.steepest();
+    let values = &mut report.values;
+    let lead = |speed: f64| (speed / groove.radius()).atan();
+    values.insert("lead_angle_min", lead(shaft.law().slowest().value));
+    values.insert("lead_angle_max", lead(shaft.law().fastest().value));
+    values.insert("pressure_angle_max", steepest.value);
+    values.insert("bend_radius_min", 1.0 / groove.tightest().value);
+    values.insert("wall_deviation_max", groove.wall_deviation());
+    if steepest.value > PRESSURE_ANGLE {
+        report.findings.push(Finding {
+            rule: "pressure-angle",
+            severity: Severity::Warning,
+            message: format!(
+                "the wall pushes the slider up to {:.2} deg off its way",
+                steepest.value.to_degrees()
+            ),
+            measured: Some(steepest.value),
+            required: Some(PRESSURE_ANGLE),
+            unit: "rad",
+            place: at(steepest.input),
+        });
+    }
+}
+
+/// Distance of an angle from the nearest whole turn, rad.
+fn from_turn(angle: f64) -> f64 {
+    let within = angle.rem_euclid(TAU);
+    within.min(TAU - within)
+}
+
+fn crossings(shaft: &SpiralShaft, report: &mut Report) {
+    let groove = shaft.groove();
+    let all = groove.crossings();
+    let longest = all.iter().map(|c| c.gap).fold(0.0, f64::max);
+    let shortest = all.iter().map(|c| c.gap).fold(f64::INFINITY, f64::min);
+    report.values.insert("crossing_count", all.len() as f64);
+    report.values.insert("crossing_gap_max", longest);
+    report.values.insert("crossing_gap_min", shortest);
+    let length = shaft.slider().length;
+    if longest >= length {
+        let open = all.iter().filter(|c| c.gap >= length).count();
+        report.findings.push(Finding {
+            rule: "slider-length",
+            severity: Severity::Error,
+            message: format!(
+                "a slider {length} mm long loses both walls at {open} of {} crossings; it takes more than {longest:.3} mm",
+                all.len()
+            ),
+            measured: Some(length),
+            required: Some(longest),
+            unit: "mm",
+            place: Place {
+                part: Some("slider".into()),
+                ..Place::default()
+            },
+        });
+    }
+    let design = shaft.design();
+    let in_window = |c: &&Crossing| {
+        [c.out, c.back]
+            .iter()
+            .any(|theta| from_turn(theta - design.pick) <= 0.5 * design.window)
+    };
+    let picked = all.iter().filter(in_window).count();
+    report
+        .values
+        .insert("crossings_while_picking", picked as f64);
+    let Some(first) = all.iter().find(in_window) else {
+        return;
+    };
+    report.findings.push(Finding {
+        rule: "crossing-while-picking",
+        severity: Severity::Warning,
+        message: format!(
+            "{picked} of {} crossings are passed while a seedling is picked, where the walls are missing over {:.2} mm; {}",
+            all.len(),
+            first.gap,
+            advice(shaft)
+        ),
+        measured: Some(first.gap),
+        required: Some(length),
+        unit: "mm",
+        place: at(first.out),
+    });
+}
+
+/// The shift of the return groove that brings the slow places off the crossings, in words.
+fn advice(shaft: &SpiralShaft) -> String {
+    let law = shaft.law();
+    let steepest = 2.0 * (law.mean_speed() / shaft.groove().radius()).atan();
+    let wanted = 1.25 * shaft.groove().width() / steepest.sin();
+    match offered(shaft, wanted) {
+        Ok(clear) => format!(
+            "return_offset = {:.4} lets {:.2} mm of slider bridge those of the strokes and misses each hole by {:.4} mm; meeting the same hole at the same angle both ways always crosses there",
+            clear.return_offset, clear.slider_length, clear.misplacement
+        ),
+        Err(error) => format!("no shifted return groove: {error}"),
+    }
+}
+
+fn offered(shaft: &SpiralShaft, length: f64) -> Result<ClearOffset, ShaftError> {
+    shaft
+        .groove()
+        .clear_offset(length, &shaft.design().reversal)
+}
+
+fn slider(shaft: &SpiralShaft, report: &mut Report) {
+    let slider = shaft.slider();
+    let needed = slider.needed_clearance(shaft.groove());
+    report.values.insert("slider_clearance_min", needed);
+    if needed > slider.clearance {
+        report.findings.push(Finding {
+            rule: "slider-clearance",
+            severity: Severity::Warning,
+            message: format!(
+                "a straight slider {} mm long needs {needed:.4} mm of clearance where the groove bends most, and has {}",
+                slider.length, slider.clearance
+            ),
+            measured: Some(slider.clearance),
+            required: Some(needed),
+            unit: "mm",
+            place: at(shaft.groove().tightest().input),
+        });
+    }
+}
+
+fn forces(shaft: &SpiralShaft, report: &mut Report) {
+    let load = shaft.load();
+    let range = shaft.groove().force_range(load);
+    let values = &mut report.values;
+    values.insert("speed_rpm", load.speed_rpm);
+    values.insert("normal_force_min", range.normal[0].value);
+    values.insert("normal_force_max", range.normal[1].value);
+    let picking = shaft.force(shaft.design().pick, load);
+    values.insert("normal_force_picking", picking.normal);
+    values.insert("normal_force_reversal_max", range.normal_of_reversal.value);
+    values.insert("torque_min", range.torque[0].value);
+    values.insert("torque_max", range.torque[1].value);
+    values.insert("jamming_angle", load.jamming_angle());
+    let limit = load.contact_limit_rpm(range.deceleration.value);
+    values.insert("contact_limit_rpm", limit);
+    values.insert(
+        "contact_limit_cycle_rpm",
+        load.contact_limit_rpm(range.deceleration_of_cycle.value),
+    );
+    contact(limit, load.speed_rpm, report);
+    let steepest = shaft.groove().steepest();
+    if steepest.value >= load.jamming_angle() {
+        report.findings.push(Finding {
+            rule: "jamming",
+            severity: Severity::Error,
+            message: format!(
+                "at {:.2} deg the slider jams: friction allows less than {:.2} deg",
+                steepest.value.to_degrees(),
+                load.jamming_angle().to_degrees()
+            ),
+            measured: Some(steepest.value),
+            required: Some(load.jamming_angle()),
+            unit: "rad",
+            place: at(steepest.input),
+        });
+    }
+}
+
+fn contact(limit: f64, speed: f64, report: &mut Report) {
+    if speed > limit {
+        report.findings.push(Finding {
+            rule: "contact-lost",
+            severity: Severity::Warning,
+            message: format!(
+                "at {speed} r/min the box runs ahead and the slider changes walls on the stroke; it stays on one up to {limit:.2} r/min"
+            ),
+            measured: Some(speed),
+            required: Some(limit),
+            unit: "",
+            place: Place {
+                part: Some("slider".into()),
+                ..Place::default()
+            },
+        });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use centrode_mechanism::shaft::{EllipticGears, MovingBoxDesign, Scheme, SpiralShaftDesign};
+    use std::f64::consts::PI;
+
+    fn published() -> SpiralShaftDesign {
+        SpiralShaftDesign {
+            moved_distance: Some(2.05),
+            ..SpiralShaftDesign::default()
+        }
+    }
+
+    fn rules(report: &Report) -> Vec<&'static str> {
+        report.findings.iter().map(|f| f.rule).collect()
+    }
+
+    fn report(design: &SpiralShaftDesign) -> Report {
+        check_shaft(&SpiralShaft::resolve(design).expect("resolves"))
+    }
+
+    #[test]
+    fn the_published_shaft_works_but_picks_on_its_crossings() {
+        let report = report(&published());
+        assert!(report.ok());
+        assert_eq!(rules(&report), ["crossing-while-picking"]);
+        let offered = &report.findings[0].message;
+        assert!(offered.contains("return_offset = "), "{offered}");
+        assert!((report.values["moved_distance"] - 2.05).abs() < 1e-12);
+        assert!((report.values["contact_limit_rpm"] - 323.36).abs() < 0.01);
+    }
+
+    #[test]
+    fn each_fault_is_found() {
+        let plain = report(&SpiralShaftDesign::default());
+        assert!(!plain.ok() && rules(&plain).contains(&"moved-distance"));
+        let mut design = published();
+        design.reversal.angle = PI;
+        let half = report(&design);
+        assert!(rules(&half).contains(&"misplaced-hole"));
+        assert!(rules(&half).contains(&"hole-not-picked-twice"));
+        let mut design = published();
+        design.slider.length = 30.0;
+        assert!(rules(&report(&design)).contains(&"slider-length"));
+        let mut design = published();
+        design.slider.clearance = 0.1;
+        assert!(rules(&report(&design)).contains(&"slider-clearance"));
+        let mut design = published();
+        design.load.speed_rpm = 330.0;
+        assert!(rules(&report(&design)).contains(&"contact-lost"));
+        let mut design = published();
+        (design.radius, design.groove.width, design.groove.depth) = (5.0, 4.0, 1.0);
+        (design.slider.reach, design.body.journal_diameter) = (0.8, 4.0);
+        design.slider.pin_diameter = 2.0;
+        (design.body.keyway, design.body.chamfer) = (None, 0.3);
+        assert!(rules(&report(&design)).contains(&"pressure-angle"));
+    }
+
+    #[test]
+    fn the_elliptic_scheme_has_its_published_figures() {
+        let design = MovingBoxDesign {
+            scheme: Scheme::EllipticGear,
+            gears: Some(EllipticGears {
+                speed_ratio: Some(3.0),
+                ..EllipticGears::default()
+            }),
+            ..MovingBoxDesign::default()
+        };
+        let machine = MovingBox::resolve(&design).expect("resolves");
+        let report = check_moving_box(&machine);
+        assert!(report.ok(), "{:?}", report.findings);
+        assert!((report.values["moved_distance"] - 1.954_217).abs() < 1e-6);
+        assert!((report.values["box_contact_limit_rpm"] - 239.66).abs() < 0.01);
+        assert!((report.values["moved_distance_plain"] - 10.0 / 3.0).abs() < 1e-12);
+    }
+}

@@ -1,0 +1,156 @@
+use super::*;
+use centrode_geometry::Tolerance;
+use centrode_mechanism::shaft::SpiralShaftDesign;
+use std::f64::consts::TAU;
+
+fn shaft(holes: u32) -> SpiralShaft {
+    let design = SpiralShaftDesign {
+        moved_distance: Some(2.05),
+        holes,
+        ..SpiralShaftDesign::default()
+    };
+    SpiralShaft::resolve(&design).expect("resolves")
+}
+
+fn options() -> Options {
+    Options::new(Tolerance::new(0.01).expect("positive"))
+}
+
+fn text(bundle: &Bundle, name: &str) -> String {
+    let found = bundle.files().find(|(n, _)| *n == name);
+    String::from_utf8(found.expect("in the bundle").1.to_vec()).expect("text")
+}
+
+#[test]
+fn every_file_is_there_and_the_same_twice() {
+    let bundle = files(&shaft(4), &Format::ALL, &options()).expect("made");
+    let names: Vec<&str> = bundle.files().map(|(name, _)| name).collect();
+    let expected = [
+        "groove.dxf",
+        "groove.svg",
+        "shaft.dxf",
+        "shaft.svg",
+        "slider.dxf",
+        "slider.svg",
+        "slider.step",
+        "shaft.stl",
+        "shaft.3mf",
+        "slider.stl",
+        "slider.3mf",
+        "lead-table.csv",
+        "motion.csv",
+        "schedule.csv",
+        "tool-path.csv",
+        "groove.ngc",
+    ];
+    assert_eq!(names, expected);
+    let again = files(&shaft(4), &Format::ALL, &options()).expect("made");
+    assert!(bundle == again);
+}
+
+#[test]
+fn a_tolerance_that_leaves_no_groove_is_refused() {
+    let coarse = Options::new(Tolerance::new(1.0).expect("positive"));
+    let refused = files(&shaft(4), &[Format::Stl], &coarse);
+    assert!(matches!(refused, Err(ShaftFilesError::Tolerance { .. })));
+}
+
+#[test]
+fn the_lead_table_has_a_row_every_five_degrees_of_28_turns() {
+    let table = text(
+        &files(&shaft(14), &[Format::Csv], &options()).expect("made"),
+        "lead-table.csv",
+    );
+    assert_eq!(table.lines().count(), 1 + 28 * 72 + 1);
+    let last = table.lines().last().expect("rows");
+    let cells: Vec<f64> = last
+        .split(',')
+        .map(|c| c.parse().expect("number"))
+        .collect();
+    assert!((cells[0] - 28.0 * 360.0).abs() < 1e-9 && cells[1].abs() < 1e-12);
+}
+
+/// Moves of a program: X, A, Z in force at the end of each G1 line, with its feed word.
+fn moves(program: &str) -> Vec<[f64; 4]> {
+    let mut place = [0.0; 4];
+    let mut moves = Vec::new();
+    for line in program.lines() {
+        let cutting = line.starts_with("G1");
+        if !line.starts_with('G') {
+            continue;
+        }
+        for word in line.split(' ') {
+            let (letter, value) = word.split_at(1);
+            let slot = ["X", "A", "Z", "F"].iter().position(|l| *l == letter);
+            if let (Some(slot), Ok(value)) = (slot, value.parse()) {
+                place[slot] = value;
+            }
+        }
+        if cutting {
+            moves.push(place);
+        }
+    }
+    moves
+}
+
+#[test]
+fn the_program_follows_the_groove_at_its_feed_and_never_turns_back() {
+    let shaft = shaft(4);
+    let tolerance = options().tolerance;
+    let program = program(&shaft, tolerance);
+    let moves = moves(&program);
+    let (r, turns) = (15.0, shaft.traverse().turns());
+    for pair in moves.windows(2) {
+        let [before, after] = [pair[0], pair[1]];
+        assert!(after[1] >= before[1] - 1e-9, "A turns back");
+        // On the way: the middle of each chord is near the centre line.
+        let middle = 0.5 * (before[1] + after[1]);
+        let turn = f64::from(turns) * 360.0;
+        let there = (middle.rem_euclid(turn)).to_radians();
+        if before[2] == after[2] && after[1] - before[1] < 90.0 {
+            let off = shaft.groove().center(there).y - 0.5 * (before[0] + after[0]);
+            assert!(off.abs() < 1.05 * tolerance.mm(), "{off}");
+            let length = (r * (after[1] - before[1]).to_radians()).hypot(after[0] - before[0]);
+            // Minutes for the block, times its length.
+            assert!(
+                (length * after[3] - 150.0).abs() < 0.5,
+                "{}",
+                length * after[3]
+            );
+        }
+    }
+    let deepest = moves.iter().map(|m| m[2]).fold(f64::INFINITY, f64::min);
+    assert!((deepest - 11.0).abs() < 1e-9);
+    let last = moves.last().expect("moves");
+    assert!((last[1] - 4.0 * f64::from(turns) * 360.0).abs() < 1e-4);
+    // Nothing turns before the operator has been asked.
+    let stop = program.find("M0").expect("asks");
+    assert!(stop < program.find("G1 ").expect("cuts") && !program.contains("M3"));
+}
+
+#[test]
+fn the_developed_walls_stand_half_the_width_from_the_centre_line() {
+    let shaft = shaft(3);
+    let edges = shaft.wall_edges(options().tolerance).expect("fits");
+    let way = shaft
+        .groove()
+        .way(0.0, Tolerance::new(1e-5).expect("positive"));
+    let around = TAU * 15.0;
+    assert!(edges.len() > 20);
+    for edge in edges.iter().step_by(3) {
+        for point in edge.iter().step_by(5) {
+            let nearest = way
+                .windows(2)
+                .map(|pair| {
+                    let shift = ((pair[0].x - point.x) / around).round() * around;
+                    let (a, b) = (pair[0].coords, pair[1].coords);
+                    let q = point.coords + nalgebra::Vector2::new(shift, 0.0);
+                    let along = b - a;
+                    let share = ((q - a).dot(&along) / along.norm_squared()).clamp(0.0, 1.0);
+                    (q - a - along * share).norm()
+                })
+                .fold(f64::INFINITY, f64::min);
+            assert!((nearest - 5.0).abs() < 1e-4, "{nearest}");
+        }
+    }
+}

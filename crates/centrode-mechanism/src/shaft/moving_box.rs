@@ -1,0 +1,338 @@
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::{EllipticDrive, Load, ShaftError, SliderForce, SpiralShaft, SpiralShaftDesign};
+use crate::gear::design::rule::{Rule, between, broken, line, name, positive, within};
+use crate::gear::design::{BodySpec, GearPairDesign, SpecError, TeethSpec, ToolSpec};
+use crate::gear::pitch::{Ellipse, PitchSpec};
+use crate::transmission::{MotionJet, Transmission};
+
+/// What slows the box down while a seedling is picked.
+#[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Scheme {
+    /// The shaft's groove.
+    #[default]
+    Shaft,
+    /// A pair of elliptic gears before a plain shaft.
+    EllipticGear,
+    /// Elliptic gears before a variable shaft.
+    Both,
+}
+
+/// The pair of elliptic gears before the shaft, ratio 1.
+///
+/// Of `eccentricity`, `speed_ratio` and `moved_distance` exactly one is given.
+#[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct EllipticGears {
+    /// Eccentricity of the pitch ellipses.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub eccentricity: Option<f64>,
+    /// Greatest speed of the shaft over its least.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub speed_ratio: Option<f64>,
+    /// Distance a plain shaft shall move the box in the window, mm.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub moved_distance: Option<f64>,
+    /// Module, mm.
+    pub module: f64,
+    /// Teeth of each gear.
+    pub tooth_count: u32,
+    /// The tool that cuts both gears.
+    pub tool: ToolSpec,
+    /// Teeth of both gears.
+    pub teeth: TeethSpec,
+    /// Body of both gears.
+    pub body: BodySpec,
+}
+
+impl Default for EllipticGears {
+    fn default() -> Self {
+        Self {
+            eccentricity: None,
+            speed_ratio: None,
+            moved_distance: None,
+            module: 2.25,
+            tooth_count: 23,
+            tool: ToolSpec::default(),
+            teeth: TeethSpec::default(),
+            body: BodySpec::default(),
+        }
+    }
+}
+
+impl EllipticGears {
+    /// Ranges, and that the eccentricity is given once.
+    ///
+    /// # Errors
+    /// [`SpecError`] with the key at fault.
+    pub fn validate(&self) -> Result<(), SpecError> {
+        if let Some(k) = self.eccentricity {
+            between("eccentricity", k, [0.0, 0.95], "")?;
+        }
+        if let Some(ratio) = self.speed_ratio {
+            between("speed_ratio", ratio, [1.0, 100.0], "")?;
+        }
+        if let Some(moved) = self.moved_distance {
+            positive("moved_distance", moved)?;
+        }
+        let given = [
+            ("eccentricity", self.eccentricity),
+            ("speed_ratio", self.speed_ratio),
+            ("moved_distance", self.moved_distance),
+        ];
+        let mut given = given.iter().filter(|(_, value)| value.is_some());
+        match (given.next(), given.next()) {
+            (Some((first, _)), Some((key, _))) => return broken(key, Rule::Excludes(first)),
+            (None, _) => {
+                let rule = Rule::NeedsOneOf("eccentricity, speed_ratio and moved_distance");
+                return broken("eccentricity", rule);
+            }
+            _ => {}
+        }
+        positive("module", self.module)?;
+        within("tooth_count", self.tooth_count, 3, 10_000)?;
+        self.tool.validate().map_err(|e| e.inside("tool"))?;
+        self.teeth.validate().map_err(|e| e.inside("teeth"))?;
+        self.body.validate().map_err(|e| e.inside("body"))
+    }
+
+    /// The turn of the shaft, slowest at `pick` (rad).
+    fn drive(&self, shaft: &SpiralShaftDesign) -> Result<EllipticDrive, ShaftError> {
+        let drive = match (self.eccentricity, self.speed_ratio, self.moved_distance) {
+            (Some(eccentricity), ..) => EllipticDrive {
+                eccentricity,
+                phase: 0.0,
+            },
+            (_, Some(ratio), _) => EllipticDrive::for_speed_ratio(ratio)?,
+            (.., moved) => {
+                let moved = moved.unwrap_or_default();
+                EllipticDrive::for_moved_distance(moved, shaft.window, shaft.lead)?
+            }
+        };
+        Ok(EllipticDrive {
+            phase: shaft.pick,
+            ..drive
+        })
+    }
+}
+
+/// A seedling box moved at a variable speed, as written.
+#[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct MovingBoxDesign {
+    /// Short name, used for file names: letters, digits, `-` and `_`.
+    pub name: String,
+    /// One line for drawings and reports.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub title: String,
+    /// What slows the box down.
+    pub scheme: Scheme,
+    /// The elliptic gears, for the schemes that have them.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub gears: Option<EllipticGears>,
+    /// The shaft.
+    pub shaft: SpiralShaftDesign,
+}
+
+impl Default for MovingBoxDesign {
+    fn default() -> Self {
+        Self {
+            name: "moving-box".into(),
+            title: String::new(),
+            scheme: Scheme::default(),
+            gears: None,
+            shaft: SpiralShaftDesign::default(),
+        }
+    }
+}
+
+impl MovingBoxDesign {
+    /// The rules that need no geometry.
+    ///
+    /// # Errors
+    /// [`SpecError`] with the key at fault.
+    pub fn validate(&self) -> Result<(), SpecError> {
+        name("name", &self.name)?;
+        line("title", &self.title)?;
+        match (self.scheme, &self.gears) {
+            (Scheme::Shaft, Some(_)) => {
+                return broken("gears", Rule::Excludes("scheme = \"shaft\""));
+            }
+            (Scheme::EllipticGear | Scheme::Both, None) => {
+                return broken("gears", Rule::Needed("for this scheme"));
+            }
+            (_, Some(gears)) => gears.validate().map_err(|e| e.inside("gears"))?,
+            _ => {}
+        }
+        self.shaft.validate().map_err(|e| e.inside("shaft"))
+    }
+
+    /// The gear pair of the scheme, the driver's far apex on the line of centres at the slow place.
+    #[must_use]
+    pub fn gear_pair(&self, drive: &EllipticDrive) -> Option<GearPairDesign> {
+        let gears = self.gears.as_ref()?;
+        let mut pair = GearPairDesign::new(PitchSpec::Ellipse(Ellipse {
+            eccentricity: drive.eccentricity,
+            module: Some(gears.module),
+            tooth_count: Some(gears.tooth_count),
+            ..Ellipse::default()
+        }));
+        pair.name = format!("{}-gears", self.name);
+        pair.tool = gears.tool.clone();
+        pair.teeth = gears.teeth.clone();
+        pair.driver = gears.body.clone();
+        pair.driven = gears.body.clone();
+        Some(pair)
+    }
+}
+
+/// A moving box: the shaft, what drives it, and the box's motion as a function of the machine's input.
+#[derive(Clone, Debug)]
+pub struct MovingBox {
+    design: MovingBoxDesign,
+    shaft: SpiralShaft,
+    drive: Option<EllipticDrive>,
+    motion: Arc<dyn Transmission>,
+}
+
+impl MovingBox {
+    /// Resolves a design.
+    ///
+    /// # Errors
+    /// [`ShaftError`] naming the violated rule and its numbers; its key is that inside `shaft` or `gears`.
+    pub fn resolve(design: &MovingBoxDesign) -> Result<Self, ShaftError> {
+        design.validate()?;
+        let shaft = SpiralShaft::resolve(&design.shaft)?;
+        let law = shaft.law();
+        let steady = law.fastest().value - law.slowest().value <= 1e-12 * law.mean_speed();
+        if design.scheme == Scheme::EllipticGear && !steady {
+            let rule = Rule::Excludes("scheme = \"elliptic-gear\", whose shaft is plain");
+            broken("shaft.law", rule)?;
+        }
+        let drive = match &design.gears {
+            Some(gears) => Some(gears.drive(&design.shaft)?),
+            None => None,
+        };
+        let traverse = Arc::new(shaft.traverse().clone());
+        let motion: Arc<dyn Transmission> = match drive {
+            Some(drive) => Arc::new(Driven { drive, traverse }),
+            None => traverse,
+        };
+        Ok(Self {
+            design: design.clone(),
+            shaft,
+            drive,
+            motion,
+        })
+    }
+
+    /// The design as written.
+    #[must_use]
+    pub fn design(&self) -> &MovingBoxDesign {
+        &self.design
+    }
+
+    /// The shaft.
+    #[must_use]
+    pub fn shaft(&self) -> &SpiralShaft {
+        &self.shaft
+    }
+
+    /// The turn of the shaft by the gears, where there are any.
+    #[must_use]
+    pub fn drive(&self) -> Option<&EllipticDrive> {
+        self.drive.as_ref()
+    }
+
+    /// Turn of the shaft at an input, rad.
+    #[must_use]
+    pub fn shaft_turn(&self, input: f64) -> MotionJet {
+        match &self.drive {
+            Some(drive) => drive.at(input),
+            None => MotionJet {
+                position: input,
+                velocity: 1.0,
+                ..MotionJet::default()
+            },
+        }
+    }
+
+    /// Motion of the box by the machine's input, mm and rad.
+    #[must_use]
+    pub fn motion(&self) -> &dyn Transmission {
+        self.motion.as_ref()
+    }
+
+    /// Distance the box moves in the window around the first picking, mm, in full stroke.
+    #[must_use]
+    pub fn moved_in_window(&self) -> f64 {
+        let design = self.shaft.design();
+        let (middle, half) = (design.pick, 0.5 * design.window);
+        let turn = |input: f64| self.shaft_turn(input).position;
+        self.shaft
+            .law()
+            .moved(turn(middle - half), turn(middle + half))
+    }
+
+    /// Motion of a stroke, as if it had no end, by the machine's input.
+    #[must_use]
+    pub fn stroke_at(&self, input: f64) -> MotionJet {
+        let turn = self.shaft_turn(input);
+        self.shaft.law().at(turn.position).after(&turn)
+    }
+
+    /// Forces on the slider at an input, with a load whose speed is that of the input.
+    #[must_use]
+    pub fn force(&self, input: f64, load: &Load) -> SliderForce {
+        let turn = self.shaft_turn(input);
+        let groove = self.shaft.groove();
+        load.force(
+            self.motion.at(input),
+            groove.lead_angle(turn.position),
+            groove.radius(),
+        )
+    }
+}
+
+/// A way out and back driven by gears.
+#[derive(Debug)]
+struct Driven {
+    drive: EllipticDrive,
+    traverse: Arc<super::Traverse>,
+}
+
+impl Transmission for Driven {
+    fn at(&self, input: f64) -> MotionJet {
+        let turn = self.drive.at(input);
+        self.traverse.at(turn.position).after(&turn)
+    }
+
+    fn period(&self) -> f64 {
+        self.traverse.period()
+    }
+
+    fn breaks(&self) -> Vec<f64> {
+        // The gears turn the shaft once for each turn of the input: one turn's inverse serves all.
+        let turns = self.traverse.turns();
+        let mut breaks: Vec<f64> = self
+            .traverse
+            .breaks()
+            .into_iter()
+            .map(|theta| {
+                let turn = (theta / TAU).floor();
+                let within = theta - turn * TAU;
+                let off = |input: f64| self.drive.at(input).position - within;
+                let (low, high) = (within - 2.0, within + 2.0);
+                let input = centrode_geometry::bracketed_root(off, low, high, off(low), off(high));
+                (input + turn * TAU).rem_euclid(TAU * f64::from(turns))
+            })
+            .collect();
+        breaks.sort_by(f64::total_cmp);
+        breaks
+    }
+}

@@ -1,0 +1,167 @@
+use centrode_geometry::{Mesh, Outline, Point, Solid, SolidError, Tolerance};
+
+use super::{
+    Groove, Load, Schedule, ShaftBody, ShaftError, ShaftLaw, ShaftSolid, SliderForce, SliderSpec,
+    SpeedLaw, SpiralShaftDesign, Traverse,
+};
+use crate::transmission::Transmission;
+
+/// A spiral shaft: law, groove, slider and body, resolved.
+#[derive(Clone, Debug)]
+pub struct SpiralShaft {
+    design: SpiralShaftDesign,
+    law: SpeedLaw,
+    groove: Groove,
+}
+
+impl SpiralShaft {
+    /// Resolves a design.
+    ///
+    /// # Errors
+    /// [`ShaftError`] naming the violated rule and its numbers.
+    pub fn resolve(design: &SpiralShaftDesign) -> Result<Self, ShaftError> {
+        design.validate()?;
+        let law = design.solved_law()?;
+        let traverse = Traverse::new(
+            law.resolve(design.lead, design.radius)?,
+            design.holes,
+            &design.reversal,
+            design.return_offset,
+        )?;
+        let groove = Groove::new(
+            traverse,
+            design.radius,
+            design.groove.width,
+            design.groove.depth,
+        )?;
+        design.body.validate(&groove)?;
+        Ok(Self {
+            design: design.clone(),
+            law,
+            groove,
+        })
+    }
+
+    /// The design as written.
+    #[must_use]
+    pub fn design(&self) -> &SpiralShaftDesign {
+        &self.design
+    }
+
+    /// Name, as written in the design.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.design.name
+    }
+
+    /// Title, as written in the design.
+    #[must_use]
+    pub fn title(&self) -> &str {
+        &self.design.title
+    }
+
+    /// The law with the amplitude it has.
+    #[must_use]
+    pub fn speed_law(&self) -> &SpeedLaw {
+        &self.law
+    }
+
+    /// Amplitude of a sine, mm; none for other laws.
+    #[must_use]
+    pub fn amplitude(&self) -> Option<f64> {
+        match &self.law {
+            SpeedLaw::Sine(law) => Some(law.amplitude),
+            SpeedLaw::RotatedSine(law) => Some(law.amplitude),
+            _ => None,
+        }
+    }
+
+    /// The law of the strokes.
+    #[must_use]
+    pub fn law(&self) -> &ShaftLaw {
+        self.traverse().law()
+    }
+
+    /// The slider's motion over the whole way out and back.
+    #[must_use]
+    pub fn traverse(&self) -> &Traverse {
+        self.groove.traverse()
+    }
+
+    /// The groove.
+    #[must_use]
+    pub fn groove(&self) -> &Groove {
+        &self.groove
+    }
+
+    /// The slider.
+    #[must_use]
+    pub fn slider(&self) -> &SliderSpec {
+        &self.design.slider
+    }
+
+    /// The body.
+    #[must_use]
+    pub fn body(&self) -> &ShaftBody {
+        &self.design.body
+    }
+
+    /// What is moved, and how fast.
+    #[must_use]
+    pub fn load(&self) -> &Load {
+        &self.design.load
+    }
+
+    /// Which hole is picked when.
+    #[must_use]
+    pub fn schedule(&self) -> Schedule {
+        Schedule::of(self.traverse(), self.design.pick, self.design.window)
+    }
+
+    /// Distance the box moves while the first seedling on the way is picked in full stroke, mm.
+    #[must_use]
+    pub fn moved_in_window(&self) -> f64 {
+        let (pick, half) = (self.design.pick, 0.5 * self.design.window);
+        self.law().moved(pick - half, pick + half)
+    }
+
+    /// Forces on the slider at an angle of the shaft.
+    #[must_use]
+    pub fn force(&self, theta: f64, load: &Load) -> SliderForce {
+        self.groove.force(theta, load)
+    }
+
+    /// The shaft as a closed triangle mesh within the tolerance.
+    ///
+    /// # Errors
+    /// [`ShaftError`] where body and groove do not go together.
+    pub fn mesh(&self, tolerance: Tolerance) -> Result<Mesh, ShaftError> {
+        Ok(ShaftSolid::new(&self.groove, self.body())?.mesh(tolerance))
+    }
+
+    /// The slider as an extrusion along its pin, its foot at z = 0, with the bore for the pin.
+    ///
+    /// # Errors
+    /// [`SolidError`] where it has no height.
+    pub fn slider_solid(&self) -> Result<Solid, SolidError> {
+        let slider = self.slider();
+        let bore = Outline::circle(Point::origin(), 0.5 * slider.pin_diameter);
+        let outline = slider.outline(self.groove.width());
+        Solid::new(outline, vec![bore], 0.0, slider.reach)
+    }
+
+    /// Upper edges of the groove's walls as far as they stand, on the development, mm; each broken where
+    /// the angle round the shaft starts anew.
+    ///
+    /// # Errors
+    /// [`ShaftError`] where body and groove do not go together.
+    pub fn wall_edges(&self, tolerance: Tolerance) -> Result<Vec<Vec<Point>>, ShaftError> {
+        Ok(ShaftSolid::new(&self.groove, self.body())?.wall_edges(tolerance))
+    }
+
+    /// Shaft turns of the whole cycle, rad.
+    #[must_use]
+    pub fn cycle(&self) -> f64 {
+        self.traverse().period()
+    }
+}
