@@ -286,7 +286,7 @@ fn bad_shafts_are_refused_by_name() {
         (d.radius, d.lead) = (1.4, 20.0);
         d.reversal.angle = PI;
         (d.groove.depth, d.groove.width, d.slider.reach) = (0.3, 3.0, 0.2);
-        d.slider.clearance = 0.1;
+        (d.slider.clearance, d.slider.pin_diameter) = (0.1, 1.0);
     });
     assert_eq!(bend, "reversal.angle_deg");
     let speed = SpeedLaw::Formula(SpeedFormula {
