@@ -23,6 +23,7 @@ from ._centrode import (
     Shaper,
     Sheets,
     SixBar,
+    SpiralShaft,
     __version__,
     template,
 )
@@ -32,6 +33,7 @@ from ._error import CamError, DesignError, Error, ExportError, GearPairError, Li
 from ._over_pins import OverPins
 from ._report import Finding, Place, Report
 from ._six_bar import DeadCenters
+from ._slider_force import SliderForce
 from ._tooth import Tooth, ToothSide
 
 __all__ = [
@@ -60,6 +62,8 @@ __all__ = [
     "Shaper",
     "Sheets",
     "SixBar",
+    "SliderForce",
+    "SpiralShaft",
     "Tooth",
     "ToothSide",
     "__version__",

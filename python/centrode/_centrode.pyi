@@ -10,6 +10,7 @@ from ._contact import Contact
 from ._over_pins import OverPins
 from ._report import Report
 from ._six_bar import DeadCenters
+from ._slider_force import SliderForce
 from ._tooth import Tooth
 
 __all__ = [
@@ -29,6 +30,7 @@ __all__ = [
     "Shaper",
     "Sheets",
     "SixBar",
+    "SpiralShaft",
     "__version__",
     "_load",
     "_pitch_from_toml",
@@ -64,6 +66,17 @@ _Plane: TypeAlias = Literal["polar", "cartesian"]
 _Interpolation: TypeAlias = Literal["cubic", "quintic", "trigonometric"]
 _Phase: TypeAlias = _Real | Literal["auto", "tooth", "space", "congruent"]
 _Format: TypeAlias = Literal["dxf", "svg", "sheet", "pdf", "stl", "step", "3mf", "csv", "urdf", "mjcf"]
+_Format: TypeAlias = Literal["dxf", "svg", "stl", "step", "3mf", "csv", "urdf", "mjcf"]
+_MotionLaw: TypeAlias = Literal[
+    "constant-velocity",
+    "parabolic",
+    "harmonic",
+    "cycloidal",
+    "modified-sine",
+    "modified-trapezoid",
+    "polynomial-345",
+    "polynomial-4567",
+]
 _SheetSize: TypeAlias = Literal["A4", "A3", "A2", "A1", "A0"]
 _Projection: TypeAlias = Literal["first-angle", "third-angle"]
 _CamFormat: TypeAlias = Literal["dxf", "svg", "stl", "step", "3mf", "csv"]
@@ -357,6 +370,135 @@ class Sheets:
     def pdf(self) -> bytes: ...
     def write(self, path: str | PathLike[str]) -> list[Path]: ...
     def __len__(self) -> int: ...
+
+@final
+class SpiralShaft:
+    __hash__: ClassVar[None]  # type: ignore[assignment]
+    def __new__(
+        cls,
+        *,
+        lead: _Real = 20.0,
+        holes: _Count = 14,
+        radius: _Real = 15.0,
+        amplitude: _Real = 0.0,
+        harmonic: _Count = 1,
+        phase: _Real = 0.0,
+        rotated: bool = False,
+        speed: ArrayLike | None = None,
+        expression: str | None = None,
+        window: _Real = 1.0471975511965976,
+        pick: _Real = 0.0,
+        pot_width: _Real = 18.0,
+        reversal_angle: _Real | None = None,
+        reversal_law: _MotionLaw = "harmonic",
+        return_offset: _Real = 0.0,
+        groove_width: _Real = 10.0,
+        groove_depth: _Real = 4.0,
+        slider_length: _Real | None = None,
+        slider_clearance: _Real | None = None,
+        speed_rpm: _Real = 200.0,
+        mass: _Real = 10.0,
+        groove_friction: _Real = 0.1,
+        rail_friction: _Real = 0.15,
+        name: str = "spiral-shaft",
+        title: str = "",
+    ) -> SpiralShaft: ...
+    @staticmethod
+    def for_moved_distance(
+        moved_distance: _Real,
+        *,
+        window: _Real = 1.0471975511965976,
+        lead: _Real = 20.0,
+        holes: _Count = 14,
+        radius: _Real = 15.0,
+        harmonic: _Count = 1,
+        pick: _Real = 0.0,
+        pot_width: _Real = 18.0,
+        reversal_angle: _Real | None = None,
+        reversal_law: _MotionLaw = "harmonic",
+        return_offset: _Real = 0.0,
+        groove_width: _Real = 10.0,
+        groove_depth: _Real = 4.0,
+        slider_length: _Real | None = None,
+        slider_clearance: _Real | None = None,
+        speed_rpm: _Real = 200.0,
+        mass: _Real = 10.0,
+        groove_friction: _Real = 0.1,
+        rail_friction: _Real = 0.15,
+        name: str = "spiral-shaft",
+        title: str = "",
+    ) -> SpiralShaft: ...
+    def __eq__(self, value: object, /) -> bool: ...
+    def __ne__(self, value: object, /) -> bool: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def title(self) -> str: ...
+    @property
+    def lead(self) -> float: ...
+    @property
+    def amplitude(self) -> float | None: ...
+    @property
+    def cycle(self) -> float: ...
+    @property
+    def speed_ratio(self) -> tuple[float, float]: ...
+    @property
+    def moved_in_window(self) -> float: ...
+    @overload
+    def position(self, theta: _Real) -> float: ...
+    @overload
+    def position(self, theta: ArrayLike) -> float | NDArray[float64]: ...
+    @overload
+    def velocity(self, theta: _Real) -> float: ...
+    @overload
+    def velocity(self, theta: ArrayLike) -> float | NDArray[float64]: ...
+    @overload
+    def acceleration(self, theta: _Real) -> float: ...
+    @overload
+    def acceleration(self, theta: ArrayLike) -> float | NDArray[float64]: ...
+    @overload
+    def jerk(self, theta: _Real) -> float: ...
+    @overload
+    def jerk(self, theta: ArrayLike) -> float | NDArray[float64]: ...
+    @overload
+    def lead_angle(self, theta: _Real) -> float: ...
+    @overload
+    def lead_angle(self, theta: ArrayLike) -> float | NDArray[float64]: ...
+    @overload
+    def curvature(self, theta: _Real) -> float: ...
+    @overload
+    def curvature(self, theta: ArrayLike) -> float | NDArray[float64]: ...
+    def moved(self, start: _Real, stop: _Real) -> float: ...
+    def developed(self, tolerance: _Real = 1e-3) -> dict[str, NDArray[float64]]: ...
+    def force(
+        self,
+        theta: ArrayLike,
+        *,
+        speed_rpm: _Real | None = None,
+        mass: _Real | None = None,
+        groove_friction: _Real | None = None,
+        rail_friction: _Real | None = None,
+    ) -> SliderForce: ...
+    def crossings(self) -> NDArray[float64]: ...
+    def mesh(self, tolerance: _Real = 1e-2) -> tuple[NDArray[float64], NDArray[uint32]]: ...
+    def check(self) -> Report: ...
+    def files(
+        self,
+        *,
+        formats: Sequence[_Format] | None = None,
+        tolerance: _Real = 1e-2,
+        dxf_version: _DxfVersion = "R2010",
+        dxf_curves: _DxfCurves = "arcs",
+    ) -> dict[str, bytes]: ...
+    def export(
+        self,
+        directory: str | PathLike[str],
+        *,
+        formats: Sequence[_Format] | None = None,
+        tolerance: _Real = 1e-2,
+        dxf_version: _DxfVersion = "R2010",
+        dxf_curves: _DxfCurves = "arcs",
+    ) -> list[Path]: ...
 
 @final
 class GearPair:

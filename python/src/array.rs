@@ -14,7 +14,7 @@ use pyo3::types::{PyDict, PyDictMethods};
 use crate::wait::wait;
 
 /// Numbers in an array of any shape, or a single one: whatever `NumPy` makes real numbers of.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Values(ArrayD<f64>);
 
 /// A list of numbers.

@@ -3,12 +3,14 @@ use std::error::Error as _;
 use centrode_export::BundleError;
 use centrode_export::cam::CamFilesError;
 use centrode_export::gear_pair::GearPairFilesError;
+use centrode_export::shaft::ShaftFilesError;
 use centrode_geometry::{SolidError, Tolerance};
 use centrode_mechanism::cam;
 use centrode_mechanism::design::{self, DesignFault};
 use centrode_mechanism::gear::design::SpecError;
 use centrode_mechanism::gear::{self, pitch};
 use centrode_mechanism::linkage::{FourBarError, SixBarError};
+use centrode_mechanism::shaft::ShaftError;
 use pyo3::exceptions::PyOSError;
 use pyo3::prelude::{PyErr, PyResult, Python};
 
@@ -78,6 +80,26 @@ pub(crate) fn of_cam(error: &cam::CamError) -> PyErr {
 /// The exception of a cam's files that cannot be made.
 pub(crate) fn of_cam_files(error: &CamFilesError) -> PyErr {
     class::ExportError::new_err(error.to_string())
+}
+
+/// The exception of a spiral shaft's error.
+pub(crate) fn of_shaft(error: &ShaftError) -> PyErr {
+    class::DesignError::new_err((error.to_string(), error.key()))
+}
+
+/// The exception of a spiral shaft's files that cannot be made.
+pub(crate) fn of_shaft_files(error: &ShaftFilesError) -> PyErr {
+    class::ExportError::new_err(error.to_string())
+}
+
+/// A tolerance for what is exact at every one.
+pub(crate) fn plain_tolerance(mm: f64) -> PyResult<Tolerance> {
+    let finest = 1e-9;
+    if mm < finest {
+        let message = format!("tolerance must be at least {finest:e} mm, not {mm:e}");
+        return Err(class::DesignError::new_err((message, "tolerance")));
+    }
+    Tolerance::new(mm).map_err(|e| class::DesignError::new_err((e.to_string(), "tolerance")))
 }
 
 /// The exception of files that cannot be made.

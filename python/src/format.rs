@@ -1,15 +1,26 @@
 use centrode_export::dxf::{Curves, Version};
 use centrode_export::gear_pair::{Format, Options};
+use centrode_geometry::Tolerance;
 use centrode_mechanism::gear::GearPair;
 use pyo3::prelude::PyResult;
 
-use crate::error::{tolerance as within, unknown_word};
+use crate::error::{tolerance as exact, unknown_word};
 
 /// Formats by their names, all if none are named, and how they are written.
 pub(crate) fn options(
     pair: &GearPair,
     formats: Option<Vec<String>>,
     tolerance: f64,
+    dxf_version: &str,
+    dxf_curves: &str,
+) -> PyResult<(Vec<Format>, Options)> {
+    within(exact(tolerance, pair)?, formats, dxf_version, dxf_curves)
+}
+
+/// The same within a tolerance that has been looked at.
+pub(crate) fn within(
+    tolerance: Tolerance,
+    formats: Option<Vec<String>>,
     dxf_version: &str,
     dxf_curves: &str,
 ) -> PyResult<(Vec<Format>, Options)> {
@@ -23,7 +34,7 @@ pub(crate) fn options(
             })
             .collect::<PyResult<_>>()?,
     };
-    let mut options = Options::new(within(tolerance, pair)?);
+    let mut options = Options::new(tolerance);
     options.dxf_version = match dxf_version {
         "R2010" => Version::R2010,
         "R12" => Version::R12,

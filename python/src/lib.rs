@@ -17,6 +17,7 @@ mod place;
 mod record;
 mod sheet;
 mod six_bar;
+mod spiral_shaft;
 mod tool;
 mod wait;
 
@@ -51,6 +52,7 @@ mod _centrode {
     use crate::sheet::{Drawing, Sheets};
     #[pymodule_export]
     use crate::six_bar::SixBar;
+    use crate::spiral_shaft::SpiralShaft;
     #[pymodule_export]
     use crate::tool::{Rack, Shaper};
 

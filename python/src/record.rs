@@ -54,6 +54,21 @@ impl<'py> Keywords<'py> {
     }
 }
 
+/// Forces on a slider: normal, transverse, torque and push.
+pub(crate) fn slider_force<'py>(
+    py: Python<'py>,
+    parts: [Bound<'py, PyAny>; 4],
+) -> PyResult<Bound<'py, PyAny>> {
+    static CLASS: Class = Class::new("centrode._slider_force", "SliderForce");
+    let [normal, transverse, torque, push] = parts;
+    let keywords = Keywords::new(py)
+        .with("normal", normal)?
+        .with("transverse", transverse)?
+        .with("torque", torque)?
+        .with("push", push)?;
+    CLASS.make(&keywords.0)
+}
+
 /// A report.
 pub(crate) fn report<'py>(py: Python<'py>, report: &Report) -> PyResult<Bound<'py, PyAny>> {
     static CLASS: Class = Class::new("centrode._report", "Report");

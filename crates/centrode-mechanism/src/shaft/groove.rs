@@ -19,7 +19,7 @@ impl Wall {
     /// Both.
     pub const BOTH: [Self; 2] = [Self::Left, Self::Right];
 
-    fn sign(self) -> f64 {
+    pub(crate) fn sign(self) -> f64 {
         match self {
             Self::Left => 1.0,
             Self::Right => -1.0,

@@ -159,7 +159,15 @@ impl SpiralShaft {
         Ok(ShaftSolid::new(&self.groove, self.body())?.wall_edges(tolerance))
     }
 
-    /// Shaft turns of the whole cycle, rad.
+    /// Least and greatest speed of the strokes over their mean.
+    #[must_use]
+    pub fn speed_ratio(&self) -> (f64, f64) {
+        let law = self.law();
+        let mean = law.mean_speed();
+        (law.slowest().value / mean, law.fastest().value / mean)
+    }
+
+    /// Shaft turn of the whole cycle, rad.
     #[must_use]
     pub fn cycle(&self) -> f64 {
         self.traverse().period()

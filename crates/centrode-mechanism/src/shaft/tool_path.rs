@@ -2,7 +2,7 @@ use centrode_geometry::{Point, Tolerance};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::Groove;
+use super::{Groove, Wall};
 use crate::gear::design::SpecError;
 use crate::gear::design::rule::{Rule, broken, positive};
 use crate::transmission::Transmission;
@@ -108,6 +108,12 @@ impl Groove {
             }));
         }
         points
+    }
+
+    /// A wall over the whole cycle, as [`way`](Self::way).
+    #[must_use]
+    pub fn wall_way(&self, wall: Wall, tolerance: Tolerance) -> Vec<Point> {
+        self.way(0.5 * self.width() * wall.sign(), tolerance)
     }
 
     /// Shaft angles of a table over the whole cycle in equal steps of about `step` (rad), both ends
