@@ -16,7 +16,7 @@ def test_the_amplitude_is_solved(shaft):
     assert shaft.amplitude == pytest.approx(1.283333, abs=1e-6)
     assert shaft.moved(-math.pi / 6, math.pi / 6) == pytest.approx(2.05, abs=1e-12)
     assert shaft.moved_in_window == pytest.approx(2.05, abs=1e-12)
-    assert shaft == ct.SpiralShaft.for_moved_distance(2.05)
+    assert shaft == ct.SpiralShaft.for_moved_distance(2.05, window=math.pi / 3)
     assert shaft != ct.SpiralShaft(amplitude=1.0)
 
 

@@ -55,7 +55,8 @@ pub fn developed(shaft: &SpiralShaft, tolerance: Tolerance) -> Result<Drawing, S
         drawing.draw("CENTER", Shape::Polyline(line));
     }
     for pick in shaft.schedule().picks {
-        let x = (groove.radius() * pick.theta).rem_euclid(around);
+        // A whole turn but for rounding is none.
+        let x = (groove.radius() * pick.theta + 1e-9).rem_euclid(around) - 1e-9;
         drawing.draw("PICK", Shape::Mark(Point::new(x, pick.position)));
         let circle = Shape::Circle {
             center: Point::new(x, pick.position),
@@ -114,8 +115,8 @@ fn wrapped(way: &[Point], around: f64) -> Vec<Vec<Point>> {
     pieces
 }
 
-/// The shaft from the side, its axis along x, the angle zero towards the viewer: body, the walls' upper
-/// edges on the near side, the keyway, and the main dimensions in words.
+/// The shaft from the side, its axis along x, the angle zero towards the viewer: the outline cut through the
+/// axis, the walls' upper edges on the near side, the keyway, and the main dimensions in words.
 ///
 /// # Errors
 /// [`ShaftError`] where body and groove do not go together.
@@ -130,28 +131,43 @@ pub fn side_view(shaft: &SpiralShaft, tolerance: Tolerance) -> Result<Drawing, S
         .layer("AXES", Color::Red, LineType::Center, 0.18)
         .layer("TEXT", Color::Foreground, LineType::Continuous, 0.25);
     let p = Point::new;
+    let edges = shaft.wall_edges(tolerance)?;
+    let floor = r - groove.depth();
     // The shoulders' chamfers lie outside the grooved length.
-    let half = [
-        p(start, j - c),
-        p(start + c, j),
-        p(low - c, j),
-        p(low - c, r - c),
-        p(low, r),
-        p(high, r),
-        p(high + c, r - c),
-        p(high + c, j),
-        p(end - c, j),
-        p(end, j - c),
-    ];
-    let mut contour: Vec<Point> = half.iter().map(|q| p(q.x, -q.y)).collect();
-    contour.extend(half.iter().rev().copied());
+    let half = |angle: f64| {
+        let mut half = vec![
+            p(start, j - c),
+            p(start + c, j),
+            p(low - c, j),
+            p(low - c, r - c),
+            p(low, r),
+        ];
+        // Into the groove and out of it by turns.
+        let mut before = r;
+        for z in passed(&edges, r * angle) {
+            let after = if before == r { floor } else { r };
+            half.extend([p(z, before), p(z, after)]);
+            before = after;
+        }
+        half.extend([
+            p(high, r),
+            p(high + c, r - c),
+            p(high + c, j),
+            p(end - c, j),
+            p(end, j - c),
+        ]);
+        half
+    };
+    let lower = half(0.75 * TAU);
+    let mut contour: Vec<Point> = lower.iter().map(|q| p(q.x, -q.y)).collect();
+    contour.extend(half(0.25 * TAU).into_iter().rev());
     contour.dedup();
     drawing.draw("PROFILE", Shape::Contour(Outline::polygon(&contour)));
     for at in [low, high].into_iter().chain([start + c, end - c]) {
         let height = if at == low || at == high { r } else { j };
         drawing.draw("EDGE", Shape::Line(p(at, -height), p(at, height)));
     }
-    for edge in shaft.wall_edges(tolerance)? {
+    for edge in edges {
         // Seen from the angle zero; the near half of the shaft is what faces the viewer.
         let mut near: Vec<Point> = Vec::new();
         for q in edge {
@@ -189,7 +205,7 @@ pub fn side_view(shaft: &SpiralShaft, tolerance: Tolerance) -> Result<Drawing, S
             groove.traverse().turns()
         ),
         format!(
-            "slider travels {:.4} to {:.4} mm; angle zero of the groove towards the viewer",
+            "slider travels {:.4} to {:.4} mm; outline cut at 90 deg, angle zero of the groove towards the viewer",
             groove.traverse().reach().0,
             groove.traverse().reach().1
         ),
@@ -199,6 +215,20 @@ pub fn side_view(shaft: &SpiralShaft, tolerance: Tolerance) -> Result<Drawing, S
         label(&mut drawing, at, LETTER, words, Anchor::Left);
     }
     Ok(drawing)
+}
+
+/// Places along the shaft at which walls stand at an arc `x` round it, ascending.
+fn passed(edges: &[Vec<Point>], x: f64) -> Vec<f64> {
+    let segments = edges.iter().flat_map(|edge| edge.windows(2));
+    let mut places: Vec<f64> = segments
+        .filter(|pair| pair[0].x <= x && x < pair[1].x)
+        .map(|pair| {
+            let share = (x - pair[0].x) / (pair[1].x - pair[0].x);
+            pair[0].y + share * (pair[1].y - pair[0].y)
+        })
+        .collect();
+    places.sort_by(f64::total_cmp);
+    places
 }
 
 /// The slider seen along its pin.

@@ -329,3 +329,28 @@ fn both_schemes_together_are_their_chain() {
     let plain: Arc<dyn Transmission> = Arc::new(law(&SpeedLaw::default()));
     assert!(ShaftLaw::new(plain).is_ok());
 }
+
+/// What a template says, without the family.
+fn template<T: serde::de::DeserializeOwned>(text: &str) -> T {
+    let mut table: toml::Table = text.parse().expect("TOML");
+    table.remove("family").expect("names its family");
+    table.try_into().expect("is a design")
+}
+
+#[test]
+fn templates_are_sound_designs() {
+    let text = include_str!("../../design/spiral_shaft.toml");
+    let design: SpiralShaftDesign = template(text);
+    let shaft = SpiralShaft::resolve(&design).expect("resolves");
+    assert!((shaft.amplitude().expect("a sine") - 1.283_333).abs() < 1e-6);
+    let written = toml::to_string(&design).expect("written");
+    assert_eq!(toml::from_str::<SpiralShaftDesign>(&written), Ok(design));
+    let design: MovingBoxDesign = template(include_str!("../../design/moving_box.toml"));
+    let machine = MovingBox::resolve(&design).expect("resolves");
+    assert!((machine.moved_in_window() - 1.954_217).abs() < 1e-6);
+    let pair = design.gear_pair(machine.drive().expect("has gears"));
+    let pair = crate::gear::GearPair::resolve(&pair.expect("has gears")).expect("resolves");
+    assert!((pair.center_distance() - 52.709_22).abs() < 1e-5);
+    let written = toml::to_string(&design).expect("written");
+    assert_eq!(toml::from_str::<MovingBoxDesign>(&written), Ok(design));
+}
