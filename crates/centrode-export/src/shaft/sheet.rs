@@ -7,12 +7,7 @@ use std::f64::consts::TAU;
 const LETTER: f64 = 3.5;
 
 fn label(drawing: &mut Drawing, at: Point, height: f64, words: String, anchor: Anchor) {
-    let text = Text {
-        at,
-        height,
-        words,
-        anchor,
-    };
+    let text = Text::new(at, height, words, anchor);
     drawing.draw("TEXT", Shape::Text(text));
 }
 
