@@ -116,6 +116,7 @@ fn moved(shaft: &SpiralShaft, moved: f64, report: &mut Report) {
             measured: Some(moved),
             required: Some(limit),
             unit: "mm",
+            remedy: Some("a larger amplitude, or moved_distance to solve for it"),
             place: at(design.pick),
         });
     }
@@ -176,6 +177,7 @@ fn schedule(shaft: &SpiralShaft, report: &mut Report) {
             measured: Some(misplacement.abs()),
             required: Some(limit),
             unit: "mm",
+            remedy: Some("a reversal of 360 deg, and no more return_offset than needed"),
             place: at(*theta),
         });
     }
@@ -196,6 +198,7 @@ fn schedule(shaft: &SpiralShaft, report: &mut Report) {
             measured: Some(f64::from(schedule.visits[*first as usize])),
             required: Some(2.0),
             unit: "",
+            remedy: Some("a reversal of 360 deg"),
             place: at(shaft.design().pick),
         });
     }
@@ -222,6 +225,7 @@ fn groove(shaft: &SpiralShaft, report: &mut Report) {
             measured: Some(steepest.value),
             required: Some(PRESSURE_ANGLE),
             unit: "rad",
+            remedy: Some("a larger radius, or a smaller lead or amplitude"),
             place: at(steepest.input),
         });
     }
@@ -254,6 +258,7 @@ fn crossings(shaft: &SpiralShaft, report: &mut Report) {
             measured: Some(length),
             required: Some(longest),
             unit: "mm",
+            remedy: Some("a longer slider, a narrower groove, or a return_offset"),
             place: Place {
                 part: Some("slider".into()),
                 ..Place::default()
@@ -285,6 +290,7 @@ fn crossings(shaft: &SpiralShaft, report: &mut Report) {
         measured: Some(first.gap),
         required: Some(length),
         unit: "mm",
+        remedy: Some("a slider longer than the gap, or a return_offset"),
         place: at(first.out),
     });
 }
@@ -324,6 +330,7 @@ fn slider(shaft: &SpiralShaft, report: &mut Report) {
             measured: Some(slider.clearance),
             required: Some(needed),
             unit: "mm",
+            remedy: Some("more clearance, a shorter slider, or a larger radius"),
             place: at(shaft.groove().tightest().input),
         });
     }
@@ -362,6 +369,7 @@ fn forces(shaft: &SpiralShaft, report: &mut Report) {
             measured: Some(steepest.value),
             required: Some(load.jamming_angle()),
             unit: "rad",
+            remedy: Some("a larger radius, or less friction in the groove"),
             place: at(steepest.input),
         });
     }
@@ -378,6 +386,7 @@ fn contact(limit: f64, speed: f64, report: &mut Report) {
             measured: Some(speed),
             required: Some(limit),
             unit: "",
+            remedy: Some("a lower speed, a smaller amplitude, or fewer waves a turn"),
             place: Place {
                 part: Some("slider".into()),
                 ..Place::default()

@@ -94,10 +94,7 @@ fn refuse_useless(command: &Export) -> Result<(), Failure> {
         return refused("--part assembly", "drawings: dxf, svg, sheet and pdf");
     }
     if !any(&solid) {
-        return refused(
-            "--part",
-            "drawings, solids and tables",
-        );
+        return refused("--part", "drawings, solids and tables");
     }
     Ok(())
 }
