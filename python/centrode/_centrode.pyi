@@ -66,7 +66,6 @@ _Plane: TypeAlias = Literal["polar", "cartesian"]
 _Interpolation: TypeAlias = Literal["cubic", "quintic", "trigonometric"]
 _Phase: TypeAlias = _Real | Literal["auto", "tooth", "space", "congruent"]
 _Format: TypeAlias = Literal["dxf", "svg", "sheet", "pdf", "stl", "step", "3mf", "csv", "urdf", "mjcf"]
-_Format: TypeAlias = Literal["dxf", "svg", "stl", "step", "3mf", "csv", "urdf", "mjcf"]
 _MotionLaw: TypeAlias = Literal[
     "constant-velocity",
     "parabolic",

@@ -52,6 +52,7 @@ mod _centrode {
     use crate::sheet::{Drawing, Sheets};
     #[pymodule_export]
     use crate::six_bar::SixBar;
+    #[pymodule_export]
     use crate::spiral_shaft::SpiralShaft;
     #[pymodule_export]
     use crate::tool::{Rack, Shaper};

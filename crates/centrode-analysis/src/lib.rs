@@ -2,16 +2,16 @@
 
 mod check;
 mod contact;
-mod remedy;
 mod kinetostatics;
 pub mod optimise;
+mod remedy;
 mod report;
-mod swing_spread;
 mod shaft;
+mod swing_spread;
 
 pub use check::{check, check_contact};
 pub use contact::Contact;
 pub use kinetostatics::{CrankMotion, ForceError, Forces, Kinetostatics, LinkMass, Load, Reaction};
 pub use report::{Finding, Place, Report, Severity};
-pub use swing_spread::{SixBarTolerances, SwingSpread};
 pub use shaft::{check_moving_box, check_shaft};
+pub use swing_spread::{SixBarTolerances, SwingSpread};
