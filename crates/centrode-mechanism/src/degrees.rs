@@ -49,3 +49,16 @@ pub(crate) mod option {
         Ok(Option::<f64>::deserialize(d)?.map(f64::to_radians))
     }
 }
+
+/// The same for the two ends of a range.
+pub(crate) mod range {
+    use super::{Deserialize, Deserializer, Serialize, Serializer, written};
+
+    pub(crate) fn serialize<S: Serializer>(radians: &[f64; 2], s: S) -> Result<S::Ok, S::Error> {
+        radians.map(written).serialize(s)
+    }
+
+    pub(crate) fn deserialize<'de, D: Deserializer<'de>>(d: D) -> Result<[f64; 2], D::Error> {
+        Ok(<[f64; 2]>::deserialize(d)?.map(f64::to_radians))
+    }
+}

@@ -4,6 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 mod drawing;
+mod family;
 mod fault;
 mod file;
 mod keys;
@@ -13,6 +14,7 @@ pub use fault::{DesignError, DesignFault};
 pub use file::DesignFile;
 
 use crate::gear::design::GearPairDesign;
+use crate::three_arm::design::ThreeArmDesign;
 
 /// A mechanism as written: one of the families, by the key `family`.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
@@ -21,25 +23,46 @@ use crate::gear::design::GearPairDesign;
 pub enum Design {
     /// A non-circular gear pair.
     GearPair(GearPairDesign),
+    /// A three-arm transplanting mechanism.
+    ThreeArm(Box<ThreeArmDesign>),
 }
 
 impl Design {
     /// The names of the families, as written in `family`.
-    pub const FAMILIES: [&'static str; 1] = ["gear-pair"];
+    pub const FAMILIES: [&'static str; 2] = ["gear-pair", "three-arm"];
 
     /// A commented design file of a family to start from, itself a good design.
     #[must_use]
     pub fn template(family: &str) -> Option<&'static str> {
         match family {
             "gear-pair" => Some(include_str!("../design/gear_pair.toml")),
+            "three-arm" => Some(include_str!("../design/three_arm.toml")),
             _ => None,
         }
     }
 
-    /// The JSON schema of the design file.
+    /// The JSON schema of the design file, of whatever family.
     #[must_use]
     pub fn json_schema() -> serde_json::Value {
         schemars::schema_for!(Self).to_value()
+    }
+
+    /// The JSON schema of the design files of one family.
+    #[must_use]
+    pub fn json_schema_of(family: &str) -> Option<serde_json::Value> {
+        let mut schema = match family {
+            "gear-pair" => schemars::schema_for!(GearPairDesign),
+            "three-arm" => schemars::schema_for!(ThreeArmDesign),
+            _ => return None,
+        };
+        let word = serde_json::json!({ "type": "string", "const": family });
+        if let Some(properties) = schema.get_mut("properties").and_then(|p| p.as_object_mut()) {
+            properties.insert("family".into(), word);
+        }
+        if let Some(required) = schema.get_mut("required").and_then(|r| r.as_array_mut()) {
+            required.push("family".into());
+        }
+        Some(schema.to_value())
     }
 
     /// Reads a design file and checks every rule that needs no geometry.
@@ -71,6 +94,7 @@ impl Design {
     pub fn validate(&self) -> Result<(), crate::gear::design::SpecError> {
         match self {
             Self::GearPair(design) => design.validate(),
+            Self::ThreeArm(design) => design.validate(),
         }
     }
 }

@@ -8,4 +8,6 @@ mod formula;
 pub mod gear;
 pub mod linkage;
 pub mod shaft;
+pub mod mechanism;
+pub mod three_arm;
 pub mod transmission;

@@ -3,6 +3,7 @@ use thiserror::Error;
 use crate::gear::GearPairError;
 use crate::gear::design::Rule;
 use crate::gear::pitch::PitchError;
+use crate::mechanism::MechanismError;
 
 /// What is wrong with a design file, and where.
 #[derive(Debug, Error)]
@@ -70,9 +71,12 @@ pub enum DesignFault {
     /// The pitch curve does not exist.
     #[error(transparent)]
     Pitch(PitchError),
-    /// The mechanism does not exist.
+    /// The gears do not exist.
     #[error(transparent)]
     GearPair(Box<GearPairError>),
+    /// The mechanism does not exist.
+    #[error(transparent)]
+    Mechanism(Box<MechanismError>),
     /// A design that TOML cannot hold.
     #[error("{0}")]
     NotWritable(String),

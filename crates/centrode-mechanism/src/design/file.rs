@@ -1,13 +1,15 @@
-use serde::Deserialize;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue, Deserializer, ValueDeserializer};
 
+use super::family::{Family, Tagged};
 use super::fault::nearest;
 use super::keys::{Keys, line_and_column};
 use super::{Design, DesignError, DesignFault};
-use crate::gear::design::{GearPairDesign, SpecError, ToolSpec};
-use crate::gear::pitch::PitchSpec;
-use crate::gear::{GearPair, GearPairError};
+use crate::gear::GearPairError;
+use crate::gear::design::{GearPairDesign, SpecError};
+use crate::mechanism::{Mechanism, MechanismError};
+use crate::three_arm::ThreeArmError;
+use crate::three_arm::design::ThreeArmDesign;
 
 /// A design together with the places of its keys, so that later errors find their line.
 #[derive(Clone, Debug)]
@@ -76,20 +78,25 @@ impl DesignFile {
         line_and_column(&self.text, offset)
     }
 
-    /// The gear pair of the design.
+    /// The mechanism of the design.
     ///
     /// # Errors
     /// [`DesignError`] at the key to blame.
-    pub fn gear_pair(&self) -> Result<GearPair, DesignError> {
-        let Design::GearPair(design) = &self.design;
-        GearPair::resolve(design).map_err(|error| self.blame(error))
+    pub fn mechanism(&self) -> Result<Mechanism, DesignError> {
+        Mechanism::resolve(&self.design).map_err(|error| self.blame(error))
     }
 
-    fn blame(&self, error: GearPairError) -> DesignError {
-        let (key, fault) = match error {
-            GearPairError::Spec(SpecError { key, rule }) => (key, DesignFault::Value(rule)),
-            GearPairError::Pitch(e) => (format!("pitch.{}", e.key()), DesignFault::Pitch(e)),
-            other => (other.key(), DesignFault::GearPair(Box::new(other))),
+    fn blame(&self, error: MechanismError) -> DesignError {
+        let key = error.key();
+        let fault = match error {
+            MechanismError::GearPair(e) | MechanismError::ThreeArm(ThreeArmError::Gears(e)) => {
+                match e {
+                    GearPairError::Spec(SpecError { rule, .. }) => DesignFault::Value(rule),
+                    GearPairError::Pitch(e) => DesignFault::Pitch(e),
+                    other => DesignFault::GearPair(Box::new(other)),
+                }
+            }
+            other => DesignFault::Mechanism(Box::new(other)),
         };
         let (line, column) = self.place(&key);
         DesignError {
@@ -122,25 +129,33 @@ impl<'a> Reader<'a> {
             return Err(self.unknown_word("family", family, &families));
         }
         root.remove("family");
-        const TABLES: [&str; 6] = ["pitch", "tool", "teeth", "driver", "driven", "drawing"];
-        self.tables(&root, &TABLES)?;
-        self.tagged(&root, "pitch", PitchSpec::KINDS, |kind, d| {
-            PitchSpec::of_kind(kind, d).map(drop)
-        })?;
-        self.tagged(&root, "tool", ToolSpec::KINDS, |kind, d| {
-            ToolSpec::of_kind(kind, d).map(drop)
-        })?;
+        let design = match family.as_str() {
+            "three-arm" => self.family::<ThreeArmDesign>(root, span),
+            _ => self.family::<GearPairDesign>(root, span),
+        }?;
+        Ok(DesignFile {
+            design,
+            text: self.text.into(),
+            keys: self.keys,
+        })
+    }
+
+    fn family<F: Family>(
+        &self,
+        root: DeTable<'a>,
+        span: std::ops::Range<usize>,
+    ) -> Result<Design, DesignError> {
+        self.tables(&root, F::TABLES)?;
+        for tagged in F::TAGGED {
+            self.tagged(&root, tagged)?;
+        }
         let document = Deserializer::from(Spanned::new(span, root));
-        let design = GearPairDesign::deserialize(document).map_err(|e| self.shape(&e))?;
+        let design = F::deserialize(document).map_err(|e| self.shape(&e))?;
         design.validate().map_err(|SpecError { key, rule }| {
             let offset = self.keys.offset(&key).unwrap_or(0);
             self.error(DesignFault::Value(rule), key, offset)
         })?;
-        Ok(DesignFile {
-            design: Design::GearPair(design),
-            text: self.text.into(),
-            keys: self.keys,
-        })
+        Ok(design.into())
     }
 
     /// Refuses anything but a table at the keys; serde would read a list as a table's values in order.
@@ -158,13 +173,8 @@ impl<'a> Reader<'a> {
     /// Reads a table whose key `kind` says what else is in it, for the places of its errors.
     ///
     /// Serde gathers such a table before it looks at its keys, and loses their places on the way.
-    fn tagged(
-        &self,
-        root: &DeTable<'a>,
-        key: &str,
-        kinds: &[&str],
-        read: impl FnOnce(&str, ValueDeserializer<'a>) -> Result<(), toml::de::Error>,
-    ) -> Result<(), DesignError> {
+    fn tagged(&self, root: &DeTable<'a>, tagged: &Tagged) -> Result<(), DesignError> {
+        let Tagged { key, kinds, read } = *tagged;
         let Some(value) = root.get(key) else {
             return Ok(());
         };

@@ -1,4 +1,6 @@
 use super::*;
+use crate::gear::GearPair;
+use crate::mechanism::Mechanism;
 use proptest::prelude::*;
 
 const GOOD: &str = r#"family = "gear-pair"
@@ -24,6 +26,13 @@ bore = 12
 keyway = { width = 4, depth = 1.8 }
 "#;
 
+fn pair_of(file: &DesignFile) -> Result<GearPair, DesignError> {
+    file.mechanism().map(|mechanism| match mechanism {
+        Mechanism::GearPair(pair) => *pair,
+        other => panic!("{} is no gear pair", other.family()),
+    })
+}
+
 fn shipped() -> Vec<(String, String)> {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/designs");
     let entries = std::fs::read_dir(folder).expect("the shipped designs");
@@ -41,14 +50,17 @@ fn shipped() -> Vec<(String, String)> {
 fn shipped_designs_and_the_template_are_read_and_written_back() {
     let mut files = shipped();
     assert!(files.len() >= 7);
-    let template = Design::template("gear-pair").expect("a template");
-    files.push(("template".into(), template.into()));
+    for family in Design::FAMILIES {
+        let template = Design::template(family).expect("a template");
+        files.push((family.into(), template.into()));
+    }
     for (name, text) in files {
         let file = DesignFile::read(text.as_bytes()).unwrap_or_else(|e| panic!("{name}: {e}"));
-        let Design::GearPair(pair) = file.design();
-        pair.pitch
-            .resolve()
-            .unwrap_or_else(|e| panic!("{name}: {e}"));
+        let pitch = match file.design() {
+            Design::GearPair(pair) => &pair.pitch,
+            Design::ThreeArm(arms) => &arms.pitch,
+        };
+        pitch.resolve().unwrap_or_else(|e| panic!("{name}: {e}"));
         let written = file.design().to_toml().expect("writable");
         let again =
             Design::from_toml(&written).unwrap_or_else(|e| panic!("{name}: {e}\n{written}"));
@@ -60,7 +72,7 @@ fn shipped_designs_and_the_template_are_read_and_written_back() {
 fn the_template_is_a_good_pair() {
     let template = Design::template("gear-pair").expect("a template");
     let file = DesignFile::read(template.as_bytes()).expect("a design");
-    let pair = file.gear_pair().expect("a pair");
+    let pair = pair_of(&file).expect("a pair");
     assert!((pair.module() - 2.25).abs() < 1e-12);
     assert!(Design::template("gear-pear").is_none());
 }
@@ -264,7 +276,7 @@ fn every_bad_line_is_named_with_key_and_place() {
     ] {
         assert!(GOOD.contains(old), "{old}");
         let text = GOOD.replacen(old, new, 1);
-        let found = DesignFile::read(text.as_bytes()).and_then(|file| file.gear_pair().map(drop));
+        let found = DesignFile::read(text.as_bytes()).and_then(|file| pair_of(&file).map(drop));
         let message = found.expect_err(new).to_string();
         assert!(message.starts_with(expected), "{new:?}:\n  {message}");
     }
@@ -332,7 +344,7 @@ fn pitch_curve_faults_name_their_line() {
         ),
     ] {
         let text = format!("{head}{pitch}\n");
-        let found = DesignFile::read(text.as_bytes()).and_then(|file| file.gear_pair().map(drop));
+        let found = DesignFile::read(text.as_bytes()).and_then(|file| pair_of(&file).map(drop));
         let message = found.expect_err(pitch).to_string();
         assert!(message.starts_with(expected), "{pitch}:\n  {message}");
     }
@@ -376,32 +388,55 @@ fn bytes_that_are_no_design_are_refused_at_once() {
 #[test]
 fn angles_are_degrees_in_the_file_and_come_back_round() {
     let design = Design::from_toml(GOOD).expect("good");
-    let Design::GearPair(pair) = &design;
+    let Design::GearPair(pair) = &design else {
+        panic!("no gear pair");
+    };
     assert_eq!(pair.tool.pressure_angle(), 20.0_f64.to_radians());
     let written = design.to_toml().expect("writable");
     assert!(written.contains("pressure_angle_deg = 20.0\n"), "{written}");
 }
 
 #[test]
-fn the_checked_in_schema_is_the_one_of_the_code() {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/design/gear_pair.schema.json");
-    let schema = serde_json::to_string_pretty(&Design::json_schema()).expect("json") + "\n";
-    if std::env::var_os("CENTRODE_REFRESH").is_some() {
-        std::fs::write(path, &schema).expect("writable");
-    }
-    let checked_in = std::fs::read_to_string(path).expect("checked in");
-    assert!(
-        checked_in == schema,
-        "run the tests with CENTRODE_REFRESH=1 to write {path}"
-    );
-    for key in [
-        "pressure_angle_deg",
-        "backlash_angle_deg",
-        "lobed-ellipse",
-        "gear-pair",
+fn the_checked_in_schemas_are_those_of_the_code() {
+    for (family, keys) in [
+        (
+            "gear-pair",
+            [
+                "pressure_angle_deg",
+                "backlash_angle_deg",
+                "lobed-ellipse",
+                "mean_ratio",
+            ],
+        ),
+        (
+            "three-arm",
+            [
+                "carrier_start_deg",
+                "pick_angle_deg",
+                "lobed-ellipse",
+                "counter-clockwise",
+            ],
+        ),
     ] {
-        assert!(schema.contains(key), "{key}");
+        let file = family.replace('-', "_");
+        let path = format!("{}/design/{file}.schema.json", env!("CARGO_MANIFEST_DIR"));
+        let schema = Design::json_schema_of(family).expect("a family");
+        let schema = serde_json::to_string_pretty(&schema).expect("json") + "\n";
+        if std::env::var_os("CENTRODE_REFRESH").is_some() {
+            std::fs::write(&path, &schema).expect("writable");
+        }
+        let checked_in = std::fs::read_to_string(&path).expect("checked in");
+        assert!(
+            checked_in == schema,
+            "run the tests with CENTRODE_REFRESH=1 to write {path}"
+        );
+        for key in keys.into_iter().chain([family]) {
+            assert!(schema.contains(key), "{key}");
+        }
     }
+    let whole = Design::json_schema().to_string();
+    assert!(Design::FAMILIES.iter().all(|family| whole.contains(family)));
+    assert!(Design::json_schema_of("gear-pear").is_none());
 }
 
 proptest! {
@@ -428,7 +463,9 @@ proptest! {
         backlash in 0.0..1.0_f64,
     ) {
         let design = Design::from_toml(GOOD).expect("good");
-        let Design::GearPair(mut pair) = design;
+        let Design::GearPair(mut pair) = design else {
+            panic!("no gear pair");
+        };
         pair.pitch = crate::gear::pitch::PitchSpec::Ellipse(crate::gear::pitch::Ellipse {
             eccentricity: k,
             semi_major_axis: None,
@@ -444,8 +481,11 @@ proptest! {
         pair.teeth.backlash = backlash;
         let design = Design::GearPair(pair);
         let written = design.to_toml().expect("writable");
-        let Design::GearPair(again) = Design::from_toml(&written).expect("reads back");
-        let Design::GearPair(pair) = design;
+        let (Design::GearPair(again), Design::GearPair(pair)) =
+            (Design::from_toml(&written).expect("reads back"), design)
+        else {
+            panic!("no gear pair");
+        };
         let (a, b) = (again.tool.pressure_angle(), pair.tool.pressure_angle());
         prop_assert!((a - b).abs() <= 2.0 * f64::EPSILON * b);
         prop_assert_eq!((again.pitch, again.teeth), (pair.pitch, pair.teeth));
@@ -462,7 +502,7 @@ fn a_conjugate_curve_is_read_and_its_faults_are_placed() {
     };
     let text_in = text("0.2").replace("[pitch]", "mean_ratio = [1, 2]\n[pitch]");
     let file = DesignFile::read(text_in.as_bytes()).expect("a design");
-    let pair = file.gear_pair().expect("a pair");
+    let pair = pair_of(&file).expect("a pair");
     assert_eq!(pair.driven().tooth_count(), 20);
     let written = file.design().to_toml().expect("writable");
     assert_eq!(
@@ -471,6 +511,6 @@ fn a_conjugate_curve_is_read_and_its_faults_are_placed() {
     );
 
     let file = DesignFile::read(text("1.5").as_bytes()).expect("well-formed");
-    let error = file.gear_pair().expect_err("no ellipse");
+    let error = pair_of(&file).expect_err("no ellipse");
     assert_eq!((error.key.as_str(), error.line), ("pitch.of", 6));
 }

@@ -12,6 +12,7 @@ mod pair;
 pub mod pitch;
 mod profile;
 mod rolling;
+mod stage;
 mod teeth;
 mod tool;
 

@@ -154,19 +154,10 @@ impl GearPair {
     /// [`GearPairError`] naming the rule broken and its numbers.
     pub fn resolve(design: &GearPairDesign) -> Result<Self, GearPairError> {
         design.validate()?;
-        let pitch = design.pitch.resolve()?;
         let ratio = (design.mean_ratio[0], design.mean_ratio[1]);
-        if let Some(implied) = pitch.implied_ratio
-            && implied != ratio
-        {
-            return Err(GearPairError::MeanRatio {
-                written: ratio,
-                implied,
-            });
-        }
+        let (definition, rolling) = Self::roll(design)?;
         let driver = design
-            .tooth_count
-            .or(pitch.tooth_count)
+            .driver_tooth_count()
             .ok_or(GearPairError::NoToothCount)?;
         let driven = u64::from(driver) * u64::from(ratio.0);
         if !driven.is_multiple_of(u64::from(ratio.1)) || driven / u64::from(ratio.1) < 3 {
@@ -177,17 +168,6 @@ impl GearPair {
             driven: u32::try_from(driven / u64::from(ratio.1))
                 .map_err(|_| GearPairError::DrivenTeeth { driver, ratio })?,
         };
-        let rolling = Rolling::of(pitch.curve, ratio)?;
-        if let Some((turn, angle)) = rolling.corner() {
-            return Err(GearPairError::Corner { turn, angle });
-        }
-        if let Some(wanted) = design.center_distance {
-            let needed = rolling.center_distance();
-            // A distance is written to a micrometre or so.
-            if (wanted - needed).abs() > 1e-6 * needed {
-                return Err(GearPairError::CenterDistance { wanted, needed });
-            }
-        }
         let module = rolling.pitch_length(Member::Driver) / (PI * f64::from(driver));
         let teeth = parameters(design, module);
         let plan = layout(&rolling, &counts, &teeth)?;
@@ -217,7 +197,7 @@ impl GearPair {
         Ok(Self {
             name: design.name.clone(),
             title: design.title.clone(),
-            definition: pitch.definition,
+            definition,
             rolling,
             module,
             teeth,
@@ -229,6 +209,32 @@ impl GearPair {
             driver,
             driven,
         })
+    }
+
+    /// The driver's pitch curve in words, and both pitch curves rolling, without any teeth.
+    pub(crate) fn roll(design: &GearPairDesign) -> Result<(String, Rolling), GearPairError> {
+        let pitch = design.pitch.resolve()?;
+        let ratio = (design.mean_ratio[0], design.mean_ratio[1]);
+        if let Some(implied) = pitch.implied_ratio
+            && implied != ratio
+        {
+            return Err(GearPairError::MeanRatio {
+                written: ratio,
+                implied,
+            });
+        }
+        let rolling = Rolling::of(pitch.curve, ratio)?;
+        if let Some((turn, angle)) = rolling.corner() {
+            return Err(GearPairError::Corner { turn, angle });
+        }
+        if let Some(wanted) = design.center_distance {
+            let needed = rolling.center_distance();
+            // A distance is written to a micrometre or so.
+            if (wanted - needed).abs() > 1e-6 * needed {
+                return Err(GearPairError::CenterDistance { wanted, needed });
+            }
+        }
+        Ok((pitch.definition, rolling))
     }
 
     /// Name, as written in the design.

@@ -315,6 +315,15 @@ impl Rolling {
         bracketed_root(angle, low, high, f_low, f_high) + turns * period
     }
 
+    /// Curve parameter at a driven angle; any real angle.
+    #[must_use]
+    pub fn parameter_at_driven_angle(&self, phi2: f64) -> f64 {
+        let total = self.driven.total();
+        let turns = (phi2 / total).floor();
+        let rest = (phi2 - turns * total).clamp(0.0, total);
+        self.driven.inverse(rest) + turns * self.curve.period()
+    }
+
     /// Driver polar angle at a parameter.
     #[must_use]
     pub fn angle(&self, t: f64) -> f64 {

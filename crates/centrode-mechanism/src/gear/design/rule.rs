@@ -35,6 +35,9 @@ pub enum Rule {
         /// Unit with a leading space, or empty.
         unit: &'static str,
     },
+    /// A range whose ends are not in order.
+    #[error("must be a range from less to more, not {0} to {1}")]
+    NotInOrder(f64, f64),
     /// Two keys that exclude each other.
     #[error("cannot be given together with {0}")]
     Excludes(&'static str),

@@ -1,0 +1,83 @@
+use serde::de::DeserializeOwned;
+use toml::de::{Error, ValueDeserializer};
+
+use super::Design;
+use crate::gear::design::{GearPairDesign, SpecError, ToolSpec};
+use crate::gear::pitch::PitchSpec;
+use crate::three_arm::design::ThreeArmDesign;
+
+/// What a reader must know of a family of mechanism: all there is to say, in one place a family.
+pub(crate) trait Family: DeserializeOwned + Into<Design> {
+    /// Keys at the root that hold a table.
+    const TABLES: &'static [&'static str];
+    /// Those of them whose key `kind` says what else is in them.
+    const TAGGED: &'static [Tagged];
+
+    /// The rules that need no geometry.
+    fn validate(&self) -> Result<(), SpecError>;
+}
+
+/// A table whose key `kind` says what else is in it.
+pub(crate) struct Tagged {
+    pub(crate) key: &'static str,
+    pub(crate) kinds: &'static [&'static str],
+    /// Reads what stands beside `kind`, for the places of its errors.
+    pub(crate) read: fn(&str, ValueDeserializer<'_>) -> Result<(), Error>,
+}
+
+const PITCH: Tagged = Tagged {
+    key: "pitch",
+    kinds: PitchSpec::KINDS,
+    read: |kind, table| PitchSpec::of_kind(kind, table).map(drop),
+};
+
+const TOOL: Tagged = Tagged {
+    key: "tool",
+    kinds: ToolSpec::KINDS,
+    read: |kind, table| ToolSpec::of_kind(kind, table).map(drop),
+};
+
+impl Family for GearPairDesign {
+    const TABLES: &'static [&'static str] =
+        &["pitch", "tool", "teeth", "driver", "driven", "drawing"];
+    const TAGGED: &'static [Tagged] = &[PITCH, TOOL];
+
+    fn validate(&self) -> Result<(), SpecError> {
+        self.validate()
+    }
+}
+
+impl From<GearPairDesign> for Design {
+    fn from(design: GearPairDesign) -> Self {
+        Self::GearPair(design)
+    }
+}
+
+impl Family for ThreeArmDesign {
+    const TABLES: &'static [&'static str] = &[
+        "pitch",
+        "tool",
+        "teeth",
+        "arm",
+        "gearbox",
+        "work",
+        "tray",
+        "seedling",
+        "goals",
+        "sun",
+        "intermediate",
+        "planet",
+        "drawing",
+    ];
+    const TAGGED: &'static [Tagged] = &[PITCH, TOOL];
+
+    fn validate(&self) -> Result<(), SpecError> {
+        self.validate()
+    }
+}
+
+impl From<ThreeArmDesign> for Design {
+    fn from(design: ThreeArmDesign) -> Self {
+        Self::ThreeArm(Box::new(design))
+    }
+}

@@ -1,0 +1,78 @@
+//! What a design becomes: one resolved mechanism of one of the families.
+
+use crate::design::Design;
+use crate::gear::{GearPair, GearPairError};
+use crate::three_arm::{ThreeArm, ThreeArmError};
+
+/// A resolved mechanism of one of the families.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub enum Mechanism {
+    /// A non-circular gear pair.
+    GearPair(Box<GearPair>),
+    /// A three-arm transplanting mechanism.
+    ThreeArm(Box<ThreeArm>),
+}
+
+/// Why a design gives no mechanism.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum MechanismError {
+    /// A gear pair.
+    #[error(transparent)]
+    GearPair(#[from] GearPairError),
+    /// A three-arm mechanism.
+    #[error(transparent)]
+    ThreeArm(#[from] ThreeArmError),
+}
+
+impl Mechanism {
+    /// Resolves a design.
+    ///
+    /// # Errors
+    /// [`MechanismError`] naming the rule broken and its numbers.
+    pub fn resolve(design: &Design) -> Result<Self, MechanismError> {
+        Ok(match design {
+            Design::GearPair(design) => Self::GearPair(Box::new(GearPair::resolve(design)?)),
+            Design::ThreeArm(design) => Self::ThreeArm(Box::new(ThreeArm::resolve(design)?)),
+        })
+    }
+
+    /// The family, as written in a design's `family`.
+    #[must_use]
+    pub fn family(&self) -> &'static str {
+        match self {
+            Self::GearPair(_) => "gear-pair",
+            Self::ThreeArm(_) => "three-arm",
+        }
+    }
+
+    /// Name, as written in the design.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        match self {
+            Self::GearPair(pair) => pair.name(),
+            Self::ThreeArm(mechanism) => &mechanism.design().name,
+        }
+    }
+
+    /// Title, as written in the design.
+    #[must_use]
+    pub fn title(&self) -> &str {
+        match self {
+            Self::GearPair(pair) => pair.title(),
+            Self::ThreeArm(mechanism) => &mechanism.design().title,
+        }
+    }
+}
+
+impl MechanismError {
+    /// Key of the design file at fault.
+    #[must_use]
+    pub fn key(&self) -> String {
+        match self {
+            Self::GearPair(error) => error.key(),
+            Self::ThreeArm(error) => error.key(),
+        }
+    }
+}

@@ -1,0 +1,80 @@
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::angle;
+use crate::degrees;
+use crate::gear::design::SpecError;
+use crate::gear::design::rule::{between, not_negative, positive};
+
+/// An arm, fixed to its planet.
+#[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct ArmSpec {
+    /// Direction of the tip from the planet's axis, from the planet's zero, rad (degrees in the file).
+    #[serde(rename = "mounting_angle_deg", with = "degrees")]
+    #[schemars(with = "f64")]
+    pub mounting_angle: f64,
+    /// Distance of the tip from the planet's axis, mm.
+    pub tip_distance: f64,
+    /// Distance of the pusher's axis, which ends at the tip, from the planet's axis, mm: positive where the clamp
+    /// points more counter-clockwise than the tip lies.
+    pub pusher_offset: f64,
+    /// Length of the clamp back from the tip along the pusher's axis, mm: what passes between seedlings.
+    #[serde(default = "default_clamp_length")]
+    pub clamp_length: f64,
+}
+
+fn default_clamp_length() -> f64 {
+    60.0
+}
+
+impl ArmSpec {
+    /// An arm with a clamp of ordinary length.
+    #[must_use]
+    pub fn new(mounting_angle: f64, tip_distance: f64, pusher_offset: f64) -> Self {
+        Self {
+            mounting_angle,
+            tip_distance,
+            pusher_offset,
+            clamp_length: default_clamp_length(),
+        }
+    }
+
+    /// Ranges, and a pusher's axis that reaches the tip.
+    ///
+    /// # Errors
+    /// [`SpecError`] with the key at fault.
+    pub fn validate(&self) -> Result<(), SpecError> {
+        angle("mounting_angle_deg", self.mounting_angle)?;
+        positive("tip_distance", self.tip_distance)?;
+        let reach = self.tip_distance;
+        between("pusher_offset", self.pusher_offset, [-reach, reach], " mm")?;
+        positive("clamp_length", self.clamp_length)
+    }
+}
+
+/// The gearbox: the carrier's housing around sun, intermediate gears and planets.
+#[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct GearboxSpec {
+    /// Distance of the housing's outside from the largest radius of the pitch curve in it, mm.
+    pub housing_offset: f64,
+}
+
+impl Default for GearboxSpec {
+    fn default() -> Self {
+        Self {
+            housing_offset: 10.0,
+        }
+    }
+}
+
+impl GearboxSpec {
+    /// Ranges.
+    ///
+    /// # Errors
+    /// [`SpecError`] with the key at fault.
+    pub fn validate(&self) -> Result<(), SpecError> {
+        not_negative("housing_offset", self.housing_offset)
+    }
+}

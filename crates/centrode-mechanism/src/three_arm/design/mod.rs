@@ -1,0 +1,250 @@
+//! A three-arm transplanting mechanism as written.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::degrees;
+use crate::design::DrawingSpec;
+use crate::gear::design::rule::{between, broken, finite, line, name, positive, within};
+use crate::gear::design::{BodySpec, GearPairDesign, Rule, SpecError, TeethSpec, ToolSpec};
+use crate::gear::pitch::PitchSpec;
+
+mod arm;
+mod goals;
+mod work;
+
+pub use arm::{ArmSpec, GearboxSpec};
+pub use goals::GoalsSpec;
+pub use work::{SeedlingSpec, TraySpec, WorkSpec};
+
+/// A planetary transplanting mechanism: a fixed sun, a carrier at constant speed, and evenly spaced arms, each
+/// on the planet of its own bent chain of three non-circular gears.
+#[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct ThreeArmDesign {
+    /// Short name, used for file names: letters, digits, `-` and `_`.
+    #[serde(default = "default_name")]
+    pub name: String,
+    /// One line for drawings and reports.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub title: String,
+    /// Number of arms, 1 to 6.
+    #[serde(default = "default_arms")]
+    pub arms: u32,
+    /// Which way the carrier turns.
+    #[serde(default)]
+    pub direction: Direction,
+    /// Direction of the first intermediate gear's axis from the sun's at the start, rad (degrees in the file).
+    #[serde(rename = "carrier_start_deg", with = "degrees")]
+    #[schemars(with = "f64")]
+    pub carrier_start: f64,
+    /// Bend of each chain: from the direction sun to intermediate to the direction intermediate to planet, rad
+    /// (degrees in the file).
+    #[serde(rename = "bend_deg", with = "degrees")]
+    #[schemars(with = "f64")]
+    pub bend: f64,
+    /// Angle of the planet's zero behind the chain's second leg at the start, rad (degrees in the file); left
+    /// out, the intermediate's turn over the first |bend| of carrier turn.
+    #[serde(
+        default,
+        rename = "planet_reference_deg",
+        with = "degrees::option",
+        skip_serializing_if = "Option::is_none"
+    )]
+    #[schemars(with = "Option<f64>")]
+    pub planet_reference: Option<f64>,
+    /// Teeth of every gear; left out, there are no teeth to judge.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tooth_count: Option<u32>,
+    /// Centre distance of each mesh, mm; left out, it follows from the pitch curve.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub center_distance: Option<f64>,
+    /// Pitch curve of the sun, which starts in the direction of `carrier_start_deg`; the planets are alike.
+    pub pitch: PitchSpec,
+    /// The tool that cuts every gear.
+    #[serde(default)]
+    pub tool: ToolSpec,
+    /// Teeth of every gear.
+    #[serde(default)]
+    pub teeth: TeethSpec,
+    /// The arms.
+    pub arm: ArmSpec,
+    /// The gearbox around the gears.
+    #[serde(default)]
+    pub gearbox: GearboxSpec,
+    /// Picking, planting and travel.
+    #[serde(default)]
+    pub work: WorkSpec,
+    /// The tray the seedlings are picked from.
+    #[serde(default)]
+    pub tray: TraySpec,
+    /// The seedlings.
+    #[serde(default)]
+    pub seedling: SeedlingSpec,
+    /// What a good mechanism reaches.
+    #[serde(default)]
+    pub goals: GoalsSpec,
+    /// Body of the sun.
+    #[serde(default)]
+    pub sun: BodySpec,
+    /// Body of the intermediate gears.
+    #[serde(default)]
+    pub intermediate: BodySpec,
+    /// Body of the planets.
+    #[serde(default)]
+    pub planet: BodySpec,
+    /// The drawing sheets.
+    #[serde(default, skip_serializing_if = "DrawingSpec::is_default")]
+    pub drawing: DrawingSpec,
+}
+
+/// Which way a shaft turns, seen from the side the drawing shows.
+#[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Direction {
+    /// With the hands of a clock.
+    #[default]
+    Clockwise,
+    /// Against them.
+    CounterClockwise,
+}
+
+impl Direction {
+    /// 1 counter-clockwise, -1 clockwise.
+    #[must_use]
+    pub fn sign(self) -> f64 {
+        match self {
+            Self::Clockwise => -1.0,
+            Self::CounterClockwise => 1.0,
+        }
+    }
+}
+
+fn default_name() -> String {
+    "three-arm".into()
+}
+
+fn default_arms() -> u32 {
+    3
+}
+
+impl ThreeArmDesign {
+    /// Most arms of one carrier.
+    pub const MOST_ARMS: u32 = 6;
+
+    /// A mechanism with the given sun, chain and arm, and every other value at its default.
+    #[must_use]
+    pub fn new(pitch: PitchSpec, carrier_start: f64, bend: f64, arm: ArmSpec) -> Self {
+        Self {
+            name: default_name(),
+            title: String::new(),
+            arms: default_arms(),
+            direction: Direction::default(),
+            carrier_start,
+            bend,
+            planet_reference: None,
+            tooth_count: None,
+            center_distance: None,
+            pitch,
+            tool: ToolSpec::default(),
+            teeth: TeethSpec::default(),
+            arm,
+            gearbox: GearboxSpec::default(),
+            work: WorkSpec::default(),
+            tray: TraySpec::default(),
+            seedling: SeedlingSpec::default(),
+            goals: GoalsSpec::default(),
+            sun: BodySpec::default(),
+            intermediate: BodySpec::default(),
+            planet: BodySpec::default(),
+            drawing: DrawingSpec::default(),
+        }
+    }
+
+    /// Teeth of every gear, from the mechanism or from its pitch curve.
+    #[must_use]
+    pub fn gear_tooth_count(&self) -> Option<u32> {
+        self.tooth_count.or(self.pitch.tooth_count())
+    }
+
+    /// The gear pair of sun and intermediate, alone; intermediate and planet are the same pair turned round.
+    #[must_use]
+    pub fn pair(&self) -> GearPairDesign {
+        GearPairDesign {
+            name: self.name.clone(),
+            title: self.title.clone(),
+            tooth_count: self.tooth_count,
+            center_distance: self.center_distance,
+            tool: self.tool.clone(),
+            teeth: self.teeth.clone(),
+            driver: self.sun.clone(),
+            driven: self.intermediate.clone(),
+            drawing: self.drawing.clone(),
+            ..GearPairDesign::new(self.pitch.clone())
+        }
+    }
+
+    /// The rules that need no geometry: ranges, and keys that contradict each other.
+    ///
+    /// # Errors
+    /// [`SpecError`] with the key at fault and the rule it breaks. The pitch curve's own rules are
+    /// those of [`PitchSpec::resolve`].
+    pub fn validate(&self) -> Result<(), SpecError> {
+        name("name", &self.name)?;
+        line("title", &self.title)?;
+        within("arms", self.arms, 1, Self::MOST_ARMS)?;
+        angle("carrier_start_deg", self.carrier_start)?;
+        // A chain folded back on itself puts the planet on the sun's axis.
+        let bend = rounded_degrees(self.bend);
+        between("bend_deg", bend, [-175.0, 175.0], " deg")?;
+        if let Some(reference) = self.planet_reference {
+            angle("planet_reference_deg", reference)?;
+        }
+        if let Some(z) = self.tooth_count {
+            within("tooth_count", z, 3, 10_000)?;
+            if let Some(of_pitch) = self.pitch.tooth_count()
+                && z != of_pitch
+            {
+                return broken("tooth_count", Rule::ToothCountTwice(z, of_pitch));
+            }
+        }
+        if let Some(a) = self.center_distance {
+            positive("center_distance", a)?;
+        }
+        self.tool.validate().map_err(|e| e.inside("tool"))?;
+        self.teeth.validate().map_err(|e| e.inside("teeth"))?;
+        self.arm.validate().map_err(|e| e.inside("arm"))?;
+        self.gearbox.validate().map_err(|e| e.inside("gearbox"))?;
+        self.work.validate().map_err(|e| e.inside("work"))?;
+        self.tray.validate().map_err(|e| e.inside("tray"))?;
+        self.seedling.validate().map_err(|e| e.inside("seedling"))?;
+        self.goals.validate().map_err(|e| e.inside("goals"))?;
+        self.sun.validate().map_err(|e| e.inside("sun"))?;
+        let intermediate = self.intermediate.validate();
+        intermediate.map_err(|e| e.inside("intermediate"))?;
+        self.planet.validate().map_err(|e| e.inside("planet"))?;
+        self.drawing.validate().map_err(|e| e.inside("drawing"))
+    }
+}
+
+/// Degrees, without the last digits that the way through radians has cost.
+fn rounded_degrees(radians: f64) -> f64 {
+    (radians.to_degrees() * 1e9).round() / 1e9
+}
+
+/// An angle within a turn either way.
+fn angle(key: &str, radians: f64) -> Result<(), SpecError> {
+    finite(key, radians)?;
+    between(key, rounded_degrees(radians), [-360.0, 360.0], " deg")
+}
+
+/// A range with its ends in order.
+fn ordered(key: &str, [least, greatest]: [f64; 2]) -> Result<(), SpecError> {
+    finite(key, least)?;
+    finite(key, greatest)?;
+    if least < greatest {
+        Ok(())
+    } else {
+        broken(key, Rule::NotInOrder(least, greatest))
+    }
+}

@@ -1,0 +1,147 @@
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::angle;
+use crate::degrees;
+use crate::gear::design::SpecError;
+use crate::gear::design::rule::{between, finite, not_negative, positive, within};
+
+/// Picking, planting and travel.
+#[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct WorkSpec {
+    /// Carrier turn at which the first arm picks, rad (degrees in the file); left out, where its tip enters the tray,
+    /// or without a tray's distance where it reaches farthest towards it.
+    #[serde(
+        rename = "picking_deg",
+        with = "degrees::option",
+        skip_serializing_if = "Option::is_none"
+    )]
+    #[schemars(with = "Option<f64>")]
+    pub picking: Option<f64>,
+    /// Carrier turn at which the first arm plants, rad (degrees in the file); left out, where its tip is lowest.
+    #[serde(
+        rename = "planting_deg",
+        with = "degrees::option",
+        skip_serializing_if = "Option::is_none"
+    )]
+    #[schemars(with = "Option<f64>")]
+    pub planting: Option<f64>,
+    /// Seedlings planted in a minute.
+    pub rate_per_minute: f64,
+    /// Distance of the plants along the row, mm; the machine travels towards the tray's side, by this much from plant
+    /// to plant.
+    pub plant_spacing: f64,
+    /// Depth below the ground that the tip reaches at its lowest, mm.
+    pub planting_depth: f64,
+}
+
+impl Default for WorkSpec {
+    fn default() -> Self {
+        Self {
+            picking: None,
+            planting: None,
+            rate_per_minute: 180.0,
+            plant_spacing: 140.0,
+            planting_depth: 10.0,
+        }
+    }
+}
+
+impl WorkSpec {
+    /// Ranges.
+    ///
+    /// # Errors
+    /// [`SpecError`] with the key at fault.
+    pub fn validate(&self) -> Result<(), SpecError> {
+        for (key, input) in [
+            ("picking_deg", self.picking),
+            ("planting_deg", self.planting),
+        ] {
+            if let Some(input) = input {
+                angle(key, input)?;
+            }
+        }
+        positive("rate_per_minute", self.rate_per_minute)?;
+        not_negative("plant_spacing", self.plant_spacing)?;
+        finite("planting_depth", self.planting_depth)
+    }
+}
+
+/// The tray the seedlings are picked from.
+#[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct TraySpec {
+    /// Distance of the tray's surface from the carrier's axis, mm, along the direction in which the arms enter it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub distance: Option<f64>,
+    /// Elevation of the direction in which the arms enter the tray, rad (degrees in the file).
+    #[serde(rename = "inclination_deg", with = "degrees")]
+    #[schemars(with = "f64")]
+    pub inclination: f64,
+    /// Holes across.
+    pub columns: u32,
+    /// Holes down.
+    pub rows: u32,
+    /// Distance of the holes, mm.
+    pub hole_spacing: f64,
+}
+
+impl Default for TraySpec {
+    fn default() -> Self {
+        Self {
+            distance: None,
+            inclination: 0.0,
+            columns: 14,
+            rows: 29,
+            hole_spacing: 20.0,
+        }
+    }
+}
+
+impl TraySpec {
+    /// Ranges.
+    ///
+    /// # Errors
+    /// [`SpecError`] with the key at fault.
+    pub fn validate(&self) -> Result<(), SpecError> {
+        if let Some(distance) = self.distance {
+            finite("distance", distance)?;
+        }
+        let inclination = self.inclination.to_degrees();
+        between("inclination_deg", inclination, [-89.0, 89.0], " deg")?;
+        within("columns", self.columns, 1, 1000)?;
+        within("rows", self.rows, 1, 1000)?;
+        positive("hole_spacing", self.hole_spacing)
+    }
+}
+
+/// A seedling, once planted: an upright stem.
+#[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct SeedlingSpec {
+    /// Height above the ground up to which a stem must not be pushed, mm; above it the leaves give way.
+    pub height: f64,
+    /// Width of the stem, mm.
+    pub width: f64,
+}
+
+impl Default for SeedlingSpec {
+    fn default() -> Self {
+        Self {
+            height: 60.0,
+            width: 4.0,
+        }
+    }
+}
+
+impl SeedlingSpec {
+    /// Ranges.
+    ///
+    /// # Errors
+    /// [`SpecError`] with the key at fault.
+    pub fn validate(&self) -> Result<(), SpecError> {
+        not_negative("height", self.height)?;
+        not_negative("width", self.width)
+    }
+}

@@ -1,0 +1,159 @@
+use centrode_geometry::{Point, Vector};
+
+use super::ThreeArm;
+use super::train::{TrainJet, moved};
+use crate::transmission::MotionJet;
+
+/// A link of the mechanism; chains and arms are counted from zero.
+///
+/// Each has a frame of its own. Sun and planets: that of a pair's driver, intermediate gears: that of its driven gear, on
+/// their axes. Carrier: on the sun's axis, x towards the first intermediate gear. Arm: on its planet's axis, x along the
+/// pusher's axis, the way the clamp points.
+#[derive(Clone, Copy, Debug, Eq, Hash, PartialEq)]
+pub enum Link {
+    /// The gear fixed to the frame.
+    Sun,
+    /// What carries all other gears.
+    Carrier,
+    /// The gear between sun and planet of a chain.
+    Intermediate(u32),
+    /// The gear that carries an arm.
+    Planet(u32),
+    /// An arm with its clamp and pusher.
+    Arm(u32),
+}
+
+/// A point on its way: position (mm), with derivatives by carrier turn (mm/rad, mm/rad^2).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PointMotion {
+    /// Where it is.
+    pub position: Point,
+    /// First derivative.
+    pub velocity: Vector,
+    /// Second derivative.
+    pub acceleration: Vector,
+}
+
+impl PointMotion {
+    /// The same with derivatives by time for a carrier that turns at `speed` rad/s: mm/s and mm/s^2.
+    #[must_use]
+    pub fn at_speed(&self, speed: f64) -> Self {
+        Self {
+            position: self.position,
+            velocity: self.velocity * speed,
+            acceleration: self.acceleration * (speed * speed),
+        }
+    }
+
+    fn plus(self, length: f64, angle: &MotionJet) -> Self {
+        let (sin, cos) = angle.position.sin_cos();
+        let (along, across) = (Vector::new(cos, sin), Vector::new(-sin, cos));
+        let (rate, change) = (angle.velocity, angle.acceleration);
+        Self {
+            position: self.position + along * length,
+            velocity: self.velocity + across * (length * rate),
+            acceleration: self.acceleration + (across * change - along * (rate * rate)) * length,
+        }
+    }
+
+    fn at_rest() -> Self {
+        Self {
+            position: Point::origin(),
+            velocity: Vector::zeros(),
+            acceleration: Vector::zeros(),
+        }
+    }
+}
+
+/// Where one link stands: its axis and the turn of its frame, with derivatives by carrier turn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LinkMotion {
+    /// The link's own origin.
+    pub origin: PointMotion,
+    /// Turn of its frame from the machine's, rad.
+    pub angle: MotionJet,
+}
+
+impl LinkMotion {
+    /// Motion of a point given in the link's frame, mm.
+    #[must_use]
+    pub fn point(&self, local: Point) -> PointMotion {
+        let angle = moved(self.angle, local.y.atan2(local.x));
+        self.origin.plus(local.coords.norm(), &angle)
+    }
+}
+
+impl ThreeArm {
+    /// Where a link stands at a carrier turn; any real input. Chains beyond the last wrap round.
+    #[must_use]
+    pub fn link(&self, link: Link, input: f64) -> LinkMotion {
+        let rest = PointMotion::at_rest();
+        match link {
+            Link::Sun => LinkMotion {
+                origin: rest,
+                angle: MotionJet {
+                    position: self.train().carrier_start(),
+                    ..MotionJet::default()
+                },
+            },
+            Link::Carrier => LinkMotion {
+                origin: rest,
+                angle: self.train().at(input).carrier,
+            },
+            Link::Intermediate(chain) => {
+                let jet = self.train().at(self.own_input(input, chain));
+                LinkMotion {
+                    origin: rest.plus(self.center_distance(), &jet.carrier),
+                    angle: jet.intermediate,
+                }
+            }
+            Link::Planet(chain) => {
+                let jet = self.train().at(self.own_input(input, chain));
+                LinkMotion {
+                    origin: self.planet_axis(&jet),
+                    angle: jet.planet,
+                }
+            }
+            Link::Arm(arm) => {
+                let jet = self.train().at(self.own_input(input, arm));
+                LinkMotion {
+                    origin: self.planet_axis(&jet),
+                    angle: moved(jet.arm, self.clamp_mounting()),
+                }
+            }
+        }
+    }
+
+    fn planet_axis(&self, jet: &TrainJet) -> PointMotion {
+        let a = self.center_distance();
+        let leg = moved(jet.carrier, self.train().bend());
+        PointMotion::at_rest().plus(a, &jet.carrier).plus(a, &leg)
+    }
+
+    /// Motion of an arm's tip in the machine's frame.
+    #[must_use]
+    pub fn tip(&self, input: f64, arm: u32) -> PointMotion {
+        let jet = self.train().at(self.own_input(input, arm));
+        let spec = &self.design().arm;
+        let along = moved(jet.arm, spec.mounting_angle);
+        self.planet_axis(&jet).plus(spec.tip_distance, &along)
+    }
+
+    /// Direction in which an arm's clamp points, from the x axis, rad.
+    #[must_use]
+    pub fn clamp(&self, input: f64, arm: u32) -> MotionJet {
+        let jet = self.train().at(self.own_input(input, arm));
+        moved(jet.arm, self.clamp_mounting())
+    }
+
+    /// A motion in the machine's frame as it is over ground, for a machine that has travelled from zero at input zero.
+    #[must_use]
+    pub fn over_ground(&self, motion: &PointMotion, input: f64) -> PointMotion {
+        let travel = Vector::new(-self.train().sign() * self.advance(), 0.0);
+        PointMotion {
+            position: motion.position + travel * input,
+            velocity: motion.velocity + travel,
+            acceleration: motion.acceleration,
+        }
+    }
+}

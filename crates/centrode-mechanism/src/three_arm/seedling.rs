@@ -1,0 +1,109 @@
+use std::f64::consts::TAU;
+
+use centrode_geometry::bracketed_minimum;
+
+use super::ThreeArm;
+
+/// How near an arm's clamp comes to pushing a planted seedling over.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SeedlingClearance {
+    /// Least clearance, mm; negative by as much as a stem is pushed.
+    pub value: f64,
+    /// Carrier turn of the planting arm at which it is least, rad.
+    pub input: f64,
+    /// Which seedling is nearest there: 0 the one just planted, 1 the one before it in the row.
+    pub seedling: u32,
+}
+
+/// Inputs at which the clamp is looked at before the least clearance is sharpened.
+const LOOKS: u32 = 720;
+
+impl ThreeArm {
+    /// Least clearance of an arm's clamp from the seedlings it has planted and finds planted, over a whole cycle.
+    ///
+    /// Model: over ground, each arm leaves a stem upright where its tip is at planting, as wide and as high as the
+    /// design says, one every `plant_spacing`. The clamp is the line back from the tip along the pusher's axis. From
+    /// the release on it must stay behind the far side of the stem just planted, through which its open flakes may
+    /// draw back, and at all times in front of the stem before it. Only what is below the stems' top
+    /// counts; the thickness of the clamp, and of what is above it, does not.
+    ///
+    /// Infinite where the clamp never is below the stems' top.
+    #[must_use]
+    pub fn seedling_clearance(&self) -> SeedlingClearance {
+        let release = self.planting(0);
+        let half_turn = 0.5 * TAU;
+        let own = Self::least_of(
+            |input| self.behind(input, release),
+            [release, release + half_turn],
+        );
+        let before = Self::least_of(
+            |input| self.in_front(input, release),
+            [release - half_turn, release + half_turn],
+        );
+        let (seedling, (input, value)) = if before.1 < own.1 {
+            (1, before)
+        } else {
+            (0, own)
+        };
+        SeedlingClearance {
+            value,
+            input: input.rem_euclid(TAU),
+            seedling,
+        }
+    }
+
+    /// Where a function is least between two inputs, and its value there.
+    fn least_of(clearance: impl Fn(f64) -> f64, [from, to]: [f64; 2]) -> (f64, f64) {
+        let step = (to - from) / f64::from(LOOKS);
+        let place = |i: u32| from + step * f64::from(i);
+        let values: Vec<f64> = (0..=LOOKS).map(|i| clearance(place(i))).collect();
+        let mut least = (from, values[0]);
+        for (i, looks) in (1..).zip(values.windows(3)) {
+            let dips = looks[1] <= looks[0] && looks[1] <= looks[2] && looks[1].is_finite();
+            let found = [
+                Some((place(i), looks[1])),
+                dips.then(|| bracketed_minimum(&clearance, place(i - 1), place(i + 1))),
+            ];
+            for candidate in found.into_iter().flatten() {
+                if candidate.1 < least.1 {
+                    least = candidate;
+                }
+            }
+        }
+        least
+    }
+
+    /// Ends of the part of the clamp below the stems' top, along the travel over ground from the stem, mm.
+    fn low_part(&self, input: f64, release: f64) -> Option<[f64; 2]> {
+        let forward = -self.train().sign();
+        let design = self.design();
+        let tip = self.over_ground(&self.tip(input, 0), input).position;
+        let planted = self.over_ground(&self.tip(release, 0), release).position;
+        let (sin, cos) = self.clamp(input, 0).position.sin_cos();
+        let length = design.arm.clamp_length;
+        let top = self.ground() + design.seedling.height;
+        let place = |back: f64| forward * (tip.x - back * cos - planted.x);
+        let height = |back: f64| tip.y - back * sin;
+        let (at_tip, at_end) = (height(0.0), height(length));
+        if at_tip > top && at_end > top {
+            return None;
+        }
+        let crossing = (at_tip - top) / sin;
+        let from = if at_tip > top { crossing } else { 0.0 };
+        let to = if at_end > top { crossing } else { length };
+        Some([place(from), place(to)])
+    }
+
+    fn behind(&self, input: f64, release: f64) -> f64 {
+        let half = 0.5 * self.design().seedling.width;
+        self.low_part(input, release)
+            .map_or(f64::INFINITY, |[a, b]| half - a.max(b))
+    }
+
+    fn in_front(&self, input: f64, release: f64) -> f64 {
+        let half = 0.5 * self.design().seedling.width;
+        let spacing = self.design().work.plant_spacing;
+        self.low_part(input, release)
+            .map_or(f64::INFINITY, |[a, b]| a.min(b) + spacing - half)
+    }
+}

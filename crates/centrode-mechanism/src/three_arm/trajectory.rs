@@ -1,0 +1,179 @@
+use std::f64::consts::TAU;
+
+use centrode_geometry::{Vector, bracketed_root};
+
+use super::{ThreeArm, ThreeArmError};
+
+/// Where and how far the tip's path reaches in some direction.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Extreme {
+    /// Carrier turn of the first arm, rad.
+    pub input: f64,
+    /// Reach, mm.
+    pub reach: f64,
+}
+
+/// How the picking input was found.
+#[derive(Clone, Copy, Debug, Default, Eq, PartialEq)]
+pub enum PickingRule {
+    /// Where the tip reaches farthest in the direction in which arms enter the tray.
+    #[default]
+    Farthest,
+    /// Where the tip passes the tray's surface on its way to the farthest reach.
+    EntersTray,
+    /// Written in the design.
+    Given,
+}
+
+/// How the planting input was found.
+#[derive(Clone, Copy, Debug, Default, Eq, PartialEq)]
+pub enum PlantingRule {
+    /// Where the tip is lowest.
+    #[default]
+    Lowest,
+    /// Written in the design.
+    Given,
+}
+
+/// The tip's path in the machine's frame (the static trajectory): extremes and working points.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Trajectory {
+    /// Where the tip is lowest; its reach is the y coordinate.
+    pub lowest: Extreme,
+    /// Where it is highest.
+    pub highest: Extreme,
+    /// Where it reaches farthest in the direction in which arms enter the tray.
+    pub farthest: Extreme,
+    /// Input at which the first arm picks, in `[0, 2 pi)`.
+    pub picking: f64,
+    /// How it was found.
+    pub picking_rule: PickingRule,
+    /// Input at which the first arm plants, in `[0, 2 pi)`.
+    pub planting: f64,
+    /// How it was found.
+    pub planting_rule: PlantingRule,
+}
+
+/// Inputs at which extremes are looked for before they are sharpened to the float limit.
+const LOOKS: u32 = 720;
+
+/// The tip's path, looked at evenly: input, reach, reach by input.
+struct Looks<'a> {
+    mechanism: &'a ThreeArm,
+    direction: Vector,
+    list: Vec<[f64; 3]>,
+}
+
+impl<'a> Looks<'a> {
+    fn along(mechanism: &'a ThreeArm, direction: Vector) -> Self {
+        let mut looks = Self {
+            mechanism,
+            direction,
+            list: Vec::new(),
+        };
+        let input = |i: u32| TAU * f64::from(i) / f64::from(LOOKS);
+        looks.list = (0..=LOOKS)
+            .map(|i| {
+                let [reach, slope] = looks.at(input(i));
+                [input(i), reach, slope]
+            })
+            .collect();
+        looks
+    }
+
+    fn at(&self, input: f64) -> [f64; 2] {
+        let tip = self.mechanism.tip(input, 0);
+        [
+            tip.position.coords.dot(&self.direction),
+            tip.velocity.dot(&self.direction),
+        ]
+    }
+
+    /// The greatest reach with sign 1, the least with sign -1.
+    fn extreme(&self, sign: f64) -> Extreme {
+        let mut best = Extreme {
+            input: 0.0,
+            reach: -f64::INFINITY * sign,
+        };
+        let mut take = |input: f64, reach: f64| {
+            if sign * reach > sign * best.reach {
+                best = Extreme { input, reach };
+            }
+        };
+        for pair in self.list.windows(2) {
+            let [[low, reach, before], [high, _, after]] = [pair[0], pair[1]];
+            take(low, reach);
+            if sign * before > 0.0 && sign * after <= 0.0 {
+                let slope = |input: f64| self.at(input)[1];
+                let input = bracketed_root(slope, low, high, before, after);
+                take(input, self.at(input)[0]);
+            }
+        }
+        best
+    }
+
+    /// Where the reach last grows past a value before the given input.
+    fn entering(&self, value: f64, before: f64) -> Option<f64> {
+        let count = self.list.len() - 1;
+        let start = (before / TAU * count as f64).ceil() as usize;
+        let place = |i: usize| {
+            let [input, reach, _] = self.list[i % count];
+            (input + TAU * (i / count) as f64, reach)
+        };
+        (start..start + count).rev().find_map(|i| {
+            let ((low, out), (high, inside)) = (place(i), place(i + 1));
+            let high = high.min(before + TAU);
+            if out > value || inside < value || low >= high {
+                return None;
+            }
+            let off = |input: f64| self.at(input)[0] - value;
+            let (at_low, at_high) = (off(low), off(high));
+            (at_low <= 0.0 && at_high >= 0.0)
+                .then(|| bracketed_root(off, low, high, at_low, at_high))
+        })
+    }
+}
+
+impl Trajectory {
+    pub(super) fn of(mechanism: &ThreeArm) -> Result<Self, ThreeArmError> {
+        let design = mechanism.design();
+        let upright = Looks::along(mechanism, Vector::y());
+        let (lowest, highest) = (upright.extreme(-1.0), upright.extreme(1.0));
+        let (sin, cos) = design.tray.inclination.sin_cos();
+        let inwards = Vector::new(-mechanism.train().sign() * cos, sin);
+        let towards = Looks::along(mechanism, inwards);
+        let farthest = towards.extreme(1.0);
+        let (picking, picking_rule) = match (design.work.picking, design.tray.distance) {
+            (Some(given), _) => (given, PickingRule::Given),
+            (None, None) => (farthest.input, PickingRule::Farthest),
+            (None, Some(distance)) => {
+                let found = towards.entering(distance, farthest.input);
+                let input = found.ok_or_else(|| ThreeArmError::TrayOutOfReach {
+                    distance,
+                    least: towards.extreme(-1.0).reach,
+                    greatest: farthest.reach,
+                })?;
+                (input, PickingRule::EntersTray)
+            }
+        };
+        let (planting, planting_rule) = match design.work.planting {
+            Some(given) => (given, PlantingRule::Given),
+            None => (lowest.input, PlantingRule::Lowest),
+        };
+        Ok(Self {
+            lowest,
+            highest,
+            farthest,
+            picking: picking.rem_euclid(TAU),
+            picking_rule,
+            planting: planting.rem_euclid(TAU),
+            planting_rule,
+        })
+    }
+
+    /// Height of the tip's path, mm.
+    #[must_use]
+    pub fn height(&self) -> f64 {
+        self.highest.reach - self.lowest.reach
+    }
+}
