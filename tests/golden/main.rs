@@ -11,6 +11,7 @@ use std::path::{Path, PathBuf};
 use centrode_export::gear_pair::{Format, Options, files};
 use centrode_geometry::Tolerance;
 use centrode_mechanism::design::DesignFile;
+use centrode_mechanism::mechanism::Mechanism;
 use serde_json::{Value, json};
 
 /// Greatest difference of a figure, of its size or of 1 mm or 1 rad, whichever is more.
@@ -41,29 +42,44 @@ fn stems(folder: &Path, extension: &str) -> Vec<String> {
 fn outcome(name: &str) -> Value {
     let path = folder("designs").join(format!("{name}.toml"));
     let design = DesignFile::read(&fs::read(path).expect("readable")).expect("a design");
-    let pair = design.gear_pair().expect("a pair");
-    let report = centrode_analysis::check(&pair);
+    let mechanism = design.mechanism().expect("a mechanism");
+    let report = centrode_analysis::check_mechanism(&mechanism);
     let findings: Vec<Value> = report
         .findings
         .iter()
         .map(|f| json!({"rule": f.rule, "severity": f.severity, "part": f.place.part, "teeth": f.place.teeth}))
         .collect();
+    let mut outcome =
+        json!({"values": report.values, "findings": findings, "files": written(&mechanism)});
+    for goal in &report.goals {
+        outcome["goals"][goal.name] = json!({"value": goal.value, "met": goal.met()});
+    }
+    for table in &report.tables {
+        outcome["tables"][table.name] = json!(table.rows);
+    }
+    outcome
+}
+
+/// The files of a mechanism and what is in them.
+fn written(mechanism: &Mechanism) -> BTreeMap<String, Value> {
     let options = Options::new(Tolerance::new(1e-3).expect("positive"));
-    let written = match files(&pair, &Format::ALL, &options) {
-        Ok(bundle) => {
-            // How many bodies there are to touch with is enough.
-            let (bodies, others): (Vec<_>, Vec<_>) = bundle
-                .files()
-                .partition(|(name, _)| name.starts_with("collision/"));
-            others
-                .into_iter()
-                .map(|(name, bytes)| (name.to_owned(), json!(entities::count(name, bytes))))
-                .chain([("collision".to_owned(), json!(bodies.len()))])
-                .collect()
-        }
-        Err(error) => BTreeMap::from([("refused".to_owned(), json!(error.to_string()))]),
-    };
-    json!({"values": report.values, "findings": findings, "files": written})
+    match mechanism {
+        Mechanism::GearPair(pair) => match files(pair, &Format::ALL, &options) {
+            Ok(bundle) => {
+                // How many bodies there are to touch with is enough.
+                let (bodies, others): (Vec<_>, Vec<_>) = bundle
+                    .files()
+                    .partition(|(name, _)| name.starts_with("collision/"));
+                others
+                    .into_iter()
+                    .map(|(name, bytes)| (name.to_owned(), json!(entities::count(name, bytes))))
+                    .chain([("collision".to_owned(), json!(bodies.len()))])
+                    .collect()
+            }
+            Err(error) => BTreeMap::from([("refused".to_owned(), json!(error.to_string()))]),
+        },
+        Mechanism::ThreeArm(_) => BTreeMap::new(),
+    }
 }
 
 /// Every place where two values differ, numbers within [`DIFFERENCE`] aside.

@@ -2,16 +2,22 @@
 
 mod check;
 mod contact;
+mod goal;
 mod kinetostatics;
+mod mechanism;
 pub mod optimise;
 mod remedy;
 mod report;
 mod shaft;
 mod swing_spread;
+mod three_arm;
 
 pub use check::{check, check_contact};
 pub use contact::Contact;
+pub use goal::Goal;
 pub use kinetostatics::{CrankMotion, ForceError, Forces, Kinetostatics, LinkMass, Load, Reaction};
-pub use report::{Finding, Place, Report, Severity};
+pub use mechanism::check_mechanism;
+pub use report::{Finding, Place, Report, Severity, Table};
 pub use shaft::{check_moving_box, check_shaft};
 pub use swing_spread::{SixBarTolerances, SwingSpread};
+pub use three_arm::{check_three_arm, goals};

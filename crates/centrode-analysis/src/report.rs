@@ -2,6 +2,8 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
+use crate::Goal;
+
 /// How much a finding matters.
 #[derive(Clone, Copy, Debug, Eq, Ord, PartialEq, PartialOrd, Serialize)]
 #[serde(rename_all = "lowercase")]
@@ -52,6 +54,21 @@ pub struct Finding {
     pub place: Place,
 }
 
+/// Figures in rows and columns.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Table {
+    /// Short stable name.
+    pub name: &'static str,
+    /// What the figures are.
+    pub title: &'static str,
+    /// Unit of every figure: `mm`, `rad`, or empty for a plain number.
+    pub unit: &'static str,
+    /// What each column is of.
+    pub columns: Vec<String>,
+    /// What each row is of, and its figures.
+    pub rows: Vec<(String, Vec<f64>)>,
+}
+
 /// All findings and figures of one mechanism.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Report {
@@ -59,6 +76,10 @@ pub struct Report {
     pub findings: Vec<Finding>,
     /// Figures by name; the unit is in the documentation of the check that makes them.
     pub values: BTreeMap<&'static str, f64>,
+    /// What it is to reach, if its design says.
+    pub goals: Vec<Goal>,
+    /// Figures in rows and columns.
+    pub tables: Vec<Table>,
 }
 
 impl Report {

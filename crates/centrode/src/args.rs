@@ -29,7 +29,7 @@ pub(crate) enum Command {
     /// Write a design's drawings, solids, tables and simulator model
     Export(Export),
     /// Print the JSON schema of the design file
-    Schema,
+    Schema(Schema),
     /// Print a completion script for a shell
     Completions(Completions),
     /// Print the man page of the program or of a command
@@ -181,6 +181,13 @@ fn tolerance(word: &str) -> Result<Tolerance, String> {
         return Err(format!("tolerance must be at least {FINEST} mm"));
     }
     Ok(tolerance)
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Schema {
+    /// Family of mechanism; left out, all
+    #[arg(value_parser = PossibleValuesParser::new(Design::FAMILIES))]
+    pub(crate) family: Option<String>,
 }
 
 #[derive(Debug, Args)]

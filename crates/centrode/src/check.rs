@@ -12,15 +12,15 @@ pub(crate) fn run(command: &Check, out: &mut impl Write) -> Result<ExitCode, Fai
     let source = Source::open(&command.design)?;
     let design = source.design()?;
     let progress = Progress::new(2);
-    progress.step("cutting the teeth");
-    let pair = design.gear_pair().map_err(|error| source.blame(error))?;
-    progress.step("running the gears together");
-    let report = centrode::analysis::check(&pair);
+    progress.step("resolving the design");
+    let mechanism = design.mechanism().map_err(|error| source.blame(error))?;
+    progress.step("checking");
+    let report = centrode::analysis::check_mechanism(&mechanism);
     drop(progress);
     if command.json {
         out.write_all(report::json(&report)?.as_bytes())?;
     } else {
-        report::write(&pair, &report, out)?;
+        report::write(&mechanism, &report, out)?;
     }
     Ok(ExitCode::from(u8::from(!report.ok())))
 }

@@ -2,9 +2,10 @@ use std::io::Write;
 use std::process::ExitCode;
 
 use centrode::analysis::Report;
-use centrode::export::dxf;
 use centrode::export::gear_pair::{self, Format, Options, SheetOptions, Subject};
+use centrode::export::{Bundle, dxf};
 use centrode::mechanism::design::{Projection, SheetSize};
+use centrode::mechanism::mechanism::Mechanism;
 
 use crate::args::{Dxf, Export, File, Method, Part, Size};
 use crate::failure::Failure;
@@ -18,12 +19,12 @@ pub(crate) fn run(command: &Export, out: &mut impl Write) -> Result<ExitCode, Fa
     let source = Source::open(&command.design)?;
     let design = source.design()?;
     let progress = Progress::new(4);
-    progress.step("cutting the teeth");
-    let pair = design.gear_pair().map_err(|error| source.blame(error))?;
-    progress.step("running the gears together");
-    let found = centrode::analysis::check(&pair);
+    progress.step("resolving the design");
+    let mechanism = design.mechanism().map_err(|error| source.blame(error))?;
+    progress.step("checking");
+    let found = centrode::analysis::check_mechanism(&mechanism);
     progress.step("drawing");
-    let mut bundle = gear_pair::files(&pair, &formats(command), &options(command, &found))?;
+    let mut bundle = files(&mechanism, command, &found)?;
     if command.wants(File::Json) {
         bundle.add("report.json", report::json(&found)?.into_bytes())?;
     }
@@ -38,6 +39,24 @@ pub(crate) fn run(command: &Export, out: &mut impl Write) -> Result<ExitCode, Fa
     Ok(ExitCode::from(u8::from(!found.ok())))
 }
 
+/// The files of a mechanism in the formats asked for.
+fn files(mechanism: &Mechanism, command: &Export, found: &Report) -> Result<Bundle, Failure> {
+    match mechanism {
+        Mechanism::GearPair(pair) => Ok(gear_pair::files(
+            pair,
+            &formats(command),
+            &options(command, found),
+        )?),
+        // Its report is all that is written of it.
+        Mechanism::ThreeArm(_) => match command.format.iter().find(|f| **f != File::Json) {
+            None => Ok(Bundle::default()),
+            Some(_) => Err(Failure::Usage(
+                "a three-arm mechanism is written as json only".into(),
+            )),
+        },
+    }
+}
+
 /// A line on standard error: what was found, and that the files are there all the same.
 fn tell(found: &centrode::analysis::Report, files: usize, command: &Export) {
     let mut err = anstream::stderr();
@@ -49,7 +68,7 @@ fn tell(found: &centrode::analysis::Report, files: usize, command: &Export) {
     } else {
         writeln!(
             err,
-            "{files} files written, but the gears do not do their job: {summary}; see centrode check {design}"
+            "{files} files written, but the mechanism does not do its job: {summary}; see centrode check {design}"
         )
     };
 }

@@ -34,7 +34,7 @@ fn main() -> ExitCode {
         Command::New(command) => new::run(command, &mut out),
         Command::Check(command) => check::run(command, &mut out),
         Command::Export(command) => export::run(command, &mut out),
-        Command::Schema => schema::run(&mut out),
+        Command::Schema(command) => schema::run(command, &mut out),
         Command::Completions(command) => completions::run(command, &mut out),
         Command::Man(command) => man::run(command, &mut out),
     };

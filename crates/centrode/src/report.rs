@@ -1,10 +1,12 @@
 mod figures;
 mod findings;
+mod goals;
+mod tables;
 
 use std::io::Write;
 
-use centrode::analysis::{Finding, Report};
-use centrode::mechanism::gear::GearPair;
+use centrode::analysis::{Finding, Goal, Report, Table};
+use centrode::mechanism::mechanism::Mechanism;
 use serde::Serialize;
 
 pub(crate) use findings::summary;
@@ -15,6 +17,10 @@ struct Json<'a> {
     ok: bool,
     findings: &'a [Finding],
     values: &'a std::collections::BTreeMap<&'static str, f64>,
+    #[serde(skip_serializing_if = "<[Goal]>::is_empty")]
+    goals: &'a [Goal],
+    #[serde(skip_serializing_if = "<[Table]>::is_empty")]
+    tables: &'a [Table],
 }
 
 /// The report as JSON with every digit; an infinite figure is null. Ends with a newline.
@@ -23,20 +29,43 @@ pub(crate) fn json(report: &Report) -> std::io::Result<String> {
         ok: report.ok(),
         findings: &report.findings,
         values: &report.values,
+        goals: &report.goals,
+        tables: &report.tables,
     };
     let mut text = serde_json::to_string_pretty(&json)?;
     text.push('\n');
     Ok(text)
 }
 
-/// The report as a person reads it: findings first, then the figures in groups.
-pub(crate) fn write(pair: &GearPair, report: &Report, out: &mut impl Write) -> std::io::Result<()> {
-    let (driver, driven) = pair.mean_ratio();
-    let name = [pair.name(), pair.title()].map(str::trim);
+/// The report as a person reads it: findings first, then goals, tables and the figures in groups.
+pub(crate) fn write(
+    mechanism: &Mechanism,
+    report: &Report,
+    out: &mut impl Write,
+) -> std::io::Result<()> {
+    let name = [mechanism.name(), mechanism.title()].map(str::trim);
     let name: Vec<&str> = name.into_iter().filter(|part| !part.is_empty()).collect();
     writeln!(out, "{}", name.join(": "))?;
-    writeln!(out, "{}; mean ratio {driver}:{driven}", pair.definition())?;
+    writeln!(out, "{}", definition(mechanism))?;
     writeln!(out)?;
     findings::write(report, out)?;
+    goals::write(report, out)?;
+    tables::write(report, out)?;
     figures::write(report, out)
+}
+
+/// What the mechanism is, in one line.
+fn definition(mechanism: &Mechanism) -> String {
+    match mechanism {
+        Mechanism::GearPair(pair) => {
+            let (driver, driven) = pair.mean_ratio();
+            format!("{}; mean ratio {driver}:{driven}", pair.definition())
+        }
+        Mechanism::ThreeArm(arms) => format!(
+            "{} arms; sun: {}; centre distance {:.6} mm",
+            arms.arms(),
+            arms.definition(),
+            arms.center_distance()
+        ),
+    }
 }

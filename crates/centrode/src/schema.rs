@@ -3,10 +3,17 @@ use std::process::ExitCode;
 
 use centrode::mechanism::design::Design;
 
+use crate::args::Schema;
 use crate::failure::Failure;
 
 /// Prints the JSON schema of the design file.
-pub(crate) fn run(out: &mut impl Write) -> Result<ExitCode, Failure> {
-    writeln!(out, "{:#}", Design::json_schema())?;
+pub(crate) fn run(command: &Schema, out: &mut impl Write) -> Result<ExitCode, Failure> {
+    let family = command.family.as_deref();
+    let schema = family.map_or_else(|| Some(Design::json_schema()), Design::json_schema_of);
+    let Some(schema) = schema else {
+        let family = family.unwrap_or_default();
+        return Err(Failure::Usage(format!("unknown family {family:?}")));
+    };
+    writeln!(out, "{schema:#}")?;
     Ok(ExitCode::SUCCESS)
 }

@@ -478,7 +478,7 @@ impl Gear {
     }
 }
 
-fn parameters(design: &GearPairDesign, module: f64) -> TeethParameters {
+pub(super) fn parameters(design: &GearPairDesign, module: f64) -> TeethParameters {
     let spec = &design.tool;
     let kind = match spec {
         ToolSpec::Rack(_) => ToolKind::Rack,

@@ -17,7 +17,7 @@ pub use train::{ArmOnCarrier, Train, TrainJet};
 pub use trajectory::{Extreme, PickingRule, PlantingRule, Trajectory};
 
 use crate::gear::design::SpecError;
-use crate::gear::{GearPair, GearPairError, Member, Rolling};
+use crate::gear::{GearPair, GearPairError, Member, Rolling, Soundness};
 use design::ThreeArmDesign;
 
 /// A three-arm transplanting mechanism, resolved: exact pitch curves, exact motion of every link.
@@ -170,6 +170,14 @@ impl ThreeArm {
     /// [`GearPairError`] where no teeth can be laid out or cut.
     pub fn pair(&self) -> Result<GearPair, GearPairError> {
         GearPair::resolve(&self.design.pair())
+    }
+
+    /// How many flanks of the sun (and so of each planet) and of each intermediate gear are sound at full height.
+    ///
+    /// # Errors
+    /// [`GearPairError`] without a tooth count, or where no teeth can be laid out.
+    pub fn soundness(&self) -> Result<[Soundness; 2], GearPairError> {
+        Soundness::of(&self.design.pair(), self.rolling())
     }
 
     /// Direction of the clamp from the arm's zero, rad: that of the tip turned by asin(H/S).

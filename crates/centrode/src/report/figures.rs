@@ -4,7 +4,7 @@ use std::io::{Result, Write};
 use anstyle::Style;
 use centrode::analysis::Report;
 
-const HEADING: Style = Style::new().bold();
+pub(super) const HEADING: Style = Style::new().bold();
 /// Width of the names and of each column of figures.
 const NAME: usize = 32;
 const COLUMN: usize = 12;
@@ -20,6 +20,8 @@ enum Unit {
     Degree,
     /// Kept and shown in rad: errors too small for degrees.
     Radian,
+    RadianPerSecond,
+    MillimetrePerSecond,
 }
 
 /// A line of the table: what it is called, the figures on it, their unit.
@@ -28,7 +30,7 @@ struct Row(&'static str, &'static [&'static str], Unit);
 /// A part of the table: its heading, the columns, the rows.
 struct Group(&'static str, &'static [&'static str], &'static [Row]);
 
-const GROUPS: [Group; 4] = [
+const GROUPS: [Group; 7] = [
     Group(
         "Pitch curves",
         &["driver", "driven"],
@@ -141,6 +143,63 @@ const GROUPS: [Group; 4] = [
         ],
     ),
     Group(
+        "Pitch curves of sun and intermediate gears",
+        &["sun", "intermediate"],
+        &[
+            Row(
+                "least radius",
+                &["sun_radius_min", "intermediate_radius_min"],
+                Unit::Millimetre,
+            ),
+            Row(
+                "greatest radius",
+                &["sun_radius_max", "intermediate_radius_max"],
+                Unit::Millimetre,
+            ),
+            Row("length", &["pitch_length"], Unit::Millimetre),
+        ],
+    ),
+    Group(
+        "Reach of the tip from the carrier's axis",
+        &[],
+        &[
+            Row("lowest", &["tip_lowest"], Unit::Millimetre),
+            Row("highest", &["tip_highest"], Unit::Millimetre),
+            Row(
+                "farthest towards the tray",
+                &["tip_farthest"],
+                Unit::Millimetre,
+            ),
+            Row(
+                "radius swept by the gearbox",
+                &["gearbox_radius"],
+                Unit::Millimetre,
+            ),
+        ],
+    ),
+    Group(
+        "Speed at the design's rate",
+        &[],
+        &[
+            Row("carrier", &["carrier_speed"], Unit::RadianPerSecond),
+            Row(
+                "tip at picking",
+                &["picking_speed"],
+                Unit::MillimetrePerSecond,
+            ),
+            Row(
+                "the same with two arms",
+                &["picking_speed_of_two_arms"],
+                Unit::MillimetrePerSecond,
+            ),
+            Row(
+                "tip at planting",
+                &["planting_speed"],
+                Unit::MillimetrePerSecond,
+            ),
+        ],
+    ),
+    Group(
         "Limits and settings",
         &[],
         &[
@@ -157,6 +216,7 @@ const GROUPS: [Group; 4] = [
                 Unit::Millimetre,
             ),
             Row("phase of the first tooth", &["phase"], Unit::Millimetre),
+            Row("planet's zero, behind", &["planet_reference"], Unit::Degree),
             Row("closure error", &["closure_error"], Unit::Radian),
         ],
     ),
@@ -166,6 +226,10 @@ const GROUPS: [Group; 4] = [
 pub(super) fn write(report: &Report, out: &mut impl Write) -> Result<()> {
     let mut shown = BTreeSet::from([""]);
     for Group(heading, columns, rows) in &GROUPS {
+        let known = |Row(_, keys, _): &Row| keys.iter().any(|key| report.values.contains_key(key));
+        if !rows.iter().any(known) {
+            continue;
+        }
         let width = if columns.is_empty() { 0 } else { NAME };
         write!(out, "\n{HEADING}{heading:width$}{HEADING:#}")?;
         for column in *columns {
@@ -214,6 +278,8 @@ impl Unit {
             Self::PerMillimetre => "1/mm",
             Self::Degree => "deg",
             Self::Radian => "rad",
+            Self::RadianPerSecond => "rad/s",
+            Self::MillimetrePerSecond => "mm/s",
         }
     }
 
@@ -221,7 +287,8 @@ impl Unit {
     fn show(self, value: f64) -> String {
         match self {
             Self::Count => format!("{value:.0}"),
-            Self::Number | Self::PerMillimetre => figure(value, 6),
+            Self::Number | Self::PerMillimetre | Self::RadianPerSecond => figure(value, 6),
+            Self::MillimetrePerSecond => figure(value, 2),
             Self::Millimetre => figure(value, 4),
             Self::Degree => figure(value.to_degrees(), 4),
             Self::Radian => figure(value, 0),

@@ -61,7 +61,7 @@ fn one(finding: &Finding, out: &mut impl Write) -> Result<()> {
         about.push(format!("{part}{teeth}"));
     }
     if let Some(input) = finding.place.input {
-        about.push(format!("driver at {:.2} deg", input.to_degrees()));
+        about.push(format!("input at {:.2} deg", input.to_degrees()));
     }
     if !about.is_empty() {
         writeln!(out, "    where: {}", about.join("; "))?;
@@ -136,7 +136,7 @@ mod tests {
         assert_eq!(
             text,
             "1 warning\nwarning [undercut] 3 of 23 teeth of the driver are undercut\n    \
-             where: driver, teeth 4-6; driver at 180.00 deg\n    measured 0.0312 mm, required 0\u{20}mm\n    \
+             where: driver, teeth 4-6; input at 180.00 deg\n    measured 0.0312 mm, required 0\u{20}mm\n    \
              remedy: fewer teeth of a larger module\n"
         );
     }

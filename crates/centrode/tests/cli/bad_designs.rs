@@ -118,3 +118,96 @@ fn bad_files_are_refused() {
     refused(&[b'x'; 10_000_000], &["at most 1048576"], 1);
     refused(b"family = \"gear-pair\"\nname = \"\xff\"\n", &["UTF-8"], 2);
 }
+
+/// The published mechanism with one line changed.
+fn arms(old: &str, new: &str) -> String {
+    let text = "family = \"three-arm\"\narms = 3\ncarrier_start_deg = 86\nbend_deg = -53\ntooth_count = 37\n\
+                [pitch]\nkind = \"bspline\"\ndegree = 2\n\
+                radius = [21, 28, 50, 49, 58, 47, 18, 12, 28, 60, 48, 24]\n\
+                angle_deg = [20, 45, 76, 105, 132, 165, 195, 225, 255, 285, 316, 345]\n\
+                [arm]\nmounting_angle_deg = -29\ntip_distance = 145\npusher_offset = 65\n\
+                [goals]\nmodule = 2.5\n";
+    assert!(text.contains(old), "{old}");
+    text.replace(old, new)
+}
+
+#[test]
+fn three_arm_mechanisms_that_cannot_be_are_refused() {
+    for (old, new, words, line) in [
+        (
+            "arms = 3",
+            "arms = 0",
+            &["arms: must be 1 to 6, not 0"][..],
+            2,
+        ),
+        ("arms = 3", "arms = 7", &["arms: must be 1 to 6, not 7"], 2),
+        ("arms = 3", "gearbox = 3", &["gearbox: must be a table"], 2),
+        ("-53", "-180", &["bend_deg: must be -175 to 175 deg"], 4),
+        ("-53", "nan", &["bend_deg: must be a finite number"], 4),
+        (
+            "distance = 145",
+            "distance = 0",
+            &["arm.tip_distance: must be greater than 0"],
+            13,
+        ),
+        (
+            "offset = 65",
+            "offset = 146",
+            &["arm.pusher_offset: must be -145 to 145 mm"],
+            14,
+        ),
+        (
+            "pusher_offset = 65\n",
+            "",
+            &["\"pusher_offset\" is missing"],
+            11,
+        ),
+        ("degree = 2", "degree = 0", &["pitch.degree must"], 8),
+        (
+            "\"bspline\"",
+            "\"bspine\"",
+            &["did you mean \"bspline\""],
+            7,
+        ),
+        (
+            "module = 2.5",
+            "modul = 2.5",
+            &["did you mean \"module\""],
+            16,
+        ),
+        (
+            "module = 2.5",
+            "pick_angle_deg = [15, -5]",
+            &["goals.pick_angle_deg: must be a range from less to more"],
+            16,
+        ),
+        // Gears that do not close at the distance asked for.
+        (
+            "tooth_count = 37",
+            "center_distance = 80",
+            &["center_distance is 80 mm", "only at 82.04634"],
+            5,
+        ),
+        ("49, 58", "49, -58", &["pitch.radius"], 9),
+        (
+            "[goals]\nmodule = 2.5",
+            "[tray]\ndistance = 500",
+            &["tray.distance is 500 mm"],
+            16,
+        ),
+        (
+            "family = \"three-arm\"",
+            "family = \"three-arms\"",
+            &["did you mean \"three-arm\""],
+            1,
+        ),
+    ] {
+        refused(arms(old, new).as_bytes(), words, line);
+    }
+    let crossing = arms(
+        "radius = [21, 28, 50, 49, 58, 47, 18, 12, 28, 60, 48, 24]\n\
+         angle_deg = [20, 45, 76, 105, 132, 165, 195, 225, 255, 285, 316, 345]",
+        "plane = \"cartesian\"\nx = [30, 10, -30, 30, -30, 10]\ny = [-20, 30, 20, 10, -20, -30]",
+    );
+    refused(crossing.as_bytes(), &["pitch.x"], 10);
+}

@@ -44,6 +44,41 @@ fn a_new_design_checks() {
 }
 
 #[test]
+fn a_new_three_arm_mechanism_checks() {
+    let new = centrode(&["new", "three-arm"]);
+    assert_eq!(new.status.code(), Some(0));
+    let check = fed(&["check", "-"], &new.stdout);
+    assert_eq!(check.status.code(), Some(0), "{}", text(&check.stderr));
+    let report = text(&check.stdout);
+    for line in [
+        "Goals: 7 of 8 reached, 1 not checked",
+        "2 clamp above horizontal at picking        0.6161 deg  -5 to 15        [############]  met",
+        "3 clamp below horizontal at planting      51.7072 deg",
+        "7 height of the trajectory               370.8206 mm   at least 260",
+        "missed by",
+        "picking                              20.0000      140.0000      260.0000  deg",
+        "planting                            191.0000      311.0000       71.0000  deg",
+    ] {
+        assert!(report.contains(line), "{line}\n{report}");
+    }
+}
+
+#[test]
+fn the_published_three_arm_set_has_its_goals() {
+    let check = centrode(&["check", &shipped("three-arm-2021.toml"), "--json"]);
+    let report: serde_json::Value = serde_json::from_slice(&check.stdout).expect("JSON");
+    let goals = report["goals"].as_array().expect("goals");
+    let goal = |name: &str| goals.iter().find(|g| g["name"] == name).expect("a goal");
+    let value = |name: &str| goal(name)["value"].as_f64().expect("a figure");
+    assert!((value("pick-angle").to_degrees() - 0.616_147).abs() < 5e-7);
+    assert!((value("trajectory-height") - 370.8206).abs() < 5e-5);
+    assert_eq!(goal("pick-angle")["progress"], 1.0);
+    assert!(goal("arm-clearance")["value"].is_null());
+    assert!(goal("sound-teeth")["margin"].as_f64().expect("a margin") < 0.0);
+    assert_eq!(report["tables"][0]["columns"][2], "arm III");
+}
+
+#[test]
 fn the_published_pair_has_its_figures() {
     let check = centrode(&["check", &shipped("elliptic-pair-2018.toml"), "--json"]);
     let report: serde_json::Value = serde_json::from_slice(&check.stdout).expect("JSON");
@@ -97,6 +132,7 @@ fn help_version_schema_completions_and_man_pages_are_printed() {
         (&["--version"], "centrode "),
         (&["check", "--help"], "Exit status"),
         (&["schema"], "\"$schema\""),
+        (&["schema", "three-arm"], "\"carrier_start_deg\""),
         (&["completions", "bash"], "_centrode"),
         (&["completions", "zsh"], "#compdef centrode"),
         (&["completions", "fish"], "complete -c centrode"),

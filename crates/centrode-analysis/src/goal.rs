@@ -1,0 +1,122 @@
+use serde::Serialize;
+
+/// What a mechanism is to reach: a figure and the range it is wanted in.
+///
+/// Margin and progress say how well: both rise as the figure comes nearer to its range, so an optimiser can follow
+/// them.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Goal {
+    /// Number in its list, from one; several figures may share one goal.
+    pub number: u32,
+    /// Short stable name, such as `pick-angle`.
+    pub name: &'static str,
+    /// The goal in a few words.
+    pub title: &'static str,
+    /// The figure, in `unit`; none where it was not looked at.
+    pub value: Option<f64>,
+    /// Least and greatest figure wanted; none where it is open.
+    pub wanted: [Option<f64>; 2],
+    /// Unit of the figures: `mm`, `rad`, or empty for a plain number.
+    pub unit: &'static str,
+    /// Size of a miss that leaves half the progress, in `unit`.
+    pub scale: f64,
+    /// Distance of the figure from the nearest end of its range: positive inside, negative outside.
+    pub margin: Option<f64>,
+    /// 1 where the goal is reached, falling smoothly to 0 as the figure goes away from it:
+    /// 1/(1 + (miss/scale)^2), the scale being the size of what is wanted.
+    pub progress: Option<f64>,
+}
+
+impl Goal {
+    /// A goal with what a figure says of it. `scale` is a positive size, in `unit`: a miss by it is half way.
+    #[must_use]
+    pub fn new(
+        (number, name, title): (u32, &'static str, &'static str),
+        value: Option<f64>,
+        wanted: [Option<f64>; 2],
+        unit: &'static str,
+        scale: f64,
+    ) -> Self {
+        let goal = Self {
+            number,
+            name,
+            title,
+            value: None,
+            wanted,
+            unit,
+            scale,
+            margin: None,
+            progress: None,
+        };
+        match value {
+            Some(value) => goal.with(value),
+            None => goal,
+        }
+    }
+
+    /// The same goal with another figure.
+    #[must_use]
+    pub fn with(self, value: f64) -> Self {
+        let above = self.wanted[0].map_or(f64::INFINITY, |least| value - least);
+        let below = self.wanted[1].map_or(f64::INFINITY, |greatest| greatest - value);
+        let margin = above.min(below);
+        let miss = (-margin).max(0.0) / self.scale;
+        Self {
+            value: Some(value),
+            margin: Some(margin),
+            progress: Some(1.0 / (1.0 + miss * miss)),
+            ..self
+        }
+    }
+
+    /// Whether it is reached; none where it was not looked at.
+    #[must_use]
+    pub fn met(&self) -> Option<bool> {
+        self.margin.map(|margin| margin >= 0.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn goal(value: f64) -> Goal {
+        let about = (2, "pick-angle", "pick angle");
+        Goal::new(about, Some(value), [Some(-5.0), Some(15.0)], "", 20.0)
+    }
+
+    #[test]
+    fn margin_and_progress_follow_the_figure() {
+        assert_eq!(goal(0.0).margin, Some(5.0));
+        assert_eq!(goal(12.0).margin, Some(3.0));
+        assert_eq!(goal(18.0).margin, Some(-3.0));
+        assert_eq!(goal(15.0).met(), Some(true));
+        assert_eq!(goal(15.1).met(), Some(false));
+        assert_eq!(goal(35.0).progress, Some(0.5));
+        let mut before = 1.0;
+        for i in 0..400 {
+            let progress = goal(15.0 + f64::from(i)).progress.expect("a figure");
+            assert!(progress <= before && progress > 0.0 && (i == 0) == (progress == 1.0));
+            before = progress;
+        }
+    }
+
+    #[test]
+    fn progress_is_smooth_where_the_range_ends() {
+        let slope = |value: f64| {
+            let at = |value: f64| goal(value).progress.expect("a figure");
+            (at(value + 1e-6) - at(value - 1e-6)) / 2e-6
+        };
+        assert!(slope(15.0).abs() < 1e-6 && (slope(15.001) - slope(15.0)).abs() < 1e-4);
+    }
+
+    #[test]
+    fn what_was_not_looked_at_has_no_figure() {
+        let about = (1, "arm-clearance", "arms clear of each other");
+        let unknown = Goal::new(about, None, [Some(0.0), None], "mm", 1.0);
+        assert_eq!(
+            (unknown.met(), unknown.margin, unknown.progress),
+            (None, None, None)
+        );
+    }
+}

@@ -1,0 +1,12 @@
+use centrode_mechanism::mechanism::Mechanism;
+
+use crate::{Report, check, check_three_arm};
+
+/// Checks a mechanism of whatever family.
+#[must_use]
+pub fn check_mechanism(mechanism: &Mechanism) -> Report {
+    match mechanism {
+        Mechanism::GearPair(pair) => check(pair),
+        Mechanism::ThreeArm(mechanism) => check_three_arm(mechanism),
+    }
+}

@@ -1,0 +1,257 @@
+use std::f64::consts::TAU;
+
+use centrode_mechanism::gear::{Member, Soundness};
+use centrode_mechanism::three_arm::design::GoalsSpec;
+use centrode_mechanism::three_arm::{Figures, PickingRule, PlantingRule, ThreeArm};
+
+use crate::{Finding, Goal, Place, Report, Severity, Table};
+
+/// Checks a three-arm mechanism: its goals, where its arms work, and what teeth its curves can bear.
+#[must_use]
+pub fn check_three_arm(mechanism: &ThreeArm) -> Report {
+    let mut report = Report::default();
+    let teeth = mechanism.soundness().ok();
+    let clearance = mechanism.seedling_clearance();
+    let mut goals = goals(&mechanism.figures(), &mechanism.design().goals);
+    for goal in &mut goals {
+        let value = match goal.name {
+            "seedling-clearance" => clearance.value,
+            "sound-teeth" => match teeth {
+                Some(teeth) => f64::from(teeth.iter().map(|t| t.unsound).sum::<u32>()),
+                None => continue,
+            },
+            _ => continue,
+        };
+        *goal = goal.clone().with(value);
+    }
+    report.goals = goals;
+    figures(mechanism, &mut report);
+    report.tables.push(working_points(mechanism));
+    unmet(mechanism, &mut report);
+    if let Some(teeth) = teeth {
+        tooth_findings(&teeth, &mut report);
+    }
+    report
+}
+
+/// The goals of a mechanism as far as its figures reach: those of arms, seedlings and flanks are left open.
+#[must_use]
+pub fn goals(figures: &Figures, wanted: &GoalsSpec) -> Vec<Goal> {
+    let range = |[least, greatest]: [f64; 2]| [Some(least), Some(greatest)];
+    let least = |least: f64| [Some(least), None];
+    let angle = |about, value, wanted: [f64; 2]| {
+        Goal::new(
+            about,
+            Some(value),
+            range(wanted),
+            "rad",
+            wanted[1] - wanted[0],
+        )
+    };
+    // A clearance of 20 mm is the paper's own; it serves as the scale where nothing is wanted but clearance.
+    let size = |wanted: f64| if wanted > 0.0 { wanted } else { 20.0 };
+    let length =
+        |about, value, wanted: f64| Goal::new(about, value, least(wanted), "mm", size(wanted));
+    vec![
+        length(
+            (1, "arm-clearance", "arms clear of each other"),
+            None,
+            wanted.arm_clearance,
+        ),
+        angle(
+            (2, "pick-angle", "clamp above horizontal at picking"),
+            figures.pick_angle,
+            wanted.pick_angle,
+        ),
+        angle(
+            (3, "push-angle", "clamp below horizontal at planting"),
+            figures.push_angle,
+            wanted.push_angle,
+        ),
+        angle(
+            (4, "angle-difference", "turn from picking to planting"),
+            figures.angle_difference,
+            wanted.angle_difference,
+        ),
+        length(
+            (5, "seedling-clearance", "clamp clear of planted seedlings"),
+            None,
+            wanted.seedling_clearance,
+        ),
+        length(
+            (6, "gearbox-clearance", "gearbox above the ground"),
+            Some(figures.gearbox_clearance),
+            wanted.gearbox_clearance,
+        ),
+        length(
+            (7, "trajectory-height", "height of the trajectory"),
+            Some(figures.trajectory_height),
+            wanted.trajectory_height,
+        ),
+        length((8, "module", "module"), figures.module, wanted.module),
+        Goal::new(
+            (8, "sound-teeth", "flanks unsound at full height"),
+            None,
+            [None, Some(0.0)],
+            "",
+            10.0,
+        ),
+    ]
+}
+
+fn figures(mechanism: &ThreeArm, report: &mut Report) {
+    let values = &mut report.values;
+    let rolling = mechanism.rolling();
+    let path = mechanism.trajectory();
+    let speed = mechanism.carrier_speed();
+    let tip = |input: f64| mechanism.tip(input, 0).velocity.norm() * speed;
+    let picking_speed = tip(mechanism.picking(0));
+    values.insert("center_distance", mechanism.center_distance());
+    values.insert("pitch_length", rolling.pitch_length(Member::Driver));
+    if let Some(module) = mechanism.module() {
+        values.insert("module", module);
+    }
+    values.insert("planet_reference", mechanism.train().planet_reference());
+    values.insert("closure_error", rolling.closure_error());
+    for (member, names) in [
+        (Member::Driver, ["sun_radius_min", "sun_radius_max"]),
+        (
+            Member::Driven,
+            ["intermediate_radius_min", "intermediate_radius_max"],
+        ),
+    ] {
+        let (least, greatest) = rolling.radii(member);
+        values.insert(names[0], least);
+        values.insert(names[1], greatest);
+    }
+    values.insert("tip_lowest", path.lowest.reach);
+    values.insert("tip_highest", path.highest.reach);
+    values.insert("tip_farthest", path.farthest.reach);
+    values.insert("gearbox_radius", mechanism.gearbox_radius());
+    values.insert("carrier_speed", speed);
+    values.insert("picking_speed", picking_speed);
+    // A carrier of two arms turns faster by the number of arms over two for the same rate.
+    values.insert(
+        "picking_speed_of_two_arms",
+        picking_speed * f64::from(mechanism.arms()) / 2.0,
+    );
+    values.insert("planting_speed", tip(mechanism.planting(0)));
+}
+
+/// Table 1 of the paper: carrier turns at which each arm picks and plants.
+fn working_points(mechanism: &ThreeArm) -> Table {
+    let arms: Vec<u32> = (0..mechanism.arms()).collect();
+    let row = |name: &str, f: &dyn Fn(u32) -> f64| {
+        (name.to_owned(), arms.iter().map(|&arm| f(arm)).collect())
+    };
+    Table {
+        name: "working-points",
+        title: "Carrier turn",
+        unit: "rad",
+        columns: arms
+            .iter()
+            .map(|&arm| format!("arm {}", numeral(arm)))
+            .collect(),
+        rows: vec![
+            row("picking", &|arm| mechanism.picking(arm)),
+            row("planting", &|arm| mechanism.planting(arm)),
+        ],
+    }
+}
+
+fn numeral(arm: u32) -> &'static str {
+    const NUMERALS: [&str; 6] = ["I", "II", "III", "IV", "V", "VI"];
+    NUMERALS.get(arm as usize).copied().unwrap_or("?")
+}
+
+/// A finding for every goal that is not reached, and for working points no rule of the design has fixed.
+fn unmet(mechanism: &ThreeArm, report: &mut Report) {
+    let path = mechanism.trajectory();
+    let input = |goal: &Goal| match goal.name {
+        "pick-angle" => Some(path.picking),
+        "push-angle" => Some(path.planting),
+        "seedling-clearance" => Some(mechanism.seedling_clearance().input),
+        "gearbox-clearance" => Some(path.lowest.input),
+        _ => None,
+    };
+    let missed = report.goals.iter().filter(|goal| goal.met() == Some(false));
+    let findings: Vec<Finding> = missed
+        .map(|goal| Finding {
+            rule: "goal",
+            severity: Severity::Warning,
+            message: format!("goal {} is not reached: {}", goal.number, goal.title),
+            measured: goal.value,
+            required: match (goal.value, goal.wanted) {
+                (Some(value), [Some(least), _]) if value < least => Some(least),
+                (_, [_, greatest]) => greatest,
+            },
+            unit: goal.unit,
+            remedy: None,
+            place: Place {
+                input: input(goal),
+                ..Place::default()
+            },
+        })
+        .collect();
+    report.findings.extend(findings);
+    let mut note = |rule, message: &str, input: f64| {
+        report.findings.push(Finding {
+            rule,
+            severity: Severity::Note,
+            message: message.into(),
+            measured: Some(input.rem_euclid(TAU)),
+            required: None,
+            unit: "rad",
+            remedy: None,
+            place: Place {
+                input: Some(input),
+                ..Place::default()
+            },
+        });
+    };
+    match path.picking_rule {
+        PickingRule::Given => {}
+        PickingRule::EntersTray => note(
+            "picking",
+            "arms pick where the tip enters the tray",
+            path.picking,
+        ),
+        PickingRule::Farthest => note(
+            "picking",
+            "arms pick where the tip reaches farthest towards the tray; work.picking_deg or tray.distance says otherwise",
+            path.picking,
+        ),
+    }
+    if path.planting_rule == PlantingRule::Lowest {
+        note(
+            "planting",
+            "arms plant where the tip is lowest; work.planting_deg says otherwise",
+            path.planting,
+        );
+    }
+}
+
+fn tooth_findings(teeth: &[Soundness; 2], report: &mut Report) {
+    let parts = ["sun and planets", "intermediate gears"];
+    for (part, sound) in parts.into_iter().zip(teeth) {
+        if sound.unsound == 0 {
+            continue;
+        }
+        report.findings.push(Finding {
+            rule: "full-teeth",
+            severity: Severity::Note,
+            message: format!(
+                "of {} flanks of each of the {part}, {} are undercut and {} short of the full addendum at this module",
+                sound.flanks, sound.undercut, sound.short
+            ),
+            measured: Some(f64::from(sound.unsound)),
+            required: Some(0.0),
+            unit: "",
+            remedy: None,
+            place: Place {
+                part: Some(part.into()),
+                ..Place::default()
+            },
+        });
+    }
+}
