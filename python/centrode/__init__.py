@@ -24,14 +24,16 @@ from ._centrode import (
     Sheets,
     SixBar,
     SpiralShaft,
+    ThreeArm,
     __version__,
     template,
 )
 from ._contact import Contact
 from ._design import load, schema
-from ._error import CamError, DesignError, Error, ExportError, GearPairError, LinkageError, PitchError
+from ._error import CamError, DesignError, Error, ExportError, GearPairError, LinkageError, MechanismError, PitchError
+from ._goal import Goal
 from ._over_pins import OverPins
-from ._report import Finding, Place, Report
+from ._report import Finding, Place, Report, Table
 from ._six_bar import DeadCenters
 from ._slider_force import SliderForce
 from ._tooth import Tooth, ToothSide
@@ -51,8 +53,10 @@ __all__ = [
     "Gear",
     "GearPair",
     "GearPairError",
+    "Goal",
     "Keyway",
     "LinkageError",
+    "MechanismError",
     "OverPins",
     "Pitch",
     "PitchError",
@@ -64,6 +68,8 @@ __all__ = [
     "SixBar",
     "SliderForce",
     "SpiralShaft",
+    "Table",
+    "ThreeArm",
     "Tooth",
     "ToothSide",
     "__version__",

@@ -2,12 +2,12 @@ import json
 from os import PathLike, fspath
 from typing import Any
 
-from ._centrode import _LARGEST_DESIGN, GearPair, _load, _schema
+from ._centrode import _LARGEST_DESIGN, GearPair, ThreeArm, _load, _schema
 from ._error import DesignError
 
 
-def load(path: str | PathLike[str]) -> GearPair:
-    """Read a design file and make its gear pair.
+def load(path: str | PathLike[str]) -> GearPair | ThreeArm:
+    """Read a design file and make its mechanism: a gear pair, a three-arm mechanism.
 
     Raises:
         DesignError: The design breaks a rule; its `key`, `line` and `column` say where.
@@ -22,12 +22,12 @@ def load(path: str | PathLike[str]) -> GearPair:
         raise
 
 
-def schema() -> dict[str, Any]:
-    """Give the JSON schema of the design file.
+def schema(family: str | None = None) -> dict[str, Any]:
+    """Give the JSON schema of the design files of a family, or of all.
 
     >>> import centrode as ct
     >>> "$schema" in ct.schema()
     True
     """
-    schema: dict[str, Any] = json.loads(_schema())
+    schema: dict[str, Any] = json.loads(_schema(family))
     return schema

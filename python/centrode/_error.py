@@ -62,6 +62,10 @@ class LinkageError(DesignError):
 and longest together must stay below the two others (here by 12 mm)
     """
 
+
+class MechanismError(DesignError):
+    """A mechanism that cannot exist, although its gears can."""
+
     __module__ = "centrode"
 
 

@@ -2,6 +2,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Literal
 
+from ._goal import Goal
+
 
 @dataclass(frozen=True, slots=True)
 class Place:
@@ -14,7 +16,7 @@ class Place:
     teeth: tuple[int, ...]
     """Tooth numbers, from zero."""
     input: float | None
-    """Driver angle, rad."""
+    """Input angle, rad."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,8 +48,26 @@ class Finding:
 
 
 @dataclass(frozen=True, slots=True)
+class Table:
+    """Figures in rows and columns."""
+
+    __module__ = "centrode"
+
+    name: str
+    """Short stable name."""
+    title: str
+    """What the figures are."""
+    unit: str
+    """"mm", "rad", or empty for plain numbers."""
+    columns: tuple[str, ...]
+    """What each column is of."""
+    rows: Mapping[str, tuple[float, ...]]
+    """Figures of each row by its name."""
+
+
+@dataclass(frozen=True, slots=True)
 class Report:
-    """All findings and figures of one mechanism; made by `GearPair.check`."""
+    """All findings and figures of one mechanism; made by `check`."""
 
     __module__ = "centrode"
 
@@ -57,9 +77,13 @@ class Report:
     """What is wrong or worth knowing, worst first."""
     values: Mapping[str, float]
     """Figures by name: lengths in mm, angles in rad."""
+    goals: tuple[Goal, ...] = ()
+    """What it is to reach, if its design says."""
+    tables: tuple[Table, ...] = ()
+    """Figures in rows and columns."""
 
     def __str__(self) -> str:
-        """Every figure and every finding, a line each."""
+        """Every figure, every goal and every finding, a line each."""
         width = max(map(len, self.values), default=0)
         figures = [f"{name:{width}}  {value:.6g}" for name, value in self.values.items()]
-        return "\n".join([*figures, *map(str, self.findings)])
+        return "\n".join([*figures, *map(str, self.goals), *map(str, self.findings)])

@@ -109,6 +109,15 @@ pub(crate) fn each_array<const COUNT: usize>(
     Ok(array.into_pyarray(py).into_any().unbind())
 }
 
+/// As [`each_array`] with one axis more.
+pub(crate) fn each_row<'py, const COLUMNS: usize>(
+    py: Python<'py>,
+    values: Values,
+    f: impl Fn(f64) -> [f64; COLUMNS] + Send + 'static,
+) -> PyResult<Bound<'py, PyAny>> {
+    Ok(each_array(py, values, &[COLUMNS], f)?.into_bound(py))
+}
+
 /// Rows of numbers as an (N, COLUMNS) array.
 pub(crate) fn rows<'py, T: numpy::Element, const COLUMNS: usize>(
     py: Python<'py>,

@@ -1,32 +1,80 @@
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use centrode_mechanism::design::{Design, DesignFile};
-use pyo3::prelude::{PyResult, Python, pyfunction};
+use centrode_mechanism::mechanism::Mechanism;
+use pyo3::IntoPyObjectExt;
+use pyo3::prelude::{Bound, PyAny, PyAnyMethods, PyModule, PyResult, Python, pyfunction};
 
-use crate::error::{not_a_gear_pair, of_design, unknown_word};
+use crate::error::{not_of_family, of_design, unknown_word};
 use crate::gear_pair::GearPair;
+use crate::three_arm::ThreeArm;
 use crate::wait::wait;
 
 /// A design file is read no farther than this, bytes.
 pub(crate) const LARGEST: usize = DesignFile::LARGEST + 1;
 
-/// The gear pair of a design file.
-pub(crate) fn pair_of_text(py: Python<'_>, bytes: &[u8]) -> PyResult<GearPair> {
-    let file = DesignFile::read(bytes).map_err(|e| of_design(&e))?;
-    let Design::GearPair(design) = file.design().clone() else {
-        return Err(not_a_gear_pair());
-    };
-    let pair = wait(py, move || file.gear_pair())?.map_err(|e| of_design(&e))?;
-    Ok(GearPair {
-        design: Arc::new(design),
-        pair: Arc::new(pair),
-    })
+/// A mechanism and the design it was made from.
+pub(crate) enum Loaded {
+    /// A gear pair.
+    GearPair(GearPair),
+    /// A three-arm mechanism.
+    ThreeArm(ThreeArm),
 }
 
-/// The gear pair of a design file's bytes.
+impl Loaded {
+    /// The mechanism of a design file.
+    pub(crate) fn read(py: Python<'_>, bytes: &[u8]) -> PyResult<Self> {
+        let file = DesignFile::read(bytes).map_err(|e| of_design(&e))?;
+        let design = file.design().clone();
+        let mechanism = wait(py, move || file.mechanism())?.map_err(|e| of_design(&e))?;
+        Ok(match (design, mechanism) {
+            (Design::GearPair(design), Mechanism::GearPair(pair)) => Self::GearPair(GearPair {
+                design: Arc::new(*design),
+                pair: Arc::from(pair),
+            }),
+            (_, Mechanism::ThreeArm(mechanism)) => Self::ThreeArm(ThreeArm(Arc::from(mechanism))),
+            (_, other) => return Err(not_of_family(other.family())),
+        })
+    }
+
+    pub(crate) fn gear_pair(self) -> PyResult<GearPair> {
+        match self {
+            Self::GearPair(pair) => Ok(pair),
+            Self::ThreeArm(_) => Err(not_of_family("gear-pair")),
+        }
+    }
+
+    pub(crate) fn three_arm(self) -> PyResult<ThreeArm> {
+        match self {
+            Self::ThreeArm(mechanism) => Ok(mechanism),
+            Self::GearPair(_) => Err(not_of_family("three-arm")),
+        }
+    }
+}
+
+/// The mechanism of a design file's bytes.
 #[pyfunction]
-pub(crate) fn _load(py: Python<'_>, contents: &[u8]) -> PyResult<GearPair> {
-    pair_of_text(py, contents)
+pub(crate) fn _load<'py>(py: Python<'py>, contents: &[u8]) -> PyResult<Bound<'py, PyAny>> {
+    match Loaded::read(py, contents)? {
+        Loaded::GearPair(pair) => pair.into_bound_py_any(py),
+        Loaded::ThreeArm(mechanism) => mechanism.into_bound_py_any(py),
+    }
+}
+
+/// What the Python part of the package loads from a path: it names the path in its errors.
+pub(crate) fn path_loaded(py: Python<'_>, path: PathBuf) -> PyResult<Loaded> {
+    let load = PyModule::import(py, "centrode._design")?.getattr("load")?;
+    let loaded = load.call1((path,))?;
+    if let Ok(pair) = loaded.cast::<GearPair>() {
+        let GearPair { design, pair } = pair.get();
+        return Ok(Loaded::GearPair(GearPair {
+            design: Arc::clone(design),
+            pair: Arc::clone(pair),
+        }));
+    }
+    let arms = loaded.cast::<ThreeArm>()?;
+    Ok(Loaded::ThreeArm(ThreeArm(Arc::clone(&arms.get().0))))
 }
 
 /// A commented design file to start from, itself a good design.
@@ -40,8 +88,14 @@ pub(crate) fn template(family: &str) -> PyResult<&'static str> {
     Design::template(family).ok_or_else(|| unknown_word("family", family, &Design::FAMILIES))
 }
 
-/// The JSON schema of the design file, as text.
+/// The JSON schema of the design files of a family, or of all, as text.
 #[pyfunction]
-pub(crate) fn _schema() -> String {
-    Design::json_schema().to_string()
+#[pyo3(signature = (family=None))]
+pub(crate) fn _schema(family: Option<&str>) -> PyResult<String> {
+    let Some(family) = family else {
+        return Ok(Design::json_schema().to_string());
+    };
+    let schema = Design::json_schema_of(family);
+    let schema = schema.ok_or_else(|| unknown_word("family", family, &Design::FAMILIES))?;
+    Ok(schema.to_string())
 }

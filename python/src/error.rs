@@ -11,6 +11,7 @@ use centrode_mechanism::gear::design::SpecError;
 use centrode_mechanism::gear::{self, pitch};
 use centrode_mechanism::linkage::{FourBarError, SixBarError};
 use centrode_mechanism::shaft::ShaftError;
+use centrode_mechanism::three_arm::ThreeArmError;
 use pyo3::exceptions::PyOSError;
 use pyo3::prelude::{PyErr, PyResult, Python};
 
@@ -21,6 +22,7 @@ mod class {
     pyo3::import_exception!(centrode._error, GearPairError);
     pyo3::import_exception!(centrode._error, CamError);
     pyo3::import_exception!(centrode._error, LinkageError);
+    pyo3::import_exception!(centrode._error, MechanismError);
     pyo3::import_exception!(centrode._error, ExportError);
 }
 
@@ -65,6 +67,7 @@ pub(crate) fn of_design(error: &design::DesignError) -> PyErr {
     match error.fault {
         DesignFault::Pitch(_) => class::PitchError::new_err(arguments),
         DesignFault::GearPair(_) => class::GearPairError::new_err(arguments),
+        DesignFault::Mechanism(_) => class::MechanismError::new_err(arguments),
         _ => class::DesignError::new_err(arguments),
     }
 }
@@ -135,9 +138,17 @@ pub(crate) fn tolerance(mm: f64, pair: &gear::GearPair) -> PyResult<Tolerance> {
     Ok(tolerance)
 }
 
-/// A design of another family where a gear pair is wanted.
-pub(crate) fn not_a_gear_pair() -> PyErr {
-    class::DesignError::new_err(("family must be \"gear-pair\"", "family"))
+/// A design of another family where one of this is wanted.
+pub(crate) fn not_of_family(family: &str) -> PyErr {
+    class::DesignError::new_err((format!("family must be {family:?}"), "family"))
+}
+
+/// The exception of a three-arm mechanism's error: the innermost rule broken.
+pub(crate) fn of_three_arm(error: &ThreeArmError) -> PyErr {
+    match error {
+        ThreeArmError::Gears(error) => of_pair(error),
+        _ => class::MechanismError::new_err((error.to_string(), error.key())),
+    }
 }
 
 /// The exception of a gear that is no solid.

@@ -20,7 +20,7 @@ use pyo3::types::{PyBytes, PyDict};
 use crate::array::{Numbers, Values, each};
 use crate::body::Body;
 use crate::count::{Count, optional};
-use crate::design::pair_of_text;
+use crate::design::Loaded;
 use crate::drawing::DrawingSpec;
 use crate::error::{of_bundle, of_design, of_files, of_pair, tolerance as within};
 use crate::format::options;
@@ -180,7 +180,7 @@ impl GearPair {
     /// 23
     #[staticmethod]
     fn from_toml(py: Python<'_>, text: &str) -> PyResult<Self> {
-        pair_of_text(py, text.as_bytes())
+        Loaded::read(py, text.as_bytes())?.gear_pair()
     }
 
     /// The design file of the pair; `from_toml` reads it back.
@@ -191,7 +191,7 @@ impl GearPair {
     /// family = "gear-pair"
     /// <BLANKLINE>
     fn to_toml(&self) -> PyResult<String> {
-        let design = Design::GearPair(GearPairDesign::clone(&self.design));
+        let design = Design::GearPair(Box::new(GearPairDesign::clone(&self.design)));
         design.to_toml().map_err(|e| of_design(&e))
     }
 

@@ -18,6 +18,7 @@ mod record;
 mod sheet;
 mod six_bar;
 mod spiral_shaft;
+mod three_arm;
 mod tool;
 mod wait;
 
@@ -54,6 +55,8 @@ mod _centrode {
     use crate::six_bar::SixBar;
     #[pymodule_export]
     use crate::spiral_shaft::SpiralShaft;
+    #[pymodule_export]
+    use crate::three_arm::ThreeArm;
     #[pymodule_export]
     use crate::tool::{Rack, Shaper};
 

@@ -1,6 +1,6 @@
 //! Results of many parts, handed over as the records of the Python part of the package.
 
-use centrode_analysis::{Contact, Finding, Report, Severity};
+use centrode_analysis::{Contact, Finding, Goal, Report, Severity, Table};
 use centrode_mechanism::gear::{OverPins, Pin, Tooth, ToothSide};
 use centrode_mechanism::linkage;
 use numpy::{IntoPyArray, PyArrayMethods};
@@ -76,7 +76,47 @@ pub(crate) fn report<'py>(py: Python<'py>, report: &Report) -> PyResult<Bound<'p
     let keywords = Keywords::new(py)
         .with("ok", report.ok())?
         .with("findings", findings)?
-        .with("values", report.values.clone())?;
+        .with("values", report.values.clone())?
+        .with("goals", goals(py, &report.goals)?)?
+        .with(
+            "tables",
+            tuple(py, report.tables.iter().map(|t| table(py, t)))?,
+        )?;
+    CLASS.make(&keywords.0)
+}
+
+/// The goals of a mechanism.
+pub(crate) fn goals<'py>(py: Python<'py>, goals: &[Goal]) -> PyResult<Bound<'py, PyTuple>> {
+    static CLASS: Class = Class::new("centrode._goal", "Goal");
+    let one = |goal: &Goal| {
+        let keywords = Keywords::new(py)
+            .with("number", goal.number)?
+            .with("name", goal.name)?
+            .with("title", goal.title)?
+            .with("value", goal.value)?
+            .with("wanted", PyTuple::new(py, goal.wanted)?)?
+            .with("unit", goal.unit)?
+            .with("scale", goal.scale)?
+            .with("margin", goal.margin)?
+            .with("progress", goal.progress)?
+            .with("met", goal.met())?;
+        CLASS.make(&keywords.0)
+    };
+    tuple(py, goals.iter().map(one))
+}
+
+fn table<'py>(py: Python<'py>, table: &Table) -> PyResult<Bound<'py, PyAny>> {
+    static CLASS: Class = Class::new("centrode._report", "Table");
+    let rows = PyDict::new(py);
+    for (name, figures) in &table.rows {
+        rows.set_item(name, PyTuple::new(py, figures)?)?;
+    }
+    let keywords = Keywords::new(py)
+        .with("name", table.name)?
+        .with("title", table.title)?
+        .with("unit", table.unit)?
+        .with("columns", PyTuple::new(py, &table.columns)?)?
+        .with("rows", rows)?;
     CLASS.make(&keywords.0)
 }
 

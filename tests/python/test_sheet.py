@@ -67,7 +67,11 @@ def test_everything_lies_on_the_sheet_and_on_a_layer_of_its_width(exported, subj
             assert entity.dxf.layer in layers
             assert entity.dxf.lineweight == WIDTHS.get(entity.dxf.layer, 25)
             if entity.dxftype() in {"TEXT", "LINE", "SOLID"}:
-                points = [entity.dxf.insert] if entity.dxftype() == "TEXT" else [entity.dxf.get("start", entity.dxf.get("vtx0"))]
+                points = (
+                    [entity.dxf.insert]
+                    if entity.dxftype() == "TEXT"
+                    else [entity.dxf.get("start", entity.dxf.get("vtx0"))]
+                )
                 assert all(0 <= p.x <= width and 0 <= p.y <= height for p in points)
 
 

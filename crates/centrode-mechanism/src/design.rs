@@ -22,7 +22,7 @@ use crate::three_arm::design::ThreeArmDesign;
 #[non_exhaustive]
 pub enum Design {
     /// A non-circular gear pair.
-    GearPair(GearPairDesign),
+    GearPair(Box<GearPairDesign>),
     /// A three-arm transplanting mechanism.
     ThreeArm(Box<ThreeArmDesign>),
 }

@@ -7,7 +7,7 @@ pub mod design;
 mod formula;
 pub mod gear;
 pub mod linkage;
-pub mod shaft;
 pub mod mechanism;
+pub mod shaft;
 pub mod three_arm;
 pub mod transmission;

@@ -119,7 +119,7 @@ impl Pitch {
     }
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, (String,))> {
-        let design = Design::GearPair(GearPairDesign::new(self.spec.clone()));
+        let design = Design::GearPair(Box::new(GearPairDesign::new(self.spec.clone())));
         let text = design.to_toml().map_err(|e| of_design(&e))?;
         let module = PyModule::import(py, "centrode._centrode")?;
         Ok((module.getattr("_pitch_from_toml")?, (text,)))
@@ -131,6 +131,6 @@ impl Pitch {
 pub(crate) fn _pitch_from_toml(text: &str) -> PyResult<Pitch> {
     match Design::from_toml(text).map_err(|e| of_design(&e))? {
         Design::GearPair(design) => Pitch::resolve(design.pitch),
-        _ => Err(crate::error::not_a_gear_pair()),
+        _ => Err(crate::error::not_of_family("gear-pair")),
     }
 }

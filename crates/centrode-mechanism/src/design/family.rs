@@ -49,7 +49,7 @@ impl Family for GearPairDesign {
 
 impl From<GearPairDesign> for Design {
     fn from(design: GearPairDesign) -> Self {
-        Self::GearPair(design)
+        Self::GearPair(Box::new(design))
     }
 }
 
