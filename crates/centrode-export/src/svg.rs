@@ -50,12 +50,14 @@ pub fn sheet(sheet: &Sheet, tolerance: Tolerance) -> String {
     let mut glyphs = BTreeMap::new();
     for entity in &sheet.drawing.entities {
         if let Shape::Text(text) = &entity.shape {
-            glyphs.extend(lettering::letters(&text.words).map(|l| (l.glyph.0, l.glyph)));
+            let inked = lettering::letters(&text.words).filter(|l| l.is_inked());
+            glyphs.extend(inked.map(|l| (l.glyph.0, l.glyph)));
         }
     }
     out.push_str("<defs>\n");
     for (id, glyph) in glyphs {
-        let _ = writeln!(out, "<path id=\"g{id}\" d=\"{}\"/>", lettering::path(glyph));
+        let path = lettering::path(glyph);
+        let _ = writeln!(out, "<path id=\"g{id}\" d=\"{path}\"/>");
     }
     out.push_str("</defs>\n");
     layers(&mut out, &sheet.drawing, tolerance, true);
@@ -83,12 +85,10 @@ fn outlined_words(out: &mut String, text: &Text, color: Color) {
     let _ = write!(out, " scale({:.9} {unit:.9})\">", unit * squeeze);
     let mut x = 0.0;
     for letter in lettering::letters(&text.words) {
-        let _ = write!(
-            out,
-            "<use xlink:href=\"#g{}\" x=\"{}\"/>",
-            letter.glyph.0,
-            number(x)
-        );
+        if letter.is_inked() {
+            let (glyph, x) = (letter.glyph.0, number(x));
+            let _ = write!(out, "<use xlink:href=\"#g{glyph}\" x=\"{x}\"/>");
+        }
         x += 1024.0 * letter.advance;
     }
     out.push_str("</g>\n");

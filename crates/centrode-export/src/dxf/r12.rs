@@ -60,6 +60,12 @@ fn header(file: &mut Pairs, drawing: &Drawing) {
     if bounds.diagonal().is_finite() {
         file.word(9, "$EXTMIN").point(10, &bounds.min);
         file.word(9, "$EXTMAX").point(10, &bounds.max);
+        // Some programs take these for the paper.
+        let limits = [("$LIMMIN", bounds.min), ("$LIMMAX", bounds.max)];
+        let paper = [("$PLIMMIN", bounds.min), ("$PLIMMAX", bounds.max)];
+        for (name, point) in limits.into_iter().chain(paper) {
+            file.word(9, name).number(10, point.x).number(20, point.y);
+        }
     }
     file.word(0, "ENDSEC");
 }

@@ -107,6 +107,11 @@ fn header(file: &mut File, drawing: &Drawing) {
     if bounds.diagonal().is_finite() {
         file.header.minimum_drawing_extents = position(&bounds.min);
         file.header.maximum_drawing_extents = position(&bounds.max);
+        // Some programs take these for the paper; the library's are 12 x 9.
+        file.header.minimum_drawing_limits = position(&bounds.min);
+        file.header.maximum_drawing_limits = position(&bounds.max);
+        file.header.paperspace_minimum_drawing_limits = position(&bounds.min);
+        file.header.paperspace_maximum_drawing_limits = position(&bounds.max);
     }
     // The library stamps the time and random identifiers; a file must not change from run to run.
     let noon = NaiveDate::from_ymd_opt(2000, 1, 1).and_then(|d| d.and_hms_opt(12, 0, 0));

@@ -18,11 +18,19 @@ pub(crate) fn em(height: f64) -> f64 {
     height / CAPITAL
 }
 
-/// A letter in a line: glyph, its bytes in the words, advance and ink in ems.
+/// A letter in a line: glyph, its bytes in the words, and advance in ems.
 pub(crate) struct Letter {
     pub(crate) glyph: GlyphId,
     pub(crate) bytes: std::ops::Range<usize>,
     pub(crate) advance: f64,
+}
+
+impl Letter {
+    /// Whether there is anything to draw: a blank has none.
+    pub(crate) fn is_inked(&self) -> bool {
+        let face = FACE.as_ref();
+        face.is_some_and(|f| f.glyph_bounding_box(self.glyph).is_some())
+    }
 }
 
 /// The letters of a line; one the font has not becomes its empty box.
