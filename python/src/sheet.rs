@@ -12,7 +12,7 @@ use pyo3::prelude::{Bound, PyResult, Python, pyclass, pymethods};
 use pyo3::types::{PyBytes, PyTuple};
 
 use crate::drawing::{projection, size};
-use crate::error::{of_bundle, of_files, unknown_word};
+use crate::error::{of_bundle, unknown_word};
 
 /// The drawing sheets of a gear, or of both in place, as `Gear.sheet` and `GearPair.sheet` lay them out.
 ///

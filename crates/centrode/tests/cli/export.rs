@@ -181,7 +181,7 @@ fn bad_options_write_nothing_and_end_with_two() {
         (["--tolerance", "1e-9"], "at least"),
         (["--tolerance", "5"], "too coarse"),
         (["--tolerance", "fine"], "not a number"),
-        (["--format", "pdf"], "pdf"),
+        (["--format", "png"], "png"),
         (["--format", ""], "possible values"),
         (["--dxf", "r9"], "r9"),
     ] {
