@@ -1,9 +1,10 @@
+# ruff: noqa: RUF001 - the letters drawn here are meant
 """Makes the lettering font of the drawing sheets out of Routed Gothic (SIL Open Font License 1.1).
 
     python make.py routed-gothic.ttf CentrodeLettering.ttf
 
-ISO 3098 type B asks for strokes of h/10, the figures of a table for one width, and a drawing for a few Greek letters and
-signs: strokes are thinned, the figure 1 widened, and the missing letters drawn with the same pen.
+ISO 3098 type B asks for strokes of h/10, the figures of a table for one width, and a drawing for a few Greek letters
+and signs: strokes are thinned, the figure 1 widened, and the missing letters drawn with the same pen.
 Needs fonttools and shapely.
 """
 
@@ -15,6 +16,7 @@ from fontTools.pens.basePen import BasePen
 from fontTools.pens.ttGlyphPen import TTGlyphPen
 from fontTools.ttLib import TTFont
 from shapely import transform
+from shapely.affinity import translate
 from shapely.geometry import LineString, MultiPolygon, Polygon
 from shapely.geometry.polygon import orient
 from shapely.ops import unary_union
@@ -31,16 +33,17 @@ class Flatten(BasePen):
     """Contours as closed lists of points."""
 
     def __init__(self, glyphs):
+        """Starts with no contour."""
         super().__init__(glyphs)
         self.contours = []
 
-    def _moveTo(self, point):
+    def _moveTo(self, point):  # noqa: N802 - the base class names it
         self.contours.append([point])
 
-    def _lineTo(self, point):
+    def _lineTo(self, point):  # noqa: N802 - the base class names it
         self.contours[-1].append(point)
 
-    def _curveToOne(self, a, b, c):
+    def _curveToOne(self, a, b, c):  # noqa: N802 - the base class names it
         start = self._getCurrentPoint()
         for i in range(1, 9):
             t = i / 8
@@ -61,6 +64,7 @@ def area(glyphs, name):
 
 
 def arc(cx, cy, rx, ry, start, end):
+    """Points of an elliptic arc, angles in degrees."""
     steps = max(4, int(abs(end - start) / 10))
     angles = (math.radians(start + (end - start) * i / steps) for i in range(steps + 1))
     return [(cx + rx * math.cos(a), cy + ry * math.sin(a)) for a in angles]
@@ -69,7 +73,7 @@ def arc(cx, cy, rx, ry, start, end):
 # Advance and pen strokes, in units of a capital of 736; x-height 488 on the middle of the pen.
 X = 488
 DRAWN = {
-    "α": (560, [[(470, X), (400, 120), (430, 30), (500, 30)], arc(240, 259, 190, 229, -38, 322)[3:-3] + [(440, 330)]]),
+    "α": (560, [[(470, X), (400, 120), (430, 30), (500, 30)], [*arc(240, 259, 190, 229, -38, 322)[3:-3], (440, 330)]]),
     "β": (
         560,
         [
@@ -169,6 +173,7 @@ def outline(shape):
 
 
 def main(source, target):
+    """Reads one font and writes the other."""
     font = TTFont(source)
     glyphs, metrics = font.getGlyphSet(), font["hmtx"]
     thinner = (STROKE - WANTED) / 2
@@ -190,10 +195,10 @@ def main(source, target):
         advance = metrics[name][0]
         if chr(code).isdigit() and advance < FIGURE:
             middle = (thinned.bounds[0] + thinned.bounds[2]) / 2
-            thinned = transform(thinned, lambda a: a + [FIGURE / 2 - middle, 0])
+            thinned = transform(thinned, lambda a: [*a, FIGURE / 2 - middle, 0])
             advance = FIGURE
         elif chr(code) in "0123456789":
-            thinned = transform(thinned, lambda a: a - [(advance - FIGURE) / 2, 0])
+            thinned = translate(thinned, (FIGURE - advance) / 2)
             advance = FIGURE
         shapes[f"u{code:04X}"], advances[f"u{code:04X}"] = thinned, advance
         table[code] = f"u{code:04X}"
