@@ -125,7 +125,7 @@ def test_files_are_named_after_the_cam_and_repeat():
         (lambda: ct.cam.translating_roller(roller_radius=-1), "roller_radius"),
         (lambda: ct.cam.law("sudden"), "law.kind"),
         (lambda: ct.DiscCam(ct.cam.translating_flat(), [ct.cam.dwell(span=1)], base_radius=9), "motion.segments"),
-        (lambda: cam().files(formats=["pdf"]), "formats"),
+        (lambda: cam().files(formats=["dwg"]), "formats"),
         (lambda: cam().profile(0), "tolerance"),
     ],
 )
