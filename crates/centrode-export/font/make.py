@@ -195,7 +195,7 @@ def main(source, target):
         advance = metrics[name][0]
         if chr(code).isdigit() and advance < FIGURE:
             middle = (thinned.bounds[0] + thinned.bounds[2]) / 2
-            thinned = transform(thinned, lambda a, shift=FIGURE / 2 - middle: a + (shift, 0))
+            thinned = translate(thinned, FIGURE / 2 - middle)
             advance = FIGURE
         elif chr(code) in "0123456789":
             thinned = translate(thinned, (FIGURE - advance) / 2)
