@@ -2,12 +2,26 @@
 
 use centrode_geometry::{Bounds, Point, Vector};
 use std::sync::LazyLock;
-use ttf_parser::{Face, GlyphId, OutlineBuilder};
+use ttf_parser::{Face, GlyphId, OutlineBuilder, Rect};
 
 /// A Leroy-style drafting font with strokes of a tenth of its height, as ISO 3098 type B.
 pub(crate) const FONT: &[u8] = include_bytes!("../../font/CentrodeLettering.ttf");
 
 static FACE: LazyLock<Option<Face<'static>>> = LazyLock::new(|| Face::parse(FONT, 0).ok());
+
+/// The box around each glyph's ink. The font stores none that can be trusted: the outline is walked, once.
+static BOXES: LazyLock<Vec<Option<Rect>>> = LazyLock::new(|| {
+    let face = FACE.as_ref();
+    let of = |f: &Face<'_>| {
+        let glyphs = 0..f.number_of_glyphs();
+        glyphs.map(|id| f.glyph_bounding_box(GlyphId(id))).collect()
+    };
+    face.map_or_else(Vec::new, of)
+});
+
+fn ink_of(glyph: GlyphId) -> Option<Rect> {
+    BOXES.get(usize::from(glyph.0)).copied().flatten()
+}
 
 /// Height of a capital, as a share of the em.
 const CAPITAL: f64 = 736.0 / 1024.0;
@@ -28,8 +42,7 @@ pub(crate) struct Letter {
 impl Letter {
     /// Whether there is anything to draw: a blank has none.
     pub(crate) fn is_inked(&self) -> bool {
-        let face = FACE.as_ref();
-        face.is_some_and(|f| f.glyph_bounding_box(self.glyph).is_some())
+        ink_of(self.glyph).is_some()
     }
 }
 
@@ -59,8 +72,7 @@ pub(crate) fn ink(words: &str, height: f64) -> Bounds {
     let (mut bounds, mut x) = (Bounds::EMPTY, 0.0);
     let em = em(height);
     for letter in letters(words) {
-        let face = FACE.as_ref();
-        if let Some(b) = face.and_then(|f| f.glyph_bounding_box(letter.glyph)) {
+        if let Some(b) = ink_of(letter.glyph) {
             let corner = |px: i16, py: i16| {
                 let at = Vector::new(f64::from(px), f64::from(py)) / 1024.0;
                 Point::new(x + at.x * em, at.y * em)
