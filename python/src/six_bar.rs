@@ -40,7 +40,6 @@ pub(crate) struct SixBar(linkage::SixBar);
 impl SixBar {
     #[new]
     #[pyo3(signature = (*, crank, coupler, rocker, frame, pivot, effector_length, branch="upper"))]
-    #[expect(clippy::too_many_arguments, reason = "keyword arguments")]
     fn new(
         crank: f64,
         coupler: f64,

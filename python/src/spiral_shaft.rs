@@ -156,6 +156,9 @@ fn design(
     Ok(design)
 }
 
+/// Vertices of a mesh, (V, 3), and its faces, (F, 3).
+type Arrays<'py> = (Bound<'py, PyArray2<f64>>, Bound<'py, PyArray2<u32>>);
+
 #[pymethods]
 impl SpiralShaft {
     #[new]
@@ -461,11 +464,7 @@ impl SpiralShaft {
     ///
     /// The shaft lies along z; z = 0 is where the slider is at the first hole.
     #[pyo3(signature = (tolerance=1e-2))]
-    fn mesh<'py>(
-        &self,
-        py: Python<'py>,
-        tolerance: f64,
-    ) -> PyResult<(Bound<'py, PyArray2<f64>>, Bound<'py, PyArray2<u32>>)> {
+    fn mesh<'py>(&self, py: Python<'py>, tolerance: f64) -> PyResult<Arrays<'py>> {
         let tolerance = plain_tolerance(tolerance)?;
         let shaft = Arc::clone(&self.shaft);
         let mesh = wait(py, move || shaft.mesh(tolerance))?.map_err(|e| of_shaft(&e))?;
