@@ -1,0 +1,165 @@
+use centrode_geometry::{Outline, Point, Tolerance, Vector};
+
+use super::parry::Boundary;
+
+/// The shape of a rigid body of the plane, in its own frame.
+///
+/// Outlines are flattened to closed polygons; the material is what lies inside an odd number of them,
+/// so a body may be concave, have holes, or be several pieces that move as one. Around the edges a tree
+/// of circles is laid, which is what makes far parts cheap.
+#[derive(Clone, Debug)]
+pub struct Body {
+    edges: Vec<[Point; 2]>,
+    corners: Vec<Point>,
+    nodes: Vec<Node>,
+    flattening: f64,
+    boundary: Boundary,
+}
+
+/// A circle around some edges; the first node is around all.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Node {
+    pub(super) center: Point,
+    pub(super) radius: f64,
+    pub(super) part: Part,
+}
+
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Part {
+    Edge(u32),
+    Halves([u32; 2]),
+}
+
+/// Why outlines make no body.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum BodyError {
+    /// Nothing to keep clear of.
+    #[error("a body needs at least one outline with a segment")]
+    Empty,
+    /// A point of an outline is not a finite number.
+    #[error("outline {outline} has a point that is not finite")]
+    NotFinite {
+        /// Index of the outline.
+        outline: usize,
+    },
+}
+
+impl Body {
+    /// The body inside `outlines`, each replaced by a polygon within the tolerance.
+    ///
+    /// Outlines must not cross one another or themselves. Choose the frame's origin where the body turns
+    /// about: bounds of its movement are then the tightest.
+    ///
+    /// # Errors
+    /// [`BodyError::Empty`] without a segment, [`BodyError::NotFinite`] for points at infinity or NaN.
+    pub fn new(outlines: &[Outline], tolerance: Tolerance) -> Result<Self, BodyError> {
+        let (mut edges, mut corners) = (Vec::new(), Vec::new());
+        let mut straight = true;
+        for (index, outline) in outlines.iter().enumerate() {
+            let finite = |p: Point| p.x.is_finite() && p.y.is_finite();
+            let segments = outline.segments();
+            let ends = segments.iter().all(|s| {
+                let middle = s.at(0.0).point;
+                finite(s.start()) && finite(middle) && finite(s.end())
+            });
+            if !ends {
+                return Err(BodyError::NotFinite { outline: index });
+            }
+            straight &= segments
+                .iter()
+                .all(|s| matches!(s, centrode_geometry::Segment::Line(..)));
+            let points = outline.flatten(tolerance);
+            corners.extend(points.first());
+            let next = points.iter().cycle().skip(1);
+            edges.extend(points.iter().zip(next).map(|(a, b)| [*a, *b]));
+        }
+        if edges.is_empty() {
+            return Err(BodyError::Empty);
+        }
+        let mut order: Vec<u32> = (0..).take(edges.len()).collect();
+        let mut nodes = Vec::with_capacity(2 * edges.len());
+        grow(&edges, &mut order, &mut nodes);
+        Ok(Self {
+            boundary: Boundary::new(&edges),
+            flattening: if straight { 0.0 } else { tolerance.mm() },
+            nodes,
+            edges,
+            corners,
+        })
+    }
+
+    /// Corners of the polygons that stand in for the outlines.
+    #[must_use]
+    pub fn vertex_count(&self) -> usize {
+        self.edges.len()
+    }
+
+    /// Greatest distance between the outlines and the polygons that stand in for them, mm.
+    #[must_use]
+    pub fn flattening(&self) -> f64 {
+        self.flattening
+    }
+
+    /// Greatest distance of any point of the body from its frame's origin, mm, or a little more.
+    #[must_use]
+    pub fn reach(&self) -> f64 {
+        self.nodes[0].center.coords.norm() + self.nodes[0].radius
+    }
+
+    pub(super) fn edge(&self, index: u32) -> &[Point; 2] {
+        &self.edges[index as usize]
+    }
+
+    pub(super) fn node(&self, index: u32) -> &Node {
+        &self.nodes[index as usize]
+    }
+
+    /// A corner of every outline.
+    pub(super) fn corners(&self) -> impl Iterator<Item = Point> + '_ {
+        self.corners.iter().copied()
+    }
+
+    pub(super) fn boundary(&self) -> &Boundary {
+        &self.boundary
+    }
+
+    /// Whether a point of the body's frame lies in the material.
+    pub(super) fn contains(&self, p: Point) -> bool {
+        let crossed = |[a, b]: &&[Point; 2]| {
+            (a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x)
+        };
+        self.edges.iter().filter(crossed).count() % 2 == 1
+    }
+}
+
+/// Adds the tree of `order`'s edges to `nodes`; gives the index of its root.
+fn grow(edges: &[[Point; 2]], order: &mut [u32], nodes: &mut Vec<Node>) -> u32 {
+    let ends = || order.iter().flat_map(|&e| edges[e as usize]);
+    let (mut low, mut high) = (
+        Point::from([f64::INFINITY; 2]),
+        Point::from([-f64::INFINITY; 2]),
+    );
+    for p in ends() {
+        (low, high) = (low.inf(&p), high.sup(&p));
+    }
+    let center = nalgebra::center(&low, &high);
+    let radius = ends().map(|p| (p - center).norm()).fold(0.0, f64::max);
+    let own = nodes.len();
+    nodes.push(Node {
+        center,
+        radius,
+        part: Part::Edge(order[0]),
+    });
+    if order.len() > 1 {
+        let extent: Vector = high - low;
+        let axis = usize::from(extent.y > extent.x);
+        let middle = order.len() / 2;
+        let place = |e: u32| edges[e as usize].iter().map(|p| p[axis]).sum::<f64>();
+        order.select_nth_unstable_by(middle, |&a, &b| place(a).total_cmp(&place(b)));
+        let (first, second) = order.split_at_mut(middle);
+        let halves = [grow(edges, first, nodes), grow(edges, second, nodes)];
+        nodes[own].part = Part::Halves(halves);
+    }
+    u32::try_from(own).unwrap_or(u32::MAX)
+}

@@ -1,0 +1,237 @@
+//! How deep one moving body comes to lie in another, by branch and bound over input and boundary.
+
+use std::cmp::Ordering;
+use std::collections::BinaryHeap;
+
+use centrode_geometry::Point;
+
+use super::body::{Body, Part};
+use super::{InterferenceError, Moving};
+
+/// The deepest point found.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Deepest {
+    /// How far inside, mm; negative if no point ever is; what was to beat if nothing is deeper.
+    pub(super) depth: f64,
+    /// Nothing is deeper.
+    pub(super) bound: f64,
+    /// The input and the point in the common frame; `None` if nothing is deeper than what was to beat.
+    pub(super) place: Option<(f64, Point)>,
+}
+
+/// A stretch of one body's boundary during an interval.
+#[derive(Clone, Copy, Debug)]
+struct Piece {
+    /// Which body's boundary: it is held against the other.
+    of: usize,
+    stretch: Stretch,
+    from: f64,
+    to: f64,
+    bound: f64,
+}
+
+#[derive(Clone, Copy, Debug)]
+enum Stretch {
+    Node(u32),
+    /// A part of an edge.
+    Chord([Point; 2]),
+}
+
+impl Stretch {
+    /// The stretch, if it is straight.
+    fn chord(&self, body: &Body) -> Option<[Point; 2]> {
+        match self {
+            Self::Chord(ends) => Some(*ends),
+            Self::Node(n) => match body.node(*n).part {
+                Part::Edge(e) => Some(*body.edge(e)),
+                Part::Halves(_) => None,
+            },
+        }
+    }
+
+    /// A circle around the stretch; its centre is on the stretch if that is straight.
+    fn circle(&self, body: &Body) -> (Point, f64) {
+        match self {
+            Self::Node(n) => (body.node(*n).center, body.node(*n).radius),
+            Self::Chord([a, b]) => (nalgebra::center(a, b), 0.5 * (b - a).norm()),
+        }
+    }
+
+    fn halves(&self, body: &Body) -> [Self; 2] {
+        let halved = |[a, b]: [Point; 2]| {
+            let middle = nalgebra::center(&a, &b);
+            [Self::Chord([a, middle]), Self::Chord([middle, b])]
+        };
+        match self {
+            Self::Chord(ends) => halved(*ends),
+            Self::Node(n) => match body.node(*n).part {
+                Part::Edge(e) => halved(*body.edge(e)),
+                Part::Halves(halves) => halves.map(Self::Node),
+            },
+        }
+    }
+}
+
+impl Ord for Piece {
+    fn cmp(&self, other: &Self) -> Ordering {
+        self.bound.total_cmp(&other.bound)
+    }
+}
+
+impl PartialOrd for Piece {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl PartialEq for Piece {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other) == Ordering::Equal
+    }
+}
+
+impl Eq for Piece {}
+
+/// The deepest point of either boundary in the other body while the input runs, within `tolerance`,
+/// looked for only deeper than `beat`.
+pub(super) fn deepest(
+    pair: [&Moving<'_>; 2],
+    [from, to]: [f64; 2],
+    beat: f64,
+    tolerance: f64,
+) -> Result<Deepest, InterferenceError> {
+    let whole = |of: usize| Piece {
+        of,
+        stretch: Stretch::Node(0),
+        from,
+        to,
+        bound: f64::INFINITY,
+    };
+    let mut open = BinaryHeap::from([whole(0), whole(1)]);
+    let mut best = Deepest {
+        depth: beat,
+        bound: f64::NEG_INFINITY,
+        place: None,
+    };
+    while let Some(piece) = open.pop() {
+        if piece.bound <= best.depth + tolerance {
+            best.bound = best.bound.max(piece.bound);
+            break;
+        }
+        let own = pair[piece.of].body;
+        let (center, radius) = piece.stretch.circle(own);
+        let chord = piece.stretch.chord(own);
+        let middle = 0.5 * (piece.from + piece.to);
+        let seen = Seen::new([pair[piece.of], pair[1 - piece.of]], &piece, center, chord)?;
+        if chord.is_some() && seen.depth > best.depth {
+            best = Deepest {
+                depth: seen.depth,
+                place: Some((middle, seen.point)),
+                ..best
+            };
+        }
+        let bound = (seen.depth + radius + seen.travel).min(seen.beside + seen.drift);
+        let bound = bound.min(piece.bound);
+        if bound <= best.depth + tolerance {
+            best.bound = best.bound.max(bound);
+            continue;
+        }
+        if seen.travel > radius && piece.from < middle && middle < piece.to {
+            for (from, to) in [(piece.from, middle), (middle, piece.to)] {
+                open.push(Piece {
+                    from,
+                    to,
+                    bound,
+                    ..piece
+                });
+            }
+        } else if radius > 0.0 {
+            for stretch in piece.stretch.halves(own) {
+                open.push(Piece {
+                    stretch,
+                    bound,
+                    ..piece
+                });
+            }
+        } else {
+            best.bound = best.bound.max(bound);
+        }
+    }
+    best.bound = best.bound.max(best.depth);
+    Ok(best)
+}
+
+/// A point of one body seen from the other.
+struct Seen {
+    /// In the common frame, in the middle of the interval.
+    point: Point,
+    /// How far inside the other body it is, mm; negative outside.
+    depth: f64,
+    /// How far it can move against the other body from there to the ends of the interval.
+    travel: f64,
+    /// Greatest distance of the whole stretch from the other's edge that is nearest to the point, were
+    /// all to go straight on: nothing inside the other is deeper. Distance from an edge is convex.
+    beside: f64,
+    /// How far it can leave that straight path.
+    drift: f64,
+}
+
+impl Seen {
+    fn new(
+        [own, other]: [&Moving<'_>; 2],
+        piece: &Piece,
+        center: Point,
+        chord: Option<[Point; 2]>,
+    ) -> Result<Self, InterferenceError> {
+        let (input, half) = (0.5 * (piece.from + piece.to), 0.5 * (piece.to - piece.from));
+        let frames = [own.frame(input)?, other.frame(input)?];
+        let bends = [own, other].map(|m| m.motion.bend(piece.from, piece.to));
+        let (point, velocity) = frames[0].moved(&center);
+        let arm = point - frames[1].jet.position;
+        let against = (velocity - frames[1].velocity_at(arm)).norm();
+        // Seen from the turning body: the change of v - v0 - w x (p - o).
+        let straight = bends[0].of_point(center.coords.norm()) + bends[1].acceleration;
+        let away = (velocity - frames[1].jet.velocity).norm() + straight * half;
+        let far = arm.norm() + away * half;
+        let change = straight + bends[1].turning_change * far + bends[1].turning * away;
+        let there = frames[1].inside(&point);
+        let (distance, nearest) = other.body.boundary().nearest(there);
+        let away_from = |point: Point| {
+            let (place, velocity) = frames[0].moved(&point);
+            let arm = place - frames[1].jet.position;
+            let against = frames[1].rotation.inverse() * (velocity - frames[1].velocity_at(arm));
+            let seen = frames[1].inside(&place);
+            [-half, half]
+                .map(|shift| distance_to_edge(seen + against * shift, other.body.edge(nearest)))
+                .into_iter()
+                .fold(0.0, f64::max)
+        };
+        let beside = match chord {
+            Some(ends) => away_from(ends[0]).max(away_from(ends[1])),
+            None => f64::INFINITY,
+        };
+        let curved = change + bends[1].turning * (against + change * half);
+        Ok(Self {
+            point,
+            depth: if other.body.contains(there) {
+                distance
+            } else {
+                -distance
+            },
+            travel: (against + change * half) * half,
+            beside,
+            drift: 0.5 * curved * half * half,
+        })
+    }
+}
+
+fn distance_to_edge(p: Point, [a, b]: &[Point; 2]) -> f64 {
+    let way = b - a;
+    let length = way.norm_squared();
+    let share = if length > 0.0 {
+        (way.dot(&(p - a)) / length).clamp(0.0, 1.0)
+    } else {
+        0.0
+    };
+    (p - (a + way * share)).norm()
+}

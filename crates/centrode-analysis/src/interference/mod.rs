@@ -1,0 +1,210 @@
+//! Clearance of moving bodies over a whole cycle: proven between samples, not only at them.
+
+mod body;
+mod depth;
+mod motion;
+mod parry;
+mod sweep;
+
+use centrode_geometry::{Point, Tolerance};
+
+pub use body::{Body, BodyError};
+pub use motion::{Bend, Motion, MotionError, PoseJet, Rest, Tabulated, Uniform};
+
+use depth::deepest;
+use motion::{Frame, ascending};
+use parry::Boundary;
+use sweep::approach;
+
+/// A body and how it moves.
+#[derive(Clone, Copy, Debug)]
+pub struct Moving<'a> {
+    /// Its shape.
+    pub body: &'a Body,
+    /// Its pose as a function of the input.
+    pub motion: &'a dyn Motion,
+}
+
+/// How close two bodies come while the input runs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Clearance {
+    /// Least distance found, mm. Where the bodies overlap it is negative: how far the deepest point of
+    /// one lies inside the other.
+    pub least: f64,
+    /// The clearance is proven to be nowhere smaller, mm.
+    pub lower_bound: f64,
+    /// Input at which `least` was found, rad.
+    pub input: f64,
+    /// Closest points of the two bodies there, in the common frame; for bodies that overlap, the deepest
+    /// point twice.
+    pub points: [Point; 2],
+    /// The two bodies, by their places in the list.
+    pub pair: [usize; 2],
+}
+
+/// Why a clearance cannot be told.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum InterferenceError {
+    /// Inputs that do not run forward, or a pose that is not finite.
+    #[error(transparent)]
+    Motion(#[from] MotionError),
+    /// A pair that names a body that is not there, or one body twice.
+    #[error("the pair {pair:?} does not name two of {bodies} bodies")]
+    Pair {
+        /// The pair.
+        pair: [usize; 2],
+        /// Bodies given.
+        bodies: usize,
+    },
+}
+
+/// Least clearance of two bodies while the input runs from the first to the second of `inputs`.
+///
+/// The search halves intervals of the input until none can hold a clearance smaller than the least one
+/// found less the tolerance: within an interval no point can leave its tangent by more than its greatest
+/// second derivative allows. `lower_bound` is `least` less at most the tolerance, the flattening of both
+/// bodies and the deviation of both motions; it is proven where [`Motion::bend`] is. Poses may be given in
+/// any one frame; the search is quickest where the bodies' movement is least, for arms on a carrier in
+/// the carrier's frame. Arms that follow one another in equal phases make one curve: one pair tells all.
+///
+/// A body inside another, or one that runs through it between two samples, overlaps it. Cost: a few
+/// hundred looks at the few edges that come close; bodies that overlap cost more.
+///
+/// # Errors
+/// [`InterferenceError::Motion`] where `inputs` do not ascend or a pose is not finite.
+pub fn clearance(
+    a: &Moving<'_>,
+    b: &Moving<'_>,
+    inputs: [f64; 2],
+    tolerance: Tolerance,
+) -> Result<Clearance, InterferenceError> {
+    let found = below([a, b], [0, 1], inputs, f64::INFINITY, tolerance)?;
+    // Nothing is at infinity: a pair always has a least distance.
+    let nowhere = MotionError::NotFinite { input: inputs[0] };
+    Ok(found.closest.ok_or(nowhere)?)
+}
+
+/// Least clearance among pairs of bodies, each given by two places in `bodies`; `None` without pairs.
+///
+/// Quicker than [`clearance`] of every pair: a pair is searched only below the best of those before it.
+/// `lower_bound` holds for all pairs.
+///
+/// # Errors
+/// [`InterferenceError`] for a pair that is none, and as [`clearance`].
+pub fn least_clearance(
+    bodies: &[Moving<'_>],
+    pairs: &[[usize; 2]],
+    inputs: [f64; 2],
+    tolerance: Tolerance,
+) -> Result<Option<Clearance>, InterferenceError> {
+    let mut least: Option<Clearance> = None;
+    for &pair in pairs {
+        let [i, j] = pair;
+        let (Some(a), Some(b), true) = (bodies.get(i), bodies.get(j), i != j) else {
+            let bodies = bodies.len();
+            return Err(InterferenceError::Pair { pair, bodies });
+        };
+        let beat = least.map_or(f64::INFINITY, |c| c.least);
+        let found = below([a, b], pair, inputs, beat, tolerance)?;
+        let bound = least.map_or(f64::INFINITY, |c| c.lower_bound);
+        least = found.closest.or(least);
+        if let Some(least) = &mut least {
+            least.lower_bound = found.bound.min(bound);
+        }
+    }
+    Ok(least)
+}
+
+/// What is known of a pair after a search.
+struct Search {
+    /// Present if the pair comes closer than the one to beat.
+    closest: Option<Clearance>,
+    bound: f64,
+}
+
+fn below(
+    both: [&Moving<'_>; 2],
+    pair: [usize; 2],
+    inputs: [f64; 2],
+    beat: f64,
+    tolerance: Tolerance,
+) -> Result<Search, InterferenceError> {
+    ascending(inputs)?;
+    // Nothing finer than rounding can be decided.
+    let size = both[0].extent(inputs[0])? + both[1].extent(inputs[0])?;
+    let decided = tolerance.mm().max(1e-13 * size);
+    let unsure = both.iter().map(|m| m.unsure()).sum::<f64>() + 1e-14 * size;
+    if !inside_one_another(both, inputs[0])? && beat > 0.0 {
+        let found = approach(both, inputs, beat, decided)?;
+        if found.bound > 0.0 {
+            let closest = match found.input {
+                Some(input) => gap(both, input)?.map(|(least, points)| Clearance {
+                    least,
+                    lower_bound: found.bound.min(least) - unsure,
+                    input,
+                    points,
+                    pair,
+                }),
+                None => None,
+            };
+            return Ok(Search {
+                closest,
+                bound: found.bound - unsure,
+            });
+        }
+    }
+    let found = deepest(both, inputs, -beat, decided)?;
+    let bound = -found.bound - unsure;
+    let closest = found.place.map(|(input, point)| Clearance {
+        least: -found.depth,
+        lower_bound: bound,
+        input,
+        points: [point; 2],
+        pair,
+    });
+    Ok(Search { closest, bound })
+}
+
+/// Distance and closest points at one input.
+fn gap(both: [&Moving<'_>; 2], input: f64) -> Result<Option<(f64, [Point; 2])>, InterferenceError> {
+    let poses = [both[0].frame(input)?, both[1].frame(input)?].map(|f| f.jet.isometry());
+    let boundaries = both.map(|m| m.body.boundary());
+    Ok(Boundary::gap(boundaries, [&poses[0], &poses[1]]))
+}
+
+/// Whether a piece of one body lies in the other: unless boundaries meet, so it stays.
+fn inside_one_another(both: [&Moving<'_>; 2], input: f64) -> Result<bool, InterferenceError> {
+    let frames = [both[0].frame(input)?, both[1].frame(input)?];
+    Ok([0, 1].into_iter().any(|own| {
+        both[own].body.corners().any(|corner| {
+            let seen = frames[1 - own].inside(&frames[own].moved(&corner).0);
+            both[1 - own].body.contains(seen)
+        })
+    }))
+}
+
+impl Moving<'_> {
+    fn frame(&self, input: f64) -> Result<Frame, MotionError> {
+        let jet = self.motion.at(input);
+        if jet.is_finite() {
+            Ok(Frame::new(jet))
+        } else {
+            Err(MotionError::NotFinite { input })
+        }
+    }
+
+    /// By how much a point of the outline may be off the flattened, tabulated one.
+    fn unsure(&self) -> f64 {
+        let (far, turned) = self.motion.deviation();
+        self.body.flattening() + far + turned * self.body.reach()
+    }
+
+    /// How large its coordinates are.
+    fn extent(&self, input: f64) -> Result<f64, MotionError> {
+        Ok(self.frame(input)?.jet.position.coords.norm() + self.body.reach())
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,322 @@
+use centrode_geometry::{Point, Vector};
+use nalgebra::{Isometry2, Rotation2};
+
+/// Where a body is at an input and how fast it moves there; speeds are per radian of the input.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PoseJet {
+    /// Place of the body frame's origin, mm.
+    pub position: Point,
+    /// Turned angle, rad, continuous over the cycle.
+    pub angle: f64,
+    /// Derivative of the position, mm/rad.
+    pub velocity: Vector,
+    /// Derivative of the angle, rad/rad.
+    pub turning: f64,
+}
+
+impl PoseJet {
+    /// The rigid motion from the body's frame to the common one.
+    #[must_use]
+    pub fn isometry(&self) -> Isometry2<f64> {
+        Isometry2::new(self.position.coords, self.angle)
+    }
+
+    pub(super) fn is_finite(&self) -> bool {
+        let values = [
+            self.position.coords,
+            self.velocity,
+            Vector::new(self.angle, self.turning),
+        ];
+        values.iter().all(|v| v.iter().all(|x| x.is_finite()))
+    }
+}
+
+/// How strongly a body's movement can change within an interval of the input: never too small.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Bend {
+    /// Greatest length of the second derivative of the position, mm/rad^2.
+    pub acceleration: f64,
+    /// Greatest size of the first derivative of the angle.
+    pub turning: f64,
+    /// Greatest size of the second derivative of the angle, 1/rad.
+    pub turning_change: f64,
+}
+
+impl Bend {
+    /// Greatest second derivative of the place of a point at a distance from the frame's origin.
+    pub(super) fn of_point(&self, distance: f64) -> f64 {
+        // A point at r turns and is drawn inward: p'' + angle'' x r - angle'^2 r.
+        self.acceleration + distance * self.turning_change.hypot(self.turning * self.turning)
+    }
+
+    fn greater(self, other: Self) -> Self {
+        Self {
+            acceleration: self.acceleration.max(other.acceleration),
+            turning: self.turning.max(other.turning),
+            turning_change: self.turning_change.max(other.turning_change),
+        }
+    }
+}
+
+/// The pose of a rigid body as a function of the machine's input.
+pub trait Motion: std::fmt::Debug {
+    /// Pose and its exact derivative.
+    fn at(&self, input: f64) -> PoseJet;
+
+    /// Bounds of the second derivative between two inputs.
+    ///
+    /// The lower bound of a clearance is proven if these are.
+    fn bend(&self, from: f64, to: f64) -> Bend;
+
+    /// By how much the motion may differ from the one meant: mm of the origin, and rad.
+    fn deviation(&self) -> (f64, f64) {
+        (0.0, 0.0)
+    }
+}
+
+/// A body at rest.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rest(pub Isometry2<f64>);
+
+impl Motion for Rest {
+    fn at(&self, _: f64) -> PoseJet {
+        PoseJet {
+            position: self.0.translation.vector.into(),
+            angle: self.0.rotation.angle(),
+            velocity: Vector::zeros(),
+            turning: 0.0,
+        }
+    }
+
+    fn bend(&self, _: f64, _: f64) -> Bend {
+        Bend::default()
+    }
+}
+
+/// A body whose origin moves straight and which turns about it, both at constant speed.
+///
+/// A planted seedling seen from a machine that drives, a bar on a shaft.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Uniform {
+    /// Pose at the input 0.
+    pub start: Isometry2<f64>,
+    /// Velocity of the origin, mm/rad.
+    pub velocity: Vector,
+    /// Turn for each radian of the input.
+    pub turning: f64,
+}
+
+impl Motion for Uniform {
+    fn at(&self, input: f64) -> PoseJet {
+        PoseJet {
+            position: Point::from(self.start.translation.vector + self.velocity * input),
+            angle: self.start.rotation.angle() + self.turning * input,
+            velocity: self.velocity,
+            turning: self.turning,
+        }
+    }
+
+    fn bend(&self, _: f64, _: f64) -> Bend {
+        Bend {
+            turning: self.turning.abs(),
+            ..Bend::default()
+        }
+    }
+}
+
+/// A motion read at even inputs and joined by cubics with the same velocities (Hermite).
+///
+/// Bounds of the cubics are exact, so a clearance is proven for them; how far they are from the motion
+/// itself is measured three times in every cell, doubled, and taken off the bound. It falls with the
+/// fourth power of the cell where the motion is smooth.
+#[derive(Clone, Debug)]
+pub struct Tabulated {
+    start: f64,
+    cell: f64,
+    jets: Vec<PoseJet>,
+    /// `bends[k][i]` bounds the cells `i .. i + 2^k`.
+    bends: Vec<Vec<Bend>>,
+    deviation: (f64, f64),
+}
+
+/// Why a motion cannot be tabulated.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum MotionError {
+    /// An interval that does not run forward.
+    #[error("inputs must be finite and ascending, not {from} to {to} rad")]
+    Inputs {
+        /// First input, rad.
+        from: f64,
+        /// Last input, rad.
+        to: f64,
+    },
+    /// No cells.
+    #[error("a motion needs 1 to 1000000 cells, not {0}")]
+    Cells(usize),
+    /// A pose that is not finite.
+    #[error("the pose at the input {input} rad is not a finite number")]
+    NotFinite {
+        /// Where, rad.
+        input: f64,
+    },
+}
+
+impl Tabulated {
+    /// Reads `motion` at the ends of `cells` even parts of the inputs.
+    ///
+    /// # Errors
+    /// [`MotionError`] for an empty interval, no cells, or a pose that is not finite.
+    pub fn new(
+        inputs: [f64; 2],
+        cells: usize,
+        mut motion: impl FnMut(f64) -> PoseJet,
+    ) -> Result<Self, MotionError> {
+        ascending(inputs)?;
+        if !(1..=1_000_000).contains(&cells) {
+            return Err(MotionError::Cells(cells));
+        }
+        let start = inputs[0];
+        let cell = (inputs[1] - start) / cells as f64;
+        let mut read = |input: f64| {
+            let jet = motion(input);
+            if jet.is_finite() {
+                Ok(jet)
+            } else {
+                Err(MotionError::NotFinite { input })
+            }
+        };
+        let jets = (0..=cells)
+            .map(|i| read(start + cell * i as f64))
+            .collect::<Result<Vec<_>, _>>()?;
+        let bends = windows(jets.windows(2).map(|pair| bend(pair, cell)).collect());
+        let mut table = Self {
+            start,
+            cell,
+            jets,
+            bends,
+            deviation: (0.0, 0.0),
+        };
+        for i in 0..cells {
+            for share in [0.25, 0.5, 0.75] {
+                let input = start + cell * (i as f64 + share);
+                let (ours, theirs) = (table.at(input), read(input)?);
+                let (far, turned) = &mut table.deviation;
+                *far = far.max(2.0 * (ours.position - theirs.position).norm());
+                *turned = turned.max(2.0 * (ours.angle - theirs.angle).abs());
+            }
+        }
+        Ok(table)
+    }
+
+    fn cell_of(&self, input: f64) -> usize {
+        // Saturates below the first cell.
+        (((input - self.start) / self.cell) as usize).min(self.jets.len() - 2)
+    }
+}
+
+pub(super) fn ascending([from, to]: [f64; 2]) -> Result<(), MotionError> {
+    if from < to && from.is_finite() && to.is_finite() {
+        Ok(())
+    } else {
+        Err(MotionError::Inputs { from, to })
+    }
+}
+
+impl Motion for Tabulated {
+    fn at(&self, input: f64) -> PoseJet {
+        let i = self.cell_of(input);
+        let (a, b, h) = (&self.jets[i], &self.jets[i + 1], self.cell);
+        let t = (input - self.start) / h - i as f64;
+        let s = 1.0 - t;
+        // Cubic Hermite polynomials and their derivatives by t.
+        let [end, rise, fall] = [t * t * (3.0 - 2.0 * t), t * s * s, -t * t * s];
+        let [slope, up, down] = [6.0 * t * s, s * (1.0 - 3.0 * t), t * (3.0 * t - 2.0)];
+        let (way, turn) = (b.position - a.position, b.angle - a.angle);
+        PoseJet {
+            position: a.position + way * end + (a.velocity * rise + b.velocity * fall) * h,
+            angle: a.angle + turn * end + (a.turning * rise + b.turning * fall) * h,
+            velocity: way * (slope / h) + a.velocity * up + b.velocity * down,
+            turning: turn * (slope / h) + a.turning * up + b.turning * down,
+        }
+    }
+
+    fn bend(&self, from: f64, to: f64) -> Bend {
+        let (first, last) = (self.cell_of(from), self.cell_of(to));
+        let level = (last - first + 1).ilog2() as usize;
+        let row = &self.bends[level];
+        row[first].greater(row[last + 1 - (1 << level)])
+    }
+
+    fn deviation(&self) -> (f64, f64) {
+        self.deviation
+    }
+}
+
+/// Bounds of one cubic: its second derivative is linear, its first lies between its Bezier points.
+fn bend(pair: &[PoseJet], h: f64) -> Bend {
+    let (a, b) = (&pair[0], &pair[1]);
+    let mean = (b.position - a.position) / h;
+    let ends = [
+        (mean * 3.0 - a.velocity * 2.0 - b.velocity) * (2.0 / h),
+        (b.velocity * 2.0 + a.velocity - mean * 3.0) * (2.0 / h),
+    ];
+    let rate = (b.angle - a.angle) / h;
+    let turned = [
+        (3.0 * rate - 2.0 * a.turning - b.turning) * (2.0 / h),
+        (2.0 * b.turning + a.turning - 3.0 * rate) * (2.0 / h),
+    ];
+    let middle = 3.0 * rate - a.turning - b.turning;
+    Bend {
+        acceleration: ends[0].norm().max(ends[1].norm()),
+        turning: a.turning.abs().max(b.turning.abs()).max(middle.abs()),
+        turning_change: turned[0].abs().max(turned[1].abs()),
+    }
+}
+
+/// Bounds of every run of 1, 2, 4, ... cells.
+fn windows(cells: Vec<Bend>) -> Vec<Vec<Bend>> {
+    let count = cells.len();
+    let mut levels = vec![cells];
+    let mut width = 1;
+    while 2 * width <= count {
+        let below = &levels[levels.len() - 1];
+        let row = (0..=count - 2 * width).map(|i| below[i].greater(below[i + width]));
+        let row = row.collect();
+        levels.push(row);
+        width *= 2;
+    }
+    levels
+}
+
+/// A pose at one input, ready to move points.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Frame {
+    pub(super) rotation: Rotation2<f64>,
+    pub(super) jet: PoseJet,
+}
+
+impl Frame {
+    pub(super) fn new(jet: PoseJet) -> Self {
+        Self {
+            rotation: Rotation2::new(jet.angle),
+            jet,
+        }
+    }
+
+    /// Place and velocity of a point of the body.
+    pub(super) fn moved(&self, p: &Point) -> (Point, Vector) {
+        let arm = self.rotation * p.coords;
+        (self.jet.position + arm, self.velocity_at(arm))
+    }
+
+    /// Velocity of the body's point at `arm` from its origin, in the common frame.
+    pub(super) fn velocity_at(&self, arm: Vector) -> Vector {
+        self.jet.velocity + Vector::new(-arm.y, arm.x) * self.jet.turning
+    }
+
+    /// A point of the common frame in the body's.
+    pub(super) fn inside(&self, p: &Point) -> Point {
+        Point::from(self.rotation.inverse() * (p - self.jet.position))
+    }
+}

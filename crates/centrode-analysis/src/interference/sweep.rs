@@ -1,0 +1,269 @@
+//! Least distance of two moving boundaries, by branch and bound over input and space at once.
+//!
+//! An interval of the input carries the pairs of circles (and in the end edges) that may come closer in
+//! it than the best distance found. A pair's distance at the middle, moved on by the exact velocity along
+//! the line between them and less what the second derivative can do, bounds it in the whole interval.
+
+use std::cmp::Ordering;
+use std::collections::BinaryHeap;
+use std::rc::Rc;
+
+use centrode_geometry::{Point, Vector};
+
+use super::body::{Body, Part};
+use super::motion::{Bend, Frame};
+use super::{InterferenceError, Moving};
+
+/// What the search of one pair has found.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Approach {
+    /// Least distance found, and where; the one to beat if nothing came closer.
+    pub(super) least: f64,
+    pub(super) input: Option<f64>,
+    /// No distance is smaller.
+    pub(super) bound: f64,
+}
+
+/// An interval not yet decided.
+struct Span {
+    from: f64,
+    to: f64,
+    bound: f64,
+    pairs: Rc<[[u32; 2]]>,
+}
+
+impl Ord for Span {
+    /// The least bound is the greatest: a heap gives it first.
+    fn cmp(&self, other: &Self) -> Ordering {
+        other.bound.total_cmp(&self.bound)
+    }
+}
+
+impl PartialOrd for Span {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl PartialEq for Span {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other) == Ordering::Equal
+    }
+}
+
+impl Eq for Span {}
+
+/// Intervals the search starts with.
+const FIRST_SPANS: u32 = 16;
+
+/// Least distance of two boundaries while the input runs, to within `tolerance`, looked for only below
+/// `beat`.
+pub(super) fn approach(
+    [a, b]: [&Moving<'_>; 2],
+    [from, to]: [f64; 2],
+    beat: f64,
+    tolerance: f64,
+) -> Result<Approach, InterferenceError> {
+    let step = (to - from) / f64::from(FIRST_SPANS);
+    let root: Rc<[[u32; 2]]> = Rc::new([[0, 0]]);
+    let mut open: BinaryHeap<Span> = (0..FIRST_SPANS)
+        .map(|i| Span {
+            from: from + step * f64::from(i),
+            to: if i + 1 == FIRST_SPANS {
+                to
+            } else {
+                from + step * f64::from(i + 1)
+            },
+            bound: f64::NEG_INFINITY,
+            pairs: root.clone(),
+        })
+        .collect();
+    let mut found = Approach {
+        least: beat,
+        input: None,
+        bound: f64::INFINITY,
+    };
+    while let Some(span) = open.pop() {
+        if span.bound >= found.least - tolerance {
+            found.bound = found.bound.min(span.bound);
+            break;
+        }
+        let middle = 0.5 * (span.from + span.to);
+        let look = Look::new(a, b, middle, 0.5 * (span.to - span.from))?;
+        let rest = look.at_pairs(&span.pairs, &mut found, tolerance);
+        if rest.pairs.is_empty() {
+            continue;
+        }
+        // Neighbouring floats, or contact: nothing is gained by going on.
+        if middle <= span.from || middle >= span.to || found.least <= 0.0 {
+            found.bound = found.bound.min(rest.bound);
+            if found.least <= 0.0 {
+                break;
+            }
+            continue;
+        }
+        let pairs: Rc<[[u32; 2]]> = rest.pairs.into();
+        for (from, to) in [(span.from, middle), (middle, span.to)] {
+            open.push(Span {
+                from,
+                to,
+                bound: rest.bound.max(span.bound),
+                pairs: pairs.clone(),
+            });
+        }
+    }
+    found.bound = found.bound.min(found.least);
+    Ok(found)
+}
+
+/// Pairs that may still come too close, and the least bound among them.
+struct Rest {
+    pairs: Vec<[u32; 2]>,
+    bound: f64,
+}
+
+/// Two bodies in the middle of an interval.
+struct Look<'a> {
+    bodies: [&'a Body; 2],
+    frames: [Frame; 2],
+    bends: [Bend; 2],
+    input: f64,
+    half: f64,
+}
+
+impl<'a> Look<'a> {
+    fn new(
+        a: &Moving<'a>,
+        b: &Moving<'a>,
+        input: f64,
+        half: f64,
+    ) -> Result<Self, InterferenceError> {
+        Ok(Self {
+            bodies: [a.body, b.body],
+            frames: [a.frame(input)?, b.frame(input)?],
+            bends: [a, b].map(|m| m.motion.bend(input - half, input + half)),
+            input,
+            half,
+        })
+    }
+
+    fn at_pairs(&self, pairs: &[[u32; 2]], found: &mut Approach, tolerance: f64) -> Rest {
+        let mut rest = Rest {
+            pairs: Vec::new(),
+            bound: f64::INFINITY,
+        };
+        let mut open: Vec<[u32; 2]> = pairs.to_vec();
+        while let Some(pair) = open.pop() {
+            let [p, q] = [0, 1].map(|i| self.bodies[i].node(pair[i]));
+            let (bound, blur) = self.circles(pair);
+            if bound >= found.least - tolerance {
+                found.bound = found.bound.min(bound);
+                continue;
+            }
+            match (p.part, q.part) {
+                (Part::Edge(e), Part::Edge(f)) => {
+                    let (distance, bound) = self.edges([e, f]);
+                    if distance < found.least {
+                        (found.least, found.input) = (distance, Some(self.input));
+                    }
+                    if bound >= found.least - tolerance {
+                        found.bound = found.bound.min(bound);
+                    } else {
+                        rest.keep(pair, bound);
+                    }
+                }
+                // What moves by more than the circles are wide is cut in time, not in space.
+                _ if blur > p.radius + q.radius => rest.keep(pair, bound),
+                (Part::Halves([m, n]), _) if p.radius >= q.radius || is_edge(q.part) => {
+                    open.extend([[m, pair[1]], [n, pair[1]]]);
+                }
+                (_, Part::Halves([m, n])) => open.extend([[pair[0], m], [pair[0], n]]),
+                (Part::Halves([m, n]), _) => open.extend([[m, pair[1]], [n, pair[1]]]),
+            }
+        }
+        rest
+    }
+
+    /// Least distance of two circles in the interval, and what of it is owed to their movement.
+    fn circles(&self, pair: [u32; 2]) -> (f64, f64) {
+        let [p, q] = [0, 1].map(|i| self.bodies[i].node(pair[i]));
+        let (at_p, move_p) = self.frames[0].moved(&p.center);
+        let (at_q, move_q) = self.frames[1].moved(&q.center);
+        let apart = at_p - at_q;
+        let distance = apart.norm();
+        let bend = self.bends[0].of_point(p.center.coords.norm())
+            + self.bends[1].of_point(q.center.coords.norm());
+        let closing = if distance > 0.0 {
+            apart.dot(&(move_p - move_q)).abs() / distance
+        } else {
+            0.0
+        };
+        let blur = (closing + 0.5 * bend * self.half) * self.half;
+        (distance - blur - p.radius - q.radius, blur)
+    }
+
+    /// Distance of two edges in the middle, and a bound for the whole interval.
+    fn edges(&self, [e, f]: [u32; 2]) -> (f64, f64) {
+        let (edge, other) = (self.bodies[0].edge(e), self.bodies[1].edge(f));
+        let p = [0, 1].map(|i| self.frames[0].moved(&edge[i]));
+        let q = [0, 1].map(|i| self.frames[1].moved(&other[i]));
+        let (distance, apart) = between([p[0].0, p[1].0], [q[0].0, q[1].0]);
+        if distance <= 0.0 {
+            return (0.0, 0.0);
+        }
+        let reach = |edge: &[Point; 2]| edge[0].coords.norm().max(edge[1].coords.norm());
+        let bend = self.bends[0].of_point(reach(edge)) + self.bends[1].of_point(reach(other));
+        // Along the line between the closest points convex shapes are apart by their ends' gap.
+        let along = apart / distance;
+        let mut gap = f64::INFINITY;
+        for shift in [-self.half, self.half] {
+            let place =
+                |(point, velocity): &(Point, Vector)| along.dot(&(point.coords + velocity * shift));
+            let near = place(&p[0]).min(place(&p[1]));
+            let far = place(&q[0]).max(place(&q[1]));
+            gap = gap.min(near - far);
+        }
+        (distance, gap - 0.5 * bend * self.half * self.half)
+    }
+}
+
+impl Rest {
+    fn keep(&mut self, pair: [u32; 2], bound: f64) {
+        self.pairs.push(pair);
+        self.bound = self.bound.min(bound);
+    }
+}
+
+fn is_edge(part: Part) -> bool {
+    matches!(part, Part::Edge(_))
+}
+
+/// Distance of two edges and the vector from a closest point of the second to one of the first.
+fn between(p: [Point; 2], q: [Point; 2]) -> (f64, Vector) {
+    let side = |a: Point, b: Point, c: Point| (b - a).perp(&(c - a));
+    let opposite = |a: f64, b: f64| a * b < 0.0;
+    if opposite(side(p[0], p[1], q[0]), side(p[0], p[1], q[1]))
+        && opposite(side(q[0], q[1], p[0]), side(q[0], q[1], p[1]))
+    {
+        return (0.0, Vector::zeros());
+    }
+    let to = |c: Point, [a, b]: [Point; 2]| {
+        let way = b - a;
+        let length = way.norm_squared();
+        let share = if length > 0.0 {
+            (way.dot(&(c - a)) / length).clamp(0.0, 1.0)
+        } else {
+            0.0
+        };
+        c - (a + way * share)
+    };
+    let ways = [to(p[0], q), to(p[1], q), -to(q[0], p), -to(q[1], p)];
+    let mut least = (f64::INFINITY, Vector::zeros());
+    for way in ways {
+        let squared = way.norm_squared();
+        if squared < least.0 {
+            least = (squared, way);
+        }
+    }
+    (least.0.sqrt(), least.1)
+}
