@@ -14,6 +14,7 @@ mod crossing;
 mod cubics;
 mod curve;
 mod flatten;
+mod hull;
 mod loops;
 mod mass;
 mod mesh;
