@@ -2,15 +2,12 @@
 
 mod check;
 mod contact;
-<<<<<<< HEAD
 mod goal;
+pub mod interference;
 mod kinetostatics;
 mod mechanism;
 pub mod optimise;
 mod remedy;
-=======
-pub mod interference;
->>>>>>> 9dd203a (Add continuous clearance of moving bodies: branch and bound over input and space, proven between samples)
 mod report;
 mod shaft;
 mod swing_spread;

@@ -1,5 +1,6 @@
 //! The design file and each family of mechanism, resolved to exact curves.
 
+pub mod arm;
 mod bore;
 pub mod cam;
 mod degrees;

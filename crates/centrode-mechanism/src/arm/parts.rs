@@ -1,0 +1,327 @@
+use centrode_geometry::{Crossing, Outline, Point};
+
+use super::contour::{Contour, mirrored};
+use super::spec::ArmBodySpec;
+use crate::gear::design::SpecError;
+use crate::gear::design::rule::{between, positive};
+
+/// One part of an arm: its contour in the arm's frame and where it lies along the planet's axis.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ArmPart {
+    /// Short name, used for file names.
+    pub name: &'static str,
+    /// Contour, counter-clockwise.
+    pub outline: Outline,
+    /// Contours of holes, counter-clockwise.
+    pub holes: Vec<Outline>,
+    /// From where to where along the planet's axis, mm, from the middle of the housing.
+    pub span: [f64; 2],
+}
+
+/// A transplanting arm as a body: one outline to keep clear of, and its parts.
+#[derive(Clone, Debug)]
+pub struct ArmBody {
+    outline: Outline,
+    tip: Point,
+    parts: Vec<ArmPart>,
+}
+
+/// Why there is no such arm.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ArmError {
+    /// A value outside its range.
+    #[error(transparent)]
+    Spec(#[from] SpecError),
+    /// The clamp begins behind the planet's axis, or the housing's tube has no length.
+    #[error(
+        "the clamp leaves the housing {front} mm before the planet's axis, behind the tube's rear end at {rear} mm: shorten the clamp ({clamp_length} mm)"
+    )]
+    NoTube {
+        /// Middle of the tube's front end, mm.
+        front: f64,
+        /// Middle of its rear end, mm.
+        rear: f64,
+        /// Length of the clamp, mm.
+        clamp_length: f64,
+    },
+    /// The clamp is too high for the tube it leaves.
+    #[error(
+        "a clamp {root_height} mm high at its root does not fit the housing's front: about {most:.3} mm would"
+    )]
+    ClampTooHigh {
+        /// Height at the root, mm.
+        root_height: f64,
+        /// Most that fits, mm.
+        most: f64,
+    },
+    /// The clamp is shorter than its own rounded tip.
+    #[error(
+        "a clamp {clamp_length} mm long is too short for its heights {root_height} and {tip_height} mm"
+    )]
+    ClampTooShort {
+        /// Length, mm.
+        clamp_length: f64,
+        /// Height at the root, mm.
+        root_height: f64,
+        /// Height at the tip, mm.
+        tip_height: f64,
+    },
+    /// Something inside is larger than what is to hold it.
+    #[error("{inner} is {inner_size} mm, but {outer} leaves {outer_size} mm")]
+    TooLarge {
+        /// Key of what is inside.
+        inner: &'static str,
+        /// Its size, mm.
+        inner_size: f64,
+        /// Key of what encloses it.
+        outer: &'static str,
+        /// The room, mm.
+        outer_size: f64,
+    },
+    /// The contour meets itself.
+    #[error("the arm's outline crosses itself at ({x}, {y}) mm")]
+    Crossing {
+        /// Where, mm.
+        x: f64,
+        /// Where, mm.
+        y: f64,
+    },
+}
+
+/// Where an arm's clamp is: the arm's own three figures.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Reach {
+    tip_distance: f64,
+    pusher_offset: f64,
+    clamp_length: f64,
+}
+
+impl ArmBody {
+    /// The arm whose clamp ends `tip_distance` (S) from the planet's axis, on a pusher's axis that passes
+    /// it at `pusher_offset` (H), and is `clamp_length` long outside the housing; all mm.
+    ///
+    /// In the arm's frame the tip is at `(sqrt(S^2 - H^2), -H)`: the direction of the clamp is that of the
+    /// tip turned by asin(H/S).
+    ///
+    /// # Errors
+    /// [`ArmError`] naming the rule broken.
+    pub fn new(
+        spec: &ArmBodySpec,
+        tip_distance: f64,
+        pusher_offset: f64,
+        clamp_length: f64,
+    ) -> Result<Self, ArmError> {
+        spec.validate()?;
+        let reach = Reach {
+            tip_distance,
+            pusher_offset,
+            clamp_length,
+        };
+        let contour = reach.contour(spec)?;
+        let other_side = pusher_offset < 0.0;
+        let crossing = |Crossing { point, .. }: Crossing| ArmError::Crossing {
+            x: point.x,
+            y: point.y,
+        };
+        let too_high = ArmError::ClampTooHigh {
+            root_height: spec.clamp.root_height,
+            most: 2.0 * contour.room(),
+        };
+        let whole = contour.whole().ok_or(too_high)?;
+        if let Some(at) = whole.crossing() {
+            return Err(crossing(at));
+        }
+        let turned = |outline: Outline| {
+            if other_side {
+                mirrored(&outline).unwrap_or(outline)
+            } else {
+                outline
+            }
+        };
+        let mut parts = parts(spec, &contour);
+        for part in &mut parts {
+            part.outline = turned(part.outline.clone());
+        }
+        Ok(Self {
+            outline: turned(whole),
+            tip: Point::new(contour.tip, -pusher_offset),
+            parts,
+        })
+    }
+
+    /// Everything of the arm as seen along the planet's axis, counter-clockwise: lines and arcs.
+    #[must_use]
+    pub fn outline(&self) -> &Outline {
+        &self.outline
+    }
+
+    /// The clamp's tip, in the arm's frame.
+    #[must_use]
+    pub fn tip(&self) -> Point {
+        self.tip
+    }
+
+    /// Housing, both flakes, push rod with pusher, and spring, with the rod thrown out.
+    #[must_use]
+    pub fn parts(&self) -> &[ArmPart] {
+        &self.parts
+    }
+}
+
+impl Reach {
+    fn contour(&self, spec: &ArmBodySpec) -> Result<Contour, ArmError> {
+        let Self {
+            tip_distance,
+            pusher_offset,
+            clamp_length,
+        } = *self;
+        positive("tip_distance", tip_distance)?;
+        between(
+            "pusher_offset",
+            pusher_offset,
+            [-tip_distance, tip_distance],
+            " mm",
+        )?;
+        positive("clamp_length", clamp_length)?;
+        let (housing, clamp) = (&spec.housing, &spec.clamp);
+        let tip = (tip_distance * tip_distance - pusher_offset * pusher_offset).sqrt();
+        let front = tip - clamp_length - housing.tube_radius;
+        let rear = -housing.tube_back;
+        if front <= rear {
+            return Err(ArmError::NoTube {
+                front,
+                rear,
+                clamp_length,
+            });
+        }
+        let (root, end) = (0.5 * clamp.root_height, 0.5 * clamp.tip_height);
+        if tip - end - front <= (root - end).abs() || clamp_length <= end {
+            return Err(ArmError::ClampTooShort {
+                clamp_length,
+                root_height: clamp.root_height,
+                tip_height: clamp.tip_height,
+            });
+        }
+        fits(spec, front - rear)?;
+        Ok(Contour {
+            drum_radius: housing.drum_radius,
+            tube_radius: housing.tube_radius,
+            rear,
+            front,
+            offset: pusher_offset.abs(),
+            tip,
+            root,
+            end,
+        })
+    }
+}
+
+/// What is inside is smaller than what encloses it.
+fn fits(spec: &ArmBodySpec, tube_length: f64) -> Result<(), ArmError> {
+    let (housing, clamp, rod, spring) = (&spec.housing, &spec.clamp, &spec.push_rod, &spec.spring);
+    let tube = 2.0 * housing.tube_radius;
+    let coil = spring.outer_diameter - 2.0 * spring.wire_diameter;
+    let flakes = clamp.opening + 2.0 * clamp.thickness;
+    for (inner, inner_size, outer, outer_size) in [
+        (
+            "housing.bore",
+            housing.bore,
+            "housing.drum_radius",
+            2.0 * housing.drum_radius,
+        ),
+        (
+            "spring.outer_diameter",
+            spring.outer_diameter,
+            "housing.tube_radius",
+            tube,
+        ),
+        (
+            "clamp.root_height",
+            clamp.root_height,
+            "housing.tube_radius",
+            tube,
+        ),
+        (
+            "push_rod.diameter",
+            rod.diameter,
+            "spring.outer_diameter",
+            coil,
+        ),
+        ("clamp.opening", flakes, "housing.width", housing.width),
+        (
+            "push_rod.diameter",
+            rod.diameter,
+            "clamp.tip_height",
+            clamp.tip_height,
+        ),
+        (
+            "push_rod.pusher_height",
+            rod.pusher_height,
+            "clamp.tip_height",
+            clamp.tip_height,
+        ),
+        (
+            "spring.length",
+            spring.length,
+            "the housing's tube",
+            tube_length,
+        ),
+    ] {
+        if inner_size >= outer_size {
+            return Err(ArmError::TooLarge {
+                inner,
+                inner_size,
+                outer,
+                outer_size,
+            });
+        }
+    }
+    Ok(())
+}
+
+fn parts(spec: &ArmBodySpec, contour: &Contour) -> Vec<ArmPart> {
+    let (clamp, rod, spring) = (&spec.clamp, &spec.push_rod, &spec.spring);
+    let half = |size: f64| [-0.5 * size, 0.5 * size];
+    let mut parts = Vec::new();
+    let mut add = |name, outline: Option<Outline>, holes, span| {
+        parts.extend(outline.map(|outline| ArmPart {
+            name,
+            outline,
+            holes,
+            span,
+        }));
+    };
+    let bore = (spec.housing.bore > 0.0)
+        .then(|| Outline::circle(Point::origin(), 0.5 * spec.housing.bore));
+    let bores = bore.into_iter().collect();
+    add(
+        "housing",
+        contour.housing(),
+        bores,
+        half(spec.housing.width),
+    );
+    let inner = 0.5 * clamp.opening;
+    let outer = inner + clamp.thickness;
+    add("flake-left", contour.flake(), Vec::new(), [inner, outer]);
+    add("flake-right", contour.flake(), Vec::new(), [-outer, -inner]);
+    // Thrown out, the pusher reaches to where the flakes are rounded off.
+    let face = contour.tip - contour.end;
+    let neck = face - rod.pusher_length;
+    let bar = contour.bar(contour.rear, neck, 0.5 * rod.diameter);
+    add("push-rod", Some(bar), Vec::new(), half(rod.diameter));
+    let pusher = contour.bar(neck, face, 0.5 * rod.pusher_height);
+    add("pusher", Some(pusher), Vec::new(), half(rod.diameter));
+    let coil = contour.bar(
+        contour.rear,
+        contour.rear + spring.length,
+        0.5 * spring.outer_diameter,
+    );
+    add(
+        "spring",
+        Some(coil),
+        Vec::new(),
+        half(spring.outer_diameter),
+    );
+    parts
+}
