@@ -50,15 +50,15 @@ fn arm(corners: u32) -> Body {
     Body::new(&[Outline::polygon(&points)], tolerance(1e-3)).expect("a body")
 }
 
-/// The arms' turning seen from the carrier: once back in a turn, unevenly, a third of a turn apart.
-fn motions() -> [Tabulated; 3] {
+/// The arms' turning seen from the carrier: once round in a turn, unevenly, a third of a turn apart.
+fn motions(carrier: f64) -> [Tabulated; 3] {
     [0.0, 1.0, 2.0].map(|k| {
         let phase = TAU * k / 3.0;
         let (sin, cos) = phase.sin_cos();
         Tabulated::new([0.0, TAU], 720, |input| {
             let t = input - phase;
             PoseJet {
-                position: Point::new(147.0 * cos, -147.0 * sin),
+                position: Point::new(carrier * cos, -carrier * sin),
                 angle: 0.6 - phase + t + 0.7 * t.sin() + 0.3 * (2.0 * t).cos(),
                 velocity: Vector::zeros(),
                 turning: 1.0 + 0.7 * t.cos() - 0.6 * (2.0 * t).sin(),
@@ -71,27 +71,34 @@ fn motions() -> [Tabulated; 3] {
 const PAIRS: [[usize; 2]; 3] = [[0, 1], [1, 2], [2, 0]];
 
 fn arms(c: &mut Criterion) {
-    let motions = motions();
-    let mut group = c.benchmark_group("interference/three arms, one cycle");
-    for corners in [40, 156, 600] {
-        let arm = arm(corners);
-        let bodies = motions.each_ref().map(|motion| Moving {
-            body: &arm,
-            motion: motion as &dyn Motion,
-        });
-        for mm in [1e-2, 1e-3] {
-            let name = format!("{corners} corners, within {mm} mm");
-            let found = clearance(&bodies[0], &bodies[1], [0.0, TAU], tolerance(mm));
-            eprintln!("{name}: {found:?}");
-            group.bench_function(BenchmarkId::new("three pairs", &name), |b| {
-                b.iter(|| least_clearance(black_box(&bodies), &PAIRS, [0.0, TAU], tolerance(mm)));
+    let mut group = c.benchmark_group("interference/three arms");
+    for (what, carrier) in [("clear", 200.0), ("overlapping", 147.0)] {
+        let motions = motions(carrier);
+        for corners in [40, 156, 600] {
+            let arm = arm(corners);
+            let bodies = motions.each_ref().map(|motion| Moving {
+                body: &arm,
+                motion: motion as &dyn Motion,
             });
-            group.bench_function(BenchmarkId::new("one pair tells all", &name), |b| {
-                b.iter(|| clearance(black_box(&bodies[0]), &bodies[1], [0.0, TAU], tolerance(mm)));
-            });
+            for mm in [1e-2, 1e-3] {
+                let name = format!("{what}, {corners} corners, within {mm} mm");
+                let cycle = [0.0, TAU];
+                let one = || clearance(&bodies[0], &bodies[1], cycle, tolerance(mm));
+                let found = one().expect("finite");
+                assert_eq!(found.least > 0.0, what == "clear", "{found:?}");
+                group.bench_function(BenchmarkId::new("three pairs", &name), |b| {
+                    b.iter(|| {
+                        let mm = tolerance(mm);
+                        least_clearance(black_box(&bodies), &PAIRS, cycle, mm)
+                    });
+                });
+                group.bench_function(BenchmarkId::new("one pair tells all", &name), |b| {
+                    b.iter(one);
+                });
+            }
         }
     }
-    group.bench_function("tabulate three motions", |b| b.iter(self::motions));
+    group.bench_function("tabulate three motions", |b| b.iter(|| motions(200.0)));
     group.bench_function("body of 156 corners", |b| b.iter(|| self::arm(156)));
     group.finish();
 }

@@ -9,7 +9,7 @@ mod sweep;
 use centrode_geometry::{Point, Tolerance};
 
 pub use body::{Body, BodyError};
-pub use motion::{Bend, Motion, MotionError, PoseJet, Rest, Tabulated, Uniform};
+pub use motion::{Bend, Later, Motion, MotionError, PoseJet, Rest, Tabulated, Uniform};
 
 use depth::deepest;
 use motion::{Frame, ascending};

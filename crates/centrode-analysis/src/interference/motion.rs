@@ -127,7 +127,7 @@ impl Motion for Uniform {
 /// A motion read at even inputs and joined by cubics with the same velocities (Hermite).
 ///
 /// Bounds of the cubics are exact, so a clearance is proven for them; how far they are from the motion
-/// itself is measured three times in every cell, doubled, and taken off the bound. It falls with the
+/// itself is measured in the middle of every cell, doubled, and taken off the bound. It falls with the
 /// fourth power of the cell where the motion is smooth.
 #[derive(Clone, Debug)]
 pub struct Tabulated {
@@ -198,15 +198,18 @@ impl Tabulated {
             deviation: (0.0, 0.0),
         };
         for i in 0..cells {
-            for share in [0.25, 0.5, 0.75] {
-                let input = start + cell * (i as f64 + share);
-                let (ours, theirs) = (table.at(input), read(input)?);
-                let (far, turned) = &mut table.deviation;
-                *far = far.max(2.0 * (ours.position - theirs.position).norm());
-                *turned = turned.max(2.0 * (ours.angle - theirs.angle).abs());
-            }
+            let input = start + cell * (i as f64 + 0.5);
+            let (ours, theirs) = (table.at(input), read(input)?);
+            let (far, turned) = &mut table.deviation;
+            *far = far.max(2.0 * (ours.position - theirs.position).norm());
+            *turned = turned.max(2.0 * (ours.angle - theirs.angle).abs());
         }
         Ok(table)
+    }
+
+    /// From the first input to the last.
+    fn length(&self) -> f64 {
+        self.cell * (self.jets.len() - 1) as f64
     }
 
     fn cell_of(&self, input: f64) -> usize {
@@ -250,6 +253,58 @@ impl Motion for Tabulated {
 
     fn deviation(&self) -> (f64, f64) {
         self.deviation
+    }
+}
+
+/// The motion of a body that does later, turned about the common frame's origin, what another one did.
+///
+/// Arms on one carrier: seen from it, each is a turned copy of the first, late by its share of a cycle.
+#[derive(Clone, Copy, Debug)]
+pub struct Later<'a> {
+    /// What is repeated; its inputs are one whole cycle.
+    pub first: &'a Tabulated,
+    /// By how much of the input, in `[0, cycle]`.
+    pub delay: f64,
+    /// Turned by, rad.
+    pub turned: f64,
+}
+
+impl Later<'_> {
+    /// The input of the first body, in its table.
+    fn own(&self, input: f64) -> f64 {
+        let (start, cycle) = (self.first.start, self.first.length());
+        start + (input - self.delay - start).rem_euclid(cycle)
+    }
+}
+
+impl Motion for Later<'_> {
+    fn at(&self, input: f64) -> PoseJet {
+        let jet = self.first.at(self.own(input));
+        let turn = Rotation2::new(self.turned);
+        PoseJet {
+            position: turn * jet.position,
+            angle: jet.angle + self.turned,
+            velocity: turn * jet.velocity,
+            turning: jet.turning,
+        }
+    }
+
+    fn bend(&self, from: f64, to: f64) -> Bend {
+        let (start, cycle) = (self.first.start, self.first.length());
+        if to - from >= cycle {
+            return self.first.bend(start, start + cycle);
+        }
+        let own = self.own(from);
+        let end = own + (to - from);
+        if end <= start + cycle {
+            return self.first.bend(own, end);
+        }
+        let round = self.first.bend(start, end - cycle);
+        self.first.bend(own, start + cycle).greater(round)
+    }
+
+    fn deviation(&self) -> (f64, f64) {
+        self.first.deviation
     }
 }
 

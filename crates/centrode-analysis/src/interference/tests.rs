@@ -282,6 +282,107 @@ fn a_moving_pair_is_nowhere_closer_than_the_bound_and_scales() {
 }
 
 #[test]
+fn bounds_of_a_table_hold_everywhere_and_a_later_body_does_the_same() {
+    let law = |t: f64| PoseJet {
+        position: Point::new(40.0 * t.cos(), 20.0 * (2.0 * t).sin()),
+        angle: 0.4 - t + 0.8 * (3.0 * t).sin(),
+        velocity: Vector::new(-40.0 * t.sin(), 40.0 * (2.0 * t).cos()),
+        turning: -1.0 + 2.4 * (3.0 * t).cos(),
+    };
+    let table = Tabulated::new([0.0, TAU], 97, law).expect("smooth");
+    let (far, turned) = table.deviation();
+    assert!(far < 1e-3 && turned < 1e-3, "{far} {turned}");
+    let later = Later {
+        first: &table,
+        delay: 1.9,
+        turned: 0.6,
+    };
+    let mut chance = Chance(5);
+    for _ in 0..3000 {
+        let input = chance.between(0.0, TAU);
+        let (ours, theirs) = (table.at(input), law(input));
+        assert!((ours.position - theirs.position).norm() <= far);
+        assert!((ours.angle - theirs.angle).abs() <= turned);
+        // The same rigid motion, turned about the origin.
+        let pose = later.at(input).isometry();
+        let first = table.at((input - 1.9).rem_euclid(TAU)).isometry();
+        let expected = Isometry2::rotation(0.6) * first;
+        let corner = Point::new(70.0, -30.0);
+        assert!((pose * corner - expected * corner).norm() < 1e-11);
+        let width = chance.between(0.0, 0.3);
+        let inside = input + width * chance.next();
+        if input + width > TAU {
+            continue;
+        }
+        for motion in [&table as &dyn Motion, &later] {
+            let (bend, h) = (motion.bend(input, input + width), 1e-6);
+            let (a, b) = (motion.at(inside), motion.at(inside + h));
+            assert!(a.turning.abs() <= bend.turning * (1.0 + 1e-12));
+            if inside + h < input + width {
+                assert!((b.turning - a.turning).abs() <= h * bend.turning_change + 1e-12);
+                assert!((b.velocity - a.velocity).norm() <= h * bend.acceleration + 1e-11);
+            }
+        }
+    }
+}
+
+#[test]
+fn random_motions_are_never_closer_than_proven() {
+    let mut chance = Chance(11);
+    let (mut clear, mut overlapping) = (0, 0);
+    for _ in 0..60 {
+        let shapes = [chance.star(9, 4.0, 20.0), chance.star(13, 5.0, 15.0)];
+        let bodies = shapes.each_ref().map(|s| body(Outline::polygon(s)));
+        let motions = [0, 1].map(|_| Uniform {
+            start: Isometry2::new(
+                Vector::new(chance.between(-60.0, 60.0), chance.between(-60.0, 60.0)),
+                chance.between(-3.0, 3.0),
+            ),
+            velocity: Vector::new(chance.between(-9.0, 9.0), chance.between(-9.0, 9.0)),
+            turning: chance.between(-4.0, 4.0),
+        });
+        let both = [0, 1].map(|i| moving(&bodies[i], &motions[i]));
+        let found = clearance(&both[0], &both[1], [-1.0, 2.0], tolerance(1e-3)).expect("finite");
+        let mut sampled = f64::INFINITY;
+        for k in 0..=3000 {
+            let input = -1.0 + f64::from(k) / 1000.0;
+            let placed = [0, 1].map(|i| {
+                let pose = motions[i].at(input).isometry();
+                shapes[i].iter().map(|p| pose * p).collect::<Vec<_>>()
+            });
+            let inside = |p: &Point, own: usize| {
+                let local = motions[1 - own].at(input).isometry().inverse() * p;
+                bodies[1 - own].contains(local)
+            };
+            // Depths of corners: the deepest point of a border is at least as deep.
+            let deepest = [0, 1].into_iter().flat_map(|own| {
+                let other = &placed[1 - own];
+                let corners = placed[own].iter().filter(move |p| inside(p, own));
+                corners.map(move |p| brute_distance(&[*p], other))
+            });
+            let depth = deepest.fold(f64::NEG_INFINITY, f64::max);
+            sampled = sampled.min(if depth > 0.0 {
+                -depth
+            } else if brute_crossing(&placed[0], &placed[1]) {
+                0.0
+            } else {
+                brute_distance(&placed[0], &placed[1])
+            });
+        }
+        assert!(sampled >= found.lower_bound, "{sampled} {found:?}");
+        assert!(found.lower_bound >= found.least - 1.001e-3, "{found:?}");
+        if sampled > 0.0 {
+            clear += 1;
+            assert!((sampled - found.least).abs() < 0.2, "{sampled} {found:?}");
+        } else {
+            overlapping += 1;
+            assert!(found.least <= sampled + 1e-3, "{sampled} {found:?}");
+        }
+    }
+    assert!(clear > 10 && overlapping > 10, "{clear} {overlapping}");
+}
+
+#[test]
 fn the_least_of_several_pairs_is_that_of_the_closest() {
     let square = body(rectangle(1.0, 1.0));
     let places = [0.0, 10.0, 15.0, 40.0].map(|x| Rest(Isometry2::new(Vector::new(x, 0.0), 0.0)));
