@@ -6,7 +6,12 @@ use std::hint::black_box;
 use centrode_analysis::interference::{
     Body, Motion, Moving, PoseJet, Tabulated, clearance, least_clearance,
 };
+use centrode_analysis::{ArmClearance, between_arms};
 use centrode_geometry::{Outline, Point, Tolerance, Vector};
+use centrode_mechanism::arm::{ArmBody, ArmBodySpec};
+use centrode_mechanism::gear::pitch::{Bspline, PitchSpec};
+use centrode_mechanism::three_arm::ThreeArm;
+use centrode_mechanism::three_arm::design::{ArmSpec, ThreeArmDesign};
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 
 fn tolerance(mm: f64) -> Tolerance {
@@ -103,5 +108,32 @@ fn arms(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, arms);
+/// The published mechanism with the arm of default sizes: arms against arms, from pitch curve to proof.
+fn published(c: &mut Criterion) {
+    let radius = [21, 28, 50, 49, 58, 47, 18, 12, 28, 60, 48, 24];
+    let angle = [20, 45, 76, 105, 132, 165, 195, 225, 255, 285, 316, 345];
+    let pitch = PitchSpec::Bspline(Bspline {
+        degree: 2,
+        radius: radius.map(f64::from).to_vec(),
+        angle: angle.map(|deg| f64::from(deg).to_radians()).to_vec(),
+        ..Bspline::default()
+    });
+    let arm = ArmSpec::new(-29_f64.to_radians(), 145.0, 65.0);
+    let design = ThreeArmDesign::new(pitch, 86_f64.to_radians(), -53_f64.to_radians(), arm);
+    let machine = ThreeArm::resolve(&design).expect("a mechanism");
+    let body = ArmBody::new(&ArmBodySpec::default(), 145.0, 65.0, 60.0).expect("an arm");
+    let mut group = c.benchmark_group("interference/published");
+    group.bench_function("resolve", |b| {
+        b.iter(|| ThreeArm::resolve(black_box(&design)))
+    });
+    group.bench_function("arms", |b| {
+        b.iter(|| between_arms(black_box(&machine), &body, tolerance(1e-2)));
+    });
+    group.bench_function("arms, tray, seedlings", |b| {
+        b.iter(|| ArmClearance::of(black_box(&machine), &body, tolerance(1e-2)));
+    });
+    group.finish();
+}
+
+criterion_group!(benches, arms, published);
 criterion_main!(benches);

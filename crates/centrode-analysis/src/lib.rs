@@ -1,5 +1,6 @@
 //! Questions asked of a mechanism: contact, clearance, undercut, goals.
 
+mod arm_clearance;
 mod check;
 mod contact;
 mod goal;
@@ -13,6 +14,7 @@ mod shaft;
 mod swing_spread;
 mod three_arm;
 
+pub use arm_clearance::{ArmClearance, ArmClearanceError, between_arms};
 pub use check::{check, check_contact};
 pub use contact::Contact;
 pub use goal::Goal;

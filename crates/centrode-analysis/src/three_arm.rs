@@ -1,10 +1,15 @@
 use std::f64::consts::TAU;
 
+use centrode_geometry::Tolerance;
+use centrode_mechanism::arm::{ArmBody, ArmBodySpec};
 use centrode_mechanism::gear::{Member, Soundness};
 use centrode_mechanism::three_arm::design::GoalsSpec;
 use centrode_mechanism::three_arm::{Figures, PickingRule, PlantingRule, ThreeArm};
 
-use crate::{Finding, Goal, Place, Report, Severity, Table};
+use crate::{ArmClearance, Finding, Goal, Place, Report, Severity, Table};
+
+/// How closely clearances of arms are told, as a share of the tip's distance from the planet's axis.
+const ARM_TOLERANCE: f64 = 1e-4;
 
 /// Checks a three-arm mechanism: its goals, where its arms work, and what teeth its curves can bear.
 #[must_use]
@@ -12,9 +17,20 @@ pub fn check_three_arm(mechanism: &ThreeArm) -> Report {
     let mut report = Report::default();
     let teeth = mechanism.soundness().ok();
     let clearance = mechanism.seedling_clearance();
+    let arms = match arm_clearance(mechanism) {
+        Ok(arms) => arms,
+        Err(finding) => {
+            report.findings.push(*finding);
+            None
+        }
+    };
     let mut goals = goals(&mechanism.figures(), &mechanism.design().goals);
     for goal in &mut goals {
         let value = match goal.name {
+            "arm-clearance" => match arms.and_then(|found| found.arms) {
+                Some(found) => found.least,
+                None => continue,
+            },
             "seedling-clearance" => clearance.value,
             "sound-teeth" => match teeth {
                 Some(teeth) => f64::from(teeth.iter().map(|t| t.unsound).sum::<u32>()),
@@ -26,12 +42,35 @@ pub fn check_three_arm(mechanism: &ThreeArm) -> Report {
     }
     report.goals = goals;
     figures(mechanism, &mut report);
+    for (found, names) in arms.iter().flat_map(ArmClearance::named) {
+        let figures = [found.least, found.lower_bound, found.input];
+        report.values.extend(names.into_iter().zip(figures));
+    }
     report.tables.push(working_points(mechanism));
-    unmet(mechanism, &mut report);
+    unmet(mechanism, arms.as_ref(), &mut report);
     if let Some(teeth) = teeth {
         tooth_findings(&teeth, &mut report);
     }
     report
+}
+
+/// Clearances of arms with the default body in proportion to their reach; none where nothing is finite.
+fn arm_clearance(mechanism: &ThreeArm) -> Result<Option<ArmClearance>, Box<Finding>> {
+    let spec = &mechanism.design().arm;
+    let sizes = ArmBodySpec::in_proportion(spec.tip_distance);
+    let (reach, offset) = (spec.tip_distance, spec.pusher_offset);
+    let body = ArmBody::new(&sizes, reach, offset, spec.clamp_length).map_err(|error| Finding {
+        rule: "arm-body",
+        severity: Severity::Note,
+        message: format!("clearance of the arms is not told: {error}"),
+        measured: None,
+        required: None,
+        unit: "",
+        place: Place::default(),
+        remedy: None,
+    })?;
+    let tolerance = Tolerance::new(ARM_TOLERANCE * reach).ok();
+    Ok(tolerance.and_then(|t| ArmClearance::of(mechanism, &body, t).ok()))
 }
 
 /// The goals of a mechanism as far as its figures reach: those of arms, seedlings and flanks are left open.
@@ -165,9 +204,10 @@ fn numeral(arm: u32) -> &'static str {
 }
 
 /// A finding for every goal that is not reached, and for working points no rule of the design has fixed.
-fn unmet(mechanism: &ThreeArm, report: &mut Report) {
+fn unmet(mechanism: &ThreeArm, arms: Option<&ArmClearance>, report: &mut Report) {
     let path = mechanism.trajectory();
     let input = |goal: &Goal| match goal.name {
+        "arm-clearance" => arms.and_then(|found| Some(found.arms?.input)),
         "pick-angle" => Some(path.picking),
         "push-angle" => Some(path.planting),
         "seedling-clearance" => Some(mechanism.seedling_clearance().input),

@@ -163,6 +163,12 @@ impl ArmBodySpec {
         Ok(())
     }
 
+    /// The default sizes, made for a tip 145 mm from the planet's axis, in proportion to another distance.
+    #[must_use]
+    pub fn in_proportion(tip_distance: f64) -> Self {
+        Self::default().scaled(tip_distance / 145.0)
+    }
+
     /// Every length enlarged `k` times; forces with it, stiffness as it is.
     #[must_use]
     pub fn scaled(&self, k: f64) -> Self {

@@ -1,0 +1,259 @@
+use std::f64::consts::{PI, TAU};
+
+use centrode_geometry::{Outline, Point, Tolerance, Vector};
+use centrode_mechanism::arm::ArmBody;
+use centrode_mechanism::three_arm::{Link, LinkMotion, ThreeArm};
+use nalgebra::{Isometry2, Rotation2};
+
+use crate::interference::{
+    Body, BodyError, Clearance, InterferenceError, Later, Motion, Moving, PoseJet, Rest, Tabulated,
+    Uniform, least_clearance,
+};
+
+/// Cells of a cycle between which arms move as cubics say: the deviation is below 1e-6 mm.
+const CELLS: usize = 360;
+/// Depth of the plate that stands for a tray, in holes.
+const TRAY_DEPTH: f64 = 2.0;
+
+/// How clear the arms of a planetary transplanting mechanism keep, proven over a whole cycle.
+///
+/// The arms run beside the gearbox, not in its plane: an arm goes once round its planet while the
+/// intermediate gear stays next to it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ArmClearance {
+    /// Of one arm from another, by their numbers; none for a single arm.
+    pub arms: Option<Clearance>,
+    /// Of the first arm's housing from the tray, a plate behind the surface in which the tip picks; the
+    /// clamp goes into it and does not count.
+    pub tray: Option<Clearance>,
+    /// Of the first arm from the stems planted before its own: the second of the pair counts them back.
+    /// Its own, which its open clamp leaves behind, does not count.
+    pub seedlings: Option<Clearance>,
+}
+
+/// Why a mechanism's clearance cannot be told.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ArmClearanceError {
+    /// The arm's contour is no body.
+    #[error(transparent)]
+    Body(#[from] BodyError),
+    /// A pose is not finite.
+    #[error(transparent)]
+    Interference(#[from] InterferenceError),
+}
+
+impl From<crate::interference::MotionError> for ArmClearanceError {
+    fn from(error: crate::interference::MotionError) -> Self {
+        Self::Interference(error.into())
+    }
+}
+
+impl ArmClearance {
+    /// All clearances of a mechanism with such arms, to within the tolerance.
+    ///
+    /// # Errors
+    /// [`ArmClearanceError`] where a pose or the contour is not finite.
+    pub fn of(
+        mechanism: &ThreeArm,
+        arm: &ArmBody,
+        tolerance: Tolerance,
+    ) -> Result<Self, ArmClearanceError> {
+        Ok(Self {
+            arms: between_arms(mechanism, arm, tolerance)?,
+            tray: from_tray(mechanism, arm, tolerance)?,
+            seedlings: from_seedlings(mechanism, arm, tolerance)?,
+        })
+    }
+}
+
+impl ArmClearance {
+    /// What was found, with the names in a report of its least clearance, lower bound (mm) and input (rad).
+    pub(crate) fn named(&self) -> impl Iterator<Item = (Clearance, [&'static str; 3])> + use<> {
+        let arms = [
+            "arm_clearance",
+            "arm_clearance_bound",
+            "arm_clearance_input",
+        ];
+        let tray = [
+            "arm_tray_clearance",
+            "arm_tray_clearance_bound",
+            "arm_tray_clearance_input",
+        ];
+        let seedlings = [
+            "arm_seedling_clearance",
+            "arm_seedling_clearance_bound",
+            "arm_seedling_clearance_input",
+        ];
+        [
+            (self.arms, arms),
+            (self.tray, tray),
+            (self.seedlings, seedlings),
+        ]
+        .into_iter()
+        .filter_map(|(found, names)| Some((found?, names)))
+    }
+}
+
+/// Least clearance of two arms over a cycle, to within the tolerance; none for a single arm.
+///
+/// Each arm does what the one before it did, later by its share of a turn: the first arm against every
+/// other up to the opposite one tells all. Seen from the carrier the arms only turn.
+///
+/// # Errors
+/// [`ArmClearanceError`] where a pose or the contour is not finite.
+pub fn between_arms(
+    mechanism: &ThreeArm,
+    arm: &ArmBody,
+    tolerance: Tolerance,
+) -> Result<Option<Clearance>, ArmClearanceError> {
+    if mechanism.arms() < 2 {
+        return Ok(None);
+    }
+    let body = Body::new(std::slice::from_ref(arm.outline()), tolerance)?;
+    let train = mechanism.train();
+    let (axis, carrier) = (
+        mechanism.link(Link::Arm(0), 0.0).origin.position,
+        train.at(0.0).carrier.position,
+    );
+    let axis = Rotation2::new(-carrier) * axis;
+    // Seen from the carrier an arm turns about its planet's axis, and does no more.
+    let first = Tabulated::new([0.0, TAU], CELLS, |input| {
+        let jet = train.at(input);
+        PoseJet {
+            position: axis,
+            angle: jet.arm.position + mechanism.clamp_mounting() - jet.carrier.position,
+            velocity: Vector::zeros(),
+            turning: jet.arm.velocity - jet.carrier.velocity,
+        }
+    })?;
+    let phase = TAU / f64::from(mechanism.arms());
+    let others: Vec<_> = (1..=mechanism.arms() / 2)
+        .map(|k| Later {
+            first: &first,
+            delay: phase * f64::from(k),
+            turned: -train.direction().sign() * phase * f64::from(k),
+        })
+        .collect();
+    let mut moving = vec![Moving {
+        body: &body,
+        motion: &first as &dyn Motion,
+    }];
+    moving.extend(others.iter().map(|motion| Moving {
+        body: &body,
+        motion: motion as &dyn Motion,
+    }));
+    let pairs: Vec<_> = (1..moving.len()).map(|k| [0, k]).collect();
+    Ok(least_clearance(&moving, &pairs, [0.0, TAU], tolerance)?)
+}
+
+fn on_frame(link: &LinkMotion) -> PoseJet {
+    PoseJet {
+        position: link.origin.position,
+        angle: link.angle.position,
+        velocity: link.origin.velocity,
+        turning: link.angle.velocity,
+    }
+}
+
+fn from_tray(
+    mechanism: &ThreeArm,
+    arm: &ArmBody,
+    tolerance: Tolerance,
+) -> Result<Option<Clearance>, ArmClearanceError> {
+    let Some(housing) = arm.parts().iter().find(|part| part.name == "housing") else {
+        return Ok(None);
+    };
+    let spec = &mechanism.design().tray;
+    // As the trajectory has it: arms enter against the sense of the carrier's turn at the bottom.
+    let (sin, cos) = spec.inclination.sin_cos();
+    let inward = Vector::new(-mechanism.train().direction().sign() * cos, sin);
+    let tip = mechanism.tip(mechanism.picking(0), 0).position;
+    let surface = spec.distance.unwrap_or(tip.coords.dot(&inward));
+    let middle = tip + inward * (surface - tip.coords.dot(&inward));
+    let half = 0.5 * f64::from(spec.rows) * spec.hole_spacing;
+    let depth = TRAY_DEPTH * spec.hole_spacing;
+    let plate = Outline::polygon(&[
+        Point::new(0.0, -half),
+        Point::new(depth, -half),
+        Point::new(depth, half),
+        Point::new(0.0, half),
+    ]);
+    let place = Rest(Isometry2::new(middle.coords, inward.y.atan2(inward.x)));
+    let motion = Tabulated::new([0.0, TAU], CELLS, |input| {
+        on_frame(&mechanism.link(Link::Arm(0), input))
+    })?;
+    let housing = Body::new(std::slice::from_ref(&housing.outline), tolerance)?;
+    let plate = Body::new(&[plate], tolerance)?;
+    let moving = [
+        Moving {
+            body: &housing,
+            motion: &motion,
+        },
+        Moving {
+            body: &plate,
+            motion: &place,
+        },
+    ];
+    Ok(least_clearance(&moving, &[[0, 1]], [0.0, TAU], tolerance)?)
+}
+
+fn from_seedlings(
+    mechanism: &ThreeArm,
+    arm: &ArmBody,
+    tolerance: Tolerance,
+) -> Result<Option<Clearance>, ArmClearanceError> {
+    let spec = &mechanism.design().seedling;
+    if spec.width <= 0.0 || spec.height <= 0.0 {
+        return Ok(None);
+    }
+    let release = mechanism.planting(0);
+    let inputs = [release - PI, release + PI];
+    let motion = Tabulated::new(inputs, CELLS, |input| {
+        on_frame(&mechanism.link(Link::Arm(0), input))
+    })?;
+    let half = 0.5 * spec.width;
+    let stem = Body::new(
+        &[Outline::polygon(&[
+            Point::new(-half, 0.0),
+            Point::new(half, 0.0),
+            Point::new(half, spec.height),
+            Point::new(-half, spec.height),
+        ])],
+        tolerance,
+    )?;
+    let arm = Body::new(std::slice::from_ref(arm.outline()), tolerance)?;
+    // Seen from the machine, what is planted moves back evenly.
+    let still = mechanism.tip(release, 0);
+    let back = still.velocity - mechanism.over_ground(&still, release).velocity;
+    let apart = TAU / f64::from(mechanism.arms());
+    let stems: Vec<_> = (0..=mechanism.arms())
+        .map(|before| Uniform {
+            start: Isometry2::new(
+                Vector::new(still.position.x, mechanism.ground())
+                    - back * (release - apart * f64::from(before)),
+                0.0,
+            ),
+            velocity: back,
+            turning: 0.0,
+        })
+        .collect();
+    let mut moving = vec![Moving {
+        body: &arm,
+        motion: &motion as &dyn Motion,
+    }];
+    moving.extend(stems.iter().map(|motion| Moving {
+        body: &stem,
+        motion: motion as &dyn Motion,
+    }));
+    let pairs: Vec<_> = (2..moving.len()).map(|k| [0, k]).collect();
+    let found = least_clearance(&moving, &pairs, inputs, tolerance)?;
+    Ok(found.map(|clearance| Clearance {
+        input: clearance.input.rem_euclid(TAU),
+        pair: [0, clearance.pair[1] - 1],
+        ..clearance
+    }))
+}
+
+#[cfg(test)]
+mod tests;

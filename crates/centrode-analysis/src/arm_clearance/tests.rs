@@ -1,0 +1,161 @@
+use super::*;
+use centrode_mechanism::arm::ArmBodySpec;
+use centrode_mechanism::gear::pitch::{Bspline, PitchSpec};
+use centrode_mechanism::three_arm::design::{ArmSpec, ThreeArmDesign};
+
+/// The set of section 4.1 of the 2021 paper, read as a quadratic B-spline in the polar plane.
+fn published(arms: u32) -> ThreeArm {
+    let radius = [21, 28, 50, 49, 58, 47, 18, 12, 28, 60, 48, 24];
+    let angle = [20, 45, 76, 105, 132, 165, 195, 225, 255, 285, 316, 345];
+    let pitch = PitchSpec::Bspline(Bspline {
+        degree: 2,
+        radius: radius.map(f64::from).to_vec(),
+        angle: angle.map(|deg| f64::from(deg).to_radians()).to_vec(),
+        ..Bspline::default()
+    });
+    let arm = ArmSpec::new(-29_f64.to_radians(), 145.0, 65.0);
+    let mut design = ThreeArmDesign::new(pitch, 86_f64.to_radians(), -53_f64.to_radians(), arm);
+    design.arms = arms;
+    ThreeArm::resolve(&design).expect("a mechanism")
+}
+
+fn default_arm() -> ArmBody {
+    ArmBody::new(&ArmBodySpec::default(), 145.0, 65.0, 60.0).expect("an arm")
+}
+
+fn tolerance(mm: f64) -> Tolerance {
+    Tolerance::new(mm).expect("positive")
+}
+
+/// Distance of two polygons that do not overlap, corners against edges; no code of the search.
+fn brute(a: &[Point], b: &[Point]) -> f64 {
+    let to_edge = |p: &Point, c: &Point, d: &Point| {
+        let t = ((p - c).dot(&(d - c)) / (d - c).norm_squared()).clamp(0.0, 1.0);
+        (p - (c + (d - c) * t)).norm()
+    };
+    let one_way = |a: &[Point], b: &[Point]| {
+        let edges = || b.iter().zip(b.iter().cycle().skip(1));
+        let distances = a
+            .iter()
+            .flat_map(|p| edges().map(move |(c, d)| to_edge(p, c, d)));
+        distances.fold(f64::INFINITY, f64::min)
+    };
+    one_way(a, b).min(one_way(b, a))
+}
+
+/// An outline carried by the machine's own link, in the machine's frame.
+fn posed(machine: &ThreeArm, outline: &[Point], arm: u32, input: f64) -> Vec<Point> {
+    let link = machine.link(Link::Arm(arm), input);
+    outline.iter().map(|p| link.point(*p).position).collect()
+}
+
+#[test]
+fn the_published_arms_are_clear_of_each_other() {
+    let (machine, arm) = (published(3), default_arm());
+    let found = between_arms(&machine, &arm, tolerance(1e-2)).expect("finite");
+    let found = found.expect("three arms");
+    // Our arm in the paper's mechanism: the paper draws its arms without dimensions.
+    assert!((found.least - 62.627).abs() < 0.01, "{found:?}");
+    assert!(
+        (0.0..0.0301).contains(&(found.least - found.lower_bound)),
+        "{found:?}"
+    );
+    // All three pairs in the machine's frame, by samples.
+    let outline = arm.outline().flatten(tolerance(1e-2));
+    for pair in [[0, 1], [1, 2], [2, 0]] {
+        let mut sampled = f64::INFINITY;
+        for i in 0..1440 {
+            let input = TAU * f64::from(i) / 1440.0;
+            let [a, b] = pair.map(|arm| posed(&machine, &outline, arm, input));
+            sampled = sampled.min(brute(&a, &b));
+        }
+        assert!(sampled > found.lower_bound, "{pair:?} {sampled}");
+        assert!(
+            (sampled - found.least).abs() < 0.03,
+            "{pair:?} {sampled} {found:?}"
+        );
+    }
+}
+
+#[test]
+fn arms_too_long_overlap_and_one_arm_is_alone() {
+    let long = ArmBody::new(&ArmBodySpec::default(), 320.0, 65.0, 60.0).expect("an arm");
+    let found = between_arms(&published(3), &long, tolerance(1e-2)).expect("finite");
+    assert!(
+        found.is_some_and(|c| c.least < -1.0 && c.lower_bound <= c.least),
+        "{found:?}"
+    );
+    assert_eq!(
+        between_arms(&published(1), &default_arm(), tolerance(1e-2)),
+        Ok(None)
+    );
+    // With more arms between the same axes the gap closes, neighbours first.
+    let mut before = f64::INFINITY;
+    for arms in 2..=6 {
+        let found = between_arms(&published(arms), &default_arm(), tolerance(1e-2));
+        let found = found.expect("finite").expect("several arms");
+        assert!(
+            found.least < before && found.pair == [0, 1],
+            "{arms} {found:?}"
+        );
+        before = found.least;
+    }
+}
+
+#[test]
+fn tray_and_stems_are_where_the_machine_has_them() {
+    let (machine, arm) = (published(3), default_arm());
+    let found = ArmClearance::of(&machine, &arm, tolerance(1e-2)).expect("finite");
+    assert_eq!(
+        found.arms,
+        between_arms(&machine, &arm, tolerance(1e-2)).expect("finite")
+    );
+    let samples = (0..7200).map(|i| TAU * f64::from(i) / 7200.0);
+    // The tray's surface is upright here: what counts is how far right the housing goes.
+    let housing = arm.parts()[0].outline.flatten(tolerance(1e-2));
+    let surface = machine.tip(machine.picking(0), 0).position.x;
+    let right = |input: f64| {
+        let points = posed(&machine, &housing, 0, input);
+        points.iter().map(|p| p.x).fold(f64::NEG_INFINITY, f64::max)
+    };
+    let gap = samples
+        .clone()
+        .map(|input| surface - right(input))
+        .fold(f64::INFINITY, f64::min);
+    let tray = found.tray.expect("a tray");
+    assert!((tray.least - gap).abs() < 0.03, "{tray:?} {gap}");
+    // Over ground, stems stand still: where the tips of the arms before were at planting.
+    let outline = arm.outline().flatten(tolerance(1e-2));
+    let spec = &machine.design().seedling;
+    let spacing = machine.design().work.plant_spacing;
+    let release = machine.planting(0);
+    let planted = machine
+        .over_ground(&machine.tip(release, 0), release)
+        .position
+        .x;
+    let stem = |before: u32| {
+        let x = planted - machine.advance().signum() * f64::from(before) * spacing;
+        let (low, half) = (machine.ground(), 0.5 * spec.width);
+        [
+            [-half, 0.0],
+            [half, 0.0],
+            [half, spec.height],
+            [-half, spec.height],
+        ]
+        .map(|[dx, dy]| Point::new(x + dx, low + dy))
+    };
+    let mut least = f64::INFINITY;
+    for input in samples.map(|input| input + release - PI).step_by(4) {
+        let link = machine.link(Link::Arm(0), input);
+        let over = |p: &Point| machine.over_ground(&link.point(*p), input).position;
+        let points: Vec<_> = outline.iter().map(over).collect();
+        for before in 1..=3 {
+            least = least.min(brute(&points, &stem(before)));
+        }
+    }
+    let seedlings = found.seedlings.expect("stems");
+    assert!(
+        (seedlings.least - least).abs() < 0.05,
+        "{seedlings:?} {least}"
+    );
+}
