@@ -78,3 +78,19 @@ pub(crate) struct CircularGear {
     /// Radius, angle from the tooth's center line.
     pub(crate) fillet: Vec<[f64; 2]>,
 }
+
+/// The three-arm mechanism of 2021 in one reading of its points.
+#[derive(Deserialize)]
+pub(crate) struct ThreeArmReading {
+    pub(crate) plane: String,
+    pub(crate) degree: u32,
+    pub(crate) interpolate: bool,
+    pub(crate) center_distance: f64,
+    pub(crate) perimeter: f64,
+    pub(crate) planet_reference_deg: f64,
+    pub(crate) pick_angle_deg: f64,
+    pub(crate) push_angle_deg: f64,
+    pub(crate) picking_tip: [f64; 2],
+    pub(crate) planting_tip: [f64; 2],
+    pub(crate) height: f64,
+}

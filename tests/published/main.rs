@@ -5,3 +5,4 @@ mod feeder;
 mod pitch;
 mod shaft;
 mod teeth;
+mod three_arm;

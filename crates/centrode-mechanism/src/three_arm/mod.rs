@@ -7,12 +7,14 @@ pub mod design;
 mod figures;
 mod pose;
 mod seedling;
+mod sweep;
 mod train;
 mod trajectory;
 
 pub use figures::Figures;
 pub use pose::{Link, LinkMotion, PointMotion};
 pub use seedling::SeedlingClearance;
+pub use sweep::{Sweep, SweepError};
 pub use train::{ArmOnCarrier, Train, TrainJet};
 pub use trajectory::{Extreme, PickingRule, PlantingRule, Trajectory};
 

@@ -4,7 +4,7 @@ use crate::gear::pitch::{Bspline, Circle, PitchSpec};
 use crate::transmission::Transmission as _;
 use centrode_geometry::{Point, Vector};
 
-fn published() -> ThreeArmDesign {
+pub(super) fn published() -> ThreeArmDesign {
     let pitch = PitchSpec::Bspline(Bspline {
         degree: 2,
         radius: [21, 28, 50, 49, 58, 47, 18, 12, 28, 60, 48, 24]

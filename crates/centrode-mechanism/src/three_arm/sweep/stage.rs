@@ -1,0 +1,458 @@
+use std::f64::consts::{PI, TAU};
+
+use centrode_geometry::bracketed_root;
+
+use super::SweepError;
+use super::spline::{Polynomial, SplinePair};
+use crate::gear::pitch::{Bspline, HIGHEST_DEGREE};
+
+/// Panels of a piece, and nodes of a panel: the integrand's nearest poles are so far off in panel widths
+/// that the rest of its series is below 1e-10.
+const PANELS: usize = 3;
+const NODES: usize = 10;
+const COEFFICIENTS: usize = NODES + 1;
+/// Greatest step of Halley's method that is the last; what is left is below a hundredth of its cube.
+const LAST: f64 = 1e-3;
+
+/// A part of the pitch curve; everything on it in powers of s in [-1, 1].
+#[derive(Clone, Copy, Debug)]
+struct Panel {
+    driven: [f64; COEFFICIENTS],
+    angle: Polynomial,
+    radius: Polynomial,
+}
+
+/// A place on the pitch curve: panel, place in it, and whole turns before.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Spot {
+    panel: usize,
+    s: f64,
+    turns: f64,
+}
+
+/// A function at a spot, with its derivatives by s.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Look {
+    pub(super) value: f64,
+    pub(super) rate: f64,
+    pub(super) change: f64,
+}
+
+impl Look {
+    /// Step towards a value by Halley's method.
+    #[inline]
+    pub(super) fn step(&self, to: f64) -> f64 {
+        let inverse = 1.0 / self.rate;
+        let newton = (to - self.value) * inverse;
+        newton - 0.5 * self.change * inverse * newton * newton
+    }
+}
+
+/// One stage of the gear train: the integral of r/(a - r) over the polar angle, forwards and backwards.
+#[derive(Clone, Debug)]
+pub(super) struct Stage {
+    spline: SplinePair,
+    /// Nodes of a panel and Fejér's weights of them.
+    nodes: [f64; NODES],
+    weights: [f64; NODES],
+    /// From values at the nodes to the coefficients of the primitive in powers, zero at the panel's start.
+    primitive: [[f64; COEFFICIENTS]; NODES],
+    panels: Vec<Panel>,
+    /// Polar angle, and driven angle from parameter zero, at the start of each panel and the end of the last.
+    angles: Vec<f64>,
+    before: Vec<f64>,
+    /// At every node: radius, angle rate, and their product with the weight.
+    radii: Vec<f64>,
+    turns: Vec<f64>,
+    parts: Vec<f64>,
+    center_distance: f64,
+    length: f64,
+    extremes: (f64, f64),
+    /// Integrals of the radius and of its square over a turn.
+    moments: [f64; 2],
+    /// Driven angle from parameter zero to polar angle zero.
+    offset: f64,
+}
+
+impl Stage {
+    pub(super) fn new(spline: SplinePair) -> Self {
+        let angle = |j: usize| PI * (j as f64 + 0.5) / NODES as f64;
+        let nodes: [f64; NODES] = std::array::from_fn(|j| -angle(j).cos());
+        // Coefficients in powers of the polynomial through the nodes that is 1 at node j.
+        let through = |j: usize| {
+            let mut c = [0.0; NODES];
+            c[0] = 1.0;
+            let others = nodes.iter().enumerate().filter(|(k, _)| *k != j);
+            for (degree, (_, &node)) in (1..).zip(others) {
+                let scale = 1.0 / (nodes[j] - node);
+                for power in (0..=degree).rev() {
+                    let lower = if power > 0 { c[power - 1] } else { 0.0 };
+                    c[power] = (lower - node * c[power]) * scale;
+                }
+            }
+            c
+        };
+        let mut primitive = [[0.0; COEFFICIENTS]; NODES];
+        let mut weights = [0.0; NODES];
+        for j in 0..NODES {
+            for (power, c) in through(j).into_iter().enumerate() {
+                let part = c / (power + 1) as f64;
+                primitive[j][power + 1] = part;
+                let sign = if power % 2 == 0 { 1.0 } else { -1.0 };
+                primitive[j][0] += sign * part;
+                weights[j] += part + sign * part;
+            }
+        }
+        let count = spline.count() * PANELS;
+        let empty = Panel {
+            driven: [0.0; COEFFICIENTS],
+            angle: [0.0; HIGHEST_DEGREE + 1],
+            radius: [0.0; HIGHEST_DEGREE + 1],
+        };
+        Self {
+            spline,
+            nodes,
+            weights,
+            primitive,
+            panels: vec![empty; count],
+            angles: vec![0.0; count + 1],
+            before: vec![0.0; count + 1],
+            radii: vec![0.0; count * NODES],
+            turns: vec![0.0; count * NODES],
+            parts: vec![0.0; count * NODES],
+            center_distance: 0.0,
+            length: 0.0,
+            extremes: (0.0, 0.0),
+            moments: [0.0; 2],
+            offset: 0.0,
+        }
+    }
+
+    /// Takes a pitch curve: closes it, integrates it.
+    pub(super) fn load(&mut self, spline: &Bspline) -> Result<(), SweepError> {
+        self.spline.load(spline)?;
+        let half = 0.5 / PANELS as f64;
+        for (index, panel) in self.panels.iter_mut().enumerate() {
+            let middle = half * (2 * (index % PANELS) + 1) as f64;
+            [panel.angle, panel.radius] = self.spline.part(index / PANELS, middle, half);
+        }
+        // The same sums as for any degree, with the zeros left out.
+        if self.spline.degree() <= 2 {
+            self.look_round::<3>()?;
+        } else {
+            self.look_round::<{ HIGHEST_DEGREE + 1 }>()?;
+        }
+        self.find_extremes();
+        self.center_distance = self.closure()?;
+        self.integrate();
+        self.offset = 0.0;
+        self.offset = self.driven(self.at_angle(0.0)).value;
+        Ok(())
+    }
+
+    /// Evaluates every panel, whose polynomials have `C` coefficients, at its nodes.
+    fn look_round<const C: usize>(&mut self) -> Result<(), SweepError> {
+        let (mut length, mut first, mut second) = ([0.0; NODES], [0.0; NODES], [0.0; NODES]);
+        let mut good = true;
+        let nodes = self
+            .radii
+            .chunks_exact_mut(NODES)
+            .zip(self.turns.chunks_exact_mut(NODES));
+        let nodes = nodes.zip(self.parts.chunks_exact_mut(NODES));
+        for (panel, ((radii, turns), parts)) in self.panels.iter().zip(nodes) {
+            for j in 0..NODES {
+                let s = self.nodes[j];
+                let (mut turn, mut r, mut slope) = (0.0, 0.0, 0.0);
+                for k in (1..C).rev() {
+                    let power = k as f64;
+                    turn = turn * s + power * panel.angle[k];
+                    slope = slope * s + power * panel.radius[k];
+                    r = r * s + panel.radius[k];
+                }
+                r = r * s + panel.radius[0];
+                let across = r * turn;
+                radii[j] = r;
+                turns[j] = turn;
+                parts[j] = self.weights[j] * across;
+                length[j] += (across * across + slope * slope).sqrt();
+                first[j] += parts[j];
+                second[j] += parts[j] * r;
+            }
+            for j in 0..NODES {
+                good &= radii[j] > 0.0 && turns[j] > 0.0;
+            }
+        }
+        self.moments = [first.iter().sum(), second.iter().sum()];
+        self.length = length.iter().zip(&self.weights).map(|(l, w)| l * w).sum();
+        for (start, panel) in self.angles.iter_mut().zip(&self.panels) {
+            *start = horner(&panel.angle, -1.0).0;
+        }
+        self.angles[self.panels.len()] = self.angles[0] + TAU;
+        if good && self.length.is_finite() {
+            Ok(())
+        } else {
+            Err(SweepError::NotAroundAxis)
+        }
+    }
+
+    /// Least and greatest radius, exactly: where the radius stands still inside a panel, or at its start.
+    fn find_extremes(&mut self) {
+        let (mut least, mut greatest) = (f64::INFINITY, 0.0_f64);
+        for panel in &self.panels {
+            let (radius, before) = horner(&panel.radius, -1.0);
+            let (_, after) = horner(&panel.radius, 1.0);
+            least = least.min(radius);
+            greatest = greatest.max(radius);
+            if before * after < 0.0 {
+                let rate = |s: f64| horner(&panel.radius, s).1;
+                let s = bracketed_root(rate, -1.0, 1.0, before, after);
+                let radius = horner(&panel.radius, s).0;
+                least = least.min(radius);
+                greatest = greatest.max(radius);
+            }
+        }
+        self.extremes = (least, greatest);
+    }
+
+    /// The centre distance a at which one driver turn is one driven turn, by Newton's method on the driven turn's
+    /// reciprocal, which for a circle is a straight line.
+    fn closure(&self) -> Result<f64, SweepError> {
+        let greatest = self.extremes.1;
+        // For a nearly even radius, twice the mean and twice its variance over the mean.
+        let mean = self.moments[0] / TAU;
+        let variance = self.moments[1] / TAU - mean * mean;
+        let mut a = (2.0 * (mean + variance / mean)).max(greatest * 1.001);
+        for _ in 0..60 {
+            let (mut turned, mut slope) = ([0.0; NODES], [0.0; NODES]);
+            let parts = self.parts.chunks_exact(NODES);
+            for (radii, parts) in self.radii.chunks_exact(NODES).zip(parts) {
+                for k in 0..NODES {
+                    let rest = 1.0 / (a - radii[k]);
+                    let part = parts[k] * rest;
+                    turned[k] += part;
+                    slope[k] += part * rest;
+                }
+            }
+            let (turned, slope): (f64, f64) = (turned.iter().sum(), slope.iter().sum());
+            let step = turned * (turned / TAU - 1.0) / slope;
+            a += step;
+            if a <= greatest {
+                a = 0.5 * (a - step + greatest);
+            } else if step.abs() <= 1e-7 * a {
+                // The next step would be about the square of this one.
+                return Ok(a);
+            }
+        }
+        Err(SweepError::NoClosure)
+    }
+
+    fn integrate(&mut self) {
+        let a = self.center_distance;
+        let mut sum = 0.0;
+        let nodes = self
+            .radii
+            .chunks_exact(NODES)
+            .zip(self.turns.chunks_exact(NODES));
+        let panels = self.panels.iter_mut().zip(&mut self.before);
+        for ((panel, before), (radii, turns)) in panels.zip(nodes) {
+            let mut out = [0.0; COEFFICIENTS];
+            for j in 0..NODES {
+                let value = turns[j] * radii[j] / (a - radii[j]);
+                for (c, m) in out.iter_mut().zip(&self.primitive[j]) {
+                    *c += m * value;
+                }
+            }
+            let whole: f64 = out.iter().sum();
+            out[0] += sum;
+            panel.driven = out;
+            *before = sum;
+            sum += whole;
+        }
+        self.before[self.panels.len()] = sum;
+    }
+
+    pub(super) fn center_distance(&self) -> f64 {
+        self.center_distance
+    }
+
+    pub(super) fn length(&self) -> f64 {
+        self.length
+    }
+
+    pub(super) fn radii(&self) -> (f64, f64) {
+        self.extremes
+    }
+
+    /// The spot so much further on.
+    #[inline]
+    pub(super) fn moved(&self, from: Spot, by: f64) -> Spot {
+        let mut spot = from;
+        // No step is longer than a turn, whatever a curve that turns back may ask for.
+        let most = 2.0 * self.panels.len() as f64;
+        spot.s += by.clamp(-most, most);
+        while spot.s > 1.0 {
+            spot.s -= 2.0;
+            spot.panel += 1;
+            if spot.panel == self.panels.len() {
+                spot.panel = 0;
+                spot.turns += 1.0;
+            }
+        }
+        while spot.s < -1.0 {
+            spot.s += 2.0;
+            if spot.panel == 0 {
+                spot.panel = self.panels.len();
+                spot.turns -= 1.0;
+            }
+            spot.panel -= 1;
+        }
+        spot
+    }
+
+    /// Polar angle at a spot.
+    #[inline]
+    pub(super) fn angle(&self, spot: Spot) -> Look {
+        let c = &self.panels[spot.panel].angle;
+        let s = spot.s;
+        let base = spot.turns * TAU;
+        if self.spline.degree() <= 2 {
+            return Look {
+                value: base + c[0] + s * (c[1] + s * c[2]),
+                rate: c[1] + 2.0 * s * c[2],
+                change: 2.0 * c[2],
+            };
+        }
+        let (value, rate, change) = twice(c, s);
+        Look {
+            value: base + value,
+            rate,
+            change,
+        }
+    }
+
+    /// Driven angle since polar angle zero at a spot.
+    #[inline]
+    pub(super) fn driven(&self, spot: Spot) -> Look {
+        let panel = &self.panels[spot.panel];
+        let s = spot.s;
+        let c = &panel.driven;
+        // Even and odd powers apart: two short chains instead of a long one.
+        let ss = s * s;
+        let (mut even, mut odd) = (c[COEFFICIENTS - 1], c[COEFFICIENTS - 2]);
+        let mut k = COEFFICIENTS - 3;
+        while k >= 2 {
+            even = even * ss + c[k];
+            odd = odd * ss + c[k - 1];
+            k -= 2;
+        }
+        even = even * ss + c[0];
+        let whole = spot.turns * self.before[self.panels.len()];
+        let (turn, turn_change, r, slope) = if self.spline.degree() <= 2 {
+            let (angle, radius) = (&panel.angle, &panel.radius);
+            (
+                angle[1] + 2.0 * s * angle[2],
+                2.0 * angle[2],
+                radius[0] + s * (radius[1] + s * radius[2]),
+                radius[1] + 2.0 * s * radius[2],
+            )
+        } else {
+            let (_, turn, turn_change) = twice(&panel.angle, s);
+            let (r, slope) = horner(&panel.radius, s);
+            (turn, turn_change, r, slope)
+        };
+        let rest = 1.0 / (self.center_distance - r);
+        let ratio = r * rest;
+        Look {
+            value: whole - self.offset + even + odd * s,
+            rate: turn * ratio,
+            change: turn_change * ratio + turn * slope * self.center_distance * rest * rest,
+        }
+    }
+
+    /// Spot at a polar angle, from anywhere.
+    pub(super) fn at_angle(&self, angle: f64) -> Spot {
+        let turns = ((angle - self.angles[0]) / TAU).floor();
+        let rest = angle - turns * TAU;
+        let (panel, s) = found(&self.angles, rest, |spot| self.angle(spot));
+        Spot { panel, s, turns }
+    }
+
+    /// Spot at a driven angle since polar angle zero, from anywhere.
+    pub(super) fn at_driven(&self, driven: f64) -> Spot {
+        let whole = self.before[self.panels.len()];
+        let value = driven + self.offset;
+        let turns = (value / whole).floor();
+        let rest = value - turns * whole;
+        let (panel, s) = found(&self.before, rest, |spot| {
+            let look = self.driven(spot);
+            Look {
+                value: look.value + self.offset,
+                ..look
+            }
+        });
+        Spot { panel, s, turns }
+    }
+
+    /// One step towards a polar angle from a spot nearby: where it leads, and how long it was.
+    #[inline]
+    pub(super) fn nearer_angle(&self, spot: Spot, angle: f64) -> (Spot, f64) {
+        let step = self.angle(spot).step(angle);
+        (self.moved(spot, step), step)
+    }
+
+    /// One step towards a driven angle from a spot nearby.
+    #[inline]
+    pub(super) fn nearer_driven(&self, spot: Spot, driven: f64) -> (Spot, f64) {
+        let step = self.driven(spot).step(driven);
+        (self.moved(spot, step), step)
+    }
+
+    /// Whether a step was the last that is needed.
+    #[inline]
+    pub(super) fn settled(step: f64) -> bool {
+        step.abs() < LAST
+    }
+}
+
+/// Panel and place in it where a growing function, known at the panels' ends, has a value.
+fn found(ends: &[f64], value: f64, look: impl Fn(Spot) -> Look) -> (usize, f64) {
+    let after = ends.partition_point(|&end| end <= value);
+    let panel = after.clamp(1, ends.len() - 1) - 1;
+    let at = |s: f64| {
+        look(Spot {
+            panel,
+            s,
+            turns: 0.0,
+        })
+    };
+    let (low, high) = (ends[panel], ends[panel + 1]);
+    let mut s = 2.0 * (value - low) / (high - low) - 1.0;
+    for _ in 0..8 {
+        let step = at(s).step(value);
+        s = (s + step).clamp(-1.0, 1.0);
+        if Stage::settled(step) {
+            return (panel, s);
+        }
+    }
+    let off = |s: f64| at(s).value - value;
+    let ends = (off(-1.0).min(0.0), off(1.0).max(0.0));
+    (panel, bracketed_root(off, -1.0, 1.0, ends.0, ends.1))
+}
+
+/// Value and derivative of a polynomial.
+fn horner(c: &[f64], s: f64) -> (f64, f64) {
+    let (value, rate, _) = twice(c, s);
+    (value, rate)
+}
+
+/// Value and two derivatives of a polynomial.
+#[inline]
+fn twice(c: &[f64], s: f64) -> (f64, f64, f64) {
+    let (mut value, mut rate, mut change) = (0.0, 0.0, 0.0);
+    for &k in c.iter().rev() {
+        change = change * s + rate;
+        rate = rate * s + value;
+        value = value * s + k;
+    }
+    (value, rate, 2.0 * change)
+}

@@ -1,0 +1,118 @@
+use super::super::design::Direction;
+use super::super::tests::published;
+use super::*;
+use crate::three_arm::ThreeArm;
+use proptest::prelude::*;
+
+fn agree(design: &ThreeArmDesign, sweep: &mut Sweep) {
+    let exact = ThreeArm::resolve(design).expect("a mechanism");
+    let (a, b) = (exact.figures(), sweep.figures(design).expect("a mechanism"));
+    let size = exact.gearbox_radius() + design.arm.tip_distance;
+    let near = |a: f64, b: f64, size: f64| {
+        assert!((a - b).abs() <= 1e-9 * size, "{a} {b}\n{design:?}");
+    };
+    near(exact.center_distance(), sweep.center_distance(), size);
+    // Working points found on a flat crest are right to the root of rounding: so are the angles there.
+    let found = design.work.picking.is_none() || design.work.planting.is_none();
+    let angle = if found { 3e4 } else { 1.0 };
+    near(a.pick_angle, b.pick_angle, angle);
+    near(a.push_angle, b.push_angle, angle);
+    near(a.angle_difference, b.angle_difference, 2.0 * angle);
+    near(a.gearbox_clearance, b.gearbox_clearance, size);
+    near(a.trajectory_height, b.trajectory_height, size);
+    match (a.module, b.module) {
+        (Some(a), Some(b)) => near(a, b, size / 37.0),
+        (a, b) => assert_eq!(a, b),
+    }
+    for (i, [x, y]) in sweep.tips().enumerate() {
+        let input = TAU * i as f64 / sweep.tips().len() as f64;
+        let tip = exact.tip(input, 0).position;
+        near(tip.x, x, size);
+        near(tip.y, y, size);
+    }
+}
+
+#[test]
+fn the_published_set_agrees_with_the_exact_mechanism() {
+    for degree in 2..=5 {
+        let mut design = published();
+        if let PitchSpec::Bspline(spline) = &mut design.pitch {
+            spline.degree = degree;
+        }
+        let mut sweep = Sweep::like(&design, 360).expect("of the kind");
+        agree(&design, &mut sweep);
+        design.work.picking = None;
+        design.work.planting = None;
+        agree(&design, &mut sweep);
+        design.tray.distance = Some(240.0);
+        agree(&design, &mut sweep);
+        design.direction = Direction::CounterClockwise;
+        design.tray.distance = None;
+        agree(&design, &mut sweep);
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(48))]
+
+    #[test]
+    fn designs_around_it_agree_too(
+        radii in proptest::collection::vec(0.6..1.5_f64, 12),
+        turns in proptest::collection::vec(-6.0..6.0_f64, 12),
+        bend in -120.0..120.0_f64,
+        start in 0.0..360.0_f64,
+        length in 80.0..220.0_f64,
+        mounting in -90.0..90.0_f64,
+        reference in proptest::option::of(-180.0..180.0_f64),
+    ) {
+        let mut design = published();
+        if let PitchSpec::Bspline(spline) = &mut design.pitch {
+            spline.radius.iter_mut().zip(&radii).for_each(|(r, k)| *r *= k);
+            spline.angle.iter_mut().zip(&turns).for_each(|(a, d)| *a += d.to_radians());
+        }
+        design.bend = bend.to_radians();
+        design.carrier_start = start.to_radians();
+        design.arm.tip_distance = length;
+        design.arm.mounting_angle = mounting.to_radians();
+        design.planet_reference = reference.map(f64::to_radians);
+        let mut sweep = Sweep::like(&design, 360).expect("of the kind");
+        agree(&design, &mut sweep);
+    }
+}
+
+#[test]
+fn what_is_no_mechanism_is_refused() {
+    let good = published();
+    let mut sweep = Sweep::like(&good, 360).expect("of the kind");
+    let with = |change: &dyn Fn(&mut Bspline)| {
+        let mut design = good.clone();
+        if let PitchSpec::Bspline(spline) = &mut design.pitch {
+            change(spline);
+        }
+        design
+    };
+    for (design, error) in [
+        (with(&|s| s.radius[3] = -200.0), SweepError::NotAroundAxis),
+        (with(&|s| s.angle.swap(2, 9)), SweepError::NotAroundAxis),
+        (with(&|s| s.radius[3] = f64::NAN), SweepError::NotAroundAxis),
+        (
+            with(&|s| s.radius.truncate(9)),
+            SweepError::Points {
+                wanted: 12,
+                found: 9,
+            },
+        ),
+        (with(&|s| s.degree = 3), SweepError::Kind),
+        (with(&|s| s.interpolate = true), SweepError::Kind),
+    ] {
+        assert_eq!(sweep.figures(&design), Err(error));
+    }
+    let mut design = good.clone();
+    design.work.picking = None;
+    design.tray.distance = Some(900.0);
+    assert_eq!(sweep.figures(&design), Err(SweepError::TrayOutOfReach));
+    design.tray.distance = Some(-900.0);
+    assert_eq!(sweep.figures(&design), Err(SweepError::TrayOutOfReach));
+    // What failed before leaves no trace.
+    agree(&good, &mut sweep);
+}
