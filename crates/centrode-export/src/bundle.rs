@@ -1,10 +1,11 @@
 use std::{
     ffi::OsStr,
     fs::{self, File},
-    io::{self, Write},
+    io::{self, Cursor, Write},
     path::{Path, PathBuf},
 };
 use thiserror::Error;
+use zip::{CompressionMethod, DateTime, ZipWriter, write::SimpleFileOptions};
 
 /// Files ready to be written: names and contents, in order.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -28,6 +29,9 @@ pub enum BundleError {
         /// The name.
         name: String,
     },
+    /// The archive would be larger than the format holds.
+    #[error("the archive cannot be made: {0}")]
+    Archive(#[from] zip::result::ZipError),
     /// The system refused.
     #[error("cannot {action} {}: {source}", path.display())]
     Disk {
@@ -72,11 +76,31 @@ impl Bundle {
             .map(|(name, bytes)| (name.as_str(), bytes.as_slice()))
     }
 
+    /// Every file in one zip archive; the same files give the same bytes.
+    ///
+    /// # Errors
+    /// [`BundleError::Archive`] if it would be larger than the format holds.
+    pub fn zip(&self) -> Result<Vec<u8>, BundleError> {
+        let options = SimpleFileOptions::default()
+            .compression_method(CompressionMethod::Deflated)
+            .last_modified_time(DateTime::default())
+            .unix_permissions(0o644);
+        let mut archive = ZipWriter::new(Cursor::new(Vec::new()));
+        for (name, bytes) in &self.files {
+            archive.start_file(name.as_str(), options)?;
+            archive
+                .write_all(bytes)
+                .map_err(zip::result::ZipError::from)?;
+        }
+        Ok(archive.finish()?.into_inner())
+    }
+
     /// Writes every file into a directory, which is made if it is missing, as are folders in it.
     /// Returns the paths.
     ///
     /// All contents are first written and flushed under temporary names, then renamed: a file is there
-    /// whole or, after an error, as it was before; no temporary is left behind.
+    /// whole or, after an error, as it was before; no temporary is left behind. A file written over keeps
+    /// its permissions.
     ///
     /// # Errors
     /// [`BundleError::Disk`] with the path and the system's reason.
@@ -93,8 +117,13 @@ impl Bundle {
             let folder = directory.join(folder);
             fs::create_dir_all(&folder).map_err(failed("create the directory", &folder))?;
             let temporary = folder.join(format!(".{file}.{}.part", std::process::id()));
+            let before = fs::metadata(&target).ok();
             staged.paths.push((temporary.clone(), target));
             let mut file = File::create(&temporary).map_err(failed("create", &temporary))?;
+            if let Some(before) = before {
+                fs::set_permissions(&temporary, before.permissions())
+                    .map_err(failed("set the permissions of", &temporary))?;
+            }
             file.write_all(bytes).map_err(failed("write", &temporary))?;
             file.sync_all().map_err(failed("flush", &temporary))?;
         }
@@ -238,6 +267,39 @@ mod tests {
             assert!(write_file(&root.path().join(bad), vec![]).is_err(), "{bad}");
         }
         assert_eq!(names(path.parent().expect("a folder")), ["gear.step"]);
+    }
+
+    #[test]
+    fn an_archive_holds_every_file() {
+        let mut bundle = Bundle::default();
+        bundle.add("one.txt", b"first".to_vec()).expect("plain");
+        bundle.add("two.bin", vec![7; 100_000]).expect("plain");
+        let bytes = bundle.zip().expect("small");
+        assert_eq!(bytes, bundle.zip().expect("small"));
+        let mut archive = zip::ZipArchive::new(Cursor::new(bytes)).expect("a zip");
+        assert_eq!(archive.len(), 2);
+        for (name, content) in bundle.files() {
+            let mut file = archive.by_name(name).expect("there");
+            let mut read = Vec::new();
+            io::Read::read_to_end(&mut file, &mut read).expect("readable");
+            assert_eq!(read, content);
+        }
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_private_file_stays_private() {
+        use std::os::unix::fs::PermissionsExt as _;
+        let root = tempfile::tempdir().expect("a place to write");
+        let path = root.path().join("one.txt");
+        fs::write(&path, b"old").expect("written");
+        fs::set_permissions(&path, fs::Permissions::from_mode(0o600)).expect("set");
+        let mut bundle = Bundle::default();
+        bundle.add("one.txt", b"new".to_vec()).expect("plain");
+        bundle.write_to(root.path()).expect("written");
+        let mode = fs::metadata(&path).expect("there").permissions().mode();
+        assert_eq!(mode & 0o777, 0o600);
+        assert_eq!(fs::read(&path).expect("there"), b"new");
     }
 
     #[test]

@@ -10,6 +10,7 @@ pub mod dxf;
 pub mod gear_pair;
 pub mod mjcf;
 pub mod model;
+pub mod page;
 pub mod pdf;
 pub mod shaft;
 pub mod sheet;

@@ -28,6 +28,10 @@ pub(crate) enum Command {
     Check(Check),
     /// Write a design's drawings, solids, tables and simulator model
     Export(Export),
+    /// Design in the browser: a page of this computer alone, until Ctrl-C
+    Studio(Studio),
+    /// Write a design's figures, curves and moving picture as one HTML file
+    Report(Report),
     /// Print the JSON schema of the design file
     Schema(Schema),
     /// Print a completion script for a shell
@@ -172,7 +176,8 @@ pub(crate) enum Dxf {
     Spline,
 }
 
-fn tolerance(word: &str) -> Result<Tolerance, String> {
+/// A tolerance as written, mm.
+pub(crate) fn tolerance(word: &str) -> Result<Tolerance, String> {
     let mm: f64 = word
         .parse()
         .map_err(|_| "not a number of millimetres".to_owned())?;
@@ -188,6 +193,33 @@ pub(crate) struct Schema {
     /// Family of mechanism; left out, all
     #[arg(value_parser = PossibleValuesParser::new(Design::FAMILIES))]
     pub(crate) family: Option<String>,
+}
+
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Prints the address of the page. Nothing but the design file and its autosave is written, and the page answers only who knows its address."
+)]
+pub(crate) struct Studio {
+    /// Design file
+    pub(crate) design: PathBuf,
+    /// Open the page in the browser
+    #[arg(long)]
+    pub(crate) open: bool,
+    /// Port on this computer; 0 for any that is free
+    #[arg(long, default_value_t = 0)]
+    pub(crate) port: u16,
+}
+
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Example: centrode report pair.toml -o pair.html\n\nExit status: 0 good; 1 a finding of severity error (the file is written all the same); 2 no mechanism, or the file cannot be written."
+)]
+pub(crate) struct Report {
+    /// Design file, or - for standard input
+    pub(crate) design: PathBuf,
+    /// HTML file
+    #[arg(short, long, value_name = "FILE")]
+    pub(crate) output: PathBuf,
 }
 
 #[derive(Debug, Args)]

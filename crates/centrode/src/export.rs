@@ -24,10 +24,7 @@ pub(crate) fn run(command: &Export, out: &mut impl Write) -> Result<ExitCode, Fa
     progress.step("checking");
     let found = centrode::analysis::check_mechanism(&mechanism);
     progress.step("drawing");
-    let mut bundle = files(&mechanism, command, &found)?;
-    if command.wants(File::Json) {
-        bundle.add("report.json", report::json(&found)?.into_bytes())?;
-    }
+    let bundle = bundle(&mechanism, &found, command)?;
     progress.step("writing");
     let written = bundle.write_to(&command.to)?;
     drop(progress);
@@ -37,6 +34,25 @@ pub(crate) fn run(command: &Export, out: &mut impl Write) -> Result<ExitCode, Fa
     out.flush()?;
     tell(&found, written.len(), command);
     Ok(ExitCode::from(u8::from(!found.ok())))
+}
+
+/// The files of a design text in one archive.
+pub(crate) fn zip(text: &str, command: &Export) -> Result<Vec<u8>, Failure> {
+    refuse_useless(command)?;
+    let source = Source::of_text(text);
+    let design = source.design()?;
+    let mechanism = design.mechanism().map_err(|error| source.blame(error))?;
+    let found = centrode::analysis::check_mechanism(&mechanism);
+    Ok(bundle(&mechanism, &found, command)?.zip()?)
+}
+
+/// The files of a mechanism and its report.
+fn bundle(mechanism: &Mechanism, found: &Report, command: &Export) -> Result<Bundle, Failure> {
+    let mut bundle = files(mechanism, command, found)?;
+    if command.wants(File::Json) {
+        bundle.add("report.json", report::json(found)?.into_bytes())?;
+    }
+    Ok(bundle)
 }
 
 /// The files of a mechanism in the formats asked for.

@@ -24,6 +24,8 @@ pub(crate) enum Failure {
     Input { name: String, error: io::Error },
     /// The output cannot be written.
     Output(io::Error),
+    /// The page cannot be served.
+    Serve(io::Error),
     /// The files of the design cannot be made or written.
     Files(Box<GearPairFilesError>),
     /// A word on the command line that means nothing.
@@ -54,10 +56,21 @@ impl Failure {
         write!(out, "{ERROR}error{ERROR:#}: ")?;
         match self {
             Self::Design { name, text, error } => at_line(out, name, text, error),
-            Self::Input { name, error } => writeln!(out, "cannot read {name}: {error}"),
-            Self::Output(error) => writeln!(out, "cannot write the output: {error}"),
-            Self::Files(error) => writeln!(out, "{}", printable(&error.to_string())),
-            Self::Usage(message) => writeln!(out, "{message}"),
+            other => writeln!(out, "{}", printable(&other.to_string())),
+        }
+    }
+}
+
+impl std::fmt::Display for Failure {
+    /// What has gone wrong, in one line.
+    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Design { error, .. } => write!(out, "{error}"),
+            Self::Input { name, error } => write!(out, "cannot read {name}: {error}"),
+            Self::Output(error) => write!(out, "cannot write the output: {error}"),
+            Self::Serve(error) => write!(out, "cannot serve the page: {error}"),
+            Self::Files(error) => write!(out, "{error}"),
+            Self::Usage(message) => write!(out, "{message}"),
         }
     }
 }

@@ -34,6 +34,25 @@ impl Source {
         }
     }
 
+    /// A text that is in no file.
+    pub(crate) fn of_text(text: &str) -> Self {
+        Self {
+            name: "design".into(),
+            bytes: text.as_bytes().to_vec(),
+        }
+    }
+
+    /// The text of the file, whatever it means.
+    pub(crate) fn text(&self) -> Result<String, Failure> {
+        match std::str::from_utf8(&self.bytes) {
+            Ok(text) if text.len() <= DesignFile::LARGEST => Ok(text.to_owned()),
+            // Reading such a file always fails, and says why.
+            _ => self
+                .design()
+                .and(Err(Failure::Usage("not a design".into()))),
+        }
+    }
+
     /// The design of the file.
     pub(crate) fn design(&self) -> Result<DesignFile, Failure> {
         DesignFile::read(&self.bytes).map_err(|error| self.blame(error))

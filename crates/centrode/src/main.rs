@@ -8,9 +8,12 @@ mod failure;
 mod input;
 mod man;
 mod new;
+mod page;
 mod progress;
 mod report;
 mod schema;
+mod sheet;
+mod studio;
 
 use std::io::Write as _;
 use std::process::ExitCode;
@@ -34,6 +37,8 @@ fn main() -> ExitCode {
         Command::New(command) => new::run(command, &mut out),
         Command::Check(command) => check::run(command, &mut out),
         Command::Export(command) => export::run(command, &mut out),
+        Command::Studio(command) => studio::run(command, &mut out),
+        Command::Report(command) => sheet::run(command, &mut out),
         Command::Schema(command) => schema::run(command, &mut out),
         Command::Completions(command) => completions::run(command, &mut out),
         Command::Man(command) => man::run(command, &mut out),

@@ -9,7 +9,8 @@ use centrode::analysis::{Finding, Goal, Report, Table};
 use centrode::mechanism::mechanism::Mechanism;
 use serde::Serialize;
 
-pub(crate) use findings::summary;
+pub(crate) use figures::{Group, groups};
+pub(crate) use findings::{Words, summary, words};
 
 /// The report as other programs read it.
 #[derive(Serialize)]

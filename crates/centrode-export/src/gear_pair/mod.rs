@@ -4,6 +4,7 @@ mod contact_body;
 mod format;
 mod motion;
 mod outline;
+mod picture;
 mod pins;
 mod play;
 mod sheet;
@@ -28,6 +29,7 @@ use crate::{
 use centrode_geometry::{SolidError, Tolerance};
 use centrode_mechanism::gear::{GearPair, Member};
 pub use format::{Format, UnknownFormat};
+pub use picture::{curves, picture};
 use sheet::Contours;
 pub use sheet_set::SheetSet;
 pub use sheets::{Meshing, SheetOptions, Subject, sheets};

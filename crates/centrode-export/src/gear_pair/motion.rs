@@ -24,7 +24,7 @@ pub(super) fn columns(pair: &GearPair, tolerance: Tolerance) -> Vec<Column> {
     ]
 }
 
-fn angles(pair: &GearPair, tolerance: Tolerance) -> Vec<f64> {
+pub(super) fn angles(pair: &GearPair, tolerance: Tolerance) -> Vec<f64> {
     let least = STEPS * pair.cycle() / TAU;
     // A chord of the law over a step h is off by at most h² / 8 times the greatest slope.
     let slope = greatest_slope(pair);

@@ -3,6 +3,7 @@ use std::io::{Result, Write};
 
 use anstyle::Style;
 use centrode::analysis::Report;
+use serde::Serialize;
 
 pub(super) const HEADING: Style = Style::new().bold();
 /// Width of the names and of each column of figures.
@@ -222,6 +223,91 @@ const GROUPS: [Group; 7] = [
     ),
 ];
 
+/// Figures that go together, as rows and columns.
+#[derive(Clone, Debug, Serialize)]
+pub(crate) struct Section {
+    heading: &'static str,
+    columns: Vec<&'static str>,
+    rows: Vec<Line>,
+}
+
+/// A row of a [`Section`].
+#[derive(Clone, Debug, Serialize)]
+pub(crate) struct Line {
+    name: &'static str,
+    unit: &'static str,
+    cells: Vec<Option<Cell>>,
+}
+
+/// A figure of the report.
+#[derive(Clone, Debug, Serialize)]
+pub(crate) struct Cell {
+    /// Its key in the report.
+    key: &'static str,
+    /// As the command line shows it.
+    shown: String,
+    /// As the JSON report has it, to the last digit.
+    exact: String,
+}
+
+impl Cell {
+    fn of(report: &Report, key: &'static str, unit: Unit) -> Option<Self> {
+        let value = *report.values.get(key)?;
+        // The writer of the report: what is not finite is null.
+        let exact = serde_json::to_string(&value).ok()?;
+        Some(Self {
+            key,
+            shown: unit.show(value),
+            exact,
+        })
+    }
+}
+
+/// Every figure of the report in its group, those of no group last.
+pub(crate) fn sections(report: &Report) -> Vec<Section> {
+    let mut shown: BTreeSet<&str> = BTreeSet::new();
+    let mut sections = Vec::new();
+    for Group(heading, columns, rows) in &GROUPS {
+        let mut lines = Vec::new();
+        for Row(name, keys, unit) in *rows {
+            shown.extend(*keys);
+            let cells: Vec<Option<Cell>> = keys
+                .iter()
+                .map(|key| Cell::of(report, key, *unit))
+                .collect();
+            if cells.iter().any(Option::is_some) {
+                let unit = unit.name();
+                lines.push(Line { name, unit, cells });
+            }
+        }
+        if !lines.is_empty() {
+            let columns = columns.to_vec();
+            sections.push(Section {
+                heading,
+                columns,
+                rows: lines,
+            });
+        }
+    }
+    let rest = report.values.keys().filter(|key| !shown.contains(*key));
+    let rows: Vec<Line> = rest
+        .map(|key| Line {
+            name: key,
+            unit: "",
+            cells: vec![Cell::of(report, key, Unit::Number)],
+        })
+        .collect();
+    if !rows.is_empty() {
+        let columns = Vec::new();
+        sections.push(Section {
+            heading: "More",
+            columns,
+            rows,
+        });
+    }
+    sections
+}
+
 /// Writes every figure in its group; figures of no group come last, as they are.
 pub(super) fn write(report: &Report, out: &mut impl Write) -> Result<()> {
     let mut shown = BTreeSet::from([""]);
@@ -331,6 +417,20 @@ mod tests {
         let mut report = Report::default();
         report.values.insert("module", 2.25);
         report.values.insert("swing", 0.5);
+        report.values.insert("clearance_min", f64::INFINITY);
+        let exact: Vec<(&str, String)> = sections(&report)
+            .into_iter()
+            .flat_map(|section| section.rows)
+            .flat_map(|row| row.cells)
+            .flatten()
+            .map(|cell| (cell.key, cell.exact))
+            .collect();
+        let expected = [
+            ("clearance_min", "null"),
+            ("module", "2.25"),
+            ("swing", "0.5"),
+        ];
+        assert_eq!(exact, expected.map(|(key, text)| (key, text.to_owned())));
         let mut out = Vec::new();
         write(&report, &mut out).expect("written");
         let text = String::from_utf8(out).expect("text");

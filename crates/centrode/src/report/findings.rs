@@ -2,6 +2,7 @@ use std::io::{Result, Write};
 
 use anstyle::{AnsiColor, Style};
 use centrode::analysis::{Finding, Report, Severity};
+use serde::Serialize;
 
 use super::figures::figure;
 
@@ -39,18 +40,27 @@ pub(crate) fn summary(report: &Report) -> String {
     }
 }
 
-fn one(finding: &Finding, out: &mut impl Write) -> Result<()> {
-    let (word, color) = match finding.severity {
-        Severity::Error => ("error", AnsiColor::Red),
-        Severity::Warning => ("warning", AnsiColor::Yellow),
-        Severity::Note => ("note", AnsiColor::Cyan),
-    };
-    let style: Style = color.on_default().bold();
-    writeln!(
-        out,
-        "{style}{word}{style:#} [{}] {}",
-        finding.rule, finding.message
-    )?;
+/// A finding in words.
+#[derive(Clone, Debug, Serialize)]
+pub(crate) struct Words {
+    rule: &'static str,
+    severity: Severity,
+    message: String,
+    /// Part, teeth and input.
+    #[serde(rename = "where")]
+    place: String,
+    /// Measured and required figure.
+    figures: String,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    remedy: Option<&'static str>,
+    /// Keys of the design it hangs on.
+    causes: &'static [&'static str],
+    part: Option<String>,
+    input: Option<f64>,
+}
+
+/// The words for a finding.
+pub(crate) fn words(finding: &Finding) -> Words {
     let mut about = Vec::new();
     if let Some(part) = &finding.place.part {
         let teeth = match finding.place.teeth.as_slice() {
@@ -63,10 +73,7 @@ fn one(finding: &Finding, out: &mut impl Write) -> Result<()> {
     if let Some(input) = finding.place.input {
         about.push(format!("input at {:.2} deg", input.to_degrees()));
     }
-    if !about.is_empty() {
-        writeln!(out, "    where: {}", about.join("; "))?;
-    }
-    if let Some(measured) = finding.measured {
+    let figures = finding.measured.map_or_else(String::new, |measured| {
         let (factor, unit) = match finding.unit {
             "rad" if measured.abs() > 1e-3 => (180.0 / std::f64::consts::PI, " deg"),
             "rad" => (1.0, " rad"),
@@ -74,16 +81,75 @@ fn one(finding: &Finding, out: &mut impl Write) -> Result<()> {
             _ => (1.0, " mm"),
         };
         let show = |value: f64| format!("{}{unit}", figure(value * factor, 4));
-        write!(out, "    measured {}", show(measured))?;
-        if let Some(required) = finding.required {
-            write!(out, ", required {}", show(required))?;
-        }
-        writeln!(out)?;
+        let required = finding
+            .required
+            .map(|required| format!(", required {}", show(required)));
+        format!(
+            "measured {}{}",
+            show(measured),
+            required.unwrap_or_default()
+        )
+    });
+    Words {
+        rule: finding.rule,
+        severity: finding.severity,
+        message: finding.message.clone(),
+        place: about.join("; "),
+        figures,
+        remedy: finding.remedy,
+        causes: causes(finding.rule),
+        part: finding.place.part.clone(),
+        input: finding.place.input,
     }
-    if let Some(remedy) = finding.remedy {
+}
+
+fn one(finding: &Finding, out: &mut impl Write) -> Result<()> {
+    let (word, color) = match finding.severity {
+        Severity::Error => ("error", AnsiColor::Red),
+        Severity::Warning => ("warning", AnsiColor::Yellow),
+        Severity::Note => ("note", AnsiColor::Cyan),
+    };
+    let style: Style = color.on_default().bold();
+    let words = words(finding);
+    writeln!(
+        out,
+        "{style}{word}{style:#} [{}] {}",
+        words.rule, words.message
+    )?;
+    if !words.place.is_empty() {
+        writeln!(out, "    where: {}", words.place)?;
+    }
+    if !words.figures.is_empty() {
+        writeln!(out, "    {}", words.figures)?;
+    }
+    if let Some(remedy) = words.remedy {
         writeln!(out, "    remedy: {remedy}")?;
     }
     Ok(())
+}
+
+/// The keys of the design a finding hangs on most.
+fn causes(rule: &str) -> &'static [&'static str] {
+    match rule {
+        "severed" | "undercut" | "short-tooth" => &[
+            "pitch.module",
+            "tooth_count",
+            "pitch.tooth_count",
+            "teeth.addendum",
+        ],
+        "pointed" | "thin-tip" => &[
+            "tool.addendum_coefficient",
+            "tool.pressure_angle_deg",
+            "tool.profile_shift_coefficient",
+        ],
+        "no-flank" | "disengaged" | "contact-lost" => {
+            &["pitch.module", "tooth_count", "pitch.tooth_count"]
+        }
+        "interference" => &["tool.dedendum_coefficient", "teeth.backlash"],
+        "pressure-angle" => &["pitch.eccentricity", "tool.pressure_angle_deg"],
+        "shaper-radius" => &["tool.tooth_count"],
+        _ => &[],
+    }
 }
 
 /// Tooth numbers in rising order, runs of three or more shortened to first and last.

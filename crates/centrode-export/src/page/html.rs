@@ -1,0 +1,178 @@
+/// A file of the page.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+pub struct Asset {
+    /// File name.
+    pub name: &'static str,
+    /// Media type.
+    pub media_type: &'static str,
+    /// Content.
+    pub text: &'static str,
+}
+
+/// The page itself, empty.
+pub const INDEX: &str = include_str!("site/index.html");
+
+macro_rules! assets {
+    ($media_type:literal: $($name:literal),+ $(,)?) => {
+        [$(Asset { name: $name, media_type: $media_type, text: include_str!(concat!("site/", $name)) }),+]
+    };
+}
+
+const STYLES: [Asset; 2] = assets!("text/css; charset=utf-8": "uplot.css", "page.css");
+
+/// The scripts; `main.js` is the one to start.
+const SCRIPTS: [Asset; 14] = assets!(
+    "text/javascript; charset=utf-8":
+    "uplot.js",
+    "charts.js",
+    "dialogs.js",
+    "elements.js",
+    "figures.js",
+    "form.js",
+    "handles.js",
+    "history.js",
+    "main.js",
+    "motion.js",
+    "server.js",
+    "stage.js",
+    "theme.js",
+    "verdict.js",
+);
+
+/// The file of the page with a name.
+#[must_use]
+pub fn asset(name: &str) -> Option<&'static Asset> {
+    STYLES
+        .iter()
+        .chain(&SCRIPTS)
+        .find(|asset| asset.name == name)
+}
+
+/// Only what is in the file: no request leaves a report.
+const POLICY: &str = "default-src 'none'; script-src 'unsafe-inline' data:; style-src 'unsafe-inline'; img-src data: blob:";
+
+/// The page with a snapshot in it, as one file that needs nothing else.
+///
+/// `title` is plain text, `snapshot` JSON.
+#[must_use]
+pub fn report(title: &str, snapshot: &str) -> String {
+    let styles: String = STYLES
+        .iter()
+        .map(|a| format!("<style>\n{}</style>\n", a.text))
+        .collect();
+    let imports: Vec<String> = SCRIPTS
+        .iter()
+        .map(|a| {
+            format!(
+                "\"page/{}\":\"data:text/javascript,{}\"",
+                a.name,
+                percent(&bare(a.text))
+            )
+        })
+        .collect();
+    let script = format!(
+        "<script type=\"importmap\">{{\"imports\":{{{}}}}}</script>\n\
+         <script type=\"application/json\" id=\"snapshot\">{}</script>\n\
+         <script type=\"module\">import \"page/main.js\";</script>\n",
+        imports.join(",\n"),
+        snapshot.replace('<', "\\u003c"),
+    );
+    let policy = format!("<meta http-equiv=\"Content-Security-Policy\" content=\"{POLICY}\">\n");
+    let title = title.replace('&', "&amp;").replace('<', "&lt;");
+    let page = between(INDEX, "<title>", "</title>", &title);
+    let page = between(&page, "<!-- policy -->", "<!-- /policy -->", &policy);
+    let page = between(&page, "<!-- styles -->", "<!-- /styles -->", &styles);
+    between(&page, "<!-- scripts -->", "<!-- /scripts -->", &script)
+}
+
+/// The text with what stands between two marks replaced; as it is where a mark is missing.
+fn between(text: &str, open: &str, close: &str, new: &str) -> String {
+    let Some((before, rest)) = text.split_once(open) else {
+        return text.to_owned();
+    };
+    let Some((_, after)) = rest.split_once(close) else {
+        return text.to_owned();
+    };
+    format!("{before}{open}{new}{close}{after}")
+}
+
+/// Imports by the names of the import map: a data URL has no neighbours.
+fn bare(script: &str) -> String {
+    script.replace("from \"./", "from \"page/")
+}
+
+/// The text as the rest of a `data:` URL inside a JSON string.
+fn percent(text: &str) -> String {
+    let mut out = String::with_capacity(text.len() + text.len() / 4);
+    for byte in text.bytes() {
+        match byte {
+            b' ' | b'!' | b'\'' | b'('..=b';' | b'=' | b'?'..=b'[' | b']'..=b'_' | b'a'..=b'~' => {
+                out.push(char::from(byte));
+            }
+            _ => out.push_str(&format!("%{byte:02X}")),
+        }
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_report_asks_for_nothing_outside_itself() {
+        let html = report("a < b", r#"{"title":"</script><script>"}"#);
+        assert!(html.contains("<title>a &lt; b</title>"));
+        assert!(
+            !html.contains("</script><script>"),
+            "a snapshot cannot leave its element"
+        );
+        for outside in ["src=\"", "href=\"", "from \"./", "url("] {
+            assert!(!html.contains(outside), "{outside}");
+        }
+        for script in SCRIPTS {
+            assert!(
+                html.contains(&format!("\"page/{}\"", script.name)),
+                "{}",
+                script.name
+            );
+        }
+    }
+
+    #[test]
+    fn every_import_is_an_asset() {
+        for script in SCRIPTS {
+            for import in script.text.split("from \"./").skip(1) {
+                let name = import.split('"').next().expect("a name");
+                assert!(asset(name).is_some(), "{} imports {name}", script.name);
+            }
+        }
+        for name in ["../Cargo.toml", "", "index.html", "main.js/", "/main.js"] {
+            assert!(asset(name).is_none(), "{name}");
+        }
+    }
+
+    #[test]
+    fn escaped_scripts_read_back() {
+        let text = "a\"\\#%\n\tπ <&> `~` {}|^";
+        let escaped = percent(text);
+        assert!(
+            escaped.chars().all(|c| c.is_ascii_graphic() || c == ' '),
+            "{escaped}"
+        );
+        assert!(!escaped.contains(['"', '\\', '#', '<']), "{escaped}");
+        let mut bytes = Vec::new();
+        let mut rest = escaped.as_bytes();
+        while let [first, after @ ..] = rest {
+            if *first == b'%' {
+                let hex = std::str::from_utf8(&after[..2]).expect("text");
+                bytes.push(u8::from_str_radix(hex, 16).expect("hex"));
+                rest = &after[2..];
+            } else {
+                bytes.push(*first);
+                rest = after;
+            }
+        }
+        assert_eq!(String::from_utf8(bytes).expect("text"), text);
+    }
+}

@@ -1,0 +1,92 @@
+//! The design page: a mechanism as a picture that moves, with the curves of its cycle.
+//!
+//! A [`Picture`] is what a browser needs to draw a machine and nothing it could compute with: outlines as
+//! lines and arcs, the pose of every link along the cycle. The same assets show it in the local program
+//! and in the self-contained report.
+
+mod html;
+mod path;
+
+pub use html::{Asset, INDEX, asset, report};
+pub(crate) use path::short;
+pub use path::{Path, Role};
+
+use serde::Serialize;
+
+/// A machine drawn to scale, and how it moves.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Picture {
+    /// The moving parts, the hindmost first.
+    pub links: Vec<Link>,
+    /// The cycle.
+    pub motion: Motion,
+    /// What can be drawn aside with the mouse.
+    pub handles: Vec<Handle>,
+    /// Least x, least y, greatest x, greatest y of everything over the whole cycle, mm.
+    pub extent: [f64; 4],
+}
+
+/// A rigid part.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Link {
+    /// Name, as in findings.
+    pub name: String,
+    /// Its lines, in its own frame.
+    pub paths: Vec<Path>,
+}
+
+/// Where every link stands along one cycle of the input.
+///
+/// Between samples a pose is interpolated linearly, angle and place.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Motion {
+    /// What the input is: the turning link.
+    pub input_name: String,
+    /// Input angles, rad, ascending, over one whole cycle.
+    pub input: Vec<f64>,
+    /// For every link: x, y (mm) and angle (rad) at every input, one after the other.
+    pub poses: Vec<Vec<f64>>,
+}
+
+/// A point of the picture that stands for numbers of the design.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Handle {
+    /// What it is, for those who cannot see it.
+    pub name: String,
+    /// Index of the link it moves with.
+    pub link: usize,
+    /// How the two numbers place it.
+    pub plane: HandlePlane,
+    /// Keys of the design: x and y, or radius and polar angle in degrees.
+    pub keys: [String; 2],
+    /// The two numbers as written.
+    pub values: [f64; 2],
+    /// Millimetres of the picture for one unit of length of the design.
+    pub scale: f64,
+}
+
+/// How the two numbers of a [`Handle`] place it.
+#[derive(Clone, Copy, Debug, Eq, PartialEq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum HandlePlane {
+    /// x and y.
+    Cartesian,
+    /// Radius and polar angle, deg.
+    Polar,
+}
+
+/// A figure along the cycle.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Curve {
+    /// The chart it belongs to; curves of one chart share unit and axis.
+    pub chart: &'static str,
+    /// Name within the chart; empty where it is alone.
+    pub name: &'static str,
+    /// Unit as shown; empty for a plain number.
+    pub unit: &'static str,
+    /// Input angles, rad, ascending.
+    pub input: Vec<f64>,
+    /// The figure at every input, in `unit`; what is not finite is no part of the curve.
+    #[serde(serialize_with = "path::finite")]
+    pub value: Vec<f64>,
+}

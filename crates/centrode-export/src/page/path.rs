@@ -1,0 +1,116 @@
+use centrode_geometry::{Outline, Segment, Tolerance};
+use serde::ser::SerializeSeq as _;
+use serde::{Serialize, Serializer};
+
+/// What a line of the picture is, which settles how it looks.
+#[derive(Clone, Copy, Debug, Eq, PartialEq, Serialize)]
+#[serde(rename_all = "lowercase")]
+#[non_exhaustive]
+pub enum Role {
+    /// Contour of material.
+    Body,
+    /// Contour of a hole in it.
+    Hole,
+    /// A pitch curve.
+    Pitch,
+    /// The path of a point.
+    Trace,
+}
+
+/// A chain of lines and arcs.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Path {
+    /// What it is.
+    pub role: Role,
+    /// x and y of each vertex, mm, and the bulge of the arc that follows it: the tangent of a quarter of
+    /// the turned angle, positive counter-clockwise, zero for a line. The last vertex joins the first.
+    pub vertices: Vec<f64>,
+}
+
+impl Path {
+    /// A closed outline, nowhere farther from it than the tolerance.
+    #[must_use]
+    pub fn closed(role: Role, outline: &Outline, tolerance: Tolerance) -> Self {
+        let fitted = outline.arcs(tolerance.scaled(0.9));
+        // The rest of the tolerance is for rounding the numbers: fewer digits to carry.
+        let decimals = (-(0.05 * tolerance.mm()).log10()).ceil().clamp(0.0, 12.0);
+        let unit = 10_f64.powi(-(decimals as i32));
+        let vertices = fitted
+            .segments()
+            .iter()
+            .flat_map(|segment| {
+                let bulge = match segment {
+                    Segment::Arc(arc) => arc.bulge,
+                    Segment::Line(..) | Segment::Spline(_) => 0.0,
+                };
+                let start = segment.start();
+                let chord = (segment.end() - start).norm();
+                // A bulge moves the middle of its arc by half the chord.
+                [
+                    short(start.x, unit),
+                    short(start.y, unit),
+                    short(bulge, unit / chord.max(unit)),
+                ]
+            })
+            .collect();
+        Self { role, vertices }
+    }
+}
+
+/// The number at most half of `unit` away that prints short.
+pub(crate) fn short(value: f64, unit: f64) -> f64 {
+    // Dividing by a whole power of ten gives the nearest float of the short decimal.
+    let power = 10_f64.powi((-unit.log10()).ceil() as i32);
+    let rounded = (value * power).round() / power;
+    if rounded.is_finite() {
+        rounded + 0.0
+    } else {
+        value
+    }
+}
+
+/// Numbers as JSON, null for what is not finite.
+pub(crate) fn finite<S: Serializer>(values: &[f64], serializer: S) -> Result<S::Ok, S::Error> {
+    let mut list = serializer.serialize_seq(Some(values.len()))?;
+    for value in values {
+        list.serialize_element(&Some(value).filter(|v| v.is_finite()))?;
+    }
+    list.end()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use centrode_geometry::{Arc, Point};
+
+    #[test]
+    fn a_path_stays_within_its_tolerance() {
+        let circle = Outline::circle(Point::new(1.234_567_8, -7.0), 31.415_926);
+        for mm in [1.0, 1e-2, 1e-4] {
+            let tolerance = Tolerance::new(mm).expect("positive");
+            let path = Path::closed(Role::Body, &circle, tolerance);
+            let corners: Vec<&[f64]> = path.vertices.chunks(3).collect();
+            let next = corners.iter().cycle().skip(1);
+            for (from, to) in corners.iter().zip(next) {
+                let arc = Segment::Arc(Arc {
+                    start: Point::new(from[0], from[1]),
+                    end: Point::new(to[0], to[1]),
+                    bulge: from[2],
+                });
+                for i in 0..=8 {
+                    let p = arc.at(-1.0 + 0.25 * f64::from(i)).point;
+                    let off = (p - Point::new(1.234_567_8, -7.0)).norm() - 31.415_926;
+                    assert!(off.abs() <= mm, "{off} at {mm}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn rounded_numbers_are_near_and_short() {
+        assert_eq!(short(1.234_567, 1e-3).to_string(), "1.235");
+        assert_eq!(short(-1e-9, 1e-3).to_string(), "0");
+        assert_eq!(short(12.5, 0.03).to_string(), "12.5");
+        assert!(short(f64::INFINITY, 0.1).is_infinite());
+    }
+}

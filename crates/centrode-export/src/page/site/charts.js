@@ -1,0 +1,157 @@
+// Curves along the cycle as small multiples, all at the input of the scrubber.
+
+import uPlot from "./uplot.js";
+import { byId, element } from "./elements.js";
+import { read } from "./motion.js";
+import { color } from "./theme.js";
+
+const DEG = 180 / Math.PI;
+const HEIGHT = 128;
+const DASH = [[], [6, 3]];
+
+/** A figure of a curve, short enough to read. */
+function brief(value) {
+  if (value === null || value === undefined) return "–";
+  if (value === 0) return "0";
+  const size = Math.abs(value);
+  return size < 1e-3 || size >= 1e5 ? value.toExponential(2) : value.toPrecision(4);
+}
+
+export class Charts {
+  /** `go(input)` is called when a place in a chart is picked. */
+  constructor(go) {
+    this.go = go;
+    this.charts = [];
+    this.input = 0;
+    this.place = byId("charts");
+    new ResizeObserver(() => this.resize()).observe(this.place);
+  }
+
+  show(curves, pinned) {
+    const groups = new Map();
+    for (const curve of curves) {
+      if (!groups.has(curve.chart)) groups.set(curve.chart, []);
+      groups.get(curve.chart).push(curve);
+    }
+    const before = new Map((pinned ?? []).map((curve) => [`${curve.chart} ${curve.name}`, curve]));
+    const same = this.charts.length === groups.size &&
+      [...groups].every(([name, list], i) => this.charts[i].name === name && this.charts[i].fits(list, before));
+    if (!same) {
+      for (const chart of this.charts) chart.plot.destroy();
+      this.place.replaceChildren();
+      this.charts = [...groups].map(([name, list]) => new Chart(this, name, list, before));
+    } else {
+      [...groups.values()].forEach((list, i) => this.charts[i].set(list, before));
+    }
+    this.at(this.input);
+  }
+
+  at(input) {
+    this.input = input;
+    for (const chart of this.charts) chart.at(input);
+  }
+
+  resize() {
+    for (const chart of this.charts) {
+      const width = chart.box.clientWidth;
+      if (width > 0) chart.plot.setSize({ width, height: HEIGHT });
+    }
+    this.at(this.input);
+  }
+
+  recolor() {
+    for (const chart of this.charts) chart.plot.redraw(false);
+  }
+}
+
+class Chart {
+  constructor(charts, name, curves, before) {
+    this.name = name;
+    const unit = curves[0].unit;
+    this.values = curves.map(() => element("output", {}));
+    const legend = curves.map((curve, i) => element("span", { class: `series series-${i}` }, curve.name ? `${curve.name} ` : "", this.values[i]));
+    this.box = element("div", { class: "plot" });
+    charts.place.append(element("figure", { class: "chart" },
+      element("figcaption", {}, element("b", {}, name), unit ? element("span", { class: "quiet" }, ` ${unit}`) : null, ...legend),
+      this.box));
+    this.compared = curves.map((curve) => before.has(`${name} ${curve.name}`));
+    const series = [{}];
+    curves.forEach((curve, i) => {
+      series.push({ stroke: () => color(i === 0 ? "ink" : "accent"), width: 1.5, dash: DASH[i % 2], points: { show: false }, spanGaps: false });
+      if (this.compared[i]) series.push({ stroke: () => color("pinned"), width: 1.2, dash: [3, 3], points: { show: false } });
+    });
+    const axis = {
+      stroke: () => color("muted"),
+      grid: { stroke: () => color("grid"), width: 1 },
+      ticks: { show: false },
+      font: "11px system-ui, sans-serif",
+    };
+    this.plot = new uPlot({
+      width: Math.max(this.box.clientWidth, 160),
+      height: HEIGHT,
+      legend: { show: false },
+      cursor: { x: false, y: false, points: { show: false }, drag: { x: false, y: false } },
+      scales: { x: { time: false, range: (_, least, greatest) => [least, greatest] }, y: { range: span } },
+      series,
+      axes: [
+        { ...axis, size: 20, gap: 2, incrs: [15, 30, 45, 60, 90, 180, 360, 720, 1440, 3600], values: (_, list) => list.map((v) => `${v}°`), space: 48 },
+        { ...axis, size: 54, gap: 4, space: 26, values: (_, list) => list.map((v) => tick(v, list)) },
+      ],
+    }, this.data(curves, before), this.box);
+    this.line = element("div", { class: "now" });
+    this.plot.over.append(this.line);
+    this.curves = curves;
+    const pick = (event) => {
+      if (event.buttons !== 1) return;
+      const left = event.clientX - this.plot.over.getBoundingClientRect().left;
+      charts.go(this.plot.posToVal(left, "x") / DEG);
+    };
+    this.plot.over.addEventListener("pointerdown", pick);
+    this.plot.over.addEventListener("pointermove", pick);
+  }
+
+  /** Whether these curves can be shown without building the chart anew. */
+  fits(curves, before) {
+    return curves.length === this.curves.length &&
+      curves.every((curve, i) => curve.name === this.curves[i].name && before.has(`${this.name} ${curve.name}`) === this.compared[i]);
+  }
+
+  set(curves, before) {
+    this.curves = curves;
+    this.plot.setData(this.data(curves, before));
+  }
+
+  data(curves, before) {
+    const x = curves[0].input;
+    const data = [x.map((input) => input * DEG)];
+    for (const curve of curves) {
+      data.push(curve.value);
+      const old = before.get(`${this.name} ${curve.name}`);
+      if (old) data.push(x.map((input) => read(old, input)));
+    }
+    return data;
+  }
+
+  at(input) {
+    const left = this.plot.valToPos(input * DEG, "x");
+    this.line.style.transform = `translateX(${left}px)`;
+    this.curves.forEach((curve, i) => {
+      this.values[i].textContent = brief(read(curve, input));
+    });
+  }
+}
+
+/** Range of the vertical axis: what is nearly constant is shown as constant, not as its rounding errors. */
+function span(_, least, greatest) {
+  if (least === null || !Number.isFinite(least)) return [0, 1];
+  const size = Math.max(Math.abs(least), Math.abs(greatest));
+  const room = greatest - least < 1e-6 * size ? Math.max(0.1 * size, Number.MIN_VALUE) : 0.08 * (greatest - least);
+  return size === 0 ? [-1, 1] : [least - room, greatest + room];
+}
+
+function tick(value, list) {
+  const size = Math.max(...list.map(Math.abs));
+  if (size !== 0 && (size < 1e-2 || size >= 1e5)) return value === 0 ? "0" : value.toExponential(0);
+  const step = list.length > 1 ? list[1] - list[0] : 1;
+  return value.toFixed(Math.min(Math.max(0, Math.ceil(-Math.log10(step) - 1e-9)), 6));
+}

@@ -1,0 +1,68 @@
+// Questions to the user: the text of the design, what to export, whom to believe about a file.
+
+import { byId, element } from "./elements.js";
+
+/** Shows a dialog; resolves to what its button says, or to null when it is closed. */
+export function ask(title, content, buttons) {
+  const dialog = byId("dialog");
+  const form = element("form", { method: "dialog" },
+    element("h2", { id: "dialog-title" }, title),
+    ...content,
+    element("div", { class: "buttons" }, ...buttons.map(([value, words, kind]) =>
+      element("button", { value, class: kind }, words))));
+  dialog.replaceChildren(form);
+  dialog.returnValue = "";
+  dialog.showModal();
+  return new Promise((resolve) => {
+    dialog.addEventListener("close", () => resolve(dialog.returnValue || null), { once: true });
+  });
+}
+
+/** The design file as text; resolves to the new text, or to null. */
+export async function source(file, text, error) {
+  const area = element("textarea", { "aria-label": "Design file", spellcheck: "false", rows: 28, cols: 92 });
+  area.value = text;
+  const remark = error ? element("p", { class: "remark" }, element("span", { class: "error" },
+    `line ${error.line}, column ${error.column}: ${error.message}`)) : null;
+  const answer = await ask(file, [remark, area].filter(Boolean), [["", "Cancel"], ["apply", "Apply", "main"]]);
+  return answer === "apply" ? area.value : null;
+}
+
+/** What to export, of kinds given as word and description; resolves to the options, or to null. */
+export async function files(formats) {
+  const boxes = formats.map(([name]) => {
+    const box = element("input", { type: "checkbox", value: name });
+    box.checked = true;
+    return box;
+  });
+  const tolerance = element("input", { type: "text", inputmode: "decimal", class: "number", value: "0.001", id: "export-tolerance" });
+  const dxf = element("select", { id: "export-dxf" },
+    ...[["r2010", "R2010, lines and arcs"], ["r12", "R12, for old controllers"], ["spline", "R2010, splines"]]
+      .map(([value, words]) => element("option", { value }, words)));
+  const answer = await ask("Export", [
+    element("fieldset", {}, element("legend", {}, "Files"),
+      ...boxes.map((box, i) => element("label", { title: formats[i][1] }, box, ` ${box.value.toUpperCase()}`))),
+    element("p", { class: "option" }, element("label", { for: "export-tolerance" }, "Tolerance"), tolerance, element("span", {}, "mm")),
+    element("p", { class: "option" }, element("label", { for: "export-dxf" }, "DXF"), dxf),
+  ], [["", "Cancel"], ["export", "Export zip", "main"]]);
+  if (answer !== "export") return null;
+  const chosen = boxes.filter((box) => box.checked).map((box) => box.value);
+  return chosen.length ? { formats: chosen, tolerance: tolerance.value, dxf: dxf.value } : null;
+}
+
+/** A line below the bar; `key` names it, so that the next of its kind takes its place. */
+export function notice(key, words, buttons = [], severity = "note") {
+  withdraw(key);
+  const close = () => withdraw(key);
+  byId("notices").append(element("div", { class: `notice ${severity}`, "data-key": key },
+    element("span", {}, words),
+    ...buttons.map(([name, act]) => element("button", { type: "button", onclick: () => {
+      close();
+      act();
+    } }, name)),
+    element("button", { type: "button", class: "close", "aria-label": "Close", onclick: close }, "×")));
+}
+
+export function withdraw(key) {
+  for (const old of byId("notices").children) if (old.dataset.key === key) old.remove();
+}

@@ -1,0 +1,239 @@
+// The numbers of the design, one field a key.
+
+import { byId, element, words } from "./elements.js";
+
+const SLOW = 4;
+
+/** A handsome step for a number: a hundredth of its size, one for whole numbers. */
+function stepOf(field, value) {
+  if (field.kind === "integer" || field.kind === "integers") return 1;
+  const size = Math.abs(value);
+  if (!Number.isFinite(size) || size === 0) return 0.01;
+  return 10 ** Math.round(Math.log10(size) - 2.2);
+}
+
+/** What is typed, as a value of the design: a number where it reads as one. */
+function typed(text) {
+  const plain = text.trim().replace(",", ".").replace("−", "-");
+  return plain !== "" && Number.isFinite(Number(plain)) ? Number(plain) : text.trim();
+}
+
+const tidy = (value, step) => Number(value.toFixed(Math.max(0, Math.ceil(-Math.log10(step)))));
+
+export class Form {
+  /** `edit(edits, final)` takes new values; `fixed` shows them only. */
+  constructor({ edit, fixed }) {
+    this.edit = edit;
+    this.fixed = fixed;
+    this.place = byId("form");
+    this.shape = "";
+    this.controls = new Map();
+    this.folded = new Set(["drawing"]);
+  }
+
+  show(snapshot) {
+    const shape = JSON.stringify(snapshot.tables.map((table) => [table.key, table.fields.map((field) =>
+      [field.key, field.kind, Array.isArray(field.value) ? field.value.length : 0, field.choices])]));
+    if (shape !== this.shape) this.build(snapshot.tables);
+    this.shape = shape;
+    for (const table of snapshot.tables) {
+      for (const field of table.fields) this.fill(field);
+    }
+    this.remark(snapshot);
+  }
+
+  /** The control of a key, or of the nearest around it. */
+  near(key) {
+    for (let path = key; path; path = path.replace(/(\[\d+\]|\.?[^.[\]]+)$/, "")) {
+      if (this.controls.has(path)) return this.controls.get(path);
+    }
+    return undefined;
+  }
+
+  build(tables) {
+    const focused = document.activeElement?.id;
+    this.controls.clear();
+    this.place.replaceChildren(...tables.filter((table) => table.fields.length).map((table) => this.table(table)));
+    if (focused) byId(focused)?.focus();
+  }
+
+  table(table) {
+    const name = table.key ? table.key.split(".").map(words).join(" · ") : "General";
+    const fold = element("details", { class: "table" },
+      element("summary", { title: table.doc || undefined }, name),
+      ...table.fields.map((field) => this.row(field)));
+    const fully = this.folded.has(table.key) || (table.optional && table.fields.every((field) => field.value === null));
+    fold.open = this.fixed || !fully;
+    fold.addEventListener("toggle", () => {
+      if (fold.open) this.folded.delete(table.key);
+      else this.folded.add(table.key);
+    });
+    const remark = element("p", { class: "remark", id: `remark-${table.key}` });
+    fold.querySelector("summary").after(remark);
+    if (table.key) this.controls.set(table.key, { field: null, remark, row: fold, inputs: [] });
+    return fold;
+  }
+
+  row(field) {
+    const id = `field-${field.key}`;
+    const remark = element("p", { class: "remark", id: `remark-${field.key}` });
+    const control = { field, remark, inputs: [] };
+    this.controls.set(field.key, control);
+    const label = element("label", { for: id, title: field.doc || undefined }, words(field.key));
+    const boxes = this.inputs(field, id, control);
+    const unit = element("span", { class: "unit" }, field.unit);
+    control.row = element("div", { class: `field ${Array.isArray(field.value) ? "list" : ""}` }, label, boxes, unit, remark);
+    if (["number", "integer"].includes(field.kind) && !this.fixed) this.draggable(label, control);
+    return control.row;
+  }
+
+  inputs(field, id, control) {
+    const common = { id, "aria-describedby": `remark-${field.key}`, disabled: this.fixed };
+    const give = (value, final = true) => this.edit([{ key: field.key, value }], final);
+    if (field.kind === "choice") {
+      const select = element("select", { ...common, onchange: () => give(select.value || null) });
+      control.inputs = [select];
+      return select;
+    }
+    if (field.kind === "switch") {
+      const box = element("input", { ...common, type: "checkbox", onchange: () => give(box.checked) });
+      control.inputs = [box];
+      return box;
+    }
+    if (Array.isArray(field.value) && ["numbers", "integers"].includes(field.kind)) {
+      const list = element("div", { class: "numbers", role: "group", "aria-label": words(field.key) });
+      control.inputs = field.value.map((_, i) => this.number(field, `${field.key}[${i}]`, {
+        ...common, id: i ? `${id}-${i}` : id, "aria-label": `${words(field.key)} ${i + 1}`,
+      }));
+      list.append(...control.inputs);
+      return list;
+    }
+    if (field.kind === "number" || field.kind === "integer") {
+      control.inputs = [this.number(field, field.key, common)];
+      return control.inputs[0];
+    }
+    const listId = field.choices?.length ? `${id}-words` : undefined;
+    const box = element("input", { ...common, type: "text", spellcheck: "false", autocomplete: "off", list: listId, onchange: () => {
+      const list = ["numbers", "integers"].includes(field.kind);
+      const value = list ? box.value.split(/[\s;]+/).filter(Boolean).map(typed) : field.kind === "either" ? typed(box.value) : box.value;
+      give(box.value === "" && field.optional ? null : value);
+    } });
+    control.inputs = [box];
+    if (!listId) return box;
+    return element("span", {}, box, element("datalist", { id: listId }, ...field.choices.map(({ word }) => element("option", { value: word }))));
+  }
+
+  /** An input for one number: typed, or moved by the arrow keys. */
+  number(field, key, attributes) {
+    const box = element("input", { ...attributes, type: "text", inputmode: "decimal", class: "number", role: "spinbutton", spellcheck: "false", autocomplete: "off",
+      "aria-valuemin": field.least, "aria-valuemax": field.greatest });
+    const give = (value) => this.edit([{ key, value }], true);
+    box.addEventListener("change", () => {
+      if (box.value.trim() === "" && field.optional && key === field.key) give(null);
+      else give(typed(box.value));
+    });
+    box.addEventListener("keydown", (event) => {
+      if (event.key === "Enter") {
+        box.select();
+        return;
+      }
+      const way = { ArrowUp: 1, ArrowDown: -1, PageUp: 10, PageDown: -10 }[event.key];
+      const value = typed(box.value);
+      if (!way || typeof value !== "number" || event.ctrlKey || event.metaKey) return;
+      event.preventDefault();
+      const step = stepOf(field, Number(box.dataset.value ?? value)) * (event.shiftKey ? 10 : 1);
+      const next = tidy(value + way * step, step);
+      box.value = String(next);
+      give(next);
+    });
+    return box;
+  }
+
+  /** Dragging the name of a number sideways changes it. */
+  draggable(label, control) {
+    label.classList.add("draggable");
+    let start = null;
+    label.addEventListener("pointerdown", (event) => {
+      const value = typed(control.inputs[0].value);
+      if (event.button !== 0 || typeof value !== "number") return;
+      label.setPointerCapture(event.pointerId);
+      start = { x: event.clientX, value, step: stepOf(control.field, value), now: value, moved: false };
+    });
+    const follow = (event, final) => {
+      if (!start) return;
+      const count = Math.round((event.clientX - start.x) / SLOW);
+      const next = tidy(start.value + count * start.step, start.step);
+      start.moved ||= count !== 0;
+      if (start.moved && (final || next !== start.now)) {
+        start.now = next;
+        control.inputs[0].value = String(next);
+        this.edit([{ key: control.field.key, value: next }], final);
+      }
+      if (final) start = null;
+    };
+    label.addEventListener("pointermove", (event) => follow(event, false));
+    label.addEventListener("pointerup", (event) => follow(event, true));
+    label.addEventListener("pointercancel", (event) => follow(event, true));
+  }
+
+  fill(field) {
+    const control = this.controls.get(field.key);
+    control.field = field;
+    const values = Array.isArray(field.value) && control.inputs.length > 1 ? field.value : [field.value];
+    control.row.classList.toggle("written", field.written);
+    control.inputs.forEach((input, i) => {
+      const value = Array.isArray(values[i]) ? (values[i].length === 1 ? values[i][0] : values[i].join(" ")) : values[i];
+      if (input.type === "checkbox") {
+        input.checked = Boolean(value);
+      } else if (input.tagName === "SELECT") {
+        this.options(input, field, value);
+      } else {
+        const text = value === null || value === undefined ? "" : String(value);
+        input.placeholder = field.optional && field.value === null ? "auto" : "";
+        input.dataset.value = text;
+        if (typeof value === "number") input.setAttribute("aria-valuenow", text);
+        else input.removeAttribute("aria-valuenow");
+        // What is being typed is not touched; dragging the point that stands for it is not typing.
+        if (document.activeElement !== input || typed(input.value) !== value) input.value = text;
+      }
+    });
+  }
+
+  options(select, field, value) {
+    const list = field.choices.map(({ word, doc }) => element("option", { value: word, title: doc || undefined }, word));
+    if (value !== null && !field.choices.some(({ word }) => word === value)) {
+      list.unshift(element("option", { value: String(value) }, String(value)));
+    }
+    if (value === null || field.optional && field.value === null) list.unshift(element("option", { value: "" }, "auto"));
+    select.replaceChildren(...list);
+    select.value = value ?? "";
+  }
+
+  /** Errors and findings beside what causes them. */
+  remark(snapshot) {
+    const remarks = new Map();
+    const put = (key, severity, message) => {
+      const control = this.near(key);
+      if (control) remarks.set(control, [...(remarks.get(control) ?? []), { severity, message }]);
+    };
+    if (snapshot.error) put(snapshot.error.key, "error", snapshot.error.message);
+    for (const finding of snapshot.error ? [] : snapshot.verdict?.findings ?? []) {
+      const cause = finding.causes.find((key) => {
+        const control = this.controls.get(key);
+        return control && control.field?.value !== null;
+      });
+      if (cause && finding.severity !== "note") put(cause, finding.severity, `${finding.rule}: ${finding.message}`);
+    }
+    for (const control of this.controls.values()) {
+      const list = snapshot.error || snapshot.verdict ? remarks.get(control) ?? [] : null;
+      if (list === null) continue;
+      control.remark.replaceChildren(...list.map(({ severity, message }) =>
+        element("span", { class: severity }, element("b", {}, `${severity} `), message)));
+      const bad = list.some(({ severity }) => severity === "error");
+      for (const input of control.inputs) input.setAttribute("aria-invalid", String(bad));
+      if (list.length && control.row.tagName === "DETAILS") control.row.open = true;
+      const fold = list.length ? control.row.closest("details") : null;
+      if (fold) fold.open = true;
+    }
+  }
+}

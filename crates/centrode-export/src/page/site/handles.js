@@ -1,0 +1,138 @@
+// Points of the drawing that stand for numbers of the design: to be dragged, or moved by arrow keys.
+
+import { byId, drawn } from "./elements.js";
+
+const DEG = Math.PI / 180;
+
+/** Where a handle lies in the frame of its link. */
+function position({ plane, values: [a, b], scale }) {
+  if (plane === "cartesian") return [a * scale, b * scale];
+  return [a * scale * Math.cos(b * DEG), a * scale * Math.sin(b * DEG)];
+}
+
+/** A power of ten so small that a step of it is no more than the size. */
+const power = (size) => 10 ** Math.floor(Math.log10(size));
+
+const rounded = (value, step) => Number((Math.round(value / step) * step).toFixed(Math.max(0, -Math.round(Math.log10(step)))));
+
+export class Handles {
+  /** `edit(edits, final)` takes new values; `began()` is told when a drag starts. */
+  constructor(stage, { edit, began }) {
+    this.stage = stage;
+    this.edit = edit;
+    this.began = began;
+    this.layer = stage.box.querySelector("svg");
+    this.list = [];
+    this.marks = [];
+    this.poses = [];
+    this.dragged = null;
+    byId("show-handles").addEventListener("change", () => this.place(this.poses));
+  }
+
+  show(handles) {
+    this.list = handles;
+    if (this.marks.length !== handles.length) {
+      this.layer.replaceChildren();
+      this.chain = this.layer.appendChild(drawn("polygon", { class: "chain" }));
+      this.marks = handles.map((_, i) => this.mark(i));
+    }
+    handles.forEach((handle, i) => {
+      const [a, b] = handle.values;
+      const where = handle.plane === "polar" ? `radius ${a} mm, angle ${b}°` : `x ${a}, y ${b} mm`;
+      this.marks[i].setAttribute("aria-label", `${handle.name}: ${where}`);
+    });
+    this.place(this.poses);
+  }
+
+  /** Moves the marks to where the links stand. */
+  place(poses) {
+    this.poses = poses;
+    const hidden = !byId("show-handles").checked || this.list.length === 0;
+    this.layer.classList.toggle("hidden", hidden);
+    if (hidden || !this.chain) return;
+    const points = this.list.map((handle, i) => {
+      const pose = poses[handle.link];
+      if (!pose) return "";
+      const [x, y] = position(handle);
+      const [c, s] = [Math.cos(pose[2]), Math.sin(pose[2])];
+      const [px, py] = this.stage.toBox(pose[0] + c * x - s * y, pose[1] + s * x + c * y);
+      this.marks[i].setAttribute("transform", `translate(${px.toFixed(2)} ${py.toFixed(2)})`);
+      return `${px.toFixed(1)},${py.toFixed(1)}`;
+    });
+    this.chain.setAttribute("points", points.join(" "));
+  }
+
+  mark(index) {
+    const mark = drawn("g", { class: "handle", tabindex: 0, role: "button" });
+    mark.append(drawn("circle", { r: 12, class: "reach" }), drawn("circle", { r: 5 }));
+    mark.addEventListener("pointerdown", (event) => {
+      event.preventDefault();
+      event.stopPropagation();
+      mark.focus();
+      mark.setPointerCapture(event.pointerId);
+      this.dragged = index;
+      this.began();
+    });
+    mark.addEventListener("pointermove", (event) => {
+      if (this.dragged === index) this.move(index, this.pointed(event), false);
+    });
+    for (const end of ["pointerup", "pointercancel"]) {
+      mark.addEventListener(end, (event) => {
+        if (this.dragged !== index) return;
+        this.dragged = null;
+        this.move(index, this.pointed(event), true);
+      });
+    }
+    mark.addEventListener("keydown", (event) => this.nudge(index, event));
+    this.layer.append(mark);
+    return mark;
+  }
+
+  pointed(event) {
+    const bounds = this.stage.box.getBoundingClientRect();
+    return this.stage.toModel(event.clientX - bounds.left, event.clientY - bounds.top);
+  }
+
+  /** Takes a point of the drawing back to the numbers it stands for. */
+  move(index, [x, y], final) {
+    const handle = this.list[index];
+    const [ox, oy, angle] = this.poses[handle.link];
+    const [c, s] = [Math.cos(angle), Math.sin(angle)];
+    const u = (c * (x - ox) + s * (y - oy)) / handle.scale;
+    const v = (c * (y - oy) - s * (x - ox)) / handle.scale;
+    this.give(handle, u, v, final);
+  }
+
+  give(handle, u, v, final) {
+    const step = power(1 / (this.stage.view.scale * handle.scale));
+    let values = [rounded(u, step), rounded(v, step)];
+    if (handle.plane === "polar") {
+      const radius = Math.hypot(u, v);
+      const turn = power(step / Math.max(radius, step) / DEG);
+      // The turn nearest to the one written: a list of angles need not start at zero.
+      const now = Math.atan2(v, u) / DEG;
+      const turns = Math.round((handle.values[1] - now) / 360);
+      values = [rounded(radius, step), rounded(now + 360 * turns, turn)];
+    }
+    const edits = handle.keys.map((key, i) => ({ key, value: values[i] })).filter((edit) => edit.key);
+    if (edits.length === 1) values[1] = handle.values[1];
+    handle.values = values;
+    this.place(this.poses);
+    this.edit(edits, final);
+  }
+
+  nudge(index, event) {
+    const ways = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
+    const way = ways[event.key];
+    if (!way) return;
+    event.preventDefault();
+    event.stopPropagation();
+    this.began();
+    const handle = this.list[index];
+    const [ox, oy, angle] = this.poses[handle.link];
+    const [c, s] = [Math.cos(angle), Math.sin(angle)];
+    const [x, y] = position(handle);
+    const reach = (event.shiftKey ? 10 : 1) * 2 * power(10 / this.stage.view.scale) / 2;
+    this.move(index, [ox + c * x - s * y + way[0] * reach, oy + s * x + c * y + way[1] * reach], true);
+  }
+}

@@ -1,0 +1,359 @@
+// The page: one design, what it looks like, how it moves, what the checks say.
+
+import { Charts } from "./charts.js";
+import * as dialogs from "./dialogs.js";
+import { byId, element } from "./elements.js";
+import { Form } from "./form.js";
+import { Handles } from "./handles.js";
+import { History } from "./history.js";
+import { read } from "./motion.js";
+import * as server from "./server.js";
+import { Stage } from "./stage.js";
+import * as theme from "./theme.js";
+import * as verdict from "./verdict.js";
+
+const DEG = 180 / Math.PI;
+/** Solving slower than this shows the picture before the checks while something is dragged, ms. */
+const SLOW = 40;
+
+const embedded = byId("snapshot");
+const state = {
+  snapshot: null,
+  pinned: null,
+  history: null,
+  file: "",
+  formats: [],
+  input: 0,
+  playing: false,
+  /** Values given but not answered for yet, by key. */
+  draft: new Map(),
+  pending: null,
+  solving: false,
+  answered: 0,
+};
+
+const stage = new Stage((poses) => handles?.place(poses));
+const charts = new Charts((input) => {
+  play(false);
+  move(input);
+});
+const form = new Form({ edit, fixed: Boolean(embedded) });
+const handles = embedded ? null : new Handles(stage, { edit, began: () => play(false) });
+
+// Motion
+
+const cycle = () => stage.scene?.motion.cycle ?? 2 * Math.PI;
+
+function move(input) {
+  state.input = Math.min(Math.max(input, 0), cycle());
+  const scrub = byId("scrub");
+  scrub.value = state.input / cycle();
+  const words = `${(state.input * DEG).toFixed(1)}°`;
+  byId("angle").textContent = words;
+  readout();
+  scrub.setAttribute("aria-valuetext", words);
+  stage.at(state.input);
+  charts.at(state.input);
+}
+
+/** The curves that stand alone, at the input. */
+function readout() {
+  const lines = (state.snapshot?.curves ?? []).filter((curve) => curve.name === "").slice(0, 3);
+  byId("readout").replaceChildren(...lines.map((curve) => {
+    const value = read(curve, state.input);
+    return element("div", {}, `${curve.chart} ${value === null ? "–" : value.toFixed(4)}${curve.unit && ` ${curve.unit}`}`);
+  }));
+}
+
+function play(on) {
+  if (state.playing === on) return;
+  state.playing = on;
+  const button = byId("play");
+  button.textContent = on ? "Pause" : "Play";
+  button.setAttribute("aria-pressed", String(on));
+  if (!on) return;
+  let last = performance.now();
+  const step = (now) => {
+    if (!state.playing) return;
+    const turned = ((now - last) / 60000) * Number(byId("speed").value) * 2 * Math.PI;
+    last = now;
+    move((state.input + turned) % cycle());
+    requestAnimationFrame(step);
+  };
+  requestAnimationFrame(step);
+}
+
+// What is shown
+
+function show(snapshot) {
+  const before = state.snapshot;
+  if (!snapshot.picture && before?.picture) {
+    // No mechanism: the last one stays in sight, faded.
+    snapshot = { ...before, text: snapshot.text, tables: snapshot.tables, error: snapshot.error };
+  } else if (!snapshot.verdict && before?.verdict) {
+    snapshot = { ...snapshot, curves: merged(snapshot.curves, before.curves), stale: true };
+  }
+  state.snapshot = snapshot;
+  byId("heading").textContent = snapshot.title || snapshot.name || state.file;
+  byId("definition").textContent = snapshot.definition;
+  stage.stale = Boolean(snapshot.error);
+  stage.show(snapshot.picture);
+  form.show(snapshot);
+  handles?.show(snapshot.picture?.handles ?? []);
+  charts.show(snapshot.curves, state.pinned?.curves);
+  verdict.show(snapshot, state.pinned, (input) => {
+    play(false);
+    move(input);
+  });
+  move(state.input);
+  buttons();
+}
+
+/** The new curves, and of the old those that the checks have yet to draw anew. */
+function merged(curves, old) {
+  const names = new Set(curves.map((curve) => curve.chart));
+  return [...curves, ...old.filter((curve) => !names.has(curve.chart))];
+}
+
+function buttons() {
+  const history = state.history;
+  if (!history) return;
+  byId("undo").disabled = !history.canUndo;
+  byId("redo").disabled = !history.canRedo;
+  byId("reset").disabled = !history.dirty;
+  byId("save").disabled = !history.dirty;
+  byId("file").textContent = history.dirty ? `${state.file} — not saved` : state.file;
+  document.title = `${history.dirty ? "• " : ""}${state.file} — centrode`;
+}
+
+// Changes
+
+/** New values for keys of the design; `final` ends a drag. */
+function edit(edits, final) {
+  for (const { key, value } of edits) state.draft.set(key, value);
+  request({ final });
+}
+
+/** Another text altogether. */
+function replace(text) {
+  state.draft.clear();
+  request({ text, final: true });
+}
+
+function request(job) {
+  // A change that ends a drag stays one, whatever overtakes it.
+  state.pending = { ...job, text: job.text ?? state.pending?.text, final: job.final || Boolean(state.pending?.final) };
+  if (!state.solving) solve();
+}
+
+async function solve() {
+  state.solving = true;
+  while (state.pending) {
+    const job = state.pending;
+    state.pending = null;
+    const sent = new Map(state.draft);
+    const text = job.text ?? state.history.text;
+    const edits = [...sent].map(([key, value]) => ({ key, value }));
+    const slow = state.took > SLOW;
+    try {
+      const start = performance.now();
+      let snapshot = await server.solve({ text, edits, check: !slow });
+      if (job.final) settle(snapshot.text, sent);
+      show(snapshot);
+      if (slow && !state.pending) {
+        snapshot = await server.solve({ text: snapshot.text, edits: [], check: true });
+        if (!state.pending) show(snapshot);
+      }
+      state.took = performance.now() - start;
+      state.answered += 1;
+      dialogs.withdraw("server");
+    } catch (error) {
+      if (error.status === 410) {
+        // Another window of this page has asked; it is our turn again now.
+        if (!state.pending) {
+          state.pending = job;
+          await new Promise((resume) => setTimeout(resume, 100));
+        }
+        continue;
+      }
+      if (job.final) forgetDraft(sent);
+      complain("server", error);
+    }
+  }
+  state.solving = false;
+}
+
+/** A change has arrived in the text. */
+function settle(text, sent) {
+  const changed = text !== state.history.text;
+  state.history.push(text);
+  forgetDraft(sent);
+  if (changed) keep();
+}
+
+function forgetDraft(sent) {
+  for (const [key, value] of sent) if (state.draft.get(key) === value) state.draft.delete(key);
+}
+
+function complain(key, error) {
+  const words = error instanceof server.Refused ? error.message : "the program does not answer: is centrode studio still running?";
+  dialogs.notice(key, words, [], "error");
+}
+
+let keeping = 0;
+/** Puts what is not saved beside the file, soon. */
+function keep() {
+  clearTimeout(keeping);
+  keeping = setTimeout(() => {
+    server.keep(state.history.text).then(() => dialogs.withdraw("keep")).catch((error) => complain("keep", error));
+  }, 200);
+}
+
+function step(text) {
+  replace(text);
+  keep();
+}
+
+async function save(over = false) {
+  const text = state.history.text;
+  try {
+    await server.save(text, over);
+    clearTimeout(keeping);
+    state.history.saved = text;
+    if (state.history.dirty) keep();
+    dialogs.withdraw("disk");
+    dialogs.withdraw("save");
+    buttons();
+  } catch (error) {
+    if (error.status !== 409) {
+      complain("save", error);
+      return;
+    }
+    const answer = await dialogs.ask("Changed on disk", [Object.assign(document.createElement("p"), { textContent: `${error.message}. Saving would write over that.` })],
+      [["", "Cancel"], ["load", "Load the file"], ["over", "Write over it", "danger"]]);
+    if (answer === "over") await save(true);
+    if (answer === "load") await load();
+  }
+}
+
+/** Takes what is on disk now. */
+async function load() {
+  const { text } = await server.reread();
+  state.history.saved = text;
+  replace(text);
+  dialogs.withdraw("disk");
+}
+
+async function download() {
+  const options = await dialogs.files(state.formats);
+  if (!options) return;
+  try {
+    const blob = await server.files({ text: state.history.text, ...options });
+    const link = Object.assign(document.createElement("a"), {
+      href: URL.createObjectURL(blob),
+      download: `${state.snapshot.name || "design"}.zip`,
+    });
+    link.click();
+    setTimeout(() => URL.revokeObjectURL(link.href), 60000);
+  } catch (error) {
+    complain("export", error);
+  }
+}
+
+function pin() {
+  state.pinned = state.pinned ? null : state.snapshot;
+  byId("pin").setAttribute("aria-pressed", String(Boolean(state.pinned)));
+  byId("pin").textContent = state.pinned ? "Unpin" : "Pin";
+  stage.pin(state.pinned?.picture);
+  show(state.snapshot);
+}
+
+// Start
+
+function listen() {
+  byId("play").addEventListener("click", () => play(!state.playing));
+  byId("scrub").addEventListener("input", (event) => {
+    play(false);
+    move(Number(event.target.value) * cycle());
+  });
+  byId("scrub").addEventListener("keydown", (event) => {
+    const way = { ArrowLeft: -1, ArrowRight: 1, PageDown: -10, PageUp: 10 }[event.key];
+    if (!way) return;
+    event.preventDefault();
+    play(false);
+    move(state.input + way / DEG);
+  });
+  stage.box.addEventListener("keydown", (event) => {
+    if (event.key !== " " || event.target !== stage.box) return;
+    event.preventDefault();
+    play(!state.playing);
+  });
+  addEventListener("beforeprint", () => stage.resize(3));
+  addEventListener("afterprint", () => stage.resize());
+  theme.start(() => {
+    stage.draw();
+    charts.recolor();
+  });
+  if (embedded) return;
+  byId("undo").addEventListener("click", () => step(state.history.undo()));
+  byId("redo").addEventListener("click", () => step(state.history.redo()));
+  byId("reset").addEventListener("click", () => {
+    state.history.push(state.history.saved);
+    step(state.history.text);
+  });
+  byId("pin").addEventListener("click", pin);
+  byId("save").addEventListener("click", () => save());
+  byId("export").addEventListener("click", download);
+  byId("source").addEventListener("click", async () => {
+    const text = await dialogs.source(state.file, state.history.text, state.snapshot?.error);
+    if (text !== null) replace(text);
+  });
+  addEventListener("keydown", (event) => {
+    if (!(event.ctrlKey || event.metaKey) || byId("dialog").open) return;
+    const key = event.key.toLowerCase();
+    // Undo within a field being typed into is the browser's.
+    const typing = event.target.matches?.("input[type=text]") && event.target.value !== event.target.dataset.value;
+    if (key === "s") {
+      event.preventDefault();
+      document.activeElement?.blur();
+      save();
+    } else if ((key === "z" || key === "y") && !typing) {
+      event.preventDefault();
+      const forth = key === "y" || event.shiftKey;
+      if (forth && state.history.canRedo) step(state.history.redo());
+      if (!forth && state.history.canUndo) step(state.history.undo());
+    }
+  });
+}
+
+async function start() {
+  listen();
+  if (embedded) {
+    document.body.classList.add("report");
+    const snapshot = JSON.parse(embedded.textContent);
+    byId("imprint").textContent = `${snapshot.name}: ${snapshot.definition}`;
+    show(snapshot);
+    return;
+  }
+  const { file, text, recovered, formats } = await server.design();
+  state.file = file;
+  state.formats = formats;
+  state.history = new History(text);
+  buttons();
+  replace(text);
+  if (recovered) {
+    dialogs.notice("recovered", `${recovered.file} holds changes that were not saved.`, [
+      ["Restore", () => replace(recovered.text)],
+      ["Discard", () => server.forget().catch((error) => complain("keep", error))],
+    ], "warning");
+  }
+  server.watch((disk) => {
+    if (disk === null) {
+      dialogs.withdraw("disk");
+    } else {
+      dialogs.notice("disk", `${file} has been changed on disk.`, [["Load the file", load]], "warning");
+    }
+  });
+}
+
+start().catch((error) => complain("server", error));

@@ -1,0 +1,284 @@
+// The drawing: links to scale where the motion has them, with zoom and pan.
+
+import { byId } from "./elements.js";
+import { Motion } from "./motion.js";
+import { color } from "./theme.js";
+
+const CLOSEST = 1e5;
+
+/** Lines and arcs of a snapshot as the canvas draws them. */
+function outline(vertices) {
+  const path = new Path2D();
+  const count = vertices.length / 3;
+  path.moveTo(vertices[0], vertices[1]);
+  for (let i = 0; i < count; i += 1) {
+    const [x, y, bulge] = vertices.slice(3 * i, 3 * i + 3);
+    const j = (i + 1) % count;
+    const [u, v] = [vertices[3 * j], vertices[3 * j + 1]];
+    const chord = Math.hypot(u - x, v - y);
+    if (bulge === 0 || chord === 0) {
+      path.lineTo(u, v);
+      continue;
+    }
+    const lift = (1 - bulge * bulge) / (4 * bulge);
+    const [cx, cy] = [(x + u) / 2 - (v - y) * lift, (y + v) / 2 + (u - x) * lift];
+    const radius = (chord * (1 + bulge * bulge)) / (4 * Math.abs(bulge));
+    path.arc(cx, cy, radius, Math.atan2(y - cy, x - cx), Math.atan2(v - cy, u - cx), bulge < 0);
+  }
+  path.closePath();
+  return path;
+}
+
+/** A picture ready to be drawn. */
+class Scene {
+  constructor(picture) {
+    this.picture = picture;
+    this.motion = new Motion(picture.motion);
+    this.links = picture.links.map((link) => {
+      const body = new Path2D();
+      const pitch = [];
+      for (const { role, vertices } of link.paths) {
+        if (vertices.length === 0) continue;
+        if (role === "body" || role === "hole") body.addPath(outline(vertices));
+        else pitch.push(outline(vertices));
+      }
+      return { name: link.name, body, pitch };
+    });
+  }
+}
+
+export class Stage {
+  constructor(moved) {
+    this.box = byId("stage");
+    this.canvas = this.box.querySelector("canvas");
+    this.context = this.canvas.getContext("2d");
+    this.moved = moved;
+    this.scene = null;
+    this.pinned = null;
+    this.input = 0;
+    this.stale = false;
+    this.view = { x: 0, y: 0, scale: 1 };
+    this.fitted = true;
+    this.density = 1;
+    new ResizeObserver(() => this.resize()).observe(this.box);
+    this.listen();
+  }
+
+  show(picture) {
+    this.scene = picture ? new Scene(picture) : null;
+    if (this.fitted) this.fit();
+    else this.draw();
+  }
+
+  pin(picture) {
+    this.pinned = picture ? new Scene(picture) : null;
+    this.draw();
+  }
+
+  at(input) {
+    this.input = input;
+    this.draw();
+  }
+
+  resize(density = window.devicePixelRatio || 1) {
+    this.density = density;
+    const { clientWidth: width, clientHeight: height } = this.box;
+    this.canvas.width = Math.max(1, Math.round(width * density));
+    this.canvas.height = Math.max(1, Math.round(height * density));
+    if (this.fitted) this.fit();
+    else this.draw();
+  }
+
+  fit() {
+    this.fitted = true;
+    if (this.scene) {
+      const [left, bottom, right, top] = this.scene.picture.extent;
+      const { clientWidth: width, clientHeight: height } = this.box;
+      const scale = Math.min((width - 48) / (right - left), (height - 88) / (top - bottom));
+      if (scale > 0 && Number.isFinite(scale)) {
+        this.view = { x: (left + right) / 2, y: (bottom + top) / 2, scale };
+      }
+    }
+    this.draw();
+  }
+
+  /** Zooms so that the point under a place of the box stays there. */
+  zoom(factor, px = this.box.clientWidth / 2, py = this.box.clientHeight / 2) {
+    const [x, y] = this.toModel(px, py);
+    this.view.scale = Math.min(Math.max(this.view.scale * factor, 1 / CLOSEST), CLOSEST);
+    const [nx, ny] = this.toModel(px, py);
+    this.view.x += x - nx;
+    this.view.y += y - ny;
+    this.fitted = false;
+    this.draw();
+  }
+
+  pan(dx, dy) {
+    this.view.x -= dx / this.view.scale;
+    this.view.y += dy / this.view.scale;
+    this.fitted = false;
+    this.draw();
+  }
+
+  toModel(px, py) {
+    return [
+      this.view.x + (px - this.box.clientWidth / 2) / this.view.scale,
+      this.view.y - (py - this.box.clientHeight / 2) / this.view.scale,
+    ];
+  }
+
+  toBox(x, y) {
+    return [
+      this.box.clientWidth / 2 + (x - this.view.x) * this.view.scale,
+      this.box.clientHeight / 2 - (y - this.view.y) * this.view.scale,
+    ];
+  }
+
+  draw() {
+    const context = this.context;
+    context.setTransform(1, 0, 0, 1, 0, 0);
+    context.clearRect(0, 0, this.canvas.width, this.canvas.height);
+    if (!this.scene) return;
+    context.globalAlpha = this.stale ? 0.45 : 1;
+    const poses = this.scene.motion.at(this.input);
+    this.scene.links.forEach((link, i) => this.link(link, poses[i], i));
+    if (byId("show-pitch").checked) {
+      this.scene.links.forEach((link, i) => this.pitch(link, poses[i]));
+    }
+    if (this.pinned) {
+      const before = this.pinned.motion.at(this.input * this.pinned.motion.cycle / this.scene.motion.cycle);
+      this.pinned.links.forEach((link, i) => this.ghost(link, before[i]));
+    }
+    poses.forEach((pose) => this.axis(pose));
+    context.globalAlpha = 1;
+    this.measure();
+    this.moved?.(poses);
+  }
+
+  /** A rule at the corner of the drawing. */
+  measure() {
+    const { length, pixels } = ruler(this.view.scale, this.box.clientWidth);
+    const rule = byId("rule");
+    rule.style.width = `${pixels}px`;
+    const label = rule.firstChild ?? rule.appendChild(document.createElement("span"));
+    label.textContent = length >= 1 ? `${length} mm` : `${Number(length.toPrecision(2))} mm`;
+  }
+
+  /** Into the frame of a link; the returned function makes a width in pixels one of the frame. */
+  enter([x, y, angle]) {
+    const s = this.view.scale * this.density;
+    const [px, py] = this.toBox(x, y);
+    const [c, d] = [s * Math.cos(angle), s * Math.sin(angle)];
+    this.context.setTransform(c, -d, -d, -c, px * this.density, py * this.density);
+    return (pixels) => pixels / this.view.scale;
+  }
+
+  link(link, pose, index) {
+    const width = this.enter(pose);
+    this.context.fillStyle = color(`link-${index % 4}`);
+    this.context.strokeStyle = color("ink");
+    this.context.lineWidth = width(1.1);
+    this.context.lineJoin = "round";
+    this.context.setLineDash([]);
+    this.context.fill(link.body, "evenodd");
+    this.context.stroke(link.body);
+  }
+
+  pitch(link, pose) {
+    const width = this.enter(pose);
+    this.context.strokeStyle = color("accent");
+    this.context.lineWidth = width(1);
+    this.context.setLineDash([width(9), width(3), width(2), width(3)]);
+    for (const path of link.pitch) this.context.stroke(path);
+    this.context.setLineDash([]);
+  }
+
+  ghost(link, pose) {
+    if (!pose) return;
+    const width = this.enter(pose);
+    this.context.strokeStyle = color("pinned");
+    this.context.lineWidth = width(1.2);
+    this.context.setLineDash([width(4), width(3)]);
+    this.context.stroke(link.body);
+    this.context.setLineDash([]);
+  }
+
+  axis(pose) {
+    const width = this.enter(pose);
+    const reach = width(8);
+    this.context.strokeStyle = color("ink");
+    this.context.lineWidth = width(1);
+    this.context.beginPath();
+    this.context.moveTo(-reach, 0);
+    this.context.lineTo(reach, 0);
+    this.context.moveTo(0, -reach);
+    this.context.lineTo(0, reach);
+    this.context.stroke();
+  }
+
+  listen() {
+    const { box } = this;
+    const place = (event) => {
+      const bounds = box.getBoundingClientRect();
+      return [event.clientX - bounds.left, event.clientY - bounds.top];
+    };
+    box.addEventListener("wheel", (event) => {
+      event.preventDefault();
+      this.zoom(Math.exp(-event.deltaY / 500), ...place(event));
+    }, { passive: false });
+    const held = new Map();
+    box.addEventListener("pointerdown", (event) => {
+      if (event.button !== 0 || event.target.closest("button, label, .handle")) return;
+      box.setPointerCapture(event.pointerId);
+      held.set(event.pointerId, place(event));
+    });
+    box.addEventListener("pointermove", (event) => {
+      const before = held.get(event.pointerId);
+      if (!before) return;
+      const now = place(event);
+      const other = [...held].find(([id]) => id !== event.pointerId)?.[1];
+      if (other) {
+        const reach = (p) => Math.hypot(p[0] - other[0], p[1] - other[1]);
+        if (reach(before) > 0) this.zoom(reach(now) / reach(before), ...other);
+      } else {
+        this.pan(now[0] - before[0], now[1] - before[1]);
+      }
+      held.set(event.pointerId, now);
+    });
+    for (const end of ["pointerup", "pointercancel"]) {
+      box.addEventListener(end, (event) => held.delete(event.pointerId));
+    }
+    box.addEventListener("dblclick", (event) => {
+      if (!event.target.closest("button, label, .handle")) this.fit();
+    });
+    box.addEventListener("keydown", (event) => {
+      if (event.target !== box || event.ctrlKey || event.metaKey || event.altKey) return;
+      const step = 40;
+      const keys = {
+        ArrowLeft: () => this.pan(step, 0),
+        ArrowRight: () => this.pan(-step, 0),
+        ArrowUp: () => this.pan(0, step),
+        ArrowDown: () => this.pan(0, -step),
+        "+": () => this.zoom(1.25),
+        "=": () => this.zoom(1.25),
+        "-": () => this.zoom(0.8),
+        0: () => this.fit(),
+      };
+      if (!keys[event.key]) return;
+      event.preventDefault();
+      keys[event.key]();
+    });
+    byId("closer").addEventListener("click", () => this.zoom(1.25));
+    byId("farther").addEventListener("click", () => this.zoom(0.8));
+    byId("fit").addEventListener("click", () => this.fit());
+    byId("show-pitch").addEventListener("change", () => this.draw());
+  }
+}
+
+/** The longest whole length that is no wider than a share of the box. */
+export function ruler(scale, width) {
+  const longest = (0.16 * width) / scale;
+  const power = 10 ** Math.floor(Math.log10(longest));
+  const length = [5, 2, 1].map((k) => k * power).find((candidate) => candidate <= longest) ?? power;
+  return { length, pixels: length * scale };
+}

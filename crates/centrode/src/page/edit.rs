@@ -1,0 +1,290 @@
+use serde::Deserialize;
+use serde_json::Value as Json;
+use toml_edit::{Array, DocumentMut, InlineTable, Item, Table, Value};
+
+use super::field::keys_beside;
+
+/// A new value for a key of the design file.
+#[derive(Clone, Debug, Deserialize, PartialEq)]
+pub(crate) struct Edit {
+    /// Path of the key, `teeth.backlash`, `pitch.radius[3]`.
+    key: String,
+    /// The value; null takes the key out.
+    value: Json,
+}
+
+/// Why an edit cannot be made.
+#[derive(Debug, thiserror::Error)]
+pub(crate) enum EditError {
+    #[error("the text is not TOML: {0}")]
+    Syntax(#[from] toml_edit::TomlError),
+    #[error("{key} is no key that can be set")]
+    Key { key: String },
+    #[error("{key}: {value} cannot be written in a design file")]
+    Value { key: String, value: Json },
+}
+
+/// A step of a path.
+#[derive(Clone, Debug, Eq, PartialEq)]
+enum Step {
+    Name(String),
+    Index(usize),
+}
+
+/// The text with the edits made; comments, order and all other values stay as they are.
+///
+/// A new `kind` takes out what does not belong to it.
+pub(crate) fn edited(text: &str, edits: &[Edit]) -> Result<String, EditError> {
+    let mut document: DocumentMut = text.parse()?;
+    for edit in edits {
+        let unknown = || EditError::Key {
+            key: edit.key.clone(),
+        };
+        let mut steps = steps(&edit.key).ok_or_else(unknown)?;
+        let last = steps.pop().ok_or_else(unknown)?;
+        let parent = container(document.as_item_mut(), &steps, edit.value.is_null());
+        let Some(parent) = parent else {
+            if edit.value.is_null() {
+                continue;
+            }
+            return Err(unknown());
+        };
+        if edit.value.is_null() {
+            take_out(parent, &last).ok_or_else(unknown)?;
+        } else {
+            let value = written(&edit.value).ok_or_else(|| EditError::Value {
+                key: edit.key.clone(),
+                value: edit.value.clone(),
+            })?;
+            set(parent, &last, value).ok_or_else(unknown)?;
+        }
+        if let (Step::Name(tag), Json::String(word)) = (&last, &edit.value)
+            && tag == "kind"
+        {
+            let table = edit
+                .key
+                .strip_suffix("kind")
+                .unwrap_or_default()
+                .trim_end_matches('.');
+            let keys = keys_beside(&document.to_string(), table, word);
+            let table = container(document.as_item_mut(), &steps, true);
+            if let (Some(keys), Some(table)) = (keys, table.and_then(Item::as_table_like_mut)) {
+                let strange: Vec<String> = table.iter().map(|(k, _)| k.to_owned()).collect();
+                for key in strange.iter().filter(|key| !keys.contains(key)) {
+                    table.remove(key);
+                }
+            }
+        }
+    }
+    Ok(document.to_string())
+}
+
+/// The steps of a path; `None` where it is none.
+fn steps(path: &str) -> Option<Vec<Step>> {
+    let mut steps = Vec::new();
+    for part in path.split('.') {
+        let (name, rest) = part.split_at(part.find('[').unwrap_or(part.len()));
+        let plain = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
+        if name.is_empty() || !name.chars().all(plain) {
+            return None;
+        }
+        steps.push(Step::Name(name.into()));
+        for index in rest.split_terminator(']') {
+            steps.push(Step::Index(index.strip_prefix('[')?.parse().ok()?));
+        }
+    }
+    Some(steps)
+}
+
+/// The table or list at the path; tables that are missing are made unless `only_there`.
+fn container<'a>(root: &'a mut Item, steps: &[Step], only_there: bool) -> Option<&'a mut Item> {
+    let mut here = root;
+    for step in steps {
+        here = match step {
+            Step::Index(index) => here.get_mut(*index)?,
+            Step::Name(name) => {
+                let inline = here.is_inline_table();
+                let table = here.as_table_like_mut()?;
+                if !table.contains_key(name) {
+                    if only_there {
+                        return None;
+                    }
+                    let new = if inline {
+                        Item::Value(Value::InlineTable(InlineTable::new()))
+                    } else {
+                        Item::Table(Table::new())
+                    };
+                    table.insert(name, new);
+                }
+                table.get_mut(name)?
+            }
+        };
+    }
+    Some(here)
+}
+
+fn take_out(parent: &mut Item, last: &Step) -> Option<()> {
+    match last {
+        Step::Name(name) => {
+            parent.as_table_like_mut()?.remove(name);
+        }
+        Step::Index(index) => {
+            let list = parent.as_array_mut()?;
+            if *index >= list.len() {
+                return None;
+            }
+            list.remove(*index);
+        }
+    }
+    Some(())
+}
+
+fn set(parent: &mut Item, last: &Step, value: Value) -> Option<()> {
+    let there = match last {
+        Step::Index(index) => parent.get_mut(*index)?,
+        Step::Name(name) => {
+            let table = parent.as_table_like_mut()?;
+            match table.get(name) {
+                Some(item) if !item.is_none() => table.get_mut(name)?,
+                _ => {
+                    table.insert(name, Item::Value(value));
+                    return Some(());
+                }
+            }
+        }
+    };
+    replace(there.as_value_mut()?, value);
+    Some(())
+}
+
+/// Puts a value in the place of another, with the blanks and comments around that.
+fn replace(old: &mut Value, mut new: Value) {
+    match (&mut *old, &new) {
+        (Value::Array(old), Value::Array(new)) if old.len() == new.len() => {
+            for (old, new) in old.iter_mut().zip(new) {
+                replace(old, new.clone());
+            }
+            return;
+        }
+        _ => {}
+    }
+    *new.decor_mut() = old.decor().clone();
+    *old = new;
+}
+
+fn written(value: &Json) -> Option<Value> {
+    Some(match value {
+        Json::Bool(b) => (*b).into(),
+        Json::String(s) => s.as_str().into(),
+        Json::Number(n) => match n.as_i64() {
+            Some(whole) => whole.into(),
+            None => n.as_f64().filter(|f| f.is_finite())?.into(),
+        },
+        Json::Array(list) => list.iter().map(written).collect::<Option<Array>>()?.into(),
+        Json::Null | Json::Object(_) => return None,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const TEXT: &str = "# head\nfamily = \"gear-pair\" # a pair\n\n[pitch] # the curve\nkind = \"bspline\"\n\
+                        radius = [1, 2, # two\n  3]\nmodule = 2.250 # mm\n# tail\n[driver]\nkeyway = { width = 4, depth = 1.8 }\n";
+
+    fn edit(key: &str, value: impl Into<Json>) -> Edit {
+        Edit {
+            key: key.into(),
+            value: value.into(),
+        }
+    }
+
+    fn after(edits: &[Edit]) -> String {
+        edited(TEXT, edits).expect("edited")
+    }
+
+    #[test]
+    fn only_the_value_changes() {
+        assert_eq!(after(&[]), TEXT);
+        assert_eq!(
+            after(&[edit("pitch.module", 3)]),
+            TEXT.replace("2.250", "3")
+        );
+        assert_eq!(
+            after(&[edit("pitch.radius[1]", 2.5)]),
+            TEXT.replace("1, 2,", "1, 2.5,")
+        );
+        assert_eq!(
+            after(&[edit("pitch.radius", vec![1.0, 7.5, 3.0])]),
+            TEXT.replace("1, 2,", "1.0, 7.5,").replace("  3]", "  3.0]")
+        );
+        assert_eq!(
+            after(&[edit("driver.keyway.width", 5)]),
+            TEXT.replace("width = 4", "width = 5")
+        );
+    }
+
+    #[test]
+    fn new_keys_go_into_their_table() {
+        let text = after(&[
+            edit("pitch.tooth_count", 23),
+            edit("teeth.backlash", 0.1),
+            edit("title", "A \"pair\""),
+        ]);
+        let read: toml::Table = text.parse().expect("toml");
+        assert_eq!(read["pitch"]["tooth_count"].as_integer(), Some(23));
+        assert_eq!(read["teeth"]["backlash"].as_float(), Some(0.1));
+        assert_eq!(read["title"].as_str(), Some("A \"pair\""));
+        for kept in [
+            "# head",
+            "# a pair",
+            "# the curve",
+            "# two",
+            "# mm",
+            "# tail",
+        ] {
+            assert!(text.contains(kept), "{kept} in {text}");
+        }
+    }
+
+    #[test]
+    fn null_takes_a_key_out() {
+        assert!(!after(&[edit("pitch.module", Json::Null)]).contains("2.250"));
+        assert_eq!(after(&[edit("teeth.backlash", Json::Null)]), TEXT);
+    }
+
+    #[test]
+    fn a_new_kind_takes_out_what_does_not_belong_to_it() {
+        let text = after(&[edit("pitch.kind", "circle")]);
+        let read: toml::Table = text.parse().expect("toml");
+        let keys: Vec<&String> = read["pitch"].as_table().expect("a table").keys().collect();
+        assert!(!keys.iter().any(|k| *k == "degree"), "{keys:?}");
+        assert!(keys.iter().any(|k| *k == "module"), "{keys:?}");
+    }
+
+    #[test]
+    fn paths_that_lead_nowhere_are_refused() {
+        for key in [
+            "",
+            ".",
+            "a..b",
+            "pitch.radius[9]",
+            "pitch.radius[x]",
+            "pitch.radius[-1]",
+            "family.x",
+            "a b",
+            "x]",
+        ] {
+            assert!(edited(TEXT, &[edit(key, 1)]).is_err(), "{key}");
+        }
+        let table = Edit {
+            key: "pitch.module".into(),
+            value: serde_json::json!({"a": 1}),
+        };
+        assert!(matches!(
+            edited(TEXT, &[table]),
+            Err(EditError::Value { .. })
+        ));
+        assert!(matches!(edited("= x", &[]), Err(EditError::Syntax(_))));
+    }
+}

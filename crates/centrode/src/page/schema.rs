@@ -1,0 +1,202 @@
+use serde_json::{Map, Value};
+
+use super::field::{Choice, Kind};
+
+/// What a part of the JSON schema asks for, for the value that is there.
+pub(super) enum Shape<'a> {
+    /// A table with known keys; the tag among them, if it has one, has chosen them.
+    Table {
+        tag: Option<&'a str>,
+        words: Vec<Choice>,
+        properties: &'a Map<String, Value>,
+        required: Vec<&'a str>,
+    },
+    /// A table whose tag is none of the words known.
+    Tagged { tag: &'a str, words: Vec<Choice> },
+    /// A value.
+    Leaf(Leaf),
+}
+
+/// A value of the design file.
+pub(super) struct Leaf {
+    pub(super) kind: Kind,
+    pub(super) choices: Vec<Choice>,
+    pub(super) least: Option<f64>,
+    pub(super) greatest: Option<f64>,
+}
+
+/// What the schema `sub`, a part of `root`, asks for where `value` is written.
+pub(super) fn shape<'a>(root: &'a Value, sub: &'a Value, value: &Value) -> Shape<'a> {
+    let sub = followed(root, sub);
+    let options = ["oneOf", "anyOf"]
+        .into_iter()
+        .find_map(|k| sub.get(k)?.as_array());
+    if let Some(options) = options {
+        let options: Vec<&Value> = options
+            .iter()
+            .filter(|o| o.get("type").and_then(Value::as_str) != Some("null"))
+            .map(|o| followed(root, o))
+            .collect();
+        if let [only] = options.as_slice()
+            && tag_of(only).is_none()
+        {
+            return shape(root, only, value);
+        }
+        if let Some(tag) = options.first().and_then(|o| tag_of(o)) {
+            return tagged(tag, &options, value);
+        }
+        return Shape::Leaf(choice(&options));
+    }
+    if let Some(properties) = sub.get("properties").and_then(Value::as_object) {
+        return table(None, Vec::new(), sub, properties);
+    }
+    Shape::Leaf(leaf(root, sub))
+}
+
+/// The schema a reference leads to.
+fn followed<'a>(root: &'a Value, sub: &'a Value) -> &'a Value {
+    let mut here = sub;
+    while let Some(target) = here.get("$ref").and_then(Value::as_str) {
+        match root.pointer(target.trim_start_matches('#')) {
+            Some(next) => here = next,
+            None => break,
+        }
+    }
+    here
+}
+
+/// The key whose single allowed word tells an alternative from the others.
+fn tag_of(option: &Value) -> Option<&str> {
+    let properties = option.get("properties")?.as_object()?;
+    properties
+        .iter()
+        .find(|(_, p)| p.get("const").is_some())
+        .map(|(name, _)| name.as_str())
+}
+
+fn tagged<'a>(tag: &'a str, options: &[&'a Value], value: &Value) -> Shape<'a> {
+    let word = |o: &Value| {
+        o["properties"][tag]["const"]
+            .as_str()
+            .unwrap_or_default()
+            .to_owned()
+    };
+    let words = options
+        .iter()
+        .map(|o| Choice {
+            word: word(o),
+            doc: described(o),
+        })
+        .collect();
+    let chosen = value.get(tag).and_then(Value::as_str);
+    let option = options.iter().find(|o| Some(word(o).as_str()) == chosen);
+    match option.and_then(|o| Some((o, o.get("properties")?.as_object()?))) {
+        Some((option, properties)) => table(Some(tag), words, option, properties),
+        None => Shape::Tagged { tag, words },
+    }
+}
+
+fn table<'a>(
+    tag: Option<&'a str>,
+    words: Vec<Choice>,
+    sub: &'a Value,
+    properties: &'a Map<String, Value>,
+) -> Shape<'a> {
+    let required = sub.get("required").and_then(Value::as_array);
+    let required = required
+        .into_iter()
+        .flatten()
+        .filter_map(Value::as_str)
+        .collect();
+    Shape::Table {
+        tag,
+        words,
+        properties,
+        required,
+    }
+}
+
+/// One of some words, perhaps or a number.
+fn choice(options: &[&Value]) -> Leaf {
+    let mut choices = Vec::new();
+    let mut number = false;
+    for option in options {
+        if let Some(word) = option.get("const").and_then(Value::as_str) {
+            choices.push(Choice {
+                word: word.into(),
+                doc: described(option),
+            });
+        } else if let Some(words) = option.get("enum").and_then(Value::as_array) {
+            let words = words.iter().filter_map(Value::as_str);
+            choices.extend(words.map(|w| Choice {
+                word: w.into(),
+                doc: String::new(),
+            }));
+        } else {
+            number = true;
+        }
+    }
+    let kind = match (choices.is_empty(), number) {
+        (true, _) => Kind::Text,
+        (false, true) => Kind::Either,
+        (false, false) => Kind::Choice,
+    };
+    Leaf {
+        kind,
+        choices,
+        least: None,
+        greatest: None,
+    }
+}
+
+fn leaf(root: &Value, sub: &Value) -> Leaf {
+    if let Some(words) = sub.get("enum") {
+        let option = Value::Object(Map::from_iter([("enum".to_owned(), words.clone())]));
+        return choice(&[&option]);
+    }
+    let kind = match type_of(sub) {
+        "number" => Kind::Number,
+        "integer" => Kind::Integer,
+        "boolean" => Kind::Switch,
+        "array" => match sub
+            .get("items")
+            .map_or("", |items| type_of(followed(root, items)))
+        {
+            "integer" => Kind::Integers,
+            _ => Kind::Numbers,
+        },
+        _ => Kind::Text,
+    };
+    let bound = |keys: [&str; 2]| keys.into_iter().find_map(|k| sub.get(k)?.as_f64());
+    Leaf {
+        kind,
+        choices: Vec::new(),
+        least: bound(["minimum", "exclusiveMinimum"]),
+        greatest: bound(["maximum", "exclusiveMaximum"]),
+    }
+}
+
+/// The type of a value, absence aside.
+fn type_of(sub: &Value) -> &str {
+    match sub.get("type") {
+        Some(Value::String(one)) => one,
+        Some(Value::Array(some)) => some
+            .iter()
+            .filter_map(Value::as_str)
+            .find(|t| *t != "null")
+            .unwrap_or_default(),
+        _ => "",
+    }
+}
+
+/// The description, in one line.
+pub(super) fn described(sub: &Value) -> String {
+    let doc = sub
+        .get("description")
+        .and_then(Value::as_str)
+        .unwrap_or_default();
+    doc.split_whitespace()
+        .collect::<Vec<_>>()
+        .join(" ")
+        .replace('`', "")
+}

@@ -1,0 +1,52 @@
+use std::io::Write;
+use std::path::Path;
+use std::process::ExitCode;
+
+use centrode::export::{Bundle, page};
+
+use crate::args::Report;
+use crate::failure::Failure;
+use crate::input::Source;
+use crate::page::Subject;
+use crate::progress::Progress;
+
+/// Writes a design's page as one file that needs nothing else.
+pub(crate) fn run(command: &Report, out: &mut impl Write) -> Result<ExitCode, Failure> {
+    let source = Source::open(&command.design)?;
+    let design = source.design()?;
+    let progress = Progress::new(2);
+    progress.step("cutting the teeth");
+    let text = source.text()?;
+    let subject = match Subject::of(text) {
+        Ok(subject) => subject,
+        // Resolving once more gives the error with its line.
+        Err(_) => {
+            return design
+                .gear_pair()
+                .map(|_| ExitCode::from(2))
+                .map_err(|e| source.blame(e));
+        }
+    };
+    progress.step("running the gears together");
+    let snapshot = subject.checked();
+    drop(progress);
+    let html = page::report(
+        snapshot.heading(),
+        &snapshot.json().map_err(std::io::Error::from)?,
+    );
+    let folder = match command.output.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    };
+    let name = command
+        .output
+        .file_name()
+        .and_then(|name| name.to_str())
+        .unwrap_or_default();
+    let mut bundle = Bundle::default();
+    bundle.add(name, html.into_bytes())?;
+    for path in bundle.write_to(folder)? {
+        writeln!(out, "{}", path.display())?;
+    }
+    Ok(ExitCode::from(u8::from(!snapshot.ok())))
+}

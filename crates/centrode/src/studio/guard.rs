@@ -1,0 +1,210 @@
+use std::io;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use axum::extract::{Request, State};
+use axum::http::{HeaderMap, HeaderName, HeaderValue, Method, StatusCode, header};
+use axum::middleware::Next;
+use axum::response::{IntoResponse, Response};
+
+/// Who may ask: this page, by its secret address, through this computer's own name.
+#[derive(Clone)]
+pub(crate) struct Guard {
+    port: u16,
+    token: Arc<str>,
+}
+
+/// Set once a connection has shown that it knows the secret.
+#[derive(Clone, Default)]
+pub(crate) struct Known(pub(crate) Arc<AtomicBool>);
+
+/// Nothing from elsewhere, nothing written into the page, no frame around it.
+const POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob: data:; \
+                      connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+
+const HEADERS: [(HeaderName, &str); 6] = [
+    (header::CONTENT_SECURITY_POLICY, POLICY),
+    (header::X_CONTENT_TYPE_OPTIONS, "nosniff"),
+    (header::REFERRER_POLICY, "no-referrer"),
+    (header::CACHE_CONTROL, "no-store"),
+    (
+        HeaderName::from_static("cross-origin-resource-policy"),
+        "same-origin",
+    ),
+    (
+        HeaderName::from_static("cross-origin-opener-policy"),
+        "same-origin",
+    ),
+];
+
+impl Guard {
+    /// A guard with a new secret of 128 random bits.
+    pub(crate) fn new(port: u16) -> io::Result<Self> {
+        let mut bytes = [0_u8; 16];
+        getrandom::fill(&mut bytes).map_err(|error| io::Error::other(error.to_string()))?;
+        let token: String = bytes.iter().map(|byte| format!("{byte:02x}")).collect();
+        Ok(Self {
+            port,
+            token: token.into(),
+        })
+    }
+
+    /// First step of every path.
+    pub(crate) fn base(&self) -> String {
+        format!("/{}", self.token)
+    }
+
+    /// Address of the page.
+    pub(crate) fn url(&self) -> String {
+        format!("http://127.0.0.1:{}/{}/", self.port, self.token)
+    }
+
+    /// Why a request is refused, if it is.
+    fn refusal(&self, method: &Method, path: &str, headers: &HeaderMap) -> Option<&'static str> {
+        let names = ["127.0.0.1", "localhost"].map(|name| format!("{name}:{}", self.port));
+        let host = headers.get(header::HOST).and_then(|h| h.to_str().ok());
+        // A foreign name that leads here is how a foreign page would reach us.
+        if !host.is_some_and(|host| names.iter().any(|name| name == host)) {
+            return Some("this is not a name of the page");
+        }
+        let own = |origin: &HeaderValue| {
+            let origin = origin.to_str().ok().and_then(|o| o.strip_prefix("http://"));
+            origin.is_some_and(|origin| names.iter().any(|name| name == origin))
+        };
+        match headers.get(header::ORIGIN) {
+            Some(origin) if !own(origin) => return Some("another site must not ask"),
+            // Browsers name the origin of everything that is not a plain read.
+            None if *method != Method::GET => return Some("the origin is missing"),
+            _ => {}
+        }
+        let given = path
+            .strip_prefix('/')
+            .and_then(|rest| rest.split('/').next())
+            .unwrap_or("");
+        if !same(given.as_bytes(), self.token.as_bytes()) {
+            return Some("the address lacks the secret that centrode studio has printed");
+        }
+        None
+    }
+}
+
+/// Compares without telling by its time where two texts differ.
+fn same(a: &[u8], b: &[u8]) -> bool {
+    a.len() == b.len() && a.iter().zip(b).fold(0, |found, (x, y)| found | (x ^ y)) == 0
+}
+
+/// Lets a request through, or not; puts the policy on every answer.
+pub(crate) async fn pass(State(guard): State<Guard>, request: Request, next: Next) -> Response {
+    let refusal = guard.refusal(request.method(), request.uri().path(), request.headers());
+    let mut response = match refusal {
+        Some(reason) => (StatusCode::FORBIDDEN, reason).into_response(),
+        None => {
+            if let Some(Known(known)) = request.extensions().get::<Known>() {
+                known.store(true, Ordering::Relaxed);
+            }
+            next.run(request).await
+        }
+    };
+    for (name, value) in HEADERS {
+        response
+            .headers_mut()
+            .insert(name, HeaderValue::from_static(value));
+    }
+    response
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn answer(method: Method, path: &str, headers: &[(HeaderName, &'static str)]) -> bool {
+        let guard = Guard {
+            port: 4711,
+            token: "secret".into(),
+        };
+        let headers = headers
+            .iter()
+            .map(|(n, v)| (n.clone(), HeaderValue::from_static(v)))
+            .collect();
+        guard.refusal(&method, path, &headers).is_none()
+    }
+
+    #[test]
+    fn only_the_page_itself_may_ask() {
+        let host = (header::HOST, "127.0.0.1:4711");
+        let own = (header::ORIGIN, "http://127.0.0.1:4711");
+        assert!(answer(Method::GET, "/secret/", std::slice::from_ref(&host)));
+        assert!(answer(
+            Method::POST,
+            "/secret/save",
+            &[host.clone(), own.clone()]
+        ));
+        assert!(answer(
+            Method::GET,
+            "/secret/",
+            &[(header::HOST, "localhost:4711")]
+        ));
+        for path in [
+            "/",
+            "/secre/",
+            "/secrets/",
+            "/Secret/",
+            "/../secret/",
+            "//secret/",
+            "secret/",
+        ] {
+            assert!(
+                !answer(Method::GET, path, std::slice::from_ref(&host)),
+                "{path}"
+            );
+        }
+        for name in [
+            "example.org:4711",
+            "127.0.0.1",
+            "127.0.0.1:80",
+            "127.0.0.1:4711.example.org",
+            "",
+        ] {
+            assert!(
+                !answer(Method::GET, "/secret/", &[(header::HOST, name)]),
+                "{name}"
+            );
+        }
+        assert!(!answer(Method::GET, "/secret/", &[]));
+        for origin in [
+            "http://example.org",
+            "null",
+            "https://127.0.0.1:4711",
+            "http://127.0.0.1:4712",
+            "",
+        ] {
+            for method in [Method::GET, Method::POST] {
+                assert!(
+                    !answer(
+                        method,
+                        "/secret/",
+                        &[host.clone(), (header::ORIGIN, origin)]
+                    ),
+                    "{origin}"
+                );
+            }
+        }
+        assert!(!answer(
+            Method::POST,
+            "/secret/save",
+            std::slice::from_ref(&host)
+        ));
+        assert!(!answer(
+            Method::DELETE,
+            "/secret/keep",
+            std::slice::from_ref(&host)
+        ));
+    }
+
+    #[test]
+    fn secrets_differ() {
+        let [a, b] = [0, 1].map(|_| Guard::new(1).expect("random"));
+        assert_ne!(a.token, b.token);
+        assert_eq!(a.token.len(), 32);
+    }
+}

@@ -1,0 +1,226 @@
+use std::sync::Arc;
+use std::time::Duration;
+
+use axum::body::Bytes;
+use axum::extract::{Path, State};
+use axum::http::{StatusCode, header};
+use axum::response::{Html, IntoResponse, Response};
+use axum::routing::{get, post};
+use axum::{Json, Router};
+use centrode::export::page;
+use clap::{Parser as _, ValueEnum as _};
+use serde::Deserialize;
+use serde_json::json;
+use tower_http::limit::RequestBodyLimitLayer;
+use tower_http::timeout::RequestBodyTimeoutLayer;
+
+use super::Desk;
+use super::document::SaveError;
+use super::guard::{self, Guard};
+use crate::args::{Arguments, Command, Export, File};
+use crate::export;
+use crate::page::{Edit, edited};
+
+/// Largest body of a request: a design file at its largest, as JSON, and some edits.
+const LARGEST: usize = 4 << 20;
+
+/// Time between two parts of a body.
+const PATIENCE: Duration = Duration::from_secs(10);
+
+type Shared = State<Arc<Desk>>;
+
+/// Every address of the page.
+pub(crate) fn router(desk: Arc<Desk>, guard: Guard) -> Router {
+    let page = Router::new()
+        .route("/", get(async || Html(page::INDEX)))
+        .route("/{asset}", get(asset))
+        .route("/design", get(design))
+        .route(
+            "/events",
+            get(async |State(desk): Shared| desk.watch.events()),
+        )
+        .route("/solve", post(solve))
+        .route("/save", post(save))
+        .route("/keep", post(keep).delete(forget))
+        .route("/reread", post(reread))
+        .route("/export", post(bundle))
+        .layer(RequestBodyTimeoutLayer::new(PATIENCE))
+        .layer(RequestBodyLimitLayer::new(LARGEST))
+        .with_state(desk);
+    Router::new()
+        .nest(&guard.base(), page)
+        .layer(axum::middleware::from_fn_with_state(guard, guard::pass))
+}
+
+/// Something a request asks for in vain.
+struct Refused(StatusCode, serde_json::Value);
+
+impl Refused {
+    fn because(status: StatusCode, reason: impl ToString) -> Self {
+        Self(status, json!({ "message": reason.to_string() }))
+    }
+}
+
+impl IntoResponse for Refused {
+    fn into_response(self) -> Response {
+        (self.0, Json(self.1)).into_response()
+    }
+}
+
+impl From<SaveError> for Refused {
+    fn from(error: SaveError) -> Self {
+        let message = error.to_string();
+        match error {
+            SaveError::Changed { disk, .. } => Self(
+                StatusCode::CONFLICT,
+                json!({ "message": message, "disk": disk }),
+            ),
+            SaveError::Bundle(_) => Self::because(StatusCode::INSUFFICIENT_STORAGE, message),
+            SaveError::TooLarge { .. } => Self::because(StatusCode::PAYLOAD_TOO_LARGE, message),
+        }
+    }
+}
+
+/// JSON text as it is.
+fn as_json(text: String) -> Response {
+    ([(header::CONTENT_TYPE, "application/json")], text).into_response()
+}
+
+async fn asset(Path(name): Path<String>) -> Response {
+    match page::asset(&name) {
+        Some(asset) => ([(header::CONTENT_TYPE, asset.media_type)], asset.text).into_response(),
+        None => StatusCode::NOT_FOUND.into_response(),
+    }
+}
+
+async fn design(State(desk): Shared) -> Response {
+    let document = &desk.document;
+    Json(json!({
+        "file": document.name(),
+        "text": document.text(),
+        "recovered": document.recovered(),
+        "formats": formats(),
+    }))
+    .into_response()
+}
+
+/// Kinds of file that can be exported: the word for each, and what it is.
+fn formats() -> Vec<[String; 2]> {
+    let values = File::value_variants().iter().filter_map(File::to_possible_value);
+    values
+        .map(|value| {
+            let help = value.get_help().map(ToString::to_string);
+            [value.get_name().to_owned(), help.unwrap_or_default()]
+        })
+        .collect()
+}
+
+#[derive(Deserialize)]
+struct Solve {
+    text: String,
+    #[serde(default)]
+    edits: Vec<Edit>,
+    /// Whether the checks are wanted, too.
+    check: bool,
+}
+
+async fn solve(State(desk): Shared, Json(ask): Json<Solve>) -> Result<Response, Refused> {
+    let text = if ask.edits.is_empty() {
+        ask.text
+    } else {
+        let made = edited(&ask.text, &ask.edits);
+        made.map_err(|error| Refused::because(StatusCode::UNPROCESSABLE_ENTITY, error))?
+    };
+    let solved = desk.solver.solve(text, ask.check).await;
+    solved
+        .map(as_json)
+        .map_err(|error| Refused::because(StatusCode::GONE, error))
+}
+
+#[derive(Deserialize)]
+struct Save {
+    text: String,
+    /// Whether a file changed on disk is written over.
+    #[serde(default)]
+    over: bool,
+}
+
+async fn save(State(desk): Shared, Json(ask): Json<Save>) -> Result<Response, Refused> {
+    on_disk(move || desk.document.save(&ask.text, ask.over)).await
+}
+
+#[derive(Deserialize)]
+struct Keep {
+    text: String,
+}
+
+async fn keep(State(desk): Shared, Json(ask): Json<Keep>) -> Result<Response, Refused> {
+    on_disk(move || desk.document.keep(&ask.text)).await
+}
+
+async fn forget(State(desk): Shared) -> Result<Response, Refused> {
+    on_disk(move || {
+        desk.document.forget();
+        Ok(())
+    })
+    .await
+}
+
+async fn reread(State(desk): Shared) -> Response {
+    Json(json!({ "text": desk.document.reread() })).into_response()
+}
+
+/// Waits for the disk without holding up other requests.
+async fn on_disk(
+    job: impl FnOnce() -> Result<(), SaveError> + Send + 'static,
+) -> Result<Response, Refused> {
+    apart(job).await??;
+    Ok(Json(json!({})).into_response())
+}
+
+async fn apart<T: Send + 'static>(job: impl FnOnce() -> T + Send + 'static) -> Result<T, Refused> {
+    let done = tokio::task::spawn_blocking(job).await;
+    done.map_err(|error| Refused::because(StatusCode::INTERNAL_SERVER_ERROR, error))
+}
+
+#[derive(Deserialize)]
+struct Files {
+    text: String,
+    /// Kinds of file as on the command line; none for all.
+    formats: Vec<String>,
+    tolerance: String,
+    dxf: String,
+}
+
+impl Files {
+    /// The same as on the command line; the folder is not used.
+    fn command(&self) -> Result<Export, String> {
+        let (formats, tolerance, dxf) = (
+            format!("--format={}", self.formats.join(",")),
+            format!("--tolerance={}", self.tolerance),
+            format!("--dxf={}", self.dxf),
+        );
+        let words = ["centrode", "export", "-", "--to=."];
+        let mut words: Vec<&str> = words.into_iter().chain([&*tolerance, &*dxf]).collect();
+        if !self.formats.is_empty() {
+            words.push(&formats);
+        }
+        match Arguments::try_parse_from(words).map(|arguments| arguments.command) {
+            Ok(Command::Export(command)) => Ok(command),
+            Ok(_) => Err("not an export".into()),
+            Err(error) => {
+                let message = error.to_string();
+                let first = message.lines().next().unwrap_or_default();
+                Err(first.trim_start_matches("error: ").to_owned())
+            }
+        }
+    }
+}
+
+async fn bundle(Json(ask): Json<Files>) -> Result<Response, Refused> {
+    let unusable = |reason: String| Refused::because(StatusCode::UNPROCESSABLE_ENTITY, reason);
+    let command = ask.command().map_err(unusable)?;
+    let zip = apart(move || export::zip(&ask.text, &command)).await?;
+    let zip = zip.map_err(|failure| unusable(failure.to_string()))?;
+    Ok(([(header::CONTENT_TYPE, "application/zip")], Bytes::from(zip)).into_response())
+}
