@@ -23,8 +23,6 @@ pub(crate) struct Snapshot {
     picture: Option<Picture>,
     curves: Vec<Curve>,
     verdict: Option<Verdict>,
-    /// Time of the mechanism and of its checks, ms.
-    took: [f64; 2],
 }
 
 /// An error at its key, in the words of the command line.
@@ -112,7 +110,6 @@ impl Snapshot {
 impl Subject {
     /// Resolves a design file and draws it; without a mechanism, the snapshot says why.
     pub(crate) fn of(text: String) -> Result<Self, Box<Snapshot>> {
-        let start = std::time::Instant::now();
         let mut snapshot = Snapshot::of_text(text);
         let resolved = DesignFile::read(snapshot.text.as_bytes())
             .and_then(|file| file.gear_pair().map(|pair| (file, pair)));
@@ -125,7 +122,6 @@ impl Subject {
         snapshot.definition = gear_pair::definition(&pair);
         snapshot.picture = Some(gear_pair::picture(file.design(), &pair));
         snapshot.curves = centrode::export::gear_pair::curves(&pair);
-        snapshot.took[0] = milliseconds(start);
         Ok(Self {
             snapshot,
             pair: Box::new(pair),
@@ -145,16 +141,10 @@ impl Subject {
     /// The picture with what the checks say.
     pub(crate) fn checked(&self) -> Snapshot {
         let mut snapshot = self.snapshot.clone();
-        let start = std::time::Instant::now();
         let contact = centrode::analysis::Contact::of(&self.pair);
         let found = centrode::analysis::check_contact(&self.pair, &contact);
         snapshot.curves.extend(gear_pair::contact_curves(&contact));
         snapshot.verdict = Some(Verdict::of(&found));
-        snapshot.took[1] = milliseconds(start);
         snapshot
     }
-}
-
-fn milliseconds(start: std::time::Instant) -> f64 {
-    (start.elapsed().as_secs_f64() * 1e4).round() / 10.0
 }

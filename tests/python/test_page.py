@@ -1,0 +1,289 @@
+"""The design page in a real browser."""
+
+import json
+import re
+import shutil
+import zipfile
+from contextlib import contextmanager
+
+import pytest
+from conftest import ROOT, centrode
+from studio import studio
+
+CHROMIUM = next(filter(None, map(shutil.which, ["chromium", "chromium-browser", "google-chrome"])), None)
+if CHROMIUM is None:
+    pytest.skip(
+        "no chromium on this machine: the page is not tested (apt-get install chromium)", allow_module_level=True
+    )
+
+from axe_playwright_python.sync_playwright import Axe  # noqa: E402
+from playwright.sync_api import expect, sync_playwright  # noqa: E402
+
+FLAGS = [
+    "--no-sandbox",
+    "--disable-gpu",
+    "--disable-quic",
+    "--no-first-run",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+]
+SHIPPED = sorted((ROOT / "tests" / "designs").glob("*.toml"))
+POINTS = ROOT / "tests" / "designs" / "transplanter-pair-2021.toml"
+
+
+@pytest.fixture(scope="module")
+def browser():
+    with sync_playwright() as playwright:
+        running = playwright.chromium.launch(executable_path=CHROMIUM, args=FLAGS)
+        yield running
+        running.close()
+
+
+@contextmanager
+def shown(browser, url, **options):
+    """A page that may not complain on its console."""
+    context = browser.new_context(viewport={"width": 1440, "height": 900}, **options)
+    context.set_default_timeout(15_000)
+    page = context.new_page()
+    complaints = []
+    page.on(
+        "console", lambda message: complaints.append(message.text) if message.type in ("error", "warning") else None
+    )
+    page.on("pageerror", lambda error: complaints.append(str(error)))
+    page.goto(url)
+    settled(page)
+    yield page
+    context.close()
+    assert not complaints
+
+
+@pytest.fixture
+def points(browser, tmp_path):
+    """The page of the pair whose pitch curve has control points, and its file."""
+    design = tmp_path / "pair.toml"
+    design.write_text(POINTS.read_text())
+    with studio(design) as running, shown(browser, running.url) as page:
+        yield page, design
+
+
+def settled(page):
+    """Waits until the checks have been heard."""
+    expect(page.locator("#findings h2")).to_be_visible()
+    expect(page.locator("#verdict:not(.stale)")).to_be_visible()
+
+
+def figures(page):
+    """Every figure on the page, all digits, by its key in the report."""
+    cells = page.locator("#figures td[data-key]")
+    return dict(cells.evaluate_all("cells => cells.map(cell => [cell.dataset.key, cell.dataset.exact])"))
+
+
+def drawing(page):
+    """The drawing as an image."""
+    return page.locator("#stage canvas").evaluate("canvas => canvas.toDataURL()")
+
+
+def field(page, key):
+    return page.locator(f'[id="field-{key}"]')
+
+
+@pytest.mark.parametrize("design", SHIPPED, ids=lambda path: path.stem)
+def test_every_shipped_design_is_shown_with_the_figures_of_check(browser, tmp_path, design):
+    copy = tmp_path / design.name
+    copy.write_text(design.read_text())
+    printed = centrode("check", copy, "--json", check=False).stdout
+    with studio(copy) as running, shown(browser, running.url) as page:
+        page.get_by_label("every digit").check()
+        told = page.locator("#figures td[data-key]").evaluate_all(
+            "cells => cells.map(c => [c.dataset.key, c.firstChild.data])"
+        )
+        assert len(told) == len(json.loads(printed)["values"])
+        for key, text in told:
+            assert re.search(rf'"{key}": {re.escape(text)},?\n', printed), (key, text)
+        assert len(set(drawing(page))) > 10
+        assert page.locator(".chart").count() >= 8
+
+
+def test_a_dragged_point_changes_numbers_and_drawing_and_can_be_undone(points):
+    page, design = points
+    before, picture = figures(page), drawing(page)
+    handle = page.locator(".handle").nth(3)
+    box = handle.locator("circle").last.bounding_box()
+    x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+    page.mouse.move(x, y)
+    page.mouse.down()
+    page.mouse.move(x - 2, y - 3, steps=4)
+    page.mouse.up()
+    expect(page.locator("#undo")).to_be_enabled()
+    settled(page)
+    assert figures(page)["center_distance"] != before["center_distance"]
+    assert drawing(page) != picture
+    radius = page.locator('[id="field-pitch.radius-3"]').input_value()
+    assert radius != "49"
+    page.keyboard.press("Control+z")
+    expect(page.locator('[id="field-pitch.radius-3"]')).to_have_value("49")
+    expect(page.locator('#figures td[data-key="center_distance"]')).to_have_attribute(
+        "data-exact", before["center_distance"]
+    )
+    page.keyboard.press("Control+Shift+z")
+    expect(page.locator('[id="field-pitch.radius-3"]')).to_have_value(radius)
+    expect(page.locator("#undo")).to_be_enabled()
+    page.locator("#save").click()
+    expect(page.locator("#save")).to_be_disabled()
+    saved = design.read_text()
+    assert saved.startswith(POINTS.read_text().split("radius")[0])
+    assert radius in saved
+    page.reload()
+    expect(page.locator('[id="field-pitch.radius-3"]')).to_have_value(radius)
+    assert design.read_text() == saved
+
+
+def test_a_point_moves_by_arrow_keys(points):
+    page, _ = points
+    handle = page.get_by_role("button", name="point 1 of the pitch curve")
+    handle.focus()
+    page.keyboard.press("ArrowUp")
+    expect(page.locator("#undo")).to_be_enabled()
+    assert field(page, "pitch.radius").input_value() != "21" or field(page, "pitch.angle_deg").input_value() != "20"
+
+
+def test_the_scrubber_moves_drawing_and_curves(points):
+    page, _ = points
+    picture = drawing(page)
+    values = page.locator(".chart output").all_inner_texts()
+    page.locator("#scrub").focus()
+    for _ in range(9):
+        page.keyboard.press("PageUp")
+    expect(page.locator("#angle")).to_have_text("90.0°")
+    assert drawing(page) != picture
+    assert page.locator(".chart output").all_inner_texts() != values
+    chart = page.locator(".u-over").first.bounding_box()
+    page.mouse.click(chart["x"] + chart["width"] / 2, chart["y"] + 20)
+    expect(page.locator("#angle")).to_have_text(re.compile(r"^(179|180)\.\d°$"))
+    page.locator("#stage").focus()
+    page.keyboard.press("Space")
+    expect(page.locator("#play")).to_have_text("Pause")
+    expect(page.locator("#angle")).not_to_have_text(re.compile(r"^(179|180)\.\d°$"))
+    page.keyboard.press("Space")
+    expect(page.locator("#play")).to_have_text("Play")
+
+
+def test_numbers_are_typed_stepped_and_dragged(points):
+    page, _ = points
+    backlash = field(page, "teeth.backlash")
+    backlash.fill("0.08")
+    backlash.press("Enter")
+    expect(page.locator("#figures td[data-key=normal_backlash_max]")).not_to_have_text("0.1596")
+    backlash.press("ArrowUp")
+    expect(backlash).to_have_value("0.081")
+    label = page.locator("label", has_text=re.compile(r"^Thickness split$")).bounding_box()
+    page.mouse.move(label["x"] + 10, label["y"] + 8)
+    page.mouse.down()
+    page.mouse.move(label["x"] + 18, label["y"] + 8, steps=3)
+    page.mouse.up()
+    expect(field(page, "teeth.thickness_split")).to_have_value("0.502")
+    for _ in range(3):
+        page.locator("#undo").click()
+    expect(field(page, "teeth.thickness_split")).to_have_value("0.5")
+    expect(backlash).to_have_value("0.05")
+
+
+def test_a_bad_value_shows_its_error_and_leaves_the_picture(points):
+    page, design = points
+    backlash = field(page, "teeth.backlash")
+    backlash.fill("-1")
+    backlash.press("Enter")
+    remark = page.locator('[id="remark-teeth.backlash"]')
+    expect(remark).to_contain_text("must not be negative, but is -1")
+    expect(backlash).to_have_attribute("aria-invalid", "true")
+    expect(page.locator("#findings")).to_contain_text("No mechanism")
+    assert page.locator(".chart").count() >= 8
+    backlash.fill("thin")
+    backlash.press("Enter")
+    expect(remark).to_contain_text("expected a number")
+    page.locator("#undo").click()
+    page.locator("#undo").click()
+    expect(remark).to_be_empty()
+    expect(page.locator("#findings")).to_contain_text("Sound")
+    assert design.read_text() == POINTS.read_text()
+
+
+def test_text_pin_and_reset(points):
+    page, _ = points
+    page.locator("#pin").click()
+    page.locator("#source").click()
+    text = page.get_by_role("textbox", name="Design file")
+    text.fill(text.input_value().replace("58, 47", "57, 47"))
+    page.get_by_role("button", name="Apply").click()
+    expect(page.locator("#figures .before").first).to_be_visible()
+    page.locator("#source").click()
+    text.fill("= nothing")
+    page.get_by_role("button", name="Apply").click()
+    expect(page.locator("#findings")).to_contain_text("line 1, column 1")
+    page.locator("#reset").click()
+    expect(page.locator("#findings")).to_contain_text("Sound")
+    expect(page.locator("#figures .before")).to_have_count(0)
+
+
+def test_the_export_is_a_zip(points, tmp_path):
+    page, _ = points
+    page.locator("#export").click()
+    for box in page.locator("fieldset input").all():
+        box.set_checked(box.get_attribute("value") in ("svg", "csv", "json"))
+    with page.expect_download() as download:
+        page.get_by_role("button", name="Export zip").click()
+    path = tmp_path / "files.zip"
+    download.value.save_as(path)
+    with zipfile.ZipFile(path) as files:
+        assert {"driver.svg", "motion.csv", "report.json"} <= set(files.namelist())
+        assert json.loads(files.read("report.json"))["values"]["module"] == float(figures(page)["module"])
+
+
+def test_a_file_changed_on_disk_is_noticed_and_lost_work_offered(points):
+    page, design = points
+    backlash = field(page, "teeth.backlash")
+    backlash.fill("0.07")
+    backlash.press("Enter")
+    expect(page.locator("#file")).to_contain_text("not saved")
+    design.write_text(POINTS.read_text().replace("backlash = 0.05", "backlash = 0.02"))
+    expect(page.locator("#notices")).to_contain_text("has been changed on disk")
+    page.locator("#save").click()
+    expect(page.locator("#dialog")).to_contain_text("Changed on disk")
+    page.get_by_role("button", name="Cancel").click()
+    assert "backlash = 0.02" in design.read_text()
+    page.reload()
+    page.get_by_role("button", name="Restore").click()
+    expect(backlash).to_have_value("0.07")
+    page.get_by_role("button", name="Load the file").click()
+    expect(backlash).to_have_value("0.02")
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_nothing_stands_in_the_way_of_anybody(browser, tmp_path, scheme):
+    design = tmp_path / "pair.toml"
+    design.write_text(POINTS.read_text())
+    with studio(design) as running, shown(browser, running.url, color_scheme=scheme) as page:
+        found = Axe().run(page).response["violations"]
+        assert not [(rule["id"], [node["target"] for node in rule["nodes"]]) for rule in found]
+        page.set_viewport_size({"width": 400, "height": 800})
+        assert page.evaluate("document.documentElement.scrollWidth") <= 400
+
+
+def test_a_report_opens_from_its_file_alone(browser, tmp_path):
+    out = tmp_path / "pair.html"
+    centrode("report", POINTS, "-o", out, check=False)
+    with shown(browser, out.as_uri(), offline=True) as page:
+        asked = []
+        page.on("request", lambda request: asked.append(request.url))
+        assert figures(page)["center_distance"].startswith("82.0463")
+        assert field(page, "teeth.backlash").is_disabled()
+        assert page.locator("#save").is_hidden()
+        picture = drawing(page)
+        page.locator("#scrub").focus()
+        page.keyboard.press("PageUp")
+        assert drawing(page) != picture
+        assert page.pdf().startswith(b"%PDF")
+        found = Axe().run(page).response["violations"]
+        assert not [(rule["id"], [node["target"] for node in rule["nodes"]]) for rule in found]
+        assert not [url for url in asked if not url.startswith(("data:", "blob:"))]

@@ -1,0 +1,250 @@
+import io
+import os
+import resource
+import shutil
+import signal
+import socket
+import tempfile
+import zipfile
+from pathlib import Path
+
+import pytest
+from conftest import BINARY, DESIGNS, centrode
+from studio import studio
+
+DESIGN = DESIGNS["elliptic"]
+
+
+@pytest.fixture
+def design(tmp_path):
+    path = tmp_path / "pair.toml"
+    path.write_text(DESIGN)
+    return path
+
+
+@pytest.fixture(scope="module")
+def served(tmp_path_factory):
+    path = tmp_path_factory.mktemp("studio") / "pair.toml"
+    path.write_text(DESIGN)
+    with studio(path) as running:
+        yield running
+
+
+@pytest.mark.parametrize(
+    "headers",
+    [
+        {"Host": "example.org"},
+        {"Host": "example.org:80"},
+        {"Host": None},
+        {"Origin": "http://example.org"},
+        {"Origin": "null"},
+        {"Origin": None},
+    ],
+    ids=["foreign host", "foreign host and port", "no host", "foreign origin", "null origin", "no origin"],
+)
+def test_strangers_are_refused(served, headers):
+    before = served.design.read_text()
+    status, _ = served.ask("POST", "save", {"text": "stolen = true\n", "over": True}, headers)
+    assert status in (400, 403)
+    assert served.design.read_text() == before
+    assert served.answers()
+
+
+@pytest.mark.parametrize(
+    "path",
+    ["/", "/design", "/{base}/../design", "/wrong/design", "//design", "/%2e%2e/design", "/../../etc/passwd"],
+)
+def test_without_the_secret_nothing_is_told(served, path):
+    status, text = served.ask("GET", path.replace("{base}", "x"), absolute=True)
+    assert status == 403
+    assert b"family" not in text
+    assert served.answers()
+
+
+@pytest.mark.parametrize(
+    "path", ["../pair.toml", "..%2fpair.toml", "%2e%2e/%2e%2e/etc/passwd", "pair.toml", "main.js/.."]
+)
+def test_no_path_leads_to_other_files(served, path):
+    status, text = served.ask("GET", path)
+    assert status in (403, 404)
+    assert b"family" not in text
+    assert b"root:" not in text
+    assert served.answers()
+
+
+def test_a_huge_body_is_refused(served):
+    size = 100 << 20
+    status, _ = served.ask("POST", "solve", b"", {"Content-Length": str(size)})
+    assert status == 413
+    # Without its length told, it is refused once it has come too far.
+    with socket.create_connection(("127.0.0.1", served.port), timeout=20) as client:
+        head = f"POST {served.base}solve HTTP/1.1\r\nHost: 127.0.0.1:{served.port}\r\nOrigin: http://127.0.0.1:{served.port}\r\n"
+        client.sendall((head + "Content-Type: application/json\r\nTransfer-Encoding: chunked\r\n\r\n").encode())
+        part = b"10000\r\n" + b" " * 0x10000 + b"\r\n"
+        sent = 0
+        try:
+            while sent < size:
+                client.sendall(part)
+                sent += len(part)
+        except OSError:
+            pass
+        assert sent < size
+    assert served.answers()
+
+
+def test_a_thousand_slow_clients_do_not_keep_the_page_out(served):
+    resource.setrlimit(resource.RLIMIT_NOFILE, (min(4096, resource.getrlimit(resource.RLIMIT_NOFILE)[1]),) * 2)
+    clients = []
+    try:
+        for _ in range(1000):
+            client = socket.create_connection(("127.0.0.1", served.port), timeout=20)
+            client.sendall(b"GET / HTTP/1.1\r\nHost: slow")
+            clients.append(client)
+            if len(clients) % 250 == 0:
+                assert served.answers()
+    finally:
+        for client in clients:
+            client.close()
+    assert served.answers()
+
+
+def test_every_answer_has_the_policy(served):
+    connection = served.connect()
+    connection.request("GET", served.base)
+    answer = connection.getresponse()
+    policy = answer.headers["Content-Security-Policy"]
+    assert "default-src 'none'" in policy
+    assert "unsafe" not in policy
+    assert answer.headers["Referrer-Policy"] == "no-referrer"
+    assert answer.headers["X-Content-Type-Options"] == "nosniff"
+    connection.close()
+
+
+def test_the_page_says_what_check_says(served):
+    status, snapshot = served.json("POST", "solve", {"text": DESIGN, "check": True})
+    assert status == 200
+    cells = {}
+    for group in snapshot["verdict"]["figures"]:
+        for row in group["rows"]:
+            cells |= {cell["key"]: cell["exact"] for cell in row["cells"] if cell}
+    printed = centrode("check", served.design, "--json", check=False).stdout
+    assert cells
+    for key, exact in cells.items():
+        assert f'"{key}": {exact},' in printed or f'"{key}": {exact}\n' in printed, key
+
+
+def test_an_edit_keeps_comments_and_order(served):
+    text = "# mine\n" + DESIGN.replace("module = 2.25", "module = 2.25   # mm")
+    edits = [{"key": "pitch.module", "value": 2.5}]
+    status, snapshot = served.json("POST", "solve", {"text": text, "edits": edits, "check": False})
+    assert status == 200
+    assert snapshot["text"] == text.replace("2.25 ", "2.5 ")
+    assert snapshot["picture"]["links"]
+    assert snapshot["verdict"] is None
+
+
+def test_an_error_stands_at_its_key_in_the_words_of_check(served, tmp_path):
+    edits = [{"key": "teeth.backlash", "value": -1}]
+    _, snapshot = served.json("POST", "solve", {"text": DESIGN, "edits": edits, "check": True})
+    assert snapshot["error"]["key"] == "teeth.backlash"
+    bad = tmp_path / "bad.toml"
+    bad.write_text(snapshot["text"])
+    assert f"error: {snapshot['error']['message']}\n" in centrode("check", bad, check=False).stderr
+
+
+def test_the_zip_holds_the_files_of_export(served, tmp_path):
+    request = {"text": DESIGN, "formats": [], "tolerance": "0.01", "dxf": "r2010"}
+    status, archive = served.ask("POST", "export", request)
+    assert status == 200
+    out = tmp_path / "out"
+    centrode("export", served.design, "--to", out, "--tolerance", "0.01")
+    with zipfile.ZipFile(io.BytesIO(archive)) as files:
+        names = {name for name in files.namelist() if not name.endswith("/")}
+        assert names == {path.relative_to(out).as_posix() for path in out.rglob("*") if path.is_file()}
+        for name in names:
+            assert files.read(name) == (out / name).read_bytes(), name
+    status, refused = served.json("POST", "export", {**request, "tolerance": "-1"})
+    assert status == 422
+    assert "tolerance" in refused["message"]
+
+
+def test_saving_a_file_changed_by_others_asks_first(design):
+    with studio(design) as page:
+        design.write_text("# changed\n" + DESIGN)
+        status, body = page.json("POST", "save", {"text": DESIGN + "# mine\n"})
+        assert status == 409
+        assert body["disk"].startswith("# changed")
+        assert design.read_text().startswith("# changed")
+        assert page.json("POST", "save", {"text": DESIGN + "# mine\n", "over": True})[0] == 200
+        assert design.read_text() == DESIGN + "# mine\n"
+
+
+def test_a_crash_loses_nothing(design):
+    work = DESIGN + "# not saved\n"
+    with studio(design) as page:
+        assert page.json("POST", "keep", {"text": work})[0] == 200
+        page.process.kill()
+        page.process.wait(timeout=10)
+    assert design.read_text() == DESIGN
+    with studio(design) as page:
+        recovered = page.json("GET", "design")[1]["recovered"]
+        assert recovered == {"text": work, "file": "pair.toml.autosave"}
+        assert page.json("POST", "save", {"text": work})[0] == 200
+    assert sorted(path.name for path in design.parent.iterdir()) == ["pair.toml"]
+    assert design.read_text() == work
+
+
+def full_disk():
+    signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (64, 64))
+
+
+def test_a_full_disk_is_told_and_the_old_file_stays(design):
+    with studio(design, preexec_fn=full_disk, restore_signals=False) as page:
+        status, body = page.json("POST", "save", {"text": DESIGN + "# more\n" * 20})
+        assert status == 507
+        assert "cannot write" in body["message"]
+        assert page.answers()
+    assert design.read_text() == DESIGN
+    assert sorted(path.name for path in design.parent.iterdir()) == ["pair.toml"]
+
+
+@pytest.fixture
+def open_place():
+    """A folder that everybody may read, unlike the test's own."""
+    with tempfile.TemporaryDirectory() as folder:
+        place = Path(folder)
+        place.chmod(0o755)
+        yield place
+
+
+def test_a_folder_that_cannot_be_written_is_told(open_place):
+    folder = open_place / "design"
+    folder.mkdir()
+    design = folder / "pair.toml"
+    design.write_text(DESIGN)
+    binary, options = BINARY, {}
+    if os.geteuid() == 0:
+        # Root may write anywhere: the program runs as somebody else, from where they may read it.
+        binary = shutil.copy2(BINARY, open_place / "centrode")
+        options = {"user": 65534, "group": 65534, "extra_groups": [], "cwd": open_place}
+    folder.chmod(0o555)
+    try:
+        with studio(design, binary, **options) as page:
+            status, body = page.json("POST", "save", {"text": DESIGN + "# more\n"})
+            assert status == 507
+            assert "cannot create" in body["message"]
+            assert page.json("POST", "keep", {"text": DESIGN + "# more\n"})[0] == 507
+            assert page.answers()
+    finally:
+        folder.chmod(0o755)
+    assert design.read_text() == DESIGN
+
+
+def test_a_bad_start_says_why(tmp_path):
+    missing = centrode("studio", tmp_path / "none.toml", check=False)
+    assert missing.returncode == 2
+    assert "cannot read" in missing.stderr
+    piped = centrode("studio", "-", check=False)
+    assert piped.returncode == 2
+    assert "standard input" in piped.stderr
