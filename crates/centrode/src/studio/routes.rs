@@ -106,7 +106,9 @@ async fn design(State(desk): Shared) -> Response {
 
 /// Kinds of file that can be exported: the word for each, and what it is.
 fn formats() -> Vec<[String; 2]> {
-    let values = File::value_variants().iter().filter_map(File::to_possible_value);
+    let values = File::value_variants()
+        .iter()
+        .filter_map(File::to_possible_value);
     values
         .map(|value| {
             let help = value.get_help().map(ToString::to_string);
@@ -222,5 +224,9 @@ async fn bundle(Json(ask): Json<Files>) -> Result<Response, Refused> {
     let command = ask.command().map_err(unusable)?;
     let zip = apart(move || export::zip(&ask.text, &command)).await?;
     let zip = zip.map_err(|failure| unusable(failure.to_string()))?;
-    Ok(([(header::CONTENT_TYPE, "application/zip")], Bytes::from(zip)).into_response())
+    Ok((
+        [(header::CONTENT_TYPE, "application/zip")],
+        Bytes::from(zip),
+    )
+        .into_response())
 }

@@ -12,6 +12,12 @@ function stepOf(field, value) {
   return 10 ** Math.round(Math.log10(size) - 2.2);
 }
 
+/** How much room a field takes. */
+function sizeOf(field) {
+  if (Array.isArray(field.value)) return "list";
+  return ["text", "choice", "either"].includes(field.kind) ? "wordy" : "";
+}
+
 /** What is typed, as a value of the design: a number where it reads as one. */
 function typed(text) {
   const plain = text.trim().replace(",", ".").replace("−", "-");
@@ -82,7 +88,7 @@ export class Form {
     const label = element("label", { for: id, title: field.doc || undefined }, words(field.key));
     const boxes = this.inputs(field, id, control);
     const unit = element("span", { class: "unit" }, field.unit);
-    control.row = element("div", { class: `field ${Array.isArray(field.value) ? "list" : ""}` }, label, boxes, unit, remark);
+    control.row = element("div", { class: `field ${sizeOf(field)}` }, label, boxes, unit, remark);
     if (["number", "integer"].includes(field.kind) && !this.fixed) this.draggable(label, control);
     return control.row;
   }
