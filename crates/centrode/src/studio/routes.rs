@@ -32,7 +32,6 @@ type Shared = State<Arc<Desk>>;
 /// Every address of the page.
 pub(crate) fn router(desk: Arc<Desk>, guard: Guard) -> Router {
     let page = Router::new()
-        .route("/", get(async || Html(page::INDEX)))
         .route("/{asset}", get(asset))
         .route("/design", get(design))
         .route(
@@ -47,8 +46,11 @@ pub(crate) fn router(desk: Arc<Desk>, guard: Guard) -> Router {
         .layer(RequestBodyTimeoutLayer::new(PATIENCE))
         .layer(RequestBodyLimitLayer::new(LARGEST))
         .with_state(desk);
+    let base = guard.base();
     Router::new()
-        .nest(&guard.base(), page)
+        // A nest has no place for the bare slash that the page's own address ends with.
+        .route(&format!("{base}/"), get(async || Html(page::INDEX)))
+        .nest(&base, page)
         .layer(axum::middleware::from_fn_with_state(guard, guard::pass))
 }
 
