@@ -172,8 +172,9 @@ def test_saving_a_file_changed_by_others_asks_first(design):
     with studio(design) as page:
         design.write_text("# changed\n" + DESIGN)
         status, body = page.json("POST", "save", {"text": DESIGN + "# mine\n"})
-        assert status == 409
-        assert body["disk"].startswith("# changed")
+        assert status == 200
+        assert not body["saved"]
+        assert "changed on disk" in body["message"]
         assert design.read_text().startswith("# changed")
         assert page.json("POST", "save", {"text": DESIGN + "# mine\n", "over": True})[0] == 200
         assert design.read_text() == DESIGN + "# mine\n"

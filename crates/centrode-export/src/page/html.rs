@@ -176,3 +176,189 @@ mod tests {
         assert_eq!(String::from_utf8(bytes).expect("text"), text);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_report_asks_for_nothing_outside_itself() {
+        let html = report("a < b", r#"{"title":"</script><script>"}"#);
+        assert!(html.contains("<title>a &lt; b</title>"));
+        assert!(
+            !html.contains("</script><script>"),
+            "a snapshot cannot leave its element"
+        );
+        for outside in ["src=\"", "href=\"", "from \"./", "url("] {
+            assert!(!html.contains(outside), "{outside}");
+        }
+        for script in SCRIPTS {
+            assert!(
+                html.contains(&format!("\"page/{}\"", script.name)),
+                "{}",
+                script.name
+            );
+        }
+    }
+
+    #[test]
+    fn every_import_is_an_asset() {
+        for script in SCRIPTS {
+            for import in script.text.split("from \"./").skip(1) {
+                let name = import.split('"').next().expect("a name");
+                assert!(asset(name).is_some(), "{} imports {name}", script.name);
+            }
+        }
+        for name in ["../Cargo.toml", "", "index.html", "main.js/", "/main.js"] {
+            assert!(asset(name).is_none(), "{name}");
+        }
+    }
+
+    #[test]
+    fn escaped_scripts_read_back() {
+        let text = "a\"\\#%\n\tπ <&> `~` {}|^";
+        let escaped = percent(text);
+        assert!(
+            escaped.chars().all(|c| c.is_ascii_graphic() || c == ' '),
+            "{escaped}"
+        );
+        assert!(!escaped.contains(['"', '\\', '#', '<']), "{escaped}");
+        let mut bytes = Vec::new();
+        let mut rest = escaped.as_bytes();
+        while let [first, after @ ..] = rest {
+            if *first == b'%' {
+                let hex = std::str::from_utf8(&after[..2]).expect("text");
+                bytes.push(u8::from_str_radix(hex, 16).expect("hex"));
+                rest = &after[2..];
+            } else {
+                bytes.push(*first);
+                rest = after;
+            }
+        }
+        assert_eq!(String::from_utf8(bytes).expect("text"), text);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_report_asks_for_nothing_outside_itself() {
+        let html = report("a < b", r#"{"title":"</script><script>"}"#);
+        assert!(html.contains("<title>a &lt; b</title>"));
+        assert!(
+            !html.contains("</script><script>"),
+            "a snapshot cannot leave its element"
+        );
+        for outside in ["src=\"", "href=\"", "from \"./", "url("] {
+            assert!(!html.contains(outside), "{outside}");
+        }
+        for script in SCRIPTS {
+            assert!(
+                html.contains(&format!("\"page/{}\"", script.name)),
+                "{}",
+                script.name
+            );
+        }
+    }
+
+    #[test]
+    fn every_import_is_an_asset() {
+        for script in SCRIPTS {
+            for import in script.text.split("from \"./").skip(1) {
+                let name = import.split('"').next().expect("a name");
+                assert!(asset(name).is_some(), "{} imports {name}", script.name);
+            }
+        }
+        for name in ["../Cargo.toml", "", "index.html", "main.js/", "/main.js"] {
+            assert!(asset(name).is_none(), "{name}");
+        }
+    }
+
+    #[test]
+    fn escaped_scripts_read_back() {
+        let text = "a\"\\#%\n\tπ <&> `~` {}|^";
+        let escaped = percent(text);
+        assert!(
+            escaped.chars().all(|c| c.is_ascii_graphic() || c == ' '),
+            "{escaped}"
+        );
+        assert!(!escaped.contains(['"', '\\', '#', '<']), "{escaped}");
+        let mut bytes = Vec::new();
+        let mut rest = escaped.as_bytes();
+        while let [first, after @ ..] = rest {
+            if *first == b'%' {
+                let hex = std::str::from_utf8(&after[..2]).expect("text");
+                bytes.push(u8::from_str_radix(hex, 16).expect("hex"));
+                rest = &after[2..];
+            } else {
+                bytes.push(*first);
+                rest = after;
+            }
+        }
+        assert_eq!(String::from_utf8(bytes).expect("text"), text);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_report_asks_for_nothing_outside_itself() {
+        let html = report("a < b", r#"{"title":"</script><script>"}"#);
+        assert!(html.contains("<title>a &lt; b</title>"));
+        assert!(
+            !html.contains("</script><script>"),
+            "a snapshot cannot leave its element"
+        );
+        for outside in ["src=\"", "href=\"", "from \"./", "url("] {
+            assert!(!html.contains(outside), "{outside}");
+        }
+        for script in SCRIPTS {
+            assert!(
+                html.contains(&format!("\"page/{}\"", script.name)),
+                "{}",
+                script.name
+            );
+        }
+    }
+
+    #[test]
+    fn every_import_is_an_asset() {
+        for script in SCRIPTS {
+            for import in script.text.split("from \"./").skip(1) {
+                let name = import.split('"').next().expect("a name");
+                assert!(asset(name).is_some(), "{} imports {name}", script.name);
+            }
+        }
+        for name in ["../Cargo.toml", "", "index.html", "main.js/", "/main.js"] {
+            assert!(asset(name).is_none(), "{name}");
+        }
+    }
+
+    #[test]
+    fn escaped_scripts_read_back() {
+        let text = "a\"\\#%\n\tπ <&> `~` {}|^";
+        let escaped = percent(text);
+        assert!(
+            escaped.chars().all(|c| c.is_ascii_graphic() || c == ' '),
+            "{escaped}"
+        );
+        assert!(!escaped.contains(['"', '\\', '#', '<']), "{escaped}");
+        let mut bytes = Vec::new();
+        let mut rest = escaped.as_bytes();
+        while let [first, after @ ..] = rest {
+            if *first == b'%' {
+                let hex = std::str::from_utf8(&after[..2]).expect("text");
+                bytes.push(u8::from_str_radix(hex, 16).expect("hex"));
+                rest = &after[2..];
+            } else {
+                bytes.push(*first);
+                rest = after;
+            }
+        }
+        assert_eq!(String::from_utf8(bytes).expect("text"), text);
+    }
+}

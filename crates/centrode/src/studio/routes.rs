@@ -17,6 +17,7 @@ use tower_http::timeout::RequestBodyTimeoutLayer;
 use super::Desk;
 use super::document::SaveError;
 use super::guard::{self, Guard};
+use super::solver::Overtaken;
 use crate::args::{Arguments, Command, Export, File};
 use crate::export;
 use crate::page::{Edit, edited};
@@ -73,10 +74,7 @@ impl From<SaveError> for Refused {
     fn from(error: SaveError) -> Self {
         let message = error.to_string();
         match error {
-            SaveError::Changed { disk, .. } => Self(
-                StatusCode::CONFLICT,
-                json!({ "message": message, "disk": disk }),
-            ),
+            SaveError::Changed { .. } => Self::because(StatusCode::CONFLICT, message),
             SaveError::Bundle(_) => Self::because(StatusCode::INSUFFICIENT_STORAGE, message),
             SaveError::TooLarge { .. } => Self::because(StatusCode::PAYLOAD_TOO_LARGE, message),
         }
@@ -136,9 +134,11 @@ async fn solve(State(desk): Shared, Json(ask): Json<Solve>) -> Result<Response, 
         made.map_err(|error| Refused::because(StatusCode::UNPROCESSABLE_ENTITY, error))?
     };
     let solved = desk.solver.solve(text, ask.check).await;
-    solved
-        .map(as_json)
-        .map_err(|error| Refused::because(StatusCode::GONE, error))
+    // To be overtaken is no failure: browsers would log it as one.
+    Ok(solved.map_or_else(
+        |Overtaken| Json(json!({ "overtaken": true })).into_response(),
+        as_json,
+    ))
 }
 
 #[derive(Deserialize)]
@@ -150,7 +150,15 @@ struct Save {
 }
 
 async fn save(State(desk): Shared, Json(ask): Json<Save>) -> Result<Response, Refused> {
-    on_disk(move || desk.document.save(&ask.text, ask.over)).await
+    match apart(move || desk.document.save(&ask.text, ask.over)).await? {
+        Ok(()) => Ok(Json(json!({ "saved": true })).into_response()),
+        // A question to the user, no failure.
+        Err(error @ SaveError::Changed { .. }) => {
+            let message = error.to_string();
+            Ok(Json(json!({ "saved": false, "message": message })).into_response())
+        }
+        Err(error) => Err(error.into()),
+    }
 }
 
 #[derive(Deserialize)]

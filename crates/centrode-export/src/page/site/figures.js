@@ -30,7 +30,7 @@ function table(group, before) {
   const columns = Math.max(1, ...group.rows.map((row) => row.cells.length));
   const names = group.columns.length ? group.columns : Array(columns).fill("");
   const head = element("tr", {}, element("th", { scope: "col" }, group.heading),
-    ...names.map((name) => element("th", { scope: "col", class: "figure" }, name)),
+    ...names.map((name) => element("th", { scope: "col", class: "figure" }, name || element("span", { class: "hidden" }, "figure"))),
     element("th", { scope: "col", class: "unit" }, element("span", { class: "hidden" }, "unit")));
   const rows = group.rows.map((row) => element("tr", {},
     element("th", { scope: "row" }, row.name),

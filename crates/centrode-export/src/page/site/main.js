@@ -158,24 +158,22 @@ async function solve() {
     try {
       const start = performance.now();
       let snapshot = await server.solve({ text, edits, check: !slow });
+      if (snapshot.overtaken) {
+        // Another window of this page has asked; then it is our turn again.
+        state.pending ??= job;
+        await new Promise((resume) => setTimeout(resume, 100));
+        continue;
+      }
       if (job.final) settle(snapshot.text, sent);
       show(snapshot);
       if (slow && !state.pending) {
         snapshot = await server.solve({ text: snapshot.text, edits: [], check: true });
-        if (!state.pending) show(snapshot);
+        if (!state.pending && !snapshot.overtaken) show(snapshot);
       }
       state.took = performance.now() - start;
       state.answered += 1;
       dialogs.withdraw("server");
     } catch (error) {
-      if (error.status === 410) {
-        // Another window of this page has asked; it is our turn again now.
-        if (!state.pending) {
-          state.pending = job;
-          await new Promise((resume) => setTimeout(resume, 100));
-        }
-        continue;
-      }
       if (job.final) forgetDraft(sent);
       complain("server", error);
     }
@@ -217,7 +215,11 @@ function step(text) {
 async function save(over = false) {
   const text = state.history.text;
   try {
-    await server.save(text, over);
+    const answer = await server.save(text, over);
+    if (!answer.saved) {
+      await settleConflict(answer.message);
+      return;
+    }
     clearTimeout(keeping);
     state.history.saved = text;
     if (state.history.dirty) keep();
@@ -225,15 +227,17 @@ async function save(over = false) {
     dialogs.withdraw("save");
     buttons();
   } catch (error) {
-    if (error.status !== 409) {
-      complain("save", error);
-      return;
-    }
-    const answer = await dialogs.ask("Changed on disk", [Object.assign(document.createElement("p"), { textContent: `${error.message}. Saving would write over that.` })],
-      [["", "Cancel"], ["load", "Load the file"], ["over", "Write over it", "danger"]]);
-    if (answer === "over") await save(true);
-    if (answer === "load") await load();
+    complain("save", error);
   }
+}
+
+/** The file has been changed by others: whose work stays? */
+async function settleConflict(message) {
+  const words = element("p", {}, `${message}. Saving would write over that.`);
+  const answer = await dialogs.ask("Changed on disk", [words],
+    [["", "Cancel"], ["load", "Load the file"], ["over", "Write over it", "danger"]]);
+  if (answer === "over") await save(true);
+  if (answer === "load") await load();
 }
 
 /** Takes what is on disk now. */
