@@ -11,15 +11,13 @@ pub mod gear_pair;
 pub mod mjcf;
 pub mod model;
 pub mod page;
-pub mod page;
-pub mod page;
-pub mod page;
 pub mod pdf;
 pub mod shaft;
 pub mod sheet;
 pub mod step;
 pub mod stl;
 pub mod svg;
+pub mod three_arm;
 pub mod threemf;
 pub mod urdf;
 

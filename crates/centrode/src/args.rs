@@ -176,8 +176,7 @@ pub(crate) enum Dxf {
     Spline,
 }
 
-/// A tolerance as written, mm.
-pub(crate) fn tolerance(word: &str) -> Result<Tolerance, String> {
+fn tolerance(word: &str) -> Result<Tolerance, String> {
     let mm: f64 = word
         .parse()
         .map_err(|_| "not a number of millimetres".to_owned())?;

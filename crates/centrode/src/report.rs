@@ -9,8 +9,9 @@ use centrode::analysis::{Finding, Goal, Report, Table};
 use centrode::mechanism::mechanism::Mechanism;
 use serde::Serialize;
 
-pub(crate) use figures::{Group, groups};
+pub(crate) use figures::{Section, sections};
 pub(crate) use findings::{Words, summary, words};
+pub(crate) use goals::{GoalWords, goal_words};
 
 /// The report as other programs read it.
 #[derive(Serialize)]
@@ -56,7 +57,7 @@ pub(crate) fn write(
 }
 
 /// What the mechanism is, in one line.
-fn definition(mechanism: &Mechanism) -> String {
+pub(crate) fn definition(mechanism: &Mechanism) -> String {
     match mechanism {
         Mechanism::GearPair(pair) => {
             let (driver, driven) = pair.mean_ratio();

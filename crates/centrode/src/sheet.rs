@@ -15,19 +15,19 @@ pub(crate) fn run(command: &Report, out: &mut impl Write) -> Result<ExitCode, Fa
     let source = Source::open(&command.design)?;
     let design = source.design()?;
     let progress = Progress::new(2);
-    progress.step("cutting the teeth");
+    progress.step("resolving the design");
     let text = source.text()?;
     let subject = match Subject::of(text) {
         Ok(subject) => subject,
         // Resolving once more gives the error with its line.
         Err(_) => {
             return design
-                .gear_pair()
+                .mechanism()
                 .map(|_| ExitCode::from(2))
                 .map_err(|e| source.blame(e));
         }
     };
-    progress.step("running the gears together");
+    progress.step("checking");
     let snapshot = subject.checked();
     drop(progress);
     let html = page::report(

@@ -43,6 +43,7 @@ pub fn picture(pair: &GearPair, tolerance: Tolerance) -> Picture {
             poses: poses.into(),
         },
         handles: Vec::new(),
+        marks: Vec::new(),
         extent: [
             driver.0.x.min(driven.0.x),
             driver.0.y.min(driven.0.y),

@@ -22,6 +22,8 @@ pub struct Picture {
     pub motion: Motion,
     /// What can be drawn aside with the mouse.
     pub handles: Vec<Handle>,
+    /// Places worth a name.
+    pub marks: Vec<Mark>,
     /// Least x, least y, greatest x, greatest y of everything over the whole cycle, mm.
     pub extent: [f64; 4],
 }
@@ -33,6 +35,17 @@ pub struct Link {
     pub name: String,
     /// Its lines, in its own frame.
     pub paths: Vec<Path>,
+}
+
+/// A place worth a name.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Mark {
+    /// Its name.
+    pub name: String,
+    /// Index of the link it moves with.
+    pub link: usize,
+    /// x and y in the link's frame, mm.
+    pub at: [f64; 2],
 }
 
 /// Where every link stands along one cycle of the input.

@@ -1,4 +1,4 @@
-use centrode_geometry::{Outline, Segment, Tolerance};
+use centrode_geometry::{Outline, Point, Segment, Tolerance};
 use serde::ser::SerializeSeq as _;
 use serde::{Serialize, Serializer};
 
@@ -15,6 +15,12 @@ pub enum Role {
     Pitch,
     /// The path of a point.
     Trace,
+    /// A bar seen as its centre line.
+    Bar,
+    /// The same of what grips.
+    Clamp,
+    /// The ground.
+    Ground,
 }
 
 /// A chain of lines and arcs.
@@ -23,8 +29,10 @@ pub struct Path {
     /// What it is.
     pub role: Role,
     /// x and y of each vertex, mm, and the bulge of the arc that follows it: the tangent of a quarter of
-    /// the turned angle, positive counter-clockwise, zero for a line. The last vertex joins the first.
+    /// the turned angle, positive counter-clockwise, zero for a line.
     pub vertices: Vec<f64>,
+    /// Whether the last vertex joins the first.
+    pub closed: bool,
 }
 
 impl Path {
@@ -32,9 +40,7 @@ impl Path {
     #[must_use]
     pub fn closed(role: Role, outline: &Outline, tolerance: Tolerance) -> Self {
         let fitted = outline.arcs(tolerance.scaled(0.9));
-        // The rest of the tolerance is for rounding the numbers: fewer digits to carry.
-        let decimals = (-(0.05 * tolerance.mm()).log10()).ceil().clamp(0.0, 12.0);
-        let unit = 10_f64.powi(-(decimals as i32));
+        let unit = unit(tolerance);
         let vertices = fitted
             .segments()
             .iter()
@@ -53,8 +59,40 @@ impl Path {
                 ]
             })
             .collect();
-        Self { role, vertices }
+        Self {
+            role,
+            vertices,
+            closed: true,
+        }
     }
+
+    /// A closed polygon, its corners within the tolerance of those given.
+    #[must_use]
+    pub fn polygon(role: Role, corners: &[Point], tolerance: Tolerance) -> Self {
+        let unit = unit(tolerance);
+        let corner = |p: &Point| [short(p.x, unit), short(p.y, unit), 0.0];
+        Self {
+            role,
+            vertices: corners.iter().flat_map(corner).collect(),
+            closed: true,
+        }
+    }
+
+    /// An open chain of lines.
+    #[must_use]
+    pub fn open(role: Role, corners: &[Point]) -> Self {
+        Self {
+            role,
+            vertices: corners.iter().flat_map(|p| [p.x, p.y, 0.0]).collect(),
+            closed: false,
+        }
+    }
+}
+
+/// What numbers may be rounded by, so that a tenth of the tolerance is left for it.
+fn unit(tolerance: Tolerance) -> f64 {
+    let decimals = (-(0.05 * tolerance.mm()).log10()).ceil().clamp(0.0, 12.0);
+    10_f64.powi(-(decimals as i32))
 }
 
 /// The number at most half of `unit` away that prints short.

@@ -1,23 +1,14 @@
 use centrode::analysis::Contact;
 use centrode::export::gear_pair;
-use centrode::export::page::{Curve, Handle, HandlePlane, Picture};
+use centrode::export::page::{Curve, Picture};
 use centrode::geometry::Tolerance;
 use centrode::mechanism::design::Design;
 use centrode::mechanism::gear::GearPair;
-use centrode::mechanism::gear::design::GearPairDesign;
-use centrode::mechanism::gear::pitch::{PitchSpec, Plane};
+
+use super::handles::handles;
 
 /// Tolerance of the picture, as a share of the module: a tenth of a pixel when a tooth is as high as a hand.
 const DRAWN: f64 = 2e-3;
-
-/// Most points of a pitch curve that get a handle each: more would hide the curve.
-const MOST_HANDLES: usize = 60;
-
-/// The pair in a line.
-pub(super) fn definition(pair: &GearPair) -> String {
-    let (driver, driven) = pair.mean_ratio();
-    format!("{}; mean ratio {driver}:{driven}", pair.definition())
-}
 
 /// The pair as it moves, with its control points.
 pub(super) fn picture(design: &Design, pair: &GearPair) -> Picture {
@@ -32,78 +23,10 @@ pub(super) fn picture(design: &Design, pair: &GearPair) -> Picture {
         .iter()
         .position(|link| link.name == picture.motion.input_name);
     if let Some(link) = driver {
-        picture.handles = handles(design, pair, link);
+        let length = pair.driver().pitch_length();
+        picture.handles = handles(&design.pitch, length, link);
     }
     picture
-}
-
-/// The points of the pitch curve.
-fn handles(design: &GearPairDesign, pair: &GearPair, link: usize) -> Vec<Handle> {
-    let (plane, first, second): (_, &[f64], &[f64]) = match &design.pitch {
-        PitchSpec::Bspline(s) if s.plane == Plane::Polar => {
-            (HandlePlane::Polar, &s.radius, &s.angle)
-        }
-        PitchSpec::Bspline(s) => (HandlePlane::Cartesian, &s.x, &s.y),
-        PitchSpec::Bezier(s) if s.plane == Plane::Polar => {
-            (HandlePlane::Polar, &s.radius, &s.angle)
-        }
-        PitchSpec::Bezier(s) => (HandlePlane::Cartesian, &s.x, &s.y),
-        PitchSpec::Polar(s) => (HandlePlane::Polar, &s.radius, &s.angle),
-        _ => return Vec::new(),
-    };
-    if first.len() > MOST_HANDLES {
-        return Vec::new();
-    }
-    let scale = scale(design, pair);
-    let turn = std::f64::consts::TAU / first.len() as f64;
-    let handle = |(i, &a): (usize, &f64)| {
-        let (keys, b) = match plane {
-            HandlePlane::Cartesian => (["x", "y"], second.get(i).copied()),
-            // A table without angles has equal steps.
-            HandlePlane::Polar if second.is_empty() => (["radius", ""], Some(turn * i as f64)),
-            HandlePlane::Polar => (["radius", "angle_deg"], second.get(i).copied()),
-        };
-        let b = match plane {
-            HandlePlane::Cartesian => b?,
-            HandlePlane::Polar => degrees(b?),
-        };
-        Some(Handle {
-            name: format!("point {} of the pitch curve", i + 1),
-            link,
-            plane,
-            keys: keys.map(|key| {
-                if key.is_empty() {
-                    String::new()
-                } else {
-                    format!("pitch.{key}[{i}]")
-                }
-            }),
-            values: [a, b],
-            scale,
-        })
-    };
-    first.iter().enumerate().filter_map(handle).collect()
-}
-
-/// The angle in degrees, without the noise of its way through radians.
-fn degrees(radians: f64) -> f64 {
-    (radians.to_degrees() * 1e10).round() / 1e10
-}
-
-/// By how much module and tooth count scale the curve as written.
-fn scale(design: &GearPairDesign, pair: &GearPair) -> f64 {
-    let mut unscaled = design.pitch.clone();
-    let (module, tooth_count) = match &mut unscaled {
-        PitchSpec::Bspline(s) => (s.module.take(), s.tooth_count),
-        PitchSpec::Bezier(s) => (s.module.take(), s.tooth_count),
-        PitchSpec::Polar(s) => (s.module.take(), s.tooth_count),
-        _ => (None, None),
-    };
-    if module.is_none() || tooth_count.is_none() {
-        return 1.0;
-    }
-    let own = unscaled.resolve().ok().and_then(|pitch| pitch.module);
-    own.map_or(1.0, |own| pair.module() / own)
 }
 
 /// What running the finished gears together says along the cycle.

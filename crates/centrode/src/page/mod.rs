@@ -1,10 +1,13 @@
 //! What the page shows of a design: its numbers, picture, curves, figures and findings, as one JSON value.
 
 mod edit;
+mod family;
 mod field;
 mod gear_pair;
+mod handles;
 mod schema;
 mod snapshot;
+mod three_arm;
 
 pub(crate) use edit::{Edit, edited};
 pub(crate) use snapshot::{Snapshot, Subject};

@@ -1,10 +1,11 @@
 use centrode::analysis::Report;
 use centrode::export::page::{Curve, Picture};
 use centrode::mechanism::design::{DesignError, DesignFile};
+use centrode::mechanism::mechanism::Mechanism;
 use serde::Serialize;
 
+use super::family;
 use super::field::{Table, tables};
-use super::gear_pair;
 use crate::report;
 
 /// What the page shows of one design state.
@@ -40,7 +41,8 @@ pub(crate) struct Verdict {
     ok: bool,
     summary: String,
     findings: Vec<report::Words>,
-    figures: Vec<report::Group>,
+    goals: Vec<report::GoalWords>,
+    figures: Vec<report::Section>,
 }
 
 impl From<&DesignError> for Fault {
@@ -60,7 +62,8 @@ impl Verdict {
             ok: found.ok(),
             summary: report::summary(found),
             findings: found.findings.iter().map(report::words).collect(),
-            figures: report::groups(found),
+            goals: found.goals.iter().map(report::goal_words).collect(),
+            figures: report::sections(found),
         }
     }
 }
@@ -68,7 +71,7 @@ impl Verdict {
 /// A design that has become a mechanism.
 pub(crate) struct Subject {
     snapshot: Snapshot,
-    pair: Box<centrode::mechanism::gear::GearPair>,
+    mechanism: Mechanism,
 }
 
 impl Snapshot {
@@ -112,19 +115,20 @@ impl Subject {
     pub(crate) fn of(text: String) -> Result<Self, Box<Snapshot>> {
         let mut snapshot = Snapshot::of_text(text);
         let resolved = DesignFile::read(snapshot.text.as_bytes())
-            .and_then(|file| file.gear_pair().map(|pair| (file, pair)));
-        let (file, pair) = match resolved {
+            .and_then(|file| file.mechanism().map(|mechanism| (file, mechanism)));
+        let (file, mechanism) = match resolved {
             Ok(both) => both,
             Err(error) => return Err(Box::new(snapshot.with_error(&error))),
         };
-        snapshot.name = pair.name().into();
-        snapshot.title = pair.title().into();
-        snapshot.definition = gear_pair::definition(&pair);
-        snapshot.picture = Some(gear_pair::picture(file.design(), &pair));
-        snapshot.curves = centrode::export::gear_pair::curves(&pair);
+        let design = file.design();
+        snapshot.name = mechanism.name().into();
+        snapshot.title = mechanism.title().into();
+        snapshot.definition = report::definition(&mechanism);
+        snapshot.picture = Some(family::picture(design, &mechanism));
+        snapshot.curves = family::curves(&mechanism);
         Ok(Self {
             snapshot,
-            pair: Box::new(pair),
+            mechanism,
         })
     }
 
@@ -141,9 +145,11 @@ impl Subject {
     /// The picture with what the checks say.
     pub(crate) fn checked(&self) -> Snapshot {
         let mut snapshot = self.snapshot.clone();
-        let contact = centrode::analysis::Contact::of(&self.pair);
-        let found = centrode::analysis::check_contact(&self.pair, &contact);
-        snapshot.curves.extend(gear_pair::contact_curves(&contact));
+        let (found, curves) = family::checked(&self.mechanism);
+        snapshot.curves.extend(curves);
+        if let Some(picture) = family::detailed(&self.mechanism) {
+            snapshot.picture = Some(picture);
+        }
         snapshot.verdict = Some(Verdict::of(&found));
         snapshot
     }

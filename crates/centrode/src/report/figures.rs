@@ -2,7 +2,7 @@ use std::collections::BTreeSet;
 use std::io::{Result, Write};
 
 use anstyle::Style;
-use centrode::analysis::Report;
+use centrode::analysis::{Report, Table};
 use serde::Serialize;
 
 pub(super) const HEADING: Style = Style::new().bold();
@@ -226,15 +226,15 @@ const GROUPS: [Group; 7] = [
 /// Figures that go together, as rows and columns.
 #[derive(Clone, Debug, Serialize)]
 pub(crate) struct Section {
-    heading: &'static str,
-    columns: Vec<&'static str>,
+    heading: String,
+    columns: Vec<String>,
     rows: Vec<Line>,
 }
 
 /// A row of a [`Section`].
 #[derive(Clone, Debug, Serialize)]
 pub(crate) struct Line {
-    name: &'static str,
+    name: String,
     unit: &'static str,
     cells: Vec<Option<Cell>>,
 }
@@ -243,7 +243,7 @@ pub(crate) struct Line {
 #[derive(Clone, Debug, Serialize)]
 pub(crate) struct Cell {
     /// Its key in the report.
-    key: &'static str,
+    key: String,
     /// As the command line shows it.
     shown: String,
     /// As the JSON report has it, to the last digit.
@@ -251,22 +251,25 @@ pub(crate) struct Cell {
 }
 
 impl Cell {
-    fn of(report: &Report, key: &'static str, unit: Unit) -> Option<Self> {
+    fn of(report: &Report, key: &str, unit: Unit) -> Option<Self> {
         let value = *report.values.get(key)?;
-        // The writer of the report: what is not finite is null.
-        let exact = serde_json::to_string(&value).ok()?;
         Some(Self {
-            key,
+            key: key.into(),
             shown: unit.show(value),
-            exact,
+            exact: exact(value),
         })
     }
 }
 
-/// Every figure of the report in its group, those of no group last.
+/// A figure as the writer of the JSON report has it; what is not finite is null.
+fn exact(value: f64) -> String {
+    serde_json::to_string(&value).unwrap_or_else(|_| "null".into())
+}
+
+/// Every table and figure of the report, figures of no group last.
 pub(crate) fn sections(report: &Report) -> Vec<Section> {
     let mut shown: BTreeSet<&str> = BTreeSet::new();
-    let mut sections = Vec::new();
+    let mut sections: Vec<Section> = report.tables.iter().map(section).collect();
     for Group(heading, columns, rows) in &GROUPS {
         let mut lines = Vec::new();
         for Row(name, keys, unit) in *rows {
@@ -276,15 +279,14 @@ pub(crate) fn sections(report: &Report) -> Vec<Section> {
                 .map(|key| Cell::of(report, key, *unit))
                 .collect();
             if cells.iter().any(Option::is_some) {
-                let unit = unit.name();
+                let (name, unit) = ((*name).to_owned(), unit.name());
                 lines.push(Line { name, unit, cells });
             }
         }
         if !lines.is_empty() {
-            let columns = columns.to_vec();
             sections.push(Section {
-                heading,
-                columns,
+                heading: (*heading).into(),
+                columns: columns.iter().map(|&c| c.into()).collect(),
                 rows: lines,
             });
         }
@@ -292,20 +294,45 @@ pub(crate) fn sections(report: &Report) -> Vec<Section> {
     let rest = report.values.keys().filter(|key| !shown.contains(*key));
     let rows: Vec<Line> = rest
         .map(|key| Line {
-            name: key,
+            name: (*key).into(),
             unit: "",
             cells: vec![Cell::of(report, key, Unit::Number)],
         })
         .collect();
     if !rows.is_empty() {
-        let columns = Vec::new();
         sections.push(Section {
-            heading: "More",
-            columns,
+            heading: "More".into(),
+            columns: Vec::new(),
             rows,
         });
     }
     sections
+}
+
+/// A table as a section, in the units in which it is shown.
+fn section(table: &Table) -> Section {
+    let (factor, unit) = match table.unit {
+        "rad" => (180.0 / std::f64::consts::PI, "deg"),
+        unit => (1.0, unit),
+    };
+    let cell = |row: &str, column: usize, value: f64| Cell {
+        key: format!("{}/{row}/{column}", table.name),
+        shown: figure(value * factor, 4),
+        exact: exact(value),
+    };
+    let line = |(name, figures): &(String, Vec<f64>)| Line {
+        name: name.clone(),
+        unit,
+        cells: (0..)
+            .zip(figures)
+            .map(|(column, &value)| Some(cell(name, column, value)))
+            .collect(),
+    };
+    Section {
+        heading: table.title.into(),
+        columns: table.columns.clone(),
+        rows: table.rows.iter().map(line).collect(),
+    }
 }
 
 /// Writes every figure in its group; figures of no group come last, as they are.
@@ -418,7 +445,7 @@ mod tests {
         report.values.insert("module", 2.25);
         report.values.insert("swing", 0.5);
         report.values.insert("clearance_min", f64::INFINITY);
-        let exact: Vec<(&str, String)> = sections(&report)
+        let exact: Vec<(String, String)> = sections(&report)
             .into_iter()
             .flat_map(|section| section.rows)
             .flat_map(|row| row.cells)
@@ -430,7 +457,10 @@ mod tests {
             ("module", "2.25"),
             ("swing", "0.5"),
         ];
-        assert_eq!(exact, expected.map(|(key, text)| (key, text.to_owned())));
+        assert_eq!(
+            exact,
+            expected.map(|(key, text)| (key.to_owned(), text.to_owned()))
+        );
         let mut out = Vec::new();
         write(&report, &mut out).expect("written");
         let text = String::from_utf8(out).expect("text");

@@ -2,6 +2,7 @@ use std::io::{Result, Write};
 
 use anstyle::{AnsiColor, Style};
 use centrode::analysis::{Goal, Report};
+use serde::Serialize;
 
 use super::figures::{HEADING, figure};
 
@@ -32,7 +33,26 @@ pub(super) fn write(report: &Report, out: &mut impl Write) -> Result<()> {
     Ok(())
 }
 
-fn one(goal: &Goal, out: &mut impl Write) -> Result<()> {
+/// A goal in words.
+#[derive(Clone, Debug, Serialize)]
+pub(crate) struct GoalWords {
+    number: u32,
+    name: &'static str,
+    title: &'static str,
+    value: String,
+    /// The figure as the JSON report has it, to the last digit.
+    exact: Option<String>,
+    unit: &'static str,
+    /// The range it is wanted in.
+    wanted: String,
+    /// Met, missed by how much, or not checked.
+    verdict: String,
+    met: Option<bool>,
+    progress: Option<f64>,
+}
+
+/// The words for a goal.
+pub(crate) fn goal_words(goal: &Goal) -> GoalWords {
     let (factor, unit, decimals) = match goal.unit {
         "rad" => (180.0 / std::f64::consts::PI, "deg", 4),
         "" => (1.0, "", 0),
@@ -52,26 +72,46 @@ fn one(goal: &Goal, out: &mut impl Write) -> Result<()> {
         [None, Some(greatest)] => format!("at most {}", short(greatest)),
         [None, None] => String::new(),
     };
-    let value = goal.value.map_or("-".into(), show);
-    write!(
-        out,
-        "  {:>2} {:<36} {value:>10} {unit:<3}  {wanted:<14}",
-        goal.number, goal.title
-    )?;
-    let (word, color) = match (goal.met(), goal.margin) {
-        (Some(true), _) => ("met".into(), AnsiColor::Green),
+    let verdict = match (goal.met(), goal.margin) {
+        (Some(true), _) => "met".into(),
         (Some(false), Some(margin)) => {
             let missed = format!("missed by {} {unit}", show(-margin));
-            (missed.trim_end().to_owned(), AnsiColor::Red)
+            missed.trim_end().to_owned()
         }
-        _ => ("not checked".into(), AnsiColor::Cyan),
+        _ => "not checked".into(),
+    };
+    GoalWords {
+        number: goal.number,
+        name: goal.name,
+        title: goal.title,
+        value: goal.value.map_or("-".into(), show),
+        exact: goal.value.and_then(|v| serde_json::to_string(&v).ok()),
+        unit,
+        wanted,
+        verdict,
+        met: goal.met(),
+        progress: goal.progress,
+    }
+}
+
+fn one(goal: &Goal, out: &mut impl Write) -> Result<()> {
+    let words = goal_words(goal);
+    write!(
+        out,
+        "  {:>2} {:<36} {:>10} {:<3}  {:<14}",
+        words.number, words.title, words.value, words.unit, words.wanted
+    )?;
+    let color = match words.met {
+        Some(true) => AnsiColor::Green,
+        Some(false) => AnsiColor::Red,
+        None => AnsiColor::Cyan,
     };
     let style: Style = color.on_default().bold();
     let bar = match goal.progress {
         Some(progress) => bar(progress),
         None => ".".repeat(BAR),
     };
-    writeln!(out, "  [{bar}]  {style}{word}{style:#}")
+    writeln!(out, "  [{bar}]  {style}{}{style:#}", words.verdict)
 }
 
 /// A bar filled in proportion; full only where the goal is reached.

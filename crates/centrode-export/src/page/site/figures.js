@@ -46,5 +46,5 @@ function figure(cell, before) {
   const differs = old !== undefined && old.exact !== cell.exact;
   return element("td", { class: "figure", "data-key": cell.key, "data-exact": cell.exact, title: `${cell.key} = ${cell.exact}` },
     exact ? cell.exact : cell.shown,
-    differs ? element("span", { class: "before", title: "in the pinned design" }, exact ? old.exact : old.shown) : null);
+    differs ? element("span", { class: "before", title: "in the pinned design" }, `was ${exact ? old.exact : old.shown}`) : null);
 }

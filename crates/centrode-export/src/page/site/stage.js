@@ -7,11 +7,11 @@ import { color } from "./theme.js";
 const CLOSEST = 1e5;
 
 /** Lines and arcs of a snapshot as the canvas draws them. */
-function outline(vertices) {
+function outline({ vertices, closed }) {
   const path = new Path2D();
   const count = vertices.length / 3;
   path.moveTo(vertices[0], vertices[1]);
-  for (let i = 0; i < count; i += 1) {
+  for (let i = 0; i < (closed ? count : count - 1); i += 1) {
     const [x, y, bulge] = vertices.slice(3 * i, 3 * i + 3);
     const j = (i + 1) % count;
     const [u, v] = [vertices[3 * j], vertices[3 * j + 1]];
@@ -25,7 +25,7 @@ function outline(vertices) {
     const radius = (chord * (1 + bulge * bulge)) / (4 * Math.abs(bulge));
     path.arc(cx, cy, radius, Math.atan2(y - cy, x - cx), Math.atan2(v - cy, u - cx), bulge < 0);
   }
-  path.closePath();
+  if (closed) path.closePath();
   return path;
 }
 
@@ -36,16 +36,27 @@ class Scene {
     this.motion = new Motion(picture.motion);
     this.links = picture.links.map((link) => {
       const body = new Path2D();
-      const pitch = [];
-      for (const { role, vertices } of link.paths) {
-        if (vertices.length === 0) continue;
-        if (role === "body" || role === "hole") body.addPath(outline(vertices));
-        else pitch.push(outline(vertices));
+      const lines = [];
+      for (const path of link.paths) {
+        if (path.vertices.length === 0) continue;
+        if (path.role === "body" || path.role === "hole") body.addPath(outline(path));
+        else lines.push({ role: path.role, path: outline(path) });
       }
-      return { name: link.name, body, pitch };
+      const solid = link.paths.some((path) => path.role === "body");
+      return { name: link.name, kind: link.name.replace(/ \d+$/, ""), body, lines, solid };
     });
+    // Links of one kind have one colour.
+    const kinds = [...new Set(this.links.filter((link) => link.solid).map((link) => link.kind))];
+    for (const link of this.links) link.tint = kinds.indexOf(link.kind);
   }
 }
+
+/** How lines look: colour, width in pixels, dashes in pixels. */
+const LINES = {
+  pitch: ["accent", 1, [9, 3, 2, 3]],
+  trace: ["accent", 1.5, []],
+  ground: ["muted", 1.5, [12, 4]],
+};
 
 export class Stage {
   constructor(moved) {
@@ -141,15 +152,16 @@ export class Stage {
     if (!this.scene) return;
     context.globalAlpha = this.stale ? 0.45 : 1;
     const poses = this.scene.motion.at(this.input);
-    this.scene.links.forEach((link, i) => this.link(link, poses[i], i));
-    if (byId("show-pitch").checked) {
-      this.scene.links.forEach((link, i) => this.pitch(link, poses[i]));
-    }
+    this.scene.links.forEach((link, i) => this.link(link, poses[i]));
+    this.scene.links.forEach((link, i) => this.lines(link, poses[i]));
     if (this.pinned) {
       const before = this.pinned.motion.at(this.input * this.pinned.motion.cycle / this.scene.motion.cycle);
       this.pinned.links.forEach((link, i) => this.ghost(link, before[i]));
     }
-    poses.forEach((pose) => this.axis(pose));
+    this.scene.links.forEach((link, i) => {
+      if (link.solid) this.axis(poses[i]);
+    });
+    this.scene.picture.marks.forEach((mark) => this.mark(mark, poses[mark.link]));
     context.globalAlpha = 1;
     this.measure();
     this.moved?.(poses);
@@ -173,9 +185,10 @@ export class Stage {
     return (pixels) => pixels / this.view.scale;
   }
 
-  link(link, pose, index) {
+  link(link, pose) {
+    if (!link.solid) return;
     const width = this.enter(pose);
-    this.context.fillStyle = color(`link-${index % 4}`);
+    this.context.fillStyle = color(`link-${link.tint % 4}`);
     this.context.strokeStyle = color("ink");
     this.context.lineWidth = width(1.1);
     this.context.lineJoin = "round";
@@ -184,13 +197,54 @@ export class Stage {
     this.context.stroke(link.body);
   }
 
-  pitch(link, pose) {
+  lines(link, pose) {
+    if (link.lines.length === 0) return;
+    const { context } = this;
     const width = this.enter(pose);
-    this.context.strokeStyle = color("accent");
-    this.context.lineWidth = width(1);
-    this.context.setLineDash([width(9), width(3), width(2), width(3)]);
-    for (const path of link.pitch) this.context.stroke(path);
-    this.context.setLineDash([]);
+    for (const { role, path } of link.lines) {
+      if (role === "bar" || role === "clamp") {
+        this.bar(path, role, width);
+        continue;
+      }
+      if (role === "pitch" && !byId("show-pitch").checked) continue;
+      const [name, pixels, dashes] = LINES[role];
+      context.strokeStyle = color(name);
+      context.lineWidth = width(pixels);
+      context.setLineDash(dashes.map(width));
+      context.stroke(path);
+    }
+    context.setLineDash([]);
+  }
+
+  /** A bar: an edge around a core. */
+  bar(path, role, width) {
+    const { context } = this;
+    const breadth = Math.min(14, Math.max(3, 4 * this.view.scale)) * (role === "clamp" ? 0.5 : 1);
+    context.setLineDash([]);
+    context.lineCap = "round";
+    context.lineJoin = "round";
+    context.strokeStyle = color("ink");
+    context.lineWidth = width(breadth + 2);
+    context.stroke(path);
+    context.strokeStyle = color(role === "clamp" ? "accent" : "bar");
+    context.lineWidth = width(breadth);
+    context.stroke(path);
+    context.lineCap = "butt";
+  }
+
+  /** A dot with its name beside it. */
+  mark({ name, at }, [x, y, angle]) {
+    const { context } = this;
+    const [c, s] = [Math.cos(angle), Math.sin(angle)];
+    const [px, py] = this.toBox(x + c * at[0] - s * at[1], y + s * at[0] + c * at[1]);
+    context.setTransform(this.density, 0, 0, this.density, 0, 0);
+    context.fillStyle = color("pinned");
+    context.beginPath();
+    context.arc(px, py, 4, 0, 2 * Math.PI);
+    context.fill();
+    context.fillStyle = color("ink");
+    context.font = "12px system-ui, sans-serif";
+    context.fillText(name, px + 8, py - 6);
   }
 
   ghost(link, pose) {
@@ -200,6 +254,7 @@ export class Stage {
     this.context.lineWidth = width(1.2);
     this.context.setLineDash([width(4), width(3)]);
     this.context.stroke(link.body);
+    for (const { role, path } of link.lines) if (role !== "pitch" && role !== "ground") this.context.stroke(path);
     this.context.setLineDash([]);
   }
 

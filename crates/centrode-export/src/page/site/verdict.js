@@ -25,7 +25,38 @@ export function show(snapshot, pinned, go) {
     title(verdict.ok ? "Sound" : "Does not do its job", verdict.ok ? "good" : "error", verdict.summary),
     element("ul", { class: "findings" }, ...verdict.findings.map((finding) => item(finding, go))),
   );
+  goals(verdict.goals, pinned?.verdict?.goals);
   figures.show(verdict, pinned?.verdict);
+}
+
+/** Goals as bars: figure, range, and how near it is. */
+function goals(list, pinned) {
+  if (list.length === 0) {
+    byId("goals").replaceChildren();
+    return;
+  }
+  const checked = list.filter((goal) => goal.met !== null);
+  const met = checked.filter((goal) => goal.met).length;
+  const open = list.length - checked.length;
+  const before = new Map((pinned ?? []).map((goal) => [goal.name, goal]));
+  byId("goals").replaceChildren(
+    element("div", { class: "title" }, element("h2", {}, `Goals: ${met} of ${checked.length} reached`),
+      open ? element("span", { class: "quiet" }, `${open} not checked`) : null),
+    ...list.map((goal) => bar(goal, before.get(goal.name))));
+}
+
+function bar(goal, before) {
+  const state = goal.met === null ? "open" : goal.met ? "met" : "unmet";
+  const sign = { open: "○", met: "✓", unmet: "✕" }[state];
+  const fill = element("div", { class: "bar-fill" });
+  fill.style.transform = `scaleX(${goal.progress ?? 0})`;
+  const was = before && before.value !== goal.value ? ` (was ${before.value})` : "";
+  return element("div", { class: `goal ${state}`, "data-goal": goal.name },
+    element("div", { class: "head" }, element("span", {}, `${goal.number}. ${goal.title}`),
+      element("b", { title: goal.exact }, `${sign} ${goal.value}${goal.unit && ` ${goal.unit}`}${was}`)),
+    element("div", { class: "track", role: "progressbar", "aria-label": goal.title, "aria-valuemin": 0, "aria-valuemax": 1,
+      "aria-valuenow": goal.progress ?? undefined, "aria-valuetext": `${goal.value} ${goal.unit}, wanted ${goal.wanted}, ${goal.verdict}` }, fill),
+    element("div", { class: "detail" }, `${goal.wanted}${goal.unit && ` ${goal.unit}`}; ${goal.verdict}`));
 }
 
 function title(words, kind, summary) {

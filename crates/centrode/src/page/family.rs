@@ -1,0 +1,44 @@
+//! What each family of mechanism shows of itself.
+
+use centrode::analysis::{Contact, Report, check_contact, check_mechanism};
+use centrode::export::page::{Curve, Picture};
+use centrode::mechanism::design::Design;
+use centrode::mechanism::mechanism::Mechanism;
+
+use super::{gear_pair, three_arm};
+
+/// The picture that is there at once.
+pub(super) fn picture(design: &Design, mechanism: &Mechanism) -> Picture {
+    match mechanism {
+        Mechanism::GearPair(pair) => gear_pair::picture(design, pair),
+        Mechanism::ThreeArm(arms) => three_arm::picture(arms),
+    }
+}
+
+/// The picture with what takes longer to make; `None` where nothing is left out at first.
+pub(super) fn detailed(mechanism: &Mechanism) -> Option<Picture> {
+    match mechanism {
+        Mechanism::GearPair(_) => None,
+        Mechanism::ThreeArm(arms) => three_arm::with_teeth(arms),
+    }
+}
+
+/// The curves that are there at once.
+pub(super) fn curves(mechanism: &Mechanism) -> Vec<Curve> {
+    match mechanism {
+        Mechanism::GearPair(pair) => centrode::export::gear_pair::curves(pair),
+        Mechanism::ThreeArm(arms) => centrode::export::three_arm::curves(arms),
+    }
+}
+
+/// What the checks say, and the curves they leave.
+pub(super) fn checked(mechanism: &Mechanism) -> (Report, Vec<Curve>) {
+    match mechanism {
+        Mechanism::GearPair(pair) => {
+            let contact = Contact::of(pair);
+            let curves = gear_pair::contact_curves(&contact);
+            (check_contact(pair, &contact), curves)
+        }
+        Mechanism::ThreeArm(_) => (check_mechanism(mechanism), Vec::new()),
+    }
+}

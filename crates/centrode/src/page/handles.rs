@@ -1,0 +1,76 @@
+use std::f64::consts::{PI, TAU};
+
+use centrode::export::page::{Handle, HandlePlane};
+use centrode::mechanism::gear::pitch::{PitchSpec, Plane};
+
+/// Most points of a pitch curve that get a handle each: more would hide the curve.
+const MOST_HANDLES: usize = 60;
+
+/// The points of a pitch curve whose length is `length` mm in the picture, on a link.
+pub(super) fn handles(pitch: &PitchSpec, length: f64, link: usize) -> Vec<Handle> {
+    let (plane, first, second): (_, &[f64], &[f64]) = match pitch {
+        PitchSpec::Bspline(s) if s.plane == Plane::Polar => {
+            (HandlePlane::Polar, &s.radius, &s.angle)
+        }
+        PitchSpec::Bspline(s) => (HandlePlane::Cartesian, &s.x, &s.y),
+        PitchSpec::Bezier(s) if s.plane == Plane::Polar => {
+            (HandlePlane::Polar, &s.radius, &s.angle)
+        }
+        PitchSpec::Bezier(s) => (HandlePlane::Cartesian, &s.x, &s.y),
+        PitchSpec::Polar(s) => (HandlePlane::Polar, &s.radius, &s.angle),
+        _ => return Vec::new(),
+    };
+    if first.len() > MOST_HANDLES {
+        return Vec::new();
+    }
+    let scale = scale(pitch, length);
+    let turn = TAU / first.len() as f64;
+    let handle = |(i, &a): (usize, &f64)| {
+        let (keys, b) = match plane {
+            HandlePlane::Cartesian => (["x", "y"], second.get(i).copied()),
+            // A table without angles has equal steps.
+            HandlePlane::Polar if second.is_empty() => (["radius", ""], Some(turn * i as f64)),
+            HandlePlane::Polar => (["radius", "angle_deg"], second.get(i).copied()),
+        };
+        let b = match plane {
+            HandlePlane::Cartesian => b?,
+            HandlePlane::Polar => degrees(b?),
+        };
+        Some(Handle {
+            name: format!("point {} of the pitch curve", i + 1),
+            link,
+            plane,
+            keys: keys.map(|key| {
+                if key.is_empty() {
+                    String::new()
+                } else {
+                    format!("pitch.{key}[{i}]")
+                }
+            }),
+            values: [a, b],
+            scale,
+        })
+    };
+    first.iter().enumerate().filter_map(handle).collect()
+}
+
+/// The angle in degrees, without the noise of its way through radians.
+fn degrees(radians: f64) -> f64 {
+    (radians.to_degrees() * 1e10).round() / 1e10
+}
+
+/// By how much module and tooth count scale the curve as written.
+fn scale(pitch: &PitchSpec, length: f64) -> f64 {
+    let mut unscaled = pitch.clone();
+    let (module, tooth_count) = match &mut unscaled {
+        PitchSpec::Bspline(s) => (s.module.take(), s.tooth_count),
+        PitchSpec::Bezier(s) => (s.module.take(), s.tooth_count),
+        PitchSpec::Polar(s) => (s.module.take(), s.tooth_count),
+        _ => (None, None),
+    };
+    let (Some(_), Some(teeth)) = (module, tooth_count) else {
+        return 1.0;
+    };
+    let own = unscaled.resolve().ok().and_then(|pitch| pitch.module);
+    own.map_or(1.0, |own| length / (PI * own * f64::from(teeth)))
+}
