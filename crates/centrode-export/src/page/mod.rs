@@ -98,8 +98,9 @@ pub struct Curve {
     /// Unit as shown; empty for a plain number.
     pub unit: &'static str,
     /// Input angles, rad, ascending.
+    #[serde(serialize_with = "path::drawn")]
     pub input: Vec<f64>,
     /// The figure at every input, in `unit`; what is not finite is no part of the curve.
-    #[serde(serialize_with = "path::finite")]
+    #[serde(serialize_with = "path::drawn")]
     pub value: Vec<f64>,
 }

@@ -107,10 +107,20 @@ pub(crate) fn short(value: f64, unit: f64) -> f64 {
     }
 }
 
-/// Numbers as JSON, null for what is not finite.
-pub(crate) fn finite<S: Serializer>(values: &[f64], serializer: S) -> Result<S::Ok, S::Error> {
+/// Digits of a number that is drawn: finer than any screen.
+const DIGITS: i32 = 7;
+
+/// Numbers as JSON with as many digits as drawing needs, null for what is not finite.
+pub(crate) fn drawn<S: Serializer>(values: &[f64], serializer: S) -> Result<S::Ok, S::Error> {
     let mut list = serializer.serialize_seq(Some(values.len()))?;
-    for value in values {
+    for &value in values {
+        let leading = value.abs().log10().floor();
+        let unit = 10_f64.powi(leading.clamp(-300.0, 300.0) as i32 + 1 - DIGITS);
+        let value = if value == 0.0 {
+            0.0
+        } else {
+            short(value, unit)
+        };
         list.serialize_element(&Some(value).filter(|v| v.is_finite()))?;
     }
     list.end()
@@ -140,6 +150,33 @@ mod tests {
                     let off = (p - Point::new(1.234_567_8, -7.0)).norm() - 31.415_926;
                     assert!(off.abs() <= mm, "{off} at {mm}");
                 }
+            }
+        }
+    }
+
+    #[test]
+    fn curves_have_the_digits_that_can_be_drawn() {
+        let values = [
+            1.0 / 3.0,
+            -12_345.678_912_3,
+            0.0,
+            1.23e-13 / 7.0,
+            f64::INFINITY,
+            f64::NAN,
+            1e-320,
+        ];
+        let mut out = Vec::new();
+        let mut serializer = serde_json::Serializer::new(&mut out);
+        drawn(&values, &mut serializer).expect("written");
+        let read: Vec<Option<f64>> = serde_json::from_slice(&out).expect("JSON");
+        assert!(out.len() < 80, "{}", String::from_utf8_lossy(&out));
+        for (value, read) in values.into_iter().zip(read) {
+            match read {
+                Some(read) => {
+                    let off = (read - value).abs();
+                    assert!(off <= 1e-6 * value.abs() || off < 1e-300, "{read}");
+                }
+                None => assert!(!value.is_finite()),
             }
         }
     }
