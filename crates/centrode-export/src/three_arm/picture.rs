@@ -10,6 +10,9 @@ use crate::page::{Curve, Link, Mark, Motion, Path, Picture, Role, short};
 /// Samples of one carrier turn.
 const SAMPLES: u32 = 720;
 
+/// Corners of a pitch curve drawn in place of teeth.
+const CORNERS: u32 = 240;
+
 /// How the gears are drawn.
 #[derive(Clone, Copy, Debug)]
 pub enum Teeth<'a> {
@@ -92,10 +95,10 @@ fn gears(mechanism: &ThreeArm, teeth: Teeth<'_>, tolerance: Tolerance) -> (Vec<P
         let rolling = mechanism.rolling();
         let length = rolling.pitch_length(member);
         let point = |i: u32| {
-            let arc = length * f64::from(i) / f64::from(SAMPLES);
+            let arc = length * f64::from(i) / f64::from(CORNERS);
             rolling.frame(member, rolling.parameter(arc)).point
         };
-        let points: Vec<Point> = (0..SAMPLES).map(point).collect();
+        let points: Vec<Point> = (0..CORNERS).map(point).collect();
         vec![
             Path::polygon(Role::Body, &points, tolerance),
             Path::polygon(Role::Pitch, &points, tolerance),
