@@ -6,8 +6,9 @@ use centrode_mechanism::mechanism::Mechanism;
 use pyo3::IntoPyObjectExt;
 use pyo3::prelude::{Bound, PyAny, PyAnyMethods, PyModule, PyResult, Python, pyfunction};
 
-use crate::error::{not_of_family, of_design, unknown_word};
+use crate::error::{not_in_python, not_of_family, of_design, unknown_word};
 use crate::gear_pair::GearPair;
+use crate::spiral_shaft::SpiralShaft;
 use crate::three_arm::ThreeArm;
 use crate::wait::wait;
 
@@ -20,6 +21,8 @@ pub(crate) enum Loaded {
     GearPair(GearPair),
     /// A three-arm mechanism.
     ThreeArm(ThreeArm),
+    /// A spiral shaft.
+    SpiralShaft(SpiralShaft),
 }
 
 impl Loaded {
@@ -34,21 +37,31 @@ impl Loaded {
                 pair: Arc::from(pair),
             }),
             (_, Mechanism::ThreeArm(mechanism)) => Self::ThreeArm(ThreeArm(Arc::from(mechanism))),
-            (_, other) => return Err(not_of_family(other.family())),
+            (_, Mechanism::SpiralShaft(shaft)) => Self::SpiralShaft(SpiralShaft {
+                shaft: Arc::from(shaft),
+            }),
+            (_, other) => return Err(not_in_python(other.family())),
         })
     }
 
     pub(crate) fn gear_pair(self) -> PyResult<GearPair> {
         match self {
             Self::GearPair(pair) => Ok(pair),
-            Self::ThreeArm(_) => Err(not_of_family("gear-pair")),
+            _ => Err(not_of_family("gear-pair")),
         }
     }
 
     pub(crate) fn three_arm(self) -> PyResult<ThreeArm> {
         match self {
             Self::ThreeArm(mechanism) => Ok(mechanism),
-            Self::GearPair(_) => Err(not_of_family("three-arm")),
+            _ => Err(not_of_family("three-arm")),
+        }
+    }
+
+    pub(crate) fn spiral_shaft(self) -> PyResult<SpiralShaft> {
+        match self {
+            Self::SpiralShaft(shaft) => Ok(shaft),
+            _ => Err(not_of_family("spiral-shaft")),
         }
     }
 }
@@ -59,6 +72,7 @@ pub(crate) fn _load<'py>(py: Python<'py>, contents: &[u8]) -> PyResult<Bound<'py
     match Loaded::read(py, contents)? {
         Loaded::GearPair(pair) => pair.into_bound_py_any(py),
         Loaded::ThreeArm(mechanism) => mechanism.into_bound_py_any(py),
+        Loaded::SpiralShaft(shaft) => shaft.into_bound_py_any(py),
     }
 }
 
@@ -72,6 +86,10 @@ pub(crate) fn path_loaded(py: Python<'_>, path: PathBuf) -> PyResult<Loaded> {
             design: Arc::clone(design),
             pair: Arc::clone(pair),
         }));
+    }
+    if let Ok(shaft) = loaded.cast::<SpiralShaft>() {
+        let shaft = Arc::clone(&shaft.get().shaft);
+        return Ok(Loaded::SpiralShaft(SpiralShaft { shaft }));
     }
     let arms = loaded.cast::<ThreeArm>()?;
     Ok(Loaded::ThreeArm(ThreeArm(Arc::clone(&arms.get().0))))

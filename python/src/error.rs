@@ -138,6 +138,12 @@ pub(crate) fn tolerance(mm: f64, pair: &gear::GearPair) -> PyResult<Tolerance> {
     Ok(tolerance)
 }
 
+/// A family that only the command line knows.
+pub(crate) fn not_in_python(family: &str) -> PyErr {
+    let message = format!("{family:?} has no class here: use the command line on it");
+    class::DesignError::new_err((message, "family"))
+}
+
 /// A design of another family where one of this is wanted.
 pub(crate) fn not_of_family(family: &str) -> PyErr {
     class::DesignError::new_err((format!("family must be {family:?}"), "family"))

@@ -5,6 +5,7 @@ use centrode_analysis::check_shaft;
 use centrode_export::Bundle;
 use centrode_export::shaft as files;
 use centrode_mechanism::cam::law::LawSpec;
+use centrode_mechanism::design::Design;
 use centrode_mechanism::shaft as mechanism;
 use centrode_mechanism::shaft::{
     GrooveSpec, Load, RotatedSine, Sine, SpeedFormula, SpeedLaw, SpeedTable, SpiralShaftDesign,
@@ -17,7 +18,8 @@ use pyo3::types::{PyBytes, PyDict};
 
 use crate::array::{Numbers, Values, each, points, rows};
 use crate::count::Count;
-use crate::error::{of_bundle, of_shaft, of_shaft_files, plain_tolerance, unknown_word};
+use crate::design::Loaded;
+use crate::error::{of_bundle, of_design, of_shaft, of_shaft_files, plain_tolerance, unknown_word};
 use crate::format;
 use crate::record;
 use crate::wait::wait;
@@ -65,7 +67,7 @@ use crate::wait::wait;
 #[pyclass(frozen, eq, module = "centrode")]
 #[derive(Debug)]
 pub(crate) struct SpiralShaft {
-    shaft: Arc<mechanism::SpiralShaft>,
+    pub(crate) shaft: Arc<mechanism::SpiralShaft>,
 }
 
 impl PartialEq for SpiralShaft {
@@ -293,6 +295,22 @@ impl SpiralShaft {
             phase: pick,
         });
         Self::resolve(py, design)
+    }
+
+    /// The shaft of a design file's text.
+    ///
+    /// >>> import centrode as ct
+    /// >>> ct.SpiralShaft.from_toml(ct.template("spiral-shaft")).check().ok
+    /// True
+    #[staticmethod]
+    fn from_toml(py: Python<'_>, text: &str) -> PyResult<Self> {
+        Loaded::read(py, text.as_bytes())?.spiral_shaft()
+    }
+
+    /// The design file of the shaft; `from_toml` reads it back.
+    fn to_toml(&self) -> PyResult<String> {
+        let design = Design::SpiralShaft(Box::new(self.shaft.design().clone()));
+        design.to_toml().map_err(|e| of_design(&e))
     }
 
     /// Name, as written in the design.

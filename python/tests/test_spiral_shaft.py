@@ -108,3 +108,13 @@ def test_a_tolerance_must_be_a_length(shaft):
         with pytest.raises(ct.DesignError) as caught:
             shaft.developed(tolerance)
         assert caught.value.key == "tolerance"
+
+
+def test_a_design_file_reads_back(shaft, tmp_path):
+    assert ct.SpiralShaft.from_toml(shaft.to_toml()) == shaft
+    path = tmp_path / "shaft.toml"
+    path.write_text(ct.template("spiral-shaft"))
+    assert ct.load(path).amplitude == pytest.approx(1.283333, abs=1e-6)
+    path.write_text(ct.template("moving-box"))
+    with pytest.raises(ct.DesignError, match="command line"):
+        ct.load(path)

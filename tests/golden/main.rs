@@ -9,6 +9,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use centrode_export::gear_pair::{Format, Options, files};
+use centrode_export::{Bundle, shaft};
 use centrode_geometry::Tolerance;
 use centrode_mechanism::design::DesignFile;
 use centrode_mechanism::mechanism::Mechanism;
@@ -79,7 +80,28 @@ fn written(mechanism: &Mechanism) -> BTreeMap<String, Value> {
             Err(error) => BTreeMap::from([("refused".to_owned(), json!(error.to_string()))]),
         },
         Mechanism::ThreeArm(_) => BTreeMap::new(),
+        Mechanism::SpiralShaft(part) => {
+            let bundle = shaft::files(part, &shaft::FORMATS, &coarse()).expect("written");
+            counted(&bundle)
+        }
+        Mechanism::MovingBox(machine) => {
+            let bundle = shaft::moving_box_files(machine, &shaft::FORMATS, &coarse());
+            counted(&bundle.expect("written"))
+        }
     }
+}
+
+/// A shaft at the gears' tolerance would be millions of digits.
+fn coarse() -> Options {
+    Options::new(Tolerance::new(2e-2).expect("positive"))
+}
+
+/// What is in each file of a bundle.
+fn counted(bundle: &Bundle) -> BTreeMap<String, Value> {
+    let files = bundle.files();
+    files
+        .map(|(name, bytes)| (name.to_owned(), json!(entities::count(name, bytes))))
+        .collect()
 }
 
 /// Every place where two values differ, numbers within [`DIFFERENCE`] aside.

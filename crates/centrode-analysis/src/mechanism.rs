@@ -1,6 +1,6 @@
 use centrode_mechanism::mechanism::Mechanism;
 
-use crate::{Report, check, check_three_arm};
+use crate::{Report, check, check_moving_box, check_shaft, check_three_arm};
 
 /// Checks a mechanism of whatever family.
 #[must_use]
@@ -8,5 +8,7 @@ pub fn check_mechanism(mechanism: &Mechanism) -> Report {
     match mechanism {
         Mechanism::GearPair(pair) => check(pair),
         Mechanism::ThreeArm(mechanism) => check_three_arm(mechanism),
+        Mechanism::SpiralShaft(shaft) => check_shaft(shaft),
+        Mechanism::MovingBox(machine) => check_moving_box(machine),
     }
 }

@@ -3,7 +3,7 @@ use std::f64::consts::{FRAC_PI_6, TAU};
 use centrode_mechanism::shaft::{ClearOffset, Crossing, MovingBox, Pick, ShaftError, SpiralShaft};
 use centrode_mechanism::transmission::Transmission;
 
-use crate::{Finding, Place, Report, Severity};
+use crate::{Finding, Place, Report, Severity, Table};
 
 /// Pressure angle, rad, above which a follower moved along its guide runs badly: 30 deg.
 const PRESSURE_ANGLE: f64 = FRAC_PI_6;
@@ -37,6 +37,7 @@ pub fn check_shaft(shaft: &SpiralShaft) -> Report {
 pub fn check_moving_box(machine: &MovingBox) -> Report {
     let mut report = check_shaft(machine.shaft());
     report.findings.retain(|f| f.rule != "moved-distance");
+    report.tables.push(schemes(machine));
     let Some(drive) = machine.drive() else {
         moved(machine.shaft(), machine.moved_in_window(), &mut report);
         sort(&mut report);
@@ -82,6 +83,28 @@ pub fn check_moving_box(machine: &MovingBox) -> Report {
     contact(limit, load.speed_rpm, &mut report);
     sort(&mut report);
     report
+}
+
+/// What the box moves while a seedling is picked by each scheme alone, and as designed.
+fn schemes(machine: &MovingBox) -> Table {
+    let shaft = machine.shaft();
+    let (mean, design) = (shaft.law().mean_speed(), shaft.design());
+    let turn = |input: f64| machine.shaft_turn(input).position;
+    let half = 0.5 * design.window;
+    let geared = mean * (turn(design.pick + half) - turn(design.pick - half));
+    let rows = [
+        ("plain shaft", mean * design.window),
+        ("the groove alone", shaft.moved_in_window()),
+        ("the gears alone", geared),
+        ("as designed", machine.moved_in_window()),
+    ];
+    Table {
+        name: "schemes",
+        title: "Box while a seedling is picked",
+        unit: "mm",
+        columns: vec!["moves".into()],
+        rows: rows.map(|(name, moved)| (name.into(), vec![moved])).into(),
+    }
 }
 
 fn sort(report: &mut Report) {
@@ -469,5 +492,8 @@ mod tests {
         assert!((report.values["moved_distance"] - 1.954_217).abs() < 1e-6);
         assert!((report.values["box_contact_limit_rpm"] - 239.66).abs() < 0.01);
         assert!((report.values["moved_distance_plain"] - 10.0 / 3.0).abs() < 1e-12);
+        let moved: Vec<f64> = report.tables[0].rows.iter().map(|row| row.1[0]).collect();
+        assert!((moved[0] - 10.0 / 3.0).abs() < 1e-12 && (moved[1] - moved[0]).abs() < 1e-12);
+        assert!((moved[2] - moved[3]).abs() < 1e-12);
     }
 }

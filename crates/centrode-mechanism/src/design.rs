@@ -14,6 +14,7 @@ pub use fault::{DesignError, DesignFault};
 pub use file::DesignFile;
 
 use crate::gear::design::GearPairDesign;
+use crate::shaft::{MovingBoxDesign, SpiralShaftDesign};
 use crate::three_arm::design::ThreeArmDesign;
 
 /// A mechanism as written: one of the families, by the key `family`.
@@ -25,11 +26,16 @@ pub enum Design {
     GearPair(Box<GearPairDesign>),
     /// A three-arm transplanting mechanism.
     ThreeArm(Box<ThreeArmDesign>),
+    /// A variable-speed spiral shaft.
+    SpiralShaft(Box<SpiralShaftDesign>),
+    /// A seedling box moved at a variable speed.
+    MovingBox(Box<MovingBoxDesign>),
 }
 
 impl Design {
     /// The names of the families, as written in `family`.
-    pub const FAMILIES: [&'static str; 2] = ["gear-pair", "three-arm"];
+    pub const FAMILIES: [&'static str; 4] =
+        ["gear-pair", "three-arm", "spiral-shaft", "moving-box"];
 
     /// A commented design file of a family to start from, itself a good design.
     #[must_use]
@@ -37,6 +43,8 @@ impl Design {
         match family {
             "gear-pair" => Some(include_str!("../design/gear_pair.toml")),
             "three-arm" => Some(include_str!("../design/three_arm.toml")),
+            "spiral-shaft" => Some(include_str!("../design/spiral_shaft.toml")),
+            "moving-box" => Some(include_str!("../design/moving_box.toml")),
             _ => None,
         }
     }
@@ -53,14 +61,19 @@ impl Design {
         let mut schema = match family {
             "gear-pair" => schemars::schema_for!(GearPairDesign),
             "three-arm" => schemars::schema_for!(ThreeArmDesign),
+            "spiral-shaft" => schemars::schema_for!(SpiralShaftDesign),
+            "moving-box" => schemars::schema_for!(MovingBoxDesign),
             _ => return None,
         };
         let word = serde_json::json!({ "type": "string", "const": family });
         if let Some(properties) = schema.get_mut("properties").and_then(|p| p.as_object_mut()) {
             properties.insert("family".into(), word);
         }
-        if let Some(required) = schema.get_mut("required").and_then(|r| r.as_array_mut()) {
-            required.push("family".into());
+        match schema.get_mut("required").and_then(|r| r.as_array_mut()) {
+            Some(required) => required.push("family".into()),
+            None => {
+                schema.insert("required".into(), serde_json::json!(["family"]));
+            }
         }
         Some(schema.to_value())
     }
@@ -95,6 +108,8 @@ impl Design {
         match self {
             Self::GearPair(design) => design.validate(),
             Self::ThreeArm(design) => design.validate(),
+            Self::SpiralShaft(design) => design.validate(),
+            Self::MovingBox(design) => design.validate(),
         }
     }
 }

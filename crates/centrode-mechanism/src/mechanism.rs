@@ -2,6 +2,7 @@
 
 use crate::design::Design;
 use crate::gear::{GearPair, GearPairError};
+use crate::shaft::{MovingBox, ShaftError, SpiralShaft};
 use crate::three_arm::{ThreeArm, ThreeArmError};
 
 /// A resolved mechanism of one of the families.
@@ -13,6 +14,10 @@ pub enum Mechanism {
     GearPair(Box<GearPair>),
     /// A three-arm transplanting mechanism.
     ThreeArm(Box<ThreeArm>),
+    /// A variable-speed spiral shaft.
+    SpiralShaft(Box<SpiralShaft>),
+    /// A seedling box moved at a variable speed.
+    MovingBox(Box<MovingBox>),
 }
 
 /// Why a design gives no mechanism.
@@ -25,6 +30,9 @@ pub enum MechanismError {
     /// A three-arm mechanism.
     #[error(transparent)]
     ThreeArm(#[from] ThreeArmError),
+    /// A spiral shaft, also that of a moving box.
+    #[error(transparent)]
+    Shaft(#[from] ShaftError),
 }
 
 impl Mechanism {
@@ -36,6 +44,10 @@ impl Mechanism {
         Ok(match design {
             Design::GearPair(design) => Self::GearPair(Box::new(GearPair::resolve(design)?)),
             Design::ThreeArm(design) => Self::ThreeArm(Box::new(ThreeArm::resolve(design)?)),
+            Design::SpiralShaft(design) => {
+                Self::SpiralShaft(Box::new(SpiralShaft::resolve(design)?))
+            }
+            Design::MovingBox(design) => Self::MovingBox(Box::new(MovingBox::resolve(design)?)),
         })
     }
 
@@ -45,6 +57,8 @@ impl Mechanism {
         match self {
             Self::GearPair(_) => "gear-pair",
             Self::ThreeArm(_) => "three-arm",
+            Self::SpiralShaft(_) => "spiral-shaft",
+            Self::MovingBox(_) => "moving-box",
         }
     }
 
@@ -54,6 +68,8 @@ impl Mechanism {
         match self {
             Self::GearPair(pair) => pair.name(),
             Self::ThreeArm(mechanism) => &mechanism.design().name,
+            Self::SpiralShaft(shaft) => shaft.name(),
+            Self::MovingBox(machine) => &machine.design().name,
         }
     }
 
@@ -63,6 +79,8 @@ impl Mechanism {
         match self {
             Self::GearPair(pair) => pair.title(),
             Self::ThreeArm(mechanism) => &mechanism.design().title,
+            Self::SpiralShaft(shaft) => shaft.title(),
+            Self::MovingBox(machine) => &machine.design().title,
         }
     }
 }
@@ -74,6 +92,7 @@ impl MechanismError {
         match self {
             Self::GearPair(error) => error.key(),
             Self::ThreeArm(error) => error.key(),
+            Self::Shaft(error) => error.key(),
         }
     }
 }

@@ -3,7 +3,7 @@ use std::process::ExitCode;
 
 use centrode::analysis::Report;
 use centrode::export::gear_pair::{self, Format, Options, SheetOptions, Subject};
-use centrode::export::{Bundle, dxf};
+use centrode::export::{Bundle, dxf, shaft};
 use centrode::mechanism::design::{Projection, SheetSize};
 use centrode::mechanism::mechanism::Mechanism;
 
@@ -70,7 +70,30 @@ fn files(mechanism: &Mechanism, command: &Export, found: &Report) -> Result<Bund
                 "a three-arm mechanism is written as json only".into(),
             )),
         },
+        Mechanism::SpiralShaft(part) => {
+            only_of_shafts(command)?;
+            Ok(shaft::files(
+                part,
+                &formats(command),
+                &options(command, found),
+            )?)
+        }
+        Mechanism::MovingBox(machine) => {
+            only_of_shafts(command)?;
+            let (formats, options) = (formats(command), options(command, found));
+            Ok(shaft::moving_box_files(machine, &formats, &options)?)
+        }
     }
+}
+
+/// Refuses formats asked for by name that a shaft is not written as.
+fn only_of_shafts(command: &Export) -> Result<(), Failure> {
+    let none = [File::Sheet, File::Pdf, File::Urdf, File::Mjcf];
+    if command.format.iter().any(|format| none.contains(format)) {
+        let known = "a spiral shaft is written as dxf, svg, stl, step, 3mf, csv and json";
+        return Err(Failure::Usage(known.into()));
+    }
+    Ok(())
 }
 
 /// A line on standard error: what was found, and that the files are there all the same.

@@ -3,6 +3,7 @@ use std::io::{self, Write};
 use anstyle::{AnsiColor, Style};
 use centrode::export::BundleError;
 use centrode::export::gear_pair::GearPairFilesError;
+use centrode::export::shaft::ShaftFilesError;
 use centrode::mechanism::design::DesignError;
 
 /// Longest part of a line shown below an error, in characters.
@@ -27,7 +28,7 @@ pub(crate) enum Failure {
     /// The page cannot be served.
     Serve(io::Error),
     /// The files of the design cannot be made or written.
-    Files(Box<GearPairFilesError>),
+    Files(Box<dyn std::error::Error>),
     /// A word on the command line that means nothing.
     Usage(String),
 }
@@ -44,9 +45,15 @@ impl From<GearPairFilesError> for Failure {
     }
 }
 
+impl From<ShaftFilesError> for Failure {
+    fn from(error: ShaftFilesError) -> Self {
+        Self::Files(Box::new(error))
+    }
+}
+
 impl From<BundleError> for Failure {
     fn from(error: BundleError) -> Self {
-        Self::Files(Box::new(error.into()))
+        Self::Files(Box::new(error))
     }
 }
 

@@ -7,6 +7,7 @@ use std::io::Write;
 
 use centrode::analysis::{Finding, Goal, Report, Table};
 use centrode::mechanism::mechanism::Mechanism;
+use centrode::mechanism::shaft::{Scheme, SpiralShaft};
 use serde::Serialize;
 
 pub(crate) use figures::{Section, sections};
@@ -69,5 +70,24 @@ pub(crate) fn definition(mechanism: &Mechanism) -> String {
             arms.definition(),
             arms.center_distance()
         ),
+        Mechanism::SpiralShaft(shaft) => shaft_in_words(shaft),
+        Mechanism::MovingBox(machine) => {
+            let scheme = match machine.design().scheme {
+                Scheme::Shaft => "driven evenly",
+                Scheme::EllipticGear | Scheme::Both => "driven by elliptic gears",
+            };
+            format!("{}, {scheme}", shaft_in_words(machine.shaft()))
+        }
     }
+}
+
+fn shaft_in_words(shaft: &SpiralShaft) -> String {
+    let design = shaft.design();
+    format!(
+        "{} holes, {} mm a turn, {} turns out and back on a shaft of radius {} mm",
+        design.holes,
+        design.lead,
+        shaft.traverse().turns(),
+        design.radius
+    )
 }

@@ -1,6 +1,7 @@
 //! The files of a spiral shaft.
 
 mod gcode;
+mod moving_box;
 mod sheet;
 mod tables;
 
@@ -8,14 +9,16 @@ use crate::{
     Bundle, BundleError,
     csv::{self, TableError},
     dxf::{self, DxfError},
-    gear_pair::{Format, Options},
+    gear_pair::{Format, GearPairFilesError, Options},
     step::{self, StepError},
     stl, svg,
     threemf::{self, PackageError},
 };
 use centrode_geometry::SolidError;
+use centrode_mechanism::gear::GearPairError;
 use centrode_mechanism::shaft::{ShaftError, SpiralShaft};
 pub use gcode::program;
+pub use moving_box::moving_box_files;
 pub use sheet::{developed, side_view, slider};
 use thiserror::Error;
 
@@ -51,12 +54,28 @@ pub enum ShaftFilesError {
     /// A table could not be written.
     #[error(transparent)]
     Table(#[from] TableError),
+    /// The elliptic gears do not exist.
+    #[error(transparent)]
+    Gears(Box<GearPairError>),
+    /// The files of the elliptic gears could not be made.
+    #[error(transparent)]
+    GearFiles(Box<GearPairFilesError>),
     /// The files do not go together.
     #[error(transparent)]
     Bundle(#[from] BundleError),
 }
 
-/// The files of a spiral shaft in the formats asked for, not yet on disk.
+/// The formats a spiral shaft and a moving box can be written as.
+pub const FORMATS: [Format; 6] = [
+    Format::Dxf,
+    Format::Svg,
+    Format::Stl,
+    Format::Step,
+    Format::ThreeMf,
+    Format::Csv,
+];
+
+/// The files of a spiral shaft in the formats asked for, those of [`FORMATS`] alone, not yet on disk.
 ///
 /// DXF and SVG hold the developed groove, the side view and the slider; STL and 3MF the shaft and the
 /// slider; STEP the slider, whose faces are exact; CSV the lead table, motion and forces, the schedule and

@@ -154,3 +154,37 @@ fn the_developed_walls_stand_half_the_width_from_the_centre_line() {
         }
     }
 }
+
+#[test]
+fn a_moving_box_has_the_files_of_shaft_and_gears() {
+    use centrode_mechanism::shaft::{EllipticGears, MovingBox, MovingBoxDesign, Scheme};
+    let mut design = MovingBoxDesign {
+        scheme: Scheme::EllipticGear,
+        gears: Some(EllipticGears {
+            speed_ratio: Some(3.0),
+            ..EllipticGears::default()
+        }),
+        ..MovingBoxDesign::default()
+    };
+    design.shaft.holes = 3;
+    let machine = MovingBox::resolve(&design).expect("resolves");
+    let formats = [Format::Dxf, Format::Csv];
+    let bundle = moving_box_files(&machine, &formats, &options()).expect("made");
+    let names: Vec<&str> = bundle.files().map(|(name, _)| name).collect();
+    for name in [
+        "groove.dxf",
+        "box-motion.csv",
+        "gears-driver.dxf",
+        "gears-motion.csv",
+    ] {
+        assert!(names.contains(&name), "{name} in {names:?}");
+    }
+    let table = text(&bundle, "box-motion.csv");
+    let row = |line: &str| -> Vec<f64> {
+        line.split(',')
+            .map(|c| c.parse().expect("number"))
+            .collect()
+    };
+    let last = row(table.lines().last().expect("rows"));
+    assert!((last[0] - last[1]).abs() < 1e-9 && last[3].abs() < 1e-9);
+}

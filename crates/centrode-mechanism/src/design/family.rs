@@ -4,6 +4,7 @@ use toml::de::{Error, ValueDeserializer};
 use super::Design;
 use crate::gear::design::{GearPairDesign, SpecError, ToolSpec};
 use crate::gear::pitch::PitchSpec;
+use crate::shaft::{MovingBoxDesign, SpeedLaw, SpiralShaftDesign};
 use crate::three_arm::design::ThreeArmDesign;
 
 /// What a reader must know of a family of mechanism: all there is to say, in one place a family.
@@ -79,5 +80,43 @@ impl Family for ThreeArmDesign {
 impl From<ThreeArmDesign> for Design {
     fn from(design: ThreeArmDesign) -> Self {
         Self::ThreeArm(Box::new(design))
+    }
+}
+
+const LAW: Tagged = Tagged {
+    key: "law",
+    kinds: SpeedLaw::KINDS,
+    read: |kind, table| SpeedLaw::of_kind(kind, table).map(drop),
+};
+
+impl Family for SpiralShaftDesign {
+    const TABLES: &'static [&'static str] = &[
+        "law", "reversal", "groove", "slider", "body", "mill", "load",
+    ];
+    const TAGGED: &'static [Tagged] = &[LAW];
+
+    fn validate(&self) -> Result<(), SpecError> {
+        self.validate()
+    }
+}
+
+impl From<SpiralShaftDesign> for Design {
+    fn from(design: SpiralShaftDesign) -> Self {
+        Self::SpiralShaft(Box::new(design))
+    }
+}
+
+impl Family for MovingBoxDesign {
+    const TABLES: &'static [&'static str] = &["gears", "shaft"];
+    const TAGGED: &'static [Tagged] = &[];
+
+    fn validate(&self) -> Result<(), SpecError> {
+        self.validate()
+    }
+}
+
+impl From<MovingBoxDesign> for Design {
+    fn from(design: MovingBoxDesign) -> Self {
+        Self::MovingBox(Box::new(design))
     }
 }

@@ -8,6 +8,7 @@ use super::{Design, DesignError, DesignFault};
 use crate::gear::GearPairError;
 use crate::gear::design::{GearPairDesign, SpecError};
 use crate::mechanism::{Mechanism, MechanismError};
+use crate::shaft::{MovingBoxDesign, ShaftError, SpiralShaftDesign};
 use crate::three_arm::ThreeArmError;
 use crate::three_arm::design::ThreeArmDesign;
 
@@ -96,6 +97,9 @@ impl DesignFile {
                     other => DesignFault::GearPair(Box::new(other)),
                 }
             }
+            MechanismError::Shaft(ShaftError::Spec(SpecError { rule, .. })) => {
+                DesignFault::Value(rule)
+            }
             other => DesignFault::Mechanism(Box::new(other)),
         };
         let (line, column) = self.place(&key);
@@ -131,6 +135,8 @@ impl<'a> Reader<'a> {
         root.remove("family");
         let design = match family.as_str() {
             "three-arm" => self.family::<ThreeArmDesign>(root, span),
+            "spiral-shaft" => self.family::<SpiralShaftDesign>(root, span),
+            "moving-box" => self.family::<MovingBoxDesign>(root, span),
             _ => self.family::<GearPairDesign>(root, span),
         }?;
         Ok(DesignFile {

@@ -61,7 +61,7 @@ pub enum ShaftError {
     },
     /// Reversals after which the groove does not meet its own start.
     #[error(
-        "reversal_angle_deg must be a whole number of half turns, or the groove does not close on the shaft; it is {0}"
+        "the reversal must take a whole number of half turns, or the groove does not close on the shaft; it is {0}"
     )]
     ReversalAngle(f64),
     /// A law that does not bring the speed smoothly and evenly from one way to the other.
@@ -77,7 +77,7 @@ pub enum ShaftError {
     TurnsRound(usize),
     /// A groove that leaves no land to the next turn of itself.
     #[error(
-        "groove.width is {width} mm, but the next turn of the groove is only {room:.6} mm away along the normal"
+        "the groove is {width} mm wide, but the next turn of the groove is only {room:.6} mm away along the normal"
     )]
     GrooveWidth {
         /// Width of the groove, mm.
@@ -86,7 +86,7 @@ pub enum ShaftError {
         room: f64,
     },
     /// A groove as deep as the shaft is thick.
-    #[error("groove.depth is {depth} mm, which at a radius of {radius} mm reaches {limit}")]
+    #[error("the groove is {depth} mm deep, which at a radius of {radius} mm reaches {limit}")]
     GrooveDepth {
         /// Depth, mm.
         depth: f64,
@@ -107,9 +107,29 @@ pub enum ShaftError {
         /// Width of the groove, mm.
         width: f64,
     },
+    /// An error inside a table of a larger design.
+    #[error("{error}")]
+    Inside {
+        /// The table.
+        table: &'static str,
+        /// What is wrong there.
+        error: Box<ShaftError>,
+    },
 }
 
 impl ShaftError {
+    /// The same error seen from outside a table.
+    #[must_use]
+    pub(super) fn inside(self, table: &'static str) -> Self {
+        match self {
+            Self::Spec(error) => Self::Spec(error.inside(table)),
+            other => Self::Inside {
+                table,
+                error: Box::new(other),
+            },
+        }
+    }
+
     /// The key of the design to blame.
     #[must_use]
     pub fn key(&self) -> String {
@@ -126,6 +146,7 @@ impl ShaftError {
             Self::ReversalLaw { .. } => "reversal.law".into(),
             Self::GrooveWidth { .. } => "groove.width".into(),
             Self::GrooveDepth { .. } => "groove.depth".into(),
+            Self::Inside { table, error } => format!("{table}.{}", error.key()),
         }
     }
 }

@@ -207,7 +207,7 @@ impl MovingBox {
     /// [`ShaftError`] naming the violated rule and its numbers; its key is that inside `shaft` or `gears`.
     pub fn resolve(design: &MovingBoxDesign) -> Result<Self, ShaftError> {
         design.validate()?;
-        let shaft = SpiralShaft::resolve(&design.shaft)?;
+        let shaft = SpiralShaft::resolve(&design.shaft).map_err(|e| e.inside("shaft"))?;
         let law = shaft.law();
         let steady = law.fastest().value - law.slowest().value <= 1e-12 * law.mean_speed();
         if design.scheme == Scheme::EllipticGear && !steady {
@@ -215,7 +215,10 @@ impl MovingBox {
             broken("shaft.law", rule)?;
         }
         let drive = match &design.gears {
-            Some(gears) => Some(gears.drive(&design.shaft)?),
+            Some(gears) => {
+                let drive = gears.drive(&design.shaft);
+                Some(drive.map_err(|e| e.inside("gears"))?)
+            }
             None => None,
         };
         let traverse = Arc::new(shaft.traverse().clone());

@@ -23,6 +23,9 @@ enum Unit {
     Radian,
     RadianPerSecond,
     MillimetrePerSecond,
+    Newton,
+    NewtonMillimetre,
+    TurnsPerMinute,
 }
 
 /// A line of the table: what it is called, the figures on it, their unit.
@@ -31,7 +34,7 @@ struct Row(&'static str, &'static [&'static str], Unit);
 /// A part of the table: its heading, the columns, the rows.
 struct Group(&'static str, &'static [&'static str], &'static [Row]);
 
-const GROUPS: [Group; 7] = [
+const GROUPS: [Group; 9] = [
     Group(
         "Pitch curves",
         &["driver", "driven"],
@@ -221,6 +224,86 @@ const GROUPS: [Group; 7] = [
             Row("closure error", &["closure_error"], Unit::Radian),
         ],
     ),
+    Group(
+        "Box and groove",
+        &[],
+        &[
+            Row("moves while picking", &["moved_distance"], Unit::Millimetre),
+            Row(
+                "limit, a sixth of the pot",
+                &["moved_distance_limit"],
+                Unit::Millimetre,
+            ),
+            Row(
+                "with a plain shaft",
+                &["moved_distance_plain"],
+                Unit::Millimetre,
+            ),
+            Row("amplitude", &["amplitude"], Unit::Millimetre),
+            Row(
+                "least speed over the mean",
+                &["speed_ratio_min"],
+                Unit::Number,
+            ),
+            Row(
+                "greatest speed over the mean",
+                &["speed_ratio_max"],
+                Unit::Number,
+            ),
+            Row("turns out and back", &["cycle_turns"], Unit::Count),
+            Row(
+                "worst miss of a hole",
+                &["misplacement_max"],
+                Unit::Millimetre,
+            ),
+            Row("least lead angle", &["lead_angle_min"], Unit::Degree),
+            Row("greatest lead angle", &["lead_angle_max"], Unit::Degree),
+            Row(
+                "greatest pressure angle",
+                &["pressure_angle_max"],
+                Unit::Degree,
+            ),
+            Row("tightest bend", &["bend_radius_min"], Unit::Millimetre),
+            Row("crossings", &["crossing_count"], Unit::Count),
+            Row(
+                "longest gap at a crossing",
+                &["crossing_gap_max"],
+                Unit::Millimetre,
+            ),
+            Row(
+                "clearance the slider needs",
+                &["slider_clearance_min"],
+                Unit::Millimetre,
+            ),
+        ],
+    ),
+    Group(
+        "Forces on the slider",
+        &[],
+        &[
+            Row("least on the strokes", &["normal_force_min"], Unit::Newton),
+            Row(
+                "greatest on the strokes",
+                &["normal_force_max"],
+                Unit::Newton,
+            ),
+            Row("while picking", &["normal_force_picking"], Unit::Newton),
+            Row(
+                "greatest in a reversal",
+                &["normal_force_reversal_max"],
+                Unit::Newton,
+            ),
+            Row("least torque", &["torque_min"], Unit::NewtonMillimetre),
+            Row("greatest torque", &["torque_max"], Unit::NewtonMillimetre),
+            Row("speed", &["speed_rpm"], Unit::TurnsPerMinute),
+            Row(
+                "stays on one wall up to",
+                &["contact_limit_rpm"],
+                Unit::TurnsPerMinute,
+            ),
+            Row("jams at a lead angle of", &["jamming_angle"], Unit::Degree),
+        ],
+    ),
 ];
 
 /// Figures that go together, as rows and columns.
@@ -393,6 +476,9 @@ impl Unit {
             Self::Radian => "rad",
             Self::RadianPerSecond => "rad/s",
             Self::MillimetrePerSecond => "mm/s",
+            Self::Newton => "N",
+            Self::NewtonMillimetre => "N mm",
+            Self::TurnsPerMinute => "r/min",
         }
     }
 
@@ -401,7 +487,10 @@ impl Unit {
         match self {
             Self::Count => format!("{value:.0}"),
             Self::Number | Self::PerMillimetre | Self::RadianPerSecond => figure(value, 6),
-            Self::MillimetrePerSecond => figure(value, 2),
+            Self::MillimetrePerSecond
+            | Self::Newton
+            | Self::NewtonMillimetre
+            | Self::TurnsPerMinute => figure(value, 2),
             Self::Millimetre => figure(value, 4),
             Self::Degree => figure(value.to_degrees(), 4),
             Self::Radian => figure(value, 0),

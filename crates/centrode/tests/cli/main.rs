@@ -64,6 +64,33 @@ fn a_new_three_arm_mechanism_checks() {
 }
 
 #[test]
+fn new_shafts_and_boxes_check_and_export() {
+    for (family, line) in [
+        (
+            "spiral-shaft",
+            "moves while picking                   2.0500  mm",
+        ),
+        ("moving-box", "the gears alone"),
+    ] {
+        let new = centrode(&["new", family]);
+        assert_eq!(new.status.code(), Some(0));
+        let check = fed(&["check", "-"], &new.stdout);
+        let report = text(&check.stdout);
+        assert_eq!(check.status.code(), Some(0), "{report}");
+        assert!(report.contains(line), "{line}\n{report}");
+        let out = std::env::temp_dir().join(format!("centrode-{family}-{}", std::process::id()));
+        let to = out.display().to_string();
+        let export = ["export", "-", "--to", &to, "--format", "csv"];
+        let export = fed(&export, &new.stdout);
+        assert_eq!(export.status.code(), Some(0), "{}", text(&export.stderr));
+        assert!(out.join("lead-table.csv").exists() && out.join("groove.ngc").exists());
+        std::fs::remove_dir_all(&out).expect("was made");
+        let refused = ["export", "-", "--to", &to, "--format", "urdf"];
+        assert_eq!(fed(&refused, &new.stdout).status.code(), Some(2));
+    }
+}
+
+#[test]
 fn the_published_three_arm_set_has_its_goals() {
     let check = centrode(&["check", &shipped("three-arm-2021.toml"), "--json"]);
     let report: serde_json::Value = serde_json::from_slice(&check.stdout).expect("JSON");

@@ -4,7 +4,8 @@ use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer, Serialize};
 
 mod general;
 mod rotated;
@@ -47,6 +48,18 @@ impl SpeedLaw {
     /// Every `kind`.
     pub const KINDS: &'static [&'static str] =
         &["sine", "rotated-sine", "knots", "table", "formula"];
+
+    /// Reads what stands beside the key `kind`.
+    pub(crate) fn of_kind<'de, D: Deserializer<'de>>(kind: &str, d: D) -> Result<Self, D::Error> {
+        match kind {
+            "sine" => Sine::deserialize(d).map(Self::Sine),
+            "rotated-sine" => RotatedSine::deserialize(d).map(Self::RotatedSine),
+            "knots" => SpeedKnots::deserialize(d).map(Self::Knots),
+            "table" => SpeedTable::deserialize(d).map(Self::Table),
+            "formula" => SpeedFormula::deserialize(d).map(Self::Formula),
+            other => Err(D::Error::unknown_variant(other, Self::KINDS)),
+        }
+    }
 
     /// The exact law for a lead (mm a turn), proved to run one way. `radius` (mm) is that of the shaft;
     /// only the rotated sine depends on it.
