@@ -51,7 +51,12 @@ fn every_reading_of_the_points_has_the_oracles_figures() {
         let arms = read_as(&case);
         let near = |name: &str, ours: f64, theirs: f64, tolerance: f64| {
             let off = (ours - theirs).abs();
-            assert!(off < tolerance, "{} {} {name}: {ours} {theirs}", case.plane, case.degree);
+            assert!(
+                off < tolerance,
+                "{} {} {name}: {ours} {theirs}",
+                case.plane,
+                case.degree
+            );
         };
         near("a", arms.center_distance(), case.center_distance, 1e-10);
         let length = arms.rolling().pitch_length(Member::Driver);
@@ -59,10 +64,23 @@ fn every_reading_of_the_points_has_the_oracles_figures() {
         let reference = arms.train().planet_reference().to_degrees();
         near("reference", reference, case.planet_reference_deg, 1e-9);
         let figures = arms.figures();
-        near("pick", figures.pick_angle.to_degrees(), case.pick_angle_deg, 1e-8);
-        near("push", figures.push_angle.to_degrees(), case.push_angle_deg, 1e-8);
+        near(
+            "pick",
+            figures.pick_angle.to_degrees(),
+            case.pick_angle_deg,
+            1e-8,
+        );
+        near(
+            "push",
+            figures.push_angle.to_degrees(),
+            case.push_angle_deg,
+            1e-8,
+        );
         near("height", figures.trajectory_height, case.height, 1e-8);
-        for (input, [x, y]) in [(arms.picking(0), case.picking_tip), (arms.planting(0), case.planting_tip)] {
+        for (input, [x, y]) in [
+            (arms.picking(0), case.picking_tip),
+            (arms.planting(0), case.planting_tip),
+        ] {
             let tip = arms.tip(input, 0).position;
             near("x", tip.x, x, 1e-8);
             near("y", tip.y, y, 1e-8);
@@ -86,14 +104,19 @@ fn the_shipped_reading_meets_what_the_paper_says_of_its_motion() {
     }
     let [picking, planting] = [0, 1].map(|row: usize| {
         let row = &report.tables[0].rows[row].1;
-        row.iter().map(|input| input.to_degrees().round()).collect::<Vec<_>>()
+        row.iter()
+            .map(|input| input.to_degrees().round())
+            .collect::<Vec<_>>()
     });
     assert_eq!(picking, [20.0, 140.0, 260.0]);
     assert_eq!(planting, [191.0, 311.0, 71.0]);
     // "Reduced by about 30 %": a carrier of three arms turns at two thirds of the speed of one of two.
     let slower = 1.0 - report.values["picking_speed"] / report.values["picking_speed_of_two_arms"];
     assert!((0.25..0.40).contains(&slower), "{slower}");
-    assert!((report.values["carrier_speed"] - std::f64::consts::TAU).abs() < 1e-12, "180 holes/min");
+    assert!(
+        (report.values["carrier_speed"] - std::f64::consts::TAU).abs() < 1e-12,
+        "180 holes/min"
+    );
 }
 
 /// The module of 2.5 mm of goal 8 against what a full-depth rack can cut.
@@ -103,9 +126,19 @@ fn no_reading_bears_sound_full_teeth_at_the_goals_module() {
         let arms = read_as(&case);
         assert!(arms.module().expect("teeth") > 2.5);
         let [sun, intermediate] = arms.soundness().expect("teeth");
-        assert!(sun.unsound + intermediate.unsound > 0, "{} {}", case.plane, case.degree);
+        assert!(
+            sun.unsound + intermediate.unsound > 0,
+            "{} {}",
+            case.plane,
+            case.degree
+        );
         if (case.plane.as_str(), case.degree, case.interpolate) == ("cartesian", 3, false) {
-            let counted = Soundness { flanks: 66, undercut: 13, short: 3, unsound: sun.unsound };
+            let counted = Soundness {
+                flanks: 66,
+                undercut: 13,
+                short: 3,
+                unsound: sun.unsound,
+            };
             assert_eq!(sun, counted);
         }
     }
@@ -139,9 +172,22 @@ fn table() -> String {
     for case in cases::<ThreeArmReading>("three_arm") {
         let arms = read_as(&case);
         let goals = check_three_arm(&arms).goals;
-        let cell = |name: &str| goals.iter().find(|g| g.name == name).map_or("-".into(), miss);
-        let role = if case.interpolate { "on a" } else { "control points of a" };
-        let plane = if case.plane == "polar" { "polar" } else { "x, y" };
+        let cell = |name: &str| {
+            goals
+                .iter()
+                .find(|g| g.name == name)
+                .map_or("-".into(), miss)
+        };
+        let role = if case.interpolate {
+            "on a"
+        } else {
+            "control points of a"
+        };
+        let plane = if case.plane == "polar" {
+            "polar"
+        } else {
+            "x, y"
+        };
         let teeth = arms.design().gear_tooth_count().unwrap_or_default();
         writeln!(
             text,

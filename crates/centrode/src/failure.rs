@@ -28,7 +28,7 @@ pub(crate) enum Failure {
     /// The page cannot be served.
     Serve(io::Error),
     /// The files of the design cannot be made or written.
-    Files(Box<dyn std::error::Error>),
+    Files(Box<dyn std::error::Error + Send + Sync>),
     /// A word on the command line that means nothing.
     Usage(String),
 }
