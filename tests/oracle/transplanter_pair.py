@@ -88,7 +88,7 @@ def parameter(curve, phi):
     for span in range(COUNT):
         low, high = off(mpf(span), span), off(mpf(span + 1), span)
         # An angle at a knot must not fall between two spans by rounding.
-        if abs(low) < mpf(10) ** -45:
+        if abs(low) < mpf(10) ** -35:
             return mpf(span), span
         if low <= 0 < high and high - low < pi:
             root = findroot(
