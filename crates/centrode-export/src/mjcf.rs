@@ -2,6 +2,7 @@
 
 use crate::model::{Convex, Joint, JointKind, Link, Model};
 use centrode_geometry::MassProperties;
+use std::collections::BTreeSet;
 use std::fmt::Write;
 use thiserror::Error;
 
@@ -64,8 +65,9 @@ pub fn write(model: &Model) -> Result<Vec<u8>, MjcfError> {
     }
     xml.push_str(OPTIONS);
     xml.push_str("  <asset>\n");
+    let mut written = BTreeSet::new();
     for link in &model.links {
-        assets(&mut xml, link);
+        assets(&mut xml, link, &mut written);
     }
     xml.push_str("  </asset>\n  <worldbody>\n");
     line(&mut xml, 2, format_args!(r#"<light pos="0 0 1"/>"#));
@@ -117,7 +119,7 @@ fn is_tree(model: &Model) -> Result<(), MjcfError> {
     Ok(())
 }
 
-fn assets(xml: &mut String, link: &Link) {
+fn assets<'a>(xml: &mut String, link: &'a Link, written: &mut BTreeSet<&'a str>) {
     if let Some(file) = &link.mesh {
         let (name, file) = (quoted(&link.name), quoted(file));
         let scale = numbers([METRE; 3]);
@@ -128,6 +130,9 @@ fn assets(xml: &mut String, link: &Link) {
         );
     }
     for Convex { name, mesh } in &link.collision {
+        if !written.insert(name) {
+            continue;
+        }
         let name = quoted(name);
         let vertices = numbers(mesh.vertices.iter().flatten().map(|x| x * METRE));
         line(
@@ -159,11 +164,17 @@ fn children(xml: &mut String, model: &Model, of: &Link, depth: usize) -> Result<
         };
         let place = numbers(joint.origin.map(|x| x * METRE));
         let name = quoted(&link.name);
-        line(xml, depth, format_args!("<body name={name} pos={place}>"));
-        match joint.kind {
-            JointKind::Fixed => {}
-            JointKind::Continuous => hinge(xml, joint, depth + 1),
-        }
+        let turn = if joint.turn == 0.0 {
+            String::new()
+        } else {
+            format!(" euler={}", numbers([0.0, 0.0, joint.turn]))
+        };
+        line(
+            xml,
+            depth,
+            format_args!("<body name={name} pos={place}{turn}>"),
+        );
+        moves(xml, joint, depth + 1);
         match link.mass {
             Some(mass) => inertial(xml, &mass, depth + 1),
             None if joint.kind == JointKind::Fixed => {}
@@ -180,13 +191,25 @@ fn children(xml: &mut String, model: &Model, of: &Link, depth: usize) -> Result<
     Ok(())
 }
 
-fn hinge(xml: &mut String, joint: &Joint, depth: usize) {
+/// How a body may move on the one that carries it.
+fn moves(xml: &mut String, joint: &Joint, depth: usize) {
     let (name, axis) = (quoted(&joint.name), numbers(joint.axis));
-    line(
-        xml,
-        depth,
-        format_args!(r#"<joint name={name} type="hinge" axis={axis}/>"#),
-    );
+    match joint.kind {
+        JointKind::Fixed => {}
+        JointKind::Continuous => line(
+            xml,
+            depth,
+            format_args!(r#"<joint name={name} type="hinge" axis={axis}/>"#),
+        ),
+        JointKind::Sliding(range) => {
+            let range = numbers(range.map(|x| x * METRE));
+            line(
+                xml,
+                depth,
+                format_args!(r#"<joint name={name} type="slide" axis={axis} range={range}/>"#),
+            );
+        }
+    }
 }
 
 fn inertial(xml: &mut String, mass: &MassProperties, depth: usize) {
@@ -274,6 +297,7 @@ mod tests {
             parent: "base".into(),
             child: name.into(),
             origin: [x, 0.0, 0.0],
+            turn: 0.0,
             axis: [0.0, 0.0, 1.0],
             mimic,
         };

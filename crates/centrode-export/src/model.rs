@@ -31,13 +31,13 @@ pub struct Link {
 /// A convex body.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Convex {
-    /// Name, unlike any other in the model.
+    /// Name: bodies of one name are the same body, which several links may have.
     pub name: String,
     /// Its surface in the link's frame, mm.
     pub mesh: Mesh,
 }
 
-/// A joint between two links, turning about an axis.
+/// A joint between two links, turning about an axis or sliding along it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Joint {
     /// Name.
@@ -50,7 +50,9 @@ pub struct Joint {
     pub child: String,
     /// Position of the child's origin in the parent's frame, mm.
     pub origin: [f64; 3],
-    /// Unit vector of the axis.
+    /// Turn of the child's frame about z from the parent's, with the joint at zero, rad.
+    pub turn: f64,
+    /// Unit vector of the axis, in the child's frame.
     pub axis: [f64; 3],
     /// The joint it follows, if it follows one linearly.
     pub mimic: Option<Mimic>,
@@ -63,6 +65,8 @@ pub enum JointKind {
     Fixed,
     /// Turns without end.
     Continuous,
+    /// Slides between two places, mm.
+    Sliding([f64; 2]),
 }
 
 /// `angle = multiplier * (angle of the other joint) + offset`.

@@ -140,10 +140,11 @@ fn joint(joint: &crate::model::Joint) -> Joint {
         joint_type: match joint.kind {
             JointKind::Fixed => JointType::Fixed,
             JointKind::Continuous => JointType::Continuous,
+            JointKind::Sliding(_) => JointType::Prismatic,
         },
         origin: Pose {
             xyz: metres(joint.origin),
-            rpy: Vec3([0.0; 3]),
+            rpy: Vec3([0.0, 0.0, joint.turn + 0.0]),
         },
         parent: LinkName {
             link: joint.parent.clone(),
@@ -158,7 +159,14 @@ fn joint(joint: &crate::model::Joint) -> Joint {
         limit: JointLimit {
             effort: 1000.0,
             velocity: 1000.0,
-            ..JointLimit::default()
+            ..match joint.kind {
+                JointKind::Sliding([lower, upper]) => JointLimit {
+                    lower: lower * METRE,
+                    upper: upper * METRE,
+                    ..JointLimit::default()
+                },
+                _ => JointLimit::default(),
+            }
         },
         calibration: None,
         dynamics: None,
@@ -191,6 +199,7 @@ mod tests {
             parent: "base".into(),
             child: name.into(),
             origin: [x, 0.0, 0.0],
+            turn: 0.0,
             axis: [0.0, 0.0, 1.0],
             mimic,
         };

@@ -1,5 +1,5 @@
 use crate::AreaMoments;
-use nalgebra::{Matrix3, Point3};
+use nalgebra::{Matrix3, Point3, Vector3};
 
 /// Mass, center of mass and inertia of a body.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -32,6 +32,27 @@ impl MassProperties {
             inertia: Matrix3::new(yy + zz, -xy, 0.0, -xy, xx + zz, 0.0, 0.0, 0.0, xx + yy),
         }
     }
+
+    /// Several bodies fixed to each other, by the parallel axis theorem; `None` without mass.
+    #[must_use]
+    pub fn together(bodies: &[Self]) -> Option<Self> {
+        let mass: f64 = bodies.iter().map(|b| b.mass).sum();
+        if mass.is_nan() || mass <= 0.0 {
+            return None;
+        }
+        let moment = bodies.iter().map(|b| b.center.coords * b.mass);
+        let center = Point3::from(moment.sum::<Vector3<f64>>() / mass);
+        let inertia = bodies.iter().map(|b| {
+            let arm = b.center - center;
+            let moved = Matrix3::identity() * arm.norm_squared() - arm * arm.transpose();
+            b.inertia + moved * b.mass
+        });
+        Some(Self {
+            mass,
+            center,
+            inertia: inertia.sum(),
+        })
+    }
 }
 
 #[cfg(test)]
@@ -59,6 +80,23 @@ mod tests {
         let across = 0.5 * polar + mass * height * height / 12.0;
         let exact = nalgebra::Matrix3::from_diagonal(&Vector3::new(across, across, polar));
         assert!((m.inertia - exact).norm() < 1e-10);
+    }
+
+    #[test]
+    fn a_block_is_its_two_halves_together() {
+        let block = |from: f64, to: f64| {
+            let corners = [[from, 1.0], [to, 1.0], [to, 5.0], [from, 5.0]];
+            let corners = corners.map(|[x, y]| Point::new(x, y));
+            let solid = Solid::new(Outline::polygon(&corners), vec![], 2.0, 9.0);
+            solid.expect("has height").mass_properties(1200.0)
+        };
+        let whole = block(-3.0, 11.0);
+        let halves = [block(-3.0, 2.0), block(2.0, 11.0)];
+        let sum = crate::MassProperties::together(&halves).expect("has mass");
+        assert!((sum.mass - whole.mass).abs() < 1e-15);
+        assert!((sum.center - whole.center).norm() < 1e-12);
+        assert!((sum.inertia - whole.inertia).norm() < 1e-12 * whole.inertia.norm());
+        assert_eq!(crate::MassProperties::together(&[]), None);
     }
 
     #[test]

@@ -27,6 +27,21 @@ impl Mesh {
         }
     }
 
+    /// Several bodies as one mesh; they may touch or overlap, each stays closed.
+    #[must_use]
+    pub fn joined<'a>(bodies: impl IntoIterator<Item = &'a Self>) -> Self {
+        let mut whole = Self::default();
+        for body in bodies {
+            let first = whole.vertices.len() as u32;
+            whole.vertices.extend_from_slice(&body.vertices);
+            let faces = body.faces.iter();
+            whole
+                .faces
+                .extend(faces.map(|face| face.map(|v| v + first)));
+        }
+        whole
+    }
+
     /// Corners of one triangle, mm.
     #[must_use]
     pub fn triangle(&self, face: &[u32; 3]) -> [[f64; 3]; 3] {

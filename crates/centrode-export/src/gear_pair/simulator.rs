@@ -57,6 +57,7 @@ pub(super) fn model(pair: &GearPair, tolerance: Tolerance) -> Result<Model, Gear
                 0.0,
                 0.0,
             ],
+            turn: 0.0,
             axis: [0.0, 0.0, 1.0],
             mimic: mimic.clone().filter(|_| is_driven),
         });

@@ -26,10 +26,19 @@ impl Contour {
 
     /// Drum and tube in one belt.
     pub(super) fn housing(&self) -> Option<Outline> {
+        self.belt(0.0)
+    }
+
+    /// The room inside walls of a thickness.
+    pub(super) fn cavity(&self, wall: f64) -> Option<Outline> {
+        self.belt(wall)
+    }
+
+    fn belt(&self, inset: f64) -> Option<Outline> {
         Outline::hull(&[
-            (Point::origin(), self.drum_radius),
-            (self.on_axis(self.rear), self.tube_radius),
-            (self.on_axis(self.front), self.tube_radius),
+            (Point::origin(), self.drum_radius - inset),
+            (self.on_axis(self.rear), self.tube_radius - inset),
+            (self.on_axis(self.front), self.tube_radius - inset),
         ])
     }
 

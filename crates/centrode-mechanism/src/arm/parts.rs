@@ -162,7 +162,7 @@ impl ArmBody {
         self.tip
     }
 
-    /// Housing, both flakes, push rod with pusher, and spring, with the rod thrown out.
+    /// Housing with its covers, both flakes, push rod with pusher, and spring, with the rod thrown out.
     #[must_use]
     pub fn parts(&self) -> &[ArmPart] {
         &self.parts
@@ -220,15 +220,23 @@ impl Reach {
 /// What is inside is smaller than what encloses it.
 fn fits(spec: &ArmBodySpec, tube_length: f64) -> Result<(), ArmError> {
     let (housing, clamp, rod, spring) = (&spec.housing, &spec.clamp, &spec.push_rod, &spec.spring);
-    let tube = 2.0 * housing.tube_radius;
+    let tube = 2.0 * (housing.tube_radius - housing.wall);
+    let walls = 2.0 * housing.wall;
     let coil = spring.outer_diameter - 2.0 * spring.wire_diameter;
     let flakes = clamp.opening + 2.0 * clamp.thickness;
     for (inner, inner_size, outer, outer_size) in [
+        ("housing.wall", walls, "housing.width", housing.width),
         (
             "housing.bore",
             housing.bore,
             "housing.drum_radius",
-            2.0 * housing.drum_radius,
+            2.0 * (housing.drum_radius - housing.wall),
+        ),
+        (
+            "housing.sleeve_bore",
+            housing.sleeve_bore,
+            "housing.drum_radius",
+            2.0 * (housing.drum_radius - housing.wall),
         ),
         (
             "spring.outer_diameter",
@@ -240,7 +248,7 @@ fn fits(spec: &ArmBodySpec, tube_length: f64) -> Result<(), ArmError> {
             "clamp.root_height",
             clamp.root_height,
             "housing.tube_radius",
-            tube,
+            2.0 * housing.tube_radius,
         ),
         (
             "push_rod.diameter",
@@ -292,15 +300,26 @@ fn parts(spec: &ArmBodySpec, contour: &Contour) -> Vec<ArmPart> {
             span,
         }));
     };
-    let bore = (spec.housing.bore > 0.0)
-        .then(|| Outline::circle(Point::origin(), 0.5 * spec.housing.bore));
-    let bores = bore.into_iter().collect();
+    let bore = |diameter: f64| -> Vec<Outline> {
+        let hole = (diameter > 0.0).then(|| Outline::circle(Point::origin(), 0.5 * diameter));
+        hole.into_iter().collect()
+    };
+    let [rear, front] = half(spec.housing.width);
+    let wall = spec.housing.wall;
+    let cavity = contour.cavity(wall).into_iter().collect();
     add(
         "housing",
         contour.housing(),
-        bores,
-        half(spec.housing.width),
+        cavity,
+        [rear + wall, front - wall],
     );
+    let covers = [
+        ("cover-rear", spec.housing.sleeve_bore, [rear, rear + wall]),
+        ("cover-front", spec.housing.bore, [front - wall, front]),
+    ];
+    for (name, diameter, span) in covers {
+        add(name, contour.housing(), bore(diameter), span);
+    }
     let inner = 0.5 * clamp.opening;
     let outer = inner + clamp.thickness;
     add("flake-left", contour.flake(), Vec::new(), [inner, outer]);
@@ -312,11 +331,11 @@ fn parts(spec: &ArmBodySpec, contour: &Contour) -> Vec<ArmPart> {
     add("push-rod", Some(bar), Vec::new(), half(rod.diameter));
     let pusher = contour.bar(neck, face, 0.5 * rod.pusher_height);
     add("pusher", Some(pusher), Vec::new(), half(rod.diameter));
-    let coil = contour.bar(
-        contour.rear,
-        contour.rear + spring.length,
-        0.5 * spring.outer_diameter,
-    );
+    // As far in front as the round end lets it: the fork's pin moves behind it.
+    let half_coil = 0.5 * spring.outer_diameter;
+    let room = spec.housing.tube_radius - wall;
+    let seat = contour.front + (room * room - half_coil * half_coil).max(0.0).sqrt();
+    let coil = contour.bar(seat - spring.length, seat, half_coil);
     add(
         "spring",
         Some(coil),

@@ -33,8 +33,12 @@ pub struct HousingSpec {
     pub tube_back: f64,
     /// Width along the planet's axis, mm.
     pub width: f64,
+    /// Thickness of walls and covers, mm.
+    pub wall: f64,
     /// Diameter of the bore for the planet's shaft, mm; 0 for none.
     pub bore: f64,
+    /// Diameter of the hole in the rear cover for the sleeve that carries the cam, mm; 0 for none.
+    pub sleeve_bore: f64,
 }
 
 impl Default for HousingSpec {
@@ -44,7 +48,9 @@ impl Default for HousingSpec {
             tube_radius: 13.0,
             tube_back: 10.0,
             width: 36.0,
+            wall: 3.0,
             bore: 12.0,
+            sleeve_bore: 17.0,
         }
     }
 }
@@ -138,6 +144,7 @@ impl ArmBodySpec {
             ("housing.drum_radius", self.housing.drum_radius),
             ("housing.tube_radius", self.housing.tube_radius),
             ("housing.width", self.housing.width),
+            ("housing.wall", self.housing.wall),
             ("clamp.root_height", self.clamp.root_height),
             ("clamp.tip_height", self.clamp.tip_height),
             ("clamp.thickness", self.clamp.thickness),
@@ -153,6 +160,7 @@ impl ArmBodySpec {
         for (key, size) in [
             ("housing.tube_back", self.housing.tube_back),
             ("housing.bore", self.housing.bore),
+            ("housing.sleeve_bore", self.housing.sleeve_bore),
             ("clamp.opening", self.clamp.opening),
             ("push_rod.stroke", self.push_rod.stroke),
             ("spring.preload", self.spring.preload),
@@ -178,7 +186,9 @@ impl ArmBodySpec {
                 tube_radius: k * self.housing.tube_radius,
                 tube_back: k * self.housing.tube_back,
                 width: k * self.housing.width,
+                wall: k * self.housing.wall,
                 bore: k * self.housing.bore,
+                sleeve_bore: k * self.housing.sleeve_bore,
             },
             clamp: ClampSpec {
                 root_height: k * self.clamp.root_height,

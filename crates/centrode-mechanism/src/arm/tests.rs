@@ -47,7 +47,7 @@ fn every_part_lies_in_the_arm() {
         (170.0, 50.0, 70.0),
     ] {
         let arm = ArmBody::new(&ArmBodySpec::default(), distance, offset, clamp).expect("an arm");
-        assert_eq!(arm.parts().len(), 6);
+        assert_eq!(arm.parts().len(), 8);
         for part in arm.parts() {
             assert!(part.outline.is_counter_clockwise(), "{}", part.name);
             assert!(part.outline.crossing().is_none(), "{}", part.name);

@@ -60,6 +60,8 @@ impl Family for ThreeArmDesign {
         "tool",
         "teeth",
         "arm",
+        "cam",
+        "fork",
         "gearbox",
         "work",
         "tray",

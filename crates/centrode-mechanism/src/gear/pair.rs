@@ -237,6 +237,18 @@ impl GearPair {
         Ok((pitch.definition, rolling))
     }
 
+    /// The same pair with another body of the driver.
+    ///
+    /// # Errors
+    /// [`GearPairError::Bore`] where its bore cuts into the teeth, [`GearPairError::Spec`] for a bad value.
+    pub fn with_driver_body(&self, body: &BodySpec) -> Result<Self, GearPairError> {
+        body.validate().map_err(|e| e.inside("driver"))?;
+        let mut pair = self.clone();
+        pair.driver.body = body.clone();
+        pair.driver.clears_bore()?;
+        Ok(pair)
+    }
+
     /// Name, as written in the design.
     #[must_use]
     pub fn name(&self) -> &str {
@@ -391,16 +403,21 @@ impl Gear {
             teeth,
             body,
         };
-        let reach = bore::reach(&gear.body);
-        let (root, _) = gear.radii();
+        gear.clears_bore()?;
+        Ok(gear)
+    }
+
+    fn clears_bore(&self) -> Result<(), GearPairError> {
+        let reach = bore::reach(&self.body);
+        let (root, _) = self.radii();
         if reach >= root {
             return Err(GearPairError::Bore {
-                member,
+                member: self.member,
                 reach,
                 root,
             });
         }
-        Ok(gear)
+        Ok(())
     }
 
     /// Driver or driven.

@@ -5,14 +5,20 @@ use std::sync::Arc;
 
 pub mod design;
 mod figures;
+mod gearbox;
+mod mesh;
 mod pose;
+mod pusher;
 mod seedling;
 mod sweep;
 mod train;
 mod trajectory;
 
 pub use figures::Figures;
+pub use gearbox::GearboxBody;
+pub use mesh::{Mesh, MeshPose};
 pub use pose::{Link, LinkMotion, PointMotion};
+pub use pusher::{Pusher, PusherError};
 pub use seedling::SeedlingClearance;
 pub use sweep::{Sweep, SweepError};
 pub use train::{ArmOnCarrier, Train, TrainJet};
@@ -189,8 +195,19 @@ impl ThreeArm {
         arm.mounting_angle + (arm.pusher_offset / arm.tip_distance).asin()
     }
 
+    /// Sun and planet, which differ in their bodies alone, each with the intermediate gear, with their teeth.
+    ///
+    /// # Errors
+    /// [`GearPairError`] where no teeth can be laid out or cut, or a bore cuts into them.
+    pub fn pairs(&self) -> Result<[GearPair; 2], GearPairError> {
+        let sun = self.pair()?;
+        let planet = sun.with_driver_body(&self.design.planet)?;
+        Ok([sun, planet])
+    }
+
     /// The first arm's input at which it stands as the given arm does now.
-    fn own_input(&self, input: f64, arm: u32) -> f64 {
+    #[must_use]
+    pub fn own_input(&self, input: f64, arm: u32) -> f64 {
         input - TAU * f64::from(arm) / f64::from(self.arms())
     }
 

@@ -2,6 +2,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::angle;
+use crate::arm::ArmBodySpec;
 use crate::degrees;
 use crate::gear::design::SpecError;
 use crate::gear::design::rule::{between, not_negative, positive};
@@ -22,6 +23,9 @@ pub struct ArmSpec {
     /// Length of the clamp back from the tip along the pusher's axis, mm: what passes between seedlings.
     #[serde(default = "default_clamp_length")]
     pub clamp_length: f64,
+    /// Housing, clamp, push rod and spring; left out, the usual sizes in proportion to `tip_distance`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub body: Option<ArmBodySpec>,
 }
 
 fn default_clamp_length() -> f64 {
@@ -37,6 +41,7 @@ impl ArmSpec {
             tip_distance,
             pusher_offset,
             clamp_length: default_clamp_length(),
+            body: None,
         }
     }
 
@@ -49,7 +54,10 @@ impl ArmSpec {
         positive("tip_distance", self.tip_distance)?;
         let reach = self.tip_distance;
         between("pusher_offset", self.pusher_offset, [-reach, reach], " mm")?;
-        positive("clamp_length", self.clamp_length)
+        positive("clamp_length", self.clamp_length)?;
+        let body = self.body.as_ref();
+        body.map_or(Ok(()), ArmBodySpec::validate)
+            .map_err(|e| e.inside("body"))
     }
 }
 
@@ -59,12 +67,18 @@ impl ArmSpec {
 pub struct GearboxSpec {
     /// Distance of the housing's outside from the largest radius of the pitch curve in it, mm.
     pub housing_offset: f64,
+    /// Thickness of its plates, mm.
+    pub wall: f64,
+    /// Distance of the gears' faces from the plates, mm.
+    pub play: f64,
 }
 
 impl Default for GearboxSpec {
     fn default() -> Self {
         Self {
             housing_offset: 10.0,
+            wall: 6.0,
+            play: 2.0,
         }
     }
 }
@@ -75,6 +89,8 @@ impl GearboxSpec {
     /// # Errors
     /// [`SpecError`] with the key at fault.
     pub fn validate(&self) -> Result<(), SpecError> {
-        not_negative("housing_offset", self.housing_offset)
+        not_negative("housing_offset", self.housing_offset)?;
+        positive("wall", self.wall)?;
+        not_negative("play", self.play)
     }
 }

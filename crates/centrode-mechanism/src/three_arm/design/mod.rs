@@ -11,10 +11,12 @@ use crate::gear::pitch::PitchSpec;
 
 mod arm;
 mod goals;
+mod pusher;
 mod work;
 
 pub use arm::{ArmSpec, GearboxSpec};
 pub use goals::GoalsSpec;
+pub use pusher::{ForkSpec, PusherCamSpec};
 pub use work::{SeedlingSpec, TraySpec, WorkSpec};
 
 /// A planetary transplanting mechanism: a fixed sun, a carrier at constant speed, and evenly spaced arms, each
@@ -69,6 +71,13 @@ pub struct ThreeArmDesign {
     pub teeth: TeethSpec,
     /// The arms.
     pub arm: ArmSpec,
+    /// The cams on the carrier that move the push rods; left out, the usual one in proportion to
+    /// `arm.tip_distance`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub cam: Option<PusherCamSpec>,
+    /// The forks between cams and push rods; left out, the usual one in proportion to `arm.tip_distance`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub fork: Option<ForkSpec>,
     /// The gearbox around the gears.
     #[serde(default)]
     pub gearbox: GearboxSpec,
@@ -149,6 +158,8 @@ impl ThreeArmDesign {
             tool: ToolSpec::default(),
             teeth: TeethSpec::default(),
             arm,
+            cam: None,
+            fork: None,
             gearbox: GearboxSpec::default(),
             work: WorkSpec::default(),
             tray: TraySpec::default(),
@@ -214,6 +225,12 @@ impl ThreeArmDesign {
         self.tool.validate().map_err(|e| e.inside("tool"))?;
         self.teeth.validate().map_err(|e| e.inside("teeth"))?;
         self.arm.validate().map_err(|e| e.inside("arm"))?;
+        if let Some(cam) = &self.cam {
+            cam.validate().map_err(|e| e.inside("cam"))?;
+        }
+        if let Some(fork) = &self.fork {
+            fork.validate().map_err(|e| e.inside("fork"))?;
+        }
         self.gearbox.validate().map_err(|e| e.inside("gearbox"))?;
         self.work.validate().map_err(|e| e.inside("work"))?;
         self.tray.validate().map_err(|e| e.inside("tray"))?;

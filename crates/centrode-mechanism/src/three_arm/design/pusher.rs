@@ -1,0 +1,173 @@
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::cam::law::LawSpec;
+use crate::degrees;
+use crate::gear::design::rule::{between, positive};
+use crate::gear::design::{BodySpec, SpecError};
+
+/// Distance of the tip from the planet's axis, mm, for which the usual sizes are made.
+const USUAL_TIP_DISTANCE: f64 = 145.0;
+
+/// The cam, fixed to the carrier about a planet's axis, that draws the push rod back and lets it go.
+///
+/// The clamp closes at picking, when the rod has been drawn back, and opens from planting on, when the
+/// spring throws the rod out and the seedling with it.
+#[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct PusherCamSpec {
+    /// Radius of the base circle, on which the roller stands with the rod thrown out, mm.
+    pub base_radius: f64,
+    /// Carrier turn over which the rod is drawn back, up to picking, rad (degrees in the file).
+    #[serde(rename = "closing_deg", with = "degrees")]
+    #[schemars(with = "f64")]
+    pub closing: f64,
+    /// Motion law of the rod drawn back.
+    pub closing_law: LawSpec,
+    /// Carrier turn over which the rod is thrown out, from planting on, rad (degrees in the file).
+    #[serde(rename = "release_deg", with = "degrees")]
+    #[schemars(with = "f64")]
+    pub release: f64,
+    /// Motion law of the rod thrown out.
+    pub release_law: LawSpec,
+    /// Width, bore and material.
+    pub body: BodySpec,
+}
+
+impl Default for PusherCamSpec {
+    fn default() -> Self {
+        Self {
+            base_radius: 18.0,
+            closing: 60.0_f64.to_radians(),
+            closing_law: LawSpec::Polynomial345,
+            release: 30.0_f64.to_radians(),
+            release_law: LawSpec::Polynomial345,
+            body: BodySpec {
+                width: 7.0,
+                bore: 16.0,
+                ..BodySpec::default()
+            },
+        }
+    }
+}
+
+impl PusherCamSpec {
+    /// Ranges.
+    ///
+    /// # Errors
+    /// [`SpecError`] with the key at fault.
+    pub fn validate(&self) -> Result<(), SpecError> {
+        positive("base_radius", self.base_radius)?;
+        for (key, span) in [("closing_deg", self.closing), ("release_deg", self.release)] {
+            positive(key, span)?;
+            between(key, span.to_degrees(), [0.1, 359.0], " deg")?;
+        }
+        self.closing_law
+            .validate()
+            .map_err(|e| e.inside("closing_law"))?;
+        self.release_law
+            .validate()
+            .map_err(|e| e.inside("release_law"))?;
+        self.body.validate().map_err(|e| e.inside("body"))
+    }
+
+    /// The usual cam in proportion to the distance of the tip from the planet's axis, mm.
+    #[must_use]
+    pub fn in_proportion(tip_distance: f64) -> Self {
+        let usual = Self::default();
+        let k = tip_distance / USUAL_TIP_DISTANCE;
+        Self {
+            base_radius: k * usual.base_radius,
+            body: BodySpec {
+                width: k * usual.body.width,
+                bore: k * usual.body.bore,
+                ..usual.body
+            },
+            ..usual
+        }
+    }
+}
+
+/// The fork: a lever hinged on the arm, with the cam's roller on one side and a slot for the push rod's
+/// pin on the other.
+///
+/// Its pivot is on the line from the planet's axis square to the pusher's axis.
+#[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct ForkSpec {
+    /// Distance of the pivot from the planet's axis, mm: less than the pusher's.
+    pub pivot_distance: f64,
+    /// Distance of the roller's axis from the pivot, mm.
+    pub arm_length: f64,
+    /// Radius of the roller, mm.
+    pub roller_radius: f64,
+    /// Diameter of the hole for the roller's pin, mm.
+    pub roller_bore: f64,
+    /// Diameter of the pivot's hole, mm.
+    pub pivot_bore: f64,
+    /// Width of the slot for the push rod's pin, mm.
+    pub slot_width: f64,
+    /// Width of material round holes and slot, mm.
+    pub wall: f64,
+    /// Thickness, mm.
+    pub width: f64,
+}
+
+impl Default for ForkSpec {
+    fn default() -> Self {
+        Self {
+            pivot_distance: 24.0,
+            arm_length: 7.0,
+            roller_radius: 4.0,
+            roller_bore: 3.0,
+            pivot_bore: 5.0,
+            slot_width: 4.0,
+            wall: 2.5,
+            width: 4.0,
+        }
+    }
+}
+
+impl ForkSpec {
+    /// Ranges.
+    ///
+    /// # Errors
+    /// [`SpecError`] with the key at fault.
+    pub fn validate(&self) -> Result<(), SpecError> {
+        for (key, size) in [
+            ("pivot_distance", self.pivot_distance),
+            ("arm_length", self.arm_length),
+            ("roller_radius", self.roller_radius),
+            ("roller_bore", self.roller_bore),
+            ("pivot_bore", self.pivot_bore),
+            ("slot_width", self.slot_width),
+            ("wall", self.wall),
+            ("width", self.width),
+        ] {
+            positive(key, size)?;
+        }
+        between(
+            "roller_bore",
+            self.roller_bore,
+            [0.0, 2.0 * self.roller_radius],
+            " mm",
+        )
+    }
+
+    /// The usual fork in proportion to the distance of the tip from the planet's axis, mm.
+    #[must_use]
+    pub fn in_proportion(tip_distance: f64) -> Self {
+        let k = tip_distance / USUAL_TIP_DISTANCE;
+        let usual = Self::default();
+        Self {
+            pivot_distance: k * usual.pivot_distance,
+            arm_length: k * usual.arm_length,
+            roller_radius: k * usual.roller_radius,
+            roller_bore: k * usual.roller_bore,
+            pivot_bore: k * usual.pivot_bore,
+            slot_width: k * usual.slot_width,
+            wall: k * usual.wall,
+            width: k * usual.width,
+        }
+    }
+}

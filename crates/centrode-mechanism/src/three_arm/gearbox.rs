@@ -1,0 +1,71 @@
+use centrode_geometry::{Outline, Point};
+use nalgebra::Rotation2;
+
+use super::{Link, ThreeArm};
+use crate::gear::Member;
+
+/// The carrier as a body: a plate on either side of the gears, with a hole at every axis.
+#[derive(Clone, Debug)]
+pub struct GearboxBody {
+    /// Contour, counter-clockwise, in the carrier's frame.
+    pub outline: Outline,
+    /// Holes for sun, intermediate gears and planets, as wide as their bores.
+    pub holes: Vec<Outline>,
+    /// Spans of the plates along the sun's axis, mm, from the rear faces of the gears: the rear one, then
+    /// the front one.
+    pub spans: [[f64; 2]; 2],
+}
+
+impl ThreeArm {
+    /// A link's axis in the carrier's frame, mm: where it stays.
+    #[must_use]
+    pub fn on_carrier(&self, link: Link) -> Point {
+        let carrier = self.link(Link::Carrier, 0.0).angle.position;
+        Rotation2::new(-carrier) * self.link(link, 0.0).origin.position
+    }
+
+    /// The carrier's plates: the belt around circles of the housing's offset over the largest pitch radius
+    /// about every axis.
+    #[must_use]
+    pub fn gearbox(&self) -> Option<GearboxBody> {
+        let design = self.design();
+        let offset = design.gearbox.housing_offset;
+        let radius = |member| self.rolling().radii(member).1 + offset;
+        let (sun, intermediate) = (radius(Member::Driver), radius(Member::Driven));
+        let mut around = vec![(Point::origin(), sun)];
+        let mut holes = vec![(Point::origin(), design.sun.bore)];
+        for k in 0..self.arms() {
+            let middle = self.on_carrier(Link::Intermediate(k));
+            let outer = self.on_carrier(Link::Planet(k));
+            around.extend([(middle, intermediate), (outer, sun)]);
+            holes.extend([
+                (middle, design.intermediate.bore),
+                (outer, design.planet.bore),
+            ]);
+        }
+        let bodies = [&design.sun, &design.intermediate, &design.planet];
+        let width = bodies.iter().map(|b| b.width).fold(0.0, f64::max);
+        let (play, wall) = (design.gearbox.play, design.gearbox.wall);
+        let front = width + play;
+        Some(GearboxBody {
+            outline: Outline::hull(&around)?,
+            holes: holes
+                .into_iter()
+                .filter(|(_, bore)| *bore > 0.0)
+                .map(|(center, bore)| Outline::circle(center, 0.5 * bore))
+                .collect(),
+            spans: [[-play - wall, -play], [front, front + wall]],
+        })
+    }
+
+    /// Distance of the middle of the arms' housings from the rear faces of the gears, mm: behind them the
+    /// gearbox's front plate and a play as that of the gears.
+    #[must_use]
+    pub fn arm_level(&self) -> f64 {
+        let design = self.design();
+        let bodies = [&design.sun, &design.intermediate, &design.planet];
+        let width = bodies.iter().map(|b| b.width).fold(0.0, f64::max);
+        let gearbox = &design.gearbox;
+        width + 2.0 * gearbox.play + gearbox.wall + 0.5 * self.arm_sizes().housing.width
+    }
+}

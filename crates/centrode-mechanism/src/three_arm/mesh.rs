@@ -1,0 +1,48 @@
+use super::{Link, ThreeArm};
+
+/// Two gears of a chain in mesh.
+#[derive(Clone, Copy, Debug, Eq, Hash, PartialEq)]
+pub enum Mesh {
+    /// The sun and the intermediate gear of a chain.
+    Sun(u32),
+    /// The planet and the intermediate gear of a chain.
+    Planet(u32),
+}
+
+/// Where two gears in mesh stand to the line from the sun's or planet's axis to the intermediate gear's.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MeshPose {
+    /// Polar angle of the sun or planet on that line, rad: what a pair's driver angle is.
+    pub driver: f64,
+    /// How far the intermediate gear is turned from that line, rad: what a pair's driven angle is.
+    pub driven: f64,
+}
+
+impl ThreeArm {
+    /// Every mesh, chain by chain.
+    pub fn meshes(&self) -> impl Iterator<Item = Mesh> + use<> {
+        (0..self.arms()).flat_map(|k| [Mesh::Sun(k), Mesh::Planet(k)])
+    }
+
+    /// Where the gears of a mesh stand at a carrier turn, read from the links alone.
+    ///
+    /// Teeth laid out once for the pair of sun and intermediate gear fit every mesh at every input if, and
+    /// only if, this is a pose of that pair: the driven angle that goes with the driver angle. It is, for
+    /// any tooth count, bend and number of arms: every mesh has the mean ratio 1, so no tooth ever meets
+    /// another space; chains repeat the first one; and a planet is the sun's part, set by the train so that
+    /// it meets the intermediate gear at the polar angle where the sun would.
+    #[must_use]
+    pub fn mesh_pose(&self, mesh: Mesh, input: f64) -> MeshPose {
+        let (driver, driven) = match mesh {
+            Mesh::Sun(k) => (Link::Sun, Link::Intermediate(k)),
+            Mesh::Planet(k) => (Link::Planet(k), Link::Intermediate(k)),
+        };
+        let (driver, driven) = (self.link(driver, input), self.link(driven, input));
+        let line = driven.origin.position - driver.origin.position;
+        let direction = line.y.atan2(line.x);
+        MeshPose {
+            driver: direction - driver.angle.position,
+            driven: driven.angle.position - direction,
+        }
+    }
+}

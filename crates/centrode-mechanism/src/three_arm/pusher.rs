@@ -1,0 +1,395 @@
+use std::f64::consts::{FRAC_PI_2, TAU};
+use std::sync::Arc;
+
+use centrode_geometry::{Outline, Point, Vector};
+use nalgebra::Rotation2;
+
+use super::ThreeArm;
+use super::design::{ForkSpec, PusherCamSpec};
+use crate::arm::{ArmBody, ArmBodySpec, ArmError};
+use crate::cam::design::{Dwell, MotionSpec, SegmentSpec, Travel, Turn};
+use crate::cam::{Cam, CamError, Fork, Lever, Motion, RodJoint};
+use crate::gear::design::SpecError;
+use crate::transmission::{MotionJet, Transmission};
+
+/// What moves the push rod of an arm: the cam on the carrier, the fork on the arm.
+///
+/// The fork's pivot is on the line from the planet's axis square to the pusher's axis, so the lever on the
+/// rod is as long as the pivot is from that axis, and stands half its swing either side of the square.
+#[derive(Clone, Debug)]
+pub struct Pusher {
+    cam: Cam,
+    fork: Fork,
+    spec: ForkSpec,
+    motion: Arc<Motion>,
+    stroke: f64,
+    /// 1 where the pusher's axis passes on the right of the planet's, seen along the clamp.
+    side: f64,
+    cam_angle: f64,
+    spans: Spans,
+}
+
+/// Where the parts lie along the planet's axis, mm, from the middle of the arm's housing.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Spans {
+    cam: [f64; 2],
+    fork: [f64; 2],
+}
+
+/// Why an arm's push rod cannot be moved.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum PusherError {
+    /// A value outside its range.
+    #[error(transparent)]
+    Spec(#[from] SpecError),
+    /// There is no such arm.
+    #[error(transparent)]
+    Arm(#[from] ArmError),
+    /// There is no such cam.
+    #[error(transparent)]
+    Cam(#[from] CamError),
+    /// The rod has no time to rest thrown out.
+    #[error(
+        "drawing back over {closing} deg, holding over {hold} deg and throwing out over {release} deg take more than a turn"
+    )]
+    NoRest {
+        /// Carrier turn over which the rod is drawn back, deg.
+        closing: f64,
+        /// From picking to planting, deg.
+        hold: f64,
+        /// Over which it is thrown out, deg.
+        release: f64,
+    },
+    /// The pivot is not between the planet's axis and the pusher's.
+    #[error(
+        "the fork's pivot is {pivot_distance} mm from the planet's axis, but the pusher's axis only {pusher_offset} mm"
+    )]
+    Pivot {
+        /// Distance of the pivot, mm.
+        pivot_distance: f64,
+        /// Distance of the pusher's axis, mm.
+        pusher_offset: f64,
+    },
+    /// The holes of pivot and roller meet.
+    #[error(
+        "the roller's pin is {arm_length} mm from the pivot, but their holes reach {needed} mm"
+    )]
+    Holes {
+        /// Distance of the two, mm.
+        arm_length: f64,
+        /// Half of both diameters together, mm.
+        needed: f64,
+    },
+    /// Cam, fork and rod find no room side by side.
+    #[error(
+        "rod, fork and cam reach {needed} mm to the rear of the middle of the housing, which leaves {room} mm"
+    )]
+    Depth {
+        /// How far they reach, mm.
+        needed: f64,
+        /// The room inside the rear cover, mm.
+        room: f64,
+    },
+    /// The roller at its highest strikes the housing's drum.
+    #[error(
+        "the roller reaches {reach} mm from the planet's axis, but the housing leaves {room} mm"
+    )]
+    Roller {
+        /// How far it reaches, mm.
+        reach: f64,
+        /// Inner radius of the drum, mm.
+        room: f64,
+    },
+}
+
+impl PusherError {
+    /// Key of the design file at fault.
+    #[must_use]
+    pub fn key(&self) -> String {
+        match self {
+            Self::Spec(error) => error.key.clone(),
+            Self::Arm(ArmError::Spec(error)) => format!("arm.{}", error.key),
+            Self::Arm(_) => "arm.body".into(),
+            Self::Cam(CamError::Bore { .. }) => "cam.body.bore".into(),
+            Self::Cam(CamError::Spec(error)) if error.key == "base_radius" => {
+                "cam.base_radius".into()
+            }
+            Self::Cam(CamError::Spec(_) | CamError::Reach { .. }) | Self::Roller { .. } => {
+                "fork".into()
+            }
+            Self::Cam(_) => "cam".into(),
+            Self::NoRest { .. } => "cam.closing_deg".into(),
+            Self::Pivot { .. } => "fork.pivot_distance".into(),
+            Self::Holes { .. } => "fork.arm_length".into(),
+            Self::Depth { .. } => "cam.body.width".into(),
+        }
+    }
+}
+
+impl ThreeArm {
+    /// Sizes of the arms: those written, or the usual ones in proportion to the tip's distance.
+    #[must_use]
+    pub fn arm_sizes(&self) -> ArmBodySpec {
+        let arm = &self.design().arm;
+        let usual = || ArmBodySpec::in_proportion(arm.tip_distance);
+        arm.body.clone().unwrap_or_else(usual)
+    }
+
+    /// The body of each arm.
+    ///
+    /// # Errors
+    /// [`ArmError`] where its parts do not fit each other or its outline crosses itself.
+    pub fn arm_body(&self) -> Result<ArmBody, ArmError> {
+        let arm = &self.design().arm;
+        let (reach, offset) = (arm.tip_distance, arm.pusher_offset);
+        ArmBody::new(&self.arm_sizes(), reach, offset, arm.clamp_length)
+    }
+
+    /// Cam and fork of each arm.
+    ///
+    /// # Errors
+    /// [`PusherError`] naming the rule broken and its numbers.
+    pub fn pusher(&self) -> Result<Pusher, PusherError> {
+        let design = self.design();
+        let reach = design.arm.tip_distance;
+        let usual_cam = || PusherCamSpec::in_proportion(reach);
+        let cam = design.cam.clone().unwrap_or_else(usual_cam);
+        let usual_fork = || ForkSpec::in_proportion(reach);
+        let fork = design.fork.clone().unwrap_or_else(usual_fork);
+        let sizes = self.arm_sizes();
+        sizes.validate()?;
+        Pusher::of(self, &cam, fork, &sizes)
+    }
+}
+
+impl Pusher {
+    fn of(
+        mechanism: &ThreeArm,
+        spec: &PusherCamSpec,
+        fork: ForkSpec,
+        sizes: &ArmBodySpec,
+    ) -> Result<Self, PusherError> {
+        let offset = mechanism.design().arm.pusher_offset;
+        let lever = offset.abs() - fork.pivot_distance;
+        if lever <= 0.0 {
+            return Err(PusherError::Pivot {
+                pivot_distance: fork.pivot_distance,
+                pusher_offset: offset.abs(),
+            });
+        }
+        let needed = 0.5 * (fork.pivot_bore + fork.roller_bore);
+        if fork.arm_length <= needed {
+            return Err(PusherError::Holes {
+                arm_length: fork.arm_length,
+                needed,
+            });
+        }
+        let spans = Spans::of(spec, &fork, sizes)?;
+        let stroke = sizes.push_rod.stroke;
+        let side = if offset < 0.0 { -1.0 } else { 1.0 };
+        let follower = Fork {
+            roller_radius: fork.roller_radius,
+            center_distance: fork.pivot_distance,
+            arm_length: fork.arm_length,
+            lifts: if side > 0.0 {
+                Turn::Clockwise
+            } else {
+                Turn::CounterClockwise
+            },
+            rod: RodJoint::PinOnRod(Lever {
+                length: lever,
+                start: -(0.5 * stroke / lever).atan(),
+            }),
+        };
+        let motion = Arc::new(motion(mechanism, spec, stroke)?);
+        let turning = Arc::new(mechanism.train().arm_on_carrier());
+        let disc = follower.cam_by_input(motion.clone(), turning, spec.base_radius)?;
+        let cam = Cam::new(disc, "cam", spec.body.clone())?;
+        let start = mechanism.train().at(0.0);
+        let on_carrier = start.arm.position - start.carrier.position;
+        let pusher = Self {
+            cam,
+            fork: follower,
+            spec: fork,
+            motion,
+            stroke,
+            side,
+            cam_angle: on_carrier + mechanism.clamp_mounting() - side * FRAC_PI_2,
+            spans,
+        };
+        let housing = &sizes.housing;
+        let (reach, room) = (pusher.reach(), housing.drum_radius - housing.wall);
+        // Below the axis the belt to the tube leaves more room than the drum.
+        let high = pusher.roller(stroke);
+        if reach > room && high.y * side > 0.0 {
+            return Err(PusherError::Roller { reach, room });
+        }
+        Ok(pusher)
+    }
+
+    /// The cam.
+    #[must_use]
+    pub fn cam(&self) -> &Cam {
+        &self.cam
+    }
+
+    /// The fork as a follower.
+    #[must_use]
+    pub fn fork(&self) -> &Fork {
+        &self.fork
+    }
+
+    /// The fork as a part.
+    #[must_use]
+    pub fn fork_spec(&self) -> &ForkSpec {
+        &self.spec
+    }
+
+    /// How far the rod is drawn back at most, mm.
+    #[must_use]
+    pub fn stroke(&self) -> f64 {
+        self.stroke
+    }
+
+    /// How far the first arm's rod is drawn back at a carrier turn, mm; zero thrown out.
+    #[must_use]
+    pub fn retraction(&self, input: f64) -> MotionJet {
+        self.motion.at(input)
+    }
+
+    /// Turn of the cam's frame from the carrier's, for the first arm, rad.
+    #[must_use]
+    pub fn cam_angle(&self) -> f64 {
+        self.cam_angle
+    }
+
+    /// The fork's pivot, in the arm's frame, mm.
+    #[must_use]
+    pub fn pivot(&self) -> Point {
+        Point::new(0.0, -self.side * self.spec.pivot_distance)
+    }
+
+    /// Turn of the fork's frame from the arm's with the rod drawn back by a length, rad. The fork's x axis
+    /// points from its pivot to the roller.
+    #[must_use]
+    pub fn fork_angle(&self, retraction: &MotionJet) -> MotionJet {
+        let swing = self.fork.rod.swing(retraction);
+        let side = self.side;
+        MotionJet {
+            position: side * (FRAC_PI_2 - self.cam.disc().start_angle() - swing.position),
+            velocity: -side * swing.velocity,
+            acceleration: -side * swing.acceleration,
+            jerk: -side * swing.jerk,
+        }
+    }
+
+    /// The roller's axis in the arm's frame with the rod drawn back by a length, mm.
+    #[must_use]
+    pub fn roller(&self, retraction: f64) -> Point {
+        let jet = MotionJet {
+            position: retraction,
+            ..MotionJet::default()
+        };
+        let (sin, cos) = self.fork_angle(&jet).position.sin_cos();
+        self.pivot() + Vector::new(cos, sin) * self.spec.arm_length
+    }
+
+    /// How far the roller reaches from the planet's axis with the rod drawn back, mm.
+    #[must_use]
+    pub fn reach(&self) -> f64 {
+        self.roller(self.stroke).coords.norm() + self.spec.roller_radius
+    }
+
+    /// Contour of the fork in its own frame, and its holes: for the pivot's and the roller's pin, and the
+    /// slot for the rod's.
+    #[must_use]
+    pub fn fork_outline(&self) -> Option<(Outline, Vec<Outline>)> {
+        let ForkSpec {
+            arm_length,
+            roller_bore,
+            pivot_bore,
+            slot_width,
+            wall,
+            ..
+        } = self.spec;
+        let RodJoint::PinOnRod(lever) = self.fork.rod else {
+            return None;
+        };
+        let pivot = (Point::origin(), 0.5 * pivot_bore);
+        let roller = (Point::new(arm_length, 0.0), 0.5 * roller_bore);
+        // From the roller's direction to the lever's, whatever the swing.
+        let angle = -self.side * (2.0 * FRAC_PI_2 + lever.start - self.cam.disc().start_angle());
+        let along = Rotation2::new(angle) * Vector::x();
+        let pin = 0.5 * slot_width;
+        let slot = [lever.length, lever.length / lever.start.cos()]
+            .map(|distance| (Point::from(along * distance), pin));
+        let around = [pivot, roller, slot[1]].map(|(center, radius)| (center, radius + wall));
+        let circle = |(center, radius)| Outline::circle(center, radius);
+        let holes = vec![circle(pivot), circle(roller), Outline::hull(&slot)?];
+        Some((Outline::hull(&around)?, holes))
+    }
+
+    /// From where to where the cam lies along the planet's axis, mm, from the middle of the arm's housing.
+    #[must_use]
+    pub fn cam_span(&self) -> [f64; 2] {
+        self.spans.cam
+    }
+
+    /// The same of the fork.
+    #[must_use]
+    pub fn fork_span(&self) -> [f64; 2] {
+        self.spans.fork
+    }
+}
+
+impl Spans {
+    /// Rod in the middle, the fork behind it, the cam with the roller behind the fork.
+    fn of(cam: &PusherCamSpec, fork: &ForkSpec, sizes: &ArmBodySpec) -> Result<Self, PusherError> {
+        let rod = &sizes.push_rod;
+        let gap = 0.1 * rod.diameter;
+        let front = -0.5 * rod.diameter - gap;
+        let fork = [front - fork.width, front];
+        let top = fork[0] - gap;
+        let cam = [top - cam.body.width, top];
+        let (needed, room) = (-cam[0], 0.5 * sizes.housing.width - sizes.housing.wall);
+        if needed > room {
+            return Err(PusherError::Depth { needed, room });
+        }
+        Ok(Self { cam, fork })
+    }
+}
+
+/// Retraction of the rod by carrier turn: drawn back up to picking, held, thrown out from planting on.
+fn motion(mechanism: &ThreeArm, spec: &PusherCamSpec, stroke: f64) -> Result<Motion, PusherError> {
+    let (pick, plant) = (mechanism.picking(0), mechanism.planting(0));
+    let hold = (plant - pick).rem_euclid(TAU);
+    let rest = TAU - spec.closing - hold - spec.release;
+    if rest <= 0.0 || hold <= 0.0 {
+        return Err(PusherError::NoRest {
+            closing: spec.closing.to_degrees(),
+            hold: hold.to_degrees(),
+            release: spec.release.to_degrees(),
+        });
+    }
+    let travel = |span, law: &crate::cam::law::LawSpec| Travel {
+        span,
+        lift: Some(stroke),
+        swing: None,
+        law: law.clone(),
+    };
+    let dwell = |span| SegmentSpec::Dwell(Dwell { span });
+    let written = MotionSpec {
+        start: pick - spec.closing,
+        segments: vec![
+            SegmentSpec::Rise(travel(spec.closing, &spec.closing_law)),
+            dwell(hold),
+            SegmentSpec::Return(travel(spec.release, &spec.release_law)),
+            dwell(rest),
+        ],
+    };
+    Ok(Motion::resolve(&written).map_err(CamError::from)?)
+}
+
+#[cfg(test)]
+mod tests;
