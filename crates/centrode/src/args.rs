@@ -125,14 +125,38 @@ pub(crate) enum File {
     Json,
 }
 
-/// A part of the pair, or the pair.
+/// A part of a machine, or all in place.
 #[derive(Clone, Copy, Debug, Eq, PartialEq, ValueEnum)]
 pub(crate) enum Part {
-    /// The driver
+    /// The driver of a pair
     Driver,
-    /// The driven gear
+    /// The driven gear of a pair
     Driven,
-    /// Both in place
+    /// Three arms: the fixed gear
+    Sun,
+    /// Three arms: the gear between sun and planet
+    Intermediate,
+    /// Three arms: the gear that carries an arm
+    Planet,
+    /// Three arms: what moves the push rod
+    Cam,
+    /// Three arms: between cam and push rod
+    Fork,
+    /// Three arms: on the fork
+    Roller,
+    /// Three arms: the plate on either side of the gears
+    Carrier,
+    /// Three arms: the wall of an arm's housing
+    Housing,
+    /// Three arms: its cover towards the gearbox
+    CoverRear,
+    /// Three arms: its cover away from the gearbox
+    CoverFront,
+    /// Three arms: a flake of the clamp
+    Clamp,
+    /// Three arms: with its pusher
+    PushRod,
+    /// Everything in place
     Assembly,
 }
 

@@ -3,9 +3,10 @@ use std::process::ExitCode;
 
 use centrode::analysis::Report;
 use centrode::export::gear_pair::{self, Format, Options, SheetOptions, Subject};
-use centrode::export::{Bundle, dxf, shaft};
+use centrode::export::{Bundle, dxf, shaft, three_arm};
 use centrode::mechanism::design::{Projection, SheetSize};
 use centrode::mechanism::mechanism::Mechanism;
+use clap::ValueEnum as _;
 
 use crate::args::{Dxf, Export, File, Method, Part, Size};
 use crate::failure::Failure;
@@ -58,18 +59,28 @@ fn bundle(mechanism: &Mechanism, found: &Report, command: &Export) -> Result<Bun
 /// The files of a mechanism in the formats asked for.
 fn files(mechanism: &Mechanism, command: &Export, found: &Report) -> Result<Bundle, Failure> {
     match mechanism {
-        Mechanism::GearPair(pair) => Ok(gear_pair::files(
-            pair,
-            &formats(command),
-            &options(command, found),
-        )?),
-        // Its report is all that is written of it.
-        Mechanism::ThreeArm(_) => match command.format.iter().find(|f| **f != File::Json) {
-            None => Ok(Bundle::default()),
-            Some(_) => Err(Failure::Usage(
-                "a three-arm mechanism is written as json only".into(),
-            )),
-        },
+        Mechanism::GearPair(pair) => {
+            parts_of(command, "a gear pair", |p| pair_part(p).is_some())?;
+            Ok(gear_pair::files(
+                pair,
+                &formats(command),
+                &options(command, found),
+            )?)
+        }
+        Mechanism::ThreeArm(mechanism) => {
+            parts_of(command, "a three-arm mechanism", |p| {
+                machine_part(p).is_some()
+            })?;
+            let parts = match command.part.as_slice() {
+                [] => three_arm::Part::ALL.to_vec(),
+                some => three_arm::Part::ALL
+                    .into_iter()
+                    .filter(|part| some.iter().any(|p| machine_part(*p) == Some(*part)))
+                    .collect(),
+            };
+            let (formats, options) = (formats(command), options(command, found));
+            Ok(three_arm::files(mechanism, &formats, &options, &parts)?)
+        }
         Mechanism::SpiralShaft(part) => {
             only_of_shafts(command)?;
             Ok(shaft::files(
@@ -84,6 +95,33 @@ fn files(mechanism: &Mechanism, command: &Export, found: &Report) -> Result<Bund
             Ok(shaft::moving_box_files(machine, &formats, &options)?)
         }
     }
+}
+
+/// Refuses parts that a machine has not.
+fn parts_of(command: &Export, machine: &str, has: impl Fn(Part) -> bool) -> Result<(), Failure> {
+    let Some(lost) = command.part.iter().find(|part| !has(**part)) else {
+        return Ok(());
+    };
+    let name = lost.to_possible_value();
+    let name = name.as_ref().map_or("", |value| value.get_name());
+    Err(Failure::Usage(format!(
+        "{machine} has no part named {name}"
+    )))
+}
+
+/// What a part is of a gear pair.
+fn pair_part(part: Part) -> Option<Subject> {
+    match part {
+        Part::Driver => Some(Subject::Driver),
+        Part::Driven => Some(Subject::Driven),
+        Part::Assembly => Some(Subject::Assembly),
+        _ => None,
+    }
+}
+
+/// What a part is of a three-arm mechanism.
+fn machine_part(part: Part) -> Option<three_arm::Part> {
+    part.to_possible_value()?.get_name().parse().ok()
 }
 
 /// Refuses formats asked for by name that a shaft is not written as.
@@ -165,13 +203,11 @@ fn options(command: &Export, found: &Report) -> Options {
         Dxf::Spline => options.dxf_curves = dxf::Curves::Splines,
     }
     if !command.part.is_empty() {
-        let pairs = [
-            (Part::Driver, Subject::Driver),
-            (Part::Driven, Subject::Driven),
-            (Part::Assembly, Subject::Assembly),
-        ];
-        let wanted = pairs.into_iter().filter(|p| command.part.contains(&p.0));
-        options.subjects = wanted.map(|(_, subject)| subject).collect();
+        let wanted = |subject: &Subject| {
+            let mut asked = command.part.iter().filter_map(|part| pair_part(*part));
+            asked.any(|part| part == *subject)
+        };
+        options.subjects = Subject::ALL.into_iter().filter(wanted).collect();
     }
     options.sheet = SheetOptions {
         size: command.sheet.map(|size| match size {
@@ -186,6 +222,7 @@ fn options(command: &Export, found: &Report) -> Options {
             Method::ThirdAngle => Projection::ThirdAngle,
         }),
         meshing: centrode::meshing(found),
+        label: None,
     };
     options
 }

@@ -4,6 +4,7 @@ use anstyle::{AnsiColor, Style};
 use centrode::export::BundleError;
 use centrode::export::gear_pair::GearPairFilesError;
 use centrode::export::shaft::ShaftFilesError;
+use centrode::export::three_arm::ThreeArmFilesError;
 use centrode::mechanism::design::DesignError;
 
 /// Longest part of a line shown below an error, in characters.
@@ -47,6 +48,12 @@ impl From<GearPairFilesError> for Failure {
 
 impl From<ShaftFilesError> for Failure {
     fn from(error: ShaftFilesError) -> Self {
+        Self::Files(Box::new(error))
+    }
+}
+
+impl From<ThreeArmFilesError> for Failure {
+    fn from(error: ThreeArmFilesError) -> Self {
         Self::Files(Box::new(error))
     }
 }

@@ -32,7 +32,7 @@ pub const FORMATS: [Format; 6] = [
 ];
 
 /// Rows of the profile table: every half degree.
-const ROWS: u32 = 720;
+pub(crate) const ROWS: u32 = 720;
 
 /// Why a cam's files could not be made.
 #[derive(Debug, Error)]

@@ -15,8 +15,10 @@ pub(super) struct ContactBodies {
 /// end, cut into as many pieces as it takes to stand out of it by no more than the tolerance. Under them
 /// the hub, from the bottom of one space to that of the next, its bore filled.
 ///
+/// Every body's name begins with `prefix`.
+///
 /// Fillets are left out: mates do not touch there, and each would take a dozen bodies.
-pub(super) fn all(gear: &Gear, tolerance: Tolerance) -> ContactBodies {
+pub(super) fn all(gear: &Gear, prefix: &str, tolerance: Tolerance) -> ContactBodies {
     // Half for the chords of a hollow flank, half for what bridges them.
     let half = tolerance.scaled(0.5);
     let samples = gear.outline().samples(half);
@@ -37,7 +39,6 @@ pub(super) fn all(gear: &Gear, tolerance: Tolerance) -> ContactBodies {
         bodies: Vec::new(),
         excess,
     };
-    let prefix = gear.member().name();
     for (tooth, contours) in teeth {
         let name = format!("{prefix}_tooth_{tooth}");
         let cut = contours.iter().map(|contour| convex_pieces(contour, half));

@@ -1,4 +1,4 @@
-"""Joint angles by the law of motion; written into each script, so that one file is enough to run it."""
+"""Joints by the law of motion; written into each script, so that one file is enough to run it."""
 
 import json
 
@@ -6,18 +6,19 @@ import numpy as np
 
 
 class Law:
-    """Joint angles over the driver's travel, as motion.json describes motion.csv."""
+    """Positions of joints over the input's travel, as motion.json describes motion.csv."""
 
     def __init__(self, folder):
         """Reads both files."""
         about = json.loads((folder / "motion.json").read_text())
         table = np.genfromtxt(folder / about["table"], delimiter=",", names=True)
         self.cycle = about["continuation"]
+        self.input = about["input"]
         self.joints = {j["name"]: (table[j["column"]], j["factor"], self.cycle[j["column"]]) for j in about["joints"]}
-        self.travel = table["driver_angle_rad"]
+        self.travel = table[self.input]
 
     def __call__(self, joint, travel):
-        """Angle of a joint, linear between rows and repeated beyond them."""
+        """Position of a joint, linear between rows and repeated beyond them."""
         angles, factor, per_cycle = self.joints[joint]
-        whole, rest = np.divmod(travel, self.cycle["driver_angle_rad"])
+        whole, rest = np.divmod(travel, self.cycle[self.input])
         return float(factor * (np.interp(rest, self.travel, angles) + whole * per_cycle))

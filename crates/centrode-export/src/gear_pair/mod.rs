@@ -4,6 +4,7 @@ mod contact_body;
 mod format;
 mod motion;
 mod outline;
+mod part;
 mod picture;
 mod pins;
 mod play;
@@ -29,10 +30,12 @@ use crate::{
 use centrode_geometry::{SolidError, Tolerance};
 use centrode_mechanism::gear::{GearPair, Member};
 pub use format::{Format, UnknownFormat};
+pub(crate) use part::{add_part, contact_bodies};
 pub use picture::{curves, picture};
+pub(crate) use play::whole as script;
 use sheet::Contours;
 pub use sheet_set::SheetSet;
-pub use sheets::{Meshing, SheetOptions, Subject, sheets};
+pub use sheets::{Label, Meshing, SheetOptions, Subject, sheets};
 pub use solid::{mesh, solid, step_file, stl_file, threemf_file};
 use thiserror::Error;
 

@@ -53,6 +53,7 @@ pub(super) fn sidecar(pair: &GearPair, tolerance: Tolerance) -> Vec<u8> {
     format!(
         r#"{{
   "table": "motion.csv",
+  "input": "driver_angle_rad",
   "columns": [
     {{"name": "driver_angle_rad", "unit": "rad", "meaning": "polar angle of the driver's pitch point; the driver has turned by minus this"}},
     {{"name": "driven_angle_rad", "unit": "rad", "meaning": "angle the driven gear has turned by, counter-clockwise"}},

@@ -17,7 +17,7 @@ pub(super) fn pybullet() -> Vec<u8> {
 }
 
 /// A script with the class in the place of its import.
-fn whole(script: &str) -> Vec<u8> {
+pub(crate) fn whole(script: &str) -> Vec<u8> {
     let class = LAW.find("class ").map_or("", |at| &LAW[at..]);
     script.replace(IMPORT, &format!("\n{class}\n")).into_bytes()
 }

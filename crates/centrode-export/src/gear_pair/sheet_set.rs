@@ -28,9 +28,11 @@ impl SheetSet {
             "" => pair.name(),
             title => title,
         };
+        let label = options.sheet.label;
+        let name = label.map_or(subject.name(), |label| label.name);
         Ok(Self {
-            name: subject.name(),
-            title: format!("{named}: {}", subject.name()),
+            name,
+            title: format!("{named}: {name}"),
             sheets,
             tolerance: options.tolerance,
         })

@@ -34,7 +34,7 @@ pub(super) fn model(pair: &GearPair, tolerance: Tolerance) -> Result<Model, Gear
     let mut excess: f64 = 0.0;
     for member in [Member::Driver, Member::Driven] {
         let density = pair.gear(member).body().density;
-        let touching = contact_body::all(pair.gear(member), tolerance);
+        let touching = contact_body::all(pair.gear(member), member.name(), tolerance);
         excess = excess.max(touching.excess);
         links.push(Link {
             name: member.name().into(),

@@ -61,6 +61,19 @@ pub struct Meshing {
     pub backlash: [f64; 2],
 }
 
+/// What a gear is called in a machine larger than its pair.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+pub struct Label {
+    /// The name its files have.
+    pub name: &'static str,
+    /// What its drawing is called.
+    pub title: &'static str,
+    /// What it meshes with.
+    pub mate: &'static str,
+    /// How many of it a machine has.
+    pub quantity: u32,
+}
+
 /// How sheets are laid out where it is not to be as the design says.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SheetOptions {
@@ -70,6 +83,8 @@ pub struct SheetOptions {
     pub projection: Option<Projection>,
     /// What the contact analysis has found; left out, the sheets do not tell.
     pub meshing: Option<Meshing>,
+    /// What the gear is called; left out, driver or driven.
+    pub label: Option<Label>,
 }
 
 /// The sheets of one gear, or of both in place: views, dimensions, data, tables.
@@ -94,7 +109,8 @@ fn block(pair: &GearPair, subject: Subject, options: &SheetOptions) -> TitleBloc
     let spec = pair.drawing();
     let mut block = TitleBlock::of(spec);
     if !spec.number.is_empty() {
-        block.number = format!("{}-{}", spec.number, subject.name());
+        let name = options.label.map_or(subject.name(), |label| label.name);
+        block.number = format!("{}-{name}", spec.number);
     }
     block.projection = options.projection.unwrap_or(spec.projection);
     let (title, supplement) = match subject {
@@ -102,7 +118,7 @@ fn block(pair: &GearPair, subject: Subject, options: &SheetOptions) -> TitleBloc
         Subject::Driven => ("Driven gear", pair.title()),
         Subject::Assembly => ("Gear pair", pair.title()),
     };
-    block.title = title.to_owned();
+    block.title = options.label.map_or(title, |label| label.title).to_owned();
     block.supplement = match supplement {
         "" => pair.name(),
         title => title,
@@ -117,7 +133,8 @@ fn gear(
     options: &SheetOptions,
     tolerance: Tolerance,
 ) -> Result<Vec<Sheet>, SheetError> {
-    let part = Part::new(pair, member, tolerance);
+    let mut part = Part::new(pair, member, tolerance);
+    part.label = options.label;
     let mut block = block(pair, member.into(), options);
     block.document = "Part drawing".into();
     block.material = part.gear.body().material.clone();
@@ -241,7 +258,7 @@ fn notes_piece(lines: &[String], corner: Corner) -> Piece {
 }
 
 fn notes(part: &Part<'_>) -> Vec<String> {
-    let name = part.member.name();
+    let name = part.name();
     let mut lines = vec![
         format!("Exact tooth profile: {name}.step, points {name}.csv."),
         "Polar angles from the line of centres at φ = 0,".to_owned(),
@@ -258,7 +275,9 @@ fn notes(part: &Part<'_>) -> Vec<String> {
     if part.gear.body().keyway.is_some() {
         lines.push("Keyway on the x axis, at polar angle 0°.".to_owned());
     }
-    if part.pair.congruent() {
+    if let Some(label) = part.label {
+        lines.push(format!("{} of these a machine.", label.quantity));
+    } else if part.pair.congruent() {
         lines.push("Driver and driven gear are the same part.".to_owned());
     }
     lines

@@ -1,3 +1,4 @@
+use super::Label;
 use centrode_geometry::{Bounds, Outline, Point, Tolerance, Vector, bracketed_minimum};
 use centrode_mechanism::gear::{Frame, Gear, GearPair, Member, Role};
 use std::f64::consts::TAU;
@@ -12,6 +13,8 @@ pub(super) struct Part<'a> {
     pub(super) pitch_curve: Outline,
     pub(super) bore: Option<Outline>,
     pub(super) tolerance: Tolerance,
+    /// What it is called, where not driver or driven.
+    pub(super) label: Option<Label>,
     /// The outermost point of each tooth.
     tips: Vec<Point>,
     /// The innermost point of each space.
@@ -58,9 +61,15 @@ impl<'a> Part<'a> {
             pitch_curve: gear.pitch_curve().arcs(tolerance),
             bore: gear.bore(),
             tolerance,
+            label: None,
             tips: points(tips),
             roots: points(roots),
         }
+    }
+
+    /// The name its files have.
+    pub(super) fn name(&self) -> &'static str {
+        self.label.map_or(self.member.name(), |label| label.name)
     }
 
     pub(super) fn tips(&self) -> Option<Extremes> {

@@ -69,7 +69,11 @@ pub(super) fn data(part: &Part<'_>, meshing: Option<Meshing>) -> Table {
         range([bend.least.1, bend.greatest.1], 6),
     );
     let mate = part.member.mate();
-    rows.add("Mate", "", mate_name(pair, mate));
+    let mate = match part.label {
+        Some(label) => label.mate.to_owned(),
+        None => mate_name(pair, mate),
+    };
+    rows.add("Mate", "", mate);
     pair_rows(pair, meshing, &mut rows);
     rows.add("Accuracy class", "", body.accuracy.clone());
     rows.add("Material", "", body.material.clone());
@@ -225,7 +229,7 @@ pub(super) fn profile(part: &Part<'_>) -> Table {
             owner.map_or_else(String::new, u32::to_string),
         ]
     });
-    let name = part.member.name();
+    let name = part.name();
     let which = match every {
         1 => "every point".to_owned(),
         n => format!("one point in {n}"),

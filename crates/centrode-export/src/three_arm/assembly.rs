@@ -1,0 +1,123 @@
+use centrode_geometry::{Outline, Point, Tolerance};
+use centrode_mechanism::gear::Member;
+use centrode_mechanism::three_arm::Link;
+use nalgebra::Isometry2;
+
+use super::machine::Machine;
+use crate::drawing::{Anchor, Color, Drawing, LineType, Shape, Text};
+
+/// Points of the tip's path.
+const PATH: u32 = 720;
+
+/// The whole machine as its first arm picks: gears, carrier, cams and forks, arms, path of the tip, ground,
+/// tray.
+pub(super) fn drawing(machine: &Machine<'_>, tolerance: Tolerance) -> Drawing {
+    let mechanism = machine.mechanism;
+    let input = mechanism.picking(0);
+    let mut drawing = layers();
+    let place = |link: Link| {
+        let stands = mechanism.link(link, input);
+        Isometry2::new(stands.origin.position.coords, stands.angle.position)
+    };
+    let mut draw = |layer: &str, outline: &Outline, at: &Isometry2<f64>| {
+        // Arcs first: turned splines would be fitted anew for every place.
+        drawing.draw(
+            layer,
+            Shape::Contour(outline.arcs(tolerance).transformed(at)),
+        );
+    };
+    let carrier = place(Link::Carrier);
+    draw("CARRIER", &machine.gearbox.outline, &carrier);
+    let mut gear = |link: Link| {
+        let (pair, member) = match link {
+            Link::Sun => (&machine.pairs[0], Member::Driver),
+            Link::Planet(_) => (&machine.pairs[1], Member::Driver),
+            _ => (&machine.pairs[0], Member::Driven),
+        };
+        let (gear, at) = (pair.gear(member), place(link));
+        draw("GEARS", gear.outline(), &at);
+        draw("PITCH_CURVE", gear.pitch_curve(), &at);
+        if let Some(bore) = gear.bore() {
+            draw("BORE", &bore, &at);
+        }
+    };
+    gear(Link::Sun);
+    for k in 0..mechanism.arms() {
+        gear(Link::Intermediate(k));
+        gear(Link::Planet(k));
+    }
+    let pusher = &machine.pusher;
+    for k in 0..mechanism.arms() {
+        let arm = place(Link::Arm(k));
+        for name in ["housing", "flake-left", "push-rod", "pusher"] {
+            let Some(part) = machine.of_arm(name) else {
+                continue;
+            };
+            let back = pusher.retraction(mechanism.own_input(input, k)).position;
+            let moves = matches!(name, "push-rod" | "pusher");
+            let by = Isometry2::translation(if moves { -back } else { 0.0 }, 0.0);
+            draw("ARMS", &part.outline, &(arm * by));
+        }
+        let cam = carrier * super::simulator::cam_on_carrier(machine, k);
+        draw("CAMS", pusher.cam().profile().outline(), &cam);
+        if let Some((fork, _)) = pusher.fork_outline() {
+            let back = pusher.retraction(mechanism.own_input(input, k));
+            let turn = pusher.fork_angle(&back).position;
+            let at = arm * Isometry2::new(pusher.pivot().coords, turn);
+            draw("CAMS", &fork, &at);
+        }
+    }
+    surroundings(machine, &mut drawing);
+    drawing
+}
+
+fn layers() -> Drawing {
+    Drawing::default()
+        .layer("PATH", Color::Red, LineType::Center, 0.18)
+        .layer("GROUND", Color::Gray, LineType::Continuous, 0.35)
+        .layer("TRAY", Color::Gray, LineType::Continuous, 0.35)
+        .layer("CARRIER", Color::Gray, LineType::Phantom, 0.25)
+        .layer("PITCH_CURVE", Color::Blue, LineType::Center, 0.13)
+        .layer("BORE", Color::Foreground, LineType::Continuous, 0.25)
+        .layer("GEARS", Color::Foreground, LineType::Continuous, 0.25)
+        .layer("CAMS", Color::Red, LineType::Continuous, 0.25)
+        .layer("ARMS", Color::Green, LineType::Continuous, 0.35)
+        .layer("TEXT", Color::Foreground, LineType::Continuous, 0.25)
+}
+
+/// What does not turn: path of the tip, ground, tray; and what the drawing is of.
+fn surroundings(machine: &Machine<'_>, drawing: &mut Drawing) {
+    let mechanism = machine.mechanism;
+    let path: Vec<Point> = (0..=PATH)
+        .map(|i| {
+            let share = f64::from(i % PATH) / f64::from(PATH);
+            mechanism.tip(std::f64::consts::TAU * share, 0).position
+        })
+        .collect();
+    let reach = path.iter().map(|p| p.coords.norm()).fold(0.0, f64::max);
+    drawing.draw("PATH", Shape::Polyline(path));
+    let ground = mechanism.ground();
+    let (left, right) = (Point::new(-reach, ground), Point::new(reach, ground));
+    drawing.draw("GROUND", Shape::Line(left, right));
+    let tray = super::surroundings::tray(mechanism);
+    drawing.draw("TRAY", Shape::Contour(tray));
+    let height = 0.025 * reach;
+    let design = mechanism.design();
+    let title = match design.title.as_str() {
+        "" => &design.name,
+        title => title,
+    };
+    let figures = format!(
+        "a = {:.4} mm, {} gears of {} teeth, m = {:.4} mm; arm I picks",
+        mechanism.center_distance(),
+        1 + 2 * mechanism.arms(),
+        machine.pairs[0].driver().tooth_count(),
+        machine.pairs[0].module(),
+    );
+    let lowest = drawing.bounds().min.y;
+    for (row, words) in [title.to_owned(), figures].into_iter().enumerate() {
+        let y = lowest - (1.5 + 1.7 * row as f64) * height;
+        let text = Text::new(Point::new(0.0, y), height, words, Anchor::Middle);
+        drawing.draw("TEXT", Shape::Text(text));
+    }
+}

@@ -1,0 +1,128 @@
+use std::{fmt, str::FromStr};
+
+use thiserror::Error;
+
+/// A part of a three-arm mechanism, or the whole.
+#[derive(Clone, Copy, Debug, Eq, Hash, Ord, PartialEq, PartialOrd)]
+#[non_exhaustive]
+pub enum Part {
+    /// The gear fixed to the frame.
+    Sun,
+    /// The gear between sun and planet, one an arm.
+    Intermediate,
+    /// The gear that carries an arm.
+    Planet,
+    /// The cam on the carrier, one an arm.
+    Cam,
+    /// The fork between cam and push rod, one an arm.
+    Fork,
+    /// The roller on the fork, one an arm.
+    Roller,
+    /// The carrier's plate, on either side of the gears.
+    Carrier,
+    /// The wall of an arm's housing.
+    Housing,
+    /// The cover of an arm's housing towards the gearbox.
+    CoverRear,
+    /// The cover of an arm's housing away from the gearbox.
+    CoverFront,
+    /// A flake of the clamp, two an arm.
+    Clamp,
+    /// The push rod with its pusher, one an arm.
+    PushRod,
+    /// Everything in place.
+    Assembly,
+}
+
+impl Part {
+    /// All of them, in the order files are written.
+    pub const ALL: [Self; 13] = [
+        Self::Sun,
+        Self::Intermediate,
+        Self::Planet,
+        Self::Cam,
+        Self::Fork,
+        Self::Roller,
+        Self::Carrier,
+        Self::Housing,
+        Self::CoverRear,
+        Self::CoverFront,
+        Self::Clamp,
+        Self::PushRod,
+        Self::Assembly,
+    ];
+
+    /// The name its files have.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Sun => "sun",
+            Self::Intermediate => "intermediate",
+            Self::Planet => "planet",
+            Self::Cam => "cam",
+            Self::Fork => "fork",
+            Self::Roller => "roller",
+            Self::Carrier => "carrier",
+            Self::Housing => "housing",
+            Self::CoverRear => "cover-rear",
+            Self::CoverFront => "cover-front",
+            Self::Clamp => "clamp",
+            Self::PushRod => "push-rod",
+            Self::Assembly => "assembly",
+        }
+    }
+
+    /// What its drawing is called.
+    #[must_use]
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::Sun => "Sun gear",
+            Self::Intermediate => "Intermediate gear",
+            Self::Planet => "Planet gear",
+            Self::Cam => "Pusher cam",
+            Self::Fork => "Fork",
+            Self::Roller => "Cam roller",
+            Self::Carrier => "Carrier plate",
+            Self::Housing => "Arm housing",
+            Self::CoverRear => "Rear cover of the arm",
+            Self::CoverFront => "Front cover of the arm",
+            Self::Clamp => "Clamp flake",
+            Self::PushRod => "Push rod, square bar",
+            Self::Assembly => "Three-arm mechanism",
+        }
+    }
+
+    /// How many a machine of so many arms has.
+    #[must_use]
+    pub fn quantity(self, arms: u32) -> u32 {
+        match self {
+            Self::Sun | Self::Assembly => 1,
+            Self::Carrier => 2,
+            Self::Clamp => 2 * arms,
+            _ => arms,
+        }
+    }
+}
+
+impl fmt::Display for Part {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+/// A word that names no part.
+#[derive(Clone, Debug, Error, PartialEq)]
+#[error("a three-arm mechanism has no part named {word:?}; there are {}", Part::ALL.map(Part::name).join(", "))]
+pub struct UnknownPart {
+    /// The word.
+    pub word: String,
+}
+
+impl FromStr for Part {
+    type Err = UnknownPart;
+
+    fn from_str(word: &str) -> Result<Self, UnknownPart> {
+        let found = Self::ALL.into_iter().find(|part| part.name() == word);
+        found.ok_or_else(|| UnknownPart { word: word.into() })
+    }
+}

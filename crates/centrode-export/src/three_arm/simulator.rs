@@ -1,0 +1,301 @@
+use std::f64::consts::TAU;
+
+use centrode_geometry::{MassProperties, Mesh, Point, Solid, Tolerance, Vector};
+use centrode_mechanism::gear::Member;
+use centrode_mechanism::three_arm::Link as Part;
+use nalgebra::Isometry2;
+
+use super::ThreeArmFilesError;
+use super::machine::Machine;
+use super::plate::Plate;
+use super::surroundings;
+use crate::gear_pair::contact_bodies;
+use crate::model::{Convex, Joint, JointKind, Link, Model};
+
+/// Length by which a rod and the ground may slide, as shares of a stroke and of a cycle's travel.
+const SLIDE: f64 = 1.0;
+
+/// The model of the machine, and the meshes that it shows by file name.
+pub(super) struct Simulated {
+    pub(super) model: Model,
+    pub(super) meshes: Vec<(String, Mesh)>,
+}
+
+/// Where a cam is on the carrier: its frame in the carrier's.
+pub(super) fn cam_on_carrier(machine: &Machine<'_>, chain: u32) -> Isometry2<f64> {
+    let mechanism = machine.mechanism;
+    let share = TAU * f64::from(chain) / f64::from(mechanism.arms());
+    let later = -mechanism.train().direction().sign() * share;
+    let at = mechanism.on_carrier(Part::Planet(chain));
+    Isometry2::new(at.coords, machine.pusher.cam_angle() + later)
+}
+
+/// A body of several solids of their densities.
+struct Body {
+    mesh: Mesh,
+    mass: Option<MassProperties>,
+}
+
+impl Body {
+    fn of(plates: &[(Plate, [f64; 2])], tolerance: Tolerance) -> Result<Self, ThreeArmFilesError> {
+        let mut meshes = Vec::new();
+        let mut masses = Vec::new();
+        for (plate, span) in plates {
+            let named = |source| ThreeArmFilesError::Solid {
+                part: plate.part,
+                source,
+            };
+            let solid: Solid = plate.placed(*span).map_err(named)?;
+            meshes.push(solid.mesh(tolerance).map_err(named)?);
+            masses.push(plate.mass(*span).map_err(named)?);
+        }
+        Ok(Self {
+            mesh: Mesh::joined(&meshes),
+            mass: MassProperties::together(&masses),
+        })
+    }
+}
+
+/// The machine as links and joints.
+pub(super) struct Builder<'a> {
+    machine: &'a Machine<'a>,
+    tolerance: Tolerance,
+    links: Vec<Link>,
+    joints: Vec<Joint>,
+    meshes: Vec<(String, Mesh)>,
+    excess: f64,
+}
+
+/// The model of a machine: sun, ground and tray fixed to the base or sliding on it, the carrier on the
+/// base, gears and cams on the carrier, arms on planets, forks and rods on arms.
+///
+/// Gears touch as convex bodies, a tooth one or several; nothing else touches.
+pub(super) fn simulated(
+    machine: &Machine<'_>,
+    tolerance: Tolerance,
+) -> Result<Simulated, ThreeArmFilesError> {
+    let mut builder = Builder {
+        machine,
+        tolerance,
+        links: Vec::new(),
+        joints: Vec::new(),
+        meshes: Vec::new(),
+        excess: 0.0,
+    };
+    builder.link("base", None, None, Vec::new());
+    builder.surroundings();
+    builder.gears()?;
+    builder.arms()?;
+    let mechanism = machine.mechanism;
+    let note = format!(
+        "The laws of motion are not linear: mimic joints are affine and cannot hold them, so none is written. They are in motion.csv, \
+         as motion.json describes: every joint over one turn of the carrier, repeated beyond it. Gears touch as convex bodies, of \
+         flanks and tip without fillets, over a hub without bore; these stand out of the gears by at most {:.1e} mm. \
+         Arms, cams, forks and rods, ground and tray are there to be seen. {} arms.",
+        builder.excess,
+        mechanism.arms(),
+    );
+    Ok(Simulated {
+        model: Model {
+            name: mechanism.design().name.clone(),
+            note,
+            links: builder.links,
+            joints: builder.joints,
+        },
+        meshes: builder.meshes,
+    })
+}
+
+impl Builder<'_> {
+    fn link(
+        &mut self,
+        name: &str,
+        mass: Option<MassProperties>,
+        mesh: Option<&str>,
+        collision: Vec<Convex>,
+    ) {
+        self.links.push(Link {
+            name: name.into(),
+            mass,
+            mesh: mesh.map(|file| format!("{file}.stl")),
+            collision,
+        });
+    }
+
+    fn joint(
+        &mut self,
+        (parent, child): (&str, &str),
+        kind: JointKind,
+        (at, z): (Point, f64),
+        turn: f64,
+    ) {
+        let slides = matches!(kind, JointKind::Sliding(_));
+        self.joints.push(Joint {
+            name: format!("{child}_joint"),
+            kind,
+            parent: parent.into(),
+            child: child.into(),
+            origin: [at.x, at.y, z],
+            turn,
+            axis: if slides {
+                [1.0, 0.0, 0.0]
+            } else {
+                [0.0, 0.0, 1.0]
+            },
+            mimic: None,
+        });
+    }
+
+    fn shown(&mut self, file: &str, mesh: Mesh) {
+        self.meshes.push((format!("{file}.stl"), mesh));
+    }
+
+    fn surroundings(&mut self) {
+        let mechanism = self.machine.mechanism;
+        let origin = (Point::origin(), 0.0);
+        self.shown("tray", surroundings::tray_body(mechanism));
+        self.link("tray", None, Some("tray"), Vec::new());
+        self.joint(("base", "tray"), JointKind::Fixed, origin, 0.0);
+        let travel = SLIDE * TAU * mechanism.advance();
+        self.shown("ground", surroundings::ground_body(mechanism));
+        // What slides must weigh something; as much as the carrier will do.
+        let body = &self.machine.gearbox;
+        let heavy = Solid::new(body.outline.clone(), Vec::new(), 0.0, 10.0)
+            .map(|solid| solid.mass_properties(2000.0))
+            .ok();
+        self.link("ground", heavy, Some("ground"), Vec::new());
+        let slide = JointKind::Sliding([-travel, travel]);
+        self.joint(("base", "ground"), slide, origin, 0.0);
+    }
+
+    fn gears(&mut self) -> Result<(), ThreeArmFilesError> {
+        let machine = self.machine;
+        let mechanism = machine.mechanism;
+        let plate = machine
+            .plate_of(super::Part::Carrier)
+            .ok_or(ThreeArmFilesError::Gearbox)?;
+        let [rear, front] = machine.gearbox.spans;
+        let carrier = Body::of(&[(plate.clone(), rear), (plate, front)], self.tolerance)?;
+        self.shown("carrier-body", carrier.mesh);
+        self.link("carrier", carrier.mass, Some("carrier-body"), Vec::new());
+        let origin = (Point::origin(), 0.0);
+        self.joint(("base", "carrier"), JointKind::Continuous, origin, 0.0);
+        self.gear(super::Part::Sun, "sun")?;
+        let start = mechanism.link(Part::Sun, 0.0).angle.position;
+        self.joint(("base", "sun"), JointKind::Fixed, origin, start);
+        for k in 0..mechanism.arms() {
+            let name = format!("intermediate_{k}");
+            self.gear(super::Part::Intermediate, &name)?;
+            let at = (mechanism.on_carrier(Part::Intermediate(k)), 0.0);
+            self.joint(("carrier", &name), JointKind::Continuous, at, 0.0);
+            let name = format!("planet_{k}");
+            self.gear(super::Part::Planet, &name)?;
+            let at = (mechanism.on_carrier(Part::Planet(k)), 0.0);
+            self.joint(("carrier", &name), JointKind::Continuous, at, 0.0);
+        }
+        Ok(())
+    }
+
+    /// A gear's link; its mesh is written once.
+    fn gear(&mut self, part: super::Part, name: &str) -> Result<(), ThreeArmFilesError> {
+        let Some((pair, member)) = self.machine.gear(part) else {
+            return Ok(());
+        };
+        let solid = crate::gear_pair::solid(pair, member)?;
+        let file = part.name();
+        if !self
+            .meshes
+            .iter()
+            .any(|(known, _)| *known == format!("{file}.stl"))
+        {
+            let named = |source| ThreeArmFilesError::Solid { part, source };
+            let mesh = solid.mesh(self.tolerance).map_err(named)?;
+            self.shown(file, mesh);
+        }
+        // A planet has the teeth of the sun.
+        let prefix = match member {
+            Member::Driver if same_width(self.machine) => "sun",
+            _ => file,
+        };
+        let (bodies, excess) = contact_bodies(pair.gear(member), prefix, self.tolerance);
+        self.excess = self.excess.max(excess);
+        let density = pair.gear(member).body().density;
+        let mass = solid.mass_properties(density);
+        self.link(name, Some(mass), Some(file), bodies);
+        Ok(())
+    }
+
+    fn arms(&mut self) -> Result<(), ThreeArmFilesError> {
+        let machine = self.machine;
+        let mechanism = machine.mechanism;
+        let level = mechanism.arm_level();
+        let plate = |part: super::Part| machine.plate_of(part).ok_or(ThreeArmFilesError::Fork);
+        let mut arm = Vec::new();
+        for (part, name) in [
+            (super::Part::Housing, "housing"),
+            (super::Part::CoverRear, "cover-rear"),
+            (super::Part::CoverFront, "cover-front"),
+            (super::Part::Clamp, "flake-left"),
+            (super::Part::Clamp, "flake-right"),
+        ] {
+            let span = machine.of_arm(name).map_or([0.0, 1.0], |p| p.span);
+            arm.push((plate(part)?, span));
+        }
+        let arm = Body::of(&arm, self.tolerance)?;
+        self.shown("arm-body", arm.mesh);
+        let cam = Body::of(
+            &[(plate(super::Part::Cam)?, machine.pusher.cam_span())],
+            self.tolerance,
+        )?;
+        self.shown("cam-body", cam.mesh);
+        let roller_at = Vector::new(machine.pusher.fork_spec().arm_length, 0.0);
+        let mut roller = plate(super::Part::Roller)?;
+        let place = Isometry2::new(roller_at, 0.0);
+        for outline in roller.holes.iter_mut().chain([&mut roller.outline]) {
+            *outline = outline.transformed(&place);
+        }
+        let fork = Body::of(
+            &[
+                (plate(super::Part::Fork)?, machine.pusher.fork_span()),
+                (roller, machine.pusher.cam_span()),
+            ],
+            self.tolerance,
+        )?;
+        self.shown("fork-body", fork.mesh);
+        let rod_span = machine.of_arm("push-rod").map_or([0.0, 1.0], |p| p.span);
+        let rod = Body::of(&[(plate(super::Part::PushRod)?, rod_span)], self.tolerance)?;
+        self.shown("push-rod-body", rod.mesh);
+        let on_planet = mechanism.train().arm_on_planet() + mechanism.clamp_mounting();
+        for k in 0..mechanism.arms() {
+            let name = format!("cam_{k}");
+            self.link(&name, cam.mass, Some("cam-body"), Vec::new());
+            let place = cam_on_carrier(machine, k);
+            let at = Point::from(place.translation.vector);
+            let turn = place.rotation.angle();
+            self.joint(("carrier", &name), JointKind::Fixed, (at, level), turn);
+            let own = format!("arm_{k}");
+            self.link(&own, arm.mass, Some("arm-body"), Vec::new());
+            let planet = format!("planet_{k}");
+            let origin = (Point::origin(), level);
+            self.joint((&planet, &own), JointKind::Fixed, origin, on_planet);
+            let name = format!("fork_{k}");
+            self.link(&name, fork.mass, Some("fork-body"), Vec::new());
+            let pivot = (machine.pusher.pivot(), 0.0);
+            self.joint((&own, &name), JointKind::Continuous, pivot, 0.0);
+            let name = format!("push_rod_{k}");
+            self.link(&name, rod.mass, Some("push-rod-body"), Vec::new());
+            let slide = JointKind::Sliding([-SLIDE * machine.pusher.stroke(), 0.0]);
+            self.joint((&own, &name), slide, (Point::origin(), 0.0), 0.0);
+        }
+        Ok(())
+    }
+}
+
+/// Whether sun and planets are as wide: their teeth are then the same bodies.
+fn same_width(machine: &Machine<'_>) -> bool {
+    let [sun, planet] = machine
+        .pairs
+        .each_ref()
+        .map(|pair| pair.driver().body().width);
+    sun == planet
+}
