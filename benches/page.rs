@@ -42,7 +42,9 @@ fn drawn(mechanism: &Mechanism) -> String {
             let picture = three_arm::picture(arms, Teeth::Plain, tolerance);
             (picture, three_arm::curves(arms))
         }
-        Mechanism::SpiralShaft(_) | Mechanism::MovingBox(_) => unreachable!("not among DESIGNS"),
+        Mechanism::SpiralShaft(_) | Mechanism::MovingBox(_) | Mechanism::Feeder(_) => {
+            unreachable!("not among DESIGNS")
+        }
     };
     serde_json::to_string(&(picture, curves)).expect("JSON")
 }

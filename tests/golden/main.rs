@@ -88,6 +88,7 @@ fn written(mechanism: &Mechanism) -> BTreeMap<String, Value> {
             let bundle = shaft::moving_box_files(machine, &shaft::FORMATS, &coarse());
             counted(&bundle.expect("written"))
         }
+        Mechanism::Feeder(_) => BTreeMap::new(),
     }
 }
 

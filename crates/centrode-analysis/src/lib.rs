@@ -3,6 +3,7 @@
 mod arm_clearance;
 mod check;
 mod contact;
+mod feeder;
 mod goal;
 pub mod interference;
 mod kinetostatics;
@@ -17,6 +18,7 @@ mod three_arm;
 pub use arm_clearance::{ArmClearance, ArmClearanceError, between_arms};
 pub use check::{check, check_contact};
 pub use contact::Contact;
+pub use feeder::{Attainable, check_feeder};
 pub use goal::Goal;
 pub use kinetostatics::{CrankMotion, ForceError, Forces, Kinetostatics, LinkMass, Load, Reaction};
 pub use mechanism::check_mechanism;

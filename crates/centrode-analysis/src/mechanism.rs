@@ -1,6 +1,6 @@
 use centrode_mechanism::mechanism::Mechanism;
 
-use crate::{Report, check, check_moving_box, check_shaft, check_three_arm};
+use crate::{Report, check, check_feeder, check_moving_box, check_shaft, check_three_arm};
 
 /// Checks a mechanism of whatever family.
 #[must_use]
@@ -10,5 +10,6 @@ pub fn check_mechanism(mechanism: &Mechanism) -> Report {
         Mechanism::ThreeArm(mechanism) => check_three_arm(mechanism),
         Mechanism::SpiralShaft(shaft) => check_shaft(shaft),
         Mechanism::MovingBox(machine) => check_moving_box(machine),
+        Mechanism::Feeder(machine) => check_feeder(machine),
     }
 }

@@ -13,6 +13,7 @@ pub use drawing::{DrawingSpec, Projection, SheetSize};
 pub use fault::{DesignError, DesignFault};
 pub use file::DesignFile;
 
+use crate::feeder::FeederDesign;
 use crate::gear::design::GearPairDesign;
 use crate::shaft::{MovingBoxDesign, SpiralShaftDesign};
 use crate::three_arm::design::ThreeArmDesign;
@@ -30,12 +31,19 @@ pub enum Design {
     SpiralShaft(Box<SpiralShaftDesign>),
     /// A seedling box moved at a variable speed.
     MovingBox(Box<MovingBoxDesign>),
+    /// A willow-cutting feeder.
+    Feeder(Box<FeederDesign>),
 }
 
 impl Design {
     /// The names of the families, as written in `family`.
-    pub const FAMILIES: [&'static str; 4] =
-        ["gear-pair", "three-arm", "spiral-shaft", "moving-box"];
+    pub const FAMILIES: [&'static str; 5] = [
+        "gear-pair",
+        "three-arm",
+        "spiral-shaft",
+        "moving-box",
+        "feeder",
+    ];
 
     /// A commented design file of a family to start from, itself a good design.
     #[must_use]
@@ -45,6 +53,7 @@ impl Design {
             "three-arm" => Some(include_str!("../design/three_arm.toml")),
             "spiral-shaft" => Some(include_str!("../design/spiral_shaft.toml")),
             "moving-box" => Some(include_str!("../design/moving_box.toml")),
+            "feeder" => Some(include_str!("../design/feeder.toml")),
             _ => None,
         }
     }
@@ -63,6 +72,7 @@ impl Design {
             "three-arm" => schemars::schema_for!(ThreeArmDesign),
             "spiral-shaft" => schemars::schema_for!(SpiralShaftDesign),
             "moving-box" => schemars::schema_for!(MovingBoxDesign),
+            "feeder" => schemars::schema_for!(FeederDesign),
             _ => return None,
         };
         let word = serde_json::json!({ "type": "string", "const": family });
@@ -110,6 +120,7 @@ impl Design {
             Self::ThreeArm(design) => design.validate(),
             Self::SpiralShaft(design) => design.validate(),
             Self::MovingBox(design) => design.validate(),
+            Self::Feeder(design) => design.validate(),
         }
     }
 }

@@ -5,6 +5,7 @@ mod bore;
 pub mod cam;
 mod degrees;
 pub mod design;
+pub mod feeder;
 mod formula;
 pub mod gear;
 pub mod linkage;

@@ -1,6 +1,7 @@
 //! What a design becomes: one resolved mechanism of one of the families.
 
 use crate::design::Design;
+use crate::feeder::{Feeder, FeederError};
 use crate::gear::{GearPair, GearPairError};
 use crate::shaft::{MovingBox, ShaftError, SpiralShaft};
 use crate::three_arm::{ThreeArm, ThreeArmError};
@@ -18,6 +19,8 @@ pub enum Mechanism {
     SpiralShaft(Box<SpiralShaft>),
     /// A seedling box moved at a variable speed.
     MovingBox(Box<MovingBox>),
+    /// A willow-cutting feeder.
+    Feeder(Box<Feeder>),
 }
 
 /// Why a design gives no mechanism.
@@ -33,6 +36,9 @@ pub enum MechanismError {
     /// A spiral shaft, also that of a moving box.
     #[error(transparent)]
     Shaft(#[from] ShaftError),
+    /// A feeder.
+    #[error(transparent)]
+    Feeder(#[from] FeederError),
 }
 
 impl Mechanism {
@@ -48,6 +54,7 @@ impl Mechanism {
                 Self::SpiralShaft(Box::new(SpiralShaft::resolve(design)?))
             }
             Design::MovingBox(design) => Self::MovingBox(Box::new(MovingBox::resolve(design)?)),
+            Design::Feeder(design) => Self::Feeder(Box::new(Feeder::resolve(design)?)),
         })
     }
 
@@ -59,6 +66,7 @@ impl Mechanism {
             Self::ThreeArm(_) => "three-arm",
             Self::SpiralShaft(_) => "spiral-shaft",
             Self::MovingBox(_) => "moving-box",
+            Self::Feeder(_) => "feeder",
         }
     }
 
@@ -70,6 +78,7 @@ impl Mechanism {
             Self::ThreeArm(mechanism) => &mechanism.design().name,
             Self::SpiralShaft(shaft) => shaft.name(),
             Self::MovingBox(machine) => &machine.design().name,
+            Self::Feeder(machine) => &machine.design().name,
         }
     }
 
@@ -81,6 +90,7 @@ impl Mechanism {
             Self::ThreeArm(mechanism) => &mechanism.design().title,
             Self::SpiralShaft(shaft) => shaft.title(),
             Self::MovingBox(machine) => &machine.design().title,
+            Self::Feeder(machine) => &machine.design().title,
         }
     }
 }
@@ -93,6 +103,7 @@ impl MechanismError {
             Self::GearPair(error) => error.key(),
             Self::ThreeArm(error) => error.key(),
             Self::Shaft(error) => error.key(),
+            Self::Feeder(error) => error.key(),
         }
     }
 }

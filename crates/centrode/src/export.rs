@@ -94,6 +94,10 @@ fn files(mechanism: &Mechanism, command: &Export, found: &Report) -> Result<Bund
             let (formats, options) = (formats(command), options(command, found));
             Ok(shaft::moving_box_files(machine, &formats, &options)?)
         }
+        Mechanism::Feeder(_) => match command.format.iter().find(|f| **f != File::Json) {
+            None => Ok(Bundle::default()),
+            Some(_) => Err(Failure::Usage("a feeder is written as json only".into())),
+        },
     }
 }
 

@@ -78,6 +78,13 @@ pub(crate) fn definition(mechanism: &Mechanism) -> String {
             };
             format!("{}, {scheme}", shaft_in_words(machine.shaft()))
         }
+        Mechanism::Feeder(feeder) => {
+            let [crank, coupler, rocker, frame] = feeder.six_bar().four_bar().lengths();
+            format!(
+                "crank {crank}, coupler {coupler}, rocker {rocker}, frame {frame} mm; {:.4} cycles a minute",
+                feeder.cycles_per_minute()
+            )
+        }
     }
 }
 

@@ -2,6 +2,7 @@ use serde::de::DeserializeOwned;
 use toml::de::{Error, ValueDeserializer};
 
 use super::Design;
+use crate::feeder::FeederDesign;
 use crate::gear::design::{GearPairDesign, SpecError, ToolSpec};
 use crate::gear::pitch::PitchSpec;
 use crate::shaft::{MovingBoxDesign, SpeedLaw, SpiralShaftDesign};
@@ -120,5 +121,22 @@ impl Family for MovingBoxDesign {
 impl From<MovingBoxDesign> for Design {
     fn from(design: MovingBoxDesign) -> Self {
         Self::MovingBox(Box::new(design))
+    }
+}
+
+impl Family for FeederDesign {
+    const TABLES: &'static [&'static str] = &[
+        "linkage", "bounds", "goals", "drive", "gears", "plates", "making",
+    ];
+    const TAGGED: &'static [Tagged] = &[];
+
+    fn validate(&self) -> Result<(), SpecError> {
+        self.validate()
+    }
+}
+
+impl From<FeederDesign> for Design {
+    fn from(design: FeederDesign) -> Self {
+        Self::Feeder(Box::new(design))
     }
 }

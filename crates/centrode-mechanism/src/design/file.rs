@@ -5,6 +5,7 @@ use super::family::{Family, Tagged};
 use super::fault::nearest;
 use super::keys::{Keys, line_and_column};
 use super::{Design, DesignError, DesignFault};
+use crate::feeder::{FeederDesign, FeederError};
 use crate::gear::GearPairError;
 use crate::gear::design::{GearPairDesign, SpecError};
 use crate::mechanism::{Mechanism, MechanismError};
@@ -97,7 +98,8 @@ impl DesignFile {
                     other => DesignFault::GearPair(Box::new(other)),
                 }
             }
-            MechanismError::Shaft(ShaftError::Spec(SpecError { rule, .. })) => {
+            MechanismError::Shaft(ShaftError::Spec(SpecError { rule, .. }))
+            | MechanismError::Feeder(FeederError::Spec(SpecError { rule, .. })) => {
                 DesignFault::Value(rule)
             }
             other => DesignFault::Mechanism(Box::new(other)),
@@ -137,6 +139,7 @@ impl<'a> Reader<'a> {
             "three-arm" => self.family::<ThreeArmDesign>(root, span),
             "spiral-shaft" => self.family::<SpiralShaftDesign>(root, span),
             "moving-box" => self.family::<MovingBoxDesign>(root, span),
+            "feeder" => self.family::<FeederDesign>(root, span),
             _ => self.family::<GearPairDesign>(root, span),
         }?;
         Ok(DesignFile {

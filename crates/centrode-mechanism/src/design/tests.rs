@@ -59,7 +59,7 @@ fn shipped_designs_and_the_template_are_read_and_written_back() {
         let pitch = match file.design() {
             Design::GearPair(pair) => Some(&pair.pitch),
             Design::ThreeArm(arms) => Some(&arms.pitch),
-            Design::SpiralShaft(_) | Design::MovingBox(_) => None,
+            Design::SpiralShaft(_) | Design::MovingBox(_) | Design::Feeder(_) => None,
         };
         if let Some(pitch) = pitch {
             pitch.resolve().unwrap_or_else(|e| panic!("{name}: {e}"));
@@ -436,6 +436,15 @@ fn the_checked_in_schemas_are_those_of_the_code() {
                 "speed_ratio",
                 "return_offset",
                 "tooth_count",
+            ],
+        ),
+        (
+            "feeder",
+            [
+                "effector_length",
+                "driven_pitches",
+                "pushing_time",
+                "transmission_angle_deg",
             ],
         ),
     ] {

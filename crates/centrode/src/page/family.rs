@@ -12,14 +12,19 @@ pub(super) fn picture(design: &Design, mechanism: &Mechanism) -> Picture {
     match mechanism {
         Mechanism::GearPair(pair) => gear_pair::picture(design, pair),
         Mechanism::ThreeArm(arms) => three_arm::picture(arms),
-        Mechanism::SpiralShaft(_) | Mechanism::MovingBox(_) => Picture::default(),
+        Mechanism::SpiralShaft(_) | Mechanism::MovingBox(_) | Mechanism::Feeder(_) => {
+            Picture::default()
+        }
     }
 }
 
 /// The picture with what takes longer to make; `None` where nothing is left out at first.
 pub(super) fn detailed(mechanism: &Mechanism) -> Option<Picture> {
     match mechanism {
-        Mechanism::GearPair(_) | Mechanism::SpiralShaft(_) | Mechanism::MovingBox(_) => None,
+        Mechanism::GearPair(_)
+        | Mechanism::SpiralShaft(_)
+        | Mechanism::MovingBox(_)
+        | Mechanism::Feeder(_) => None,
         Mechanism::ThreeArm(arms) => three_arm::with_teeth(arms),
     }
 }
@@ -29,7 +34,7 @@ pub(super) fn curves(mechanism: &Mechanism) -> Vec<Curve> {
     match mechanism {
         Mechanism::GearPair(pair) => centrode::export::gear_pair::curves(pair),
         Mechanism::ThreeArm(arms) => centrode::export::three_arm::curves(arms),
-        Mechanism::SpiralShaft(_) | Mechanism::MovingBox(_) => Vec::new(),
+        Mechanism::SpiralShaft(_) | Mechanism::MovingBox(_) | Mechanism::Feeder(_) => Vec::new(),
     }
 }
 
@@ -41,8 +46,9 @@ pub(super) fn checked(mechanism: &Mechanism) -> (Report, Vec<Curve>) {
             let curves = gear_pair::contact_curves(&contact);
             (check_contact(pair, &contact), curves)
         }
-        Mechanism::ThreeArm(_) | Mechanism::SpiralShaft(_) | Mechanism::MovingBox(_) => {
-            (check_mechanism(mechanism), Vec::new())
-        }
+        Mechanism::ThreeArm(_)
+        | Mechanism::SpiralShaft(_)
+        | Mechanism::MovingBox(_)
+        | Mechanism::Feeder(_) => (check_mechanism(mechanism), Vec::new()),
     }
 }

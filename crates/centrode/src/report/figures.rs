@@ -26,6 +26,7 @@ enum Unit {
     Newton,
     NewtonMillimetre,
     TurnsPerMinute,
+    Second,
 }
 
 /// A line of the table: what it is called, the figures on it, their unit.
@@ -34,7 +35,7 @@ struct Row(&'static str, &'static [&'static str], Unit);
 /// A part of the table: its heading, the columns, the rows.
 struct Group(&'static str, &'static [&'static str], &'static [Row]);
 
-const GROUPS: [Group; 9] = [
+const GROUPS: [Group; 11] = [
     Group(
         "Pitch curves",
         &["driver", "driven"],
@@ -304,6 +305,64 @@ const GROUPS: [Group; 9] = [
             Row("jams at a lead angle of", &["jamming_angle"], Unit::Degree),
         ],
     ),
+    Group(
+        "Strokes of the effector",
+        &["feed", "return", "rest"],
+        &[
+            Row(
+                "time",
+                &["feed_time", "return_time", "dwell_time"],
+                Unit::Second,
+            ),
+            Row(
+                "greatest speed of the tip",
+                &["tip_speed_feed_max", "tip_speed_return_max"],
+                Unit::MillimetrePerSecond,
+            ),
+            Row(
+                "feed time over return time",
+                &["quick_return"],
+                Unit::Number,
+            ),
+        ],
+    ),
+    Group(
+        "Crank-rocker",
+        &["least", "greatest"],
+        &[
+            Row(
+                "angle of coupler and rocker",
+                &["coupler_rocker_angle_min", "coupler_rocker_angle_max"],
+                Unit::Degree,
+            ),
+            Row(
+                "angle of the effector",
+                &["effector_angle_min", "effector_angle_max"],
+                Unit::Degree,
+            ),
+            Row(
+                "swing, as made",
+                &["swing_made_min", "swing_made_max"],
+                Unit::Degree,
+            ),
+            Row("swing of the rocker", &["", "rocker_swing"], Unit::Degree),
+            Row(
+                "dead centres, folded, stretched",
+                &["dead_center_folded", "dead_center_stretched"],
+                Unit::Degree,
+            ),
+            Row(
+                "rest of the incomplete gear",
+                &["dwell_angle"],
+                Unit::Degree,
+            ),
+            Row(
+                "crank while driven",
+                &["", "crank_rpm_driven"],
+                Unit::TurnsPerMinute,
+            ),
+        ],
+    ),
 ];
 
 /// Figures that go together, as rows and columns.
@@ -479,6 +538,7 @@ impl Unit {
             Self::Newton => "N",
             Self::NewtonMillimetre => "N mm",
             Self::TurnsPerMinute => "r/min",
+            Self::Second => "s",
         }
     }
 
@@ -491,6 +551,7 @@ impl Unit {
             | Self::Newton
             | Self::NewtonMillimetre
             | Self::TurnsPerMinute => figure(value, 2),
+            Self::Second => figure(value, 4),
             Self::Millimetre => figure(value, 4),
             Self::Degree => figure(value.to_degrees(), 4),
             Self::Radian => figure(value, 0),

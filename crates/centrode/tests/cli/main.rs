@@ -91,6 +91,30 @@ fn new_shafts_and_boxes_check_and_export() {
 }
 
 #[test]
+fn a_new_feeder_is_good_and_the_published_one_is_infeasible() {
+    let new = centrode(&["new", "feeder"]);
+    assert_eq!(new.status.code(), Some(0));
+    let check = fed(&["check", "-"], &new.stdout);
+    let report = text(&check.stdout);
+    assert_eq!(check.status.code(), Some(0), "{report}");
+    assert!(report.contains("Goals: 10 of 10 reached"), "{report}");
+    let check = centrode(&["check", &shipped("feeder-2022.toml")]);
+    let report = text(&check.stdout);
+    assert_eq!(check.status.code(), Some(1), "{report}");
+    for line in [
+        "least transmission angle: 8.2243 deg, missed by 31.7757 deg",
+        "no lengths within the bounds reach more than 12.312 deg",
+        "widened by 22.443 %",
+        "time                                    3.0093        1.3407        1.0500  s",
+        "cuttings a minute                       55.5556 1/min  at least 55",
+    ] {
+        assert!(report.contains(line), "{line}\n{report}");
+    }
+    let widened = centrode(&["check", &shipped("feeder-widened.toml")]);
+    assert_eq!(widened.status.code(), Some(0), "{}", text(&widened.stdout));
+}
+
+#[test]
 fn the_published_three_arm_set_has_its_goals() {
     let check = centrode(&["check", &shipped("three-arm-2021.toml"), "--json"]);
     let report: serde_json::Value = serde_json::from_slice(&check.stdout).expect("JSON");

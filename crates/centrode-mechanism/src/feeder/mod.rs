@@ -1,0 +1,224 @@
+//! The willow-cutting feeder: a picking six-bar that rests while it is filled, driven by an incomplete gear.
+//!
+//! The input is the angle the incomplete gear has turned since the effector left its place under the store,
+//! rad, counter-clockwise for the crank. Lengths are mm. After Ye et al., "Optimal design and test of picking
+//! mechanism of automatic feeding device for cutting willows", 2022, DOI 10.6041/j.issn.1000-1298.2022.05.010.
+
+mod design;
+mod error;
+mod gears;
+mod plates;
+
+use std::f64::consts::{PI, TAU};
+use std::sync::Arc;
+
+use centrode_geometry::{Point, bracketed_minimum, bracketed_root};
+
+pub use design::{BoundsSpec, DriveSpec, FeederDesign, FeederGoals, LinkageSpec, MakingSpec};
+pub use error::FeederError;
+pub use gears::GearsSpec;
+pub use plates::PlatesSpec;
+
+use crate::gear::IncompleteDrive;
+use crate::linkage::{FourBar, SixBar};
+use crate::transmission::{MotionJet, Transmission};
+
+/// Looks along a stroke for its greatest speed.
+const LOOKS: u32 = 720;
+
+/// One way of the effector.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stroke {
+    /// Input at which it begins, rad.
+    pub from: f64,
+    /// Input at which it ends, rad.
+    pub to: f64,
+    /// Input of the greatest speed, rad.
+    pub fastest: f64,
+    /// Greatest speed of the effector by the input, without sign.
+    pub speed: f64,
+}
+
+/// A feeder: its six-bar, the drive that turns and rests it, and its motion as a function of the input.
+#[derive(Clone, Debug)]
+pub struct Feeder {
+    design: FeederDesign,
+    six_bar: SixBar,
+    drive: IncompleteDrive,
+    law: Arc<dyn Transmission>,
+    start: f64,
+}
+
+impl Feeder {
+    /// Resolves a design.
+    ///
+    /// # Errors
+    /// [`FeederError`] naming the violated rule and its numbers.
+    pub fn resolve(design: &FeederDesign) -> Result<Self, FeederError> {
+        design.validate()?;
+        let spec = &design.linkage;
+        let four_bar = FourBar::new(
+            spec.crank,
+            spec.coupler,
+            spec.rocker,
+            spec.frame,
+            spec.branch,
+        )?;
+        let pivot = Point::from(spec.pivot);
+        let six_bar = SixBar::new(four_bar, pivot, spec.effector_length)?;
+        let drive = design.gears.drive()?;
+        let (teeth, driven) = (design.gears.teeth, design.gears.driven_pitches);
+        if teeth != driven {
+            return Err(FeederError::NotOneTurn { teeth, driven });
+        }
+        // The slower stroke feeds, the quicker one returns.
+        let extremes = six_bar.extremes();
+        let [low, high] = [extremes.low.0, extremes.high.0];
+        let start = if (high - low).rem_euclid(TAU) >= PI {
+            low
+        } else {
+            high
+        };
+        Ok(Self {
+            design: design.clone(),
+            six_bar,
+            drive,
+            law: Arc::new(drive.transmission()),
+            start,
+        })
+    }
+
+    /// The design as written.
+    #[must_use]
+    pub fn design(&self) -> &FeederDesign {
+        &self.design
+    }
+
+    /// The six-bar.
+    #[must_use]
+    pub fn six_bar(&self) -> &SixBar {
+        &self.six_bar
+    }
+
+    /// The motion of the incomplete gear.
+    #[must_use]
+    pub fn drive(&self) -> &IncompleteDrive {
+        &self.drive
+    }
+
+    /// Crank angle at which the effector rests and is filled, rad: the end of its swing from which the slower
+    /// stroke goes.
+    #[must_use]
+    pub fn start(&self) -> f64 {
+        self.start
+    }
+
+    /// The crank's angle at an input.
+    #[must_use]
+    pub fn crank(&self, input: f64) -> MotionJet {
+        let mut jet = self.law.at(input);
+        jet.position += self.start;
+        jet
+    }
+
+    /// The effector's angle at an input, without jumps.
+    #[must_use]
+    pub fn effector(&self, input: f64) -> MotionJet {
+        let crank = self.crank(input);
+        self.six_bar.effector_angle(crank.position).after(&crank)
+    }
+
+    /// The effector's tip E at an input.
+    #[must_use]
+    pub fn tip(&self, input: f64) -> Point {
+        let [_, _, e] = self.six_bar.joints(self.crank(input).position);
+        e
+    }
+
+    /// Inputs in `[0, 2 pi)` where the motion may change its law, ascending.
+    #[must_use]
+    pub fn breaks(&self) -> Vec<f64> {
+        self.law.breaks()
+    }
+
+    /// Input at which the crank has turned by an angle from where it rests, up to a turn, rad.
+    #[must_use]
+    pub fn input_at(&self, turned: f64) -> f64 {
+        let motion = self.drive.motion_angle();
+        let off = |input: f64| self.law.at(input).position - turned;
+        let (low, high) = (off(0.0), self.drive.driven_angle() - turned);
+        if low >= 0.0 {
+            return 0.0;
+        }
+        if high <= 0.0 {
+            return motion;
+        }
+        bracketed_root(off, 0.0, motion, low, high)
+    }
+
+    /// The way from the store to the conveyor, and back.
+    #[must_use]
+    pub fn strokes(&self) -> [Stroke; 2] {
+        let extremes = self.six_bar.extremes();
+        let ends = [extremes.low.0, extremes.high.0];
+        let turned = ends.map(|crank| (crank - self.start).rem_euclid(TAU));
+        let turn = self.input_at(turned[0].max(turned[1]));
+        let motion = self.drive.motion_angle();
+        [(0.0, turn), (turn, motion)].map(|(from, to)| self.stroke(from, to))
+    }
+
+    fn stroke(&self, from: f64, to: f64) -> Stroke {
+        let speed = |input: f64| self.effector(input).velocity.abs();
+        let at = |i: u32| from + (to - from) * f64::from(i) / f64::from(LOOKS);
+        let best = (1..LOOKS)
+            .max_by(|&a, &b| speed(at(a)).total_cmp(&speed(at(b))))
+            .unwrap_or(1);
+        let (fastest, slow) = bracketed_minimum(|x| -speed(x), at(best - 1), at(best + 1));
+        Stroke {
+            from,
+            to,
+            fastest,
+            speed: -slow,
+        }
+    }
+
+    /// Speed of the incomplete gear, rad/s.
+    #[must_use]
+    pub fn speed(&self) -> f64 {
+        self.cycles_per_minute() * TAU / 60.0
+    }
+
+    /// Cycles a minute: turns of the incomplete gear.
+    #[must_use]
+    pub fn cycles_per_minute(&self) -> f64 {
+        self.design.drive.motor_rpm / self.design.drive.chain_ratio
+    }
+
+    /// Cuttings fed in a minute.
+    #[must_use]
+    pub fn feed_rate(&self) -> f64 {
+        self.cycles_per_minute() * f64::from(self.design.drive.slots)
+    }
+
+    /// Time for which the effector rests in each cycle, s.
+    #[must_use]
+    pub fn dwell_time(&self) -> f64 {
+        self.drive.dwell_time(self.speed())
+    }
+
+    /// Distance of the effector's pivot from the chord between the slider's dead centres, mm: on it, between its
+    /// ends, lengths of any size swing the effector by half a turn.
+    #[must_use]
+    pub fn distance_from_chord(&self) -> Option<f64> {
+        let dead = self.six_bar.four_bar().dead_centers()?;
+        let chord = dead.stretched_at - dead.folded_at;
+        let way = self.six_bar.pivot() - dead.folded_at;
+        let share = way.dot(&chord) / chord.norm_squared();
+        (0.0..=1.0)
+            .contains(&share)
+            .then(|| chord.perp(&way).abs() / chord.norm())
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,63 @@
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::gear::design::SpecError;
+use crate::gear::design::rule::{line, not_negative, positive};
+
+/// The links as plates, stacked along the shafts: crank, coupler, rocker, effector.
+#[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct PlatesSpec {
+    /// Thickness of a plate, mm.
+    pub thickness: f64,
+    /// Distance of neighbouring plates, mm.
+    pub gap: f64,
+    /// Width of a plate, mm: it ends in half circles about its joints.
+    pub width: f64,
+    /// Diameter of the pins, mm.
+    pub pin_diameter: f64,
+    /// Width of the slot in the effector, in which the slider runs, mm.
+    pub slot_width: f64,
+    /// Length of the slider along the slot, mm.
+    pub slider_length: f64,
+    /// Play of the slider at the ends of the slot, mm.
+    pub slot_play: f64,
+    /// Material, for the drawing.
+    pub material: String,
+    /// Density, kg/m^3.
+    pub density: f64,
+}
+
+impl Default for PlatesSpec {
+    fn default() -> Self {
+        Self {
+            thickness: 8.0,
+            gap: 2.0,
+            width: 30.0,
+            pin_diameter: 10.0,
+            slot_width: 16.0,
+            slider_length: 16.0,
+            slot_play: 1.0,
+            material: "steel".into(),
+            density: 7850.0,
+        }
+    }
+}
+
+impl PlatesSpec {
+    pub(super) fn validate(&self) -> Result<(), SpecError> {
+        for (key, value) in [
+            ("thickness", self.thickness),
+            ("width", self.width),
+            ("pin_diameter", self.pin_diameter),
+            ("slot_width", self.slot_width),
+            ("slider_length", self.slider_length),
+            ("density", self.density),
+        ] {
+            positive(key, value)?;
+        }
+        not_negative("gap", self.gap)?;
+        not_negative("slot_play", self.slot_play)?;
+        line("material", &self.material)
+    }
+}
