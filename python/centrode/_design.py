@@ -2,12 +2,12 @@ import json
 from os import PathLike, fspath
 from typing import Any
 
-from ._centrode import _LARGEST_DESIGN, GearPair, SpiralShaft, ThreeArm, _load, _schema
+from ._centrode import _LARGEST_DESIGN, GearPair, MovingBox, SpiralShaft, ThreeArm, _load, _schema
 from ._error import DesignError
 
 
-def load(path: str | PathLike[str]) -> GearPair | SpiralShaft | ThreeArm:
-    """Read a design file and make its mechanism: a gear pair, a three-arm mechanism, a spiral shaft.
+def load(path: str | PathLike[str]) -> GearPair | MovingBox | SpiralShaft | ThreeArm:
+    """Read a design file and make its mechanism: that of its family.
 
     Raises:
         DesignError: The design breaks a rule; its `key`, `line` and `column` say where.

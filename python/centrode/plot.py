@@ -1,4 +1,4 @@
-"""Pictures of gear pairs; needs matplotlib: ``pip install centrode[plot]``.
+"""Pictures of gear pairs and moving boxes; needs matplotlib: ``pip install centrode[plot]``.
 
 Every function draws into the given axes, or into new ones, and gives back what it drew in.
 """
@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
-from ._centrode import Gear, GearPair
+from ._centrode import Gear, GearPair, MovingBox, SpiralShaft
 from ._contact import Contact
 
 if TYPE_CHECKING:
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from matplotlib.patches import PathPatch
     from numpy.typing import NDArray
 
-__all__ = ["animate", "contact", "motion", "pair"]
+__all__ = ["animate", "contact", "motion", "moving", "pair", "speed"]
 
 _DRIVER, _DRIVEN = "#3b6ea5", "#c98a2b"
 _FINE = 1e-2
@@ -98,6 +98,75 @@ def motion(pair: GearPair, ax: Axes | None = None) -> Axes:
     ax.legend(handles=[ratio, swing], loc="best")
     ax.set_title(pair.title or pair.name)
     return ax
+
+
+def moving(
+    *machines: SpiralShaft | MovingBox, turns: float = 1.0, start: float = -np.pi, ax: Axes | None = None
+) -> Axes:
+    """Draw where the box is over the input's turn, beside a plain shaft: Figures 3 and 11 of Zhou et al. 2018.
+
+    Args:
+        machines: Shafts or moving boxes, a line each.
+        turns: How many turns of the input are drawn.
+        start: Input angle at which they begin, rad.
+        ax: Where to draw; new axes if left out.
+    """
+    ax, angles = _over_input(machines, turns, start, ax)
+    lead = machines[0].moved(start, start + 2.0 * np.pi)
+    plain = lead * (angles - start) / (2.0 * np.pi)
+    ax.plot(np.degrees(angles), plain, color="grey", linewidth=0.8, linestyle=":", label="plain shaft")
+    for machine in machines:
+        place = [machine.moved(start, float(angle)) for angle in angles]
+        ax.plot(np.degrees(angles), place, label=machine.title or machine.name)
+    ax.set_ylabel("box, mm")
+    ax.legend(loc="best")
+    return ax
+
+
+def speed(
+    *machines: SpiralShaft | MovingBox,
+    turns: float = 1.0,
+    start: float = -np.pi,
+    speed_rpm: float = 200.0,
+    ax: Axes | None = None,
+) -> Axes:
+    """Draw how fast the box is over the input's turn, beside a plain shaft: Figure 9 of Zhou et al. 2018.
+
+    Args:
+        machines: Shafts or moving boxes, a line each.
+        turns: How many turns of the input are drawn.
+        start: Input angle at which they begin, rad.
+        speed_rpm: Speed of the input, turns a minute.
+        ax: Where to draw; new axes if left out.
+    """
+    ax, angles = _over_input(machines, turns, start, ax)
+    omega = speed_rpm * np.pi / 30.0
+    lead = machines[0].moved(start, start + 2.0 * np.pi)
+    ax.axhline(lead * speed_rpm / 60.0, color="grey", linewidth=0.8, linestyle=":", label="plain shaft")
+    step = 1e-4
+    for machine in machines:
+        rate = [machine.moved(float(angle) - step, float(angle) + step) / (2.0 * step) for angle in angles]
+        ax.plot(np.degrees(angles), omega * np.asarray(rate), label=machine.title or machine.name)
+    ax.set_ylabel(f"box, mm/s at {speed_rpm:g} r/min")
+    ax.set_ylim(bottom=0.0)
+    ax.legend(loc="best")
+    return ax
+
+
+def _over_input(
+    machines: tuple[SpiralShaft | MovingBox, ...], turns: float, start: float, ax: Axes | None
+) -> tuple[Axes, NDArray[Any]]:
+    """Axes over the input's angle, the pickings shaded, and the angles to draw at."""
+    if not machines:
+        raise ValueError("there is no machine to draw")
+    ax = ax or _axes((8.0, 4.5))
+    angles = np.linspace(start, start + 2.0 * np.pi * turns, round(360 * turns) + 1)
+    ax.set(xlim=np.degrees(angles[[0, -1]]), xlabel="input angle, deg")
+    shaft = machines[0] if isinstance(machines[0], SpiralShaft) else machines[0].shaft
+    for turn in range(int(np.floor(start / (2.0 * np.pi))) - 1, int(np.ceil(angles[-1] / (2.0 * np.pi))) + 2):
+        middle, half = np.degrees(shaft.pick) + 360.0 * turn, 0.5 * np.degrees(shaft.window)
+        ax.axvspan(middle - half, middle + half, color=_DRIVEN, alpha=0.15, linewidth=0)
+    return ax, angles
 
 
 def contact(of: GearPair | Contact, axes: NDArray[Any] | None = None) -> NDArray[Any]:

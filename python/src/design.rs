@@ -8,6 +8,7 @@ use pyo3::prelude::{Bound, PyAny, PyAnyMethods, PyModule, PyResult, Python, pyfu
 
 use crate::error::{not_in_python, not_of_family, of_design, unknown_word};
 use crate::gear_pair::GearPair;
+use crate::moving_box::MovingBox;
 use crate::spiral_shaft::SpiralShaft;
 use crate::three_arm::ThreeArm;
 use crate::wait::wait;
@@ -23,6 +24,8 @@ pub(crate) enum Loaded {
     ThreeArm(ThreeArm),
     /// A spiral shaft.
     SpiralShaft(SpiralShaft),
+    /// A moving box.
+    MovingBox(MovingBox),
 }
 
 impl Loaded {
@@ -39,6 +42,9 @@ impl Loaded {
             (_, Mechanism::ThreeArm(mechanism)) => Self::ThreeArm(ThreeArm(Arc::from(mechanism))),
             (_, Mechanism::SpiralShaft(shaft)) => Self::SpiralShaft(SpiralShaft {
                 shaft: Arc::from(shaft),
+            }),
+            (_, Mechanism::MovingBox(machine)) => Self::MovingBox(MovingBox {
+                machine: Arc::from(machine),
             }),
             (_, other) => return Err(not_in_python(other.family())),
         })
@@ -64,6 +70,13 @@ impl Loaded {
             _ => Err(not_of_family("spiral-shaft")),
         }
     }
+
+    pub(crate) fn moving_box(self) -> PyResult<MovingBox> {
+        match self {
+            Self::MovingBox(machine) => Ok(machine),
+            _ => Err(not_of_family("moving-box")),
+        }
+    }
 }
 
 /// The mechanism of a design file's bytes.
@@ -73,6 +86,7 @@ pub(crate) fn _load<'py>(py: Python<'py>, contents: &[u8]) -> PyResult<Bound<'py
         Loaded::GearPair(pair) => pair.into_bound_py_any(py),
         Loaded::ThreeArm(mechanism) => mechanism.into_bound_py_any(py),
         Loaded::SpiralShaft(shaft) => shaft.into_bound_py_any(py),
+        Loaded::MovingBox(machine) => machine.into_bound_py_any(py),
     }
 }
 
@@ -90,6 +104,10 @@ pub(crate) fn path_loaded(py: Python<'_>, path: PathBuf) -> PyResult<Loaded> {
     if let Ok(shaft) = loaded.cast::<SpiralShaft>() {
         let shaft = Arc::clone(&shaft.get().shaft);
         return Ok(Loaded::SpiralShaft(SpiralShaft { shaft }));
+    }
+    if let Ok(machine) = loaded.cast::<MovingBox>() {
+        let machine = Arc::clone(&machine.get().machine);
+        return Ok(Loaded::MovingBox(MovingBox { machine }));
     }
     let arms = loaded.cast::<ThreeArm>()?;
     Ok(Loaded::ThreeArm(ThreeArm(Arc::clone(&arms.get().0))))

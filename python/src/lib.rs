@@ -12,6 +12,7 @@ mod error;
 mod format;
 mod gear;
 mod gear_pair;
+mod moving_box;
 mod pitch;
 mod place;
 mod record;
@@ -42,6 +43,8 @@ mod _centrode {
     use crate::gear::Gear;
     #[pymodule_export]
     use crate::gear_pair::GearPair;
+    #[pymodule_export]
+    use crate::moving_box::MovingBox;
     #[pymodule_export]
     use crate::pitch::kinds::{
         bezier, bspline, circle, conjugate, eccentric_circle, ellipse, from_ratio,

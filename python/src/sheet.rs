@@ -86,7 +86,7 @@ pub(crate) fn layout(
     Ok(SheetOptions {
         size: size_name.map(size).transpose()?,
         projection: projection_name.map(projection).transpose()?,
-        meshing: None,
+        ..SheetOptions::default()
     })
 }
 

@@ -331,6 +331,18 @@ impl SpiralShaft {
         self.shaft.law().lead()
     }
 
+    /// Shaft turn during which a seedling is picked, rad.
+    #[getter]
+    fn window(&self) -> f64 {
+        self.shaft.design().window
+    }
+
+    /// Shaft angle in the middle of the first picking, rad.
+    #[getter]
+    fn pick(&self) -> f64 {
+        self.shaft.design().pick
+    }
+
     /// Amplitude of the sine, mm; None for another law.
     #[getter]
     fn amplitude(&self) -> Option<f64> {
@@ -530,7 +542,7 @@ impl SpiralShaft {
     ///
     /// Args:
     ///     directory: Where to.
-    ///     formats: Any of "dxf", "svg", "stl", "step", "3mf" and "csv"; all if left out.
+    ///     formats: As of a gear pair; all if left out.
     ///     tolerance: Greatest distance of every point sequence and mesh from the exact surface, mm.
     ///     dxf_version: "R2010" or "R12".
     ///     dxf_curves: "arcs" or "splines".

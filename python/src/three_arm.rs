@@ -199,7 +199,10 @@ impl ThreeArm {
                 backlash,
                 ..TeethSpec::default()
             },
-            gearbox: GearboxSpec { housing_offset },
+            gearbox: GearboxSpec {
+                housing_offset,
+                ..GearboxSpec::default()
+            },
             work: WorkSpec {
                 picking,
                 planting,

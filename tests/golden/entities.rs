@@ -40,6 +40,17 @@ pub(crate) fn count(name: &str, bytes: &[u8]) -> BTreeMap<String, usize> {
                 }
             }
         }
+        // How many moves depends on rounding: which words there are is enough.
+        Some("ngc") => {
+            for word in ["G0", "G1", "G93", "M0", "M2"] {
+                if text(bytes)
+                    .lines()
+                    .any(|line| line.split(' ').next() == Some(word))
+                {
+                    add(word.to_owned());
+                }
+            }
+        }
         // Triangles depend on rounding: that there are some is enough.
         Some("stl") => {
             if bytes.len() > 84 {

@@ -81,11 +81,11 @@ fn written(mechanism: &Mechanism) -> BTreeMap<String, Value> {
         },
         Mechanism::ThreeArm(_) => BTreeMap::new(),
         Mechanism::SpiralShaft(part) => {
-            let bundle = shaft::files(part, &shaft::FORMATS, &coarse()).expect("written");
+            let bundle = shaft::files(part, &Format::ALL, &coarse()).expect("written");
             counted(&bundle)
         }
         Mechanism::MovingBox(machine) => {
-            let bundle = shaft::moving_box_files(machine, &shaft::FORMATS, &coarse());
+            let bundle = shaft::moving_box_files(machine, &Format::ALL, &coarse());
             counted(&bundle.expect("written"))
         }
         Mechanism::Feeder(_) => BTreeMap::new(),

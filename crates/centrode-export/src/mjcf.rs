@@ -2,6 +2,7 @@
 
 use crate::model::{Convex, Joint, JointKind, Link, Model};
 use centrode_geometry::MassProperties;
+use nalgebra::UnitQuaternion;
 use std::collections::BTreeSet;
 use std::fmt::Write;
 use thiserror::Error;
@@ -42,8 +43,8 @@ pub enum MjcfError {
         /// How many chains there are; none may mean a ring.
         ways: usize,
     },
-    /// A link that turns has no mass.
-    #[error("link {link:?} turns and has no mass")]
+    /// A link that moves has no mass.
+    #[error("link {link:?} moves and has no mass")]
     Massless {
         /// The link.
         link: String,
@@ -164,10 +165,12 @@ fn children(xml: &mut String, model: &Model, of: &Link, depth: usize) -> Result<
         };
         let place = numbers(joint.origin.map(|x| x * METRE));
         let name = quoted(&link.name);
-        let turn = if joint.turn == 0.0 {
-            String::new()
-        } else {
-            format!(" euler={}", numbers([0.0, 0.0, joint.turn]))
+        let turn = match joint.turn {
+            [0.0, 0.0, 0.0] => String::new(),
+            [x, y, z] => {
+                let turn = UnitQuaternion::from_euler_angles(x, y, z).into_inner();
+                format!(" quat={}", numbers([turn.w, turn.i, turn.j, turn.k]))
+            }
         };
         line(
             xml,
@@ -297,7 +300,7 @@ mod tests {
             parent: "base".into(),
             child: name.into(),
             origin: [x, 0.0, 0.0],
-            turn: 0.0,
+            turn: [0.0; 3],
             axis: [0.0, 0.0, 1.0],
             mimic,
         };

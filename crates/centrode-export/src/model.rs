@@ -50,9 +50,9 @@ pub struct Joint {
     pub child: String,
     /// Position of the child's origin in the parent's frame, mm.
     pub origin: [f64; 3],
-    /// Turn of the child's frame about z from the parent's, with the joint at zero, rad.
-    pub turn: f64,
-    /// Unit vector of the axis, in the child's frame.
+    /// Turn of the child's frame in the parent's at rest about the parent's x, then y, then z, rad.
+    pub turn: [f64; 3],
+    /// Unit vector of the axis in the child's frame.
     pub axis: [f64; 3],
     /// The joint it follows, if it follows one linearly.
     pub mimic: Option<Mimic>,

@@ -144,7 +144,7 @@ fn joint(joint: &crate::model::Joint) -> Joint {
         },
         origin: Pose {
             xyz: metres(joint.origin),
-            rpy: Vec3([0.0, 0.0, joint.turn + 0.0]),
+            rpy: Vec3(joint.turn.map(|angle| angle + 0.0)),
         },
         parent: LinkName {
             link: joint.parent.clone(),
@@ -199,7 +199,7 @@ mod tests {
             parent: "base".into(),
             child: name.into(),
             origin: [x, 0.0, 0.0],
-            turn: 0.0,
+            turn: [0.0; 3],
             axis: [0.0, 0.0, 1.0],
             mimic,
         };

@@ -28,6 +28,7 @@ mod quadrature;
 mod roots;
 #[cfg(test)]
 mod shapes;
+mod shell;
 mod smooth_run;
 mod solid;
 mod spline;
@@ -45,6 +46,7 @@ pub use moments::AreaMoments;
 pub use outline::{Arc, OpenOutline, Outline, Segment};
 pub use primitive::Primitive;
 pub use roots::{bracketed_minimum, bracketed_root};
+pub use shell::{Shell, ShellCurve, ShellEdge, ShellFace, ShellSurface};
 pub use solid::{Solid, SolidError};
 pub use spline::{SegmentJet, Spline};
 pub use tolerance::{BadTolerance, Tolerance};

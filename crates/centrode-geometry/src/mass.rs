@@ -1,4 +1,4 @@
-use crate::AreaMoments;
+use crate::{AreaMoments, Mesh};
 use nalgebra::{Matrix3, Point3, Vector3};
 
 /// Mass, center of mass and inertia of a body.
@@ -53,6 +53,33 @@ impl MassProperties {
             inertia: inertia.sum(),
         })
     }
+
+    /// A body inside a closed mesh with outward normals, at a density in kg/m³; exact for the mesh.
+    #[must_use]
+    pub fn of_mesh(mesh: &Mesh, density: f64) -> Self {
+        let (mut volume, mut first, mut second) = (0.0, Vector3::zeros(), Matrix3::zeros());
+        for face in &mesh.faces {
+            let corners = mesh.triangle(face).map(Vector3::from);
+            let [a, b, c] = corners;
+            // The tetrahedron over the origin.
+            let part = a.dot(&b.cross(&c)) / 6.0;
+            let sum = a + b + c;
+            let squares = corners
+                .iter()
+                .fold(sum * sum.transpose(), |s, p| s + p * p.transpose());
+            volume += part;
+            first += sum * (0.25 * part);
+            second += squares * (0.05 * part);
+        }
+        let center = first / volume;
+        // 1 kg/m³ = 1e-9 kg/mm³.
+        let about = (second - center * center.transpose() * volume) * (density * 1e-9);
+        Self {
+            mass: volume * density * 1e-9,
+            center: Point3::from(center),
+            inertia: Matrix3::identity() * about.trace() - about,
+        }
+    }
 }
 
 #[cfg(test)]
@@ -97,6 +124,19 @@ mod tests {
         assert!((sum.center - whole.center).norm() < 1e-12);
         assert!((sum.inertia - whole.inertia).norm() < 1e-12 * whole.inertia.norm());
         assert_eq!(crate::MassProperties::together(&[]), None);
+    }
+
+    #[test]
+    fn a_mesh_has_the_mass_of_its_prism() {
+        let p = Point::new;
+        let corners = [p(1.0, 0.0), p(7.0, -1.0), p(6.0, 4.0), p(2.0, 3.0)];
+        let solid = Solid::new(Outline::polygon(&corners), vec![], -3.0, 5.0).expect("has height");
+        let exact = solid.mass_properties(2700.0);
+        let mesh = crate::Mesh::prism(&corners, -3.0, 5.0);
+        let found = crate::MassProperties::of_mesh(&mesh, 2700.0);
+        assert!((found.mass - exact.mass).abs() < 1e-12 * exact.mass);
+        assert!((found.center - exact.center).norm() < 1e-12);
+        assert!((found.inertia - exact.inertia).norm() < 1e-12 * exact.inertia.norm());
     }
 
     #[test]

@@ -82,7 +82,7 @@ fn files(mechanism: &Mechanism, command: &Export, found: &Report) -> Result<Bund
             Ok(three_arm::files(mechanism, &formats, &options, &parts)?)
         }
         Mechanism::SpiralShaft(part) => {
-            only_of_shafts(command)?;
+            parts_of(command, "a spiral shaft", |_| false)?;
             Ok(shaft::files(
                 part,
                 &formats(command),
@@ -90,7 +90,7 @@ fn files(mechanism: &Mechanism, command: &Export, found: &Report) -> Result<Bund
             )?)
         }
         Mechanism::MovingBox(machine) => {
-            only_of_shafts(command)?;
+            parts_of(command, "a moving box", |_| false)?;
             let (formats, options) = (formats(command), options(command, found));
             Ok(shaft::moving_box_files(machine, &formats, &options)?)
         }
@@ -126,16 +126,6 @@ fn pair_part(part: Part) -> Option<Subject> {
 /// What a part is of a three-arm mechanism.
 fn machine_part(part: Part) -> Option<three_arm::Part> {
     part.to_possible_value()?.get_name().parse().ok()
-}
-
-/// Refuses formats asked for by name that a shaft is not written as.
-fn only_of_shafts(command: &Export) -> Result<(), Failure> {
-    let none = [File::Sheet, File::Pdf, File::Urdf, File::Mjcf];
-    if command.format.iter().any(|format| none.contains(format)) {
-        let known = "a spiral shaft is written as dxf, svg, stl, step, 3mf, csv and json";
-        return Err(Failure::Usage(known.into()));
-    }
-    Ok(())
 }
 
 /// A line on standard error: what was found, and that the files are there all the same.

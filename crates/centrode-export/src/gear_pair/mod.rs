@@ -11,7 +11,7 @@ mod play;
 mod sheet;
 mod sheet_set;
 mod sheets;
-mod simulator;
+pub(crate) mod simulator;
 mod solid;
 
 use crate::{

@@ -6,7 +6,7 @@ use centrode_mechanism::gear::{GearPair, Member};
 /// A frame with both gears turning about z, the driver at its origin.
 ///
 /// Its note tells the law of motion and how truly the convex bodies stand for the teeth.
-pub(super) fn model(pair: &GearPair, tolerance: Tolerance) -> Result<Model, GearPairFilesError> {
+pub(crate) fn model(pair: &GearPair, tolerance: Tolerance) -> Result<Model, GearPairFilesError> {
     let (slope, offset, error) = motion::line(pair);
     // At the driver polar angle phi the driver has turned by -phi, the driven gear by its driven angle.
     let mimic = (error <= motion::LINEAR).then(|| Mimic {
@@ -57,7 +57,7 @@ pub(super) fn model(pair: &GearPair, tolerance: Tolerance) -> Result<Model, Gear
                 0.0,
                 0.0,
             ],
-            turn: 0.0,
+            turn: [0.0; 3],
             axis: [0.0, 0.0, 1.0],
             mimic: mimic.clone().filter(|_| is_driven),
         });

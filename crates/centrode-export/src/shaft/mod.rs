@@ -1,26 +1,37 @@
 //! The files of a spiral shaft.
 
+mod drawings;
 mod gcode;
-mod moving_box;
-mod sheet;
+mod machine;
+mod motion;
+mod sheets;
+mod simulator;
 mod tables;
 
 use crate::{
     Bundle, BundleError,
     csv::{self, TableError},
     dxf::{self, DxfError},
-    gear_pair::{Format, GearPairFilesError, Options},
+    gear_pair::{self, Format, GearPairFilesError, Options},
+    mjcf::{self, MjcfError},
+    pdf::PdfError,
+    sheet::SheetError,
     step::{self, StepError},
     stl, svg,
     threemf::{self, PackageError},
+    urdf::{self, UrdfError},
 };
 use centrode_geometry::SolidError;
 use centrode_mechanism::gear::GearPairError;
-use centrode_mechanism::shaft::{ShaftError, SpiralShaft};
+use centrode_mechanism::shaft::{MovingBox, ShaftError, SpiralShaft};
+pub use drawings::{developed, side_view, slider};
 pub use gcode::program;
-pub use moving_box::moving_box_files;
-pub use sheet::{developed, side_view, slider};
+use machine::Machine;
+pub use sheets::{shaft_sheets, slider_sheets};
 use thiserror::Error;
+
+/// Plays the model by its law, by forces, or through the teeth of its gears.
+const PLAY: &str = include_str!("play_mujoco.py");
 
 /// Why a spiral shaft's files could not be made.
 #[derive(Debug, Error)]
@@ -45,9 +56,21 @@ pub enum ShaftFilesError {
     /// A drawing could not be written.
     #[error(transparent)]
     Dxf(#[from] DxfError),
-    /// The slider cannot be written as STEP.
-    #[error("the slider cannot be written as STEP: {0}")]
+    /// Shaft or slider cannot be written as STEP.
+    #[error("cannot be written as STEP: {0}")]
     Step(#[from] StepError),
+    /// The drawing sheets cannot be laid out.
+    #[error(transparent)]
+    Sheet(#[from] SheetError),
+    /// The drawing sheets could not be written as PDF.
+    #[error(transparent)]
+    Pdf(#[from] PdfError),
+    /// The simulator model could not be written.
+    #[error(transparent)]
+    Urdf(#[from] UrdfError),
+    /// The `MuJoCo` model could not be written.
+    #[error(transparent)]
+    Mjcf(#[from] MjcfError),
     /// A 3MF package could not be made.
     #[error(transparent)]
     Package(#[from] PackageError),
@@ -65,21 +88,12 @@ pub enum ShaftFilesError {
     Bundle(#[from] BundleError),
 }
 
-/// The formats a spiral shaft and a moving box can be written as.
-pub const FORMATS: [Format; 6] = [
-    Format::Dxf,
-    Format::Svg,
-    Format::Stl,
-    Format::Step,
-    Format::ThreeMf,
-    Format::Csv,
-];
-
-/// The files of a spiral shaft in the formats asked for, those of [`FORMATS`] alone, not yet on disk.
+/// The files of a spiral shaft in the formats asked for, not yet on disk.
 ///
-/// DXF and SVG hold the developed groove, the side view and the slider; STL and 3MF the shaft and the
-/// slider; STEP the slider, whose faces are exact; CSV the lead table, motion and forces, the schedule and
-/// the way of the mill, with it as a program for a machine with a rotary axis.
+/// DXF and SVG hold the developed groove, the side view and the slider; the sheets shaft and slider with
+/// dimensions; STL, STEP and 3MF shaft and slider; CSV the lead table, motion and forces, the schedule and the
+/// way of the mill, with it as a program for a machine with a rotary axis; URDF and MJCF the model of shaft,
+/// box and slider with the law of motion, and a script that plays it.
 ///
 /// # Errors
 /// [`ShaftFilesError`], for instance for a tolerance near the groove's depth.
@@ -88,6 +102,28 @@ pub fn files(
     formats: &[Format],
     options: &Options,
 ) -> Result<Bundle, ShaftFilesError> {
+    all(&Machine::of_shaft(shaft), formats, options)
+}
+
+/// The files of a moving box in the formats asked for: those of its shaft with the motion by the machine's
+/// input, and those of its elliptic gears with `gears-` before their names.
+///
+/// # Errors
+/// [`ShaftFilesError`], for instance where the gears cannot be cut.
+pub fn moving_box_files(
+    machine: &MovingBox,
+    formats: &[Format],
+    options: &Options,
+) -> Result<Bundle, ShaftFilesError> {
+    all(&Machine::of_box(machine)?, formats, options)
+}
+
+fn all(
+    machine: &Machine<'_>,
+    formats: &[Format],
+    options: &Options,
+) -> Result<Bundle, ShaftFilesError> {
+    let shaft = machine.shaft;
     let largest = 0.1 * shaft.groove().depth();
     if options.tolerance.mm() > largest {
         return Err(ShaftFilesError::Tolerance {
@@ -95,15 +131,17 @@ pub fn files(
             largest,
         });
     }
+    let wanted = |format: Format| formats.contains(&format);
+    let simulated = wanted(Format::Urdf) || wanted(Format::Mjcf);
     let mut bundle = Bundle::default();
     draw(shaft, formats, options, &mut bundle)?;
-    solids(shaft, formats, options, &mut bundle)?;
-    if formats.contains(&Format::Csv) {
+    sheets::add(shaft, formats, options, &mut bundle)?;
+    solids(machine, formats, options, &mut bundle)?;
+    if wanted(Format::Csv) {
         let mut table = |name: &str, columns: &[csv::Column]| -> Result<(), ShaftFilesError> {
             Ok(bundle.add(name, csv::write(columns)?)?)
         };
         table("lead-table.csv", &tables::lead(shaft))?;
-        table("motion.csv", &tables::motion(shaft))?;
         table("schedule.csv", &tables::schedule(shaft))?;
         table(
             "tool-path.csv",
@@ -111,7 +149,50 @@ pub fn files(
         )?;
         bundle.add("groove.ngc", program(shaft, options.tolerance).into_bytes())?;
     }
+    if wanted(Format::Csv) || simulated {
+        bundle.add(motion::TABLE, csv::write(&motion::columns(machine))?)?;
+        bundle.add("motion.json", motion::sidecar(machine))?;
+    }
+    if simulated {
+        let model = simulator::model(machine, options.tolerance)?;
+        if wanted(Format::Urdf) {
+            bundle.add("machine.urdf", urdf::write(&model)?)?;
+            for body in model.links.iter().flat_map(|link| &link.collision) {
+                bundle.add(&urdf::collision_file(&body.name), stl::write(&body.mesh))?;
+            }
+        }
+        if wanted(Format::Mjcf) {
+            bundle.add("machine.xml", mjcf::write(&model)?)?;
+            bundle.add("play_mujoco.py", PLAY.into())?;
+        }
+    }
+    gears(machine, formats, options, &mut bundle)?;
     Ok(bundle)
+}
+
+/// Adds the files of the elliptic gears, if there are any.
+fn gears(
+    machine: &Machine<'_>,
+    formats: &[Format],
+    options: &Options,
+    bundle: &mut Bundle,
+) -> Result<(), ShaftFilesError> {
+    let Some(gears) = &machine.gears else {
+        return Ok(());
+    };
+    let models = [Format::Urdf, Format::Mjcf];
+    let mut parts: Vec<Format> = formats.to_vec();
+    parts.retain(|format| !models.contains(format));
+    // The machine's model shows them.
+    if parts.len() < formats.len() && !parts.contains(&Format::Stl) {
+        parts.push(Format::Stl);
+    }
+    let files = gear_pair::files(&gears.pair, &parts, options)
+        .map_err(|e| ShaftFilesError::GearFiles(Box::new(e)))?;
+    for (name, bytes) in files.files() {
+        bundle.add(&format!("{}{name}", simulator::GEARS), bytes.to_vec())?;
+    }
+    Ok(())
 }
 
 fn draw(
@@ -145,22 +226,23 @@ fn draw(
 }
 
 fn solids(
-    shaft: &SpiralShaft,
+    machine: &Machine<'_>,
     formats: &[Format],
     options: &Options,
     bundle: &mut Bundle,
 ) -> Result<(), ShaftFilesError> {
     let wanted = |format: Format| formats.contains(&format);
-    let named = match shaft.title() {
-        "" => shaft.name(),
-        title => title,
-    };
+    let (shaft, named) = (machine.shaft, machine.named());
     let block = shaft.slider_solid()?;
     if wanted(Format::Step) {
+        let file = step::write_shell(&shaft.shell()?, "shaft", &format!("{named}: shaft"))?;
+        bundle.add("shaft.step", file)?;
         let file = step::write(&block, "slider", &format!("{named}: slider"))?;
         bundle.add("slider.step", file)?;
     }
-    if !wanted(Format::Stl) && !wanted(Format::ThreeMf) {
+    // The simulators' models show the STL files.
+    let stl = [Format::Stl, Format::Urdf, Format::Mjcf].map(wanted);
+    if stl == [false; 3] && !wanted(Format::ThreeMf) {
         return Ok(());
     }
     let meshes = [
@@ -168,7 +250,7 @@ fn solids(
         ("slider", block.mesh(options.tolerance)?),
     ];
     for (name, mesh) in &meshes {
-        if wanted(Format::Stl) {
+        if stl != [false; 3] {
             bundle.add(&format!("{name}.stl"), stl::write(mesh))?;
         }
         if wanted(Format::ThreeMf) {

@@ -6,8 +6,6 @@ use std::f64::consts::PI;
 
 /// Step of the lead table, rad: 5 deg.
 const LEAD_STEP: f64 = PI / 36.0;
-/// Step of the motion, rad: half a degree.
-const MOTION_STEP: f64 = PI / 360.0;
 
 /// Place, speed and lead angle every 5 deg over the whole cycle.
 pub(super) fn lead(shaft: &SpiralShaft) -> Vec<Column> {
@@ -24,33 +22,6 @@ pub(super) fn lead(shaft: &SpiralShaft) -> Vec<Column> {
             over(&|t| groove.lead_angle(t).to_degrees()),
         ),
         Column::numbers("developed_curvature_per_mm", over(&|t| groove.curvature(t))),
-    ]
-}
-
-/// Motion and forces over the whole cycle at the design's speed.
-pub(super) fn motion(shaft: &SpiralShaft) -> Vec<Column> {
-    let (groove, load) = (shaft.groove(), shaft.load());
-    let steps = groove.steps(MOTION_STEP);
-    let omega = load.speed();
-    let over = |f: &dyn Fn(f64) -> f64| -> Vec<f64> { steps.iter().map(|&t| f(t)).collect() };
-    let at = |theta: f64| groove.traverse().at(theta);
-    let force = |theta: f64| shaft.force(theta, load);
-    vec![
-        Column::numbers("shaft_angle_rad", steps.iter().copied()),
-        Column::numbers("time_s", over(&|t| t / omega)),
-        Column::numbers("position_mm", over(&|t| at(t).position)),
-        Column::numbers("velocity_mm_per_s", over(&|t| omega * at(t).velocity)),
-        Column::numbers(
-            "acceleration_mm_per_s2",
-            over(&|t| omega * omega * at(t).acceleration),
-        ),
-        Column::numbers(
-            "jerk_mm_per_s3",
-            over(&|t| omega * omega * omega * at(t).jerk),
-        ),
-        Column::numbers("normal_force_N", over(&|t| force(t).normal)),
-        Column::numbers("transverse_force_N", over(&|t| force(t).transverse)),
-        Column::numbers("torque_Nmm", over(&|t| force(t).torque)),
     ]
 }
 

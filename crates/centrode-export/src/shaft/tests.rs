@@ -32,16 +32,29 @@ fn every_file_is_there_and_the_same_twice() {
         "shaft.svg",
         "slider.dxf",
         "slider.svg",
+        "shaft-sheet-1.dxf",
+        "shaft-sheet-1.svg",
+        "shaft-sheet-2.dxf",
+        "shaft-sheet-2.svg",
+        "shaft.pdf",
+        "slider-sheet.dxf",
+        "slider-sheet.svg",
+        "slider.pdf",
+        "shaft.step",
         "slider.step",
         "shaft.stl",
         "shaft.3mf",
         "slider.stl",
         "slider.3mf",
         "lead-table.csv",
-        "motion.csv",
         "schedule.csv",
         "tool-path.csv",
         "groove.ngc",
+        "motion.csv",
+        "motion.json",
+        "machine.urdf",
+        "machine.xml",
+        "play_mujoco.py",
     ];
     assert_eq!(names, expected);
     let again = files(&shaft(4), &Format::ALL, &options()).expect("made");
@@ -168,23 +181,61 @@ fn a_moving_box_has_the_files_of_shaft_and_gears() {
     };
     design.shaft.holes = 3;
     let machine = MovingBox::resolve(&design).expect("resolves");
-    let formats = [Format::Dxf, Format::Csv];
+    let formats = [Format::Csv, Format::Mjcf];
     let bundle = moving_box_files(&machine, &formats, &options()).expect("made");
     let names: Vec<&str> = bundle.files().map(|(name, _)| name).collect();
     for name in [
-        "groove.dxf",
-        "box-motion.csv",
-        "gears-driver.dxf",
+        "lead-table.csv",
+        "motion.csv",
+        "machine.xml",
+        "gears-driver.stl",
         "gears-motion.csv",
     ] {
         assert!(names.contains(&name), "{name} in {names:?}");
     }
-    let table = text(&bundle, "box-motion.csv");
+    let table = text(&bundle, "motion.csv");
     let row = |line: &str| -> Vec<f64> {
         line.split(',')
             .map(|c| c.parse().expect("number"))
             .collect()
     };
     let last = row(table.lines().last().expect("rows"));
-    assert!((last[0] - last[1]).abs() < 1e-9 && last[3].abs() < 1e-9);
+    assert!((last[0] - last[2]).abs() < 1e-9 && last[4].abs() < 1e-9);
+    let model = text(&bundle, "machine.xml");
+    for part in [
+        "type=\"slide\"",
+        "name=\"driven\"",
+        "file=\"gears-driven.stl\"",
+    ] {
+        assert!(model.contains(part), "{part} in\n{model}");
+    }
+}
+
+#[test]
+fn the_gears_of_the_model_turn_the_shaft_as_the_law_has_it() {
+    use centrode_mechanism::shaft::{EllipticGears, MovingBoxDesign, Scheme};
+    let mut design = MovingBoxDesign {
+        scheme: Scheme::EllipticGear,
+        gears: Some(EllipticGears {
+            speed_ratio: Some(3.0),
+            ..EllipticGears::default()
+        }),
+        ..MovingBoxDesign::default()
+    };
+    design.shaft.pick = 0.3;
+    let machine = MovingBox::resolve(&design).expect("resolves");
+    let machine = Machine::of_box(&machine).expect("gears");
+    let gears = machine.gears.as_ref().expect("gears");
+    // The driver stands at input - phase - slowest, and drives its mate backwards.
+    let mesh = |input: f64| {
+        let driver = input - gears.drive.phase - gears.slowest();
+        gears.pair.driven_angle(-driver)
+    };
+    let rest = gears.pair.driven_angle(gears.slowest()) + gears.drive.phase;
+    for i in 0..100 {
+        let input = 0.13 * f64::from(i) - 2.0;
+        let shaft = -machine.turn(input).position;
+        let off = (mesh(input) - shaft - rest).rem_euclid(TAU);
+        assert!(off.min(TAU - off) < 1e-9, "{input}: {off}");
+    }
 }

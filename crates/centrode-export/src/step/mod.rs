@@ -3,8 +3,9 @@
 mod brep;
 mod contour;
 mod part21;
+mod shell;
 
-use centrode_geometry::Solid;
+use centrode_geometry::{Shell, Solid};
 use part21::{Data, Id, Text};
 use thiserror::Error;
 
@@ -18,6 +19,15 @@ pub enum StepError {
         /// Index of the contour, the outer one first.
         contour: usize,
     },
+    /// A vertex of a shell is not a finite point.
+    #[error("vertex {vertex} is not finite")]
+    NotFiniteVertex {
+        /// Index of the vertex.
+        vertex: usize,
+    },
+    /// A shell with a gap.
+    #[error("the faces do not close: an edge is not between two of them")]
+    Open,
     /// A contour encloses nothing a CAD kernel can tell from a point or a line.
     #[error("contour {contour} (0 is the outer one) encloses no area")]
     NoRegion {
@@ -35,11 +45,29 @@ pub enum StepError {
 /// # Errors
 /// [`StepError`] if a contour is not finite or encloses no area.
 pub fn write(solid: &Solid, name: &str, title: &str) -> Result<Vec<u8>, StepError> {
+    file(name, title, |data, name| brep::manifold(data, name, solid))
+}
+
+/// A closed shell as STEP AP214 in millimetres, its product called `name`, the file described by `title`:
+/// planes, cylinders, cones and ruled Bézier surfaces as they are.
+///
+/// # Errors
+/// [`StepError`] if a vertex is not finite or the shell has a gap.
+pub fn write_shell(shell: &Shell, name: &str, title: &str) -> Result<Vec<u8>, StepError> {
+    file(name, title, |data, name| shell::manifold(data, name, shell))
+}
+
+/// A file about one product with the solid that `solid` adds.
+fn file(
+    name: &str,
+    title: &str,
+    solid: impl FnOnce(&mut Data, &str) -> Result<Id, StepError>,
+) -> Result<Vec<u8>, StepError> {
     let mut data = Data::default();
     let name_text = Text(name).to_string();
     let definition = product(&mut data, &name_text);
     let context = context(&mut data);
-    let brep = brep::manifold(&mut data, &name_text, solid)?;
+    let brep = solid(&mut data, &name_text)?;
     let origin = data.add("CARTESIAN_POINT('',(0.0,0.0,0.0))");
     let axis = data.add("DIRECTION('',(0.0,0.0,1.0))");
     let reference = data.add("DIRECTION('',(1.0,0.0,0.0))");

@@ -136,7 +136,7 @@ impl Builder<'_> {
             parent: parent.into(),
             child: child.into(),
             origin: [at.x, at.y, z],
-            turn,
+            turn: [0.0, 0.0, turn],
             axis: if slides {
                 [1.0, 0.0, 0.0]
             } else {

@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{AmplitudeFor, Load, Mill, Reversal, ShaftBody, ShaftError, SliderSpec, SpeedLaw};
 use crate::degrees;
+use crate::design::DrawingSpec;
 use crate::gear::design::SpecError;
 use crate::gear::design::rule::{Rule, between, broken, finite, line, name, positive, within};
 
@@ -53,6 +54,9 @@ pub struct SpiralShaftDesign {
     pub mill: Mill,
     /// What is moved, and how fast.
     pub load: Load,
+    /// The drawing sheets.
+    #[serde(skip_serializing_if = "DrawingSpec::is_default")]
+    pub drawing: DrawingSpec,
 }
 
 /// Size of the groove.
@@ -94,6 +98,7 @@ impl Default for SpiralShaftDesign {
             body: ShaftBody::default(),
             mill: Mill::default(),
             load: Load::default(),
+            drawing: DrawingSpec::default(),
         }
     }
 }
@@ -125,6 +130,7 @@ impl SpiralShaftDesign {
         let mill = self.mill.validate(self.groove.width);
         mill.map_err(|e| e.inside("mill"))?;
         self.load.validate().map_err(|e| e.inside("load"))?;
+        self.drawing.validate().map_err(|e| e.inside("drawing"))?;
         match (self.moved_distance, &self.law) {
             (None, _) => Ok(()),
             (Some(_), SpeedLaw::Sine(sine)) if sine.amplitude == 0.0 => Ok(()),

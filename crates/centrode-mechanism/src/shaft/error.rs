@@ -107,6 +107,11 @@ pub enum ShaftError {
         /// Width of the groove, mm.
         width: f64,
     },
+    /// A groove whose edges no smooth surfaces follow.
+    #[error(
+        "the groove's edges bend too wildly for smooth surfaces between {0} lines round the shaft"
+    )]
+    Boundary(u32),
     /// An error inside a table of a larger design.
     #[error("{error}")]
     Inside {
@@ -144,6 +149,7 @@ impl ShaftError {
                 "reversal.angle_deg".into()
             }
             Self::ReversalLaw { .. } => "reversal.law".into(),
+            Self::Boundary(_) => "law".into(),
             Self::GrooveWidth { .. } => "groove.width".into(),
             Self::GrooveDepth { .. } => "groove.depth".into(),
             Self::Inside { table, error } => format!("{table}.{}", error.key()),

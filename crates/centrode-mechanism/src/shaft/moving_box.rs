@@ -187,6 +187,7 @@ impl MovingBoxDesign {
         pair.teeth = gears.teeth.clone();
         pair.driver = gears.body.clone();
         pair.driven = gears.body.clone();
+        pair.drawing = self.shaft.drawing.clone();
         Some(pair)
     }
 }

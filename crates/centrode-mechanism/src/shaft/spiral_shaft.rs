@@ -1,9 +1,10 @@
-use centrode_geometry::{Mesh, Outline, Point, Solid, SolidError, Tolerance};
+use centrode_geometry::{Mesh, Outline, Point, Shell, Solid, SolidError, Tolerance};
 
 use super::{
     Groove, Load, Schedule, ShaftBody, ShaftError, ShaftLaw, ShaftSolid, SliderForce, SliderSpec,
     SpeedLaw, SpiralShaftDesign, Traverse,
 };
+use crate::design::DrawingSpec;
 use crate::transmission::Transmission;
 
 /// A spiral shaft: law, groove, slider and body, resolved.
@@ -112,6 +113,12 @@ impl SpiralShaft {
         &self.design.load
     }
 
+    /// What the drawing sheets say and how they are laid out, as in the design.
+    #[must_use]
+    pub fn drawing(&self) -> &DrawingSpec {
+        &self.design.drawing
+    }
+
     /// Which hole is picked when.
     #[must_use]
     pub fn schedule(&self) -> Schedule {
@@ -137,6 +144,14 @@ impl SpiralShaft {
     /// [`ShaftError`] where body and groove do not go together.
     pub fn mesh(&self, tolerance: Tolerance) -> Result<Mesh, ShaftError> {
         Ok(ShaftSolid::new(&self.groove, self.body())?.mesh(tolerance))
+    }
+
+    /// The shaft's boundary on exact surfaces; the fillet along the groove's floor is left out.
+    ///
+    /// # Errors
+    /// [`ShaftError`] where body and groove do not go together, or the law is too wild for smooth surfaces.
+    pub fn shell(&self) -> Result<Shell, ShaftError> {
+        ShaftSolid::new(&self.groove, self.body())?.shell()
     }
 
     /// The slider as an extrusion along its pin, its foot at z = 0, with the bore for the pin.

@@ -38,6 +38,20 @@ pub enum SpeedLaw {
     Formula(SpeedFormula),
 }
 
+impl SpeedLaw {
+    /// The word for it in a design file.
+    #[must_use]
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Self::Sine(_) => "sine",
+            Self::RotatedSine(_) => "rotated-sine",
+            Self::Knots(_) => "knots",
+            Self::Table(_) => "table",
+            Self::Formula(_) => "formula",
+        }
+    }
+}
+
 impl Default for SpeedLaw {
     fn default() -> Self {
         Self::Sine(Sine::default())

@@ -1,10 +1,12 @@
 //! The grooved shaft as a solid.
 
 mod blank;
+mod boundary;
+mod ends;
 mod plan;
 mod surface;
 
-use centrode_geometry::{Mesh, Point, Tolerance};
+use centrode_geometry::{Mesh, Point, Shell, Tolerance};
 
 pub use blank::ShaftBody;
 
@@ -68,6 +70,16 @@ impl<'a> ShaftSolid<'a> {
         let (mut mesh, lower, upper) = surface.finish();
         Rings::new(self.body, self.groove.radius(), tolerance).close(&mut mesh, &lower, &upper);
         mesh
+    }
+
+    /// The boundary on exact surfaces: cylinders, cones, planes and the walls, ruled between polynomial edges
+    /// within 1e-7 mm of the exact ones. The fillet along the floor is left out.
+    ///
+    /// # Errors
+    /// [`ShaftError::Boundary`] where the edges are too wild for smooth pieces.
+    pub fn shell(&self) -> Result<Shell, ShaftError> {
+        let shell = boundary::shell(self.groove, self.body, self.ends);
+        shell.ok_or(ShaftError::Boundary(boundary::MOST_LINES))
     }
 
     /// Upper edges of the groove's walls as far as they stand, on the development, mm: `(R phi, z)`, the

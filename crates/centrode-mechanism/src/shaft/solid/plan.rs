@@ -8,6 +8,9 @@ use crate::transmission::Transmission;
 /// Angles nearer than this are one, rad.
 const SAME: f64 = 1e-9;
 
+/// Lines looked at for edges that meet.
+const LOOKS: u32 = 360;
+
 /// A wall of one turn of the groove, at one level below the surface: a height over the angle round the
 /// shaft, for the groove is a graph over it.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
@@ -41,33 +44,71 @@ pub(super) struct Plan<'a> {
 
 impl<'a> Plan<'a> {
     pub(super) fn new(groove: &'a Groove, fillet: f64, tolerance: Tolerance) -> Self {
-        let mut plan = Self {
-            groove,
-            turns: groove.traverse().turns() as usize,
-            levels: levels(groove, fillet, tolerance),
-            lines: Vec::new(),
-            heights: Vec::new(),
-        };
-        let columns = columns(groove.radius(), tolerance);
-        let mut events: Vec<(f64, Vec<[usize; 2]>)> = (0..columns)
-            .map(|i| (TAU * f64::from(i) / f64::from(columns), Vec::new()))
-            .collect();
-        let even: Vec<Vec<f64>> = events
-            .iter()
-            .map(|(phi, _)| plan.heights_at(*phi))
-            .collect();
-        for i in 0..events.len() {
-            let (start, end) = (events[i].0, TAU * (i + 1) as f64 / f64::from(columns));
-            let after = match even.get(i + 1) {
-                Some(heights) => heights.clone(),
-                None => plan.next_turn(&even[0]),
-            };
-            for pair in plan.swapped(&even[i], &after) {
-                events.push((plan.meeting(pair, start, end), vec![pair]));
-            }
-        }
+        let mut plan = Self::empty(groove, levels(groove, fillet, tolerance));
+        let count = columns(groove.radius(), tolerance);
+        let mut events = even(count);
+        events.extend(plan.meetings(count));
         plan.set_lines(events);
         plan
+    }
+
+    /// A plan without fillet whose edges are smooth between its lines: `count` even ones, those where edges
+    /// meet, and those where the law breaks.
+    pub(super) fn smooth(groove: &'a Groove, count: u32) -> Self {
+        let floor = Level {
+            half: 0.5 * groove.width(),
+            radius: groove.radius() - groove.depth(),
+        };
+        let mut plan = Self::empty(groove, vec![floor]);
+        let mut events = even(count);
+        events.extend(plan.meetings(LOOKS.max(count)));
+        events.extend(plan.breaks().into_iter().map(|phi| (phi, Vec::new())));
+        plan.set_lines(events);
+        plan
+    }
+
+    fn empty(groove: &'a Groove, levels: Vec<Level>) -> Self {
+        Self {
+            groove,
+            turns: groove.traverse().turns() as usize,
+            levels,
+            lines: Vec::new(),
+            heights: Vec::new(),
+        }
+    }
+
+    /// Angles at which edges meet that swap between two of `count` even lines.
+    fn meetings(&self, count: u32) -> Vec<(f64, Vec<[usize; 2]>)> {
+        let angle = |i: usize| TAU * i as f64 / f64::from(count);
+        let heights: Vec<Vec<f64>> = (0..count as usize)
+            .map(|i| self.heights_at(angle(i)))
+            .collect();
+        let mut meetings = Vec::new();
+        for (i, before) in heights.iter().enumerate() {
+            let after = match heights.get(i + 1) {
+                Some(heights) => heights.clone(),
+                None => self.next_turn(&heights[0]),
+            };
+            for pair in self.swapped(before, &after) {
+                meetings.push((self.meeting(pair, angle(i), angle(i + 1)), vec![pair]));
+            }
+        }
+        meetings
+    }
+
+    /// Angles round the shaft at which an edge is not smooth.
+    fn breaks(&self) -> Vec<f64> {
+        let (traverse, r) = (self.groove.traverse(), self.groove.radius());
+        let sides = Wall::BOTH.map(|wall| wall.sign() * 0.5 * self.groove.width());
+        let breaks = traverse.breaks();
+        let at = |theta: f64, side: f64| {
+            let slope = traverse.at(theta).velocity;
+            (theta - side * slope / (r * r.hypot(slope))).rem_euclid(TAU)
+        };
+        breaks
+            .iter()
+            .flat_map(|&theta| sides.map(|side| at(theta, side)))
+            .collect()
     }
 
     /// Sorts the angles, makes those that are nearly one into one, and lets edges that meet there meet.
@@ -147,7 +188,7 @@ impl<'a> Plan<'a> {
     }
 
     /// Height of an edge at an angle round the shaft.
-    fn height(&self, edge: usize, phi: f64) -> f64 {
+    pub(super) fn height(&self, edge: usize, phi: f64) -> f64 {
         let Edge { turn, wall, level } = self.edge(edge);
         let half = self.levels[level].half;
         let side = match wall {
@@ -202,6 +243,13 @@ impl<'a> Plan<'a> {
         }
         bracketed_root(apart, start, end, low, high)
     }
+}
+
+/// Even lines round the shaft.
+fn even(count: u32) -> Vec<(f64, Vec<[usize; 2]>)> {
+    (0..count)
+        .map(|i| (TAU * f64::from(i) / f64::from(count), Vec::new()))
+        .collect()
 }
 
 /// Columns round the shaft so that a chord is within the tolerance of its arc.

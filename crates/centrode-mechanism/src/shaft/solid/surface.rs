@@ -20,6 +20,15 @@ fn key(z: f64) -> u64 {
     }
 }
 
+/// The height of a key.
+fn height(key: u64) -> f64 {
+    if key >> 63 == 1 {
+        f64::from_bits(key ^ 1 << 63)
+    } else {
+        f64::from_bits(!key)
+    }
+}
+
 /// Part of the surface between two lines and two edges.
 #[derive(Debug)]
 struct Cell {
@@ -61,18 +70,25 @@ impl<'a> Surface<'a> {
         }
     }
 
+    /// Finds the cells and walls, and covers them with triangles.
     pub(super) fn fill(&mut self) {
+        self.find();
+        let count = self.plan.lines.len();
+        for cell in std::mem::take(&mut self.cells) {
+            let left = self.chain(cell.line, 0, &cell);
+            let right = self.chain((cell.line + 1) % count, 1, &cell);
+            self.zip(&left, &right);
+        }
+    }
+
+    /// Finds the cells and walls.
+    pub(super) fn find(&mut self) {
         let count = self.plan.lines.len();
         let mut here = self.plan.heights(0);
         for line in 0..count {
             let next = self.plan.heights(line + 1);
             self.strip(line, &here, &next);
             here = next;
-        }
-        for cell in std::mem::take(&mut self.cells) {
-            let left = self.chain(cell.line, 0, &cell);
-            let right = self.chain((cell.line + 1) % count, 1, &cell);
-            self.zip(&left, &right);
         }
     }
 
@@ -214,6 +230,24 @@ impl<'a> Surface<'a> {
                 self.faces.push(face);
             }
         }
+    }
+
+    /// The walls' upper edges between a line and the next, upwards: edge of the plan, heights on both lines.
+    pub(super) fn tops_by_line(&self) -> Vec<Vec<(usize, [f64; 2])>> {
+        let mut lines = vec![Vec::new(); self.plan.lines.len()];
+        for &(edge, line, heights) in &self.tops {
+            lines[line].push((edge, heights));
+        }
+        lines
+    }
+
+    /// Heights at which something stands on a line, on the shaft's surface or in the groove, ascending.
+    pub(super) fn heights_on(&self, line: usize, land: bool) -> Vec<f64> {
+        let on_line = self.on_line[line].iter();
+        on_line
+            .filter(|(_, levels)| levels.iter().any(|&level| (level == LAND) == land))
+            .map(|(&key, _)| height(key))
+            .collect()
     }
 
     /// The tops of the walls on the development, each as far as it stands within one turn.

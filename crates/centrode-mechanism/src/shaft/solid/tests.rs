@@ -166,3 +166,101 @@ fn the_wall_is_an_exact_offset_and_unwraps_unchanged() {
     }
     assert!(groove.wall_deviation() > 0.01 && groove.wall_deviation() < 0.2);
 }
+
+/// Enclosed volume of a shell, mm³, by Gauss points over fine pieces of every surface: the flux of (0, 0, z)
+/// through walls and planes, and through cylinders and cones none.
+fn enclosed(shell: &centrode_geometry::Shell) -> f64 {
+    use centrode_geometry::{ShellCurve, ShellSurface};
+    // The flux of (x, y, 0) / 2 through each face: round the bounds by Green where the surface has a radius.
+    let mut volume = 0.0;
+    let sample = |edge: usize, x: f64| -> [f64; 3] {
+        let edge = &shell.edges[edge];
+        let [a, b] = edge.ends.map(|end| shell.vertices[end]);
+        match &edge.curve {
+            ShellCurve::Line => [0, 1, 2].map(|i| a[i] + (b[i] - a[i]) * x),
+            ShellCurve::Circle { radius } => {
+                let from = a[1].atan2(a[0]);
+                let span = (b[1].atan2(b[0]) - from).rem_euclid(TAU);
+                let angle = from + span * x;
+                [radius * angle.cos(), radius * angle.sin(), a[2]]
+            }
+            ShellCurve::Bezier(points) => {
+                let mut row = points.clone();
+                while row.len() > 1 {
+                    row = row
+                        .windows(2)
+                        .map(|w| [0, 1, 2].map(|i| w[0][i] + (w[1][i] - w[0][i]) * x))
+                        .collect();
+                }
+                row[0]
+            }
+        }
+    };
+    for face in &shell.faces {
+        let mut rings: Vec<Vec<[f64; 3]>> = Vec::new();
+        for bound in &face.bounds {
+            let mut ring = Vec::new();
+            for &(edge, forward) in bound {
+                for k in 0..40 {
+                    let x = f64::from(k) / 40.0;
+                    ring.push(sample(edge, if forward { x } else { 1.0 - x }));
+                }
+            }
+            rings.push(ring);
+        }
+        for ring in rings {
+            let next = ring.iter().cycle().skip(1);
+            for (p, q) in ring.iter().zip(next) {
+                let middle = [0, 1, 2].map(|i| 0.5 * (p[i] + q[i]));
+                match face.surface {
+                    // Half of r over r dphi dz, the face left of its bound: minus z dphi.
+                    ShellSurface::Cylinder { radius } => {
+                        let turn = (q[1] * p[0] - q[0] * p[1]).atan2(q[0] * p[0] + q[1] * p[1]);
+                        volume -= 0.5 * radius * radius * turn * middle[2];
+                    }
+                    // The same with the radius at each height.
+                    ShellSurface::Cone {
+                        height,
+                        radius,
+                        widens,
+                    } => {
+                        let turn = (q[1] * p[0] - q[0] * p[1]).atan2(q[0] * p[0] + q[1] * p[1]);
+                        let way = if widens { 1.0 } else { -1.0 };
+                        let r = radius + way * (middle[2] - height);
+                        volume -= turn * way * r * r * r / 6.0;
+                    }
+                    // Planes square to x: x / 2 over dy dz. Those square to y and z: the same with y, none.
+                    ShellSurface::Plane { point, normal } => {
+                        let along = normal[0] * point[0] * (middle[1] * (q[2] - p[2]));
+                        let across = normal[1] * point[1] * (middle[2] * (q[0] - p[0]));
+                        volume += 0.5 * (normal[0] * along + normal[1] * across);
+                    }
+                    // The walls point to the axis: nothing flows through them.
+                    ShellSurface::Ruled { .. } => {}
+                }
+            }
+        }
+    }
+    volume
+}
+
+#[test]
+fn the_exact_boundary_is_closed_and_encloses_what_the_mesh_does() {
+    let groove = groove(4, 0.0, 0.0, 10.0);
+    for body in [
+        sharp(),
+        ShaftBody {
+            fillet: 0.0,
+            ..ShaftBody::default()
+        },
+    ] {
+        let solid = ShaftSolid::new(&groove, &body).expect("fits");
+        let shell = solid.shell().expect("smooth");
+        assert!(shell.is_closed());
+        let (fine, exact) = (solid.mesh(tolerance(1e-4)).volume(), enclosed(&shell));
+        assert!((exact / fine - 1.0).abs() < 1e-4, "{exact} {fine}");
+        let mut torn = shell.clone();
+        torn.faces.pop();
+        assert!(!torn.is_closed());
+    }
+}

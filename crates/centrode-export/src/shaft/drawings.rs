@@ -153,9 +153,10 @@ pub fn side_view(shaft: &SpiralShaft, tolerance: Tolerance) -> Result<Drawing, S
         ]);
         half
     };
-    let lower = half(0.75 * TAU);
+    // Seen from the angle zero with the axis to the right, a quarter turn lies below.
+    let lower = half(0.25 * TAU);
     let mut contour: Vec<Point> = lower.iter().map(|q| p(q.x, -q.y)).collect();
-    contour.extend(half(0.25 * TAU).into_iter().rev());
+    contour.extend(half(0.75 * TAU).into_iter().rev());
     contour.dedup();
     drawing.draw("PROFILE", Shape::Contour(Outline::polygon(&contour)));
     for at in [low, high].into_iter().chain([start + c, end - c]) {
@@ -168,7 +169,7 @@ pub fn side_view(shaft: &SpiralShaft, tolerance: Tolerance) -> Result<Drawing, S
         for q in edge {
             let (sin, cos) = (q.x / r).sin_cos();
             if cos >= 0.0 {
-                near.push(p(q.y, r * sin));
+                near.push(p(q.y, -r * sin));
             } else if !near.is_empty() {
                 drawing.draw("EDGE", Shape::Polyline(std::mem::take(&mut near)));
             }

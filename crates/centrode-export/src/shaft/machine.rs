@@ -1,0 +1,114 @@
+use super::ShaftFilesError;
+use centrode_mechanism::gear::GearPair;
+use centrode_mechanism::shaft::{EllipticDrive, MovingBox, SliderForce, SpiralShaft};
+use centrode_mechanism::transmission::{MotionJet, Transmission};
+use std::f64::consts::PI;
+
+/// A shaft and what turns it.
+pub(super) struct Machine<'a> {
+    pub(super) name: &'a str,
+    pub(super) title: &'a str,
+    pub(super) shaft: &'a SpiralShaft,
+    pub(super) gears: Option<Gears<'a>>,
+}
+
+/// The elliptic gears before a shaft.
+pub(super) struct Gears<'a> {
+    pub(super) drive: &'a EllipticDrive,
+    pub(super) pair: GearPair,
+}
+
+impl<'a> Machine<'a> {
+    /// A shaft turned evenly.
+    pub(super) fn of_shaft(shaft: &'a SpiralShaft) -> Self {
+        Self {
+            name: shaft.name(),
+            title: shaft.title(),
+            shaft,
+            gears: None,
+        }
+    }
+
+    /// A shaft with the gears of its scheme.
+    pub(super) fn of_box(machine: &'a MovingBox) -> Result<Self, ShaftFilesError> {
+        let design = machine.design();
+        let gears = match machine.drive() {
+            None => None,
+            Some(drive) => match design.gear_pair(drive) {
+                None => None,
+                Some(pair) => {
+                    let pair = GearPair::resolve(&pair);
+                    let pair = pair.map_err(|e| ShaftFilesError::Gears(Box::new(e)))?;
+                    Some(Gears { drive, pair })
+                }
+            },
+        };
+        Ok(Self {
+            name: &design.name,
+            title: &design.title,
+            shaft: machine.shaft(),
+            gears,
+        })
+    }
+
+    /// What its files are called in words: the title, or the name where there is none.
+    pub(super) fn named(&self) -> &str {
+        match self.title {
+            "" => self.name,
+            title => title,
+        }
+    }
+
+    /// Turn of the shaft by the input, rad.
+    pub(super) fn turn(&self, input: f64) -> MotionJet {
+        match &self.gears {
+            Some(gears) => gears.drive.at(input),
+            None => MotionJet {
+                position: input,
+                velocity: 1.0,
+                ..MotionJet::default()
+            },
+        }
+    }
+
+    /// Motion of the box by the input, mm and rad.
+    pub(super) fn motion(&self, input: f64) -> MotionJet {
+        let turn = self.turn(input);
+        self.shaft.traverse().at(turn.position).after(&turn)
+    }
+
+    /// Lead angle under the slider by the input, rad: how far the slider has swivelled.
+    pub(super) fn swivel(&self, input: f64) -> MotionJet {
+        let turn = self.turn(input);
+        let (radius, motion) = (
+            self.shaft.groove().radius(),
+            self.shaft.traverse().at(turn.position),
+        );
+        let slope = motion.velocity / radius;
+        let by_turn = MotionJet {
+            position: slope.atan(),
+            velocity: motion.acceleration / radius / (1.0 + slope * slope),
+            ..MotionJet::default()
+        };
+        by_turn.after(&turn)
+    }
+
+    /// Forces on the slider; the load's speed is the input's.
+    pub(super) fn force(&self, input: f64) -> SliderForce {
+        let groove = self.shaft.groove();
+        let lead = groove.lead_angle(self.turn(input).position);
+        let load = self.shaft.load();
+        load.force(self.motion(input), lead, groove.radius())
+    }
+}
+
+impl Gears<'_> {
+    /// Driver angle of the pair at which it turns its mate slowest, rad: 0 or half a turn.
+    pub(super) fn slowest(&self) -> f64 {
+        if self.pair.ratio(0.0) < self.pair.ratio(PI) {
+            0.0
+        } else {
+            PI
+        }
+    }
+}

@@ -1,0 +1,222 @@
+//! The shaft from the side, and its surface unrolled below.
+
+use super::{number, scaled};
+use crate::{
+    drawing::{Anchor, Drawing},
+    shaft::{ShaftFilesError, developed, side_view},
+    sheet::{Draft, Pen, Scale},
+};
+use centrode_geometry::{Point, Tolerance, Vector};
+use centrode_mechanism::design::Projection;
+use centrode_mechanism::shaft::{ShaftSolid, SpiralShaft};
+use std::f64::consts::TAU;
+
+/// Room between a view and the next, mm.
+const APART: f64 = 14.0;
+
+/// Both views at full scale, to be laid out at any.
+pub(super) struct Views<'a> {
+    shaft: &'a SpiralShaft,
+    side: Drawing,
+    development: Drawing,
+    whole: [f64; 2],
+    thick: [f64; 2],
+}
+
+impl<'a> Views<'a> {
+    pub(super) fn new(
+        shaft: &'a SpiralShaft,
+        tolerance: Tolerance,
+    ) -> Result<Self, ShaftFilesError> {
+        let solid = ShaftSolid::new(shaft.groove(), shaft.body())?;
+        Ok(Self {
+            shaft,
+            side: side_view(shaft, tolerance)?,
+            development: developed(shaft, tolerance)?,
+            whole: solid.whole(),
+            thick: solid.ends(),
+        })
+    }
+
+    /// Both views one below the other on a common axis.
+    pub(super) fn draft(&self, scale: Scale, letters: f64, projection: Projection) -> Draft {
+        let mut draft = self.side(scale, letters);
+        let below = self.development(scale, letters);
+        let (own, other) = (draft.bounds(), below.bounds());
+        // The unrolled surface is no view: it stands below, whatever the projection.
+        let _ = projection;
+        draft.add(&below, Vector::new(0.0, own.min.y - APART - other.max.y));
+        draft
+    }
+
+    fn side(&self, scale: Scale, letters: f64) -> Draft {
+        let k = scale.factor();
+        let mut draft = Draft::lettered(letters);
+        for entity in &self.side.entities {
+            let pen = match entity.layer.as_str() {
+                "PROFILE" => Pen::Outline,
+                "EDGE" => Pen::Thin,
+                "AXES" => Pen::Axis,
+                _ => continue,
+            };
+            if let Some(shape) = scaled(&entity.shape, k, |p| p) {
+                draft.draw(pen, shape);
+            }
+        }
+        let p = |x: f64, y: f64| Point::new(k * x, k * y);
+        let (groove, body) = (self.shaft.groove(), self.shaft.body());
+        let (r, j) = (groove.radius(), 0.5 * body.journal_diameter);
+        let ([start, end], [low, high]) = (self.whole, self.thick);
+        let under = |row: f64| Point::new(0.0, -k * r - 8.0 - 8.0 * row);
+        let along = Vector::x();
+        let length = |a: f64, b: f64| number(b - a, 3);
+        let lead = groove.traverse().law().lead();
+        let picks = lead * f64::from(groove.traverse().holes() - 1);
+        draft.dimension(
+            [p(0.0, -r), p(picks, -r)],
+            along,
+            under(0.0),
+            &format!(
+                "{} x {} = {}",
+                groove.traverse().holes() - 1,
+                number(lead, 4),
+                number(picks, 4)
+            ),
+        );
+        draft.dimension(
+            [p(low, -r), p(0.0, -r)],
+            along,
+            under(1.0),
+            &length(low, 0.0),
+        );
+        draft.dimension(
+            [p(start, -j), p(low, -r)],
+            along,
+            under(2.0),
+            &length(start, low),
+        );
+        draft.dimension(
+            [p(low, -r), p(high, -r)],
+            along,
+            under(2.0),
+            &length(low, high),
+        );
+        draft.dimension(
+            [p(high, -r), p(end, -j)],
+            along,
+            under(2.0),
+            &length(high, end),
+        );
+        draft.dimension(
+            [p(start, -j), p(end, -j)],
+            along,
+            under(3.0),
+            &length(start, end),
+        );
+        let beside = |column: f64| Point::new(k * end + 9.0 + 9.0 * column, 0.0);
+        let upright = Vector::y();
+        let diameter = |d: f64| format!("Ø{}", number(d, 3));
+        draft.dimension(
+            [p(end, -j), p(end, j)],
+            upright,
+            beside(0.0),
+            &diameter(2.0 * j),
+        );
+        draft.dimension(
+            [p(high, -r), p(high, r)],
+            upright,
+            beside(1.0),
+            &diameter(2.0 * r),
+        );
+        if body.keyway.is_some() {
+            let to = start + body.keyway_length;
+            let above = Point::new(0.0, k * r + 8.0);
+            draft.dimension(
+                [p(start, j), p(to, j)],
+                along,
+                above,
+                &number(body.keyway_length, 3),
+            );
+            cutting_plane(
+                &mut draft,
+                k * (start + 0.5 * body.keyway_length),
+                k * j + 2.0,
+            );
+        }
+        if body.chamfer > 0.0 {
+            let tip = p(high + 0.5 * body.chamfer, r - 0.5 * body.chamfer);
+            let elbow = tip + Vector::new(6.0, 7.0);
+            draft.leader(tip, elbow, &[format!("{} x 45°", number(body.chamfer, 3))]);
+        }
+        draft
+    }
+
+    fn development(&self, scale: Scale, letters: f64) -> Draft {
+        let k = scale.factor();
+        let mut draft = Draft::lettered(letters);
+        let unrolled = |p: Point| Point::new(p.y, -p.x);
+        for entity in &self.development.entities {
+            let pen = match entity.layer.as_str() {
+                "BLANK" => Pen::Thin,
+                "WALL" => Pen::Outline,
+                "CENTER" => Pen::Axis,
+                "PICK" => Pen::Thin,
+                _ => continue,
+            };
+            if let Some(shape) = scaled(&entity.shape, k, unrolled) {
+                draft.draw(pen, shape);
+            }
+        }
+        let groove = self.shaft.groove();
+        let around = TAU * groove.radius();
+        let [low, high] = self.thick;
+        let p = |x: f64, y: f64| Point::new(k * x, k * y);
+        let left = Point::new(k * low - 12.0, 0.0);
+        let words = format!("{} = 360°", number(around, 4));
+        draft.dimension([p(low, -around), p(low, 0.0)], Vector::y(), left, &words);
+        let below = |row: f64| Point::new(0.0, -k * around - 8.0 - 8.0 * row);
+        let (near, far) = groove.traverse().reach();
+        let words = format!("{} (way of the slider)", number(far - near, 4));
+        draft.dimension(
+            [p(near, -around), p(far, -around)],
+            Vector::x(),
+            below(0.0),
+            &words,
+        );
+        let words = number(high - low, 3);
+        draft.dimension(
+            [p(low, -around), p(high, -around)],
+            Vector::x(),
+            below(1.0),
+            &words,
+        );
+        // The width where the slider is slowest on its way out, across the groove.
+        let theta = TAU * (f64::from(groove.traverse().holes()) / 2.0).floor() - 0.25 * TAU;
+        let turn = (theta / TAU).floor() * around;
+        let [a, b] = [0.5, -0.5].map(|side| {
+            let q = groove.beside(theta, side * groove.width());
+            let q = unrolled(Point::new(q.x - turn, q.y));
+            p(q.x, q.y)
+        });
+        let words = [format!("groove {} wide", number(groove.width(), 3))];
+        let elbow = Point::new(0.5 * (a.x + b.x) + 5.0, 7.0);
+        draft.leader(if a.y > b.y { a } else { b }, elbow, &words);
+        let title = Point::new(0.5 * k * (low + high), 13.0 + letters);
+        draft.text(title, 5.0, "Development", Anchor::Middle);
+        draft
+    }
+}
+
+/// The ends of the plane of section A-A across the journal, seen towards the near end.
+fn cutting_plane(draft: &mut Draft, x: f64, height: f64) {
+    for side in [-1.0, 1.0] {
+        let inner = Point::new(x, side * height);
+        let outer = Point::new(x, side * (height + 6.0));
+        draft.line(Pen::Outline, inner, outer);
+        let tip = outer - Vector::new(7.0, 0.0);
+        draft.line(Pen::Dimension, outer, tip);
+        draft.arrow(tip, -Vector::x());
+        let letter = tip + Vector::new(-2.5, -1.75);
+        draft.text(letter, 3.5, "A", Anchor::Middle);
+    }
+}

@@ -1,0 +1,126 @@
+//! The tables of a shaft's sheets.
+
+use super::{number, table};
+use crate::{drawing::Anchor, sheet::Table};
+use centrode_mechanism::shaft::SpiralShaft;
+use centrode_mechanism::transmission::Transmission;
+use std::f64::consts::{PI, TAU};
+
+/// Step of the lead table, rad: 5 deg.
+const STEP: f64 = PI / 36.0;
+
+/// What the shaft is, and does.
+pub(super) fn data(shaft: &SpiralShaft) -> Table {
+    let (design, groove) = (shaft.design(), shaft.groove());
+    let traverse = groove.traverse();
+    let mut data = table(
+        "Spiral shaft",
+        &[],
+        vec![Anchor::Left, Anchor::Left, Anchor::Right],
+    );
+    let mut row = |name: &str, sign: &str, value: String| {
+        data.rows.push(vec![name.into(), sign.into(), value]);
+    };
+    row("Lead, mm", "p", number(design.lead, 4));
+    row("Holes", "", design.holes.to_string());
+    row("Law", "", shaft.speed_law().kind().replace('-', " "));
+    if let Some(amplitude) = shaft.amplitude() {
+        row("Amplitude, mm", "B", number(amplitude, 6));
+    }
+    let (slow, fast) = shaft.speed_ratio();
+    row("Least speed / mean", "", number(slow, 6));
+    row("Greatest speed / mean", "", number(fast, 6));
+    let window = number(design.window.to_degrees(), 3);
+    row(
+        &format!("Moves in {window}°, mm"),
+        "d",
+        number(shaft.moved_in_window(), 4),
+    );
+    let lead = |speed: f64| {
+        format!(
+            "{}°",
+            number((speed / groove.radius()).atan().to_degrees(), 4)
+        )
+    };
+    row("Least lead angle", "", lead(shaft.law().slowest().value));
+    row("Greatest lead angle", "", lead(shaft.law().fastest().value));
+    let reversal = number(traverse.reversal().to_degrees(), 3);
+    row("Reversal", "", format!("{reversal}°"));
+    row("Turns out and back", "", traverse.turns().to_string());
+    let crossings = groove.crossings();
+    row("Crossings of the grooves", "", crossings.len().to_string());
+    let gap = crossings.iter().map(|c| c.gap).fold(0.0, f64::max);
+    row("Longest crossing, mm", "", number(gap, 3));
+    row(
+        "Least bend of the centre line, mm",
+        "ρ",
+        number(1.0 / groove.tightest().value, 3),
+    );
+    row("Depth of the groove, mm", "", number(groove.depth(), 3));
+    data
+}
+
+/// Places of the centre line every 5 deg: one turn of a stroke, and both reversals.
+pub(super) fn lead(shaft: &SpiralShaft) -> Table {
+    let traverse = shaft.traverse();
+    let (stroke, turn) = (traverse.stroke(), traverse.reversal());
+    let mut lead = table(
+        "Lead table",
+        &[
+            "θ",
+            "stroke, mm",
+            "lead angle",
+            "far end, mm",
+            "near end, mm",
+        ],
+        vec![Anchor::Right; 5],
+    );
+    let steps = (TAU.max(turn) / STEP).round() as u32;
+    for i in 0..=steps {
+        let theta = STEP * f64::from(i);
+        let within = |limit: f64| theta <= limit + 1e-9;
+        let place = |start: f64| number4(traverse.at(start + theta.min(turn)).position);
+        let none = String::new;
+        lead.rows.push(vec![
+            format!("{}°", number(theta.to_degrees(), 0)),
+            if within(TAU) {
+                number4(shaft.law().moved(0.0, theta))
+            } else {
+                none()
+            },
+            if within(TAU) {
+                let angle = (shaft.law().at(theta).velocity / shaft.groove().radius()).atan();
+                format!("{:.4}°", angle.to_degrees())
+            } else {
+                none()
+            },
+            if within(turn) { place(stroke) } else { none() },
+            if within(turn) {
+                place(2.0 * stroke + turn)
+            } else {
+                none()
+            },
+        ]);
+    }
+    let turns = shaft.design().holes - 1;
+    let far = number(stroke.to_degrees(), 0);
+    let near = number((2.0 * stroke + turn).to_degrees(), 0);
+    lead.notes = vec![
+        format!(
+            "The stroke out runs through {turns} turns, each {} mm on; the stroke back is its mirror image.",
+            number(shaft.law().lead(), 4)
+        ),
+        format!("The far end begins at {far}°, the near end at {near}° of the whole cycle."),
+    ];
+    lead
+}
+
+/// Four places, with the sign taken off a zero.
+fn number4(x: f64) -> String {
+    let text = format!("{x:.4}");
+    if text == "-0.0000" {
+        "0.0000".into()
+    } else {
+        text
+    }
+}
