@@ -290,6 +290,13 @@ fn teeth(pair: &GearPair, gear: &Gear, limits: &Limits, report: &mut Report) {
     }
 }
 
+/// Transmission error, rad, up to which the flanks carry the motion.
+pub(crate) fn allowed_error(pair: &GearPair) -> f64 {
+    // Play thins the flanks: they are then conjugate only to the first order of the play.
+    let a = pair.center_distance();
+    LOST.max(2.0 * (pair.backlash() / a).powi(2) * a / pair.module())
+}
+
 fn mesh(pair: &GearPair, contact: &Contact, report: &mut Report) {
     let module = pair.module();
     let at = |list: &[f64], pick: fn(f64, f64) -> f64| {
@@ -378,10 +385,7 @@ fn mesh(pair: &GearPair, contact: &Contact, report: &mut Report) {
         });
     }
     let worst = if error.0 >= reverse.0 { error } else { reverse };
-    // Play thins the flanks: they are then conjugate only to the first order of the play.
-    let allowed = LOST.max(
-        2.0 * (pair.backlash() / pair.center_distance()).powi(2) * pair.center_distance() / module,
-    );
+    let allowed = allowed_error(pair);
     if worst.0.is_finite() && worst.0 > allowed {
         let share = contact
             .transmission_error

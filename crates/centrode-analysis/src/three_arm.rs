@@ -16,7 +16,6 @@ const ARM_TOLERANCE: f64 = 1e-4;
 pub fn check_three_arm(mechanism: &ThreeArm) -> Report {
     let mut report = Report::default();
     let teeth = mechanism.soundness().ok();
-    let clearance = mechanism.seedling_clearance();
     let arms = match arm_clearance(mechanism) {
         Ok(arms) => arms,
         Err(finding) => {
@@ -24,23 +23,7 @@ pub fn check_three_arm(mechanism: &ThreeArm) -> Report {
             None
         }
     };
-    let mut goals = goals(&mechanism.figures(), &mechanism.design().goals);
-    for goal in &mut goals {
-        let value = match goal.name {
-            "arm-clearance" => match arms.and_then(|found| found.arms) {
-                Some(found) => found.least,
-                None => continue,
-            },
-            "seedling-clearance" => clearance.value,
-            "sound-teeth" => match teeth {
-                Some(teeth) => f64::from(teeth.iter().map(|t| t.unsound).sum::<u32>()),
-                None => continue,
-            },
-            _ => continue,
-        };
-        *goal = goal.clone().with(value);
-    }
-    report.goals = goals;
+    report.goals = all_goals(mechanism, arms.as_ref(), teeth.as_ref());
     figures(mechanism, &mut report);
     for (found, names) in arms.iter().flat_map(ArmClearance::named) {
         let figures = [found.least, found.lower_bound, found.input];
@@ -52,6 +35,43 @@ pub fn check_three_arm(mechanism: &ThreeArm) -> Report {
         tooth_findings(&teeth, &mut report);
     }
     report
+}
+
+/// Every goal of a mechanism and the clearances of its arms, as [`check_three_arm`] reports them.
+pub(crate) fn reached(mechanism: &ThreeArm) -> (Vec<Goal>, Option<ArmClearance>) {
+    let arms = arm_clearance(mechanism).ok().flatten();
+    (
+        all_goals(
+            mechanism,
+            arms.as_ref(),
+            mechanism.soundness().ok().as_ref(),
+        ),
+        arms,
+    )
+}
+
+fn all_goals(
+    mechanism: &ThreeArm,
+    arms: Option<&ArmClearance>,
+    teeth: Option<&[Soundness; 2]>,
+) -> Vec<Goal> {
+    let mut goals = goals(&mechanism.figures(), &mechanism.design().goals);
+    for goal in &mut goals {
+        let value = match goal.name {
+            "arm-clearance" => match arms.and_then(|found| found.arms) {
+                Some(found) => found.least,
+                None => continue,
+            },
+            "seedling-clearance" => mechanism.seedling_clearance().value,
+            "sound-teeth" => match teeth {
+                Some(teeth) => f64::from(teeth.iter().map(|t| t.unsound).sum::<u32>()),
+                None => continue,
+            },
+            _ => continue,
+        };
+        *goal = goal.clone().with(value);
+    }
+    goals
 }
 
 /// Clearances of arms with the default body in proportion to their reach; none where nothing is finite.

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 /// The degrees that read back as the given radians, the round number where there is one.
-fn written(radians: f64) -> f64 {
+pub(crate) fn written(radians: f64) -> f64 {
     let degrees = radians.to_degrees();
     let round = (degrees * 1e11).round() / 1e11;
     if round.to_radians() == radians {

@@ -8,10 +8,12 @@ mod family;
 mod fault;
 mod file;
 mod keys;
+mod number;
 
 pub use drawing::{DrawingSpec, Projection, SheetSize};
 pub use fault::{DesignError, DesignFault};
 pub use file::DesignFile;
+pub use number::NumberedDesign;
 
 use crate::feeder::FeederDesign;
 use crate::gear::design::GearPairDesign;

@@ -1,5 +1,6 @@
 use std::path::PathBuf;
 
+use centrode::analysis::optimise::Strategy;
 use centrode::geometry::Tolerance;
 use centrode::mechanism::design::Design;
 use clap::builder::PossibleValuesParser;
@@ -28,6 +29,10 @@ pub(crate) enum Command {
     Check(Check),
     /// Write a design's drawings, solids, tables and simulator model
     Export(Export),
+    /// Search for a design that reaches its goals
+    Optimise(Optimise),
+    /// Tell how the figures answer one number of a design
+    Response(Response),
     /// Design in the browser: a page of this computer alone, until Ctrl-C
     Studio(Studio),
     /// Write a design's figures, curves and moving picture as one HTML file
@@ -209,6 +214,66 @@ fn tolerance(word: &str) -> Result<Tolerance, String> {
         return Err(format!("tolerance must be at least {FINEST} mm"));
     }
     Ok(tolerance)
+}
+
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Example: centrode optimise arms.toml --method de --seed 1 --evaluations 20000 -o better.toml\n\nThe table [optimise] of the design says what may move and how far. Ctrl-C ends the search and keeps the best so far; --resume goes on from the search stored beside the output.\n\nExit status: 0 every goal is reached; 1 some are not (the file is written all the same); 2 no search, a bad design file, or the file cannot be written."
+)]
+pub(crate) struct Optimise {
+    /// Design file, or - for standard input
+    pub(crate) design: PathBuf,
+    /// How to search
+    #[arg(long, default_value = "guided", value_parser = PossibleValuesParser::new(Strategy::NAMES.map(|(name, _)| name)))]
+    pub(crate) method: String,
+    /// Same seed, same answer, on any number of cores
+    #[arg(long, default_value_t = 1)]
+    pub(crate) seed: u64,
+    /// Most evaluations; the generation under way is finished
+    #[arg(long, default_value_t = 20_000)]
+    pub(crate) evaluations: u64,
+    /// Points a generation; left out, by the method and the number of parameters
+    #[arg(long)]
+    pub(crate) population: Option<usize>,
+    /// File for the better design: the design's text with the new numbers, comments kept
+    #[arg(short, long, value_name = "FILE")]
+    pub(crate) output: PathBuf,
+    /// Go on with the search that is stored beside the output
+    #[arg(long)]
+    pub(crate) resume: bool,
+    /// Print the outcome as JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Example: centrode response arms.toml --parameter r1 --from 15 --to 27 --of trajectory-height"
+)]
+pub(crate) struct Response {
+    /// Design file, or - for standard input
+    pub(crate) design: PathBuf,
+    /// Key of a number of the design file, such as arm.tip_distance, or a parameter's name, such as r1
+    #[arg(long, value_name = "KEY")]
+    pub(crate) parameter: String,
+    /// First value, in the file's unit
+    #[arg(long, allow_negative_numbers = true)]
+    pub(crate) from: f64,
+    /// Last value
+    #[arg(long, allow_negative_numbers = true)]
+    pub(crate) to: f64,
+    /// Number of values
+    #[arg(long, default_value_t = 9, value_parser = clap::value_parser!(u16).range(2..=10_000))]
+    pub(crate) count: u16,
+    /// Goals or figures to tell, separated by commas; left out, the goals
+    #[arg(long, value_delimiter = ',', value_name = "NAMES")]
+    pub(crate) of: Vec<String>,
+    /// Write every figure at every value to a CSV file, angles in radians
+    #[arg(long, value_name = "FILE")]
+    pub(crate) csv: Option<PathBuf>,
+    /// Print values and figures as JSON
+    #[arg(long, conflicts_with = "of")]
+    pub(crate) json: bool,
 }
 
 #[derive(Debug, Args)]

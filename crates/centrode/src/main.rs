@@ -8,9 +8,11 @@ mod failure;
 mod input;
 mod man;
 mod new;
+mod optimise;
 mod page;
 mod progress;
 mod report;
+mod response;
 mod schema;
 mod sheet;
 mod studio;
@@ -37,6 +39,8 @@ fn main() -> ExitCode {
         Command::New(command) => new::run(command, &mut out),
         Command::Check(command) => check::run(command, &mut out),
         Command::Export(command) => export::run(command, &mut out),
+        Command::Optimise(command) => optimise::run(command, &mut out),
+        Command::Response(command) => response::run(command, &mut out),
         Command::Studio(command) => studio::run(command, &mut out),
         Command::Report(command) => sheet::run(command, &mut out),
         Command::Schema(command) => schema::run(command, &mut out),

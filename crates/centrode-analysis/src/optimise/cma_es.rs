@@ -6,6 +6,8 @@ use super::random::Random;
 
 /// First step, as a share of the bounds.
 const FIRST_STEP: f64 = 0.3;
+/// The same about a point to start from.
+const NEAR_STEP: f64 = 0.1;
 /// Step and spread of the distribution at which it starts again, with twice the points.
 const LEAST_STEP: f64 = 1e-14;
 
@@ -27,7 +29,12 @@ pub(super) struct CmaEs {
 }
 
 impl CmaEs {
-    pub(super) fn new(dimension: usize, count: usize, random: &mut Random) -> Self {
+    pub(super) fn new(
+        dimension: usize,
+        count: usize,
+        start: Option<&[f64]>,
+        random: &mut Random,
+    ) -> Self {
         let mut identity = vec![0.0; dimension * dimension];
         for k in 0..dimension {
             identity[k * dimension + k] = 1.0;
@@ -35,8 +42,15 @@ impl CmaEs {
         Self {
             count,
             generation: 0,
-            mean: (0..dimension).map(|_| random.between(0.2, 0.8)).collect(),
-            step: FIRST_STEP,
+            mean: match start {
+                Some(start) => start.to_vec(),
+                None => (0..dimension).map(|_| random.between(0.2, 0.8)).collect(),
+            },
+            step: if start.is_some() {
+                NEAR_STEP
+            } else {
+                FIRST_STEP
+            },
             covariance: identity,
             step_path: vec![0.0; dimension],
             path: vec![0.0; dimension],
@@ -58,7 +72,7 @@ impl CmaEs {
         let (axes, sizes) = self.eigen();
         let spread = self.step * sizes.max();
         if !(spread > LEAST_STEP && spread < 1e6) {
-            *self = Self::new(n, 2 * self.count, random);
+            *self = Self::new(n, 2 * self.count, None, random);
             return self.points(random);
         }
         self.steps.clear();

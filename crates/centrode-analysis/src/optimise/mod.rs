@@ -6,15 +6,22 @@
 //! number of cores, and a stored search continues as if it had never stopped.
 
 mod cma_es;
+mod design;
+mod design_search;
 mod differential_evolution;
 mod genetic;
+mod guided;
 mod problem;
 mod random;
 mod search;
 pub mod six_bar;
 #[cfg(test)]
 mod tests;
+pub mod three_arm;
 
+pub use design::{DesignProblem, NotSearched, Variable, problem_of};
+pub use design_search::{DesignSearch, Strategy};
+pub use guided::{GuidedSearch, GuidedStep};
 pub use problem::{Candidate, Evaluation, Problem};
 pub(crate) use random::Random;
 pub use search::{Ended, Method, Progress, Search, SearchError, Settings, minimise};

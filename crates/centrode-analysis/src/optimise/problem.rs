@@ -55,6 +55,11 @@ pub trait Problem: Sync {
     /// Least and greatest value of each variable.
     fn bounds(&self) -> Vec<(f64, f64)>;
 
+    /// A point to start from, if one is known.
+    fn start(&self) -> Option<Vec<f64>> {
+        None
+    }
+
     /// The objective and the constraints at a point within the bounds.
     fn evaluate(&self, point: &[f64]) -> Evaluation;
 

@@ -83,6 +83,8 @@ pub enum Ended {
     Evaluations,
     /// The observer asked for it.
     Stopped,
+    /// No step helps any more.
+    Stuck,
 }
 
 /// Why there is nothing to search.
@@ -152,6 +154,7 @@ impl Search {
             }
         }
         let n = bounds.len();
+        let start = problem.start().map(|point| shares(&bounds, &point));
         let usual = match settings.method {
             Method::CmaEs => 4 + (3.0 * (n as f64).ln()) as usize,
             Method::Genetic => (20 * n).clamp(60, 400),
@@ -165,7 +168,7 @@ impl Search {
         let mut random = Random::new(settings.seed, 0);
         let (state, points) = match settings.method {
             Method::CmaEs => {
-                let mut cma_es = CmaEs::new(n, count, &mut random);
+                let mut cma_es = CmaEs::new(n, count, start.as_deref(), &mut random);
                 let points = cma_es.points(&mut random);
                 (State::CmaEs(cma_es), points)
             }
@@ -175,7 +178,11 @@ impl Search {
                 } else {
                     State::DifferentialEvolution(DifferentialEvolution::new())
                 };
-                (state, latin_hypercube(n, count, &mut random))
+                let mut points = latin_hypercube(n, count, &mut random);
+                if let Some(start) = start {
+                    points[0] = start;
+                }
+                (state, points)
             }
         };
         let population = evaluated(problem, &bounds, points);
@@ -301,6 +308,19 @@ fn inside(bounds: &[(f64, f64)], shares: &[f64]) -> Vec<f64> {
     bounds
         .map(|(&(low, high), share)| (low + (high - low) * share).clamp(low, high))
         .collect()
+}
+
+fn shares(bounds: &[(f64, f64)], point: &[f64]) -> Vec<f64> {
+    let share = |(&(low, high), value): (&(f64, f64), &f64)| {
+        let share = (value - low) / (high - low);
+        // A variable without room has no share.
+        if share.is_finite() {
+            share.clamp(0.0, 1.0)
+        } else {
+            0.0
+        }
+    };
+    bounds.iter().zip(point).map(share).collect()
 }
 
 fn evaluated(

@@ -68,6 +68,7 @@ impl Family for ThreeArmDesign {
         "tray",
         "seedling",
         "goals",
+        "optimise",
         "sun",
         "intermediate",
         "planet",

@@ -1,10 +1,11 @@
 use centrode_geometry::bracketed_minimum;
 
 use super::{
+    design::GearPairDesign,
     flank::{Flank, Side},
-    pair::GearPair,
+    pair::{GearPair, parameters},
     rolling::{Member, Rolling},
-    tool::ToolKind,
+    tool::{Tool, ToolKind},
 };
 
 /// How the pitch curves bend, and what that allows the teeth.
@@ -137,16 +138,11 @@ impl GearPair {
     #[must_use]
     pub fn limits(&self) -> Limits {
         let tool = &self.teeth().tool;
-        let (sin, cos) = tool.pressure_angle.sin_cos();
+        let sin = tool.pressure_angle.sin();
         let ranges =
             [Member::Driver, Member::Driven].map(|m| CurvatureRange::of(self.rolling(), m));
         let convex = ranges.iter().map(|r| r.greatest.1).fold(0.0, f64::max);
         let concave = ranges.iter().map(|r| -r.least.1).fold(0.0, f64::max);
-        let depth =
-            tool.corner(tool.dedendum, tool.tip_radius).end * sin * cos + tool.profile_shift.abs();
-        let height = tool.addendum + tool.profile_shift.abs();
-        let module = self.module();
-        let bound = |curvature: f64, reach: f64| module * sin * sin / (curvature * reach);
         let regular = sin * sin / convex.max(concave);
         let regular = match tool.kind {
             ToolKind::Rack => regular,
@@ -155,7 +151,7 @@ impl GearPair {
         Limits {
             convex_curvature: convex,
             concave_curvature: concave,
-            largest_module: bound(convex, depth).min(bound(concave, height)),
+            largest_module: largest_module(tool, self.module(), [convex, concave]),
             largest_addendum: self.widest_height(regular),
             ranges,
         }
@@ -196,6 +192,24 @@ impl GearPair {
         }
         height
     }
+}
+
+impl Limits {
+    /// The largest module without undercut or short teeth, mm, where the pitch curves bend no more than so much
+    /// (convex, concave, 1/mm): no tooth has to be laid out.
+    #[must_use]
+    pub fn largest_module_of(design: &GearPairDesign, curvatures: [f64; 2]) -> f64 {
+        largest_module(&parameters(design, 1.0).tool, 1.0, curvatures)
+    }
+}
+
+fn largest_module(tool: &Tool, module: f64, [convex, concave]: [f64; 2]) -> f64 {
+    let (sin, cos) = tool.pressure_angle.sin_cos();
+    let depth =
+        tool.corner(tool.dedendum, tool.tip_radius).end * sin * cos + tool.profile_shift.abs();
+    let height = tool.addendum + tool.profile_shift.abs();
+    let bound = |curvature: f64, reach: f64| module * sin * sin / (curvature * reach);
+    bound(convex, depth).min(bound(concave, height))
 }
 
 /// Width of the top land of a tooth cut off at a height; negative past its point.

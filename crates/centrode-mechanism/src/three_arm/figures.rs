@@ -1,5 +1,7 @@
 use std::f64::consts::{PI, TAU};
 
+use centrode_geometry::Vector;
+
 use super::ThreeArm;
 use crate::gear::Member;
 
@@ -31,6 +33,20 @@ impl ThreeArm {
     #[must_use]
     pub fn ground(&self) -> f64 {
         self.trajectory().lowest.reach + self.design().work.planting_depth
+    }
+
+    /// Direction in which arms enter the tray.
+    #[must_use]
+    pub fn tray_direction(&self) -> Vector {
+        let (sin, cos) = self.design().tray.inclination.sin_cos();
+        Vector::new(-self.train().sign() * cos, sin)
+    }
+
+    /// Depth of the tip's loop beyond where it picks, mm, in the direction in which arms enter the tray.
+    #[must_use]
+    pub fn picking_depth(&self) -> f64 {
+        let picked = self.tip(self.picking(0), 0).position.coords;
+        self.trajectory().farthest.reach - picked.dot(&self.tray_direction())
     }
 
     /// Radius of the circle that the gearbox sweeps around the carrier's axis, mm.

@@ -139,9 +139,7 @@ impl Trajectory {
         let design = mechanism.design();
         let upright = Looks::along(mechanism, Vector::y());
         let (lowest, highest) = (upright.extreme(-1.0), upright.extreme(1.0));
-        let (sin, cos) = design.tray.inclination.sin_cos();
-        let inwards = Vector::new(-mechanism.train().sign() * cos, sin);
-        let towards = Looks::along(mechanism, inwards);
+        let towards = Looks::along(mechanism, mechanism.tray_direction());
         let farthest = towards.extreme(1.0);
         let (picking, picking_rule) = match (design.work.picking, design.tray.distance) {
             (Some(given), _) => (given, PickingRule::Given),

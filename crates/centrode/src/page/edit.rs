@@ -13,6 +13,20 @@ pub(crate) struct Edit {
     value: Json,
 }
 
+impl Edit {
+    /// A number for a key; whole numbers are written as such.
+    pub(crate) fn number(key: &str, value: f64, whole: bool) -> Self {
+        Self {
+            key: key.into(),
+            value: if whole {
+                (value as i64).into()
+            } else {
+                value.into()
+            },
+        }
+    }
+}
+
 /// Why an edit cannot be made.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum EditError {

@@ -51,6 +51,27 @@ pub(crate) struct GoalWords {
     progress: Option<f64>,
 }
 
+impl GoalWords {
+    /// The figure, without its unit.
+    pub(crate) fn value(&self) -> &str {
+        &self.value
+    }
+
+    pub(crate) fn unit(&self) -> &'static str {
+        self.unit
+    }
+
+    /// The range it is wanted in.
+    pub(crate) fn wanted(&self) -> &str {
+        &self.wanted
+    }
+
+    /// Met, missed by how much, or not checked.
+    pub(crate) fn verdict(&self) -> &str {
+        &self.verdict
+    }
+}
+
 /// The words for a goal.
 pub(crate) fn goal_words(goal: &Goal) -> GoalWords {
     let (factor, unit, decimals) = match goal.unit {

@@ -11,11 +11,13 @@ use crate::gear::pitch::PitchSpec;
 
 mod arm;
 mod goals;
+mod optimise;
 mod pusher;
 mod work;
 
 pub use arm::{ArmSpec, GearboxSpec};
 pub use goals::GoalsSpec;
+pub use optimise::{Objective, OptimiseSpec};
 pub use pusher::{ForkSpec, PusherCamSpec};
 pub use work::{SeedlingSpec, TraySpec, WorkSpec};
 
@@ -93,6 +95,9 @@ pub struct ThreeArmDesign {
     /// What a good mechanism reaches.
     #[serde(default)]
     pub goals: GoalsSpec,
+    /// What a search may move, and what it looks for.
+    #[serde(default, skip_serializing_if = "OptimiseSpec::is_default")]
+    pub optimise: OptimiseSpec,
     /// Body of the sun.
     #[serde(default)]
     pub sun: BodySpec,
@@ -165,6 +170,7 @@ impl ThreeArmDesign {
             tray: TraySpec::default(),
             seedling: SeedlingSpec::default(),
             goals: GoalsSpec::default(),
+            optimise: OptimiseSpec::default(),
             sun: BodySpec::default(),
             intermediate: BodySpec::default(),
             planet: BodySpec::default(),
@@ -236,6 +242,8 @@ impl ThreeArmDesign {
         self.tray.validate().map_err(|e| e.inside("tray"))?;
         self.seedling.validate().map_err(|e| e.inside("seedling"))?;
         self.goals.validate().map_err(|e| e.inside("goals"))?;
+        let optimise = self.optimise.validate(self);
+        optimise.map_err(|e| e.inside("optimise"))?;
         self.sun.validate().map_err(|e| e.inside("sun"))?;
         let intermediate = self.intermediate.validate();
         intermediate.map_err(|e| e.inside("intermediate"))?;

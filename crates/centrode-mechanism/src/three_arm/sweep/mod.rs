@@ -139,6 +139,38 @@ impl Sweep {
         self.stage.center_distance()
     }
 
+    /// Length of the pitch curves of the design looked at last, mm.
+    #[must_use]
+    pub fn pitch_length(&self) -> f64 {
+        self.stage.length()
+    }
+
+    /// Greatest curvature where either pitch curve of the design looked at last is convex, and where either is
+    /// concave, 1/mm: at twelve places on each third of a piece, so a little less than the true ones.
+    #[must_use]
+    pub fn curvatures(&self) -> [f64; 2] {
+        self.stage.curvatures()
+    }
+
+    /// Depth of the tip's loop beyond where it picks, mm, as [`ThreeArm::picking_depth`](super::ThreeArm::picking_depth),
+    /// of the design looked at last, which is given again.
+    #[must_use]
+    pub fn picking_depth(&self, design: &ThreeArmDesign) -> f64 {
+        let machine = path::Machine::of(design, &self.stage);
+        let (sin, cos) = design.tray.inclination.sin_cos();
+        let inwards = [-design.direction.sign() * cos, sin];
+        let farthest = self.path.farthest(&self.stage, &machine, inwards);
+        let picked = match (design.work.picking, design.tray.distance) {
+            (Some(given), _) => {
+                let [x, y] = self.path.tip(&self.stage, &machine, given);
+                x * inwards[0] + y * inwards[1]
+            }
+            (None, Some(distance)) => distance,
+            (None, None) => farthest.reach,
+        };
+        farthest.reach - picked
+    }
+
     /// Points of the tip's path of the design looked at last, evenly in carrier turn from the start.
     pub fn tips(&self) -> impl ExactSizeIterator<Item = [f64; 2]> + '_ {
         self.path.points()

@@ -206,6 +206,13 @@ impl Path {
         machine.near(stage, input, self.sun[index], self.planet[index])
     }
 
+    /// The tip at any input.
+    pub(super) fn tip(&self, stage: &Stage, machine: &Machine, input: f64) -> [f64; 2] {
+        let input = input.rem_euclid(TAU);
+        let index = (input / self.step()) as usize % self.x.len();
+        self.near(stage, machine, index, input).position
+    }
+
     /// Where the path reaches farthest in a direction.
     pub(super) fn farthest(
         &self,

@@ -283,6 +283,32 @@ impl Stage {
         self.extremes
     }
 
+    /// Greatest convex and greatest concave curvature of both pitch curves at the nodes and ends of the panels:
+    /// at a knot it may jump.
+    pub(super) fn curvatures(&self) -> [f64; 2] {
+        let a = self.center_distance;
+        let (mut convex, mut concave) = (0.0_f64, 0.0_f64);
+        for panel in &self.panels {
+            for s in self.nodes.into_iter().chain([-1.0, 1.0]) {
+                let (r, r_rate, r_change) = twice(&panel.radius, s);
+                let (_, rate, change) = twice(&panel.angle, s);
+                let slope = r_rate / rate;
+                let bend = (r_change - slope * change) / (rate * rate);
+                // The driven curve R = a - r by its own angle, which grows by r/R of the driver's.
+                let other = a - r;
+                let ratio = other / r;
+                let other_bend = ratio * (slope * slope * (1.0 + ratio) / r - bend * ratio);
+                for (r, slope, bend) in [(r, slope, bend), (other, slope * ratio, other_bend)] {
+                    let square = r * r + slope * slope;
+                    let curvature = (square + slope * slope - r * bend) / (square * square.sqrt());
+                    convex = convex.max(curvature);
+                    concave = concave.max(-curvature);
+                }
+            }
+        }
+        [convex, concave]
+    }
+
     /// The spot so much further on.
     #[inline]
     pub(super) fn moved(&self, from: Spot, by: f64) -> Spot {

@@ -1,0 +1,130 @@
+use std::ops::ControlFlow;
+
+use serde::{Deserialize, Serialize};
+
+use super::{
+    DesignProblem, Ended, GuidedSearch, GuidedStep, Method, Progress, Search, SearchError, Settings,
+};
+
+/// How a better design is searched for.
+#[derive(Clone, Copy, Debug, Deserialize, Eq, PartialEq, Serialize)]
+#[non_exhaustive]
+pub enum Strategy {
+    /// Goal by goal, by the parameters that influence it most.
+    Guided,
+    /// Everywhere within the bounds.
+    Global(Method),
+}
+
+impl Strategy {
+    /// Every strategy by its name.
+    pub const NAMES: [(&'static str, Self); 4] = [
+        ("guided", Self::Guided),
+        ("cma-es", Self::Global(Method::CmaEs)),
+        ("de", Self::Global(Method::DifferentialEvolution)),
+        ("ga", Self::Global(Method::Genetic)),
+    ];
+}
+
+/// A search for a better design under way: keep it, store it, go on with it.
+#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
+pub struct DesignSearch {
+    /// What it moves; a search goes on only with the same.
+    variables: Vec<(String, [f64; 2])>,
+    evaluations: u64,
+    state: State,
+}
+
+#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
+enum State {
+    Guided(GuidedSearch),
+    Global(Search),
+}
+
+fn variables(problem: &dyn DesignProblem) -> Vec<(String, [f64; 2])> {
+    let variables = problem.variables().iter();
+    variables.map(|v| (v.name.clone(), v.bounds)).collect()
+}
+
+impl DesignSearch {
+    /// A search from the problem's start. The method of the settings is not looked at.
+    ///
+    /// # Errors
+    /// [`SearchError`] where there is nothing to search.
+    pub fn new(
+        problem: &dyn DesignProblem,
+        strategy: Strategy,
+        settings: Settings,
+    ) -> Result<Self, SearchError> {
+        let state = match strategy {
+            Strategy::Guided if problem.variables().is_empty() => {
+                return Err(SearchError::NoVariable);
+            }
+            Strategy::Guided => State::Guided(GuidedSearch::new(problem)),
+            Strategy::Global(method) => {
+                State::Global(Search::new(problem, Settings { method, ..settings })?)
+            }
+        };
+        Ok(Self {
+            variables: variables(problem),
+            evaluations: settings.evaluations,
+            state,
+        })
+    }
+
+    /// Whether the search is of this problem: the same variables with the same bounds.
+    #[must_use]
+    pub fn is_of(&self, problem: &dyn DesignProblem) -> bool {
+        self.variables == variables(problem)
+    }
+
+    /// Allows more evaluations than it was made with.
+    pub fn extend(&mut self, evaluations: u64) {
+        self.evaluations = self.evaluations.max(evaluations);
+        if let State::Global(search) = &mut self.state {
+            search.extend(evaluations);
+        }
+    }
+
+    /// Searches until it is at its end, the evaluations are used up or `observe` breaks off; the best so far is kept in
+    /// every case.
+    pub fn run(
+        &mut self,
+        problem: &dyn DesignProblem,
+        observe: &mut dyn FnMut(&Progress) -> ControlFlow<()>,
+    ) -> Ended {
+        match &mut self.state {
+            State::Global(search) => search.run(problem, observe),
+            State::Guided(search) => search.run(problem, self.evaluations, &mut |search| {
+                observe(&search.progress())
+            }),
+        }
+    }
+
+    /// The best point found.
+    #[must_use]
+    pub fn best(&self) -> Vec<f64> {
+        match &self.state {
+            State::Global(search) => search.best().point,
+            State::Guided(search) => search.point().to_vec(),
+        }
+    }
+
+    /// How far it is; none before the first look of a guided search.
+    #[must_use]
+    pub fn progress(&self) -> Option<Progress> {
+        match &self.state {
+            State::Global(search) => search.history().last().copied(),
+            State::Guided(search) => Some(search.progress()),
+        }
+    }
+
+    /// The steps of a guided search; none of another.
+    #[must_use]
+    pub fn log(&self) -> &[GuidedStep] {
+        match &self.state {
+            State::Global(_) => &[],
+            State::Guided(search) => search.log(),
+        }
+    }
+}

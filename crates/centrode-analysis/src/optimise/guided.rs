@@ -1,0 +1,290 @@
+use std::ops::ControlFlow;
+
+use rayon::prelude::{IntoParallelIterator, ParallelIterator};
+use serde::{Deserialize, Serialize};
+
+use super::{DesignProblem, Ended, Progress};
+use crate::Goal;
+
+/// First step of a parameter, as a share of its bounds, and the least before a goal is left.
+const FIRST_STEP: f64 = 0.04;
+const LEAST_STEP: f64 = 1e-4;
+/// What all other goals together may lose by a step, as a share of what its own goal gains.
+const PRICE: f64 = 0.5;
+/// Gain, as a share of the goal's scale, below which a step is none.
+const LEAST_GAIN: f64 = 1e-9;
+/// Share of the greatest influence from which a parameter counts among those that move together.
+const TOGETHER: f64 = 0.3;
+
+/// One step of a guided search: for which goal, what was moved, and why.
+#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
+pub struct GuidedStep {
+    /// Number and title of the goal it was made for.
+    pub goal: (u32, String),
+    /// What was moved: name, and value before and after in the file's unit.
+    pub moves: Vec<(String, [f64; 2])>,
+    /// The goal's miss before and after, as a share of its scale.
+    pub miss: [f64; 2],
+    /// What the misses of all other goals together grew by; below zero where they gained, too.
+    pub others: f64,
+    /// How many of the parameters would have helped this goal.
+    pub helpful: usize,
+}
+
+/// The parameter-guided search: goal by goal, each missed goal moves the parameters that influence it most, step by step.
+///
+/// At each step every free parameter is tried a little either way. The one that brings the goal nearest is moved, as
+/// long as all other goals together do not lose more than half of what it gains, and it goes on with twice the
+/// step while that helps. Where several influence the goal alike, moving them together is tried, too. Where nothing helps the
+/// step is halved; a goal that no step helps is left for the next one. So the misses fall with every step, and it
+/// ends. No chance is in it.
+///
+/// Source: the "parameter guide" of Yin et al. 2021, section 4, DOI 10.25165/j.ijabe.20211405.6844, whose rules the paper
+/// does not print; these are ours.
+#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
+pub struct GuidedSearch {
+    point: Vec<f64>,
+    evaluations: u64,
+    misses: Vec<f64>,
+    log: Vec<GuidedStep>,
+}
+
+/// What a look at a point tells: the goals, and by what share of its scale each is missed.
+struct Seen {
+    goals: Vec<Goal>,
+    misses: Vec<f64>,
+}
+
+/// A point that was tried.
+struct Trial {
+    point: Vec<f64>,
+    /// How far each variable was moved, as shares of the bounds.
+    moved: Vec<f64>,
+    seen: Seen,
+}
+
+impl Seen {
+    fn at(problem: &dyn DesignProblem, point: &[f64]) -> Option<Self> {
+        let goals = problem.guides(point)?;
+        let miss = |goal: &Goal| {
+            goal.margin
+                .map_or(0.0, |margin| (-margin / goal.scale).max(0.0))
+        };
+        Some(Self {
+            misses: goals.iter().map(miss).collect(),
+            goals,
+        })
+    }
+
+    /// What a goal gains, and what all others together lose, on the way to another point.
+    fn change(&self, to: &Self, goal: usize) -> (f64, f64) {
+        let gain = self.misses[goal] - to.misses[goal];
+        let grown: f64 = to.misses.iter().sum::<f64>() - self.misses.iter().sum::<f64>();
+        (gain, grown + gain)
+    }
+
+    /// Whether a step is worth making for a goal.
+    fn allows(&self, to: &Self, goal: usize) -> bool {
+        let (gain, lost) = self.change(to, goal);
+        gain > LEAST_GAIN && lost <= PRICE * gain
+    }
+}
+
+impl GuidedSearch {
+    /// A search from the problem's start.
+    #[must_use]
+    pub fn new(problem: &dyn DesignProblem) -> Self {
+        let bounds = problem.bounds();
+        let middle = || bounds.iter().map(|b| 0.5 * (b.0 + b.1)).collect();
+        let start = problem.start().unwrap_or_else(middle);
+        let inside = |(x, &(low, high)): (f64, &(f64, f64))| x.clamp(low, high);
+        Self {
+            point: start.into_iter().zip(&bounds).map(inside).collect(),
+            evaluations: 0,
+            misses: Vec::new(),
+            log: Vec::new(),
+        }
+    }
+
+    /// Where it stands.
+    #[must_use]
+    pub fn point(&self) -> &[f64] {
+        &self.point
+    }
+
+    /// The steps made.
+    #[must_use]
+    pub fn log(&self) -> &[GuidedStep] {
+        &self.log
+    }
+
+    /// Looks at points made.
+    #[must_use]
+    pub fn evaluations(&self) -> u64 {
+        self.evaluations
+    }
+
+    /// How far it is: the steps made count as generations, the misses as violation.
+    #[must_use]
+    pub fn progress(&self) -> Progress {
+        Progress {
+            generation: self.log.len() as u64,
+            evaluations: self.evaluations,
+            objective: 0.0,
+            violation: self.misses.iter().sum(),
+        }
+    }
+
+    /// Steps until every goal is met, no step helps any more, the looks are used up, or `observe` breaks off.
+    pub fn run(
+        &mut self,
+        problem: &dyn DesignProblem,
+        evaluations: u64,
+        observe: &mut dyn FnMut(&Self) -> ControlFlow<()>,
+    ) -> Ended {
+        let Some(mut seen) = Seen::at(problem, &self.point) else {
+            return Ended::Stuck;
+        };
+        self.evaluations += 1;
+        loop {
+            let before = self.log.len();
+            for goal in 0..seen.goals.len() {
+                let mut step = FIRST_STEP;
+                while seen.misses[goal] > 0.0 && step >= LEAST_STEP {
+                    self.misses.clone_from(&seen.misses);
+                    if observe(self).is_break() {
+                        return Ended::Stopped;
+                    }
+                    if self.evaluations >= evaluations {
+                        return Ended::Evaluations;
+                    }
+                    match self.best_step(problem, &seen, goal, step) {
+                        Some((trial, helpful)) => {
+                            self.record(problem, &seen, &trial, goal, helpful);
+                            self.point = trial.point;
+                            seen = trial.seen;
+                        }
+                        None => step *= 0.5,
+                    }
+                }
+            }
+            self.misses.clone_from(&seen.misses);
+            if seen.misses.iter().all(|&miss| miss <= 0.0) {
+                return Ended::Target;
+            }
+            if self.log.len() == before {
+                return Ended::Stuck;
+            }
+        }
+    }
+
+    /// The best step for a goal, gone on with while it helps, and how many parameters would have helped.
+    fn best_step(
+        &mut self,
+        problem: &dyn DesignProblem,
+        seen: &Seen,
+        goal: usize,
+        step: f64,
+    ) -> Option<(Trial, usize)> {
+        let count = self.point.len();
+        let single = |k: usize| {
+            let mut moved = vec![0.0; count];
+            moved[k / 2] = if k % 2 == 0 { step } else { -step };
+            moved
+        };
+        let trials = self.tried(problem, (0..2 * count).map(single).collect());
+        let gain = |trial: &Trial| seen.change(&trial.seen, goal).0;
+        let mut influence = vec![0.0_f64; count];
+        for trial in trials.iter().filter(|trial| gain(trial) > LEAST_GAIN) {
+            for (best, moved) in influence.iter_mut().zip(&trial.moved) {
+                if *moved != 0.0 && gain(trial) > best.abs() {
+                    *best = gain(trial) * moved.signum();
+                }
+            }
+        }
+        let helpful = influence.iter().filter(|i| **i != 0.0).count();
+        let most = influence.iter().fold(0.0_f64, |most, i| most.max(i.abs()));
+        let allowed =
+            |trials: Vec<Trial>| trials.into_iter().filter(|t| seen.allows(&t.seen, goal));
+        let better = |a: &Trial, b: &Trial| gain(a).total_cmp(&gain(b));
+        // All that count, together, as far as their influence goes; and only those whose own step is allowed.
+        let mut own = vec![0.0; count];
+        for trial in trials.iter().filter(|t| seen.allows(&t.seen, goal)) {
+            for (own, moved) in own.iter_mut().zip(&trial.moved) {
+                if *moved != 0.0 {
+                    *own = *moved;
+                }
+            }
+        }
+        let together: Vec<f64> = influence
+            .iter()
+            .map(|i| {
+                if i.abs() >= TOGETHER * most {
+                    step * i / most
+                } else {
+                    0.0
+                }
+            })
+            .collect();
+        let joint = if most > 0.0 {
+            self.tried(problem, vec![together, own])
+        } else {
+            Vec::new()
+        };
+        let mut best = allowed(trials).chain(allowed(joint)).max_by(better)?;
+        // On the same way, with twice the step each time.
+        while best.seen.misses[goal] > 0.0 {
+            let further = best.moved.iter().map(|moved| 2.0 * moved).collect();
+            let Some(next) = self.tried(problem, vec![further]).pop() else {
+                break;
+            };
+            if gain(&next) <= gain(&best) || !seen.allows(&next.seen, goal) {
+                break;
+            }
+            best = next;
+        }
+        Some((best, helpful))
+    }
+
+    /// Looks at points moved from here by shares of the bounds, in their order; what is no mechanism is left out.
+    fn tried(&mut self, problem: &dyn DesignProblem, moves: Vec<Vec<f64>>) -> Vec<Trial> {
+        self.evaluations += moves.len() as u64;
+        let bounds = problem.bounds();
+        let here = &self.point;
+        let trial = |moved: Vec<f64>| {
+            let place = |((x, share), &(low, high)): ((&f64, &f64), &(f64, f64))| {
+                (x + share * (high - low)).clamp(low, high)
+            };
+            let point: Vec<f64> = here.iter().zip(&moved).zip(&bounds).map(place).collect();
+            let seen = Seen::at(problem, &point)?;
+            Some(Trial { point, moved, seen })
+        };
+        moves.into_par_iter().filter_map(trial).collect()
+    }
+
+    fn record(
+        &mut self,
+        problem: &dyn DesignProblem,
+        seen: &Seen,
+        trial: &Trial,
+        goal: usize,
+        helpful: usize,
+    ) {
+        let pairs = problem
+            .variables()
+            .iter()
+            .zip(self.point.iter().zip(&trial.point));
+        let moves = pairs
+            .map(|(v, (&from, &to))| (v.name.clone(), [v.written(from), v.written(to)]))
+            .filter(|(_, [from, to])| from != to)
+            .collect();
+        let what = &seen.goals[goal];
+        self.log.push(GuidedStep {
+            goal: (what.number, what.title.to_owned()),
+            moves,
+            miss: [seen.misses[goal], trial.seen.misses[goal]],
+            others: seen.change(&trial.seen, goal).1,
+            helpful,
+        });
+    }
+}

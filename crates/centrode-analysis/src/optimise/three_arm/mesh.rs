@@ -1,0 +1,50 @@
+use centrode_mechanism::gear::GearPair;
+use centrode_mechanism::gear::design::{Addendum, GearPairDesign, TeethSpec};
+use centrode_mechanism::three_arm::design::ThreeArmDesign;
+
+use crate::check::{allowed_error, check};
+use crate::{Goal, Severity};
+
+/// Transmission error of half the progress, rad.
+const ERROR: f64 = 1e-3;
+
+/// How a mechanism's full teeth mesh, over a whole cycle, as goals of number zero: that flanks carry the motion, and that
+/// nothing is found against the teeth. None where no teeth can be cut.
+///
+/// Planets are the sun's part again, and the mesh of intermediate and planet is that of sun and intermediate turned
+/// round: one pair tells of all six meshes.
+pub(super) fn mesh(design: &ThreeArmDesign) -> Option<[Goal; 2]> {
+    let pair = design.pair();
+    let full = GearPairDesign {
+        teeth: TeethSpec {
+            addendum: Addendum::Full,
+            ..pair.teeth.clone()
+        },
+        ..pair
+    };
+    let pair = GearPair::resolve(&full).ok()?;
+    let report = check(&pair);
+    let error = report.values.get("transmission_error_max").copied();
+    let worse = report
+        .findings
+        .iter()
+        .filter(|f| f.severity >= Severity::Warning);
+    // Lost contact is the transmission error's own matter.
+    let against = worse.filter(|f| f.rule != "contact-lost").count();
+    Some([
+        Goal::new(
+            (0, "transmission-error", "transmission error of full teeth"),
+            error.filter(|error| error.is_finite()).or(Some(1.0)),
+            [None, Some(allowed_error(&pair))],
+            "rad",
+            ERROR,
+        ),
+        Goal::new(
+            (0, "tooth-findings", "findings against full teeth"),
+            Some(against as f64),
+            [None, Some(0.0)],
+            "",
+            10.0,
+        ),
+    ])
+}

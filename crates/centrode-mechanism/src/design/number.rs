@@ -1,0 +1,207 @@
+use super::fault::nearest;
+use super::{Design, DesignError, DesignFault};
+use crate::three_arm::Parameter;
+
+/// A design with one of its numbers open.
+#[derive(Clone, Debug)]
+pub struct NumberedDesign {
+    root: toml::Value,
+    key: String,
+    steps: Vec<Step>,
+    whole: bool,
+}
+
+#[derive(Clone, Debug)]
+enum Step {
+    Name(String),
+    Index(usize),
+}
+
+impl Design {
+    /// The key in the design file that a word stands for: a parameter's name, `r1`, or the key itself.
+    #[must_use]
+    pub fn key_of(&self, word: &str) -> String {
+        let named = match self {
+            Self::ThreeArm(_) => word.parse::<Parameter>().ok(),
+            _ => None,
+        };
+        named.map_or_else(|| word.to_owned(), Parameter::key)
+    }
+
+    /// The design with the number at a key of its file open, `arm.tip_distance` or `pitch.radius[3]`.
+    ///
+    /// A number that is not written, but may be, is opened by [`NumberedDesign::with`] too, if the table it stands
+    /// in is there.
+    ///
+    /// # Errors
+    /// [`DesignFault::UnknownKey`] where no number can stand at the key.
+    pub fn numbered(&self, key: &str) -> Result<NumberedDesign, DesignError> {
+        let text = self.to_toml()?;
+        let root: toml::Value = toml::from_str(&text).map_err(|error| DesignError {
+            fault: DesignFault::NotWritable(error.to_string()),
+            key: String::new(),
+            line: 1,
+            column: 1,
+        })?;
+        let mut known = Vec::new();
+        numbers(&root, "", &mut known);
+        let unknown = || DesignError {
+            fault: DesignFault::UnknownKey {
+                near: nearest(key, &known),
+                known: known.clone(),
+            },
+            key: key.chars().take(80).collect(),
+            line: 1,
+            column: 1,
+        };
+        let steps = steps(key).ok_or_else(unknown)?;
+        let mut numbered = NumberedDesign {
+            root,
+            key: key.to_owned(),
+            steps,
+            whole: false,
+        };
+        numbered.whole = match numbered.place().ok_or_else(unknown)? {
+            toml::Value::Integer(_) => true,
+            toml::Value::Float(_) => false,
+            _ => return Err(unknown()),
+        };
+        Ok(numbered)
+    }
+}
+
+/// Keys of all numbers at and below a value.
+fn numbers(value: &toml::Value, key: &str, found: &mut Vec<String>) {
+    match value {
+        toml::Value::Integer(_) | toml::Value::Float(_) => found.push(key.to_owned()),
+        toml::Value::Array(list) => {
+            for (i, value) in list.iter().enumerate() {
+                numbers(value, &format!("{key}[{i}]"), found);
+            }
+        }
+        toml::Value::Table(table) => {
+            let dot = if key.is_empty() { "" } else { "." };
+            for (name, value) in table {
+                numbers(value, &format!("{key}{dot}{name}"), found);
+            }
+        }
+        _ => {}
+    }
+}
+
+/// The steps of a path; `None` where it is none.
+fn steps(path: &str) -> Option<Vec<Step>> {
+    let mut steps = Vec::new();
+    for part in path.split('.') {
+        let (name, rest) = part.split_at(part.find('[').unwrap_or(part.len()));
+        if name.is_empty() {
+            return None;
+        }
+        steps.push(Step::Name(name.into()));
+        for index in rest.split_terminator(']') {
+            steps.push(Step::Index(index.strip_prefix('[')?.parse().ok()?));
+        }
+    }
+    Some(steps)
+}
+
+impl NumberedDesign {
+    fn place(&mut self) -> Option<&mut toml::Value> {
+        let (last, tables) = self.steps.split_last()?;
+        let mut here = &mut self.root;
+        for step in tables {
+            here = match step {
+                Step::Name(name) => here.get_mut(name.as_str())?,
+                Step::Index(index) => here.get_mut(*index)?,
+            };
+        }
+        match last {
+            // What is left out takes a number as well as what is written.
+            Step::Name(name) => {
+                let table = here.as_table_mut()?;
+                Some(table.entry(name.clone()).or_insert(toml::Value::Float(0.0)))
+            }
+            Step::Index(index) => here.get_mut(*index),
+        }
+    }
+
+    /// The design with another number there, in the file's unit; a count is rounded.
+    ///
+    /// # Errors
+    /// [`DesignError`] where the number breaks a rule.
+    pub fn with(&self, value: f64) -> Result<Design, DesignError> {
+        let mut copy = self.clone();
+        let number = if self.whole {
+            toml::Value::Integer(value.round() as i64)
+        } else {
+            toml::Value::Float(value)
+        };
+        if let Some(place) = copy.place() {
+            *place = number;
+        }
+        let at_start = |fault| DesignError {
+            fault,
+            key: String::new(),
+            line: 1,
+            column: 1,
+        };
+        let text = toml::to_string(&copy.root)
+            .map_err(|error| at_start(DesignFault::NotWritable(error.to_string())))?;
+        Design::from_toml(&text).map_err(|error| DesignError {
+            key: self.key.clone(),
+            ..error
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn published() -> Design {
+        let text = Design::template("three-arm").expect("a family");
+        Design::from_toml(text).expect("a design")
+    }
+
+    #[test]
+    fn a_number_is_set_where_it_stands() {
+        for (key, value) in [
+            ("arm.tip_distance", 150.5),
+            ("pitch.radius[3]", 51.0),
+            ("bend_deg", -50.0),
+            ("tooth_count", 35.0),
+            ("tray.distance", 240.0),
+            ("work.plant_spacing", 120.0),
+        ] {
+            let design = published().numbered(key).expect("a number").with(value);
+            let written = design.expect("a design").to_toml().expect("text");
+            let root: toml::Value = toml::from_str(&written).expect("toml");
+            let mut here = &root;
+            for step in steps(key).expect("a path") {
+                here = match step {
+                    Step::Name(name) => here.get(&name).expect("there"),
+                    Step::Index(index) => here.get(index).expect("there"),
+                };
+            }
+            let read = here.as_float().or(here.as_integer().map(|i| i as f64));
+            assert_eq!(read, Some(value), "{key}");
+        }
+    }
+
+    #[test]
+    fn keys_that_hold_no_number_are_refused() {
+        for key in [
+            "",
+            "family",
+            "pitch",
+            "pitch.radius[99]",
+            "nothing.there",
+            "a..b",
+            "name",
+        ] {
+            assert!(published().numbered(key).is_err(), "{key}");
+        }
+        let open = published().numbered("teeth.nothing").expect("might be");
+        assert!(open.with(1.0).is_err());
+    }
+}

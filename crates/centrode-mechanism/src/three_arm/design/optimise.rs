@@ -1,0 +1,152 @@
+use std::collections::BTreeMap;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::{ThreeArmDesign, ordered};
+use crate::gear::design::rule::{broken, finite, not_negative};
+use crate::gear::design::{Rule, SpecError};
+use crate::gear::pitch::PitchSpec;
+use crate::three_arm::Parameter;
+
+/// What a search may move, how far, and what it looks for beyond the goals.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct OptimiseSpec {
+    /// What is made best among the designs that reach every goal.
+    pub objective: Objective,
+    /// Parameters that stay as they are; else the control points, carrier start, bend, and the arm's three sizes move, and
+    /// the working points that are given.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub hold: Vec<Parameter>,
+    /// Least and greatest value of parameters, rad and mm (degrees in the file). The others move either way: radii of
+    /// control points by 65 % of their mean, their angles by 15 degrees, sizes of the arm by 25 %, other angles by 40
+    /// degrees.
+    #[serde(with = "bounds", skip_serializing_if = "BTreeMap::is_empty")]
+    #[schemars(with = "BTreeMap<Parameter, [f64; 2]>")]
+    pub bounds: BTreeMap<Parameter, [f64; 2]>,
+    /// True: gears keep their tooth count. False: they have as many teeth as leave the module wanted.
+    pub hold_tooth_count: bool,
+    /// Least depth of the tip's loop beyond where it picks, into the tray, mm.
+    pub picking_depth: f64,
+    /// Least clearance of the arm's housing from the tray, mm.
+    pub tray_clearance: f64,
+}
+
+/// What is made best among the designs that reach every goal.
+#[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+#[non_exhaustive]
+pub enum Objective {
+    /// The parameters move as little as can be: root mean square of their moves as shares of their bounds.
+    #[default]
+    LeastChange,
+    /// The tip is as slow as can be at picking.
+    PickingSpeed,
+    /// The goal reached most narrowly is reached as well as can be.
+    Margin,
+}
+
+/// Least radius of a control point a search tries unless bounds say otherwise, as a share of their mean.
+const LEAST_RADIUS: f64 = 0.2;
+
+impl OptimiseSpec {
+    /// True where nothing is asked for.
+    pub(super) fn is_default(&self) -> bool {
+        *self == Self::default()
+    }
+
+    /// Ranges in order, and parameters the design has.
+    ///
+    /// # Errors
+    /// [`SpecError`] with the key at fault.
+    pub fn validate(&self, design: &ThreeArmDesign) -> Result<(), SpecError> {
+        for (parameter, &range) in &self.bounds {
+            let key = format!("bounds.{parameter}");
+            ordered(&key, range)?;
+            if parameter.of(design).is_none() {
+                return broken(&key, Rule::Needed("in the design before it can move"));
+            }
+        }
+        finite("picking_depth", self.picking_depth)?;
+        not_negative("tray_clearance", self.tray_clearance)
+    }
+}
+
+impl ThreeArmDesign {
+    /// The parameters a search moves, with their least and greatest value (rad, mm).
+    #[must_use]
+    pub fn free_parameters(&self) -> Vec<(Parameter, [f64; 2])> {
+        let radii: &[f64] = match &self.pitch {
+            PitchSpec::Bspline(spline) => &spline.radius,
+            _ => &[],
+        };
+        let points = radii.len().min(99) as u8;
+        let mean = radii.iter().sum::<f64>() / radii.len() as f64;
+        let points = (0..points).flat_map(|i| [Parameter::Radius(i), Parameter::Angle(i)]);
+        let usual = points.chain([
+            Parameter::CarrierStart,
+            Parameter::Bend,
+            Parameter::MountingAngle,
+            Parameter::TipDistance,
+            Parameter::PusherOffset,
+            Parameter::Picking,
+            Parameter::Planting,
+        ]);
+        let spec = &self.optimise;
+        let asked = spec.bounds.keys().copied();
+        let mut all: Vec<Parameter> = usual.chain(asked).collect();
+        all.sort_unstable();
+        all.dedup();
+        all.retain(|parameter| !spec.hold.contains(parameter));
+        let room = |parameter: Parameter| {
+            let value = parameter.of(self)?;
+            let about = match parameter {
+                Parameter::Radius(_) => 0.65 * mean,
+                Parameter::Angle(_) => 15.0_f64.to_radians(),
+                Parameter::TipDistance | Parameter::PusherOffset => 0.25 * value.abs(),
+                _ => 40.0_f64.to_radians(),
+            };
+            let low = match parameter {
+                Parameter::Radius(_) => (value - about).max(LEAST_RADIUS * mean),
+                _ => value - about,
+            };
+            let given = spec.bounds.get(&parameter).copied();
+            Some((parameter, given.unwrap_or([low, value + about])))
+        };
+        all.into_iter().filter_map(room).collect()
+    }
+}
+
+/// Angles are degrees in the file.
+mod bounds {
+    use std::collections::BTreeMap;
+
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    use super::Parameter;
+    use crate::degrees;
+
+    type Bounds = BTreeMap<Parameter, [f64; 2]>;
+
+    pub(super) fn serialize<S: Serializer>(bounds: &Bounds, s: S) -> Result<S::Ok, S::Error> {
+        let written: Bounds = bounds
+            .iter()
+            .map(|(&parameter, &range)| match parameter.is_angle() {
+                true => (parameter, range.map(degrees::written)),
+                false => (parameter, range),
+            })
+            .collect();
+        written.serialize(s)
+    }
+
+    pub(super) fn deserialize<'de, D: Deserializer<'de>>(d: D) -> Result<Bounds, D::Error> {
+        let mut bounds = Bounds::deserialize(d)?;
+        for (parameter, range) in &mut bounds {
+            if parameter.is_angle() {
+                *range = range.map(f64::to_radians);
+            }
+        }
+        Ok(bounds)
+    }
+}

@@ -1,0 +1,139 @@
+mod interrupt;
+mod outcome;
+mod stored;
+
+use std::io::Write;
+use std::ops::ControlFlow;
+use std::process::ExitCode;
+use std::time::{Duration, Instant};
+
+use centrode::analysis::optimise::{
+    DesignProblem, DesignSearch, Ended, Settings, Strategy, problem_of,
+};
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+
+use crate::args::Optimise;
+use crate::failure::Failure;
+use crate::input::Source;
+use crate::page::{Edit, edited};
+use interrupt::Interrupt;
+use outcome::Outcome;
+use stored::Stored;
+
+/// How often the search is stored while it runs.
+const STORE: Duration = Duration::from_secs(10);
+
+/// Searches for a better design and writes it, with its search beside it.
+pub(crate) fn run(command: &Optimise, out: &mut impl Write) -> Result<ExitCode, Failure> {
+    let source = Source::open(&command.design)?;
+    let file = source.design()?;
+    // A design that gives no mechanism is told as by a check.
+    file.mechanism().map_err(|error| source.blame(error))?;
+    let problem = problem_of(file.design()).map_err(|e| Failure::Usage(e.to_string()))?;
+    let problem = problem.as_ref();
+    let stored = Stored::beside(&command.output);
+    let mut search = if command.resume {
+        let mut search = stored.read()?;
+        if !search.is_of(problem) {
+            let name = stored.name();
+            let other =
+                format!("{name} is the search of another design: parameters or bounds differ");
+            return Err(Failure::Usage(other));
+        }
+        search.extend(command.evaluations);
+        search
+    } else {
+        let strategy = Strategy::NAMES
+            .iter()
+            .find(|(name, _)| *name == command.method);
+        let Some(&(_, strategy)) = strategy else {
+            return Err(Failure::Usage(format!(
+                "unknown method {:?}",
+                command.method
+            )));
+        };
+        let settings = Settings {
+            seed: command.seed,
+            population: command.population,
+            evaluations: command.evaluations,
+            ..Settings::default()
+        };
+        DesignSearch::new(problem, strategy, settings).map_err(|e| Failure::Usage(e.to_string()))?
+    };
+    let text = source.text()?;
+    let (ended, seconds) = watched(command, problem, &mut search, &stored)?;
+    let best = search.best();
+    stored.write_design(&better(&text, problem, &best)?)?;
+    stored.write(&search)?;
+    let outcome = Outcome::of(problem, &search, &best, ended, seconds);
+    if command.json {
+        outcome.json(out)?;
+    } else {
+        outcome.write(&command.method, out)?;
+        writeln!(out, "\n{}", command.output.display())?;
+    }
+    Ok(ExitCode::from(u8::from(!outcome.reached())))
+}
+
+/// Runs the search with a bar on the terminal; Ctrl-C ends it.
+fn watched(
+    command: &Optimise,
+    problem: &dyn DesignProblem,
+    search: &mut DesignSearch,
+    stored: &Stored,
+) -> Result<(Ended, f64), Failure> {
+    let interrupt = Interrupt::watch().map_err(Failure::Serve)?;
+    let bar = ProgressBar::with_draw_target(Some(command.evaluations), target());
+    let style = "{bar:24} {pos}/{len} {msg} {elapsed}, {eta} to go";
+    if let Ok(style) = ProgressStyle::with_template(style) {
+        bar.set_style(style);
+    }
+    let begun = Instant::now();
+    let mut due = begun + STORE;
+    let mut store = false;
+    let ended = loop {
+        if store {
+            stored.write(search)?;
+            due = Instant::now() + STORE;
+            store = false;
+        }
+        let ended = search.run(problem, &mut |progress| {
+            bar.set_position(progress.evaluations);
+            bar.set_message(if progress.violation > 0.0 {
+                format!("goals missed by {:.4}", progress.violation)
+            } else {
+                format!("goals reached, objective {:.6}", progress.objective)
+            });
+            store = Instant::now() >= due;
+            if store || interrupt.came() {
+                ControlFlow::Break(())
+            } else {
+                ControlFlow::Continue(())
+            }
+        });
+        if !store || interrupt.came() {
+            break ended;
+        }
+    };
+    bar.finish_and_clear();
+    Ok((ended, begun.elapsed().as_secs_f64()))
+}
+
+fn target() -> ProgressDrawTarget {
+    // Off a terminal the standard error stays clean.
+    if std::io::IsTerminal::is_terminal(&std::io::stderr()) {
+        ProgressDrawTarget::stderr()
+    } else {
+        ProgressDrawTarget::hidden()
+    }
+}
+
+/// The design's text with the numbers of a point.
+fn better(text: &str, problem: &dyn DesignProblem, point: &[f64]) -> Result<String, Failure> {
+    let variables = problem.variables().iter().zip(point);
+    let moved = variables.map(|(v, &value)| Edit::number(&v.key, v.written(value), false));
+    let followers = problem.followers(point).into_iter();
+    let followers = followers.map(|(key, value)| Edit::number(&key, value, value.fract() == 0.0));
+    let edits: Vec<Edit> = moved.chain(followers).collect();
+    edited(text, &edits).map_err(|error| Failure::Usage(error.to_string()))
+}

@@ -1,0 +1,152 @@
+use std::io::{self, Write};
+
+use centrode::analysis::Goal;
+use centrode::analysis::optimise::{DesignProblem, DesignSearch, Ended, GuidedStep, Progress};
+use serde::Serialize;
+
+use crate::report::goal_words;
+
+/// What a search has come to.
+#[derive(Serialize)]
+pub(super) struct Outcome<'a> {
+    ended: Ended,
+    seconds: f64,
+    progress: Option<Progress>,
+    parameters: Vec<Moved>,
+    before: Vec<Goal>,
+    after: Vec<Goal>,
+    steps: &'a [GuidedStep],
+}
+
+/// A parameter's way, in the file's unit.
+#[derive(Serialize)]
+struct Moved {
+    name: String,
+    key: String,
+    before: f64,
+    after: f64,
+    /// The move as a share of the bounds.
+    share: f64,
+}
+
+impl<'a> Outcome<'a> {
+    pub(super) fn of(
+        problem: &dyn DesignProblem,
+        search: &'a DesignSearch,
+        best: &[f64],
+        ended: Ended,
+        seconds: f64,
+    ) -> Self {
+        let start = problem.start().unwrap_or_else(|| best.to_vec());
+        let moved = problem.variables().iter().zip(start.iter().zip(best));
+        let parameters = moved.map(|(variable, (&before, &after))| Moved {
+            name: variable.name.clone(),
+            key: variable.key.clone(),
+            before: variable.written(before),
+            after: variable.written(after),
+            share: (after - before) / (variable.bounds[1] - variable.bounds[0]),
+        });
+        Self {
+            ended,
+            seconds,
+            progress: search.progress(),
+            parameters: parameters.collect(),
+            before: problem.goals(&start).unwrap_or_default(),
+            after: problem.goals(best).unwrap_or_default(),
+            steps: search.log(),
+        }
+    }
+
+    /// Whether every goal is met.
+    pub(super) fn reached(&self) -> bool {
+        !self.after.is_empty() && self.after.iter().all(|goal| goal.met() == Some(true))
+    }
+
+    pub(super) fn json(&self, out: &mut impl Write) -> io::Result<()> {
+        serde_json::to_writer_pretty(&mut *out, self)?;
+        writeln!(out)
+    }
+
+    pub(super) fn write(&self, method: &str, out: &mut impl Write) -> io::Result<()> {
+        for step in self.steps {
+            write_step(step, out)?;
+        }
+        if !self.steps.is_empty() {
+            writeln!(out)?;
+        }
+        let how = match self.ended {
+            Ended::Target => "every goal is reached",
+            Ended::Evaluations => "the evaluations are used up",
+            Ended::Stopped => "stopped",
+            Ended::Stuck => "no step helps any more",
+        };
+        let evaluations = self.progress.map_or(0, |p| p.evaluations);
+        writeln!(
+            out,
+            "{method}: {evaluations} evaluations in {:.1} s, {:.0} a second; {how}",
+            self.seconds,
+            evaluations as f64 / self.seconds.max(1e-9)
+        )?;
+        writeln!(out, "\n{:40} {:>12} {:>12}", "Goals", "before", "after")?;
+        for goal in &self.after {
+            let words = goal_words(goal);
+            let before = self.before.iter().find(|b| b.name == goal.name);
+            let before = before.map_or("-".into(), |b| goal_words(b).value().to_owned());
+            let number = match goal.number {
+                0 => String::new(),
+                number => number.to_string(),
+            };
+            writeln!(
+                out,
+                "  {number:>2} {:<35} {before:>12} {:>12} {:<3}  {:<14} {}",
+                goal.title,
+                words.value(),
+                words.unit(),
+                words.wanted(),
+                words.verdict()
+            )?;
+        }
+        writeln!(
+            out,
+            "\n{:40} {:>12} {:>12} {:>12}",
+            "Parameters", "before", "after", "of bounds"
+        )?;
+        for moved in &self.parameters {
+            writeln!(
+                out,
+                "     {:<35} {:>12.3} {:>12.3} {:>+11.1}%",
+                moved.name,
+                moved.before,
+                moved.after,
+                100.0 * moved.share
+            )?;
+        }
+        Ok(())
+    }
+}
+
+/// A step in words: for which goal, what, and why.
+fn write_step(step: &GuidedStep, out: &mut impl Write) -> io::Result<()> {
+    let moves: Vec<String> = step
+        .moves
+        .iter()
+        .map(|(name, [from, to])| format!("{name} {from} -> {to}"))
+        .collect();
+    let others = if step.others.abs() < 5e-5 {
+        "the others stay".to_owned()
+    } else if step.others > 0.0 {
+        format!("the others lose {:.4}", step.others)
+    } else {
+        format!("the others gain {:.4}", -step.others)
+    };
+    writeln!(
+        out,
+        "goal {} {}: {}: missed by {:.4} -> {:.4} of its scale, the most of {} that help; {others}",
+        step.goal.0,
+        step.goal.1,
+        moves.join(", "),
+        step.miss[0],
+        step.miss[1],
+        step.helpful
+    )
+}
