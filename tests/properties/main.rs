@@ -3,5 +3,6 @@
 mod design;
 mod mesh;
 mod pitch;
+mod shaft;
 mod sheet;
 mod teeth;

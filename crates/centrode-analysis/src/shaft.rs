@@ -1,9 +1,11 @@
+mod tables;
+
 use std::f64::consts::{FRAC_PI_6, TAU};
 
 use centrode_mechanism::shaft::{ClearOffset, Crossing, MovingBox, Pick, ShaftError, SpiralShaft};
 use centrode_mechanism::transmission::Transmission;
 
-use crate::{Finding, Place, Report, Severity, Table};
+use crate::{Finding, Place, Report, Severity};
 
 /// Pressure angle, rad, above which a follower moved along its guide runs badly: 30 deg.
 const PRESSURE_ANGLE: f64 = FRAC_PI_6;
@@ -27,6 +29,7 @@ pub fn check_shaft(shaft: &SpiralShaft) -> Report {
     crossings(shaft, &mut report);
     slider(shaft, &mut report);
     forces(shaft, &mut report);
+    report.tables.push(tables::forces(shaft));
     sort(&mut report);
     report
 }
@@ -37,7 +40,9 @@ pub fn check_shaft(shaft: &SpiralShaft) -> Report {
 pub fn check_moving_box(machine: &MovingBox) -> Report {
     let mut report = check_shaft(machine.shaft());
     report.findings.retain(|f| f.rule != "moved-distance");
-    report.tables.push(schemes(machine));
+    let forces = std::mem::take(&mut report.tables);
+    report.tables = tables::schemes(machine);
+    report.tables.extend(forces);
     let Some(drive) = machine.drive() else {
         moved(machine.shaft(), machine.moved_in_window(), &mut report);
         sort(&mut report);
@@ -66,6 +71,8 @@ pub fn check_moving_box(machine: &MovingBox) -> Report {
     values.insert("box_speed_ratio_max", fast);
     let (braking, speeding) = over(&|i| motions[i].acceleration);
     values.insert("box_acceleration_max", speeding.max(-braking));
+    let metres = 1e-3 * load.speed() * load.speed();
+    values.insert("box_acceleration_max_m_s2", metres * speeding.max(-braking));
     let limit = load.contact_limit_rpm(-braking);
     values.insert("box_contact_limit_rpm", limit);
     let input = |i: usize| TAU * i as f64 / f64::from(STEPS);
@@ -83,28 +90,6 @@ pub fn check_moving_box(machine: &MovingBox) -> Report {
     contact(limit, load.speed_rpm, &mut report);
     sort(&mut report);
     report
-}
-
-/// What the box moves while a seedling is picked by each scheme alone, and as designed.
-fn schemes(machine: &MovingBox) -> Table {
-    let shaft = machine.shaft();
-    let (mean, design) = (shaft.law().mean_speed(), shaft.design());
-    let turn = |input: f64| machine.shaft_turn(input).position;
-    let half = 0.5 * design.window;
-    let geared = mean * (turn(design.pick + half) - turn(design.pick - half));
-    let rows = [
-        ("plain shaft", mean * design.window),
-        ("the groove alone", shaft.moved_in_window()),
-        ("the gears alone", geared),
-        ("as designed", machine.moved_in_window()),
-    ];
-    Table {
-        name: "schemes",
-        title: "Box while a seedling is picked",
-        unit: "mm",
-        columns: vec!["moves".into()],
-        rows: rows.map(|(name, moved)| (name.into(), vec![moved])).into(),
-    }
 }
 
 fn sort(report: &mut Report) {
@@ -324,6 +309,9 @@ fn advice(shaft: &SpiralShaft) -> String {
     let steepest = 2.0 * (law.mean_speed() / shaft.groove().radius()).atan();
     let wanted = 1.25 * shaft.groove().width() / steepest.sin();
     match offered(shaft, wanted) {
+        Ok(clear) if clear.return_offset == 0.0 => {
+            "no shift of the return groove makes that shorter; meeting the same hole at the same angle both ways always crosses there".to_owned()
+        }
         Ok(clear) => format!(
             "return_offset = {:.4} lets {:.2} mm of slider bridge those of the strokes and misses each hole by {:.4} mm; meeting the same hole at the same angle both ways always crosses there",
             clear.return_offset, clear.slider_length, clear.misplacement
@@ -355,6 +343,28 @@ fn slider(shaft: &SpiralShaft, report: &mut Report) {
             unit: "mm",
             remedy: Some("more clearance, a shorter slider, or a larger radius"),
             place: at(shaft.groove().tightest().input),
+        });
+    }
+    let guided = slider.guided_length(shaft.groove().radius());
+    report.values.insert("slider_guided_length", guided);
+    let gaps = shaft.groove().crossings().into_iter().map(|c| c.gap);
+    let longest = gaps.fold(0.0, f64::max);
+    if guided <= longest && slider.length > longest {
+        report.findings.push(Finding {
+            rule: "flat-slider",
+            severity: Severity::Warning,
+            message: format!(
+                "of a flat slider {} mm long only {guided:.2} mm reach into a groove on a shaft this thin: to bridge {longest:.2} mm without walls it must be bent round the shaft",
+                slider.length
+            ),
+            measured: Some(guided),
+            required: Some(longest),
+            unit: "mm",
+            remedy: Some("a thicker shaft, or a slider bent round it"),
+            place: Place {
+                part: Some("slider".into()),
+                ..Place::default()
+            },
         });
     }
 }
@@ -419,81 +429,4 @@ fn contact(limit: f64, speed: f64, report: &mut Report) {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use centrode_mechanism::shaft::{EllipticGears, MovingBoxDesign, Scheme, SpiralShaftDesign};
-    use std::f64::consts::PI;
-
-    fn published() -> SpiralShaftDesign {
-        SpiralShaftDesign {
-            moved_distance: Some(2.05),
-            ..SpiralShaftDesign::default()
-        }
-    }
-
-    fn rules(report: &Report) -> Vec<&'static str> {
-        report.findings.iter().map(|f| f.rule).collect()
-    }
-
-    fn report(design: &SpiralShaftDesign) -> Report {
-        check_shaft(&SpiralShaft::resolve(design).expect("resolves"))
-    }
-
-    #[test]
-    fn the_published_shaft_works_but_picks_on_its_crossings() {
-        let report = report(&published());
-        assert!(report.ok());
-        assert_eq!(rules(&report), ["crossing-while-picking"]);
-        let offered = &report.findings[0].message;
-        assert!(offered.contains("return_offset = "), "{offered}");
-        assert!((report.values["moved_distance"] - 2.05).abs() < 1e-12);
-        assert!((report.values["contact_limit_rpm"] - 323.36).abs() < 0.01);
-    }
-
-    #[test]
-    fn each_fault_is_found() {
-        let plain = report(&SpiralShaftDesign::default());
-        assert!(!plain.ok() && rules(&plain).contains(&"moved-distance"));
-        let mut design = published();
-        design.reversal.angle = PI;
-        let half = report(&design);
-        assert!(rules(&half).contains(&"misplaced-hole"));
-        assert!(rules(&half).contains(&"hole-not-picked-twice"));
-        let mut design = published();
-        design.slider.length = 30.0;
-        assert!(rules(&report(&design)).contains(&"slider-length"));
-        let mut design = published();
-        design.slider.clearance = 0.1;
-        assert!(rules(&report(&design)).contains(&"slider-clearance"));
-        let mut design = published();
-        design.load.speed_rpm = 330.0;
-        assert!(rules(&report(&design)).contains(&"contact-lost"));
-        let mut design = published();
-        (design.radius, design.groove.width, design.groove.depth) = (5.0, 4.0, 1.0);
-        (design.slider.reach, design.body.journal_diameter) = (0.8, 4.0);
-        design.slider.pin_diameter = 2.0;
-        (design.body.keyway, design.body.chamfer) = (None, 0.3);
-        assert!(rules(&report(&design)).contains(&"pressure-angle"));
-    }
-
-    #[test]
-    fn the_elliptic_scheme_has_its_published_figures() {
-        let design = MovingBoxDesign {
-            scheme: Scheme::EllipticGear,
-            gears: Some(EllipticGears {
-                speed_ratio: Some(3.0),
-                ..EllipticGears::default()
-            }),
-            ..MovingBoxDesign::default()
-        };
-        let machine = MovingBox::resolve(&design).expect("resolves");
-        let report = check_moving_box(&machine);
-        assert!(report.ok(), "{:?}", report.findings);
-        assert!((report.values["moved_distance"] - 1.954_217).abs() < 1e-6);
-        assert!((report.values["box_contact_limit_rpm"] - 239.66).abs() < 0.01);
-        assert!((report.values["moved_distance_plain"] - 10.0 / 3.0).abs() < 1e-12);
-        let moved: Vec<f64> = report.tables[0].rows.iter().map(|row| row.1[0]).collect();
-        assert!((moved[0] - 10.0 / 3.0).abs() < 1e-12 && (moved[1] - moved[0]).abs() < 1e-12);
-        assert!((moved[2] - moved[3]).abs() < 1e-12);
-    }
-}
+mod tests;

@@ -35,7 +35,7 @@ struct Row(&'static str, &'static [&'static str], Unit);
 /// A part of the table: its heading, the columns, the rows.
 struct Group(&'static str, &'static [&'static str], &'static [Row]);
 
-const GROUPS: [Group; 11] = [
+const GROUPS: [Group; 12] = [
     Group(
         "Pitch curves",
         &["driver", "driven"],
@@ -272,6 +272,11 @@ const GROUPS: [Group; 11] = [
                 Unit::Millimetre,
             ),
             Row(
+                "slider in the groove, if flat",
+                &["slider_guided_length"],
+                Unit::Millimetre,
+            ),
+            Row(
                 "clearance the slider needs",
                 &["slider_clearance_min"],
                 Unit::Millimetre,
@@ -359,6 +364,43 @@ const GROUPS: [Group; 11] = [
             Row(
                 "crank while driven",
                 &["", "crank_rpm_driven"],
+                Unit::TurnsPerMinute,
+            ),
+        ],
+    ),
+    Group(
+        "Box by the turn of the gears",
+        &[],
+        &[
+            Row("eccentricity", &["gear_eccentricity"], Unit::Number),
+            Row(
+                "least speed over the mean",
+                &["box_speed_ratio_min"],
+                Unit::Number,
+            ),
+            Row(
+                "greatest speed over the mean",
+                &["box_speed_ratio_max"],
+                Unit::Number,
+            ),
+            Row(
+                "greatest acceleration, m/s^2",
+                &["box_acceleration_max_m_s2"],
+                Unit::Number,
+            ),
+            Row(
+                "least normal force",
+                &["box_normal_force_min"],
+                Unit::Newton,
+            ),
+            Row(
+                "greatest normal force",
+                &["box_normal_force_max"],
+                Unit::Newton,
+            ),
+            Row(
+                "stays on one wall up to",
+                &["box_contact_limit_rpm"],
                 Unit::TurnsPerMinute,
             ),
         ],

@@ -17,16 +17,16 @@ pub(super) fn write(report: &Report, out: &mut impl Write) -> Result<()> {
         }
         writeln!(out)?;
         let (factor, unit) = match table.unit {
-            "rad" => (180.0 / std::f64::consts::PI, "  deg"),
-            "mm" => (1.0, "  mm"),
-            _ => (1.0, ""),
+            "rad" => (180.0 / std::f64::consts::PI, "deg"),
+            unit => (1.0, unit),
         };
+        let gap = if unit.is_empty() { "" } else { "  " };
         for (name, figures) in &table.rows {
             write!(out, "  {name:width$}", width = NAME - 2)?;
             for value in figures {
                 write!(out, "  {:>COLUMN$}", figure(value * factor, 4))?;
             }
-            writeln!(out, "{unit}")?;
+            writeln!(out, "{gap}{unit}")?;
         }
     }
     Ok(())

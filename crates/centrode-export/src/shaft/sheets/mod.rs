@@ -42,7 +42,7 @@ pub fn shaft_sheets(shaft: &SpiralShaft, options: &Options) -> Result<Vec<Sheet>
             floats: true,
             leads,
         };
-        let both = views.draft(scale, letters(size), block.projection);
+        let both = views.draft(scale, letters(size));
         vec![
             fixed("shaft data table", data.whole()),
             fixed("notes", written(&lines)),

@@ -7,7 +7,6 @@ use crate::{
     sheet::{Draft, Pen, Scale},
 };
 use centrode_geometry::{Point, Tolerance, Vector};
-use centrode_mechanism::design::Projection;
 use centrode_mechanism::shaft::{ShaftSolid, SpiralShaft};
 use std::f64::consts::TAU;
 
@@ -39,12 +38,11 @@ impl<'a> Views<'a> {
     }
 
     /// Both views one below the other on a common axis.
-    pub(super) fn draft(&self, scale: Scale, letters: f64, projection: Projection) -> Draft {
+    pub(super) fn draft(&self, scale: Scale, letters: f64) -> Draft {
         let mut draft = self.side(scale, letters);
         let below = self.development(scale, letters);
         let (own, other) = (draft.bounds(), below.bounds());
         // The unrolled surface is no view: it stands below, whatever the projection.
-        let _ = projection;
         draft.add(&below, Vector::new(0.0, own.min.y - APART - other.max.y));
         draft
     }
@@ -70,49 +68,22 @@ impl<'a> Views<'a> {
         let under = |row: f64| Point::new(0.0, -k * r - 8.0 - 8.0 * row);
         let along = Vector::x();
         let length = |a: f64, b: f64| number(b - a, 3);
+        let c = body.chamfer;
         let lead = groove.traverse().law().lead();
-        let picks = lead * f64::from(groove.traverse().holes() - 1);
-        draft.dimension(
-            [p(0.0, -r), p(picks, -r)],
-            along,
-            under(0.0),
-            &format!(
-                "{} x {} = {}",
-                groove.traverse().holes() - 1,
-                number(lead, 4),
-                number(picks, 4)
-            ),
-        );
-        draft.dimension(
-            [p(low, -r), p(0.0, -r)],
-            along,
-            under(1.0),
-            &length(low, 0.0),
-        );
-        draft.dimension(
-            [p(start, -j), p(low, -r)],
-            along,
-            under(2.0),
-            &length(start, low),
-        );
-        draft.dimension(
-            [p(low, -r), p(high, -r)],
-            along,
-            under(2.0),
-            &length(low, high),
-        );
-        draft.dimension(
-            [p(high, -r), p(end, -j)],
-            along,
-            under(2.0),
-            &length(high, end),
-        );
-        draft.dimension(
-            [p(start, -j), p(end, -j)],
-            along,
-            under(3.0),
-            &length(start, end),
-        );
+        let turns = groove.traverse().holes() - 1;
+        let picks = lead * f64::from(turns);
+        let words = format!("{turns} x {} = {}", number(lead, 4), number(picks, 4));
+        draft.dimension([p(0.0, -r), p(picks, -r)], along, under(0.0), &words);
+        let mut span = |row: f64, [a, b]: [(f64, f64); 2]| {
+            let words = length(a.0, b.0);
+            draft.dimension([p(a.0, -a.1), p(b.0, -b.1)], along, under(row), &words);
+        };
+        let (near, far) = ((low - c, r - c), (high + c, r - c));
+        span(1.0, [near, (0.0, r)]);
+        span(2.0, [(start, j - c), near]);
+        span(2.0, [near, far]);
+        span(2.0, [far, (end, j - c)]);
+        span(3.0, [(start, j - c), (end, j - c)]);
         let beside = |column: f64| Point::new(k * end + 9.0 + 9.0 * column, 0.0);
         let upright = Vector::y();
         let diameter = |d: f64| format!("Ø{}", number(d, 3));
@@ -143,10 +114,10 @@ impl<'a> Views<'a> {
                 k * j + 2.0,
             );
         }
-        if body.chamfer > 0.0 {
-            let tip = p(high + 0.5 * body.chamfer, r - 0.5 * body.chamfer);
+        if c > 0.0 {
+            let tip = p(high + 0.5 * c, r - 0.5 * c);
             let elbow = tip + Vector::new(6.0, 7.0);
-            draft.leader(tip, elbow, &[format!("{} x 45°", number(body.chamfer, 3))]);
+            draft.leader(tip, elbow, &[format!("{} x 45°", number(c, 3))]);
         }
         draft
     }
@@ -190,18 +161,7 @@ impl<'a> Views<'a> {
             below(1.0),
             &words,
         );
-        // The width where the slider is slowest on its way out, across the groove.
-        let theta = TAU * (f64::from(groove.traverse().holes()) / 2.0).floor() - 0.25 * TAU;
-        let turn = (theta / TAU).floor() * around;
-        let [a, b] = [0.5, -0.5].map(|side| {
-            let q = groove.beside(theta, side * groove.width());
-            let q = unrolled(Point::new(q.x - turn, q.y));
-            p(q.x, q.y)
-        });
-        let words = [format!("groove {} wide", number(groove.width(), 3))];
-        let elbow = Point::new(0.5 * (a.x + b.x) + 5.0, 7.0);
-        draft.leader(if a.y > b.y { a } else { b }, elbow, &words);
-        let title = Point::new(0.5 * k * (low + high), 13.0 + letters);
+        let title = Point::new(0.5 * k * (low + high), 6.0 + letters);
         draft.text(title, 5.0, "Development", Anchor::Middle);
         draft
     }
@@ -216,7 +176,7 @@ fn cutting_plane(draft: &mut Draft, x: f64, height: f64) {
         let tip = outer - Vector::new(7.0, 0.0);
         draft.line(Pen::Dimension, outer, tip);
         draft.arrow(tip, -Vector::x());
-        let letter = tip + Vector::new(-2.5, -1.75);
+        let letter = tip + Vector::new(-3.2, -1.75);
         draft.text(letter, 3.5, "A", Anchor::Middle);
     }
 }

@@ -53,10 +53,9 @@ impl<'a> ShaftSolid<'a> {
     #[must_use]
     pub fn whole(&self) -> [f64; 2] {
         let [low, high] = self.ends;
-        [
-            low - self.body.journal_length,
-            high + self.body.journal_length,
-        ]
+        // The journals begin beyond the chamfers.
+        let beyond = self.body.chamfer + self.body.journal_length;
+        [low - beyond, high + beyond]
     }
 
     /// A closed triangle mesh with outward normals, every triangle within the tolerance of the surface.

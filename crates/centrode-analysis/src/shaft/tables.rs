@@ -1,0 +1,150 @@
+use std::f64::consts::{FRAC_PI_4, TAU};
+
+use centrode_mechanism::shaft::{MovingBox, SpiralShaft};
+use centrode_mechanism::transmission::{MotionJet, Transmission};
+
+use crate::Table;
+
+/// Steps of one turn at which a scheme is looked at.
+const STEPS: u32 = 720;
+
+/// A way to move the box on a stroke: its motion by the input, and the lead angle under the slider.
+struct Way<'a> {
+    name: &'static str,
+    at: Box<dyn Fn(f64) -> (MotionJet, f64) + 'a>,
+}
+
+/// Both schemes alone and as designed, beside a plain shaft: what the box moves while a seedling is picked, its
+/// speeds, its acceleration and the force on the slider.
+pub(super) fn schemes(machine: &MovingBox) -> Vec<Table> {
+    let shaft = machine.shaft();
+    let (radius, mean) = (shaft.groove().radius(), shaft.law().mean_speed());
+    let plain = (mean / radius).atan();
+    let lead = move |law: MotionJet| (law.velocity / radius).atan();
+    let steady = move |turn: MotionJet| MotionJet {
+        position: mean * turn.position,
+        velocity: mean * turn.velocity,
+        acceleration: mean * turn.acceleration,
+        jerk: mean * turn.jerk,
+    };
+    let even = |input: f64| MotionJet {
+        position: input,
+        velocity: 1.0,
+        ..MotionJet::default()
+    };
+    let ways = [
+        Way {
+            name: "plain shaft",
+            at: Box::new(move |input| (steady(even(input)), plain)),
+        },
+        Way {
+            name: "the groove alone",
+            at: Box::new(move |input| {
+                let law = shaft.law().at(input);
+                (law, lead(law))
+            }),
+        },
+        Way {
+            name: "the gears alone",
+            at: Box::new(move |input| (steady(machine.shaft_turn(input)), plain)),
+        },
+        Way {
+            name: "as designed",
+            at: Box::new(move |input| {
+                let law = shaft.law().at(machine.shaft_turn(input).position);
+                (machine.stroke_at(input), lead(law))
+            }),
+        },
+    ];
+    let (load, design) = (shaft.load(), shaft.design());
+    let metres = 1e-3 * load.speed() * load.speed();
+    let (pick, half) = (design.pick, 0.5 * design.window);
+    let inputs: Vec<f64> = (0..STEPS)
+        .map(|i| pick + TAU * f64::from(i) / f64::from(STEPS))
+        .collect();
+    let range = |of: &dyn Fn(f64) -> f64| {
+        let values = inputs.iter().map(|&input| of(input));
+        values.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| {
+            (a.min(x), b.max(x))
+        })
+    };
+    let table = |name, title, unit, columns: &[&str], of: &dyn Fn(&Way<'_>) -> Vec<f64>| Table {
+        name,
+        title,
+        unit,
+        columns: columns.iter().map(|c| (*c).to_owned()).collect(),
+        rows: ways.iter().map(|way| (way.name.into(), of(way))).collect(),
+    };
+    vec![
+        table(
+            "schemes",
+            "Box while a seedling is picked",
+            "mm",
+            &["moves", "may move"],
+            &|way| {
+                let place = |input: f64| (way.at)(input).0.position;
+                vec![
+                    place(pick + half) - place(pick - half),
+                    design.pot_width / 6.0,
+                ]
+            },
+        ),
+        table(
+            "scheme-speeds",
+            "Speed over its mean",
+            "",
+            &["least", "greatest"],
+            &|way| {
+                let (slow, fast) = range(&|input| (way.at)(input).0.velocity / mean);
+                vec![slow, fast]
+            },
+        ),
+        table(
+            "scheme-accelerations",
+            "Acceleration on a stroke",
+            "m/s^2",
+            &["least", "greatest"],
+            &|way| {
+                let (least, greatest) = range(&|input| metres * (way.at)(input).0.acceleration);
+                vec![least, greatest]
+            },
+        ),
+        table(
+            "scheme-forces",
+            "Normal force on the slider",
+            "N",
+            &["least", "greatest"],
+            &|way| {
+                let (least, greatest) = range(&|input| {
+                    let (motion, lead) = (way.at)(input);
+                    load.force(motion, lead, radius).normal
+                });
+                vec![least, greatest]
+            },
+        ),
+    ]
+}
+
+/// Forces over one turn of a stroke by equilibrium, beside equations (14) and (15) of Zhou et al. 2018, which do
+/// not hold: see [`Load::published`](centrode_mechanism::shaft::Load::published).
+pub(super) fn forces(shaft: &SpiralShaft) -> Table {
+    let (load, radius) = (shaft.load(), shaft.groove().radius());
+    let row = |i: u32| {
+        let theta = FRAC_PI_4 * f64::from(i);
+        let motion = shaft.law().at(theta);
+        let lead = (motion.velocity / radius).atan();
+        let force = load.force(motion, lead, radius);
+        let (normal, transverse) = load.published(motion, lead);
+        let values = vec![force.normal, normal, force.transverse, transverse];
+        (format!("at {} deg", 45 * i), values)
+    };
+    Table {
+        name: "forces",
+        title: "Forces beside the paper's",
+        unit: "N",
+        columns: ["normal", "by (14)", "transverse", "by (15)"]
+            .map(String::from)
+            .to_vec(),
+        rows: (0..8).map(row).collect(),
+    }
+}

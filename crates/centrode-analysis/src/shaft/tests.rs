@@ -1,0 +1,95 @@
+use super::*;
+use centrode_mechanism::shaft::{EllipticGears, MovingBoxDesign, Scheme, SpiralShaftDesign};
+use std::f64::consts::PI;
+
+fn published() -> SpiralShaftDesign {
+    SpiralShaftDesign {
+        moved_distance: Some(2.05),
+        ..SpiralShaftDesign::default()
+    }
+}
+
+fn rules(report: &Report) -> Vec<&'static str> {
+    report.findings.iter().map(|f| f.rule).collect()
+}
+
+fn report(design: &SpiralShaftDesign) -> Report {
+    check_shaft(&SpiralShaft::resolve(design).expect("resolves"))
+}
+
+#[test]
+fn the_published_shaft_works_but_picks_on_its_crossings() {
+    let report = report(&published());
+    assert!(report.ok());
+    assert_eq!(rules(&report), ["crossing-while-picking", "flat-slider"]);
+    let offered = &report.findings[0].message;
+    assert!(offered.contains("return_offset = "), "{offered}");
+    assert!((report.values["moved_distance"] - 2.05).abs() < 1e-12);
+    assert!((report.values["contact_limit_rpm"] - 323.36).abs() < 0.01);
+    // The table of docs/moving-box.md, at 90 deg.
+    let row = &report.tables[0].rows[2];
+    assert_eq!(row.0, "at 90 deg");
+    for (value, printed) in row.1.iter().zip([21.248, 9.489, 6.489, 1.042]) {
+        assert!((value - printed).abs() < 5.1e-4, "{value} {printed}");
+    }
+    // A flat slider has left a groove on a shaft of 15 mm after 9.63 mm each way.
+    assert!((report.values["slider_guided_length"] - 19.261).abs() < 1e-3);
+}
+
+#[test]
+fn each_fault_is_found() {
+    let plain = report(&SpiralShaftDesign::default());
+    assert!(!plain.ok() && rules(&plain).contains(&"moved-distance"));
+    let mut design = published();
+    design.reversal.angle = PI;
+    let half = report(&design);
+    assert!(rules(&half).contains(&"misplaced-hole"));
+    assert!(rules(&half).contains(&"hole-not-picked-twice"));
+    let mut design = published();
+    design.slider.length = 30.0;
+    assert!(rules(&report(&design)).contains(&"slider-length"));
+    let mut design = published();
+    design.slider.clearance = 0.1;
+    assert!(rules(&report(&design)).contains(&"slider-clearance"));
+    let mut design = published();
+    design.load.speed_rpm = 330.0;
+    assert!(rules(&report(&design)).contains(&"contact-lost"));
+    let mut design = published();
+    (design.radius, design.groove.width, design.groove.depth) = (5.0, 4.0, 1.0);
+    (design.slider.reach, design.body.journal_diameter) = (0.8, 4.0);
+    design.slider.pin_diameter = 2.0;
+    (design.body.keyway, design.body.chamfer) = (None, 0.3);
+    assert!(rules(&report(&design)).contains(&"pressure-angle"));
+}
+
+#[test]
+fn the_elliptic_scheme_has_its_published_figures() {
+    let design = MovingBoxDesign {
+        scheme: Scheme::EllipticGear,
+        gears: Some(EllipticGears {
+            speed_ratio: Some(3.0),
+            ..EllipticGears::default()
+        }),
+        ..MovingBoxDesign::default()
+    };
+    let machine = MovingBox::resolve(&design).expect("resolves");
+    let report = check_moving_box(&machine);
+    assert!(report.ok(), "{:?}", report.findings);
+    assert!((report.values["moved_distance"] - 1.954_217).abs() < 1e-6);
+    assert!((report.values["box_contact_limit_rpm"] - 239.66).abs() < 0.01);
+    assert!((report.values["moved_distance_plain"] - 10.0 / 3.0).abs() < 1e-12);
+    let moved: Vec<f64> = report.tables[0].rows.iter().map(|row| row.1[0]).collect();
+    assert!((moved[0] - 10.0 / 3.0).abs() < 1e-12 && (moved[1] - moved[0]).abs() < 1e-12);
+    assert!((moved[2] - moved[3]).abs() < 1e-12);
+    let table = |name: &str| {
+        report
+            .tables
+            .iter()
+            .find(|t| t.name == name)
+            .expect("there")
+    };
+    let speeds = &table("scheme-speeds").rows[2].1;
+    assert!((speeds[0] - 0.577_350).abs() < 1e-6 && (speeds[1] - 1.732_051).abs() < 1e-6);
+    let forces = &table("scheme-forces").rows;
+    assert!((forces[0].1[0] - 15.373).abs() < 1e-3 && (forces[2].1[1] - 26.072).abs() < 1e-3);
+}
