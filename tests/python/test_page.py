@@ -31,6 +31,8 @@ FLAGS = [
 SHIPPED = sorted((ROOT / "tests" / "designs").glob("*.toml"))
 POINTS = ROOT / "tests" / "designs" / "transplanter-pair-2021.toml"
 
+ARMS = ROOT / "tests" / "designs" / "three-arm-2021.toml"
+
 
 @pytest.fixture(scope="module")
 def browser():
@@ -63,6 +65,15 @@ def points(browser, tmp_path):
     """The page of the pair whose pitch curve has control points, and its file."""
     design = tmp_path / "pair.toml"
     design.write_text(POINTS.read_text())
+    with studio(design) as running, shown(browser, running.url) as page:
+        yield page, design
+
+
+@pytest.fixture
+def arms(browser, tmp_path):
+    """The page of the three-arm mechanism, which has goals, and its file."""
+    design = tmp_path / "arms.toml"
+    design.write_text(ARMS.read_text())
     with studio(design) as running, shown(browser, running.url) as page:
         yield page, design
 
@@ -246,6 +257,46 @@ def test_the_export_is_a_zip(points, tmp_path):
     with zipfile.ZipFile(path) as files:
         assert {"driver.svg", "motion.csv", "report.json"} <= set(files.namelist())
         assert json.loads(files.read("report.json"))["values"]["module"] == float(figures(page)["module"])
+
+
+def searched(page):
+    """A search started and stopped at its first sign of life."""
+    status = page.locator("#search [role=status]")
+    page.locator("#search-method").select_option("de")
+    page.locator("#search-evaluations").fill("100000000")
+    page.locator("#search-start").click()
+    expect(status).to_contain_text("goals missed by")
+    expect(page.locator("#form")).to_have_attribute("inert", "")
+    page.locator("#search-stop").click()
+    expect(status).to_contain_text("stopped")
+
+
+def test_a_search_is_watched_stopped_dropped_and_taken(arms):
+    page, design = arms
+    before = figures(page)
+    page.locator("#optimise").click()
+    searched(page)
+    page.locator("#search-drop").click()
+    expect(page.locator(f'#figures td[data-exact="{before["center_distance"]}"]').first).to_be_visible()
+    expect(page.locator("#undo")).to_be_disabled()
+    searched(page)
+    page.locator("#search-take").click()
+    expect(page.locator("#file")).to_contain_text("not saved")
+    page.locator("#undo").click()
+    expect(page.locator("#file")).not_to_contain_text("not saved")
+    assert design.read_text() == ARMS.read_text()
+
+
+def test_the_goals_answer_a_number(arms):
+    page, _ = arms
+    page.locator("#response").click()
+    page.locator("#response-key").select_option("arm.tip_distance")
+    show = page.locator("#dialog").get_by_role("button", name="Show")
+    show.click()
+    expect(page.locator(".multiples .chart canvas")).to_have_count(9)
+    page.locator("#response-to").fill("1")
+    show.click()
+    expect(page.locator("#dialog [role=status]")).to_contain_text("the values must rise")
 
 
 def test_a_file_changed_on_disk_is_noticed_and_lost_work_offered(points):

@@ -21,7 +21,7 @@ macro_rules! assets {
 const STYLES: [Asset; 2] = assets!("text/css; charset=utf-8": "uplot.css", "page.css");
 
 /// The scripts; `main.js` is the one to start.
-const SCRIPTS: [Asset; 14] = assets!(
+const SCRIPTS: [Asset; 16] = assets!(
     "text/javascript; charset=utf-8":
     "uplot.js",
     "charts.js",
@@ -33,6 +33,8 @@ const SCRIPTS: [Asset; 14] = assets!(
     "history.js",
     "main.js",
     "motion.js",
+    "response.js",
+    "search.js",
     "server.js",
     "stage.js",
     "theme.js",

@@ -3,7 +3,9 @@
 mod document;
 mod guard;
 mod listener;
+mod response;
 mod routes;
+mod search;
 mod solver;
 mod watch;
 
@@ -19,6 +21,7 @@ use crate::args::Studio;
 use crate::failure::Failure;
 use document::Document;
 use guard::Guard;
+use search::Searching;
 use solver::Solver;
 use watch::Watch;
 
@@ -26,6 +29,7 @@ use watch::Watch;
 pub(crate) struct Desk {
     document: Document,
     solver: Solver,
+    searching: Searching,
     watch: Watch,
 }
 
@@ -51,6 +55,7 @@ pub(crate) fn run(command: &Studio, out: &mut impl Write) -> Result<ExitCode, Fa
     runtime.block_on(async {
         let desk = Arc::new(Desk {
             watch: Watch::default(),
+            searching: Searching::default(),
             solver: Solver::start().map_err(Failure::Serve)?,
             document,
         });

@@ -7,6 +7,7 @@ use axum::http::{StatusCode, header};
 use axum::response::{Html, IntoResponse, Response};
 use axum::routing::{get, post};
 use axum::{Json, Router};
+use centrode::analysis::optimise::Strategy;
 use centrode::export::page;
 use clap::{Parser as _, ValueEnum as _};
 use serde::Deserialize;
@@ -17,6 +18,7 @@ use tower_http::timeout::RequestBodyTimeoutLayer;
 use super::Desk;
 use super::document::SaveError;
 use super::guard::{self, Guard};
+use super::{response, search};
 use super::solver::Overtaken;
 use crate::args::{Arguments, Command, Export, File};
 use crate::export;
@@ -44,6 +46,8 @@ pub(crate) fn router(desk: Arc<Desk>, guard: Guard) -> Router {
         .route("/keep", post(keep).delete(forget))
         .route("/reread", post(reread))
         .route("/export", post(bundle))
+        .route("/search", get(searched).post(searching).delete(unsearched))
+        .route("/response", post(respond))
         .layer(RequestBodyTimeoutLayer::new(PATIENCE))
         .layer(RequestBodyLimitLayer::new(LARGEST))
         .with_state(desk);
@@ -100,6 +104,7 @@ async fn design(State(desk): Shared) -> Response {
         "text": document.text(),
         "recovered": document.recovered(),
         "formats": formats(),
+        "methods": Strategy::NAMES.map(|(name, _)| name),
     }))
     .into_response()
 }
@@ -193,6 +198,34 @@ async fn on_disk(
 async fn apart<T: Send + 'static>(job: impl FnOnce() -> T + Send + 'static) -> Result<T, Refused> {
     let done = tokio::task::spawn_blocking(job).await;
     done.map_err(|error| Refused::because(StatusCode::INTERNAL_SERVER_ERROR, error))
+}
+
+/// Starts a search for a better design.
+async fn searching(
+    State(desk): Shared,
+    Json(ask): Json<search::Ask>,
+) -> Result<Response, Refused> {
+    let started = apart(move || desk.searching.start(ask)).await?;
+    started.map_err(|reason| Refused::because(StatusCode::UNPROCESSABLE_ENTITY, reason))?;
+    Ok(Json(json!({})).into_response())
+}
+
+/// How far it is; null before the first.
+async fn searched(State(desk): Shared) -> Response {
+    Json(desk.searching.state()).into_response()
+}
+
+async fn unsearched(State(desk): Shared) -> Response {
+    desk.searching.stop();
+    Json(json!({})).into_response()
+}
+
+/// How the goals answer one number.
+async fn respond(Json(ask): Json<response::Ask>) -> Result<Response, Refused> {
+    let answers = apart(move || response::answers(&ask)).await?;
+    let answers =
+        answers.map_err(|reason| Refused::because(StatusCode::UNPROCESSABLE_ENTITY, reason))?;
+    Ok(Json(answers).into_response())
 }
 
 #[derive(Deserialize)]

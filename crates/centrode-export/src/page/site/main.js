@@ -7,6 +7,8 @@ import { Form } from "./form.js";
 import { Handles } from "./handles.js";
 import { History } from "./history.js";
 import { read } from "./motion.js";
+import * as response from "./response.js";
+import { Search } from "./search.js";
 import * as server from "./server.js";
 import { Stage } from "./stage.js";
 import * as theme from "./theme.js";
@@ -39,6 +41,8 @@ const charts = new Charts((input) => {
 });
 const form = new Form({ edit, fixed: Boolean(embedded) });
 const handles = embedded ? null : new Handles(stage, { edit, began: () => play(false) });
+
+let search = null;
 
 // Motion
 
@@ -118,10 +122,13 @@ function merged(curves, old) {
 function buttons() {
   const history = state.history;
   if (!history) return;
-  byId("undo").disabled = !history.canUndo;
-  byId("redo").disabled = !history.canRedo;
-  byId("reset").disabled = !history.dirty;
-  byId("save").disabled = !history.dirty;
+  // While a search shows its best, the design itself stays as it is.
+  const held = search?.showing;
+  byId("undo").disabled = held || !history.canUndo;
+  byId("redo").disabled = held || !history.canRedo;
+  byId("reset").disabled = held || !history.dirty;
+  byId("source").disabled = held;
+  byId("save").disabled = held || !history.dirty;
   byId("file").textContent = history.dirty ? `${state.file} — not saved` : state.file;
   document.title = `${history.dirty ? "• " : ""}${state.file} — centrode`;
 }
@@ -297,6 +304,7 @@ function listen() {
   theme.start(() => {
     stage.draw();
     charts.recolor();
+    search?.recolor();
   });
   if (embedded) return;
   byId("undo").addEventListener("click", () => step(state.history.undo()));
@@ -308,12 +316,14 @@ function listen() {
   byId("pin").addEventListener("click", pin);
   byId("save").addEventListener("click", () => save());
   byId("export").addEventListener("click", download);
+  byId("optimise").addEventListener("click", () => search.toggle());
+  byId("response").addEventListener("click", () => response.ask(state.snapshot, state.history.text));
   byId("source").addEventListener("click", async () => {
     const text = await dialogs.source(state.file, state.history.text, state.snapshot?.error);
     if (text !== null) replace(text);
   });
   addEventListener("keydown", (event) => {
-    if (!(event.ctrlKey || event.metaKey) || byId("dialog").open) return;
+    if (!(event.ctrlKey || event.metaKey) || byId("dialog").open || search?.showing) return;
     const key = event.key.toLowerCase();
     // Undo within a field being typed into is the browser's.
     const typing = event.target.matches?.("input[type=text]") && event.target.value !== event.target.dataset.value;
@@ -339,10 +349,18 @@ async function start() {
     show(snapshot);
     return;
   }
-  const { file, text, recovered, formats } = await server.design();
+  const { file, text, recovered, formats, methods } = await server.design();
   state.file = file;
   state.formats = formats;
   state.history = new History(text);
+  search = new Search(methods, {
+    text: () => state.history.text,
+    preview: (best) => request({ text: best, final: false }),
+    take: replace,
+    drop: () => request({ text: state.history.text, final: false }),
+    changed: buttons,
+    complain,
+  });
   buttons();
   replace(text);
   if (recovered) {

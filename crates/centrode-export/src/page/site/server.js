@@ -36,6 +36,10 @@ export const save = (text, over) => json(ask("save", "POST", { text, over }));
 export const keep = (text) => json(ask("keep", "POST", { text }));
 export const forget = () => json(ask("keep", "DELETE"));
 export const reread = () => json(ask("reread", "POST", {}));
+export const search = (options) => json(ask("search", "POST", options));
+export const searched = () => json(ask("search", "GET"));
+export const stopSearch = () => json(ask("search", "DELETE"));
+export const response = (options) => json(ask("response", "POST", options));
 export const files = async (options) => (await ask("export", "POST", options)).blob();
 export const solve = (request, signal) => json(ask("solve", "POST", request, signal));
 

@@ -1,0 +1,107 @@
+// How the goals answer one number of the design, as small multiples.
+
+import uPlot from "./uplot.js";
+import * as dialogs from "./dialogs.js";
+import { element } from "./elements.js";
+import * as server from "./server.js";
+import { color } from "./theme.js";
+
+const SIZE = { width: 250, height: 130 };
+
+/** Every number of the design that can be moved: key and value. */
+function numbers(snapshot) {
+  const found = [];
+  for (const field of snapshot.tables.flatMap((table) => table.fields)) {
+    if (typeof field.value === "number") found.push([field.key, field.value]);
+    if (Array.isArray(field.value)) {
+      field.value.forEach((value, i) => {
+        if (typeof value === "number") found.push([`${field.key}[${i}]`, value]);
+      });
+    }
+  }
+  return found;
+}
+
+/** A range about a value: a tenth of it to both sides. */
+function around(value) {
+  const reach = Math.abs(value) * 0.1 || 1;
+  return [value - reach, value + reach].map((end) => String(Number(end.toPrecision(6))));
+}
+
+const number = (input) => Number(input.value.trim().replace(",", "."));
+
+/** The dialog: which number, between which values; the answers below. */
+export async function ask(snapshot, text) {
+  const known = new Map(numbers(snapshot));
+  const key = element("select", { id: "response-key" }, ...[...known.keys()].map((name) => element("option", { value: name }, name)));
+  const from = element("input", { type: "text", inputmode: "decimal", class: "number", id: "response-from" });
+  const to = element("input", { type: "text", inputmode: "decimal", class: "number", id: "response-to" });
+  const place = element("div", { class: "multiples" });
+  const words = element("p", { class: "remark", role: "status" });
+  const reach = () => {
+    if (known.size) [from.value, to.value] = around(known.get(key.value));
+  };
+  key.addEventListener("change", reach);
+  reach();
+  const show = async () => {
+    words.textContent = "checking…";
+    place.replaceChildren();
+    try {
+      const answers = await server.response({ text, key: key.value, from: number(from), to: number(to) });
+      words.textContent = "";
+      for (const chart of answers.charts) draw(place, answers.values, chart, known.get(key.value));
+    } catch (error) {
+      words.replaceChildren(element("span", { class: "error" }, error.message));
+    }
+  };
+  await dialogs.ask("Response", [
+    element("p", { class: "option" }, element("label", { for: "response-key" }, "Number"), key),
+    element("p", { class: "option" }, element("label", { for: "response-from" }, "From"), from,
+      element("label", { for: "response-to" }, "to"), to,
+      element("button", { type: "button", class: "main", onclick: show }, "Show")),
+    words, place,
+  ], [["", "Close"]]);
+}
+
+function draw(place, values, chart, now) {
+  const box = element("div", { class: "plot" });
+  const ends = chart.wanted.filter((end) => end !== null);
+  place.append(element("figure", { class: "chart" },
+    element("figcaption", {}, element("b", {}, chart.title), chart.unit ? element("span", { class: "quiet" }, ` ${chart.unit}`) : null), box));
+  const axis = {
+    stroke: () => color("muted"),
+    grid: { stroke: () => color("grid"), width: 1 },
+    ticks: { show: false },
+    font: "11px system-ui, sans-serif",
+  };
+  const lines = (plot) => {
+    const { ctx } = plot;
+    const { left, top, width, height } = plot.bbox;
+    ctx.save();
+    ctx.lineWidth = devicePixelRatio;
+    ctx.setLineDash([4 * devicePixelRatio, 3 * devicePixelRatio]);
+    const stroke = (x0, y0, x1, y1, name) => {
+      ctx.strokeStyle = color(name);
+      ctx.beginPath();
+      ctx.moveTo(x0, y0);
+      ctx.lineTo(x1, y1);
+      ctx.stroke();
+    };
+    for (const end of ends) {
+      const y = plot.valToPos(end, "y", true);
+      if (y >= top && y <= top + height) stroke(left, y, left + width, y, "warning");
+    }
+    const x = plot.valToPos(now, "x", true);
+    if (x >= left && x <= left + width) stroke(x, top, x, top + height, "accent");
+    ctx.restore();
+  };
+  new uPlot({
+    ...SIZE,
+    legend: { show: false },
+    cursor: { show: false },
+    scales: { x: { time: false } },
+    series: [{}, { stroke: () => color("ink"), width: 1.5, points: { show: true, size: 4 }, spanGaps: false }],
+    axes: [{ ...axis, size: 20, gap: 2 }, { ...axis, size: 54, gap: 4, space: 26 }],
+    hooks: { draw: [lines] },
+  }, [values, chart.figures], box);
+}

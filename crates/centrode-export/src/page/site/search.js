@@ -1,0 +1,178 @@
+// The search for a better design: started, watched, stopped, taken or dropped.
+
+import uPlot from "./uplot.js";
+import { byId, element } from "./elements.js";
+import * as server from "./server.js";
+import { color } from "./theme.js";
+
+/** Time between two looks at a search, ms. */
+const EVERY = 400;
+const HEIGHT = 110;
+const ENDED = {
+  Target: "every goal is reached",
+  Evaluations: "the evaluations are used up",
+  Stopped: "stopped",
+  Stuck: "no step helps any more",
+};
+
+export class Search {
+  /**
+   * `design.text()` is the design to start from; `preview(text)` shows the best so far without taking it, `take(text)` takes
+   * it, `drop()` shows the design again; `changed()` is told when a search begins or ends to show.
+   */
+  constructor(methods, design) {
+    this.design = design;
+    this.place = byId("search");
+    this.best = null;
+    this.showing = false;
+    this.method = element("select", { id: "search-method" }, ...methods.map((name) => element("option", { value: name }, name)));
+    this.seed = element("input", { type: "text", inputmode: "numeric", class: "number", id: "search-seed", value: "1" });
+    this.evaluations = element("input", { type: "text", inputmode: "numeric", class: "number", id: "search-evaluations", value: "20000" });
+    this.start = element("button", { type: "button", class: "main", id: "search-start", onclick: () => this.begin() }, "Start");
+    this.stop = element("button", { type: "button", id: "search-stop", onclick: () => this.end() }, "Stop");
+    this.take = element("button", { type: "button", class: "main", id: "search-take", onclick: () => this.close(true) }, "Take");
+    this.drop = element("button", { type: "button", id: "search-drop", onclick: () => this.close(false) }, "Drop");
+    this.bar = element("progress", { max: 1, value: 0, "aria-label": "Evaluations done" });
+    this.words = element("p", { class: "detail", role: "status" });
+    this.box = element("div", { class: "plot" });
+    const row = (words, input) => element("p", { class: "option" }, element("label", { for: input.id }, words), input);
+    this.place.append(
+      element("h2", {}, "Optimise"),
+      row("Method", this.method), row("Seed", this.seed), row("Evaluations", this.evaluations),
+      element("div", { class: "buttons" }, this.start, this.stop, this.take, this.drop),
+      this.bar, this.words, this.box);
+    this.show(null);
+    // A page loaded anew finds its search again.
+    server.searched().then((state) => {
+      if (!state?.running) return;
+      this.toggle();
+      this.follow();
+    }).catch((error) => this.design.complain("search", error));
+  }
+
+  toggle() {
+    const open = this.place.hidden;
+    if (!open && this.showing) return;
+    this.place.hidden = !open;
+    byId("optimise").setAttribute("aria-expanded", String(open));
+    if (open) this.method.focus();
+  }
+
+  async begin() {
+    try {
+      await server.search({
+        text: this.design.text(),
+        method: this.method.value,
+        seed: whole(this.seed),
+        evaluations: whole(this.evaluations),
+      });
+      this.best = null;
+      await this.follow();
+    } catch (error) {
+      this.words.textContent = error.message;
+      this.words.classList.add("error");
+    }
+  }
+
+  end() {
+    server.stopSearch().catch((error) => this.design.complain("search", error));
+  }
+
+  /** Looks at the search until it ends. */
+  async follow() {
+    this.hold(true);
+    for (;;) {
+      const state = await server.searched();
+      if (!state || !this.showing) return;
+      this.show(state);
+      if (state.text !== this.best) {
+        this.best = state.text;
+        this.design.preview(state.text);
+      }
+      if (!state.running) return;
+      await new Promise((resume) => setTimeout(resume, EVERY));
+    }
+  }
+
+  /** Ends to show the best: it becomes the design, or the design is shown again. */
+  close(taken) {
+    this.end();
+    this.hold(false);
+    if (taken && this.best !== null) this.design.take(this.best);
+    else this.design.drop();
+    this.show(null);
+  }
+
+  /** The numbers of the design cannot be changed while the best so far is shown in their place. */
+  hold(on) {
+    this.showing = on;
+    document.body.classList.toggle("searching", on);
+    byId("form").inert = on;
+    this.design.changed();
+  }
+
+  show(state) {
+    const running = Boolean(state?.running);
+    this.start.hidden = Boolean(state);
+    this.stop.hidden = !running;
+    this.take.hidden = this.drop.hidden = !state || running;
+    for (const input of [this.method, this.seed, this.evaluations]) input.disabled = Boolean(state);
+    this.words.classList.remove("error");
+    this.bar.hidden = !state;
+    this.box.hidden = !state || state.history.length < 2;
+    if (!state) {
+      this.words.textContent = "";
+      return;
+    }
+    const last = state.history.at(-1);
+    const done = last?.evaluations ?? 0;
+    this.bar.value = Math.min(1, done / state.evaluations);
+    const worth = !last ? "" : last.violation > 0 ? `; goals missed by ${last.violation.toPrecision(4)}` : `; goals reached, objective ${last.objective.toPrecision(6)}`;
+    this.words.textContent = `${done} evaluations${worth}${state.ended ? `; ${ENDED[state.ended] ?? state.ended}` : ""}`;
+    if (!this.box.hidden) this.draw(state.history);
+  }
+
+  /** The history: what the goals are missed by, then the objective. */
+  draw(history) {
+    const data = [
+      history.map((p) => p.evaluations),
+      history.map((p) => (p.violation > 0 ? p.violation : null)),
+      history.map((p) => (p.violation > 0 ? null : p.objective)),
+    ];
+    const width = Math.max(this.box.clientWidth, 160);
+    if (this.plot) {
+      this.plot.setSize({ width, height: HEIGHT });
+      this.plot.setData(data);
+      return;
+    }
+    const axis = {
+      stroke: () => color("muted"),
+      grid: { stroke: () => color("grid"), width: 1 },
+      ticks: { show: false },
+      font: "11px system-ui, sans-serif",
+    };
+    this.plot = new uPlot({
+      width,
+      height: HEIGHT,
+      legend: { show: false },
+      cursor: { show: false },
+      scales: { x: { time: false } },
+      series: [
+        {},
+        { stroke: () => color("warning"), width: 1.5, points: { show: false } },
+        { stroke: () => color("good"), width: 1.5, points: { show: false } },
+      ],
+      axes: [{ ...axis, size: 20, gap: 2 }, { ...axis, size: 54, gap: 4, space: 26 }],
+    }, data, this.box);
+  }
+
+  recolor() {
+    this.plot?.redraw(false);
+  }
+}
+
+function whole(input) {
+  const value = Number(input.value.trim());
+  if (!Number.isSafeInteger(value) || value < 0) throw new Error(`${input.value} is no whole number`);
+  return value;
+}

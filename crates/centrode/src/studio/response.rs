@@ -1,0 +1,96 @@
+use centrode::analysis::{Goal, Response};
+use centrode::mechanism::design::DesignFile;
+use serde::{Deserialize, Serialize};
+
+/// Values at which the design is checked.
+const COUNT: u32 = 13;
+
+/// Most charts of a family without goals.
+const MOST: usize = 12;
+
+/// What the page asks for: one number of the design, between two values in the file's unit.
+#[derive(Deserialize)]
+pub(crate) struct Ask {
+    text: String,
+    key: String,
+    from: f64,
+    to: f64,
+}
+
+/// How the figures answer.
+#[derive(Debug, Serialize)]
+pub(crate) struct Answers {
+    values: Vec<f64>,
+    charts: Vec<Chart>,
+}
+
+/// One figure at each of the values.
+#[derive(Debug, Serialize)]
+struct Chart {
+    title: String,
+    unit: String,
+    /// None where there is no mechanism.
+    figures: Vec<Option<f64>>,
+    /// Least and greatest figure wanted.
+    wanted: [Option<f64>; 2],
+}
+
+/// Checks the design at every value.
+pub(crate) fn answers(ask: &Ask) -> Result<Answers, String> {
+    let file = DesignFile::read(ask.text.as_bytes()).map_err(|error| error.message())?;
+    if !(ask.from.is_finite() && ask.to.is_finite()) || ask.from >= ask.to {
+        let (from, to) = (ask.from, ask.to);
+        return Err(format!("the values must rise, but go from {from} to {to}"));
+    }
+    let step = (ask.to - ask.from) / f64::from(COUNT - 1);
+    let values: Vec<f64> = (0..COUNT)
+        .map(|i| ask.from + step * f64::from(i))
+        .collect();
+    let response =
+        Response::of(file.design(), &ask.key, &values).map_err(|error| error.message())?;
+    let goals: Vec<&Goal> = response
+        .reports
+        .iter()
+        .flatten()
+        .map(|report| &report.goals)
+        .next()
+        .map_or_else(Vec::new, |goals| goals.iter().collect());
+    let answers = response.answers();
+    let charts = if goals.is_empty() {
+        answers
+            .iter()
+            .filter(|answer| moves(&answer.figures))
+            .take(MOST)
+            .map(|answer| Chart {
+                title: answer.name.replace('_', " "),
+                unit: answer.unit.to_owned(),
+                figures: answer.figures.clone(),
+                wanted: [None, None],
+            })
+            .collect()
+    } else {
+        let chart = |goal: &&Goal| {
+            let answer = answers.iter().find(|answer| answer.name == goal.name)?;
+            let (factor, unit) = match goal.unit {
+                "rad" => (1.0_f64.to_degrees(), "deg"),
+                unit => (1.0, unit),
+            };
+            let scaled = |figure: &Option<f64>| figure.map(|figure| figure * factor);
+            Some(Chart {
+                title: format!("{}. {}", goal.number, goal.title),
+                unit: unit.to_owned(),
+                figures: answer.figures.iter().map(scaled).collect(),
+                wanted: goal.wanted.map(|end| scaled(&end)),
+            })
+        };
+        goals.iter().filter_map(chart).collect()
+    };
+    Ok(Answers { values, charts })
+}
+
+/// Whether a figure is more than a setting: it changes.
+fn moves(figures: &[Option<f64>]) -> bool {
+    let mut known = figures.iter().flatten();
+    let first = known.next();
+    known.any(|figure| Some(figure) != first)
+}

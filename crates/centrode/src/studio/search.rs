@@ -1,0 +1,152 @@
+use std::io;
+use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
+
+use centrode::analysis::optimise::{
+    DesignProblem, DesignSearch, Ended, Progress, Settings, Strategy, problem_of,
+};
+use centrode::mechanism::design::DesignFile;
+use serde::{Deserialize, Serialize};
+
+use crate::optimise::better;
+
+/// How often the best design so far is written out for the page.
+const SHOW: Duration = Duration::from_millis(400);
+
+/// Most points of the history that the page draws.
+const DRAWN: usize = 400;
+
+/// The search for a better design, on a thread of its own; there is one at a time.
+#[derive(Default)]
+pub(crate) struct Searching(Mutex<Option<Arc<Run>>>);
+
+/// What the page asks for.
+#[derive(Deserialize)]
+pub(crate) struct Ask {
+    text: String,
+    method: String,
+    seed: u64,
+    evaluations: u64,
+}
+
+/// How far a search is.
+#[derive(Clone, Debug, Serialize)]
+pub(crate) struct State {
+    method: String,
+    /// Most evaluations.
+    evaluations: u64,
+    running: bool,
+    ended: Option<Ended>,
+    /// The best at the ends of its generations, thinned out.
+    history: Vec<Progress>,
+    /// The best design so far, as a file.
+    text: String,
+}
+
+struct Run {
+    stop: AtomicBool,
+    state: Mutex<State>,
+}
+
+impl Run {
+    fn state(&self) -> MutexGuard<'_, State> {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn stopped(&self) -> bool {
+        self.stop.load(Ordering::Relaxed)
+    }
+
+    fn tell(&self, progress: Progress) {
+        let history = &mut self.state().history;
+        if history.len() >= DRAWN {
+            let mut odd = false;
+            history.retain(|_| {
+                odd = !odd;
+                odd
+            });
+        }
+        history.push(progress);
+    }
+}
+
+impl Searching {
+    fn run(&self) -> MutexGuard<'_, Option<Arc<Run>>> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Starts a search; one under way is stopped. The reason where there is none to start.
+    pub(crate) fn start(&self, ask: Ask) -> Result<(), String> {
+        let file = DesignFile::read(ask.text.as_bytes()).map_err(|error| error.message())?;
+        let problem = problem_of(file.design()).map_err(|error| error.to_string())?;
+        let strategy = Strategy::NAMES.iter().find(|(name, _)| *name == ask.method);
+        let Some(&(_, strategy)) = strategy else {
+            return Err(format!("unknown method {:?}", ask.method));
+        };
+        let settings = Settings {
+            seed: ask.seed,
+            evaluations: ask.evaluations,
+            ..Settings::default()
+        };
+        let search = DesignSearch::new(problem.as_ref(), strategy, settings)
+            .map_err(|error| error.to_string())?;
+        self.stop();
+        let run = Arc::new(Run {
+            stop: AtomicBool::new(false),
+            state: Mutex::new(State {
+                method: ask.method,
+                evaluations: ask.evaluations,
+                running: true,
+                ended: None,
+                history: Vec::new(),
+                text: ask.text.clone(),
+            }),
+        });
+        let own = Arc::clone(&run);
+        let thread: io::Result<_> = std::thread::Builder::new()
+            .name("search".into())
+            .spawn(move || work(&own, &ask.text, problem.as_ref(), search));
+        thread.map_err(|error| error.to_string())?;
+        *self.run() = Some(run);
+        Ok(())
+    }
+
+    /// How far the last search is; none before the first.
+    pub(crate) fn state(&self) -> Option<State> {
+        self.run().as_ref().map(|run| run.state().clone())
+    }
+
+    /// Stops at the end of the generation; the best so far is kept.
+    pub(crate) fn stop(&self) {
+        if let Some(run) = self.run().as_ref() {
+            run.stop.store(true, Ordering::Relaxed);
+        }
+    }
+}
+
+fn work(run: &Run, text: &str, problem: &dyn DesignProblem, mut search: DesignSearch) {
+    let ended = loop {
+        let due = Instant::now() + SHOW;
+        let mut shown = false;
+        let ended = search.run(problem, &mut |progress| {
+            run.tell(*progress);
+            shown = Instant::now() >= due;
+            if shown || run.stopped() {
+                ControlFlow::Break(())
+            } else {
+                ControlFlow::Continue(())
+            }
+        });
+        if let Ok(best) = better(text, problem, &search.best()) {
+            run.state().text = best;
+        }
+        if !shown || run.stopped() {
+            break ended;
+        }
+    };
+    let mut state = run.state();
+    state.running = false;
+    state.ended = Some(ended);
+}
