@@ -4,6 +4,7 @@ use centrode_export::BundleError;
 use centrode_export::cam::CamFilesError;
 use centrode_export::gear_pair::GearPairFilesError;
 use centrode_export::shaft::ShaftFilesError;
+use centrode_export::three_arm::ThreeArmFilesError;
 use centrode_geometry::{SolidError, Tolerance};
 use centrode_mechanism::cam;
 use centrode_mechanism::design::{self, DesignFault};
@@ -11,7 +12,7 @@ use centrode_mechanism::gear::design::SpecError;
 use centrode_mechanism::gear::{self, pitch};
 use centrode_mechanism::linkage::{FourBarError, SixBarError};
 use centrode_mechanism::shaft::ShaftError;
-use centrode_mechanism::three_arm::ThreeArmError;
+use centrode_mechanism::three_arm::{PusherError, ThreeArmError};
 use pyo3::exceptions::PyOSError;
 use pyo3::prelude::{PyErr, PyResult, Python};
 
@@ -95,6 +96,11 @@ pub(crate) fn of_shaft_files(error: &ShaftFilesError) -> PyErr {
     class::ExportError::new_err(error.to_string())
 }
 
+/// The exception of a three-arm mechanism's files that cannot be made.
+pub(crate) fn of_three_arm_files(error: &ThreeArmFilesError) -> PyErr {
+    class::ExportError::new_err(error.to_string())
+}
+
 /// A tolerance for what is exact at every one.
 pub(crate) fn plain_tolerance(mm: f64) -> PyResult<Tolerance> {
     let finest = 1e-9;
@@ -155,6 +161,11 @@ pub(crate) fn of_three_arm(error: &ThreeArmError) -> PyErr {
         ThreeArmError::Gears(error) => of_pair(error),
         _ => class::MechanismError::new_err((error.to_string(), error.key())),
     }
+}
+
+/// The exception of a push rod that cannot be moved.
+pub(crate) fn of_pusher(error: &PusherError) -> PyErr {
+    class::MechanismError::new_err((error.to_string(), error.key()))
 }
 
 /// The exception of a gear that is no solid.

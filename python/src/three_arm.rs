@@ -2,6 +2,8 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use centrode_analysis::check_three_arm;
+use centrode_export::Bundle;
+use centrode_export::three_arm as files;
 use centrode_mechanism::design::Design;
 use centrode_mechanism::gear::design::{BodySpec, TeethSpec};
 use centrode_mechanism::three_arm as mechanism;
@@ -14,13 +16,17 @@ use pyo3::prelude::{
     Bound, PyAny, PyAnyMethods, PyDictMethods, PyModule, PyRef, PyResult, Python, pyclass,
     pymethods,
 };
-use pyo3::types::{PyDict, PyTuple};
+use pyo3::types::{PyBytes, PyDict, PyTuple};
 
 use crate::array::{Values, each, each_row};
 use crate::body::Body;
 use crate::count::{Count, optional};
 use crate::design::{Loaded, path_loaded};
-use crate::error::{of_design, of_pair, of_three_arm, unknown_word};
+use crate::error::{
+    of_bundle, of_design, of_pair, of_pusher, of_three_arm, of_three_arm_files, plain_tolerance,
+    unknown_word,
+};
+use crate::format;
 use crate::gear_pair::GearPair;
 use crate::pitch::Pitch;
 use crate::place::addendum as addendum_of;
@@ -105,6 +111,32 @@ impl ThreeArm {
                 "arm {arm} of {arms}, counted from 0"
             )))
         }
+    }
+
+    fn bundle(
+        &self,
+        py: Python<'_>,
+        formats: Option<Vec<String>>,
+        parts: Option<Vec<String>>,
+        tolerance: f64,
+        (dxf_version, dxf_curves): (&str, &str),
+    ) -> PyResult<Bundle> {
+        let tolerance = plain_tolerance(tolerance)?;
+        let (formats, options) = format::within(tolerance, formats, dxf_version, dxf_curves)?;
+        let all = files::Part::ALL;
+        let parts = match parts {
+            None => all.to_vec(),
+            Some(words) => words
+                .iter()
+                .map(|word| {
+                    word.parse()
+                        .map_err(|_| unknown_word("parts", word, &all.map(files::Part::name)))
+                })
+                .collect::<PyResult<_>>()?,
+        };
+        let arms = Arc::clone(&self.0);
+        wait(py, move || files::files(&arms, &formats, &options, &parts))?
+            .map_err(|e| of_three_arm_files(&e))
     }
 
     fn of_tip<'py>(
@@ -441,6 +473,89 @@ impl ThreeArm {
             design: Arc::new(self.0.design().pair()),
             pair: Arc::new(pair),
         })
+    }
+
+    /// How far an arm's push rod is drawn back at carrier turns (rad), mm: 0 thrown out.
+    ///
+    /// Raises:
+    ///     MechanismError: Cam and fork cannot be.
+    ///
+    /// >>> import centrode as ct, numpy as np
+    /// >>> arms = ct.ThreeArm.from_toml(ct.template("three-arm"))
+    /// >>> arms.push_rod(np.radians([20, 191, 206, 221])).round(6) + 0.0
+    /// array([25. , 25. , 12.5,  0. ])
+    #[pyo3(signature = (theta, arm=0))]
+    fn push_rod<'py>(
+        &self,
+        py: Python<'py>,
+        theta: Values,
+        arm: u32,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let arm = self.arm(arm)?;
+        let arms = Arc::clone(&self.0);
+        let pusher = arms.pusher().map_err(|e| of_pusher(&e))?;
+        each(py, theta, move |theta| {
+            pusher.retraction(arms.own_input(theta, arm)).position
+        })
+    }
+
+    /// The files of the mechanism, name to contents, without writing them; `export` writes them.
+    ///
+    /// >>> import centrode as ct
+    /// >>> arms = ct.ThreeArm.from_toml(ct.template("three-arm"))
+    /// >>> list(arms.files(formats=["dxf"], parts=["sun", "cam"]))
+    /// ['sun.dxf', 'cam.dxf']
+    #[pyo3(signature = (*, formats=None, parts=None, tolerance=1e-3, dxf_version="R2010", dxf_curves="arcs"))]
+    fn files<'py>(
+        &self,
+        py: Python<'py>,
+        formats: Option<Vec<String>>,
+        parts: Option<Vec<String>>,
+        tolerance: f64,
+        dxf_version: &str,
+        dxf_curves: &str,
+    ) -> PyResult<Bound<'py, PyDict>> {
+        let written = (dxf_version, dxf_curves);
+        let bundle = self.bundle(py, formats, parts, tolerance, written)?;
+        let files = PyDict::new(py);
+        for (name, bytes) in bundle.files() {
+            files.set_item(name, PyBytes::new(py, bytes))?;
+        }
+        Ok(files)
+    }
+
+    /// Writes the mechanism's files into a directory, which is made if it is missing; gives their paths.
+    ///
+    /// Every part is written once, however many there are; every file whole or not at all, the same from run to run.
+    ///
+    /// Args:
+    ///     directory: Where to.
+    ///     formats: Any of "dxf", "svg", "sheet", "pdf", "stl", "step", "3mf", "csv", "urdf" and "mjcf"; all if left out.
+    ///     parts: Any of "sun", "intermediate", "planet", "cam", "fork", "roller", "carrier", "housing", "cover-rear",
+    ///         "cover-front", "clamp", "push-rod" and "assembly"; all if left out. Motion and models are of the whole.
+    ///     tolerance: Greatest distance of every arc, point sequence and mesh from the exact curve, mm.
+    ///     dxf_version: "R2010" or "R12".
+    ///     dxf_curves: "arcs" or "splines".
+    ///
+    /// Raises:
+    ///     ExportError: A part does not exist, or a file cannot be made or written.
+    #[pyo3(signature = (directory, *, formats=None, parts=None, tolerance=1e-3, dxf_version="R2010", dxf_curves="arcs"))]
+    #[expect(clippy::too_many_arguments, reason = "keyword arguments")]
+    fn export(
+        &self,
+        py: Python<'_>,
+        directory: PathBuf,
+        formats: Option<Vec<String>>,
+        parts: Option<Vec<String>>,
+        tolerance: f64,
+        dxf_version: &str,
+        dxf_curves: &str,
+    ) -> PyResult<Vec<PathBuf>> {
+        let written = (dxf_version, dxf_curves);
+        let bundle = self.bundle(py, formats, parts, tolerance, written)?;
+        // Not left behind to run out unheard: it changes the disk.
+        py.detach(|| bundle.write_to(&directory))
+            .map_err(|e| of_bundle(py, &e))
     }
 
     fn __repr__(&self) -> String {

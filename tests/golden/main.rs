@@ -9,7 +9,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use centrode_export::gear_pair::{Format, Options, files};
-use centrode_export::{Bundle, shaft};
+use centrode_export::{Bundle, shaft, three_arm};
 use centrode_geometry::Tolerance;
 use centrode_mechanism::design::DesignFile;
 use centrode_mechanism::mechanism::Mechanism;
@@ -79,7 +79,10 @@ fn written(mechanism: &Mechanism) -> BTreeMap<String, Value> {
             }
             Err(error) => BTreeMap::from([("refused".to_owned(), json!(error.to_string()))]),
         },
-        Mechanism::ThreeArm(_) => BTreeMap::new(),
+        Mechanism::ThreeArm(mechanism) => {
+            let bundle = three_arm::files(mechanism, &Format::ALL, &options, &three_arm::Part::ALL);
+            counted(&bundle.expect("written"))
+        }
         Mechanism::SpiralShaft(part) => {
             let bundle = shaft::files(part, &Format::ALL, &coarse()).expect("written");
             counted(&bundle)

@@ -1,11 +1,12 @@
 use std::f64::consts::TAU;
 
 use centrode_geometry::Tolerance;
-use centrode_mechanism::arm::{ArmBody, ArmBodySpec};
 use centrode_mechanism::gear::{Member, Soundness};
 use centrode_mechanism::three_arm::design::GoalsSpec;
 use centrode_mechanism::three_arm::{Figures, PickingRule, PlantingRule, ThreeArm};
 
+use crate::gear_train::check_gear_train;
+use crate::pusher::check_pusher;
 use crate::{ArmClearance, Finding, Goal, Place, Report, Severity, Table};
 
 /// How closely clearances of arms are told, as a share of the tip's distance from the planet's axis.
@@ -34,6 +35,11 @@ pub fn check_three_arm(mechanism: &ThreeArm) -> Report {
     if let Some(teeth) = teeth {
         tooth_findings(&teeth, &mut report);
     }
+    check_teeth(mechanism, &mut report);
+    check_pusher(mechanism, &mut report);
+    report
+        .findings
+        .sort_by_key(|finding| std::cmp::Reverse(finding.severity));
     report
 }
 
@@ -74,22 +80,42 @@ fn all_goals(
     goals
 }
 
-/// Clearances of arms with the default body in proportion to their reach; none where nothing is finite.
+/// The teeth of every mesh, where the design has any.
+fn check_teeth(mechanism: &ThreeArm, report: &mut Report) {
+    if mechanism.design().gear_tooth_count().is_none() {
+        return;
+    }
+    match mechanism.pair() {
+        Ok(pair) => check_gear_train(mechanism, &pair, report),
+        Err(error) => report.findings.push(Finding {
+            rule: "teeth",
+            severity: Severity::Error,
+            message: format!("no teeth can be cut: {}: {error}", error.key()),
+            measured: None,
+            required: None,
+            unit: "",
+            remedy: None,
+            place: Place::default(),
+        }),
+    }
+}
+
+/// Clearances of the arms; none where nothing is finite.
 fn arm_clearance(mechanism: &ThreeArm) -> Result<Option<ArmClearance>, Box<Finding>> {
-    let spec = &mechanism.design().arm;
-    let sizes = ArmBodySpec::in_proportion(spec.tip_distance);
-    let (reach, offset) = (spec.tip_distance, spec.pusher_offset);
-    let body = ArmBody::new(&sizes, reach, offset, spec.clamp_length).map_err(|error| Finding {
+    let body = mechanism.arm_body().map_err(|error| Finding {
         rule: "arm-body",
-        severity: Severity::Note,
-        message: format!("clearance of the arms is not told: {error}"),
+        severity: Severity::Warning,
+        message: format!("there is no such arm, so its clearance is not told: {error}"),
         measured: None,
         required: None,
         unit: "",
-        place: Place::default(),
+        place: Place {
+            part: Some("arm.body".into()),
+            ..Place::default()
+        },
         remedy: None,
     })?;
-    let tolerance = Tolerance::new(ARM_TOLERANCE * reach).ok();
+    let tolerance = Tolerance::new(ARM_TOLERANCE * mechanism.design().arm.tip_distance).ok();
     Ok(tolerance.and_then(|t| ArmClearance::of(mechanism, &body, t).ok()))
 }
 

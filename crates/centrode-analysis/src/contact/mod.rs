@@ -96,4 +96,15 @@ impl Contact {
         }
         out
     }
+
+    /// Analyses poses: driver angle and the driven angle asked for there, rad, wherever both come from.
+    #[must_use]
+    pub fn posed(pair: &GearPair, poses: &[[f64; 2]]) -> Self {
+        let mut meshing = Meshing::new(pair);
+        let mut out = Self::default();
+        for &[phi, law] in poses {
+            meshing.sample(phi, law, &mut out);
+        }
+        out
+    }
 }

@@ -79,7 +79,8 @@ impl<'a> Machine<'a> {
         let hole = Outline::circle(pin, 0.25 * self.pusher.fork_spec().slot_width);
         Some(
             self.plate(Part::PushRod, outline, vec![hole], rod.span, STEEL)
-                .noted("Drawn in the arm's frame, thrown out: the pusher's axis is"),
+                .noted("Drawn in the arm's frame, thrown out.")
+                .noted("Hole for the pin that runs in the fork's slot."),
         )
     }
 

@@ -1,1 +1,165 @@
+use std::collections::BTreeSet;
 
+use centrode_geometry::Tolerance;
+use centrode_mechanism::design::Design;
+use centrode_mechanism::three_arm::design::ThreeArmDesign;
+
+use super::*;
+use crate::gear_pair::Format;
+use crate::sheet::overlaps;
+
+fn mechanism(change: impl Fn(&mut ThreeArmDesign)) -> ThreeArm {
+    let text = Design::template("three-arm").expect("a template");
+    let Design::ThreeArm(mut design) = Design::from_toml(text).expect("sound") else {
+        panic!("a three-arm mechanism")
+    };
+    change(&mut design);
+    ThreeArm::resolve(&design).expect("a mechanism")
+}
+
+fn options() -> Options {
+    Options::new(Tolerance::new(1e-2).expect("positive"))
+}
+
+fn names(bundle: &Bundle) -> BTreeSet<String> {
+    bundle.files().map(|(name, _)| name.to_owned()).collect()
+}
+
+#[test]
+fn every_part_has_a_file_of_every_format_the_same_each_time() {
+    let machine = mechanism(|_| {});
+    let bundle = files(&machine, &Format::ALL, &options(), &Part::ALL).expect("written");
+    let names = names(&bundle);
+    for part in Part::ALL {
+        let endings: &[&str] = match part {
+            Part::Assembly => &["dxf", "svg"],
+            _ => &["dxf", "svg", "pdf", "step", "stl", "3mf"],
+        };
+        for ending in endings {
+            let name = format!("{part}.{ending}");
+            assert!(names.contains(&name), "{name}");
+        }
+        let sheets = names
+            .iter()
+            .any(|n| n.starts_with(&format!("{part}-sheet")));
+        assert_eq!(sheets, part != Part::Assembly, "{part}");
+    }
+    let machine_files = [
+        "machine.urdf",
+        "machine.xml",
+        "motion.csv",
+        "motion.json",
+        "play_mujoco.py",
+        "cam.csv",
+        "sun.csv",
+        "tray.stl",
+        "ground.stl",
+    ];
+    for name in machine_files {
+        assert!(names.contains(name), "{name}");
+    }
+    let again = files(&machine, &Format::ALL, &options(), &Part::ALL).expect("written");
+    assert!(bundle.files().eq(again.files()));
+}
+
+#[test]
+fn parts_and_formats_asked_for_are_all_that_is_written() {
+    let machine = mechanism(|_| {});
+    let some = files(
+        &machine,
+        &[Format::Dxf],
+        &options(),
+        &[Part::Cam, Part::Planet],
+    );
+    let some = some.expect("written");
+    let expected = ["cam.dxf", "planet.dxf"].map(String::from);
+    assert_eq!(names(&some), BTreeSet::from(expected));
+    for part in Part::ALL {
+        assert_eq!(part.name().parse::<Part>(), Ok(part));
+    }
+    let error = "arm".parse::<Part>().expect_err("no such part");
+    assert!(error.to_string().contains("push-rod"), "{error}");
+}
+
+#[test]
+fn words_touch_nothing_on_the_sheets_of_plates() {
+    let machine = mechanism(|_| {});
+    let machine = Machine::new(&machine).expect("resolved");
+    let design = machine.mechanism.design();
+    let tolerance = options().tolerance;
+    let mut seen = 0;
+    for plate in Part::ALL.into_iter().filter_map(|p| machine.plate_of(p)) {
+        let spec = (&design.drawing, design.title.as_str());
+        let sheets = plate.sheets(spec, &options().sheet, tolerance);
+        for sheet in sheets.expect("laid out") {
+            assert_eq!(overlaps(&sheet), [], "{}", plate.part);
+            seen += 1;
+        }
+    }
+    assert!(seen >= 9, "{seen}");
+}
+
+#[test]
+fn meshes_are_closed_and_as_large_as_their_solids() {
+    let machine = mechanism(|_| {});
+    let machine = Machine::new(&machine).expect("resolved");
+    let tolerance = options().tolerance;
+    for plate in Part::ALL.into_iter().filter_map(|p| machine.plate_of(p)) {
+        let (solid, mesh) = (plate.solid(), plate.mesh(tolerance).expect("apart"));
+        let volume = solid.expect("a solid").volume();
+        assert!(mesh.is_watertight(), "{}", plate.part);
+        assert!(
+            (mesh.volume() / volume - 1.0).abs() < 5e-3,
+            "{}",
+            plate.part
+        );
+    }
+    let simulated = simulator::simulated(&machine, tolerance).expect("a model");
+    for (name, mesh) in &simulated.meshes {
+        assert!(mesh.is_watertight() && mesh.volume() > 0.0, "{name}");
+    }
+}
+
+#[test]
+fn the_model_has_every_link_once_and_every_law_a_joint() {
+    for arms in [1, 3, 4] {
+        let machine = mechanism(|d| d.arms = arms);
+        let machine = Machine::new(&machine).expect("resolved");
+        let simulated = simulator::simulated(&machine, options().tolerance).expect("a model");
+        let model = simulated.model;
+        // Base, tray, ground, carrier, sun; gears, cam, arm, fork and rod of each chain.
+        assert_eq!(model.links.len() as u32, 5 + 6 * arms);
+        assert_eq!(model.joints.len() + 1, model.links.len());
+        for law in motion::laws(&machine) {
+            assert!(
+                model.joints.iter().any(|j| j.name == law.joint),
+                "{}",
+                law.joint
+            );
+        }
+        assert!(mjcf::write(&model).is_ok() && urdf::write(&model).is_ok());
+    }
+}
+
+#[test]
+fn what_cannot_be_made_is_refused_by_name() {
+    let none = mechanism(|d| d.arm.pusher_offset = 10.0);
+    let error = files(&none, &[Format::Dxf], &options(), &Part::ALL).expect_err("no fork");
+    assert!(
+        error.to_string().starts_with("fork.pivot_distance"),
+        "{error}"
+    );
+    let coarse = Options::new(Tolerance::new(1.0).expect("positive"));
+    let error = files(&mechanism(|_| {}), &[Format::Dxf], &coarse, &Part::ALL);
+    assert!(matches!(error, Err(ThreeArmFilesError::Tolerance { .. })));
+    let without = mechanism(|d| d.tooth_count = None);
+    let error = files(&without, &[Format::Dxf], &options(), &Part::ALL).expect_err("no teeth");
+    assert!(error.to_string().contains("tooth_count"), "{error}");
+    let thin = mechanism(|d| {
+        let mut body = centrode_mechanism::arm::ArmBodySpec::default();
+        body.clamp.root_height = 22.0;
+        d.arm.body = Some(body);
+    });
+    let error = files(&thin, &[Format::Dxf], &options(), &Part::ALL).expect_err("no arm");
+    assert!(error.to_string().contains("arm.body"), "{error}");
+}

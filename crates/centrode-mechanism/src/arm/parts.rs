@@ -327,7 +327,7 @@ fn parts(spec: &ArmBodySpec, contour: &Contour) -> Vec<ArmPart> {
     // Thrown out, the pusher reaches to where the flakes are rounded off.
     let face = contour.tip - contour.end;
     let neck = face - rod.pusher_length;
-    let bar = contour.bar(contour.rear, neck, 0.5 * rod.diameter);
+    let bar = contour.bar(spec.rod_end(), neck, 0.5 * rod.diameter);
     add("push-rod", Some(bar), Vec::new(), half(rod.diameter));
     let pusher = contour.bar(neck, face, 0.5 * rod.pusher_height);
     add("pusher", Some(pusher), Vec::new(), half(rod.diameter));

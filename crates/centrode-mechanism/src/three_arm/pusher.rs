@@ -91,6 +91,16 @@ pub enum PusherError {
         /// The room inside the rear cover, mm.
         room: f64,
     },
+    /// The rod is too short behind for the fork's pin.
+    #[error(
+        "thrown out, the fork's pin is {pin} mm before the planet's axis, but the rod begins at {rod} mm: lengthen arm.body.housing.tube_back or shorten the stroke"
+    )]
+    RodEnd {
+        /// Where the pin is along the pusher's axis, mm.
+        pin: f64,
+        /// Where the rod begins, with room for the pin's hole, mm.
+        rod: f64,
+    },
     /// The roller at its highest strikes the housing's drum.
     #[error(
         "the roller reaches {reach} mm from the planet's axis, but the housing leaves {room} mm"
@@ -123,6 +133,7 @@ impl PusherError {
             Self::Pivot { .. } => "fork.pivot_distance".into(),
             Self::Holes { .. } => "fork.arm_length".into(),
             Self::Depth { .. } => "cam.body.width".into(),
+            Self::RodEnd { .. } => "arm.body.housing.tube_back".into(),
         }
     }
 }
@@ -187,6 +198,10 @@ impl Pusher {
         }
         let spans = Spans::of(spec, &fork, sizes)?;
         let stroke = sizes.push_rod.stroke;
+        let (pin, rod) = (0.5 * stroke, sizes.rod_end() + fork.slot_width);
+        if pin < rod {
+            return Err(PusherError::RodEnd { pin, rod });
+        }
         let side = if offset < 0.0 { -1.0 } else { 1.0 };
         let follower = Fork {
             roller_radius: fork.roller_radius,

@@ -1,0 +1,232 @@
+//! The gears of a three-arm mechanism: every mesh, and the gears that must not touch.
+
+use std::f64::consts::TAU;
+
+use centrode_geometry::{Tolerance, Vector};
+use centrode_mechanism::gear::{GearPair, Member};
+use centrode_mechanism::three_arm::{Link, ThreeArm};
+
+use crate::interference::{Body, Clearance, Motion, Moving, PoseJet, Tabulated, least_clearance};
+use crate::{ArmClearanceError, Contact};
+use crate::{Finding, Place, Report, Severity, check_contact};
+
+/// Carrier turns at which each mesh is looked at.
+const LOOKS: u32 = 360;
+/// Turn of a gear, rad, by which a mesh may be off its teeth: rounding.
+const PHASE: f64 = 1e-9;
+/// Cells of a cycle between which gears move as cubics say.
+const CELLS: usize = 720;
+/// How closely clearances of gears are told, in modules.
+const TOLERANCE: f64 = 1e-3;
+
+/// Checks the teeth of every mesh and the clearance of gears that are not in mesh.
+///
+/// All meshes of all chains are poses of the one pair of sun and intermediate gear, which is shown here from
+/// the links' poses alone; its contact analysis over a whole cycle is then that of every mesh.
+pub(crate) fn check_gear_train(mechanism: &ThreeArm, pair: &GearPair, report: &mut Report) {
+    let (off, input) = phase_error(mechanism, pair);
+    report.values.insert("mesh_phase_error_max", off);
+    if off > PHASE {
+        report.findings.push(Finding {
+            rule: "tooth-phase",
+            severity: Severity::Error,
+            message: "the teeth of a mesh do not meet those of its mate".into(),
+            measured: Some(off),
+            required: Some(PHASE),
+            unit: "rad",
+            remedy: None,
+            place: Place {
+                input: Some(input),
+                ..Place::default()
+            },
+        });
+    }
+    let contact = Contact::of(pair);
+    let of_pair = check_contact(pair, &contact);
+    for name in [
+        "transmission_error_max",
+        "overlap_max",
+        "contact_ratio_min",
+        "contact_ratio_max",
+        "contact_ratio_mean",
+        "backlash_min",
+        "backlash_max",
+    ] {
+        if let Some(figure) = of_pair.values.get(name) {
+            report.values.insert(name, *figure);
+        }
+    }
+    let of_mesh = ["interference", "disengaged", "contact-lost"];
+    let found = of_pair.findings.into_iter();
+    report
+        .findings
+        .extend(
+            found
+                .filter(|finding| of_mesh.contains(&finding.rule))
+                .map(|finding| Finding {
+                    message: format!("every mesh: {}", finding.message),
+                    place: Place {
+                        // At the sun's polar angle, which is the carrier's turn.
+                        part: Some("gears".into()),
+                        ..finding.place
+                    },
+                    ..finding
+                }),
+        );
+    apart(mechanism, pair, report);
+}
+
+/// Greatest angle by which a mesh is off the pair's own law at any look, rad, and the carrier turn.
+fn phase_error(mechanism: &ThreeArm, pair: &GearPair) -> (f64, f64) {
+    let mut worst = (0.0, 0.0);
+    for mesh in mechanism.meshes() {
+        for i in 0..LOOKS {
+            let input = TAU * f64::from(i) / f64::from(LOOKS);
+            let pose = mechanism.mesh_pose(mesh, input);
+            let off = pose.driven - pair.driven_angle(pose.driver);
+            let off = (off - TAU * (off / TAU).round()).abs();
+            if off > worst.0 {
+                worst = (off, input);
+            }
+        }
+    }
+    worst
+}
+
+/// Gears that are not in mesh: how far they keep from each other.
+fn apart(mechanism: &ThreeArm, pair: &GearPair, report: &mut Report) {
+    let least = match gear_clearance(mechanism, pair) {
+        Ok(Some(least)) => least,
+        Ok(None) | Err(_) => return,
+    };
+    report.values.insert("gear_clearance", least.bound);
+    let Some(found) = least.found.filter(|found| found.least <= 0.0) else {
+        return;
+    };
+    report.findings.push(Finding {
+        rule: "gears-collide",
+        severity: Severity::Error,
+        message: format!(
+            "{} and {} run into each other",
+            least.pair[0], least.pair[1]
+        ),
+        measured: Some(found.least),
+        required: Some(0.0),
+        unit: "mm",
+        remedy: Some("a smaller bend, fewer arms, or a pitch curve of a smaller greatest radius"),
+        place: Place {
+            part: Some("gears".into()),
+            input: Some(found.input),
+            ..Place::default()
+        },
+    });
+}
+
+/// The nearest two gears that are not in mesh.
+pub(crate) struct GearClearance {
+    /// What they are.
+    pair: [String; 2],
+    /// No gears come nearer than this, mm: their tip circles, or better.
+    bound: f64,
+    /// Proven over a cycle, where the tip circles do not tell.
+    found: Option<Clearance>,
+}
+
+/// The least clearance of gears that are not in mesh, over a whole cycle.
+///
+/// Seen from the carrier gears only turn. Where the tip circles of two are apart, that is enough.
+fn gear_clearance(
+    mechanism: &ThreeArm,
+    pair: &GearPair,
+) -> Result<Option<GearClearance>, ArmClearanceError> {
+    let arms = mechanism.arms();
+    let mut all = vec![Link::Sun];
+    all.extend((0..arms).flat_map(|k| [Link::Intermediate(k), Link::Planet(k)]));
+    let in_mesh = |a: Link, b: Link| match (a, b) {
+        (Link::Sun, Link::Intermediate(_)) => true,
+        (Link::Intermediate(j), Link::Planet(k)) | (Link::Planet(j), Link::Intermediate(k)) => {
+            j == k
+        }
+        _ => false,
+    };
+    let mut nearest: Option<GearClearance> = None;
+    for (i, &a) in all.iter().enumerate() {
+        for &b in &all[i + 1..] {
+            // Chains repeat the first one: one of the two is the sun or of it.
+            let first = matches!(
+                (a, b),
+                (Link::Sun | Link::Intermediate(0) | Link::Planet(0), _)
+            );
+            if in_mesh(a, b) || !first {
+                continue;
+            }
+            let here = between(mechanism, pair, [a, b])?;
+            if nearest.as_ref().is_none_or(|n| here.bound < n.bound) {
+                nearest = Some(here);
+            }
+        }
+    }
+    Ok(nearest)
+}
+
+fn between(
+    mechanism: &ThreeArm,
+    pair: &GearPair,
+    links: [Link; 2],
+) -> Result<GearClearance, ArmClearanceError> {
+    let gear = |link: Link| match link {
+        Link::Intermediate(_) => pair.gear(Member::Driven),
+        _ => pair.gear(Member::Driver),
+    };
+    let axes = links.map(|link| mechanism.on_carrier(link));
+    let tips = links.map(|link| gear(link).radii().1);
+    let name = |link: Link| match link {
+        Link::Sun => "the sun".to_owned(),
+        Link::Intermediate(k) => format!("intermediate gear {}", k + 1),
+        Link::Planet(k) => format!("planet {}", k + 1),
+        Link::Carrier | Link::Arm(_) => "the carrier".to_owned(),
+    };
+    let mut clearance = GearClearance {
+        pair: links.map(name),
+        bound: (axes[1] - axes[0]).norm() - tips[0] - tips[1],
+        found: None,
+    };
+    let tolerance = TOLERANCE * pair.module();
+    let Ok(tolerance) = Tolerance::new(tolerance) else {
+        return Ok(clearance);
+    };
+    if clearance.bound > 0.0 {
+        return Ok(clearance);
+    }
+    let bodies = [
+        Body::new(std::slice::from_ref(gear(links[0]).outline()), tolerance)?,
+        Body::new(std::slice::from_ref(gear(links[1]).outline()), tolerance)?,
+    ];
+    let motion = |link: Link, at: centrode_geometry::Point| {
+        Tabulated::new([0.0, TAU], CELLS, |input| {
+            let (gear, carrier) = (
+                mechanism.link(link, input).angle,
+                mechanism.link(Link::Carrier, input).angle,
+            );
+            PoseJet {
+                position: at,
+                angle: gear.position - carrier.position,
+                velocity: Vector::zeros(),
+                turning: gear.velocity - carrier.velocity,
+            }
+        })
+    };
+    let motions = [motion(links[0], axes[0])?, motion(links[1], axes[1])?];
+    let moving = [0, 1].map(|i| Moving {
+        body: &bodies[i],
+        motion: &motions[i] as &dyn Motion,
+    });
+    clearance.found = least_clearance(&moving, &[[0, 1]], [0.0, TAU], tolerance)?;
+    if let Some(found) = clearance.found {
+        clearance.bound = clearance.bound.max(found.lower_bound);
+    }
+    Ok(clearance)
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,109 @@
+//! What a check says of the cams and forks that move the push rods of transplanting arms.
+
+use std::f64::consts::PI;
+
+use centrode_mechanism::three_arm::ThreeArm;
+
+use crate::{Finding, Place, Report, Severity};
+
+/// Pressure angle, rad, up to which a swinging follower runs well while it is lifted. VDI 2142 part 2.
+const PRESSURE_ANGLE: f64 = PI / 4.0;
+
+/// Checks cam and fork; the return is left to the spring, which no pressure angle hinders.
+pub(crate) fn check_pusher(mechanism: &ThreeArm, report: &mut Report) {
+    let place = |input| Place {
+        part: Some("cam".into()),
+        input,
+        ..Place::default()
+    };
+    let pusher = match mechanism.pusher() {
+        Ok(pusher) => pusher,
+        Err(error) => {
+            report.findings.push(Finding {
+                rule: "pusher",
+                severity: Severity::Warning,
+                message: format!("nothing moves the push rods: {}: {error}", error.key()),
+                measured: None,
+                required: None,
+                unit: "",
+                remedy: None,
+                place: place(None),
+            });
+            return;
+        }
+    };
+    let limits = pusher.cam().disc().limits();
+    let values = &mut report.values;
+    values.insert("cam_pressure_angle_max", limits.rise_pressure_angle.value);
+    values.insert("cam_radius_min", limits.least_radius.value);
+    values.insert("cam_hollow_radius_min", limits.largest_wheel.value);
+    values.insert("push_rod_stroke", pusher.stroke());
+    if limits.regularity.value <= 0.0 {
+        report.findings.push(Finding {
+            rule: "cam-undercut",
+            severity: Severity::Warning,
+            message: "the cam is undercut: the rod cannot follow its motion there".into(),
+            measured: Some(limits.least_radius.value),
+            required: Some(0.0),
+            unit: "mm",
+            remedy: Some("a longer cam.closing_deg or cam.release_deg, a larger cam.base_radius, or a smaller roller"),
+            place: place(Some(limits.regularity.input)),
+        });
+    }
+    if limits.rise_pressure_angle.value > PRESSURE_ANGLE {
+        report.findings.push(Finding {
+            rule: "cam-pressure-angle",
+            severity: Severity::Note,
+            message: format!(
+                "while the cam draws the rod back it pushes up to {:.1} deg off the fork's way",
+                limits.rise_pressure_angle.value.to_degrees()
+            ),
+            measured: Some(limits.rise_pressure_angle.value),
+            required: Some(PRESSURE_ANGLE),
+            unit: "rad",
+            remedy: Some("a longer cam.closing_deg or a larger cam.base_radius"),
+            place: place(Some(limits.rise_pressure_angle.input)),
+        });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use centrode_mechanism::design::Design;
+    use centrode_mechanism::three_arm::design::{PusherCamSpec, ThreeArmDesign};
+
+    fn checked(change: impl Fn(&mut ThreeArmDesign)) -> Report {
+        let text = Design::template("three-arm").expect("a template");
+        let Design::ThreeArm(mut design) = Design::from_toml(text).expect("sound") else {
+            panic!("a three-arm mechanism")
+        };
+        change(&mut design);
+        let mechanism = ThreeArm::resolve(&design).expect("a mechanism");
+        let mut report = Report::default();
+        check_pusher(&mechanism, &mut report);
+        report
+    }
+
+    #[test]
+    fn the_usual_cam_is_sound_and_a_hasty_one_is_told() {
+        let usual = checked(|_| {});
+        assert!(usual.findings.is_empty(), "{:?}", usual.findings);
+        assert!(usual.values["cam_radius_min"] > 1.5);
+        let hasty = checked(|d| {
+            d.cam = Some(PusherCamSpec {
+                closing: 0.1,
+                release: 0.1,
+                ..PusherCamSpec::default()
+            });
+        });
+        let rules: Vec<&str> = hasty.findings.iter().map(|f| f.rule).collect();
+        assert!(rules.contains(&"cam-undercut"), "{rules:?}");
+        let pressure = |report: &Report| report.values["cam_pressure_angle_max"];
+        assert!(pressure(&hasty) > 1.3 * pressure(&usual));
+        let steep = pressure(&hasty) > PRESSURE_ANGLE;
+        assert_eq!(rules.contains(&"cam-pressure-angle"), steep);
+        let none = checked(|d| d.arm.pusher_offset = 10.0);
+        assert_eq!(none.findings[0].rule, "pusher");
+    }
+}

@@ -1,0 +1,142 @@
+"""The files of the three-arm mechanism, read back by others: ezdxf, trimesh, yourdfpy, MuJoCo."""
+
+import io
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import centrode as ct
+import numpy as np
+import pytest
+
+DESIGN = Path(__file__).resolve().parents[2] / "tests" / "designs" / "three-arm-2021.toml"
+PARTS = ["sun", "intermediate", "planet", "cam", "fork", "roller", "carrier", "housing", "cover-rear", "cover-front"]
+PARTS += ["clamp", "push-rod"]
+
+
+@pytest.fixture(scope="module")
+def arms():
+    return ct.ThreeArm.load(DESIGN)
+
+
+@pytest.fixture(scope="module")
+def folder(arms, tmp_path_factory):
+    folder = tmp_path_factory.mktemp("arms")
+    arms.export(folder)
+    return folder
+
+
+def test_options_reach_the_writers(arms, tmp_path):
+    files = arms.files(formats=["dxf", "stl"], parts=["cam", "fork"], tolerance=0.01)
+    assert list(files) == ["cam.dxf", "cam.stl", "fork.dxf", "fork.stl"]
+    with pytest.raises(ct.DesignError, match="parts"):
+        arms.export(tmp_path / "out", parts=["driver"])
+    assert not (tmp_path / "out").exists()
+
+
+def test_drawings_and_sheets_are_clean(folder):
+    ezdxf = pytest.importorskip("ezdxf")
+    drawings = sorted(folder.glob("*.dxf"))
+    assert len(drawings) >= 2 * len(PARTS)
+    for path in drawings:
+        document = ezdxf.readfile(path)
+        assert not document.audit().has_errors, path.name
+    for part in PARTS:
+        space = ezdxf.readfile(folder / f"{part}.dxf").modelspace()
+        assert len(space.query('*[layer=="PROFILE"]')) == 1, part
+
+
+def test_solids_are_closed(folder):
+    trimesh = pytest.importorskip("trimesh")
+    for part in PARTS:
+        mesh = trimesh.load(folder / f"{part}.stl")
+        assert mesh.is_watertight, part
+        assert mesh.volume > 0, part
+
+
+def test_the_cam_table_is_on_the_drawn_profile(folder):
+    ezdxf = pytest.importorskip("ezdxf")
+    table = np.genfromtxt(folder / "cam.csv", delimiter=",", names=True, dtype=None, encoding="utf-8")
+    (profile,) = ezdxf.readfile(folder / "cam.dxf").modelspace().query('LWPOLYLINE[layer=="PROFILE"]')
+    from ezdxf.path import make_path
+
+    points = np.array([(p.x, p.y) for p in make_path(profile).flattening(1e-4)])
+    a, b = points, np.roll(points, -1, axis=0)
+    for row in table[::15]:
+        if row["state"] != "sound":
+            continue
+        p = np.array([row["x_mm"], row["y_mm"]])
+        t = np.clip(((p - a) * (b - a)).sum(1) / np.maximum(((b - a) ** 2).sum(1), 1e-30), 0, 1)
+        off = np.linalg.norm(a + t[:, None] * (b - a) - p, axis=1).min()
+        assert off < 2.5e-3
+
+
+def test_mujoco_follows_our_tips(arms, folder):
+    pytest.importorskip("mujoco")
+    run = [sys.executable, str(folder / "play_mujoco.py"), "--check"]
+    found = json.loads(subprocess.run(run, check=True, capture_output=True, text=True).stdout)
+    assert found["tip_off_max_m"] < 1e-6
+    # The table itself is ours, and between rows straight lines are as near as it says.
+    table = np.genfromtxt(folder / "motion.csv", delimiter=",", names=True)
+    about = json.loads((folder / "motion.json").read_text())
+    theta = table["carrier_turn_rad"]
+    middle = (theta[1:] + theta[:-1]) / 2
+    for arm in range(3):
+        ours = arms.tip(theta, arm)
+        written = np.column_stack([table[f"tip_{arm}_x_mm"], table[f"tip_{arm}_y_mm"]])
+        assert np.abs(ours - written).max() < 1e-9
+        planet = table[f"planet_{arm}_rad"]
+        between = np.interp(middle, theta, planet)
+        pose = arms.pose(middle)
+        exact = pose[f"planet-{arm}"][:, 2] - pose["carrier"][:, 2]
+        assert 145 * np.abs(between - exact).max() < 1.01 * about["interpolation"]["error_max_mm"]
+        rod = np.interp(middle, theta, table[f"push_rod_{arm}_mm"])
+        assert np.abs(rod + arms.push_rod(middle, arm)).max() < 1.01e-3
+
+
+def test_yourdfpy_reads_the_machine(arms, folder):
+    yourdfpy = pytest.importorskip("yourdfpy")
+    robot = yourdfpy.URDF.load(str(folder / "machine.urdf"))
+    assert len(robot.link_map) == 5 + 6 * 3
+    assert "mimic joints are affine" in (folder / "machine.urdf").read_text()
+    table = np.genfromtxt(folder / "motion.csv", delimiter=",", names=True)
+    about = json.loads((folder / "motion.json").read_text())
+    tip = np.array([*about["tip_in_arm_mm"], 0, 1e3]) * 1e-3
+    for row in table[:: len(table) // 7]:
+        robot.update_cfg({j["name"]: row[j["column"]] * j["factor"] for j in about["joints"]})
+        for arm in range(3):
+            at = robot.get_transform(f"arm_{arm}", "base") @ tip
+            ours = arms.tip(row["carrier_turn_rad"], arm) * 1e-3
+            assert np.abs(at[:2] - ours).max() < 1e-9
+
+
+def test_teeth_alone_carry_a_chain(tmp_path):
+    pytest.importorskip("mujoco")
+    gentle = ct.ThreeArm(
+        ct.pitch.limacon(mean_radius=45, amplitude=7),
+        carrier_start=1.5,
+        bend=-0.9,
+        arm_mounting_angle=-0.5,
+        tip_distance=145,
+        pusher_offset=65,
+        tooth_count=36,
+        backlash=0.02,
+        sun=ct.Body(width=12, bore=10),
+        intermediate=ct.Body(width=12, bore=10),
+        planet=ct.Body(width=12, bore=10),
+    )
+    gentle.export(tmp_path, formats=["mjcf"])
+    run = [sys.executable, str(tmp_path / "play_mujoco.py"), "--check", "--contact", "--speed", "2"]
+    run += ["--save", str(tmp_path / "found.csv")]
+    found = json.loads(subprocess.run(run, check=True, capture_output=True, text=True).stdout)
+    assert found["off_law_max_deg"] < 0.05
+    assert found["overlap_max_mm"] < 0.01
+    rows = np.genfromtxt(io.StringIO((tmp_path / "found.csv").read_text()), delimiter=",", names=True)
+    # The planet's speed wavers a little about its law, as teeth come and go, but never much.
+    theta = rows["carrier_turn_rad"]
+    step = 1e-4
+    law = (gentle.pose(theta + step)["planet-0"][:, 2] - gentle.pose(theta - step)["planet-0"][:, 2]) / (2 * step)
+    law -= np.sign(gentle.pose(1.0)["carrier"][2] - gentle.pose(0.0)["carrier"][2])
+    off = rows["planet_speed_rad_per_s"] / 2 - law
+    assert 0 < np.sqrt(np.mean(off**2)) < 0.05
