@@ -1,6 +1,5 @@
 """The files of the three-arm mechanism, read back by others: ezdxf, trimesh, yourdfpy, MuJoCo."""
 
-import io
 import json
 import subprocess
 import sys
@@ -111,32 +110,27 @@ def test_yourdfpy_reads_the_machine(arms, folder):
             assert np.abs(at[:2] - ours).max() < 1e-9
 
 
-def test_teeth_alone_carry_a_chain(tmp_path):
+def test_teeth_alone_carry_a_chain_of_the_design_that_meets_all_goals(tmp_path):
     pytest.importorskip("mujoco")
-    gentle = ct.ThreeArm(
-        ct.pitch.limacon(mean_radius=45, amplitude=7),
-        carrier_start=1.5,
-        bend=-0.9,
-        arm_mounting_angle=-0.5,
-        tip_distance=145,
-        pusher_offset=65,
-        tooth_count=36,
-        backlash=0.02,
-        sun=ct.Body(width=12, bore=10),
-        intermediate=ct.Body(width=12, bore=10),
-        planet=ct.Body(width=12, bore=10),
-    )
-    gentle.export(tmp_path, formats=["mjcf"])
+    text = (DESIGN.parent / "three-arm-all-goals.toml").read_text()
+    # With so little play the planet's place within it does not count.
+    assert "backlash = 0.05" in text
+    machine = ct.ThreeArm.from_toml(text.replace("backlash = 0.05", "backlash = 0.01"))
+    machine.export(tmp_path, formats=["mjcf"])
     run = [sys.executable, str(tmp_path / "play_mujoco.py"), "--check", "--contact", "--speed", "2"]
     run += ["--save", str(tmp_path / "found.csv")]
     found = json.loads(subprocess.run(run, check=True, capture_output=True, text=True).stdout)
     assert found["off_law_max_deg"] < 0.05
     assert found["overlap_max_mm"] < 0.01
-    rows = np.genfromtxt(io.StringIO((tmp_path / "found.csv").read_text()), delimiter=",", names=True)
-    # The planet's speed wavers a little about its law, as teeth come and go, but never much.
-    theta = rows["carrier_turn_rad"]
-    step = 1e-4
-    law = (gentle.pose(theta + step)["planet-0"][:, 2] - gentle.pose(theta - step)["planet-0"][:, 2]) / (2 * step)
-    law -= np.sign(gentle.pose(1.0)["carrier"][2] - gentle.pose(0.0)["carrier"][2])
+    rows = np.genfromtxt(tmp_path / "found.csv", delimiter=",", names=True)
+    assert np.ptp(rows["carrier_turn_rad"]) > 6.2
+    # The planet's speed wavers a little about its law, as teeth come and go.
+    theta, step = rows["carrier_turn_rad"], 1e-4
+
+    def turned(theta):
+        pose = machine.pose(theta)
+        return pose["planet-0"][:, 2] - pose["carrier"][:, 2]
+
+    law = (turned(theta + step) - turned(theta - step)) / (2 * step)
     off = rows["planet_speed_rad_per_s"] / 2 - law
-    assert 0 < np.sqrt(np.mean(off**2)) < 0.05
+    assert 0 < np.sqrt(np.mean(off**2)) < 0.02
