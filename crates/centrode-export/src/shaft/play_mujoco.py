@@ -51,7 +51,9 @@ class Law:
 
     def at_shaft(self, column, turned):
         """A column at a shaft angle, linear between rows."""
-        return np.interp(turned % self.about["continuation"]["shaft_angle_rad"], self.table["shaft_angle_rad"], self.table[column])
+        return np.interp(
+            turned % self.about["continuation"]["shaft_angle_rad"], self.table["shaft_angle_rad"], self.table[column]
+        )
 
 
 class Machine:
