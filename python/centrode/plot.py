@@ -1,4 +1,4 @@
-"""Pictures of gear pairs and moving boxes; needs matplotlib: ``pip install centrode[plot]``.
+"""Pictures of gear pairs, moving boxes and feeders; needs matplotlib: ``pip install centrode[plot]``.
 
 Every function draws into the given axes, or into new ones, and gives back what it drew in.
 """
@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
-from ._centrode import Gear, GearPair, MovingBox, SpiralShaft
+from ._centrode import Feeder, Gear, GearPair, MovingBox, SixBar, SpiralShaft
 from ._contact import Contact
 
 if TYPE_CHECKING:
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from matplotlib.patches import PathPatch
     from numpy.typing import NDArray
 
-__all__ = ["animate", "contact", "motion", "moving", "pair", "speed"]
+__all__ = ["animate", "contact", "feeder", "motion", "moving", "pair", "pivots", "speed"]
 
 _DRIVER, _DRIVEN = "#3b6ea5", "#c98a2b"
 _FINE = 1e-2
@@ -203,6 +203,57 @@ def contact(of: GearPair | Contact, axes: NDArray[Any] | None = None) -> NDArray
     clearance.set_xlabel("driver angle, deg")
     clearance.legend(loc="best")
     return axes
+
+
+def feeder(of: Feeder, axes: NDArray[Any] | None = None) -> NDArray[Any]:
+    """Draw the motion of a feeder's tip over one cycle: its path, its place and its speed by time.
+
+    The curves of Figure 7 of Ye et al. 2022, DOI 10.6041/j.issn.1000-1298.2022.05.010.
+
+    Args:
+        of: What to draw.
+        axes: Three axes to draw into; a new row of three if left out.
+    """
+    if axes is None:
+        from matplotlib import pyplot
+
+        _, axes = pyplot.subplots(1, 3, figsize=(14.0, 4.5), layout="constrained")
+    path, place, speed = np.ravel(axes)
+    phi = np.linspace(0.0, 2.0 * np.pi, 1441)
+    tip, time = of.tip(phi), phi / of.speed
+    path.plot(tip[:, 0], tip[:, 1], color=_DRIVER)
+    path.set(aspect="equal", xlabel="x, mm", ylabel="y, mm", title="path of the tip")
+    for column, name, color in ((0, "x", _DRIVER), (1, "y", _DRIVEN)):
+        place.plot(time, tip[:, column], color=color, label=name)
+    place.set(xlabel="time, s", ylabel="mm", title="place of the tip")
+    place.legend(loc="best")
+    speed.plot(time, of.tip_speed(phi), color=_DRIVER)
+    speed.set(xlabel="time, s", ylabel="mm/s", title="speed of the tip")
+    feed, back = of.strokes
+    for end in (feed, back):
+        for ax in (place, speed):
+            ax.axvline(end / of.speed, color="black", linewidth=0.8, linestyle=":")
+    return axes
+
+
+def pivots(of: SixBar, swing: float = np.pi, ax: Axes | None = None) -> Axes:
+    """Draw all places of the effector's pivot that give a swing with a six-bar's lengths, and its own one.
+
+    Args:
+        of: Whose lengths.
+        swing: The swing, rad.
+        ax: Where to; new axes if left out.
+    """
+    ax = ax or _axes((6.0, 6.0))
+    phi = np.linspace(0.0, 2.0 * np.pi, 721)
+    slider = of.position(phi)[:, 1]
+    ax.plot(slider[:, 0], slider[:, 1], color=_DRIVER, label="path of the slider")
+    curve = of.pivots(swing, 200)
+    ax.plot(curve[:, 0], curve[:, 1], ".", color=_DRIVEN, markersize=3, label=f"{np.degrees(swing):g} deg")
+    ax.plot(*of.pivot, "+", color="black", markersize=9, label="pivot")
+    ax.set(aspect="equal", xlabel="mm", ylabel="mm")
+    ax.legend(loc="best")
+    return ax
 
 
 class _Part:

@@ -7,6 +7,7 @@ use pyo3::IntoPyObjectExt;
 use pyo3::prelude::{Bound, PyAny, PyAnyMethods, PyModule, PyResult, Python, pyfunction};
 
 use crate::error::{not_in_python, not_of_family, of_design, unknown_word};
+use crate::feeder::Feeder;
 use crate::gear_pair::GearPair;
 use crate::moving_box::MovingBox;
 use crate::spiral_shaft::SpiralShaft;
@@ -26,6 +27,8 @@ pub(crate) enum Loaded {
     SpiralShaft(SpiralShaft),
     /// A moving box.
     MovingBox(MovingBox),
+    /// A feeder.
+    Feeder(Feeder),
 }
 
 impl Loaded {
@@ -46,6 +49,9 @@ impl Loaded {
             (_, Mechanism::MovingBox(machine)) => Self::MovingBox(MovingBox {
                 machine: Arc::from(machine),
             }),
+            (_, Mechanism::Feeder(feeder)) => Self::Feeder(Feeder {
+                feeder: Arc::from(feeder),
+            }),
             (_, other) => return Err(not_in_python(other.family())),
         })
     }
@@ -61,6 +67,13 @@ impl Loaded {
         match self {
             Self::ThreeArm(mechanism) => Ok(mechanism),
             _ => Err(not_of_family("three-arm")),
+        }
+    }
+
+    pub(crate) fn feeder(self) -> PyResult<Feeder> {
+        match self {
+            Self::Feeder(feeder) => Ok(feeder),
+            _ => Err(not_of_family("feeder")),
         }
     }
 
@@ -87,6 +100,7 @@ pub(crate) fn _load<'py>(py: Python<'py>, contents: &[u8]) -> PyResult<Bound<'py
         Loaded::ThreeArm(mechanism) => mechanism.into_bound_py_any(py),
         Loaded::SpiralShaft(shaft) => shaft.into_bound_py_any(py),
         Loaded::MovingBox(machine) => machine.into_bound_py_any(py),
+        Loaded::Feeder(feeder) => feeder.into_bound_py_any(py),
     }
 }
 
@@ -108,6 +122,10 @@ pub(crate) fn path_loaded(py: Python<'_>, path: PathBuf) -> PyResult<Loaded> {
     if let Ok(machine) = loaded.cast::<MovingBox>() {
         let machine = Arc::clone(&machine.get().machine);
         return Ok(Loaded::MovingBox(MovingBox { machine }));
+    }
+    if let Ok(feeder) = loaded.cast::<Feeder>() {
+        let feeder = Arc::clone(&feeder.get().feeder);
+        return Ok(Loaded::Feeder(Feeder { feeder }));
     }
     let arms = loaded.cast::<ThreeArm>()?;
     Ok(Loaded::ThreeArm(ThreeArm(Arc::clone(&arms.get().0))))

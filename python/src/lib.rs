@@ -9,6 +9,7 @@ mod count;
 mod design;
 mod drawing;
 mod error;
+mod feeder;
 mod format;
 mod gear;
 mod gear_pair;
@@ -39,6 +40,8 @@ mod _centrode {
     use crate::design::{_load, _schema, template};
     #[pymodule_export]
     use crate::drawing::DrawingSpec;
+    #[pymodule_export]
+    use crate::feeder::Feeder;
     #[pymodule_export]
     use crate::gear::Gear;
     #[pymodule_export]

@@ -34,7 +34,7 @@ use crate::record;
 /// 2.4015
 #[pyclass(frozen, eq, module = "centrode")]
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct SixBar(linkage::SixBar);
+pub(crate) struct SixBar(pub(crate) linkage::SixBar);
 
 #[pymethods]
 impl SixBar {
@@ -110,6 +110,25 @@ impl SixBar {
     fn transmission_angle<'py>(&self, py: Python<'py>, phi: Values) -> PyResult<Bound<'py, PyAny>> {
         let four_bar = *self.0.four_bar();
         each(py, phi, move |phi| four_bar.transmission_angle(phi))
+    }
+
+    /// Lengths of crank, coupler, rocker and frame, mm.
+    #[getter]
+    fn lengths(&self) -> [f64; 4] {
+        self.0.four_bar().lengths()
+    }
+
+    /// The effector's pivot F, mm.
+    #[getter]
+    fn pivot(&self) -> (f64, f64) {
+        let pivot = self.0.pivot();
+        (pivot.x, pivot.y)
+    }
+
+    /// Length of the effector from its pivot to its tip, mm.
+    #[getter]
+    fn effector_length(&self) -> f64 {
+        self.0.effector_length()
     }
 
     /// Angle between the ends of the effector's motion, rad.

@@ -3,8 +3,8 @@ use std::path::Path;
 
 use centrode_analysis::{Goal, check_three_arm};
 use centrode_mechanism::design::{Design, DesignFile};
-use centrode_mechanism::gear::pitch::{PitchSpec, Plane};
 use centrode_mechanism::gear::Member;
+use centrode_mechanism::gear::pitch::{PitchSpec, Plane};
 use centrode_mechanism::three_arm::ThreeArm;
 use centrode_mechanism::three_arm::design::ThreeArmDesign;
 

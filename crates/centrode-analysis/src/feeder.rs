@@ -1,17 +1,30 @@
 use std::f64::consts::{PI, TAU};
 use std::ops::ControlFlow;
 
-use centrode_mechanism::feeder::{Feeder, FeederGoals};
+use centrode_geometry::{Tolerance, bracketed_minimum};
+use centrode_mechanism::feeder::{Feeder, FeederGoals, Part};
 use centrode_mechanism::transmission::Transmission;
 
 use crate::optimise::six_bar::{BestTransmissionAngle, LeastWidening, Lengths};
 use crate::optimise::{Candidate, Method, Problem, Settings, minimise};
-use crate::{Finding, Goal, Place, Report, Severity, SixBarTolerances, SwingSpread, Table};
+use crate::{
+    Finding, Goal, IncompleteContact, Place, Report, Severity, SixBarTolerances, SwingSpread, Table,
+};
 
 /// Evaluations of the search for the best attainable transmission angle.
 const ATTAINABLE: u64 = 20_000;
 /// Evaluations of the search for the least widening of the bounds.
 const WIDENING: u64 = 40_000;
+/// Looks over the motion for where the effector comes near the rocker's shaft.
+const LOOKS: u32 = 1440;
+/// Inputs at which the incomplete gears are held against each other.
+const GEAR_LOOKS: u32 = 240;
+/// Distance of their contours from the polygons looked at, in modules.
+const CONTOUR: f64 = 1e-4;
+/// Overlap above which they do not run, in modules.
+const OVERLAP: f64 = 1e-3;
+/// Play above which they are loose, as a multiple of the play asked for.
+const LOOSE: f64 = 2.0;
 /// Six-bars made by chance.
 const MADE: u32 = 2000;
 /// Distance of the effector's pivot from the chord, as a share of the frame, within which the swing says nothing of
@@ -90,6 +103,8 @@ pub fn check_feeder(feeder: &Feeder) -> Report {
     spread(feeder, &mut report);
     unmet(feeder, &mut report);
     vacuous(feeder, &mut report);
+    plates(feeder, &mut report);
+    gears(feeder, &mut report);
     report
         .findings
         .sort_by_key(|f| std::cmp::Reverse(f.severity));
@@ -372,6 +387,131 @@ fn remedy(goal: &str) -> Option<&'static str> {
         "dwell" => "more pitches round the driver, or a smaller entry angle",
         _ => return None,
     })
+}
+
+/// Whether the incomplete gears can be cut, and hold the crank all the way: none of it overlaps, and the crank is
+/// free by no more than the play asked for.
+fn gears(feeder: &Feeder, report: &mut Report) {
+    let about_gears =
+        |rule, severity, message, [measured, required]: [Option<f64>; 2], unit| Finding {
+            rule,
+            severity,
+            message,
+            measured,
+            required,
+            unit,
+            remedy: None,
+            place: Place {
+                part: Some("gears".into()),
+                ..Place::default()
+            },
+        };
+    let spec = &feeder.design().gears;
+    let cut = feeder.gears();
+    let pair = match cut {
+        Ok(pair) => pair,
+        Err(error) => {
+            let message = error.to_string();
+            let none = [None, None];
+            let finding = about_gears("no-gears", Severity::Error, message, none, "");
+            report.findings.push(finding);
+            return;
+        }
+    };
+    let Ok(tolerance) = Tolerance::new(CONTOUR * spec.module) else {
+        return;
+    };
+    let contact = IncompleteContact::of(&pair, GEAR_LOOKS, tolerance);
+    let most = |moving| {
+        let [ahead, back] = [&contact.ahead, &contact.back];
+        contact
+            .greatest(ahead, moving)
+            .max(contact.greatest(back, moving))
+    };
+    let (moving, resting, overlap) = (most(true), most(false), contact.deepest());
+    let values = &mut report.values;
+    values.insert("gear_center_distance", pair.center_distance());
+    values.insert("gear_teeth", f64::from(pair.teeth()));
+    values.insert("gear_lock_radius", pair.lock_radius());
+    values.insert("gear_play_moving_max", moving);
+    values.insert("gear_play_resting_max", resting);
+    values.insert("gear_overlap_max", overlap);
+    let limit = OVERLAP * spec.module;
+    if overlap > limit {
+        let message = format!("the incomplete gears overlap by {overlap:.4} mm");
+        let figures = [Some(overlap), Some(limit)];
+        report.findings.push(about_gears(
+            "gears-overlap",
+            Severity::Error,
+            message,
+            figures,
+            "mm",
+        ));
+    }
+    let loose = moving.max(resting);
+    let pitch = 0.5 * spec.module * f64::from(spec.driven_pitches);
+    let allowed = LOOSE * (0.5 * spec.backlash / pitch).max(pair.locked_play()) + 1e-4;
+    if loose > allowed {
+        let message = format!(
+            "the incomplete gears leave the crank free by {:.3} deg",
+            loose.to_degrees()
+        );
+        let figures = [Some(loose), Some(allowed)];
+        let mut finding = about_gears("gears-loose", Severity::Warning, message, figures, "rad");
+        finding.remedy =
+            Some("an entry angle, for which cams are made, or pins nearer the line of centres");
+        report.findings.push(finding);
+    }
+}
+
+/// Whether the links can be cut from plate, and run clear of the shaft that passes them.
+fn plates(feeder: &Feeder, report: &mut Report) {
+    let cut = Part::ALL.map(|part| (part, feeder.plate(part)));
+    for (part, plate) in cut {
+        let Err(error) = plate else { continue };
+        report.findings.push(Finding {
+            rule: "no-plate",
+            severity: Severity::Error,
+            message: error.to_string(),
+            measured: None,
+            required: None,
+            unit: "mm",
+            remedy: None,
+            place: Place {
+                part: Some(part.name().into()),
+                ..Place::default()
+            },
+        });
+    }
+    let motion = feeder.drive().motion_angle();
+    let at = |i: u32| motion * f64::from(i) / f64::from(LOOKS);
+    let room = |input: f64| feeder.shaft_clearance(input);
+    let nearest = (1..LOOKS)
+        .min_by(|&a, &b| room(at(a)).total_cmp(&room(at(b))))
+        .unwrap_or(1);
+    let (input, least) = bracketed_minimum(room, at(nearest - 1), at(nearest + 1));
+    report.values.insert("shaft_clearance_min", least);
+    if least < 0.0 {
+        report.findings.push(Finding {
+            rule: "effector-meets-shaft",
+            severity: Severity::Error,
+            message: format!(
+                "the effector runs into the rocker's shaft, which passes it: {:.4} mm too near",
+                -least
+            ),
+            measured: Some(least),
+            required: Some(0.0),
+            unit: "mm",
+            remedy: Some(
+                "narrower plates, a thinner pin, or the pivot farther from the rocker's shaft",
+            ),
+            place: Place {
+                part: Some("effector".into()),
+                input: Some(input),
+                ..Place::default()
+            },
+        });
+    }
 }
 
 /// Says where the swing is half a turn whatever the lengths are.

@@ -7,6 +7,7 @@ pub mod cam;
 pub mod csv;
 pub mod drawing;
 pub mod dxf;
+pub mod feeder;
 pub mod gear_pair;
 pub mod mjcf;
 pub mod model;

@@ -3,7 +3,7 @@ use std::process::ExitCode;
 
 use centrode::analysis::Report;
 use centrode::export::gear_pair::{self, Format, Options, SheetOptions, Subject};
-use centrode::export::{Bundle, dxf, shaft, three_arm};
+use centrode::export::{Bundle, dxf, feeder, shaft, three_arm};
 use centrode::mechanism::design::{Projection, SheetSize};
 use centrode::mechanism::mechanism::Mechanism;
 use clap::ValueEnum as _;
@@ -94,10 +94,10 @@ fn files(mechanism: &Mechanism, command: &Export, found: &Report) -> Result<Bund
             let (formats, options) = (formats(command), options(command, found));
             Ok(shaft::moving_box_files(machine, &formats, &options)?)
         }
-        Mechanism::Feeder(_) => match command.format.iter().find(|f| **f != File::Json) {
-            None => Ok(Bundle::default()),
-            Some(_) => Err(Failure::Usage("a feeder is written as json only".into())),
-        },
+        Mechanism::Feeder(machine) => {
+            let (formats, options) = (formats(command), options(command, found));
+            Ok(feeder::files(machine, &formats, &options)?)
+        }
     }
 }
 

@@ -2,6 +2,7 @@ use std::io::{self, Write};
 
 use anstyle::{AnsiColor, Style};
 use centrode::export::BundleError;
+use centrode::export::feeder::FeederFilesError;
 use centrode::export::gear_pair::GearPairFilesError;
 use centrode::export::shaft::ShaftFilesError;
 use centrode::export::three_arm::ThreeArmFilesError;
@@ -42,6 +43,12 @@ impl From<io::Error> for Failure {
 
 impl From<GearPairFilesError> for Failure {
     fn from(error: GearPairFilesError) -> Self {
+        Self::Files(Box::new(error))
+    }
+}
+
+impl From<FeederFilesError> for Failure {
+    fn from(error: FeederFilesError) -> Self {
         Self::Files(Box::new(error))
     }
 }

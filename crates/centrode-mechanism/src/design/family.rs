@@ -127,7 +127,7 @@ impl From<MovingBoxDesign> for Design {
 
 impl Family for FeederDesign {
     const TABLES: &'static [&'static str] = &[
-        "linkage", "bounds", "goals", "drive", "gears", "plates", "making",
+        "linkage", "bounds", "goals", "drive", "gears", "plates", "making", "drawing",
     ];
     const TAGGED: &'static [Tagged] = &[];
 

@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{GearsSpec, PlatesSpec};
 use crate::degrees;
+use crate::design::DrawingSpec;
 use crate::gear::design::rule::{Rule, broken, finite, line, name, not_negative, positive, within};
 use crate::gear::design::{SpecError, rule::between};
 use crate::linkage::Branch;
@@ -39,6 +40,9 @@ pub struct FeederDesign {
     /// How exactly the links are made.
     #[serde(default)]
     pub making: MakingSpec,
+    /// The drawing sheets.
+    #[serde(default, skip_serializing_if = "DrawingSpec::is_default")]
+    pub drawing: DrawingSpec,
 }
 
 /// The six-bar: a crank-rocker and an effector on a pivot of its own, moved by a slider at their common joint.
@@ -227,6 +231,7 @@ impl FeederDesign {
             gears: GearsSpec::default(),
             plates: PlatesSpec::default(),
             making: MakingSpec::default(),
+            drawing: DrawingSpec::default(),
         }
     }
 
@@ -265,6 +270,7 @@ impl FeederDesign {
         self.gears.validate().map_err(|e| e.inside("gears"))?;
         self.plates.validate().map_err(|e| e.inside("plates"))?;
         not_negative("making.length_tolerance", self.making.length_tolerance)?;
-        not_negative("making.pivot_tolerance", self.making.pivot_tolerance)
+        not_negative("making.pivot_tolerance", self.making.pivot_tolerance)?;
+        self.drawing.validate().map_err(|e| e.inside("drawing"))
     }
 }

@@ -1,7 +1,7 @@
 use thiserror::Error;
 
-use crate::gear::IncompleteError;
 use crate::gear::design::SpecError;
+use crate::gear::{IncompleteError, IncompletePairError};
 use crate::linkage::{FourBarError, SixBarError};
 
 /// Why a feeder does not exist.
@@ -20,6 +20,9 @@ pub enum FeederError {
     /// There is no such intermittent drive.
     #[error(transparent)]
     Drive(#[from] IncompleteError),
+    /// The gears cannot be cut.
+    #[error(transparent)]
+    Gears(#[from] IncompletePairError),
     /// A cycle that does not bring the crank back to where it rested.
     #[error(
         "{teeth} teeth turn the crank by {teeth}/{driven} of a turn each cycle: a feeder needs one whole turn, so teeth must be {driven}"
@@ -30,6 +33,19 @@ pub enum FeederError {
         /// Pitches round the driven gear.
         driven: u32,
     },
+    /// The slider comes so near the effector's pivot that its slot meets the pivot's hole.
+    #[error(
+        "the slot for the slider would begin {start:.4} mm from the effector's pivot, whose hole has a radius of {radius} mm: take a shorter slider or a thinner pin, or move the pivot away from the slider's path"
+    )]
+    SlotMeetsPivot {
+        /// Where the slot begins, mm from the pivot.
+        start: f64,
+        /// Radius of the pivot's hole, mm.
+        radius: f64,
+    },
+    /// A part that would have no area.
+    #[error("the {0} has no contour")]
+    NoPlate(&'static str),
 }
 
 impl FeederError {
@@ -41,6 +57,9 @@ impl FeederError {
             Self::SixBar(SixBarError::PivotOnPath { .. }) => "linkage.pivot".into(),
             Self::FourBar(_) | Self::SixBar(_) => "linkage.crank".into(),
             Self::Drive(IncompleteError::Entry { .. }) => "gears.entry_deg".into(),
+            Self::Gears(error) => format!("gears.{}", error.key()),
+            Self::SlotMeetsPivot { .. } => "plates.slider_length".into(),
+            Self::NoPlate(_) => "plates".into(),
             Self::Drive(_) | Self::NotOneTurn { .. } => "gears.teeth".into(),
         }
     }

@@ -1,10 +1,13 @@
+use std::f64::consts::FRAC_PI_4;
+
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::degrees;
-use crate::gear::design::SpecError;
-use crate::gear::design::rule::{between, positive, within};
-use crate::gear::{IncompleteDrive, IncompleteError};
+use crate::gear::design::rule::{between, not_negative, positive, within};
+use crate::gear::design::{GearPairDesign, SpecError};
+use crate::gear::pitch::{Circle, PitchSpec};
+use crate::gear::{IncompleteDrive, IncompleteError, IncompletePairSpec, Pins};
 
 /// The incomplete gear and its mate as written.
 ///
@@ -26,6 +29,27 @@ pub struct GearsSpec {
     pub entry: f64,
     /// Module, mm.
     pub module: f64,
+    /// Play of the teeth along their normal, mm.
+    pub backlash: f64,
+    /// Play between locking arc and notch, mm.
+    pub lock_play: f64,
+    /// Radius of the locking arc, mm; left out, the driver's pitch radius.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub lock_radius: Option<f64>,
+    /// Diameter of the pins that run on the entry cam, mm; left out, two and a half modules.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub pin_diameter: Option<f64>,
+    /// Diameter of the circle the pins stand on, mm; left out, three quarters of the driven pitch circle's.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub pin_circle: Option<f64>,
+    /// Angle of each pin from the line of centres at rest, rad (degrees in the file).
+    #[serde(rename = "pin_angle_deg", with = "degrees")]
+    #[schemars(with = "f64")]
+    pub pin_angle: f64,
+    /// Face width of gears and cam, mm.
+    pub width: f64,
+    /// Diameter of the bores, mm.
+    pub bore: f64,
 }
 
 impl Default for GearsSpec {
@@ -36,6 +60,14 @@ impl Default for GearsSpec {
             teeth: 30,
             entry: 20_f64.to_radians(),
             module: 3.0,
+            backlash: 0.1,
+            lock_play: 0.05,
+            lock_radius: None,
+            pin_diameter: None,
+            pin_circle: None,
+            pin_angle: FRAC_PI_4,
+            width: 15.0,
+            bore: 16.0,
         }
     }
 }
@@ -49,7 +81,53 @@ impl GearsSpec {
         within("driven_pitches", self.driven_pitches, 1, Self::MOST)?;
         within("teeth", self.teeth, 1, Self::MOST)?;
         between("entry_deg", self.entry.to_degrees(), [0.0, 180.0], " deg")?;
-        positive("module", self.module)
+        for (key, value) in [
+            ("module", Some(self.module)),
+            ("lock_radius", self.lock_radius),
+            ("pin_diameter", self.pin_diameter),
+            ("pin_circle", self.pin_circle),
+            ("width", Some(self.width)),
+            ("bore", Some(self.bore)),
+        ] {
+            if let Some(value) = value {
+                positive(key, value)?;
+            }
+        }
+        not_negative("backlash", self.backlash)?;
+        not_negative("lock_play", self.lock_play)?;
+        between(
+            "pin_angle_deg",
+            self.pin_angle.to_degrees(),
+            [5.0, 85.0],
+            " deg",
+        )
+    }
+
+    /// The gears with their teeth.
+    #[must_use]
+    pub fn pair(&self) -> IncompletePairSpec {
+        let (driver, driven) = (self.driver_pitches, self.driven_pitches);
+        let divisor = greatest_common_divisor(driver, driven);
+        let mut pair = GearPairDesign::new(PitchSpec::Circle(Circle {
+            module: Some(self.module),
+            tooth_count: Some(driver),
+            ..Circle::default()
+        }));
+        pair.mean_ratio = [driven / divisor, driver / divisor];
+        for body in [&mut pair.driver, &mut pair.driven] {
+            (body.width, body.bore) = (self.width, self.bore);
+        }
+        IncompletePairSpec {
+            lock_radius: self.lock_radius,
+            lock_play: self.lock_play,
+            backlash: self.backlash,
+            pins: Pins {
+                diameter: self.pin_diameter,
+                circle: self.pin_circle,
+                angle: self.pin_angle,
+            },
+            ..IncompletePairSpec::new(pair, self.teeth, self.entry)
+        }
     }
 
     /// The motion they make.
@@ -59,5 +137,13 @@ impl GearsSpec {
     pub fn drive(&self) -> Result<IncompleteDrive, IncompleteError> {
         let (driver, driven) = (self.driver_pitches, self.driven_pitches);
         IncompleteDrive::new(driver, driven, self.teeth, self.entry)
+    }
+}
+
+fn greatest_common_divisor(a: u32, b: u32) -> u32 {
+    if b == 0 {
+        a.max(1)
+    } else {
+        greatest_common_divisor(b, a % b)
     }
 }

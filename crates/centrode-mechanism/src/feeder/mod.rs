@@ -7,6 +7,7 @@
 mod design;
 mod error;
 mod gears;
+mod parts;
 mod plates;
 
 use std::f64::consts::{PI, TAU};
@@ -17,9 +18,10 @@ use centrode_geometry::{Point, bracketed_minimum, bracketed_root};
 pub use design::{BoundsSpec, DriveSpec, FeederDesign, FeederGoals, LinkageSpec, MakingSpec};
 pub use error::FeederError;
 pub use gears::GearsSpec;
+pub use parts::{JointPositions, Part, Plate, PlateJoint};
 pub use plates::PlatesSpec;
 
-use crate::gear::IncompleteDrive;
+use crate::gear::{IncompleteDrive, IncompletePair};
 use crate::linkage::{FourBar, SixBar};
 use crate::transmission::{MotionJet, Transmission};
 
@@ -106,6 +108,14 @@ impl Feeder {
         &self.drive
     }
 
+    /// The incomplete gear and its mate with their teeth, locking arcs and entry cam.
+    ///
+    /// # Errors
+    /// [`FeederError::Gears`] where they cannot be cut.
+    pub fn gears(&self) -> Result<IncompletePair, FeederError> {
+        Ok(IncompletePair::resolve(&self.design.gears.pair())?)
+    }
+
     /// Crank angle at which the effector rests and is filled, rad: the end of its swing from which the slower
     /// stroke goes.
     #[must_use]
@@ -133,6 +143,12 @@ impl Feeder {
     pub fn tip(&self, input: f64) -> Point {
         let [_, _, e] = self.six_bar.joints(self.crank(input).position);
         e
+    }
+
+    /// Speed of the tip at an input and at the design's speed, mm/s.
+    #[must_use]
+    pub fn tip_speed(&self, input: f64) -> f64 {
+        (self.effector(input).velocity * self.speed() * self.six_bar.effector_length()).abs()
     }
 
     /// Inputs in `[0, 2 pi)` where the motion may change its law, ascending.

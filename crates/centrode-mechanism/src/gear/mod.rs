@@ -19,7 +19,10 @@ mod tool;
 
 pub use conjugate::Conjugate;
 pub use flank::Side;
-pub use incomplete::{IncompleteDrive, IncompleteError};
+pub use incomplete::{
+    Cam, IncompleteDrive, IncompleteError, IncompleteLaw, IncompletePair, IncompletePairError,
+    IncompletePairSpec, Pins,
+};
 pub use limits::{CurvatureRange, Limits, PitchPoint};
 pub use over_pins::{OverPins, Pin, PinFault};
 pub use pair::{Gear, GearPair, GearPairError};

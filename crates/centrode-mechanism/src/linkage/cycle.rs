@@ -2,7 +2,9 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use centrode_geometry::{bracketed_minimum, bracketed_root};
 
-use super::assembly::{Link, Linkage, LinkageError};
+use super::assembly::Linkage;
+use super::error::LinkageError;
+use super::parts::Link;
 use crate::transmission::{MotionJet, Transmission};
 
 /// Looks over a turn of the input for where dyads cease to close.

@@ -9,19 +9,24 @@
 mod assembly;
 mod cycle;
 mod dyad;
+mod error;
 mod four_bar;
+mod parts;
 mod point_series;
+mod pose;
+mod series;
 mod six_bar;
+mod slider_arc;
 mod slider_crank;
 #[cfg(test)]
 mod tests;
 
-pub use assembly::{
-    Body, Connection, Joint, Line, Link, Linkage, LinkageError, LinkageParts, Pose, SliderDyad,
-    TwoBars,
-};
+pub use assembly::Linkage;
 pub use cycle::LinkTransmission;
 pub use dyad::Branch;
+pub use error::LinkageError;
 pub use four_bar::{DeadCenters, FourBar, FourBarError, Grashof};
+pub use parts::{Connection, Joint, Line, Link, LinkageParts, SliderDyad, TwoBars};
+pub use pose::{Body, Pose};
 pub use six_bar::{EffectorExtremes, SixBar, SixBarError, SixBarPosition, SwingSensitivity};
 pub use slider_crank::SliderCrank;

@@ -2,6 +2,7 @@
 
 mod edit;
 mod family;
+mod feeder;
 mod field;
 mod gear_pair;
 mod handles;

@@ -357,6 +357,11 @@ const GROUPS: [Group; 12] = [
                 Unit::Degree,
             ),
             Row(
+                "crank free: driven, at rest",
+                &["gear_play_moving_max", "gear_play_resting_max"],
+                Unit::Degree,
+            ),
+            Row(
                 "rest of the incomplete gear",
                 &["dwell_angle"],
                 Unit::Degree,

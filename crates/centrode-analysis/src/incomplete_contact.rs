@@ -1,0 +1,338 @@
+use std::f64::consts::{PI, TAU};
+
+use centrode_geometry::{Outline, Point, Tolerance, Vector};
+use centrode_mechanism::gear::IncompletePair;
+use centrode_mechanism::transmission::Transmission;
+use nalgebra::Isometry2;
+
+/// Turns of the driven gear beyond which nothing is looked for, rad.
+const FREE: f64 = 0.5;
+/// Corners of a pin.
+const PIN_CORNERS: u32 = 240;
+
+/// How a finished incomplete gear pair runs: how far the driven gear is free either way at each input.
+///
+/// Works on the finished contours alone: every corner of either gear is turned about the driven gear's axis until it
+/// meets an edge of the other.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct IncompleteContact {
+    /// Driver's turn, rad.
+    pub input: Vec<f64>,
+    /// Whether the driven gear moves.
+    pub moving: Vec<bool>,
+    /// How far the driven gear can turn on from its law, rad; less than nothing where it must go back to be free.
+    pub ahead: Vec<f64>,
+    /// How far it can turn back, rad.
+    pub back: Vec<f64>,
+    /// Deepest overlap along the driven gear's turning, mm.
+    pub overlap: Vec<f64>,
+}
+
+impl IncompleteContact {
+    /// Looks at one turn of the driver at so many even inputs, never in step with the teeth.
+    ///
+    /// Contours are taken as polygons nowhere farther off than the tolerance.
+    #[must_use]
+    pub fn of(pair: &IncompletePair, count: u32, tolerance: Tolerance) -> Self {
+        let motion = pair.law().motion_angle();
+        let mut layers = vec![(
+            Wheel::star(pair.driver(), tolerance),
+            vec![Wheel::star(pair.driven(), tolerance)],
+        )];
+        for cam in pair.cams() {
+            let pins = cam.pins.iter().map(|&p| Wheel::pin(p, cam.pin_radius));
+            layers.push((Wheel::star(&cam.outline, tolerance), pins.collect()));
+        }
+        let mut out = Self::default();
+        for i in 0..count {
+            let input = TAU * (f64::from(i) + 0.37) / f64::from(count);
+            let turned = pair.law().at(input).position;
+            // The driver's axes seen from the driven gear's.
+            let placed = Isometry2::new(Vector::new(pair.center_distance(), 0.0), turned);
+            let driver = placed.inverse() * Isometry2::rotation(-input);
+            let mut room = Room::default();
+            for (wheel, mates) in &layers {
+                for mate in mates {
+                    room.narrow(wheel, &driver, mate);
+                }
+            }
+            out.input.push(input);
+            out.moving.push(input < motion);
+            out.ahead.push(room.ahead);
+            out.back.push(room.back);
+            out.overlap.push(room.overlap);
+        }
+        out
+    }
+
+    /// Greatest of a column where the driven gear moves, or where it rests.
+    #[must_use]
+    pub fn greatest(&self, column: &[f64], moving: bool) -> f64 {
+        let of = column.iter().zip(&self.moving).filter(|c| *c.1 == moving);
+        of.map(|c| *c.0).fold(f64::NEG_INFINITY, f64::max)
+    }
+
+    /// Deepest overlap of all, mm.
+    #[must_use]
+    pub fn deepest(&self) -> f64 {
+        self.overlap.iter().copied().fold(0.0, f64::max)
+    }
+}
+
+/// A polygon and how to tell what lies in it.
+struct Wheel {
+    corners: Vec<Point>,
+    reach: f64,
+    /// A pin about this centre; a star about its own origin otherwise.
+    pin: Option<(Point, f64)>,
+    /// Directions of the corners, ascending, with their indices.
+    directions: Vec<(f64, usize)>,
+}
+
+impl Wheel {
+    fn star(outline: &Outline, tolerance: Tolerance) -> Self {
+        let corners = outline.flatten(tolerance);
+        let mut directions: Vec<(f64, usize)> = corners
+            .iter()
+            .enumerate()
+            .map(|(i, p)| (p.y.atan2(p.x), i))
+            .collect();
+        directions.sort_by(|a, b| a.0.total_cmp(&b.0));
+        Self {
+            reach: corners.iter().map(|p| p.coords.norm()).fold(0.0, f64::max),
+            corners,
+            pin: None,
+            directions,
+        }
+    }
+
+    fn pin(center: Point, radius: f64) -> Self {
+        let corner = |i: u32| {
+            let angle = TAU * f64::from(i) / f64::from(PIN_CORNERS);
+            center + Vector::new(angle.cos(), angle.sin()) * radius
+        };
+        Self {
+            corners: (0..PIN_CORNERS).map(corner).collect(),
+            reach: center.coords.norm() + radius,
+            pin: Some((center, radius)),
+            directions: Vec::new(),
+        }
+    }
+
+    fn holds(&self, point: Point) -> bool {
+        if let Some((center, radius)) = self.pin {
+            return (point - center).norm() < radius * (PI / f64::from(PIN_CORNERS)).cos();
+        }
+        let direction = point.y.atan2(point.x);
+        let count = self.directions.len();
+        let after = self.directions.partition_point(|d| d.0 <= direction);
+        let a = self.corners[self.directions[(after + count - 1) % count].1];
+        let b = self.corners[self.directions[after % count].1];
+        (b - a).perp(&(point - a)) > 0.0
+    }
+}
+
+/// How far the driven gear is free.
+struct Room {
+    ahead: f64,
+    back: f64,
+    overlap: f64,
+}
+
+impl Default for Room {
+    fn default() -> Self {
+        Self {
+            ahead: FREE,
+            back: FREE,
+            overlap: 0.0,
+        }
+    }
+}
+
+impl Room {
+    /// Takes a driver, its axes given in the driven gear's, and what it meets there.
+    fn narrow(&mut self, driver: &Wheel, place: &Isometry2<f64>, mate: &Wheel) {
+        let axis = Point::from(place.translation.vector);
+        let driver_points: Vec<Point> = driver.corners.iter().map(|p| place * p).collect();
+        let near_driver = near_edges(&driver_points, Point::origin(), mate.reach);
+        let near_mate = near_edges(&mate.corners, axis, driver.reach);
+        // The driven gear going on turns the driver back, in its axes.
+        for &(corner, _) in &near_driver {
+            self.corner(corner, &near_mate, 1.0, mate.holds(corner));
+        }
+        for &(corner, _) in &near_mate {
+            let inside = driver.holds(place.inverse_transform_point(&corner));
+            self.corner(corner, &near_driver, -1.0, inside);
+        }
+    }
+
+    /// A corner that turns about the origin until it meets an edge; `sense` is 1 for one of the driver.
+    fn corner(&mut self, corner: Point, edges: &[(Point, Point)], sense: f64, inside: bool) {
+        let squared = corner.coords.norm_squared();
+        let (mut less, mut more) = (FREE, FREE);
+        for (a, b) in edges {
+            let (from, way) = (a.coords, b - a);
+            let (p, q) = (way.norm_squared(), from.dot(&way));
+            let room = q * q - p * (from.norm_squared() - squared);
+            if room < 0.0 || p == 0.0 {
+                continue;
+            }
+            for root in [room.sqrt(), -room.sqrt()] {
+                let t = (root - q) / p;
+                if !(0.0..=1.0).contains(&t) {
+                    continue;
+                }
+                let met = from + way * t;
+                let off = corner.coords.perp(&met).atan2(corner.coords.dot(&met));
+                if off >= 0.0 {
+                    more = more.min(off);
+                } else {
+                    less = less.min(-off);
+                }
+            }
+        }
+        // A corner of the driver is met from ahead when it turns back, one of the driven gear when it turns on.
+        let (ahead, back) = if sense > 0.0 {
+            (less, more)
+        } else {
+            (more, less)
+        };
+        if !inside {
+            self.ahead = self.ahead.min(ahead);
+            self.back = self.back.min(back);
+            return;
+        }
+        let depth = ahead.min(back);
+        self.overlap = self.overlap.max(depth * squared.sqrt());
+        if ahead < back {
+            self.back = self.back.min(-ahead);
+        } else {
+            self.ahead = self.ahead.min(-back);
+        }
+    }
+}
+
+/// The edges of a polygon that begin or end within a distance of a point.
+fn near_edges(corners: &[Point], from: Point, reach: f64) -> Vec<(Point, Point)> {
+    let near = |p: &Point| (p - from).norm_squared() <= reach * reach;
+    let next = corners.iter().cycle().skip(1);
+    let edges = corners.iter().zip(next);
+    edges
+        .filter(|(a, b)| near(a) || near(b))
+        .map(|(a, b)| (*a, *b))
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use centrode_mechanism::gear::design::GearPairDesign;
+    use centrode_mechanism::gear::pitch::{Circle, PitchSpec, Polar};
+    use centrode_mechanism::gear::{IncompletePairSpec, Member};
+
+    use crate::optimise::Random;
+
+    fn spec(driver: u32, mean_ratio: [u32; 2], teeth: u32, entry: f64) -> IncompletePairSpec {
+        let mut pair = GearPairDesign::new(PitchSpec::Circle(Circle {
+            module: Some(3.0),
+            tooth_count: Some(driver),
+            ..Circle::default()
+        }));
+        pair.mean_ratio = mean_ratio;
+        (pair.driver.bore, pair.driven.bore) = (16.0, 16.0);
+        IncompletePairSpec::new(pair, teeth, entry)
+    }
+
+    fn contact(spec: &IncompletePairSpec) -> (IncompletePair, IncompleteContact) {
+        let pair = IncompletePair::resolve(spec).expect("a pair");
+        let tolerance = Tolerance::new(1e-4).expect("positive");
+        let contact = IncompleteContact::of(&pair, 360, tolerance);
+        (pair, contact)
+    }
+
+    /// What a tooth's play is on the driven gear, rad.
+    fn play(pair: &IncompletePair) -> f64 {
+        let length = pair.pair().rolling().pitch_length(Member::Driven);
+        0.05 / (length / TAU * 20_f64.to_radians().cos())
+    }
+
+    /// No overlap anywhere, and the driven gear held all the way, moving or not.
+    fn held(spec: &IncompletePairSpec) {
+        let (pair, contact) = contact(spec);
+        assert!(contact.deepest() < 1e-3, "{spec:?}: {}", contact.deepest());
+        let most = 1.5 * play(&pair).max(pair.locked_play());
+        for column in [&contact.ahead, &contact.back] {
+            for moving in [false, true] {
+                let loose = contact.greatest(column, moving);
+                assert!(loose < most, "{spec:?}: {loose}, {most} allowed");
+            }
+        }
+    }
+
+    #[test]
+    fn a_pair_with_cams_is_held_all_the_way() {
+        let spec = spec(40, [3, 4], 30, 20_f64.to_radians());
+        held(&spec);
+        let (pair, contact) = contact(&spec);
+        let least = contact.ahead.iter().chain(&contact.back).copied();
+        let least = least.fold(f64::INFINITY, f64::min);
+        assert!(least > 0.95 * play(&pair), "{least}");
+    }
+
+    #[test]
+    fn random_pairs_are_held_too() {
+        let mut random = Random::new(3, 0);
+        for (stops, ratios) in [(1, [[3, 4], [2, 3]]), (2, [[1, 1], [4, 5]])] {
+            let mean_ratio = ratios[usize::from(random.between(0.0, 1.0) > 0.5)];
+            let [n1, n2] = mean_ratio;
+            let driver = n2 * (random.between(28.0, 44.0) as u32 / n2) * 2;
+            let driven = driver * n1 / n2;
+            let entry = random.between(0.2, 0.4);
+            held(&spec(driver, mean_ratio, driven / stops, entry));
+        }
+    }
+
+    #[test]
+    fn a_pair_of_waves_is_held_too() {
+        let mut spec = spec(40, [3, 4], 30, 0.35);
+        spec.pair.pitch = PitchSpec::Polar(Polar {
+            expression: Some("1 + 0.03*cos(4*phi)".into()),
+            module: Some(3.0),
+            tooth_count: Some(40),
+            ..Polar::default()
+        });
+        held(&spec);
+    }
+
+    #[test]
+    fn without_cams_the_lock_holds_and_the_start_is_a_shock() {
+        let (pair, contact) = contact(&spec(40, [3, 4], 30, 0.0));
+        assert!(contact.deepest() < 1e-3, "{}", contact.deepest());
+        assert!((pair.shock() - 4.0 / 3.0).abs() < 1e-9 && pair.cams().is_empty());
+        let locked = 1.1 * pair.locked_play() + 1e-4;
+        let motion = pair.law().motion_angle();
+        // Where the locking arc's ends come to the notch they hold less well; cams do it better.
+        for (i, &input) in contact.input.iter().enumerate() {
+            let loose = contact.ahead[i].max(contact.back[i]);
+            let inside = input > motion + 0.3 && input < TAU - 0.3;
+            assert!(!inside || loose < locked, "{loose} while locked at {input}");
+            assert!(input < motion || loose < 0.02, "{loose} at {input}");
+        }
+    }
+
+    #[test]
+    fn a_gear_turned_too_far_overlaps() {
+        let (pair, contact) = contact(&spec(40, [3, 4], 30, 0.35));
+        let tolerance = Tolerance::new(1e-4).expect("positive");
+        let [driver, driven] = [pair.driver(), pair.driven()].map(|o| Wheel::star(o, tolerance));
+        let input = contact.input[200];
+        for (off, free) in [(0.0, true), (0.01, false), (-0.01, false)] {
+            let turned = pair.law().at(input).position + off;
+            let placed = Isometry2::new(Vector::new(pair.center_distance(), 0.0), turned);
+            let place = placed.inverse() * Isometry2::rotation(-input);
+            let mut room = Room::default();
+            room.narrow(&driver, &place, &driven);
+            assert_eq!(room.overlap == 0.0, free, "{off}");
+        }
+    }
+}

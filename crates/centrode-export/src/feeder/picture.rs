@@ -1,0 +1,125 @@
+use std::f64::consts::{PI, TAU};
+
+use centrode_geometry::{Bounds, Point, Tolerance};
+use centrode_mechanism::feeder::{Feeder, Part, Plate};
+
+use crate::page::{Curve, Link, Mark, Motion, Path, Picture, Role, short};
+
+/// Samples of one cycle.
+const SAMPLES: u32 = 720;
+
+fn inputs() -> impl Iterator<Item = f64> {
+    (0..=SAMPLES).map(|i| TAU * f64::from(i) / f64::from(SAMPLES))
+}
+
+/// The six-bar as a picture that moves, with the path of the tip; links that make no plate are left out.
+#[must_use]
+pub fn picture(feeder: &Feeder, tolerance: Tolerance) -> Picture {
+    let input: Vec<f64> = inputs().collect();
+    let mut links = Vec::new();
+    let mut motion = Motion {
+        input_name: "incomplete gear".into(),
+        input: input.iter().map(|&phi| short(phi, 1e-7)).collect(),
+        poses: Vec::new(),
+    };
+    let (length, angle) = (0.1 * tolerance.mm(), 1e-6);
+    let plates: Vec<Plate> = Part::ALL
+        .into_iter()
+        .filter_map(|part| feeder.plate(part).ok())
+        .collect();
+    for plate in &plates {
+        let mut paths = vec![Path::closed(Role::Body, &plate.outline, tolerance)];
+        let holes = plate.cut_outs();
+        paths.extend(holes.iter().map(|h| Path::closed(Role::Hole, h, tolerance)));
+        if plate.part == Part::Frame {
+            let tip = feeder.path(2, SAMPLES);
+            paths.push(Path::open(Role::Trace, &tip));
+        }
+        links.push(Link {
+            name: plate.part.name().into(),
+            paths,
+        });
+        // Unwrapped along the cycle: between samples a pose is interpolated.
+        let mut before: Option<f64> = None;
+        let mut poses = Vec::with_capacity(3 * input.len());
+        for &phi in &input {
+            let place = feeder.place(plate.part, feeder.crank(phi).position);
+            let mut turned = place.rotation.angle();
+            if let Some(before) = before {
+                turned = before + (turned - before + PI).rem_euclid(TAU) - PI;
+            }
+            before = Some(turned);
+            let at = place.translation.vector;
+            poses.extend([
+                short(at.x, length),
+                short(at.y, length),
+                short(turned, angle),
+            ]);
+        }
+        motion.poses.push(poses);
+    }
+    let index = |part: Part| plates.iter().position(|p| p.part == part).unwrap_or(0);
+    let marks = plates
+        .iter()
+        .flat_map(|plate| plate.joints.iter().map(move |joint| (plate.part, joint)))
+        .filter(|(part, joint)| match part {
+            Part::Frame => true,
+            Part::Crank => joint.name == "B",
+            Part::Effector => joint.name == "E",
+            Part::Slider => joint.name == "C",
+            Part::Coupler | Part::Rocker => false,
+        })
+        .map(|(part, joint)| Mark {
+            name: joint.name.into(),
+            link: index(part),
+            at: joint.at.coords.into(),
+        });
+    Picture {
+        marks: marks.collect(),
+        links,
+        motion,
+        handles: Vec::new(),
+        extent: extent(feeder),
+    }
+}
+
+/// A rectangle around the paths of all joints and the plates about them.
+fn extent(feeder: &Feeder) -> [f64; 4] {
+    let frame = feeder.six_bar().four_bar().lengths()[3];
+    let fixed = [
+        Point::origin(),
+        Point::new(frame, 0.0),
+        feeder.six_bar().pivot(),
+    ];
+    let paths = (0..3).flat_map(|joint| feeder.path(joint, SAMPLES));
+    let Bounds { min, max } = paths.chain(fixed).fold(Bounds::EMPTY, |b, p| b.with(p));
+    let half = 0.5 * feeder.design().plates.width;
+    [min.x - half, min.y - half, max.x + half, max.y + half]
+}
+
+/// Angle of the effector, speed of its tip, angle between coupler and rocker along the cycle.
+#[must_use]
+pub fn curves(feeder: &Feeder) -> Vec<Curve> {
+    let (speed, reach) = (feeder.speed(), feeder.six_bar().effector_length());
+    let bar = *feeder.six_bar().four_bar();
+    let input: Vec<f64> = inputs().collect();
+    let curve = |chart, unit, f: &dyn Fn(f64) -> f64| Curve {
+        chart,
+        name: "",
+        unit,
+        input: input.clone(),
+        value: input.iter().map(|&phi| f(phi)).collect(),
+    };
+    vec![
+        curve("Angle of the effector", "deg", &|phi| {
+            feeder.effector(phi).position.to_degrees()
+        }),
+        curve("Speed of the tip", "mm/s", &|phi| {
+            (feeder.effector(phi).velocity * speed * reach).abs()
+        }),
+        curve("Angle of coupler and rocker", "deg", &|phi| {
+            bar.transmission_angle(feeder.crank(phi).position)
+                .to_degrees()
+        }),
+    ]
+}

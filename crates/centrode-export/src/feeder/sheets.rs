@@ -1,0 +1,362 @@
+//! The drawing sheets of a feeder: each plate with its dimensions, and the six-bar in place.
+
+use super::FeederFilesError;
+use crate::{
+    drawing::{Anchor, Shape},
+    gear_pair::SheetOptions,
+    sheet::{Corner, Draft, Pen, Piece, Scale, Sheet, Table, TitleBlock, compose},
+};
+use centrode_geometry::{Bounds, Outline, Point, Vector};
+use centrode_mechanism::design::SheetSize;
+use centrode_mechanism::feeder::{Feeder, Part, Plate};
+use nalgebra::Isometry2;
+
+/// Room between a view and its first dimension line, mm, and from one line to the next.
+const FIRST: f64 = 10.0;
+const NEXT: f64 = 9.0;
+/// Corners of a path.
+const POINTS: u32 = 360;
+
+/// The sheets of every plate and of the assembly, by the name of their files.
+///
+/// # Errors
+/// [`FeederFilesError::Sheet`] if the size asked for is too small.
+pub fn sheets(
+    feeder: &Feeder,
+    plates: &[Plate],
+    options: &SheetOptions,
+) -> Result<Vec<(&'static str, Vec<Sheet>)>, FeederFilesError> {
+    let mut all = Vec::new();
+    for plate in plates {
+        let subject = plate.part.name();
+        let sheets = part(feeder, plate, options)
+            .map_err(|source| FeederFilesError::Sheet { subject, source })?;
+        all.push((subject, sheets));
+    }
+    let subject = "assembly";
+    let sheets = assembly(feeder, plates, options)
+        .map_err(|source| FeederFilesError::Sheet { subject, source })?;
+    all.push((subject, sheets));
+    Ok(all)
+}
+
+fn block(feeder: &Feeder, name: &str, options: &SheetOptions) -> TitleBlock {
+    let spec = &feeder.design().drawing;
+    let mut block = TitleBlock::of(spec);
+    if !spec.number.is_empty() {
+        block.number = format!("{}-{name}", spec.number);
+    }
+    block.projection = options.projection.unwrap_or(spec.projection);
+    let mut title = name.to_owned();
+    if let Some(first) = title.get_mut(..1) {
+        first.make_ascii_uppercase();
+    }
+    block.title = title;
+    block.supplement = super::named(feeder).to_owned();
+    block
+}
+
+fn part(
+    feeder: &Feeder,
+    plate: &Plate,
+    options: &SheetOptions,
+) -> Result<Vec<Sheet>, crate::sheet::SheetError> {
+    let spec = &feeder.design().plates;
+    let mut block = block(feeder, plate.part.name(), options);
+    block.document = "Part drawing".into();
+    block.material.clone_from(&spec.material);
+    let cut: f64 = plate.cut_outs().iter().map(|hole| hole.area().abs()).sum();
+    let kilograms = (plate.outline.area() - cut) * plate.thickness * spec.density * 1e-9;
+    block.mass = format!("{kilograms:.3} kg");
+    let lines = [
+        format!(
+            "Thickness {} mm, quantity {}.",
+            number(plate.thickness),
+            plate.part.quantity()
+        ),
+        format!("Cutting file: {}.dxf.", plate.part.name()),
+    ];
+    let pieces = |scale: Scale, size: SheetSize| {
+        let draft = view(plate, spec.pin_diameter, scale, letters(size));
+        vec![
+            notes(&lines),
+            Piece {
+                name: "view",
+                draft,
+                corner: Corner::UpperLeft,
+                floats: true,
+                leads: true,
+            },
+        ]
+    };
+    let bounds = plate.outline.bounds();
+    let size = options.size.or(feeder.design().drawing.sheet);
+    compose(size, &block, (bounds.max - bounds.min).amax(), &pieces, &[])
+}
+
+/// A plate with its joints' distances, its holes, its width and its slot.
+fn view(plate: &Plate, pin: f64, scale: Scale, letters: f64) -> Draft {
+    let k = scale.factor();
+    let mut draft = Draft::lettered(letters);
+    draft.draw(Pen::Outline, Shape::Contour(plate.outline.scaled(k)));
+    for hole in plate.cut_outs() {
+        draft.draw(Pen::Outline, Shape::Contour(hole.scaled(k)));
+    }
+    let bounds = plate.outline.bounds();
+    let Bounds { min, max } = Bounds {
+        min: bounds.min * k,
+        max: bounds.max * k,
+    };
+    let cross = 0.5 * pin * k + 2.0;
+    for joint in &plate.joints {
+        let at = joint.at * k;
+        let [x, y] = [Vector::x(), Vector::y()].map(|v: Vector| v * cross);
+        draft.line(Pen::Axis, at - x, at + x);
+        draft.line(Pen::Axis, at - y, at + y);
+        let beside = 0.36 * pin * k + 0.8;
+        let name = at + Vector::new(beside, beside);
+        draft.text(name, letters, joint.name, Anchor::Left);
+    }
+    let mut row = min.y - FIRST;
+    let origin = plate.joints[0].at * k;
+    for joint in plate.joints.iter().skip(1) {
+        let at = joint.at * k;
+        if joint.at.x != 0.0 {
+            let low = Point::new(0.0, row);
+            draft.dimension([origin, at], Vector::x(), low, &number(joint.at.x));
+            row -= NEXT;
+        }
+        if joint.at.y != 0.0 {
+            let beside = Point::new(max.x + FIRST, 0.0);
+            draft.dimension([origin, at], Vector::y(), beside, &number(joint.at.y));
+        }
+    }
+    if let Some(([start, end], slot)) = &plate.slot {
+        for x in [*start, *end] {
+            let at = Point::new(x * k, 0.0);
+            let low = Point::new(0.0, row);
+            draft.dimension([origin, at], Vector::x(), low, &number(x));
+            row -= NEXT;
+        }
+        let width = slot.bounds().max.y - slot.bounds().min.y;
+        let tip = Point::new(0.5 * (start + end) * k, slot.bounds().max.y * k);
+        let elbow = Point::new(tip.x + 8.0, max.y + 8.0);
+        draft.leader(
+            tip,
+            elbow,
+            &[format!(
+                "slot {} wide, R{}",
+                number(width),
+                number(0.5 * width)
+            )],
+        );
+    }
+    let holes = plate.joints.iter().filter(|j| j.hole).count();
+    let hole = plate.joints[0].at * k;
+    let tip = hole + Vector::new(-0.5, 0.866) * (0.5 * pin * k);
+    let elbow = Point::new(min.x - 2.0, max.y + 8.0);
+    let words = match holes {
+        1 => format!("Ø{} H8", number(pin)),
+        n => format!("{n} × Ø{} H8", number(pin)),
+    };
+    draft.leader(tip, elbow, &[words]);
+    ends(plate, k, &mut draft);
+    draft
+}
+
+/// Width of the plate and the radius of its ends.
+fn ends(plate: &Plate, k: f64, draft: &mut Draft) {
+    let Bounds { min, max } = plate.outline.bounds();
+    if plate.part == Part::Frame {
+        return;
+    }
+    let [low, high] = [min.y, max.y].map(|y| Point::new(max.x.min(plate_end(plate)) * k, y * k));
+    let beside = Point::new(max.x * k + FIRST, 0.0);
+    draft.dimension([low, high], Vector::y(), beside, &number(max.y - min.y));
+}
+
+/// Where the straight edge of a plate ends.
+fn plate_end(plate: &Plate) -> f64 {
+    let bounds = plate.outline.bounds();
+    bounds.max.x - 0.5 * (bounds.max.y - bounds.min.y)
+}
+
+fn assembly(
+    feeder: &Feeder,
+    plates: &[Plate],
+    options: &SheetOptions,
+) -> Result<Vec<Sheet>, crate::sheet::SheetError> {
+    let mut block = block(feeder, "assembly", options);
+    block.document = "Assembly drawing".into();
+    let parts = Table {
+        title: "Parts".into(),
+        headings: ["part", "quantity", "at z"].map(String::from).into(),
+        columns: vec![Anchor::Left, Anchor::Right, Anchor::Right],
+        rows: plates.iter().map(row).collect(),
+        notes: Vec::new(),
+    };
+    let figures = figures(feeder);
+    let lines = [
+        "Shown where the effector rests and is filled.".to_owned(),
+        "Heights z of the lower faces, mm; a second frame plate above.".to_owned(),
+        "Dash-dotted: paths of B, C and of the tip E.".to_owned(),
+    ];
+    let table = |name, table: &Table| Piece {
+        name,
+        draft: table.whole(),
+        corner: Corner::UpperRight,
+        floats: false,
+        leads: false,
+    };
+    let pieces = |scale: Scale, size: SheetSize| {
+        vec![
+            table("parts list", &parts),
+            table("figures", &figures),
+            notes(&lines),
+            Piece {
+                name: "six-bar",
+                draft: six_bar(feeder, plates, scale, letters(size)),
+                corner: Corner::UpperLeft,
+                floats: true,
+                leads: true,
+            },
+        ]
+    };
+    let tips = feeder.path(2, POINTS);
+    let bounds = tips.iter().fold(Bounds::EMPTY, |b, p| b.with(*p));
+    let size = options.size.or(feeder.design().drawing.sheet);
+    compose(size, &block, (bounds.max - bounds.min).amax(), &pieces, &[])
+}
+
+fn row(plate: &Plate) -> Vec<String> {
+    vec![
+        plate.part.name().to_owned(),
+        plate.part.quantity().to_string(),
+        number(plate.bottom),
+    ]
+}
+
+fn figures(feeder: &Feeder) -> Table {
+    let six_bar = feeder.six_bar();
+    let [crank, coupler, rocker, frame] = six_bar.four_bar().lengths();
+    let pivot = six_bar.pivot();
+    let degrees = |x: f64| format!("{:.4}°", x.to_degrees());
+    let rows = [
+        ("crank AB", number(crank)),
+        ("coupler BC", number(coupler)),
+        ("rocker CD", number(rocker)),
+        ("frame AD", number(frame)),
+        (
+            "pivot F",
+            format!("{}, {}", number(pivot.x), number(pivot.y)),
+        ),
+        ("effector FE", number(six_bar.effector_length())),
+        ("swing", degrees(six_bar.swing())),
+        (
+            "least transmission angle",
+            degrees(six_bar.four_bar().least_transmission_angle()),
+        ),
+        ("crank at rest", degrees(feeder.start())),
+        (
+            "cycles a minute",
+            format!("{:.4}", feeder.cycles_per_minute()),
+        ),
+    ];
+    Table {
+        title: "Six-bar".into(),
+        headings: Vec::new(),
+        columns: vec![Anchor::Left, Anchor::Right],
+        rows: rows.map(|(name, value)| vec![name.into(), value]).into(),
+        notes: Vec::new(),
+    }
+}
+
+/// The six-bar at rest, the crank's shaft in the origin.
+fn six_bar(feeder: &Feeder, plates: &[Plate], scale: Scale, letters: f64) -> Draft {
+    let k = scale.factor();
+    let mut draft = Draft::lettered(letters);
+    let mut whole = Bounds::EMPTY;
+    for plate in plates {
+        let place = feeder.place(plate.part, feeder.start());
+        let on_paper =
+            |contour: &Outline, place: &Isometry2<f64>| contour.transformed(place).scaled(k);
+        let pen = match plate.part {
+            Part::Frame => Pen::Adjacent,
+            _ => Pen::Outline,
+        };
+        let outline = on_paper(&plate.outline, &place);
+        whole = whole.union(outline.bounds());
+        draft.draw(pen, Shape::Contour(outline));
+        for hole in plate.cut_outs() {
+            draft.draw(pen, Shape::Contour(on_paper(&hole, &place)));
+        }
+    }
+    for joint in 0..3 {
+        let path: Vec<Point> = feeder.path(joint, POINTS).iter().map(|p| p * k).collect();
+        whole = path.iter().fold(whole, |b, p| b.with(*p));
+        draft.draw(Pen::Axis, Shape::Polyline(path));
+    }
+    let [b, c, e] = feeder.six_bar().joints(feeder.start());
+    let frame = feeder.six_bar().four_bar().lengths()[3];
+    let pivot = feeder.six_bar().pivot();
+    let joints = [
+        ("A", Point::origin()),
+        ("B", b),
+        ("C", c),
+        ("D", Point::new(frame, 0.0)),
+        ("E", e),
+        ("F", pivot),
+    ];
+    let off = Vector::new(1.0, 1.0) * (0.5 * feeder.design().plates.pin_diameter * k + 0.6);
+    for (name, at) in joints {
+        draft.text(at * k + off, letters, name, Anchor::Left);
+    }
+    let below = Point::new(0.0, whole.min.y - FIRST);
+    let d = Point::new(frame, 0.0) * k;
+    draft.dimension([Point::origin(), d], Vector::x(), below, &number(frame));
+    let lower = below - Vector::new(0.0, NEXT);
+    draft.dimension(
+        [Point::origin(), pivot * k],
+        Vector::x(),
+        lower,
+        &number(pivot.x),
+    );
+    let beside = Point::new(whole.max.x + FIRST, 0.0);
+    draft.dimension(
+        [Point::origin(), pivot * k],
+        Vector::y(),
+        beside,
+        &number(pivot.y),
+    );
+    draft
+}
+
+/// Height of the letters of the views, mm: smaller on the smallest sheet.
+fn letters(size: SheetSize) -> f64 {
+    match size {
+        SheetSize::A4 => 2.5,
+        _ => 3.5,
+    }
+}
+
+fn notes(lines: &[String]) -> Piece {
+    let mut draft = Draft::default();
+    for (row, line) in lines.iter().enumerate() {
+        let at = Point::new(0.0, -4.6 * row as f64);
+        draft.text(at, 2.5, line, Anchor::Left);
+    }
+    Piece {
+        name: "notes",
+        draft,
+        corner: Corner::UpperRight,
+        floats: false,
+        leads: false,
+    }
+}
+
+/// A number to four places, without trailing zeros.
+fn number(x: f64) -> String {
+    let text = format!("{x:.4}");
+    let text = text.trim_end_matches('0').trim_end_matches('.');
+    if text == "-0" { "0" } else { text }.to_owned()
+}

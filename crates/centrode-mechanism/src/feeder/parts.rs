@@ -1,0 +1,297 @@
+use std::f64::consts::PI;
+
+use centrode_geometry::{Outline, Point, Solid, SolidError, Vector};
+use nalgebra::Isometry2;
+
+use super::{Feeder, FeederError};
+
+/// A part of the six-bar, cut from plate.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+pub enum Part {
+    /// What holds the three shafts A, D and F; one in front of the links, one behind.
+    Frame,
+    /// The crank AB.
+    Crank,
+    /// The coupler BC.
+    Coupler,
+    /// The rocker CD.
+    Rocker,
+    /// The end effector on F, with a slot for the slider.
+    Effector,
+    /// The slider on the pin C.
+    Slider,
+}
+
+impl Part {
+    /// All of them.
+    pub const ALL: [Self; 6] = [
+        Self::Frame,
+        Self::Crank,
+        Self::Coupler,
+        Self::Rocker,
+        Self::Effector,
+        Self::Slider,
+    ];
+
+    /// The name of its files.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Frame => "frame",
+            Self::Crank => "crank",
+            Self::Coupler => "coupler",
+            Self::Rocker => "rocker",
+            Self::Effector => "effector",
+            Self::Slider => "slider",
+        }
+    }
+
+    /// How many of it one six-bar needs.
+    #[must_use]
+    pub fn quantity(self) -> u32 {
+        match self {
+            Self::Frame => 2,
+            _ => 1,
+        }
+    }
+
+    /// Which plate along the shafts it is; the frame is the one below the first.
+    fn layer(self) -> f64 {
+        match self {
+            Self::Frame => -1.0,
+            Self::Crank => 0.0,
+            Self::Coupler => 1.0,
+            Self::Rocker => 2.0,
+            Self::Effector | Self::Slider => 3.0,
+        }
+    }
+}
+
+/// A joint of a [`Plate`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PlateJoint {
+    /// Its letter, A to F.
+    pub name: &'static str,
+    /// Where it is, in the plate's own axes, mm.
+    pub at: Point,
+    /// Whether there is a hole for a pin.
+    pub hole: bool,
+}
+
+/// A part as a plate in its own axes: the first joint in the origin, the second one along x.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Plate {
+    /// Which part.
+    pub part: Part,
+    /// Its contour.
+    pub outline: Outline,
+    /// Holes for pins.
+    pub holes: Vec<Outline>,
+    /// Ends of the slot along x, mm, round ends included, and its contour.
+    pub slot: Option<([f64; 2], Outline)>,
+    /// Its joints.
+    pub joints: Vec<PlateJoint>,
+    /// Height of the lower face along the shafts, mm.
+    pub bottom: f64,
+    /// Thickness, mm.
+    pub thickness: f64,
+}
+
+impl Plate {
+    /// Everything that is cut out of it.
+    #[must_use]
+    pub fn cut_outs(&self) -> Vec<Outline> {
+        let slot = self.slot.iter().map(|(_, contour)| contour.clone());
+        self.holes.iter().cloned().chain(slot).collect()
+    }
+
+    /// The plate lying on z = 0.
+    ///
+    /// # Errors
+    /// [`SolidError`] where a number is not finite.
+    pub fn solid(&self) -> Result<Solid, SolidError> {
+        self.solid_at(&Isometry2::identity(), 0.0)
+    }
+
+    /// The plate moved in its plane, its lower face at a height.
+    ///
+    /// # Errors
+    /// [`SolidError`] where a number is not finite.
+    pub fn solid_at(&self, motion: &Isometry2<f64>, bottom: f64) -> Result<Solid, SolidError> {
+        let moved = |outline: &Outline| outline.transformed(motion);
+        let holes = self.cut_outs().iter().map(moved).collect();
+        Solid::new(moved(&self.outline), holes, bottom, bottom + self.thickness)
+    }
+}
+
+/// Joint coordinates of the machine since it rested: angles in rad, the slider's way along the effector in mm.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct JointPositions {
+    /// Crank against the frame.
+    pub crank: f64,
+    /// Coupler against the crank.
+    pub coupler: f64,
+    /// Rocker against the frame.
+    pub rocker: f64,
+    /// Effector against the frame.
+    pub effector: f64,
+    /// Slider along the effector, outwards.
+    pub slider: f64,
+}
+
+impl Feeder {
+    /// A part as a plate.
+    ///
+    /// # Errors
+    /// [`FeederError::SlotMeetsPivot`] for an effector whose slot runs into the hole of its pivot;
+    /// [`FeederError::NoPlate`] where the joints leave no contour.
+    pub fn plate(&self, part: Part) -> Result<Plate, FeederError> {
+        let spec = &self.design().plates;
+        let [crank, coupler, rocker, frame] = self.six_bar().four_bar().lengths();
+        let joint = |name, x: f64, y: f64, hole| PlateJoint {
+            name,
+            at: Point::new(x, y),
+            hole,
+        };
+        let pivot = self.six_bar().pivot();
+        let joints = match part {
+            Part::Frame => vec![
+                joint("A", 0.0, 0.0, true),
+                joint("D", frame, 0.0, true),
+                joint("F", pivot.x, pivot.y, true),
+            ],
+            Part::Crank => vec![joint("A", 0.0, 0.0, true), joint("B", crank, 0.0, true)],
+            Part::Coupler => vec![joint("B", 0.0, 0.0, true), joint("C", coupler, 0.0, true)],
+            Part::Rocker => vec![joint("D", 0.0, 0.0, true), joint("C", rocker, 0.0, true)],
+            Part::Effector => vec![
+                joint("F", 0.0, 0.0, true),
+                joint("E", self.six_bar().effector_length(), 0.0, false),
+            ],
+            Part::Slider => vec![joint("C", 0.0, 0.0, true)],
+        };
+        let slot = match part {
+            Part::Effector => Some(self.slot()?),
+            _ => None,
+        };
+        let half = 0.5 * spec.width;
+        let mut circles: Vec<(Point, f64)> = joints.iter().map(|j| (j.at, half)).collect();
+        match (part, slot) {
+            (Part::Slider, _) => {
+                let radius = 0.5 * spec.slot_width;
+                let off = Vector::new(0.5 * spec.slider_length - radius, 0.0);
+                circles = vec![
+                    (Point::origin() - off, radius),
+                    (Point::origin() + off, radius),
+                ];
+            }
+            // The plate goes on behind a slot that ends beyond the tip.
+            (_, Some([_, end])) => circles.push((Point::new(end, 0.0), half)),
+            _ => {}
+        }
+        let no_plate = || FeederError::NoPlate(part.name());
+        let pins = joints.iter().filter(|j| j.hole);
+        let holes = pins.map(|j| Outline::circle(j.at, 0.5 * spec.pin_diameter));
+        let contour = |[start, end]: [f64; 2]| {
+            let radius = 0.5 * spec.slot_width;
+            let ends = [start + radius, end - radius].map(|x| (Point::new(x, 0.0), radius));
+            Some(([start, end], Outline::hull(&ends)?))
+        };
+        let slot = match slot {
+            Some(ends) => Some(contour(ends).ok_or_else(no_plate)?),
+            None => None,
+        };
+        Ok(Plate {
+            part,
+            outline: Outline::hull(&circles).ok_or_else(no_plate)?,
+            holes: holes.collect(),
+            slot,
+            joints,
+            bottom: part.layer() * (spec.thickness + spec.gap),
+            thickness: spec.thickness,
+        })
+    }
+
+    /// Ends of the effector's slot, distances from its pivot, mm.
+    fn slot(&self) -> Result<[f64; 2], FeederError> {
+        let spec = &self.design().plates;
+        let more = 0.5 * spec.slider_length + spec.slot_play;
+        let start = self.six_bar().least_slider_distance() - more;
+        let end = self.six_bar().greatest_slider_distance() + more;
+        let radius = 0.5 * spec.pin_diameter;
+        if start <= radius {
+            return Err(FeederError::SlotMeetsPivot { start, radius });
+        }
+        Ok([start, end])
+    }
+
+    /// Where a part's own axes are at a crank angle.
+    #[must_use]
+    pub fn place(&self, part: Part, crank: f64) -> Isometry2<f64> {
+        let bar = self.six_bar().four_bar();
+        let [b, c, _] = self.six_bar().joints(crank);
+        let d = Point::new(bar.lengths()[3], 0.0);
+        let f = self.six_bar().pivot();
+        let (origin, towards) = match part {
+            Part::Frame => return Isometry2::identity(),
+            Part::Crank => (Point::origin(), b),
+            Part::Coupler => (b, c),
+            Part::Rocker => (d, c),
+            Part::Effector => (f, c),
+            Part::Slider => (c, c + (c - f)),
+        };
+        let way = towards - origin;
+        Isometry2::new(origin.coords, way.y.atan2(way.x))
+    }
+
+    /// Every joint since the machine rested, without jumps, at an input.
+    #[must_use]
+    pub fn joint_positions(&self, input: f64) -> JointPositions {
+        let [now, rest] = [input, 0.0].map(|input| {
+            let crank = self.crank(input).position;
+            let bar = self.six_bar().four_bar();
+            let rocker = bar.rocker_angle(crank).unwrap_or_default().position;
+            // The angle at C stays within (0, pi), so the coupler's angle has no jumps either.
+            let coupler = rocker - bar.branch().sign() * bar.transmission_angle(crank);
+            JointPositions {
+                crank,
+                coupler: coupler - crank,
+                rocker,
+                effector: self.six_bar().effector_angle(crank).position,
+                slider: self.six_bar().slider_distance(crank).position,
+            }
+        });
+        JointPositions {
+            crank: now.crank - rest.crank,
+            coupler: now.coupler - rest.coupler,
+            rocker: now.rocker - rest.rocker,
+            effector: now.effector - rest.effector,
+            slider: now.slider - rest.slider,
+        }
+    }
+
+    /// Room between the rocker's shaft D, where it passes the effector, and the effector's plate at an input, mm;
+    /// below zero where they overlap.
+    #[must_use]
+    pub fn shaft_clearance(&self, input: f64) -> f64 {
+        let spec = &self.design().plates;
+        let crank = self.crank(input).position;
+        let place = self.place(Part::Effector, crank);
+        let d = Point::new(self.six_bar().four_bar().lengths()[3], 0.0);
+        let d = place.inverse_transform_point(&d);
+        let reach = self.six_bar().effector_length();
+        let nearest = Point::new(d.x.clamp(0.0, reach), 0.0);
+        (d - nearest).norm() - 0.5 * (spec.width + spec.pin_diameter)
+    }
+
+    /// The path of a joint or the tip over one turn of the crank: B, C or E by its place in
+    /// [`SixBar::joints`](crate::linkage::SixBar::joints).
+    #[must_use]
+    pub fn path(&self, joint: usize, count: u32) -> Vec<Point> {
+        (0..=count)
+            .map(|i| {
+                let crank = self.start() + 2.0 * PI * f64::from(i) / f64::from(count);
+                self.six_bar().joints(crank)[joint.min(2)]
+            })
+            .collect()
+    }
+}

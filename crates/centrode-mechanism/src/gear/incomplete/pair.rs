@@ -1,0 +1,458 @@
+use std::f64::consts::{PI, TAU};
+use std::sync::Arc;
+
+use centrode_geometry::{Outline, Point, Tolerance, Vector};
+use nalgebra::{Isometry2, Rotation2};
+
+use super::radial::Radial;
+use super::{IncompletePairError, IncompletePairSpec, Pins};
+use crate::gear::pitch::PitchSpec;
+use crate::gear::{GearPair, Member};
+use crate::transmission::{MotionJet, Transmission};
+
+/// Steps of one driver turn while the driven gear passes through the driver's blank: a twentieth of a degree.
+const STEPS: u32 = 7200;
+/// Greatest distance of a written contour from the one worked out, in modules.
+const ACCURACY: f64 = 1e-4;
+/// Corners of a pin.
+const PIN_CORNERS: u32 = 96;
+/// Teeth lower than this above the locking arc, in modules, are not counted.
+const TOOTH: f64 = 0.2;
+
+/// A pair of gears of which the driver has teeth on an arc alone, and holds the driven gear with a locking arc over
+/// the rest of its turn.
+///
+/// The driven gear keeps the teeth its tool cuts, less a notch for the driver's locking arc at each stop. The driver
+/// is what the driven gear, led through its law, leaves of a complete one: the tips of its first and last teeth and
+/// the ends of its locking arc are cut back by just as much as entry and exit would clash. Pins of the driven gear on
+/// two cams beside the teeth, one for entry and one for exit, bring it to speed and to rest: teeth alone strike it.
+///
+/// The driver turns clockwise about the origin by the input, the driven gear counter-clockwise about (centre
+/// distance, 0). Contours are polygons within a ten-thousandth of the module.
+#[derive(Clone, Debug)]
+pub struct IncompletePair {
+    pair: GearPair,
+    law: IncompleteLaw,
+    lock_radius: f64,
+    lock_play: f64,
+    driver: Outline,
+    driven: Outline,
+    cams: Vec<Cam>,
+    teeth: u32,
+    stops: u32,
+}
+
+/// A cam beside the driver's teeth, and the pins it holds the driven gear by while it starts or stops.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Cam {
+    /// The cam in the driver's axes.
+    pub outline: Outline,
+    /// The pins in the driven gear's axes, one for each stop.
+    pub pins: Vec<Point>,
+    /// Radius of a pin, mm.
+    pub pin_radius: f64,
+}
+
+/// The motion of an [`IncompletePair`]: the law of its pitch curves over the toothed arc, eased in and out over the
+/// entry angle, and rest.
+#[derive(Clone, Debug)]
+pub struct IncompleteLaw {
+    pair: Arc<crate::gear::Rolling>,
+    /// Driver angle of the toothed arc.
+    arc: f64,
+    entry: f64,
+    driven: f64,
+}
+
+impl IncompleteLaw {
+    /// The driver angle from start to stop, rad.
+    #[must_use]
+    pub fn motion_angle(&self) -> f64 {
+        self.arc + self.entry
+    }
+
+    /// How far the pitch curves have rolled, rad of the driver, within one turn.
+    fn rolled(&self, input: f64) -> MotionJet {
+        let (entry, motion) = (self.entry, self.motion_angle());
+        let ease = |input: f64| {
+            let u = input / entry;
+            MotionJet {
+                position: entry * u.powi(4) * (2.5 - 3.0 * u + u * u),
+                velocity: u.powi(3) * (10.0 - 15.0 * u + 6.0 * u * u),
+                acceleration: 30.0 * (u * (1.0 - u)).powi(2) / entry,
+                jerk: 60.0 * u * (1.0 - u) * (1.0 - 2.0 * u) / (entry * entry),
+            }
+        };
+        if input < entry {
+            return ease(input);
+        }
+        if input <= motion - entry {
+            return MotionJet {
+                position: input - 0.5 * entry,
+                velocity: 1.0,
+                ..MotionJet::default()
+            };
+        }
+        // The exit is the entry run backwards.
+        let back = ease(motion - input);
+        MotionJet {
+            position: self.arc - back.position,
+            velocity: back.velocity,
+            acceleration: -back.acceleration,
+            jerk: back.jerk,
+        }
+    }
+}
+
+impl Transmission for IncompleteLaw {
+    fn at(&self, input: f64) -> MotionJet {
+        let turns = (input / TAU).floor();
+        let within = input - turns * TAU;
+        let gone = turns * self.driven;
+        if within >= self.motion_angle() {
+            return MotionJet {
+                position: gone + self.driven,
+                ..MotionJet::default()
+            };
+        }
+        let rolled = self.rolled(within);
+        let phi = rolled.position;
+        let mesh = MotionJet {
+            position: self.pair.driven_angle(phi),
+            velocity: self.pair.ratio(phi),
+            acceleration: self.pair.ratio_slope(phi),
+            jerk: 0.0,
+        };
+        let mut jet = mesh.after(&rolled);
+        jet.position += gone - self.pair.driven_angle(0.0);
+        jet
+    }
+
+    fn advance(&self) -> f64 {
+        self.driven
+    }
+
+    fn breaks(&self) -> Vec<f64> {
+        let motion = self.motion_angle();
+        if self.entry > 0.0 {
+            vec![0.0, self.entry, motion - self.entry, motion]
+        } else {
+            vec![0.0, motion]
+        }
+    }
+}
+
+impl IncompletePair {
+    /// Cuts both gears, and the cam where there is an entry angle.
+    ///
+    /// # Errors
+    /// [`IncompletePairError`] naming the violated rule and its numbers.
+    pub fn resolve(spec: &IncompletePairSpec) -> Result<Self, IncompletePairError> {
+        spec.validate()?;
+        let pair = GearPair::resolve(&spec.pair)?;
+        let law = Self::law_of(&pair, spec)?;
+        let stops = (pair.driven().tooth_count() / spec.teeth).max(1);
+        let lock_radius = Self::lock(&pair, spec)?;
+        let accuracy =
+            Tolerance::new(ACCURACY * pair.module()).map_err(|_| IncompletePairError::NoLock)?;
+        let mut made = Self {
+            law,
+            lock_radius,
+            lock_play: spec.lock_play,
+            driver: Outline::polygon(&[]),
+            driven: Outline::polygon(&[]),
+            cams: Vec::new(),
+            teeth: 0,
+            stops,
+            pair,
+        };
+        let whole = Radial::of(&made.pair.driven().outline().flatten(accuracy));
+        // The driver is cut by a driven gear whose notch fits; the finished one has its play.
+        let tool = made.notched(&whole, lock_radius).polygon(accuracy);
+        let play = spec.backlash / (2.0 * made.base_radius());
+        let blank = made.blank(accuracy);
+        let driver = made.swept(blank, std::slice::from_ref(&tool), play, false);
+        made.teeth = teeth(&driver, lock_radius + TOOTH * made.pair.module());
+        if made.teeth == 0 {
+            return Err(IncompletePairError::NoTeethLeft {
+                kept: spec.teeth,
+                lock_radius,
+            });
+        }
+        made.driver = Outline::polygon(&driver.polygon(accuracy));
+        let finished = made.notched(&whole, lock_radius + spec.lock_play);
+        made.driven = Outline::polygon(&finished.polygon(accuracy));
+        if spec.entry > 0.0 {
+            made.cams = made.cut_cams(&spec.pins, play, accuracy)?;
+        }
+        Ok(made)
+    }
+
+    fn law_of(
+        pair: &GearPair,
+        spec: &IncompletePairSpec,
+    ) -> Result<IncompleteLaw, IncompletePairError> {
+        let (driver, driven) = (pair.driver().tooth_count(), pair.driven().tooth_count());
+        let kept = spec.teeth;
+        if !kept.is_multiple_of(driven) && !driven.is_multiple_of(kept) {
+            return Err(IncompletePairError::Stops { kept, driven });
+        }
+        let round = matches!(spec.pair.pitch, PitchSpec::Circle(_));
+        if kept < driven && !round {
+            return Err(IncompletePairError::StopsNeedCircles { kept, driven });
+        }
+        let pitch = pair.rolling().pitch_length(Member::Driver) / f64::from(driver);
+        let rolling = Arc::new(pair.rolling().clone());
+        let arc = rolling.angle(rolling.parameter(pitch * f64::from(kept)));
+        let law = IncompleteLaw {
+            arc,
+            entry: spec.entry,
+            driven: rolling.driven_angle(arc) - rolling.driven_angle(0.0),
+            pair: rolling,
+        };
+        let motion = law.motion_angle();
+        if kept >= driver || motion >= TAU {
+            return Err(IncompletePairError::NoDwell { kept, motion });
+        }
+        if 2.0 * spec.entry > motion {
+            return Err(IncompletePairError::Entry {
+                entry: spec.entry,
+                motion,
+            });
+        }
+        Ok(law)
+    }
+
+    /// Radius of the locking arc: as written, or that of the driver's pitch point at rest.
+    fn lock(pair: &GearPair, spec: &IncompletePairSpec) -> Result<f64, IncompletePairError> {
+        let a = pair.center_distance();
+        let rolling = pair.rolling();
+        let pitch_point = rolling.frame(Member::Driver, rolling.parameter(0.0)).point;
+        let radius = spec.lock_radius.unwrap_or(pitch_point.coords.norm());
+        let (_, tip) = pair.driven().radii();
+        let hub = 0.5 * spec.pair.driven.bore;
+        if radius <= a - tip {
+            return Err(IncompletePairError::LockTooSmall {
+                radius,
+                least: a - tip,
+            });
+        }
+        if radius >= a - hub {
+            return Err(IncompletePairError::LockOverlaps {
+                radius,
+                greatest: a - hub,
+            });
+        }
+        Ok(radius)
+    }
+
+    /// The driven gear with a notch for a locking arc of a radius at each stop.
+    fn notched(&self, whole: &Radial, radius: f64) -> Radial {
+        let mut notched = whole.clone();
+        for stop in 0..self.stops {
+            let turned = self.law.driven * f64::from(stop);
+            notched.cut_circle(self.driver_axis(turned), radius);
+        }
+        notched
+    }
+
+    /// The driver's axis in the driven gear's own axes when that has turned.
+    fn driver_axis(&self, turned: f64) -> Point {
+        Rotation2::new(-turned) * Point::new(-self.pair.center_distance(), 0.0)
+    }
+
+    /// Base radius of the driven gear: play along the normal is play in angle times this.
+    fn base_radius(&self) -> f64 {
+        let mean = self.pair.rolling().pitch_length(Member::Driven) / TAU;
+        mean * self.pair.teeth().tool.pressure_angle.cos()
+    }
+
+    /// The driver's blank: a complete driver, turned on by half the entry angle that easing in costs.
+    fn blank(&self, accuracy: Tolerance) -> Radial {
+        let turned = Rotation2::new(0.5 * self.law.entry);
+        let corners = self.pair.driver().outline().flatten(accuracy);
+        let corners: Vec<Point> = corners.iter().map(|p| turned * p).collect();
+        Radial::of(&corners)
+    }
+
+    /// The driven gear's place when the driver has turned by `input`, in the driver's axes.
+    fn mate(&self, input: f64, driven: f64) -> Isometry2<f64> {
+        let placed = Isometry2::new(Vector::new(self.pair.center_distance(), 0.0), driven);
+        Isometry2::rotation(input) * placed
+    }
+
+    /// What bodies of the driven gear leave of a blank in one turn, with a play of the driven gear either way while
+    /// it moves, or always.
+    fn swept(&self, mut blank: Radial, bodies: &[Vec<Point>], play: f64, always: bool) -> Radial {
+        let reach = blank.greatest();
+        let motion = self.law.motion_angle();
+        let plays: &[f64] = if play > 0.0 { &[-1.0, 1.0] } else { &[0.0] };
+        let mut inputs: Vec<f64> = (0..=STEPS)
+            .map(|i| TAU * f64::from(i) / f64::from(STEPS))
+            .collect();
+        inputs.extend(self.law.breaks());
+        inputs.sort_by(f64::total_cmp);
+        for body in bodies {
+            for &side in plays {
+                let placed = |input: f64| -> Vec<Point> {
+                    let off = if always || (input > 0.0 && input < motion) {
+                        side * play
+                    } else {
+                        0.0
+                    };
+                    let place = self.mate(input, self.law.at(input.min(TAU)).position + off);
+                    body.iter().map(|p| place * p).collect()
+                };
+                let mut before = placed(0.0);
+                for &input in &inputs[1..] {
+                    let now = placed(input);
+                    blank.cut_moving(&before, &now, reach);
+                    before = now;
+                }
+            }
+        }
+        blank
+    }
+
+    /// The cams of entry and exit, one on each side of the teeth: on one the pins of the other would be in the way.
+    fn cut_cams(
+        &self,
+        pins: &Pins,
+        play: f64,
+        accuracy: Tolerance,
+    ) -> Result<Vec<Cam>, IncompletePairError> {
+        let radius = 0.5 * pins.diameter.unwrap_or(2.5 * self.pair.module());
+        let pitch = self.pair.rolling().pitch_length(Member::Driven) / TAU;
+        let circle = 0.5 * pins.circle.unwrap_or(1.5 * pitch);
+        let nearest = self.center_distance() - circle - radius;
+        let hub = 0.5 * self.pair.driver().body().bore;
+        if nearest <= hub {
+            return Err(IncompletePairError::PinMeetsHub { nearest, hub });
+        }
+        let (entry, motion) = (self.law.entry, self.law.motion_angle());
+        // Entry pins stand below the line of centres, where the driver's surface comes from; exit pins above.
+        let ends = [(1.0, entry), (-1.0, motion - entry)];
+        let cam = |(side, handed_over): (f64, f64)| {
+            let places: Vec<Point> = (0..self.stops)
+                .map(|stop| {
+                    let turned = self.law.driven * f64::from(stop);
+                    let direction = PI + side * pins.angle - turned;
+                    Point::new(direction.cos(), direction.sin()) * circle
+                })
+                .collect();
+            let bodies: Vec<Vec<Point>> = places.iter().map(|&at| pin(at, radius)).collect();
+            // The cam reaches as far as its pin when the teeth take over.
+            let at = self.mate(handed_over, self.law.at(handed_over).position) * places[0];
+            let mut blank = Radial::unbounded();
+            blank.limit(at.coords.norm());
+            let cam = self.swept(blank, &bodies, play, true);
+            Cam {
+                outline: Outline::polygon(&cam.polygon(accuracy)),
+                pins: places,
+                pin_radius: radius,
+            }
+        };
+        Ok(ends.map(cam).into())
+    }
+
+    /// The complete pair it is made from.
+    #[must_use]
+    pub fn pair(&self) -> &GearPair {
+        &self.pair
+    }
+
+    /// The driven angle as a function of the driver's turn.
+    #[must_use]
+    pub fn law(&self) -> &IncompleteLaw {
+        &self.law
+    }
+
+    /// Distance between the shafts, mm.
+    #[must_use]
+    pub fn center_distance(&self) -> f64 {
+        self.pair.center_distance()
+    }
+
+    /// Radius of the driver's locking arc, mm.
+    #[must_use]
+    pub fn lock_radius(&self) -> f64 {
+        self.lock_radius
+    }
+
+    /// The driver in its own axes, the input zero towards the driven gear.
+    #[must_use]
+    pub fn driver(&self) -> &Outline {
+        &self.driver
+    }
+
+    /// The driven gear in its own axes.
+    #[must_use]
+    pub fn driven(&self) -> &Outline {
+        &self.driven
+    }
+
+    /// The cams of entry and exit, where there is an entry angle.
+    #[must_use]
+    pub fn cams(&self) -> &[Cam] {
+        &self.cams
+    }
+
+    /// Teeth that the driver has kept.
+    #[must_use]
+    pub fn teeth(&self) -> u32 {
+        self.teeth
+    }
+
+    /// Places at which the driven gear stops in one of its turns.
+    #[must_use]
+    pub fn stops(&self) -> u32 {
+        self.stops
+    }
+
+    /// Driver angle for which the driven gear rests, rad.
+    #[must_use]
+    pub fn dwell_angle(&self) -> f64 {
+        TAU - self.law.motion_angle()
+    }
+
+    /// Jump of the driven gear's speed as it starts, per driver speed; none with an entry cam.
+    #[must_use]
+    pub fn shock(&self) -> f64 {
+        if self.law.entry > 0.0 {
+            0.0
+        } else {
+            self.pair.ratio(0.0)
+        }
+    }
+
+    /// How far the locked driven gear can turn either way by the play of the locking arc, rad: the play over the
+    /// lever of the notch's ends.
+    #[must_use]
+    pub fn locked_play(&self) -> f64 {
+        let a = self.center_distance();
+        let (_, tip) = self.pair.driven().radii();
+        let r = self.lock_radius;
+        let cosine = (a * a + tip * tip - r * r) / (2.0 * a * tip);
+        let lever = a * tip * cosine.clamp(-1.0, 1.0).acos().sin() / r;
+        self.lock_play / lever
+    }
+}
+
+/// How often a contour rises above a radius.
+fn teeth(radial: &Radial, radius: f64) -> u32 {
+    let count = 16_384_u32;
+    let above = |i: u32| radial.at(TAU * f64::from(i) / f64::from(count)) > radius;
+    (0..count)
+        .filter(|&i| above(i) && !above((i + count - 1) % count))
+        .count() as u32
+}
+
+/// The corners of a pin, which lie a little outside it.
+fn pin(center: Point, radius: f64) -> Vec<Point> {
+    let radius = radius / (PI / f64::from(PIN_CORNERS)).cos();
+    let corner = |i: u32| {
+        let angle = TAU * f64::from(i) / f64::from(PIN_CORNERS);
+        center + Vector::new(angle.cos(), angle.sin()) * radius
+    };
+    (0..PIN_CORNERS).map(corner).collect()
+}

@@ -1,0 +1,62 @@
+/// Why a linkage cannot be built or posed.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum LinkageError {
+    /// A length that is not above zero.
+    #[error("{name} is {value} mm; it must be finite and above zero")]
+    Length {
+        /// Which one.
+        name: &'static str,
+        /// As given, mm.
+        value: f64,
+    },
+    /// A number that is not finite.
+    #[error("{name} is {value}; it must be finite")]
+    NotFinite {
+        /// Which one.
+        name: &'static str,
+        /// As given.
+        value: f64,
+    },
+    /// A joint or link of another linkage.
+    #[error("{what} {index} is not of this linkage, which has {count} of them")]
+    Unknown {
+        /// `joint` or `link`.
+        what: &'static str,
+        /// Its number.
+        index: usize,
+        /// How many this linkage has.
+        count: usize,
+    },
+    /// A second crank.
+    #[error("the linkage has its crank already: one input moves it")]
+    SecondCrank,
+    /// A dyad does not reach.
+    #[error("dyad {dyad} cannot close at the input {input} rad: {missing} mm are missing")]
+    DoesNotClose {
+        /// Its number, from 0 in the order of building.
+        dyad: usize,
+        /// The input, rad.
+        input: f64,
+        /// How far its ends stay apart, mm; for two parallel guides not finite.
+        missing: f64,
+    },
+    /// A dyad closes just so, and velocities have no finite value.
+    #[error(
+        "dyad {dyad} is stretched or folded flat at the input {input} rad: velocities are not finite there"
+    )]
+    Flat {
+        /// Its number, from 0 in the order of building.
+        dyad: usize,
+        /// The input, rad.
+        input: f64,
+    },
+    /// The angle of a link jumps: a guided link's block passes its pivot.
+    #[error("the direction of link {link} is not defined near the input {input} rad")]
+    NoDirection {
+        /// The link's number.
+        link: usize,
+        /// The input, rad.
+        input: f64,
+    },
+}

@@ -1,0 +1,93 @@
+use centrode_geometry::Point;
+
+/// A joint of a [`Linkage`]: a point of one of its links.
+#[derive(Clone, Copy, Debug, Eq, Hash, Ord, PartialEq, PartialOrd)]
+pub struct Joint(pub(super) usize);
+
+/// A link of a [`Linkage`]: a rigid body with its own axes.
+#[derive(Clone, Copy, Debug, Eq, Hash, Ord, PartialEq, PartialOrd)]
+pub struct Link(pub(super) usize);
+
+impl Link {
+    /// The link that stands still.
+    pub const FRAME: Self = Self(0);
+
+    /// Position among the linkage's links; the frame is 0.
+    #[must_use]
+    pub fn index(self) -> usize {
+        self.0
+    }
+}
+
+impl Joint {
+    /// Position among the linkage's joints.
+    #[must_use]
+    pub fn index(self) -> usize {
+        self.0
+    }
+}
+
+/// A straight guide fixed to a link.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Line {
+    /// The link it belongs to.
+    pub link: Link,
+    /// A point it passes through, in the link's axes, mm.
+    pub through: Point,
+    /// Its direction against the link's first axis, rad.
+    pub angle: f64,
+}
+
+/// The links and the joint of two bars.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+pub struct TwoBars {
+    /// The bar from the first outer joint, its first axis towards the common joint.
+    pub first: Link,
+    /// The bar from the second outer joint, its first axis towards the common joint.
+    pub second: Link,
+    /// The common joint.
+    pub joint: Joint,
+}
+
+/// The links and the joint of a dyad with a slider.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+pub struct SliderDyad {
+    /// The block that slides, its first axis along the guide.
+    pub block: Link,
+    /// The other link of the dyad.
+    pub link: Link,
+    /// The joint of block and link, or of block and what drives it.
+    pub joint: Joint,
+}
+
+/// How two links of a linkage are held together.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+pub enum Connection {
+    /// A pin.
+    Turning {
+        /// Where.
+        joint: Joint,
+        /// The two links.
+        links: (Link, Link),
+    },
+    /// A block in a straight guide.
+    Sliding {
+        /// The middle of the block.
+        joint: Joint,
+        /// The block; its first axis points along the guide.
+        block: Link,
+        /// The link with the guide.
+        guide: Link,
+    },
+}
+
+/// What a linkage is made of, for those who ask about forces.
+#[derive(Clone, Debug)]
+pub struct LinkageParts {
+    /// The driven link.
+    pub crank: Option<Link>,
+    /// Every pin and guide.
+    pub connections: Vec<Connection>,
+    /// Links, the frame included.
+    pub link_count: usize,
+}

@@ -1,0 +1,185 @@
+use centrode_geometry::{Point, Vector};
+
+use super::assembly::{Linkage, Step};
+use super::dyad::{Closed, prp, rpr, rrp, rrr};
+use super::error::LinkageError;
+use super::parts::{Line, Link};
+use super::point_series::PointSeries;
+use super::pose::{Body, Pose};
+use crate::formula::Taylor;
+use crate::transmission::MotionJet;
+
+/// Joints and links while a pose is worked out.
+pub(super) struct Series<const N: usize> {
+    joints: Vec<PointSeries<N>>,
+    /// Origin and first axis.
+    frames: Vec<(PointSeries<N>, PointSeries<N>)>,
+    /// What is left to every dyad before it no longer closes.
+    pub(super) room: Vec<Taylor<N>>,
+}
+
+impl<const N: usize> Series<N> {
+    fn line(&self, line: &Line) -> (PointSeries<N>, PointSeries<N>) {
+        let (origin, axis) = self.frames[line.link.0];
+        let (sin, cos) = line.angle.sin_cos();
+        let through = origin.plus(axis.turned(line.through.coords));
+        (through, axis.turned(Vector::new(cos, sin)))
+    }
+
+    pub(super) fn axis(&self, link: Link) -> PointSeries<N> {
+        self.frames[link.0].1
+    }
+}
+
+impl Linkage {
+    /// Positions, velocities, accelerations and jerks of everything at an input, per radian of input.
+    ///
+    /// # Errors
+    /// [`LinkageError::DoesNotClose`]; [`LinkageError::Flat`] where velocities are not finite.
+    pub fn at(&self, input: f64) -> Result<Pose, LinkageError> {
+        let series = self.series::<4>(input);
+        self.closes(&series, input)?;
+        let bodies = series.frames.iter().map(|(origin, axis)| Body {
+            origin: origin.jet(),
+            angle: MotionJet::of(&axis.angle()),
+        });
+        Ok(Pose {
+            bodies: bodies.collect(),
+            joints: series.joints.iter().map(|j| j.jet()).collect(),
+        })
+    }
+
+    fn closes(&self, series: &Series<4>, input: f64) -> Result<(), LinkageError> {
+        for (dyad, room) in series.room.iter().enumerate() {
+            if room.0[0] == 0.0 && !self.is_prp(dyad) {
+                return Err(LinkageError::Flat { dyad, input });
+            }
+            if room.0[0] <= 0.0 || room.0[0].is_nan() {
+                let missing = self.missing(dyad, input);
+                return Err(LinkageError::DoesNotClose {
+                    dyad,
+                    input,
+                    missing,
+                });
+            }
+        }
+        Ok(())
+    }
+
+    fn dyads(&self) -> impl Iterator<Item = &Step> {
+        let dyads = self.steps.iter();
+        dyads.filter(|s| !matches!(s, Step::Point { .. } | Step::Crank { .. }))
+    }
+
+    fn is_prp(&self, dyad: usize) -> bool {
+        matches!(
+            self.dyads().nth(dyad),
+            Some(Step::Prp { .. } | Step::Rpp { .. })
+        )
+    }
+
+    /// How far the ends of a dyad that does not close stay apart, mm.
+    pub(super) fn missing(&self, dyad: usize, input: f64) -> f64 {
+        let series = self.series::<1>(input);
+        let between =
+            |p: usize, q: usize| (series.joints[p].value() - series.joints[q].value()).norm();
+        match self.dyads().nth(dyad) {
+            Some(&Step::Rrr { p, q, lengths, .. }) => {
+                let d = between(p, q);
+                (d - lengths.0 - lengths.1).max((lengths.0 - lengths.1).abs() - d)
+            }
+            Some(Step::Rrp {
+                p, length, line, ..
+            }) => {
+                let (u, e) = series.line(line);
+                e.cross(series.joints[*p].minus(u)).0[0].abs() - length
+            }
+            Some(&Step::Rpr { p, q, offset, .. }) => offset.abs() - between(p, q),
+            _ => f64::INFINITY,
+        }
+    }
+
+    /// The pose as series of order N - 1; where a dyad does not close, what follows is not a number.
+    pub(super) fn series<const N: usize>(&self, input: f64) -> Series<N> {
+        let input = Taylor::<N>::variable(input);
+        let still = PointSeries::fixed(Point::origin());
+        let mut s = Series {
+            joints: Vec::with_capacity(self.owners.len()),
+            frames: Vec::with_capacity(self.links),
+            room: Vec::new(),
+        };
+        s.frames
+            .push((still, PointSeries::fixed(Point::new(1.0, 0.0))));
+        for step in &self.steps {
+            match step {
+                Step::Point { link, local } => {
+                    let (origin, axis) = s.frames[*link];
+                    s.joints.push(origin.plus(axis.turned(*local)));
+                }
+                Step::Crank { pivot, phase } => {
+                    let axis = PointSeries::unit(input + *phase);
+                    s.frames.push((s.joints[*pivot], axis));
+                }
+                Step::Rrr {
+                    p,
+                    q,
+                    lengths,
+                    branch,
+                } => {
+                    let (p, q) = (s.joints[*p], s.joints[*q]);
+                    let Closed { at, room } = rrr(p, q, *lengths, *branch);
+                    s.frames.push((p, at.minus(p).times(1.0 / lengths.0)));
+                    s.frames.push((q, at.minus(q).times(1.0 / lengths.1)));
+                    s.joints.push(at);
+                    s.room.push(room);
+                }
+                Step::Rrp {
+                    p,
+                    length,
+                    line,
+                    branch,
+                } => {
+                    let p = s.joints[*p];
+                    let (u, e) = s.line(line);
+                    let Closed { at, room } = rrp(p, *length, u, e, *branch);
+                    s.frames.push((p, at.minus(p).times(1.0 / length)));
+                    s.frames.push((at, e));
+                    s.joints.push(at);
+                    s.room.push(room);
+                }
+                Step::Rpr {
+                    p,
+                    q,
+                    offset,
+                    branch,
+                } => {
+                    let (p, q) = (s.joints[*p], s.joints[*q]);
+                    let Closed { at, room } = rpr(p, q, *offset, *branch);
+                    s.frames.push((p, at));
+                    s.frames.push((q, at));
+                    s.room.push(room);
+                }
+                Step::Prp { lines } => {
+                    let ((u, e), (v, f)) = (s.line(&lines.0), s.line(&lines.1));
+                    let Closed { at, room } = prp(u, e, v, f);
+                    s.frames.push((at, e));
+                    s.frames.push((at, f));
+                    s.joints.push(at);
+                    s.room.push(room);
+                }
+                Step::Rpp { p, line, slot } => {
+                    let p = s.joints[*p];
+                    let (u, e) = s.line(line);
+                    let (sin, cos) = slot.sin_cos();
+                    let f = e.turned(Vector::new(cos, sin));
+                    let Closed { at, room } = prp(u, e, p, f);
+                    s.frames.push((p, f));
+                    s.frames.push((at, e));
+                    s.joints.push(at);
+                    s.room.push(room);
+                }
+            }
+        }
+        s
+    }
+}
