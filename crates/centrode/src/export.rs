@@ -95,6 +95,7 @@ fn files(mechanism: &Mechanism, command: &Export, found: &Report) -> Result<Bund
             Ok(shaft::moving_box_files(machine, &formats, &options)?)
         }
         Mechanism::Feeder(machine) => {
+            parts_of(command, "a feeder", |_| false)?;
             let (formats, options) = (formats(command), options(command, found));
             Ok(feeder::files(machine, &formats, &options)?)
         }

@@ -244,13 +244,7 @@ fn gear_files(
     options: &Options,
     bundle: &mut Bundle,
 ) -> Result<(), FeederFilesError> {
-    let made = [
-        Format::Dxf,
-        Format::Svg,
-        Format::Stl,
-        Format::Step,
-        Format::ThreeMf,
-    ];
+    let made = [Format::Dxf, Format::Svg, Format::Stl, Format::ThreeMf];
     if !made.into_iter().any(wanted) {
         return Ok(());
     }
@@ -261,9 +255,11 @@ fn gear_files(
     for (name, drawing) in &drawings {
         draw_one(name, drawing, wanted, options, bundle)?;
     }
+    // Contours of thousands of short lines are no exact solid.
+    let meshed = |format: Format| format != Format::Step && wanted(format);
     for part in &parts {
         let title = format!("{}: {}", named(feeder), part.name);
-        solid_files(part.name, &title, &part.solid()?, wanted, options, bundle)?;
+        solid_files(part.name, &title, &part.solid()?, &meshed, options, bundle)?;
     }
     Ok(())
 }

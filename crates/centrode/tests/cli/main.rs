@@ -112,6 +112,35 @@ fn a_new_feeder_is_good_and_the_published_one_is_infeasible() {
     ] {
         assert!(report.contains(line), "{line}\n{report}");
     }
+    let out = std::env::temp_dir().join(format!("centrode-feeder-{}", std::process::id()));
+    let to = out.display().to_string();
+    let export = ["export", "-", "--to", &to, "--format", "dxf,csv,mjcf,urdf"];
+    let export = fed(&export, &new.stdout);
+    assert_eq!(export.status.code(), Some(0), "{}", text(&export.stderr));
+    let read = |name: &str| std::fs::read_to_string(out.join(name)).expect("was written");
+    assert_eq!(read("feeder.xml").matches("<connect ").count(), 2);
+    assert!(read("feeder.urdf").contains("URDF has no loops"));
+    for name in [
+        "crank.dxf",
+        "gears.dxf",
+        "gear-entry-cam.dxf",
+        "motion.csv",
+        "links/slider.stl",
+    ] {
+        assert!(
+            !std::fs::read(out.join(name))
+                .expect("was written")
+                .is_empty(),
+            "{name}"
+        );
+    }
+    std::fs::remove_dir_all(&out).expect("was made");
+    let long = text(&new.stdout).replace("slider_length = 16", "slider_length = 40");
+    let export = ["export", "-", "--to", &to, "--format", "dxf"];
+    let refused = fed(&export, long.as_bytes());
+    assert_eq!(refused.status.code(), Some(2));
+    let why = text(&refused.stderr);
+    assert!(why.contains("from the effector's pivot"), "{why}");
     let widened = centrode(&["check", &shipped("feeder-widened.toml")]);
     assert_eq!(widened.status.code(), Some(0), "{}", text(&widened.stdout));
 }
