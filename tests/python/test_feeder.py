@@ -77,9 +77,7 @@ def test_the_table_is_that_of_the_closure_equations(feeder):
         angles.append(math.atan2(way[1], way[0]))
         tips.append(pivot + 200 * way / np.hypot(*way))
     angles = np.unwrap(angles)
-    np.testing.assert_allclose(
-        angles - angles[0], table["effector_joint_rad"][::8], atol=1e-9
-    )
+    np.testing.assert_allclose(angles - angles[0], table["effector_joint_rad"][::8], atol=1e-9)
     np.testing.assert_allclose(np.array(tips)[:, 0], table["tip_x_mm"][::8], atol=1e-7)
     np.testing.assert_allclose(np.array(tips)[:, 1], table["tip_y_mm"][::8], atol=1e-7)
 
@@ -87,9 +85,7 @@ def test_the_table_is_that_of_the_closure_equations(feeder):
 def test_mujoco_closes_the_loops_and_its_effector_follows(feeder):
     _, folder = feeder
     command = [sys.executable, str(folder / "play_mujoco.py"), "--check"]
-    done = subprocess.run(
-        command, check=True, capture_output=True, text=True, timeout=300, cwd="/"
-    )
+    done = subprocess.run(command, check=True, capture_output=True, text=True, timeout=300, cwd="/")
     off = json.loads(done.stdout.splitlines()[-1])
     assert off["crank_joint_off_max"] < 1e-8
     for joint in ("coupler", "rocker", "effector"):
@@ -116,9 +112,7 @@ def test_the_open_urdf_closes_where_all_joints_are_set(feeder):
     name, folder = feeder
     text = (folder / "feeder.urdf").read_text()
     assert "URDF has no loops" in text
-    robot = yourdfpy.URDF.load(
-        str(folder / "feeder.urdf"), load_meshes=True, build_scene_graph=True
-    )
+    robot = yourdfpy.URDF.load(str(folder / "feeder.urdf"), load_meshes=True, build_scene_graph=True)
     table = rows(folder / "motion.csv")
     rocker, coupler = LENGTHS[name][2], LENGTHS[name][1]
     at_rest = {}
@@ -128,12 +122,8 @@ def test_the_open_urdf_closes_where_all_joints_are_set(feeder):
         frames = {part: robot.get_transform(part) for part in PARTS}
         c = frames["slider"][:3, 3]
         # The distances of C from the origins of rocker and coupler never change.
-        assert 1e3 * np.linalg.norm(c - frames["rocker"][:3, 3]) == pytest.approx(
-            rocker, abs=1e-9
-        )
-        assert 1e3 * np.linalg.norm(c - frames["coupler"][:3, 3]) == pytest.approx(
-            coupler, abs=1e-9
-        )
+        assert 1e3 * np.linalg.norm(c - frames["rocker"][:3, 3]) == pytest.approx(rocker, abs=1e-9)
+        assert 1e3 * np.linalg.norm(c - frames["coupler"][:3, 3]) == pytest.approx(coupler, abs=1e-9)
         # Nor does its place in either of them.
         for part in ("rocker", "coupler"):
             local = np.linalg.inv(frames[part]) @ np.append(c, 1.0)
@@ -159,10 +149,8 @@ def test_drawings_are_sound_and_their_holes_are_where_the_joints_are(feeder):
     for path in sorted(folder.glob("*.dxf")):
         document = ezdxf.readfile(path)
         audit = document.audit()
-        assert not audit.errors and not audit.fixes, path.name
+        assert not audit.errors, path.name
+        assert not audit.fixes, path.name
     for part, index in (("crank", 0), ("coupler", 1), ("rocker", 2)):
-        marks = [
-            tuple(e.dxf.location)[:2]
-            for e in ezdxf.readfile(folder / f"{part}.dxf").modelspace().query("POINT")
-        ]
+        marks = [tuple(e.dxf.location)[:2] for e in ezdxf.readfile(folder / f"{part}.dxf").modelspace().query("POINT")]
         assert sorted(marks) == [(0.0, 0.0), (pytest.approx(LENGTHS[name][index]), 0.0)]

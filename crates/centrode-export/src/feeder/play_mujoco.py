@@ -28,9 +28,7 @@ class Feeder:
         self.about = json.loads((FOLDER / "motion.json").read_text())
         table = np.genfromtxt(FOLDER / "motion.csv", delimiter=",", names=True)
         self.input = table["input_angle_rad"]
-        self.columns = {
-            j["name"]: j["factor"] * table[j["column"]] for j in self.about["joints"]
-        }
+        self.columns = {j["name"]: j["factor"] * table[j["column"]] for j in self.about["joints"]}
         self.speed = speed or self.about["speed_rad_per_s"]
         self.crank = self.model.joint("crank_joint")
         # A crank too heavy to be held up by what it carries.
@@ -46,10 +44,7 @@ class Feeder:
     def advance(self):
         """Goes on by one time step."""
         step = self.model.opt.timestep
-        now, then = (
-            self.law("crank_joint", self.speed * t)
-            for t in (self.data.time, self.data.time + step)
-        )
+        now, then = (self.law("crank_joint", self.speed * t) for t in (self.data.time, self.data.time + step))
         self.data.qpos[self.crank.qposadr] = now
         self.data.qvel[self.crank.dofadr] = (then - now) / step
         mujoco.mj_step(self.model, self.data)
@@ -58,9 +53,7 @@ class Feeder:
         """How far each joint is off motion.csv where the crank is now, rad or m."""
         travel = self.speed * self.data.time
         return {
-            name: self.data.qpos[self.model.joint(name).qposadr[0]]
-            - self.law(name, travel)
-            for name in self.columns
+            name: self.data.qpos[self.model.joint(name).qposadr[0]] - self.law(name, travel) for name in self.columns
         }
 
 
@@ -90,9 +83,7 @@ def show(feeder):
 def main():
     """Reads the arguments and plays."""
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
-    parser.add_argument(
-        "--speed", type=float, help="speed of the incomplete gear, rad/s (the design's)"
-    )
+    parser.add_argument("--speed", type=float, help="speed of the incomplete gear, rad/s (the design's)")
     parser.add_argument(
         "--check",
         action="store_true",

@@ -267,12 +267,15 @@ impl IncompletePair {
         mean * self.pair.teeth().tool.pressure_angle.cos()
     }
 
-    /// The driver's blank: a complete driver, turned on by half the entry angle that easing in costs.
+    /// The driver's blank: a complete driver, turned on by half the entry angle that easing in costs, filled up to the
+    /// locking arc where it holds.
     fn blank(&self, accuracy: Tolerance) -> Radial {
         let turned = Rotation2::new(0.5 * self.law.entry);
         let corners = self.pair.driver().outline().flatten(accuracy);
         let corners: Vec<Point> = corners.iter().map(|p| turned * p).collect();
-        Radial::of(&corners)
+        let mut blank = Radial::of(&corners);
+        blank.fill(self.law.motion_angle(), TAU, self.lock_radius);
+        blank
     }
 
     /// The driven gear's place when the driver has turned by `input`, in the driver's axes.

@@ -64,6 +64,15 @@ impl Radial {
         }
     }
 
+    /// Nowhere nearer than a circle about the origin between two directions.
+    pub(super) fn fill(&mut self, from: f64, to: f64, radius: f64) {
+        for (index, kept) in self.radius.iter_mut().enumerate() {
+            if (from..=to).contains(&Self::direction(index)) {
+                *kept = kept.max(radius);
+            }
+        }
+    }
+
     /// Nowhere farther out than a closed polygon.
     pub(super) fn cut_polygon(&mut self, polygon: &[Point]) {
         for (index, &from) in polygon.iter().enumerate() {
