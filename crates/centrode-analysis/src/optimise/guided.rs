@@ -1,3 +1,4 @@
+use std::fmt;
 use std::ops::ControlFlow;
 
 use rayon::prelude::{IntoParallelIterator, ParallelIterator};
@@ -29,6 +30,29 @@ pub struct GuidedStep {
     pub others: f64,
     /// How many of the parameters would have helped this goal.
     pub helpful: usize,
+}
+
+impl fmt::Display for GuidedStep {
+    /// For which goal, what was moved from where to where, and what it brought.
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (number, title) = &self.goal;
+        write!(out, "goal {number} {title}: ")?;
+        for (i, (name, [from, to])) in self.moves.iter().enumerate() {
+            let comma = if i > 0 { ", " } else { "" };
+            write!(out, "{comma}{name} {from} -> {to}")?;
+        }
+        let [before, after] = self.miss;
+        write!(
+            out,
+            ": missed by {before:.4} -> {after:.4} of its scale, the most of {} that help; ",
+            self.helpful
+        )?;
+        match self.others {
+            others if others.abs() < 5e-5 => write!(out, "the others stay"),
+            others if others > 0.0 => write!(out, "the others lose {others:.4}"),
+            others => write!(out, "the others gain {:.4}", -others),
+        }
+    }
 }
 
 /// The parameter-guided search: goal by goal, each missed goal moves the parameters that influence it most, step by step.

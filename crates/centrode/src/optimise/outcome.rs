@@ -69,7 +69,7 @@ impl<'a> Outcome<'a> {
 
     pub(super) fn write(&self, method: &str, out: &mut impl Write) -> io::Result<()> {
         for step in self.steps {
-            write_step(step, out)?;
+            writeln!(out, "{step}")?;
         }
         if !self.steps.is_empty() {
             writeln!(out)?;
@@ -123,30 +123,4 @@ impl<'a> Outcome<'a> {
         }
         Ok(())
     }
-}
-
-/// A step in words: for which goal, what, and why.
-fn write_step(step: &GuidedStep, out: &mut impl Write) -> io::Result<()> {
-    let moves: Vec<String> = step
-        .moves
-        .iter()
-        .map(|(name, [from, to])| format!("{name} {from} -> {to}"))
-        .collect();
-    let others = if step.others.abs() < 5e-5 {
-        "the others stay".to_owned()
-    } else if step.others > 0.0 {
-        format!("the others lose {:.4}", step.others)
-    } else {
-        format!("the others gain {:.4}", -step.others)
-    };
-    writeln!(
-        out,
-        "goal {} {}: {}: missed by {:.4} -> {:.4} of its scale, the most of {} that help; {others}",
-        step.goal.0,
-        step.goal.1,
-        moves.join(", "),
-        step.miss[0],
-        step.miss[1],
-        step.helpful
-    )
 }

@@ -3,6 +3,7 @@
 
 mod bad_designs;
 mod export;
+mod search;
 
 use std::io::Write as _;
 use std::path::PathBuf;

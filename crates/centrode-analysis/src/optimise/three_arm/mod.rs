@@ -233,7 +233,7 @@ impl Problem for ThreeArmProblem {
         constraints.push(quick.overload.max(0.0));
         if constraints.iter().sum::<f64>() > 0.0 {
             // What will be looked at only later.
-            return unseen(constraints, 9.0);
+            return unseen(constraints, 7.0);
         }
         let Ok(mechanism) = ThreeArm::resolve(&quick.design) else {
             return nothing();
@@ -244,7 +244,7 @@ impl Problem for ThreeArmProblem {
         let unsound: u32 = teeth.iter().map(|gear| gear.unsound).sum();
         if unsound > 0 {
             constraints[seen] = bounded(FLANK * f64::from(unsound));
-            return unseen(constraints, 8.0);
+            return unseen(constraints, 6.0);
         }
         let Some(goals) = self.exact(&mechanism) else {
             return nothing();
