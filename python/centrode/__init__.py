@@ -34,10 +34,12 @@ from ._contact import Contact
 from ._design import load, schema
 from ._error import CamError, DesignError, Error, ExportError, GearPairError, LinkageError, MechanismError, PitchError
 from ._goal import Goal
+from ._optimised import Optimised
 from ._over_pins import OverPins
 from ._report import Finding, Place, Report, Table
 from ._six_bar import DeadCenters
 from ._slider_force import SliderForce
+from ._sweep import sweep
 from ._tooth import Tooth, ToothSide
 
 __all__ = [
@@ -61,6 +63,7 @@ __all__ = [
     "LinkageError",
     "MechanismError",
     "MovingBox",
+    "Optimised",
     "OverPins",
     "Pitch",
     "PitchError",
@@ -82,5 +85,6 @@ __all__ = [
     "pitch",
     "plot",
     "schema",
+    "sweep",
     "template",
 ]

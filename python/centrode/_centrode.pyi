@@ -1,4 +1,4 @@
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from os import PathLike
 from pathlib import Path
 from typing import Any, ClassVar, Literal, SupportsFloat, SupportsIndex, TypeAlias, final, overload
@@ -8,6 +8,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ._contact import Contact
 from ._goal import Goal
+from ._optimised import Optimised
 from ._over_pins import OverPins
 from ._report import Report
 from ._six_bar import DeadCenters
@@ -851,6 +852,16 @@ class ThreeArm:
     def pose(self, theta: ArrayLike) -> dict[str, NDArray[float64]]: ...
     def goals(self) -> tuple[Goal, ...]: ...
     def check(self) -> Report: ...
+    def optimise(
+        self,
+        method: Literal["guided", "cma-es", "de", "ga"] = "guided",
+        *,
+        seed: int = 1,
+        evaluations: int = 20000,
+        population: int | None = None,
+        progress: Callable[[int, float, float], object] | None = None,
+    ) -> Optimised: ...
+    def response(self, parameter: str, values: Sequence[float] | NDArray[float64]) -> dict[str, NDArray[float64]]: ...
     def gear_pair(self) -> GearPair: ...
     def files(
         self,

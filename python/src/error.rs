@@ -174,6 +174,11 @@ pub(crate) fn of_pusher(error: &PusherError) -> PyErr {
     class::MechanismError::new_err((error.to_string(), error.key()))
 }
 
+/// The exception of a search that cannot be made.
+pub(crate) fn no_search(reason: &str) -> PyErr {
+    class::MechanismError::new_err((reason.to_owned(), "optimise"))
+}
+
 /// The exception of a gear that is no solid.
 pub(crate) fn of_solid(error: &SolidError) -> PyErr {
     match error {

@@ -17,6 +17,7 @@ mod moving_box;
 mod pitch;
 mod place;
 mod record;
+mod search;
 mod sheet;
 mod six_bar;
 mod spiral_shaft;

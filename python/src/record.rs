@@ -1,5 +1,6 @@
 //! Results of many parts, handed over as the records of the Python part of the package.
 
+use centrode_analysis::optimise::Ended;
 use centrode_analysis::{Contact, Finding, Goal, Report, Severity, Table};
 use centrode_mechanism::gear::{OverPins, Pin, Tooth, ToothSide};
 use centrode_mechanism::linkage;
@@ -7,6 +8,8 @@ use numpy::{IntoPyArray, PyArrayMethods};
 use pyo3::prelude::{Bound, IntoPyObject, Py, PyAny, PyAnyMethods, PyResult, Python};
 use pyo3::sync::PyOnceLock;
 use pyo3::types::{PyDict, PyDictMethods, PyTuple, PyType};
+
+use crate::search::Found;
 
 /// A Python class, looked up once.
 struct Class {
@@ -82,6 +85,29 @@ pub(crate) fn report<'py>(py: Python<'py>, report: &Report) -> PyResult<Bound<'p
             "tables",
             tuple(py, report.tables.iter().map(|t| table(py, t)))?,
         )?;
+    CLASS.make(&keywords.0)
+}
+
+/// What a search has come to.
+pub(crate) fn optimised<'py>(
+    py: Python<'py>,
+    mechanism: Bound<'py, PyAny>,
+    found: &Found,
+) -> PyResult<Bound<'py, PyAny>> {
+    static CLASS: Class = Class::new("centrode._optimised", "Optimised");
+    let steps: Vec<String> = found.steps.iter().map(ToString::to_string).collect();
+    let ended = match found.ended {
+        Ended::Target => "target",
+        Ended::Evaluations => "evaluations",
+        Ended::Stopped => "stopped",
+        Ended::Stuck => "stuck",
+    };
+    let keywords = Keywords::new(py)
+        .with("mechanism", mechanism)?
+        .with("goals", goals(py, &found.goals)?)?
+        .with("steps", PyTuple::new(py, steps)?)?
+        .with("evaluations", found.progress.map_or(0, |p| p.evaluations))?
+        .with("ended", ended)?;
     CLASS.make(&keywords.0)
 }
 

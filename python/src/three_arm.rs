@@ -2,15 +2,18 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use centrode_analysis::check_three_arm;
+use centrode_analysis::optimise::Settings;
 use centrode_export::Bundle;
 use centrode_export::three_arm as files;
 use centrode_mechanism::design::Design;
 use centrode_mechanism::gear::design::{BodySpec, TeethSpec};
+use centrode_mechanism::mechanism::Mechanism;
 use centrode_mechanism::three_arm as mechanism;
 use centrode_mechanism::three_arm::design::{
     ArmSpec, Direction, GearboxSpec, SeedlingSpec, ThreeArmDesign, TraySpec, WorkSpec,
 };
 use centrode_mechanism::three_arm::{Link, PointMotion};
+use pyo3::IntoPyObjectExt;
 use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::{
     Bound, PyAny, PyAnyMethods, PyDictMethods, PyModule, PyRef, PyResult, Python, pyclass,
@@ -23,14 +26,15 @@ use crate::body::Body;
 use crate::count::{Count, optional};
 use crate::design::{Loaded, path_loaded};
 use crate::error::{
-    of_bundle, of_design, of_pair, of_pusher, of_three_arm, of_three_arm_files, plain_tolerance,
-    unknown_word,
+    no_search, of_bundle, of_design, of_pair, of_pusher, of_three_arm, of_three_arm_files,
+    plain_tolerance, unknown_word,
 };
 use crate::format;
 use crate::gear_pair::GearPair;
 use crate::pitch::Pitch;
 use crate::place::addendum as addendum_of;
 use crate::record;
+use crate::search;
 use crate::tool::Tool;
 use crate::wait::wait;
 
@@ -460,6 +464,65 @@ impl ThreeArm {
         let arms = Arc::clone(&self.0);
         let report = wait(py, move || check_three_arm(&arms))?;
         record::report(py, &report)
+    }
+
+    /// Searches for a better mechanism around this one; the table [optimise] of its design says what may move.
+    ///
+    /// Args:
+    ///     method: "guided", "cma-es", "de" or "ga".
+    ///     seed: Same seed, same answer, on any number of cores.
+    ///     evaluations: Most points looked at; the generation under way is finished.
+    ///     population: Points a generation; by the method if left out.
+    ///     progress: Called with evaluations, violation and objective of the best so far; False ends the search.
+    ///
+    /// Raises:
+    ///     MechanismError: There is no search for such a design.
+    #[pyo3(signature = (method="guided", *, seed=1, evaluations=20_000, population=None, progress=None))]
+    fn optimise<'py>(
+        &self,
+        py: Python<'py>,
+        method: &str,
+        seed: u64,
+        evaluations: u64,
+        population: Option<usize>,
+        progress: Option<Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let settings = Settings {
+            seed,
+            population,
+            evaluations,
+            ..Settings::default()
+        };
+        let design = Design::ThreeArm(Box::new(self.0.design().clone()));
+        let strategy = search::strategy(method)?;
+        let found = search::search(py, design, strategy, settings, progress.as_ref())?;
+        let found = found.map_err(|reason| no_search(&reason))?;
+        let Ok(Mechanism::ThreeArm(best)) = &found.mechanism else {
+            return Err(no_search("the best point is no mechanism"));
+        };
+        let best = Self(Arc::new(best.as_ref().clone())).into_bound_py_any(py)?;
+        record::optimised(py, best, &found)
+    }
+
+    /// How goals and figures answer one number of the design: by name, a figure at each value, NaN where there is no
+    /// mechanism.
+    ///
+    /// Args:
+    ///     parameter: Key of the design file, "arm.tip_distance", or a parameter's name, "r1".
+    ///     values: In the file's unit: mm, degrees.
+    ///
+    /// >>> import centrode as ct
+    /// >>> arms = ct.ThreeArm.from_toml(ct.template("three-arm"))
+    /// >>> arms.response("r1", [15, 21, 27])["trajectory-height"].round(1).tolist()
+    /// [372.7, 370.8, 369.4]
+    fn response<'py>(
+        &self,
+        py: Python<'py>,
+        parameter: &str,
+        values: Vec<f64>,
+    ) -> PyResult<Bound<'py, PyDict>> {
+        let design = Design::ThreeArm(Box::new(self.0.design().clone()));
+        search::response(py, design, parameter, values)
     }
 
     /// Sun and intermediate gear with their teeth; the planets are the sun's part again.

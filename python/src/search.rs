@@ -1,0 +1,142 @@
+//! Search and response, run on a thread of their own.
+
+use std::ops::ControlFlow;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{RecvTimeoutError, channel};
+use std::time::Duration;
+
+use centrode_analysis::optimise::{
+    DesignSearch, Ended, GuidedStep, Progress, Settings, Strategy, problem_of,
+};
+use centrode_analysis::{Goal, Response};
+use centrode_mechanism::design::Design;
+use centrode_mechanism::mechanism::{Mechanism, MechanismError};
+use pyo3::prelude::{Bound, PyAny, PyAnyMethods, PyResult, Python};
+use pyo3::types::PyDict;
+
+use crate::error::{of_design, unknown_word};
+use crate::wait::wait;
+
+/// How often a waiting call looks whether the user has had enough.
+const PATIENCE: Duration = Duration::from_millis(50);
+
+/// What a search has come to.
+pub(crate) struct Found {
+    pub(crate) mechanism: Result<Mechanism, MechanismError>,
+    pub(crate) goals: Vec<Goal>,
+    pub(crate) steps: Vec<GuidedStep>,
+    pub(crate) progress: Option<Progress>,
+    pub(crate) ended: Ended,
+}
+
+enum Mail {
+    Progress(Progress),
+    Done(Box<Result<Found, String>>),
+}
+
+/// The strategy of a name.
+pub(crate) fn strategy(name: &str) -> PyResult<Strategy> {
+    let found = Strategy::NAMES.iter().find(|(word, _)| *word == name);
+    found.map(|&(_, strategy)| strategy).ok_or_else(|| {
+        let known = Strategy::NAMES.map(|(word, _)| word);
+        unknown_word("method", name, &known)
+    })
+}
+
+/// Searches until the end, Ctrl-C, or a callback that returns False or raises. After either of the first two kinds of
+/// stop but Ctrl-C and an exception the best so far is the answer.
+pub(crate) fn search(
+    py: Python<'_>,
+    design: Design,
+    strategy: Strategy,
+    settings: Settings,
+    callback: Option<&Bound<'_, PyAny>>,
+) -> PyResult<Result<Found, String>> {
+    let (sender, mut mailbox) = channel();
+    let stop = Arc::new(AtomicBool::new(false));
+    let stopped = Arc::clone(&stop);
+    std::thread::Builder::new().spawn(move || {
+        let told = sender.clone();
+        let found = searched(&design, strategy, settings, &mut |progress| {
+            // Whoever asked may have gone.
+            let gone = told.send(Mail::Progress(*progress)).is_err();
+            if gone || stopped.load(Ordering::Relaxed) {
+                ControlFlow::Break(())
+            } else {
+                ControlFlow::Continue(())
+            }
+        });
+        let _ = sender.send(Mail::Done(Box::new(found)));
+    })?;
+    loop {
+        let (back, mail) = py.detach(move || {
+            let mail = mailbox.recv_timeout(PATIENCE);
+            (mailbox, mail)
+        });
+        mailbox = back;
+        match mail {
+            Ok(Mail::Done(found)) => return Ok(*found),
+            Ok(Mail::Progress(progress)) => {
+                if let Some(callback) = callback {
+                    let Progress {
+                        evaluations,
+                        violation,
+                        objective,
+                        ..
+                    } = progress;
+                    let answer = callback.call1((evaluations, violation, objective))?;
+                    if answer.extract::<bool>().is_ok_and(|go_on| !go_on) {
+                        stop.store(true, Ordering::Relaxed);
+                    }
+                }
+            }
+            Err(RecvTimeoutError::Timeout) => {}
+            Err(RecvTimeoutError::Disconnected) => {
+                return Ok(Err("the search gave no answer".into()));
+            }
+        }
+        // An error drops the mailbox, which ends the search.
+        py.check_signals()?;
+    }
+}
+
+fn searched(
+    design: &Design,
+    strategy: Strategy,
+    settings: Settings,
+    observe: &mut dyn FnMut(&Progress) -> ControlFlow<()>,
+) -> Result<Found, String> {
+    let problem = problem_of(design).map_err(|error| error.to_string())?;
+    let problem = problem.as_ref();
+    let search = DesignSearch::new(problem, strategy, settings);
+    let mut search = search.map_err(|error| error.to_string())?;
+    let ended = search.run(problem, observe);
+    let best = search.best();
+    Ok(Found {
+        mechanism: Mechanism::resolve(&problem.design(&best)),
+        goals: problem.goals(&best).unwrap_or_default(),
+        steps: search.log().to_vec(),
+        progress: search.progress(),
+        ended,
+    })
+}
+
+/// Figures by name at values of a number of a design; NaN where there is none.
+pub(crate) fn response<'py>(
+    py: Python<'py>,
+    design: Design,
+    parameter: &str,
+    values: Vec<f64>,
+) -> PyResult<Bound<'py, PyDict>> {
+    let key = design.key_of(parameter);
+    let found = wait(py, move || Response::of(&design, &key, &values))?;
+    let found = found.map_err(|error| of_design(&error))?;
+    let named = PyDict::new(py);
+    for answer in found.answers() {
+        let figures = answer.figures.iter().map(|f| f.unwrap_or(f64::NAN));
+        let figures = numpy::PyArray1::from_iter(py, figures);
+        named.set_item(answer.name, figures)?;
+    }
+    Ok(named)
+}

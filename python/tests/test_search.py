@@ -1,0 +1,124 @@
+"""Searching for better mechanisms, responses, and sweeps over executors."""
+
+import math
+import os
+import pickle
+import signal
+from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
+from multiprocessing import get_context
+from pathlib import Path
+
+import centrode as ct
+import numpy as np
+import pytest
+
+SHIPPED = Path(__file__).parents[2] / "tests" / "designs" / "three-arm-all-goals.toml"
+
+
+def tilted() -> ct.ThreeArm:
+    held = ", ".join(f'"r{i}", "theta{i}"' for i in range(1, 13))
+    text = SHIPPED.read_text(encoding="utf-8").replace("carrier_start_deg = 89.214", "carrier_start_deg = 101")
+    return ct.ThreeArm.from_toml(f"{text}\n[optimise]\nhold = [{held}]\n")
+
+
+def test_the_guide_mends_a_tilt_and_says_how() -> None:
+    arms = tilted()
+    assert not all(goal.met for goal in arms.goals())
+    seen: list[tuple[int, float, float]] = []
+    found = arms.optimise(evaluations=300, progress=lambda *at: seen.append(at))
+    assert found.reached
+    assert found.ended == "target"
+    assert found.steps
+    assert all(goal.met for goal in found.mechanism.goals())
+    assert seen == sorted(seen)
+    assert "carrier_start 101" in found.steps[0]
+
+
+def test_a_callback_ends_the_search_or_raises_out_of_it() -> None:
+    found = ct.ThreeArm.from_toml(ct.template("three-arm")).optimise("de", population=20, progress=lambda *at: False)
+    assert found.ended == "stopped"
+    assert found.evaluations < 2000
+
+    def angry(*at: float) -> None:
+        raise KeyError("enough")
+
+    with pytest.raises(KeyError, match="enough"):
+        ct.ThreeArm.from_toml(ct.template("three-arm")).optimise("de", population=20, progress=angry)
+
+
+def test_words_and_designs_without_a_search_are_refused() -> None:
+    arms = ct.ThreeArm.from_toml(ct.template("three-arm"))
+    with pytest.raises(ct.DesignError):
+        arms.optimise("luck")  # type: ignore[arg-type]
+    round_ = ct.ThreeArm(
+        ct.pitch.circle(radius=40), carrier_start=1.5, bend=-0.9, arm_mounting_angle=-0.5, tip_distance=145,
+        pusher_offset=65,
+    )  # fmt: skip
+    with pytest.raises(ct.MechanismError):
+        round_.optimise("de")
+
+
+def test_a_response_is_that_of_the_designs() -> None:
+    arms = ct.ThreeArm.from_toml(ct.template("three-arm"))
+    heights = arms.response("r1", [15.0, 21.0])["trajectory-height"]
+    assert heights[1] == arms.trajectory_height
+    assert heights[0] > heights[1]
+    gap = arms.response("arm.tip_distance", [-1.0, 145.0])["pick-angle"]
+    assert math.isnan(gap[0])
+    assert np.isclose(gap[1], arms.clamp_angle(math.radians(20)))
+    with pytest.raises(ct.DesignError):
+        arms.response("arm.nothing", [1.0])
+
+
+def designs(count: int) -> list[str]:
+    text = ct.template("three-arm")
+    return [text.replace("tip_distance = 145", f"tip_distance = {140 + 10 * i / count}") for i in range(count)]
+
+
+def test_a_sweep_is_the_same_on_any_executor() -> None:
+    texts = designs(6)
+    alone = ct.sweep(texts)
+    assert all(figures is not None for figures in alone)
+    with ThreadPoolExecutor(2) as pool:
+        assert ct.sweep(texts, executor=pool, chunk=2) == alone
+    with ProcessPoolExecutor(2, mp_context=get_context("spawn")) as pool:
+        assert ct.sweep(texts, executor=pool, chunk=1) == alone
+
+
+def killed_once(flag: str) -> None:
+    """A worker's start that kills the first worker."""
+    try:
+        os.close(os.open(flag, os.O_CREAT | os.O_EXCL))
+    except FileExistsError:
+        return
+    os.kill(os.getpid(), signal.SIGKILL)
+
+
+@pytest.mark.skipif(os.name != "posix", reason="kills a process")
+def test_a_killed_worker_loses_nothing(tmp_path: Path) -> None:
+    texts = designs(4)
+    flag = str(tmp_path / "killed")
+
+    def pool() -> ProcessPoolExecutor:
+        return ProcessPoolExecutor(2, mp_context=get_context("spawn"), initializer=killed_once, initargs=(flag,))
+
+    assert ct.sweep(texts, executor=pool, chunk=1) == ct.sweep(texts)
+    assert Path(flag).exists()
+
+
+def test_what_is_found_travels() -> None:
+    found = tilted().optimise("de", evaluations=20, population=10)
+    again = pickle.loads(pickle.dumps(found))
+    assert again == found
+
+
+def test_a_sweep_runs_on_dask() -> None:
+    distributed = pytest.importorskip("distributed")
+    texts = designs(6)
+    with (
+        distributed.LocalCluster(
+            n_workers=2, threads_per_worker=1, host="127.0.0.1", dashboard_address=None
+        ) as cluster,
+        distributed.Client(cluster) as client,
+    ):
+        assert ct.sweep(texts, executor=client.get_executor(), chunk=2) == ct.sweep(texts)
