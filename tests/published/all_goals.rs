@@ -1,0 +1,176 @@
+//! The shipped design that reaches all eight goals, beside the published set it was found from.
+
+use std::collections::BTreeSet;
+use std::fmt::Write as _;
+use std::path::Path;
+
+use centrode_analysis::{Report, Severity, check, check_three_arm};
+use centrode_mechanism::design::{Design, DesignFile};
+use centrode_mechanism::three_arm::design::ThreeArmDesign;
+use centrode_mechanism::three_arm::{Parameter, ThreeArm};
+
+fn file(name: &str) -> std::path::PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join(name)
+}
+
+fn design(name: &str) -> ThreeArmDesign {
+    let text = std::fs::read(file(&format!("designs/{name}.toml"))).expect("shipped");
+    match DesignFile::read(&text).expect("a design").into_design() {
+        Design::ThreeArm(design) => *design,
+        other => panic!("{other:?}"),
+    }
+}
+
+fn machine(name: &str) -> (ThreeArm, Report) {
+    let mechanism = ThreeArm::resolve(&design(name)).expect("a mechanism");
+    let report = check_three_arm(&mechanism);
+    (mechanism, report)
+}
+
+#[test]
+fn all_eight_goals_are_looked_at_and_reached() {
+    let (_, report) = machine("three-arm-all-goals");
+    let numbers: BTreeSet<u32> = report.goals.iter().map(|goal| goal.number).collect();
+    assert_eq!(numbers, (1..=8).collect());
+    for goal in &report.goals {
+        assert_eq!(goal.met(), Some(true), "{goal:?}");
+    }
+    let against: Vec<_> = report
+        .findings
+        .iter()
+        .filter(|f| f.severity > Severity::Note)
+        .collect();
+    assert!(against.is_empty(), "{against:?}");
+    // The published set does not reach them: the test can tell.
+    let (_, published) = machine("three-arm-2021");
+    assert!(published.goals.iter().any(|goal| goal.met() == Some(false)));
+}
+
+#[test]
+fn its_full_teeth_carry_the_motion_over_the_whole_cycle() {
+    let (mechanism, _) = machine("three-arm-all-goals");
+    let teeth = &mechanism.design().teeth;
+    assert_eq!(
+        teeth.addendum,
+        centrode_mechanism::gear::design::Addendum::Full
+    );
+    let pair = mechanism.pair().expect("teeth");
+    let report = check(&pair);
+    let worst = report
+        .findings
+        .iter()
+        .filter(|f| f.severity >= Severity::Warning);
+    assert_eq!(worst.count(), 0, "{:?}", report.findings);
+    assert!(report.values["contact_ratio_min"] >= 1.0);
+}
+
+/// The table of `docs/three-arm.md`: parameters, then figures.
+fn table() -> String {
+    let [(before, then), (after, now)] = ["three-arm-2021", "three-arm-all-goals"].map(machine);
+    let mut text = String::from("| | published | all goals | moved by |\n|---|---|---|---|\n");
+    let radii = (0..12).map(Parameter::Radius);
+    let angles = (0..12).map(Parameter::Angle);
+    let others = [
+        Parameter::CarrierStart,
+        Parameter::Bend,
+        Parameter::MountingAngle,
+        Parameter::TipDistance,
+        Parameter::PusherOffset,
+        Parameter::Picking,
+        Parameter::Planting,
+    ];
+    for parameter in radii.chain(angles).chain(others) {
+        let unit = if parameter.is_angle() { "deg" } else { "mm" };
+        let value = |mechanism: &ThreeArm| {
+            let value = parameter.of(mechanism.design()).expect("written");
+            if parameter.is_angle() {
+                value.to_degrees()
+            } else {
+                value
+            }
+        };
+        let (from, to) = (value(&before), value(&after));
+        writeln!(
+            text,
+            "| {parameter}, {unit} | {from:.3} | {to:.3} | {:+.3} |",
+            to - from
+        )
+        .expect("text");
+    }
+    let teeth = |mechanism: &ThreeArm| mechanism.design().tooth_count.unwrap_or_default();
+    let (from, to) = (teeth(&before), teeth(&after));
+    writeln!(
+        text,
+        "| teeth | {from} | {to} | {:+} |",
+        i64::from(to) - i64::from(from)
+    )
+    .expect("text");
+    let goal = |report: &Report, name: &str| {
+        let found = report.goals.iter().find(|goal| goal.name == name);
+        found.and_then(|goal| goal.value).expect("looked at")
+    };
+    let both = |f: &dyn Fn(&ThreeArm, &Report) -> f64| (f(&before, &then), f(&after, &now));
+    let rows: [(&str, (f64, f64)); 11] = [
+        ("centre distance, mm", both(&|m, _| m.center_distance())),
+        (
+            "least radius of the sun, mm",
+            both(&|_, r| r.values["sun_radius_min"]),
+        ),
+        (
+            "clearance of the arms, mm",
+            both(&|_, r| goal(r, "arm-clearance")),
+        ),
+        (
+            "clearance of the arm's housing from the tray, mm",
+            both(&|_, r| r.values["arm_tray_clearance"]),
+        ),
+        (
+            "clearance of the arm from stems planted before, mm",
+            both(&|_, r| r.values["arm_seedling_clearance"]),
+        ),
+        (
+            "gearbox above the ground, mm",
+            both(&|_, r| goal(r, "gearbox-clearance")),
+        ),
+        (
+            "height of the trajectory, mm",
+            both(&|_, r| goal(r, "trajectory-height")),
+        ),
+        (
+            "depth of the picking loop beyond the picking point, mm",
+            both(&|m, _| m.picking_depth()),
+        ),
+        (
+            "tip at picking, mm/s at 180 seedlings a minute",
+            both(&|_, r| r.values["picking_speed"]),
+        ),
+        (
+            "tip at planting, mm/s",
+            both(&|_, r| r.values["planting_speed"]),
+        ),
+        (
+            "flanks unsound at full height",
+            both(&|_, r| goal(r, "sound-teeth")),
+        ),
+    ];
+    for (name, (from, to)) in rows {
+        writeln!(text, "| {name} | {from:.2} | {to:.2} | {:+.2} |", to - from).expect("text");
+    }
+    text
+}
+
+#[test]
+fn the_documented_moves_are_the_computed_ones() {
+    let path = file("../docs/three-arm.md");
+    let (begin, end) = ("<!-- all goals -->\n", "<!-- end of all goals -->\n");
+    let document = std::fs::read_to_string(&path).expect("checked in");
+    let (before, rest) = document.split_once(begin).expect("the table begins");
+    let (written, after) = rest.split_once(end).expect("and ends");
+    let computed = table();
+    if std::env::var_os("UPDATE_GOLDEN").is_some() {
+        let document = format!("{before}{begin}{computed}{end}{after}");
+        std::fs::write(&path, document).expect("written");
+        return;
+    }
+    assert_eq!(written, computed, "UPDATE_GOLDEN=1 writes it anew");
+}
