@@ -129,7 +129,11 @@ fn target() -> ProgressDrawTarget {
 }
 
 /// The design's text with the numbers of a point.
-pub(crate) fn better(text: &str, problem: &dyn DesignProblem, point: &[f64]) -> Result<String, Failure> {
+pub(crate) fn better(
+    text: &str,
+    problem: &dyn DesignProblem,
+    point: &[f64],
+) -> Result<String, Failure> {
     let variables = problem.variables().iter().zip(point);
     let moved = variables.map(|(v, &value)| Edit::number(&v.key, v.written(value), false));
     let followers = problem.followers(point).into_iter();

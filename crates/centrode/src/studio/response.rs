@@ -43,9 +43,7 @@ pub(crate) fn answers(ask: &Ask) -> Result<Answers, String> {
         return Err(format!("the values must rise, but go from {from} to {to}"));
     }
     let step = (ask.to - ask.from) / f64::from(COUNT - 1);
-    let values: Vec<f64> = (0..COUNT)
-        .map(|i| ask.from + step * f64::from(i))
-        .collect();
+    let values: Vec<f64> = (0..COUNT).map(|i| ask.from + step * f64::from(i)).collect();
     let response =
         Response::of(file.design(), &ask.key, &values).map_err(|error| error.message())?;
     let goals: Vec<&Goal> = response

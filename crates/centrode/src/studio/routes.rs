@@ -18,8 +18,8 @@ use tower_http::timeout::RequestBodyTimeoutLayer;
 use super::Desk;
 use super::document::SaveError;
 use super::guard::{self, Guard};
-use super::{response, search};
 use super::solver::Overtaken;
+use super::{response, search};
 use crate::args::{Arguments, Command, Export, File};
 use crate::export;
 use crate::page::{Edit, edited};
@@ -201,10 +201,7 @@ async fn apart<T: Send + 'static>(job: impl FnOnce() -> T + Send + 'static) -> R
 }
 
 /// Starts a search for a better design.
-async fn searching(
-    State(desk): Shared,
-    Json(ask): Json<search::Ask>,
-) -> Result<Response, Refused> {
+async fn searching(State(desk): Shared, Json(ask): Json<search::Ask>) -> Result<Response, Refused> {
     let started = apart(move || desk.searching.start(ask)).await?;
     started.map_err(|reason| Refused::because(StatusCode::UNPROCESSABLE_ENTITY, reason))?;
     Ok(Json(json!({})).into_response())

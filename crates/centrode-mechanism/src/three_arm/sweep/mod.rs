@@ -21,8 +21,8 @@ use stage::Stage;
 /// For a sun that is a closed B-spline with control points in the plane of polar angle and radius: the
 /// transmission function is integrated on fixed panels of the curve's own pieces, where it is analytic, and both stages
 /// are solved by Newton's method from input to input. Nothing is allocated for a design. The figures agree with
-/// those of [`ThreeArm::figures`](super::ThreeArm::figures) to 1e-9 of the size of the machine, or rad; that the
-/// pitch curve goes round its axis is only looked at where it is integrated. Not for a pitch curve scaled by a module.
+/// those of [`ThreeArm::figures`](super::ThreeArm::figures) to 1e-9 of the size of the machine, or rad, for designs like
+/// the published one, and to 1e-6 where the radii of the pitch curve differ tenfold; that the pitch curve goes round its axis is only looked at where it is integrated. Not for a pitch curve scaled by a module.
 ///
 /// ```
 /// use centrode_mechanism::design::Design;

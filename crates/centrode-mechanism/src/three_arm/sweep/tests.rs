@@ -4,12 +4,12 @@ use super::*;
 use crate::three_arm::ThreeArm;
 use proptest::prelude::*;
 
-fn agree(design: &ThreeArmDesign, sweep: &mut Sweep) {
+fn agree(design: &ThreeArmDesign, sweep: &mut Sweep, tolerance: f64) {
     let exact = ThreeArm::resolve(design).expect("a mechanism");
     let (a, b) = (exact.figures(), sweep.figures(design).expect("a mechanism"));
     let size = exact.gearbox_radius() + design.arm.tip_distance;
     let near = |a: f64, b: f64, size: f64| {
-        assert!((a - b).abs() <= 1e-9 * size, "{a} {b}\n{design:?}");
+        assert!((a - b).abs() <= tolerance * size, "{a} {b}\n{design:?}");
     };
     near(exact.center_distance(), sweep.center_distance(), size);
     // Working points found on a flat crest are right to the root of rounding: so are the angles there.
@@ -40,15 +40,15 @@ fn the_published_set_agrees_with_the_exact_mechanism() {
             spline.degree = degree;
         }
         let mut sweep = Sweep::like(&design, 360).expect("of the kind");
-        agree(&design, &mut sweep);
+        agree(&design, &mut sweep, 1e-9);
         design.work.picking = None;
         design.work.planting = None;
-        agree(&design, &mut sweep);
+        agree(&design, &mut sweep, 1e-9);
         design.tray.distance = Some(240.0);
-        agree(&design, &mut sweep);
+        agree(&design, &mut sweep, 1e-9);
         design.direction = Direction::CounterClockwise;
         design.tray.distance = None;
-        agree(&design, &mut sweep);
+        agree(&design, &mut sweep, 1e-9);
     }
 }
 
@@ -76,7 +76,8 @@ proptest! {
         design.arm.mounting_angle = mounting.to_radians();
         design.planet_reference = reference.map(f64::to_radians);
         let mut sweep = Sweep::like(&design, 360).expect("of the kind");
-        agree(&design, &mut sweep);
+        // Radii that differ tenfold bring the poles of the ratio close.
+        agree(&design, &mut sweep, 1e-6);
     }
 }
 
@@ -114,5 +115,5 @@ fn what_is_no_mechanism_is_refused() {
     design.tray.distance = Some(-900.0);
     assert_eq!(sweep.figures(&design), Err(SweepError::TrayOutOfReach));
     // What failed before leaves no trace.
-    agree(&good, &mut sweep);
+    agree(&good, &mut sweep, 1e-9);
 }
