@@ -253,7 +253,7 @@ pub(crate) struct Optimise {
 pub(crate) struct Response {
     /// Design file, or - for standard input
     pub(crate) design: PathBuf,
-    /// Key of a number of the design file, such as arm.tip_distance, or a parameter's name, such as r1
+    /// Key of a number of the design file, such as `arm.tip_distance`, or a parameter's name, such as r1
     #[arg(long, value_name = "KEY")]
     pub(crate) parameter: String,
     /// First value, in the file's unit

@@ -37,8 +37,8 @@ pub struct DesignSearch {
 
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 enum State {
-    Guided(GuidedSearch),
-    Global(Search),
+    Guided(Box<GuidedSearch>),
+    Global(Box<Search>),
 }
 
 fn variables(problem: &dyn DesignProblem) -> Vec<(String, [f64; 2])> {
@@ -60,10 +60,11 @@ impl DesignSearch {
             Strategy::Guided if problem.variables().is_empty() => {
                 return Err(SearchError::NoVariable);
             }
-            Strategy::Guided => State::Guided(GuidedSearch::new(problem)),
-            Strategy::Global(method) => {
-                State::Global(Search::new(problem, Settings { method, ..settings })?)
-            }
+            Strategy::Guided => State::Guided(Box::new(GuidedSearch::new(problem))),
+            Strategy::Global(method) => State::Global(Box::new(Search::new(
+                problem,
+                Settings { method, ..settings },
+            )?)),
         };
         Ok(Self {
             variables: variables(problem),

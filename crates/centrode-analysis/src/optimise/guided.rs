@@ -213,7 +213,7 @@ impl GuidedSearch {
         let count = self.point.len();
         let single = |k: usize| {
             let mut moved = vec![0.0; count];
-            moved[k / 2] = if k % 2 == 0 { step } else { -step };
+            moved[k / 2] = if k.is_multiple_of(2) { step } else { -step };
             moved
         };
         let trials = self.tried(problem, (0..2 * count).map(single).collect());

@@ -23,17 +23,17 @@ pub enum Parameter {
     Radius(u8),
     /// Polar angle of a control point.
     Angle(u8),
-    /// Direction of the first intermediate gear's axis at the start, phi_0.
+    /// Direction of the first intermediate gear's axis at the start, `phi_0`.
     CarrierStart,
-    /// Bend of each chain, gamma_0.
+    /// Bend of each chain, `gamma_0`.
     Bend,
-    /// Direction of the tip from the planet's zero, beta_0.
+    /// Direction of the tip from the planet's zero, `beta_0`.
     MountingAngle,
     /// Distance of the tip from the planet's axis, S.
     TipDistance,
     /// Distance of the pusher's axis from the planet's axis, H1.
     PusherOffset,
-    /// The planet's zero behind the second leg at the start, phi_30.
+    /// The planet's zero behind the second leg at the start, `phi_30`.
     PlanetReference,
     /// Carrier turn at which the first arm picks.
     Picking,

@@ -429,7 +429,7 @@ impl IncompletePair {
     }
 
     /// How far the locked driven gear can turn either way by the play of the locking arc, rad: the play over the
-    /// lever of the notch's ends.
+    /// lever of the notch's ends on the tip circle; up to twice that where they are cut back for the first tooth.
     #[must_use]
     pub fn locked_play(&self) -> f64 {
         let a = self.center_distance();
