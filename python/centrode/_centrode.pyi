@@ -21,6 +21,7 @@ __all__ = [
     "DiscCam",
     "Drawing",
     "DrawingSpec",
+    "Feeder",
     "Follower",
     "Gear",
     "GearPair",

@@ -514,7 +514,7 @@ impl ThreeArm {
     /// >>> import centrode as ct
     /// >>> arms = ct.ThreeArm.from_toml(ct.template("three-arm"))
     /// >>> arms.response("r1", [15, 21, 27])["trajectory-height"].round(1).tolist()
-    /// [372.7, 370.8, 369.4]
+    /// [377.8, 370.8, 363.1]
     fn response<'py>(
         &self,
         py: Python<'py>,

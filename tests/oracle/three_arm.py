@@ -139,7 +139,7 @@ def case(curve, interpolate):
 if __name__ == "__main__":
     write(
         "three_arm",
-        """Three-arm mechanism of 2021: its twelve points as a closed uniform B-spline, with control points or through them.
+        """Three-arm mechanism of 2021: its points as a closed uniform B-spline, with control points or through them.
 Carrier start 86, bend -53, mounting angle -29 deg, S = 145, H1 = 65 mm; picking at 20, planting at 191 deg.
 Angles in degrees, lengths in mm; the height is right to 1e-12.""",
         [

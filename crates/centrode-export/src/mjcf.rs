@@ -76,7 +76,7 @@ pub fn write(model: &Model) -> Result<Vec<u8>, MjcfError> {
 /// The same with loops, closed by stiff equality constraints.
 ///
 /// # Errors
-/// As [`write`], and where a closure names a link the model has not.
+/// As [`write()`], and where a closure names a link the model has not.
 pub fn write_closed(model: &Model, closures: &[Closure]) -> Result<Vec<u8>, MjcfError> {
     is_tree(model)?;
     for closure in closures {

@@ -1,10 +1,10 @@
 use centrode_geometry::Point;
 
-/// A joint of a [`Linkage`]: a point of one of its links.
+/// A joint of a [`Linkage`](super::Linkage): a point of one of its links.
 #[derive(Clone, Copy, Debug, Eq, Hash, Ord, PartialEq, PartialOrd)]
 pub struct Joint(pub(super) usize);
 
-/// A link of a [`Linkage`]: a rigid body with its own axes.
+/// A link of a [`Linkage`](super::Linkage): a rigid body with its own axes.
 #[derive(Clone, Copy, Debug, Eq, Hash, Ord, PartialEq, PartialOrd)]
 pub struct Link(pub(super) usize);
 
