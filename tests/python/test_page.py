@@ -293,7 +293,7 @@ def test_the_goals_answer_a_number(arms):
     page.locator("#response-key").select_option("arm.tip_distance")
     show = page.locator("#dialog").get_by_role("button", name="Show")
     show.click()
-    expect(page.locator(".multiples .chart canvas")).to_have_count(9)
+    expect(page.locator(".multiples .chart canvas")).to_have_count(9, timeout=60_000)
     page.locator("#response-to").fill("1")
     show.click()
     expect(page.locator("#dialog [role=status]")).to_contain_text("the values must rise")

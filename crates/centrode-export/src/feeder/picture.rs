@@ -97,7 +97,7 @@ fn extent(feeder: &Feeder) -> [f64; 4] {
     [min.x - half, min.y - half, max.x + half, max.y + half]
 }
 
-/// Angle of the effector, speed of its tip, angle between coupler and rocker along the cycle.
+/// Angle of the effector, speed and acceleration of its tip, turn of the crank, angle between coupler and rocker along the cycle.
 #[must_use]
 pub fn curves(feeder: &Feeder) -> Vec<Curve> {
     let (speed, reach) = (feeder.speed(), feeder.six_bar().effector_length());
@@ -116,6 +116,12 @@ pub fn curves(feeder: &Feeder) -> Vec<Curve> {
         }),
         curve("Speed of the tip", "mm/s", &|phi| {
             (feeder.effector(phi).velocity * speed * reach).abs()
+        }),
+        curve("Acceleration of the tip along its path", "m/s^2", &|phi| {
+            1e-3 * feeder.effector(phi).acceleration * speed * speed * reach
+        }),
+        curve("Turn of the crank", "deg", &|phi| {
+            feeder.crank(phi).position.to_degrees()
         }),
         curve("Angle of coupler and rocker", "deg", &|phi| {
             bar.transmission_angle(feeder.crank(phi).position)

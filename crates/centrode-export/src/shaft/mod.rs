@@ -4,6 +4,7 @@ mod drawings;
 mod gcode;
 mod machine;
 mod motion;
+mod picture;
 mod sheets;
 mod simulator;
 mod tables;
@@ -27,6 +28,7 @@ use centrode_mechanism::shaft::{MovingBox, ShaftError, SpiralShaft};
 pub use drawings::{developed, side_view, slider};
 pub use gcode::program;
 use machine::Machine;
+pub use picture::{box_curves, box_picture, shaft_curves, shaft_picture};
 pub use sheets::{shaft_sheets, slider_sheets};
 use thiserror::Error;
 

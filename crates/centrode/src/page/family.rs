@@ -5,14 +5,15 @@ use centrode::export::page::{Curve, Picture};
 use centrode::mechanism::design::Design;
 use centrode::mechanism::mechanism::Mechanism;
 
-use super::{feeder, gear_pair, three_arm};
+use super::{feeder, gear_pair, shaft, three_arm};
 
 /// The picture that is there at once.
 pub(super) fn picture(design: &Design, mechanism: &Mechanism) -> Picture {
     match mechanism {
         Mechanism::GearPair(pair) => gear_pair::picture(design, pair),
         Mechanism::ThreeArm(arms) => three_arm::picture(arms),
-        Mechanism::SpiralShaft(_) | Mechanism::MovingBox(_) => Picture::default(),
+        Mechanism::SpiralShaft(part) => shaft::picture(part),
+        Mechanism::MovingBox(machine) => shaft::box_picture(machine),
         Mechanism::Feeder(machine) => feeder::picture(machine),
     }
 }
@@ -33,7 +34,8 @@ pub(super) fn curves(mechanism: &Mechanism) -> Vec<Curve> {
     match mechanism {
         Mechanism::GearPair(pair) => centrode::export::gear_pair::curves(pair),
         Mechanism::ThreeArm(arms) => centrode::export::three_arm::curves(arms),
-        Mechanism::SpiralShaft(_) | Mechanism::MovingBox(_) => Vec::new(),
+        Mechanism::SpiralShaft(part) => centrode::export::shaft::shaft_curves(part),
+        Mechanism::MovingBox(machine) => shaft::box_curves(machine),
         Mechanism::Feeder(machine) => centrode::export::feeder::curves(machine),
     }
 }

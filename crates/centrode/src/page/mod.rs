@@ -7,6 +7,7 @@ mod field;
 mod gear_pair;
 mod handles;
 mod schema;
+mod shaft;
 mod snapshot;
 mod three_arm;
 

@@ -44,8 +44,12 @@ export async function ask(snapshot, text) {
   key.addEventListener("change", reach);
   reach();
   const show = async () => {
-    words.textContent = "checking…";
     place.replaceChildren();
+    if (!(number(from) < number(to))) {
+      words.textContent = `the values must rise, but go from ${from.value} to ${to.value}`;
+      return;
+    }
+    words.textContent = "checking…";
     try {
       const answers = await server.response({ text, key: key.value, from: number(from), to: number(to) });
       words.textContent = "";

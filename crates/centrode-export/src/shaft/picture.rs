@@ -1,0 +1,184 @@
+use super::ShaftFilesError;
+use super::machine::Machine;
+use crate::page::{Curve, Link, Motion, Path, Picture, Role, short};
+use centrode_geometry::{Bounds, Outline, Point, Tolerance};
+use centrode_mechanism::shaft::{MovingBox, ShaftSolid, SpiralShaft};
+use std::f64::consts::{PI, TAU};
+
+/// Step of the moving picture and of the curves, rad.
+const STEP: f64 = PI / 30.0;
+
+/// How long a jump from one edge of the development to the other lasts, rad.
+const JUMP: f64 = 1e-6;
+
+/// The developed groove with its slider running in it, and the box that goes with it: along x the shaft, along y its
+/// turned surface.
+///
+/// # Errors
+/// [`ShaftFilesError`] where body and groove make no solid.
+pub fn shaft_picture(
+    shaft: &SpiralShaft,
+    tolerance: Tolerance,
+) -> Result<Picture, ShaftFilesError> {
+    picture(&Machine::of_shaft(shaft), tolerance)
+}
+
+/// The same of a moving box, by its own input.
+///
+/// # Errors
+/// [`ShaftFilesError`] where body and groove make no solid, or the elliptic gears no pair.
+pub fn box_picture(machine: &MovingBox, tolerance: Tolerance) -> Result<Picture, ShaftFilesError> {
+    picture(&Machine::of_box(machine)?, tolerance)
+}
+
+/// Position, speed, acceleration, lead angle and forces over the cycle.
+#[must_use]
+pub fn shaft_curves(shaft: &SpiralShaft) -> Vec<Curve> {
+    curves(&Machine::of_shaft(shaft))
+}
+
+/// The same of a moving box, by its own input.
+///
+/// # Errors
+/// [`ShaftFilesError`] where the elliptic gears make no pair.
+pub fn box_curves(machine: &MovingBox) -> Result<Vec<Curve>, ShaftFilesError> {
+    Ok(curves(&Machine::of_box(machine)?))
+}
+
+/// A point of the development as drawn: the shaft lies along x.
+fn drawn(point: Point) -> Point {
+    Point::new(point.y, -point.x)
+}
+
+fn rectangle(low: Point, high: Point) -> Outline {
+    let p = Point::new;
+    Outline::polygon(&[low, p(high.x, low.y), high, p(low.x, high.y)])
+}
+
+fn picture(machine: &Machine<'_>, tolerance: Tolerance) -> Result<Picture, ShaftFilesError> {
+    let shaft = machine.shaft;
+    let groove = shaft.groove();
+    let around = TAU * groove.radius();
+    let [low, high] = ShaftSolid::new(groove, shaft.body())?.ends();
+    let blank = rectangle(Point::new(low, -around), Point::new(high, 0.0));
+    let mut surface = vec![Path::closed(Role::Body, &blank, tolerance)];
+    for edge in shaft.wall_edges(tolerance)? {
+        let edge: Vec<Point> = edge.into_iter().map(drawn).collect();
+        surface.push(Path::open(Role::Trace, &edge));
+    }
+    let slider = shaft.slider().outline(groove.width());
+    let traverse = shaft.traverse();
+    let (lead, holes) = (shaft.law().lead(), f64::from(traverse.holes()));
+    // The box in its rows of holes, above the development.
+    let (length, depth) = (lead * holes, 2.0 * lead);
+    let rim = rectangle(
+        Point::new(-0.5 * length, lead),
+        Point::new(0.5 * length, lead + depth),
+    );
+    let mut rows = vec![Path::closed(Role::Body, &rim, tolerance)];
+    for i in 0..traverse.holes() {
+        let center = Point::new(
+            (f64::from(i) + 0.5) * lead - 0.5 * length,
+            lead + 0.5 * depth,
+        );
+        let hole = rectangle(
+            center - nalgebra::Vector2::repeat(0.4 * lead),
+            center + nalgebra::Vector2::repeat(0.4 * lead),
+        );
+        rows.push(Path::closed(Role::Hole, &hole, tolerance));
+    }
+    let links = [
+        ("shaft", surface),
+        ("box", rows),
+        ("slider", vec![Path::closed(Role::Body, &slider, tolerance)]),
+    ];
+    let mut motion = Motion {
+        input_name: if machine.gears.is_some() {
+            "driver"
+        } else {
+            "shaft"
+        }
+        .into(),
+        input: Vec::new(),
+        poses: vec![Vec::new(); links.len()],
+    };
+    let unit = 0.1 * tolerance.mm();
+    let mut bounds = Bounds {
+        min: Point::new(low, -around),
+        max: Point::new(high, lead + depth),
+    };
+    let mut before: Option<f64> = None;
+    for input in groove.steps(STEP) {
+        let turned = machine.turn(input).position;
+        let lap = (turned / TAU + 1e-12).floor();
+        let jumps = before.is_some_and(|before| before < lap);
+        before = Some(lap);
+        // At a whole turn the slider leaves one edge of the development for the other.
+        let places = if jumps {
+            vec![(input - JUMP, lap - 1.0), (input, lap)]
+        } else {
+            vec![(input, lap)]
+        };
+        for (input, lap) in places {
+            let (turn, stroke) = (machine.turn(input), machine.motion(input));
+            let slope = stroke.velocity / turn.velocity;
+            let at = drawn(Point::new(
+                groove.radius() * (turn.position - TAU * lap),
+                stroke.position,
+            ));
+            motion.input.push(short(input, 1e-7));
+            let poses = [
+                [0.0; 3],
+                [at.x, 0.0, 0.0],
+                [at.x, at.y, (-groove.radius()).atan2(slope)],
+            ];
+            for (all, [x, y, angle]) in motion.poses.iter_mut().zip(poses) {
+                all.extend([short(x, unit), short(y, unit), short(angle, 1e-6)]);
+            }
+            bounds = bounds.with(Point::new(at.x - 0.5 * length, lead));
+            bounds = bounds.with(Point::new(at.x + 0.5 * length, lead));
+        }
+    }
+    Ok(Picture {
+        links: links
+            .map(|(name, paths)| Link {
+                name: name.into(),
+                paths,
+            })
+            .into(),
+        motion,
+        handles: Vec::new(),
+        marks: Vec::new(),
+        extent: [bounds.min.x, bounds.min.y, bounds.max.x, bounds.max.y],
+    })
+}
+
+fn curves(machine: &Machine<'_>) -> Vec<Curve> {
+    let input = machine.shaft.groove().steps(STEP);
+    let omega = machine.shaft.load().speed();
+    let curve = |chart, unit, f: &dyn Fn(f64) -> f64| Curve {
+        chart,
+        name: "",
+        unit,
+        value: input.iter().map(|&t| f(t)).collect(),
+        input: input.clone(),
+    };
+    vec![
+        curve("Position of the box", "mm", &|t| machine.motion(t).position),
+        curve("Speed of the box", "mm/s", &|t| {
+            omega * machine.motion(t).velocity
+        }),
+        curve("Acceleration of the box", "m/s^2", &|t| {
+            1e-3 * omega * omega * machine.motion(t).acceleration
+        }),
+        curve("Lead angle", "deg", &|t| {
+            machine.swivel(t).position.to_degrees()
+        }),
+        curve("Force on the groove's wall", "N", &|t| {
+            machine.force(t).normal
+        }),
+        curve("Torque of the shaft", "N m", &|t| {
+            1e-3 * machine.force(t).torque
+        }),
+    ]
+}
