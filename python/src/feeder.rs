@@ -6,12 +6,13 @@ use centrode_export::Bundle;
 use centrode_export::feeder as files;
 use centrode_mechanism::design::Design;
 use centrode_mechanism::feeder as mechanism;
-use pyo3::prelude::{Bound, Py, PyAny, PyDictMethods, PyResult, Python, pyclass, pymethods};
-use pyo3::types::{PyBytes, PyDict};
+use pyo3::prelude::{Bound, Py, PyAny, PyResult, Python, pyclass, pymethods};
+use pyo3::types::PyDict;
 
 use crate::array::{Values, each, each_array};
+use crate::bundle;
 use crate::design::Loaded;
-use crate::error::{of_bundle, of_design, of_feeder_files, plain_tolerance};
+use crate::error::{of_design, of_feeder_files, plain_tolerance};
 use crate::format;
 use crate::record;
 use crate::six_bar::SixBar;
@@ -190,11 +191,7 @@ impl Feeder {
         dxf_curves: &str,
     ) -> PyResult<Bound<'py, PyDict>> {
         let bundle = self.bundle(py, formats, tolerance, dxf_version, dxf_curves)?;
-        let files = PyDict::new(py);
-        for (name, bytes) in bundle.files() {
-            files.set_item(name, PyBytes::new(py, bytes))?;
-        }
-        Ok(files)
+        bundle::contents(py, &bundle)
     }
 
     /// Writes the feeder's files into a directory, which is made if it is missing; gives their paths.
@@ -219,9 +216,7 @@ impl Feeder {
         dxf_curves: &str,
     ) -> PyResult<Vec<PathBuf>> {
         let bundle = self.bundle(py, formats, tolerance, dxf_version, dxf_curves)?;
-        // Not left behind to run out unheard: it changes the disk.
-        py.detach(|| bundle.write_to(&directory))
-            .map_err(|e| of_bundle(py, &e))
+        bundle::written(py, &bundle, &directory)
     }
 
     fn __repr__(&self) -> String {

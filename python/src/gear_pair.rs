@@ -12,17 +12,17 @@ use centrode_mechanism::gear::Member;
 use centrode_mechanism::gear::design::{Addendum, BodySpec, GearPairDesign, TeethSpec};
 use centrode_mechanism::gear::pitch::{Conjugate, PitchSpec};
 use pyo3::prelude::{
-    Bound, Py, PyAny, PyAnyMethods, PyDictMethods, PyModule, PyRef, PyResult, Python, pyclass,
-    pymethods,
+    Bound, Py, PyAny, PyAnyMethods, PyModule, PyRef, PyResult, Python, pyclass, pymethods,
 };
-use pyo3::types::{PyBytes, PyDict};
+use pyo3::types::PyDict;
 
 use crate::array::{Numbers, Values, each};
 use crate::body::Body;
+use crate::bundle;
 use crate::count::{Count, optional};
 use crate::design::Loaded;
 use crate::drawing::DrawingSpec;
-use crate::error::{of_bundle, of_design, of_files, of_pair, tolerance as within};
+use crate::error::{of_design, of_files, of_pair, tolerance as within};
 use crate::format::options;
 use crate::gear::Gear;
 use crate::pitch::Pitch;
@@ -443,11 +443,7 @@ impl GearPair {
         dxf_curves: &str,
     ) -> PyResult<Bound<'py, PyDict>> {
         let bundle = self.bundle(py, formats, tolerance, dxf_version, dxf_curves)?;
-        let files = PyDict::new(py);
-        for (name, bytes) in bundle.files() {
-            files.set_item(name, PyBytes::new(py, bytes))?;
-        }
-        Ok(files)
+        bundle::contents(py, &bundle)
     }
 
     /// Writes the pair's files into a directory, which is made if it is missing; gives their paths.
@@ -480,9 +476,7 @@ impl GearPair {
         dxf_curves: &str,
     ) -> PyResult<Vec<PathBuf>> {
         let bundle = self.bundle(py, formats, tolerance, dxf_version, dxf_curves)?;
-        // Not left behind to run out unheard: it changes the disk.
-        py.detach(|| bundle.write_to(&directory))
-            .map_err(|e| of_bundle(py, &e))
+        bundle::written(py, &bundle, &directory)
     }
 
     fn __repr__(&self) -> String {

@@ -4,6 +4,7 @@ use pyo3::prelude::pymodule;
 
 mod array;
 mod body;
+mod bundle;
 mod cam;
 mod count;
 mod design;

@@ -8,15 +8,14 @@ use centrode_mechanism::design::Design;
 use centrode_mechanism::gear::GearPair as Gears;
 use centrode_mechanism::shaft as mechanism;
 use centrode_mechanism::shaft::{EllipticGears, Load, MovingBoxDesign, Scheme, SliderForce};
-use pyo3::prelude::{Bound, PyAny, PyDictMethods, PyRef, PyResult, Python, pyclass, pymethods};
-use pyo3::types::{PyBytes, PyDict};
+use pyo3::prelude::{Bound, PyAny, PyRef, PyResult, Python, pyclass, pymethods};
+use pyo3::types::PyDict;
 
 use crate::array::{Values, each};
+use crate::bundle;
 use crate::count::Count;
 use crate::design::Loaded;
-use crate::error::{
-    of_bundle, of_design, of_pair, of_shaft, of_shaft_files, plain_tolerance, unknown_word,
-};
+use crate::error::{of_design, of_pair, of_shaft, of_shaft_files, plain_tolerance, unknown_word};
 use crate::format;
 use crate::gear_pair::GearPair;
 use crate::record;
@@ -333,11 +332,7 @@ impl MovingBox {
         dxf_curves: &str,
     ) -> PyResult<Bound<'py, PyDict>> {
         let bundle = self.bundle(py, formats, tolerance, dxf_version, dxf_curves)?;
-        let files = PyDict::new(py);
-        for (name, bytes) in bundle.files() {
-            files.set_item(name, PyBytes::new(py, bytes))?;
-        }
-        Ok(files)
+        bundle::contents(py, &bundle)
     }
 
     /// Writes the machine's files into a directory, which is made if it is missing; gives their paths.
@@ -362,9 +357,7 @@ impl MovingBox {
         dxf_curves: &str,
     ) -> PyResult<Vec<PathBuf>> {
         let bundle = self.bundle(py, formats, tolerance, dxf_version, dxf_curves)?;
-        // Not left behind to run out unheard: it changes the disk.
-        py.detach(|| bundle.write_to(&directory))
-            .map_err(|e| of_bundle(py, &e))
+        bundle::written(py, &bundle, &directory)
     }
 
     fn __repr__(&self) -> String {

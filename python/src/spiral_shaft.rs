@@ -14,12 +14,13 @@ use centrode_mechanism::shaft::{
 use centrode_mechanism::transmission::Transmission;
 use numpy::PyArray2;
 use pyo3::prelude::{Bound, PyAny, PyDictMethods, PyResult, Python, pyclass, pymethods};
-use pyo3::types::{PyBytes, PyDict};
+use pyo3::types::PyDict;
 
 use crate::array::{Numbers, Values, each, points, rows};
+use crate::bundle;
 use crate::count::Count;
 use crate::design::Loaded;
-use crate::error::{of_bundle, of_design, of_shaft, of_shaft_files, plain_tolerance, unknown_word};
+use crate::error::{of_design, of_shaft, of_shaft_files, plain_tolerance, unknown_word};
 use crate::format;
 use crate::record;
 use crate::wait::wait;
@@ -531,11 +532,7 @@ impl SpiralShaft {
         dxf_curves: &str,
     ) -> PyResult<Bound<'py, PyDict>> {
         let bundle = self.bundle(py, formats, tolerance, dxf_version, dxf_curves)?;
-        let files = PyDict::new(py);
-        for (name, bytes) in bundle.files() {
-            files.set_item(name, PyBytes::new(py, bytes))?;
-        }
-        Ok(files)
+        bundle::contents(py, &bundle)
     }
 
     /// Writes the shaft's files into a directory, which is made if it is missing; gives their paths.
@@ -560,9 +557,7 @@ impl SpiralShaft {
         dxf_curves: &str,
     ) -> PyResult<Vec<PathBuf>> {
         let bundle = self.bundle(py, formats, tolerance, dxf_version, dxf_curves)?;
-        // Not left behind to run out unheard: it changes the disk.
-        py.detach(|| bundle.write_to(&directory))
-            .map_err(|e| of_bundle(py, &e))
+        bundle::written(py, &bundle, &directory)
     }
 
     fn __repr__(&self) -> String {

@@ -19,15 +19,16 @@ use pyo3::prelude::{
     Bound, PyAny, PyAnyMethods, PyDictMethods, PyModule, PyRef, PyResult, Python, pyclass,
     pymethods,
 };
-use pyo3::types::{PyBytes, PyDict, PyTuple};
+use pyo3::types::{PyDict, PyTuple};
 
 use crate::array::{Values, each, each_row};
 use crate::body::Body;
+use crate::bundle;
 use crate::count::{Count, optional};
 use crate::design::{Loaded, path_loaded};
 use crate::error::{
-    no_search, of_bundle, of_design, of_pair, of_pusher, of_three_arm, of_three_arm_files,
-    plain_tolerance, unknown_word,
+    no_search, of_design, of_pair, of_pusher, of_three_arm, of_three_arm_files, plain_tolerance,
+    unknown_word,
 };
 use crate::format;
 use crate::gear_pair::GearPair;
@@ -580,11 +581,7 @@ impl ThreeArm {
     ) -> PyResult<Bound<'py, PyDict>> {
         let written = (dxf_version, dxf_curves);
         let bundle = self.bundle(py, formats, parts, tolerance, written)?;
-        let files = PyDict::new(py);
-        for (name, bytes) in bundle.files() {
-            files.set_item(name, PyBytes::new(py, bytes))?;
-        }
-        Ok(files)
+        bundle::contents(py, &bundle)
     }
 
     /// Writes the mechanism's files into a directory, which is made if it is missing; gives their paths.
@@ -616,9 +613,7 @@ impl ThreeArm {
     ) -> PyResult<Vec<PathBuf>> {
         let written = (dxf_version, dxf_curves);
         let bundle = self.bundle(py, formats, parts, tolerance, written)?;
-        // Not left behind to run out unheard: it changes the disk.
-        py.detach(|| bundle.write_to(&directory))
-            .map_err(|e| of_bundle(py, &e))
+        bundle::written(py, &bundle, &directory)
     }
 
     fn __repr__(&self) -> String {

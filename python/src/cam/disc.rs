@@ -6,13 +6,14 @@ use centrode_export::gear_pair::{Format, Options};
 use centrode_geometry::{Point, Tolerance};
 use centrode_mechanism::cam::{Cam, Contact, Extreme, design as spec};
 use numpy::{IntoPyArray, PyArray1, PyArray2};
-use pyo3::prelude::{Bound, PyDictMethods, PyRef, PyResult, Python, pyclass, pymethods};
-use pyo3::types::{PyBytes, PyDict};
+use pyo3::prelude::{Bound, PyRef, PyResult, Python, pyclass, pymethods};
+use pyo3::types::PyDict;
 
 use super::parts::{Follower, Segment};
 use super::{row, turn};
 use crate::array::{Numbers, points, rows};
 use crate::body::Body;
+use crate::bundle;
 use crate::error::{design_error, of_cam, of_cam_files, unknown_word};
 use crate::wait::wait;
 
@@ -269,11 +270,7 @@ impl DiscCam {
         let options = Options::new(self::tolerance(tolerance)?);
         let cam = self.0.clone();
         let bundle = wait(py, move || export::files(&cam, &formats, &options))?;
-        let files = PyDict::new(py);
-        for (name, bytes) in bundle.map_err(|e| of_cam_files(&e))?.files() {
-            files.set_item(name, PyBytes::new(py, bytes))?;
-        }
-        Ok(files)
+        bundle::contents(py, &bundle.map_err(|e| of_cam_files(&e))?)
     }
 
     fn __repr__(&self) -> String {
