@@ -2,6 +2,8 @@
 
 use std::hint::black_box;
 
+use centrode_analysis::optimise::Problem;
+use centrode_analysis::optimise::three_arm::ThreeArmProblem;
 use centrode_mechanism::design::Design;
 use centrode_mechanism::gear::pitch::PitchSpec;
 use centrode_mechanism::three_arm::design::ThreeArmDesign;
@@ -67,5 +69,40 @@ fn tip(c: &mut Criterion) {
     });
 }
 
-criterion_group!(benches, sweep, resolve, tip);
+/// One evaluation of the search: at points by chance within the bounds, which are mostly left after the figures, and at
+/// a design that reaches all goals, of which every tooth is followed.
+fn evaluate(c: &mut Criterion) {
+    let mut group = c.benchmark_group("three-arm/evaluate");
+    let problem = ThreeArmProblem::new(&template()).expect("of the kind");
+    let bounds = problem.bounds();
+    let points: Vec<Vec<f64>> = (0..64)
+        .map(|i| {
+            let share = |k: usize| ((i * 31 + k * 17) as f64 * 0.618_033_988_749_895).fract();
+            let at = |(k, &(low, high)): (usize, &(f64, f64))| low + (high - low) * share(k);
+            bounds.iter().enumerate().map(at).collect()
+        })
+        .collect();
+    group.throughput(Throughput::Elements(points.len() as u64));
+    group.bench_function("by chance", |b| {
+        b.iter(|| {
+            for point in &points {
+                black_box(problem.evaluate(black_box(point)));
+            }
+        });
+    });
+    let text = include_str!("../tests/designs/three-arm-all-goals.toml");
+    let Ok(Design::ThreeArm(good)) = Design::from_toml(text) else {
+        unreachable!("the design is a three-arm mechanism")
+    };
+    let problem = ThreeArmProblem::new(&good).expect("of the kind");
+    let start = problem.start().expect("a start");
+    group.throughput(Throughput::Elements(1));
+    group.sample_size(10);
+    group.bench_function("all goals", |b| {
+        b.iter(|| problem.evaluate(black_box(&start)))
+    });
+    group.finish();
+}
+
+criterion_group!(benches, sweep, resolve, tip, evaluate);
 criterion_main!(benches);

@@ -1,4 +1,4 @@
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from os import PathLike
 from pathlib import Path
 from typing import Any, ClassVar, Literal, SupportsFloat, SupportsIndex, TypeAlias, final, overload
@@ -862,7 +862,10 @@ class ThreeArm:
         population: int | None = None,
         progress: Callable[[int, float, float], object] | None = None,
     ) -> Optimised: ...
-    def response(self, parameter: str, values: Sequence[float] | NDArray[float64]) -> dict[str, NDArray[float64]]: ...
+    def response(
+        self, parameter: str, values: Sequence[float] | NDArray[float64], *, whole: bool = False
+    ) -> dict[str, NDArray[float64]]: ...
+    def sweep(self, parameters: Mapping[str, ArrayLike], *, inputs: int = 360) -> dict[str, NDArray[float64]]: ...
     def gear_pair(self) -> GearPair: ...
     def files(
         self,

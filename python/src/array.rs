@@ -67,6 +67,21 @@ impl<'a, 'py> FromPyObject<'a, 'py> for Numbers {
     }
 }
 
+impl Values {
+    /// The length of a list, none for a single number; none at all for an array of more dimensions.
+    pub(crate) fn length(&self) -> Option<Option<usize>> {
+        match self.0.shape() {
+            [] => Some(None),
+            [length] => Some(Some(*length)),
+            _ => None,
+        }
+    }
+
+    pub(crate) fn into_flat(self) -> Vec<f64> {
+        self.0.iter().copied().collect()
+    }
+}
+
 impl Numbers {
     pub(crate) fn into_vec(self) -> Vec<f64> {
         self.0

@@ -24,6 +24,7 @@ mod six_bar;
 mod spiral_shaft;
 mod three_arm;
 mod tool;
+mod variants;
 mod wait;
 
 /// Native part of the `centrode` package.

@@ -9,7 +9,7 @@ use std::time::Duration;
 use centrode_analysis::optimise::{
     DesignSearch, Ended, GuidedStep, Progress, Settings, Strategy, problem_of,
 };
-use centrode_analysis::{Goal, Response};
+use centrode_analysis::{Depth, Goal, Response};
 use centrode_mechanism::design::Design;
 use centrode_mechanism::mechanism::{Mechanism, MechanismError};
 use pyo3::prelude::{Bound, PyAny, PyAnyMethods, PyResult, Python};
@@ -128,9 +128,11 @@ pub(crate) fn response<'py>(
     design: Design,
     parameter: &str,
     values: Vec<f64>,
+    whole: bool,
 ) -> PyResult<Bound<'py, PyDict>> {
     let key = design.key_of(parameter);
-    let found = wait(py, move || Response::of(&design, &key, &values))?;
+    let depth = if whole { Depth::Whole } else { Depth::Motion };
+    let found = wait(py, move || Response::of(&design, &key, &values, depth))?;
     let found = found.map_err(|error| of_design(&error))?;
     let named = PyDict::new(py);
     for answer in found.answers() {

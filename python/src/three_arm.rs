@@ -1,3 +1,4 @@
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -37,6 +38,7 @@ use crate::place::addendum as addendum_of;
 use crate::record;
 use crate::search;
 use crate::tool::Tool;
+use crate::variants;
 use crate::wait::wait;
 
 /// A three-arm transplanting mechanism: fixed sun, turning carrier, arms on the planets of bent chains.
@@ -511,19 +513,53 @@ impl ThreeArm {
     /// Args:
     ///     parameter: Key of the design file, "arm.tip_distance", or a parameter's name, "r1".
     ///     values: In the file's unit: mm, degrees.
+    ///     whole: Ask for the teeth and the cam, too, which takes some ten times as long.
     ///
     /// >>> import centrode as ct
     /// >>> arms = ct.ThreeArm.from_toml(ct.template("three-arm"))
     /// >>> arms.response("r1", [15, 21, 27])["trajectory-height"].round(1).tolist()
     /// [377.8, 370.8, 363.1]
+    #[pyo3(signature = (parameter, values, *, whole=false))]
     fn response<'py>(
         &self,
         py: Python<'py>,
         parameter: &str,
         values: Vec<f64>,
+        whole: bool,
     ) -> PyResult<Bound<'py, PyDict>> {
         let design = Design::ThreeArm(Box::new(self.0.design().clone()));
-        search::response(py, design, parameter, values)
+        search::response(py, design, parameter, values, whole)
+    }
+
+    /// Figures of many variants of this mechanism, about twenty microseconds each: goals 2 to 4 and 6 to 8, centre distance and
+    /// length of the pitch curves, by name; NaN where a variant is no mechanism. `centrode.sweep` spreads more of them over
+    /// an executor.
+    ///
+    /// Args:
+    ///     parameters: Values by the parameter's name: "r1" to "r99" and "theta1" to "theta99" for radius and polar angle of a
+    ///         control point, "carrier_start", "bend", "mounting_angle", "tip_distance", "pusher_offset", "planet_reference",
+    ///         "picking", "planting"; arrays of one length, or single numbers; mm, degrees.
+    ///     inputs: Inputs a turn at which the tip's path is looked at before its extremes are sharpened.
+    ///
+    /// Returns:
+    ///     Arrays by name, angles in radians: "pick-angle", "push-angle", "angle-difference", "gearbox-clearance",
+    ///     "trajectory-height", "module", "center_distance", "pitch_length".
+    ///
+    /// Raises:
+    ///     DesignError: No such parameter, or the sun is no B-spline in the polar plane.
+    ///
+    /// >>> import centrode as ct, numpy as np
+    /// >>> arms = ct.ThreeArm.from_toml(ct.template("three-arm"))
+    /// >>> arms.sweep({"r1": [15, 21, 27], "tip_distance": 145})["trajectory-height"].round(1).tolist()
+    /// [377.8, 370.8, 363.1]
+    #[pyo3(signature = (parameters, *, inputs=360))]
+    fn sweep<'py>(
+        &self,
+        py: Python<'py>,
+        parameters: BTreeMap<String, Values>,
+        inputs: usize,
+    ) -> PyResult<Bound<'py, PyDict>> {
+        variants::sweep(py, self.0.design(), parameters, inputs)
     }
 
     /// Sun and intermediate gear with their teeth; the planets are the sun's part again.

@@ -70,6 +70,9 @@ def test_a_response_is_that_of_the_designs() -> None:
         arms.response("arm.nothing", [1.0])
 
 
+RADII = [21, 28, 50, 49, 58, 47, 18, 12, 28, 60, 48, 24]
+
+
 def designs(count: int) -> list[str]:
     text = ct.template("three-arm")
     return [text.replace("tip_distance = 145", f"tip_distance = {140 + 10 * i / count}") for i in range(count)]
@@ -106,6 +109,68 @@ def test_a_killed_worker_loses_nothing(tmp_path: Path) -> None:
     assert Path(flag).exists()
 
 
+def grid(count: int) -> dict[str, object]:
+    chance = np.random.default_rng(7)
+    over: dict[str, object] = {f"r{i + 1}": r * chance.uniform(0.9, 1.1, count) for i, r in enumerate(RADII)}
+    return over | {"bend": chance.uniform(-60, -45, count), "tip_distance": 146}
+
+
+def test_variants_are_those_of_the_designs() -> None:
+    arms = ct.ThreeArm.from_toml(ct.template("three-arm"))
+    over = {"r1": [20.0, 22.0, -90.0], "bend": [-53.0, -50.0, -53.0], "tip_distance": 146}
+    found = arms.sweep(over)
+    assert set(found) == {
+        *("pick-angle", "push-angle", "angle-difference", "gearbox-clearance", "trajectory-height", "module"),
+        *("center_distance", "pitch_length"),
+    }
+    for i in range(2):
+        text = ct.template("three-arm").replace("radius = [21,", f"radius = [{over['r1'][i]},")
+        text = text.replace("bend_deg = -53", f"bend_deg = {over['bend'][i]}").replace("145", "146")
+        (figures,) = ct.sweep([text])
+        assert figures is not None
+        for name, values in found.items():
+            assert values[i] == pytest.approx(figures[name], rel=1e-9), name
+    # The third is no mechanism.
+    assert all(math.isnan(values[2]) for values in found.values())
+    assert list(arms.sweep({})["trajectory-height"].round(4)) == [370.8206]
+
+
+def test_variants_are_the_same_on_any_executor() -> None:
+    text, over = ct.template("three-arm"), grid(1000)
+    alone = ct.sweep(text, over=over)
+    assert np.isfinite(alone["pick-angle"]).sum() > 500
+    with ThreadPoolExecutor(2) as pool:
+        spread = ct.sweep(text, over=over, executor=pool, chunk=300)
+    assert set(spread) == set(alone)
+    for name, values in alone.items():
+        assert np.array_equal(spread[name], values, equal_nan=True), name
+
+
+@pytest.mark.parametrize(
+    ("over", "inputs", "message"),
+    [
+        ({"r13": [1.0]}, 360, "12 control points"),
+        ({"nonsense": [1.0]}, 360, "nonsense"),
+        ({"r1": [1.0, 2.0], "r2": [1.0, 2.0, 3.0]}, 360, "r2 has 3 values and r1 2"),
+        ({"r1": [[1.0]]}, 360, "r1 must be a number or a list"),
+        ({"bend": [1.0], "gamma0": [1.0]}, 360, "given twice"),
+        ({"r1": [1.0]}, 0, "inputs must be"),
+    ],
+)
+def test_variants_that_cannot_be_are_refused(over: dict[str, object], inputs: int, message: str) -> None:
+    arms = ct.ThreeArm.from_toml(ct.template("three-arm"))
+    with pytest.raises((ValueError, ct.DesignError), match=message):
+        arms.sweep(over, inputs=inputs)
+
+
+def test_a_sweep_tells_designs_and_variants_apart() -> None:
+    text = ct.template("three-arm")
+    with pytest.raises(TypeError, match="several designs"):
+        ct.sweep(text)  # type: ignore[call-overload]
+    with pytest.raises(TypeError, match="one three-arm design"):
+        ct.sweep([text], over={"r1": [1.0]})  # type: ignore[call-overload]
+
+
 def test_what_is_found_travels() -> None:
     found = tilted().optimise("de", evaluations=20, population=10)
     again = pickle.loads(pickle.dumps(found))
@@ -121,4 +186,9 @@ def test_a_sweep_runs_on_dask() -> None:
         ) as cluster,
         distributed.Client(cluster) as client,
     ):
-        assert ct.sweep(texts, executor=client.get_executor(), chunk=2) == ct.sweep(texts)
+        pool = client.get_executor()
+        assert ct.sweep(texts, executor=pool, chunk=2) == ct.sweep(texts)
+        over = grid(500)
+        spread = ct.sweep(texts[0], over=over, executor=pool, chunk=100)
+        for name, values in ct.sweep(texts[0], over=over).items():
+            assert np.array_equal(spread[name], values, equal_nan=True), name

@@ -15,6 +15,21 @@ const ARM_TOLERANCE: f64 = 1e-4;
 /// Checks a three-arm mechanism: its goals, where its arms work, and what teeth its curves can bear.
 #[must_use]
 pub fn check_three_arm(mechanism: &ThreeArm) -> Report {
+    let mut report = check_arms(mechanism);
+    check_teeth(mechanism, &mut report);
+    check_pusher(mechanism, &mut report);
+    worst_first(&mut report);
+    report
+}
+
+fn worst_first(report: &mut Report) {
+    report
+        .findings
+        .sort_by_key(|finding| std::cmp::Reverse(finding.severity));
+}
+
+/// What [`check_three_arm`] says of goals, working points and arms.
+pub(crate) fn check_arms(mechanism: &ThreeArm) -> Report {
     let mut report = Report::default();
     let teeth = mechanism.soundness().ok();
     let arms = match arm_clearance(mechanism) {
@@ -35,11 +50,7 @@ pub fn check_three_arm(mechanism: &ThreeArm) -> Report {
     if let Some(teeth) = teeth {
         tooth_findings(&teeth, &mut report);
     }
-    check_teeth(mechanism, &mut report);
-    check_pusher(mechanism, &mut report);
-    report
-        .findings
-        .sort_by_key(|finding| std::cmp::Reverse(finding.severity));
+    worst_first(&mut report);
     report
 }
 

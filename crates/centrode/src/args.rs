@@ -268,6 +268,9 @@ pub(crate) struct Response {
     /// Goals or figures to tell, separated by commas; left out, the goals
     #[arg(long, value_delimiter = ',', value_name = "NAMES")]
     pub(crate) of: Vec<String>,
+    /// Check every value as a whole, teeth and cams too, for --csv and --json
+    #[arg(long)]
+    pub(crate) whole: bool,
     /// Write every figure at every value to a CSV file, angles in radians
     #[arg(long, value_name = "FILE")]
     pub(crate) csv: Option<PathBuf>,

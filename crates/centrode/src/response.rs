@@ -3,7 +3,7 @@ use std::io::Write;
 use std::path::Path;
 use std::process::ExitCode;
 
-use centrode::analysis::{Answer, Response as Found};
+use centrode::analysis::{Answer, Depth, Response as Found};
 use centrode::export::Bundle;
 
 use crate::args::Response;
@@ -22,10 +22,23 @@ pub(crate) fn run(command: &Response, out: &mut impl Write) -> Result<ExitCode, 
     let values: Vec<f64> = (0..command.count).map(value).collect();
     let progress = Progress::new(1);
     progress.step("checking at every value");
-    let response = Found::of(file.design(), &key, &values);
+    let find = |depth| {
+        let response = Found::of(file.design(), &key, &values, depth);
+        let response = response.map_err(|error| Failure::Usage(error.message()))?;
+        let answers = response.answers();
+        Ok::<_, Failure>((response, answers))
+    };
+    let mut found = find(if command.whole {
+        Depth::Whole
+    } else {
+        Depth::Motion
+    })?;
+    let told = |name: &String| found.1.iter().any(|answer| answer.name == *name);
+    if !command.of.iter().all(told) {
+        found = find(Depth::Whole)?;
+    }
     drop(progress);
-    let response = response.map_err(|error| Failure::Usage(error.message()))?;
-    let answers = response.answers();
+    let (response, answers) = found;
     if let Some(path) = &command.csv {
         write_csv(path, &response, &answers)?;
     }

@@ -1,4 +1,4 @@
-use centrode::analysis::{Goal, Response};
+use centrode::analysis::{Depth, Goal, Response};
 use centrode::mechanism::design::DesignFile;
 use serde::{Deserialize, Serialize};
 
@@ -44,8 +44,8 @@ pub(crate) fn answers(ask: &Ask) -> Result<Answers, String> {
     }
     let step = (ask.to - ask.from) / f64::from(COUNT - 1);
     let values: Vec<f64> = (0..COUNT).map(|i| ask.from + step * f64::from(i)).collect();
-    let response =
-        Response::of(file.design(), &ask.key, &values).map_err(|error| error.message())?;
+    let response = Response::of(file.design(), &ask.key, &values, Depth::Motion);
+    let response = response.map_err(|error| error.message())?;
     let goals: Vec<&Goal> = response
         .reports
         .iter()

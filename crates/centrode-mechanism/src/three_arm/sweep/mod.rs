@@ -8,9 +8,11 @@ use super::figures::{elevation, swept_radius};
 use crate::gear::pitch::{Bspline, PitchSpec, Plane};
 
 mod circle;
+mod panel;
 mod path;
 mod spline;
 mod stage;
+mod track;
 
 use path::Path;
 use spline::SplinePair;
@@ -22,7 +24,7 @@ use stage::Stage;
 /// transmission function is integrated on fixed panels of the curve's own pieces, where it is analytic, and both stages
 /// are solved by Newton's method from input to input. Nothing is allocated for a design. The figures agree with
 /// those of [`ThreeArm::figures`](super::ThreeArm::figures) to 1e-9 of the size of the machine, or rad, for designs like
-/// the published one, and to 1e-6 where the radii of the pitch curve differ tenfold; that the pitch curve goes round its axis is only looked at where it is integrated. Not for a pitch curve scaled by a module.
+/// the published one, and to 1e-7 where the radii of the pitch curve differ tenfold; that the pitch curve goes round its axis is only looked at where it is integrated. Not for a pitch curve scaled by a module.
 ///
 /// ```
 /// use centrode_mechanism::design::Design;
@@ -131,6 +133,12 @@ impl Sweep {
             trajectory_height: above.reach + below.reach,
             module: teeth.map(|z| self.stage.length() / (PI * f64::from(z))),
         })
+    }
+
+    /// Control points of the pitch curves it is for.
+    #[must_use]
+    pub fn control_points(&self) -> usize {
+        self.stage.control_points()
     }
 
     /// Centre distance of the design looked at last, mm.

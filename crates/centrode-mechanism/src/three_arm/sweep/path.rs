@@ -1,13 +1,15 @@
 use std::f64::consts::{PI, TAU};
 
+use wide::f64x4;
+
 use super::SweepError;
 use super::circle::Circle;
-use super::stage::{Spot, Stage};
+use super::panel::LANES;
+use super::stage::{Spot, Stage, settled};
+use super::track::{Track, lanes};
+use crate::gear::pitch::HIGHEST_DEGREE;
 use crate::three_arm::Extreme;
 use crate::three_arm::design::ThreeArmDesign;
-
-/// Inputs followed side by side, each from its own start: none waits for another's division.
-const LANES: usize = 4;
 
 /// What of a design, beside its pitch curve, moves the tip.
 #[derive(Clone, Copy, Debug)]
@@ -24,7 +26,7 @@ pub(super) struct Machine {
     leg: f64,
 }
 
-/// Where the tip is at an input.
+/// Where the tip is at a polar angle of the sun, and its velocity per radian of that.
 #[derive(Clone, Copy, Debug)]
 struct Tip {
     position: [f64; 2],
@@ -52,58 +54,64 @@ impl Machine {
         }
     }
 
-    /// The tip at an input, from spots nearby.
-    fn near(&self, stage: &Stage, input: f64, sun: Spot, planet: Spot) -> Tip {
-        let (sun, planet) = self.mesh(stage, input, sun, planet);
-        self.tip(stage, input, sun, planet)
+    /// Driven angle of the intermediate on the planet's side where it has turned so far on the sun's.
+    fn met(&self, driven: f64) -> f64 {
+        driven - self.bend - PI
     }
 
-    /// Spots in mesh at an input, from spots nearby.
-    fn mesh(&self, stage: &Stage, input: f64, sun: Spot, planet: Spot) -> (Spot, Spot) {
-        let psi = self.sign * input;
-        let settled = |mut spot: Spot, nearer: &dyn Fn(Spot) -> (Spot, f64)| {
+    /// Direction of the arm's zero at polar angles of sun and planet.
+    fn arm(&self, psi: f64, chi: f64) -> f64 {
+        self.carrier_start + psi + self.bend + self.zero - chi
+    }
+
+    /// Spots in mesh at a polar angle of the sun, from spots nearby.
+    fn mesh(&self, stage: &Stage, psi: f64, sun: Spot, planet: Spot) -> (Spot, Spot) {
+        let closer = |mut spot: Spot, nearer: &dyn Fn(Spot) -> (Spot, f64)| {
             (0..6).find_map(|_| {
                 let (next, step) = nearer(spot);
                 spot = next;
-                Stage::settled(step).then_some(spot)
+                settled(step).then_some(spot)
             })
         };
-        let sun = settled(sun, &|spot| stage.nearer_angle(spot, psi));
+        let sun = closer(sun, &|spot| stage.nearer_angle(spot, psi));
         let sun = sun.unwrap_or_else(|| stage.at_angle(psi));
-        let met = stage.driven(sun).value - self.bend - PI;
-        let planet = settled(planet, &|spot| stage.nearer_driven(spot, met));
+        let met = self.met(stage.driven(sun).value);
+        let planet = closer(planet, &|spot| stage.nearer_driven(spot, met));
         (sun, planet.unwrap_or_else(|| stage.at_driven(met)))
     }
 
-    fn tip(&self, stage: &Stage, input: f64, sun: Spot, planet: Spot) -> Tip {
+    fn tip(&self, stage: &Stage, psi: f64, sun: Spot, planet: Spot) -> Tip {
         let chi = stage.angle(planet);
         let forward = stage.driven(sun).rate / stage.angle(sun).rate;
         let backward = chi.rate / stage.driven(planet).rate;
-        let carrier = self.carrier_start + self.sign * input;
-        let arm = carrier + self.bend + self.zero - chi.value;
-        let turn = self.sign * (1.0 - forward * backward);
-        let (sin, cos) = (carrier + 0.5 * self.bend).sin_cos();
-        let (s, c) = (arm + self.mounting).sin_cos();
+        let turn = 1.0 - forward * backward;
+        let (sin, cos) = (self.carrier_start + psi + 0.5 * self.bend).sin_cos();
+        let (s, c) = (self.arm(psi, chi.value) + self.mounting).sin_cos();
         let (leg, length) = (self.leg, self.tip_distance);
         Tip {
             position: [leg * cos + length * c, leg * sin + length * s],
             velocity: [
-                -leg * self.sign * sin - length * turn * s,
-                leg * self.sign * cos + length * turn * c,
+                -leg * sin - length * turn * s,
+                leg * cos + length * turn * c,
             ],
         }
     }
 }
 
-/// The tip's path over one turn of the carrier at even inputs.
+/// The tip's path over one turn of the carrier, at even polar angles of the sun: inputs forwards, or backwards where
+/// the carrier turns clockwise.
 #[derive(Clone, Debug)]
 pub(super) struct Path {
     circle: Circle,
-    /// Cosine and sine of each input.
+    /// Polar angles of the sun, with room for the lanes beyond the last, and their cosines and sines.
+    angles: Vec<f64>,
     turns: Vec<[f64; 2]>,
-    /// Spots in mesh, of sun and planet.
-    sun: Vec<Spot>,
-    planet: Vec<Spot>,
+    /// Spots in mesh, of sun and planet; driven angles there; polar angles of the planet.
+    sun: Track,
+    planet: Track,
+    met: Vec<f64>,
+    chi: Vec<f64>,
+    sign: f64,
     x: Vec<f64>,
     y: Vec<f64>,
 }
@@ -111,13 +119,16 @@ pub(super) struct Path {
 impl Path {
     pub(super) fn new(inputs: usize) -> Self {
         let turn = |i: usize| TAU * i as f64 / inputs as f64;
+        let angles: Vec<f64> = (0..inputs + LANES).map(turn).collect();
         Self {
             circle: Circle::new(),
-            turns: (0..inputs)
-                .map(|i| [turn(i).cos(), turn(i).sin()])
-                .collect(),
-            sun: vec![Spot::default(); inputs],
-            planet: vec![Spot::default(); inputs],
+            turns: angles.iter().map(|a| [a.cos(), a.sin()]).collect(),
+            angles,
+            sun: Track::new(inputs),
+            planet: Track::new(inputs),
+            met: vec![0.0; inputs + LANES],
+            chi: vec![0.0; inputs + LANES],
+            sign: 1.0,
             x: vec![0.0; inputs],
             y: vec![0.0; inputs],
         }
@@ -129,88 +140,83 @@ impl Path {
 
     /// Walks the path of a machine.
     pub(super) fn follow(&mut self, stage: &Stage, machine: &Machine) -> Result<(), SweepError> {
-        let quarter = self.x.len() / LANES;
-        let step_of_input = self.step();
-        let input = |i: usize| step_of_input * i as f64;
-        // From the last spot on by the step there, and half the change of the step.
-        let ahead = |[step, before]: [f64; 2]| step + 0.5 * (step - before);
-        let met = |driven: f64| driven - machine.bend - PI;
-        let mut sun: [Spot; LANES] =
-            std::array::from_fn(|lane| stage.at_angle(machine.sign * input(lane * quarter)));
-        let mut planet = sun.map(|spot| stage.at_driven(met(stage.driven(spot).value)));
-        // The last step and the one before it.
-        let (mut sun_steps, mut planet_steps) = ([[0.0; 2]; LANES], [[0.0; 2]; LANES]);
-        let (half_sin, half_cos) = (machine.carrier_start + 0.5 * machine.bend).sin_cos();
-        for i in 0..quarter {
-            let psi: [f64; LANES] =
-                std::array::from_fn(|lane| machine.sign * input(lane * quarter + i));
-            let mut miss = [0.0_f64; LANES];
-            for lane in 0..LANES {
-                let ahead = stage.moved(sun[lane], ahead(sun_steps[lane]));
-                (sun[lane], miss[lane]) = stage.nearer_angle(ahead, psi[lane]);
-            }
-            for lane in 0..LANES {
-                let driven = stage.driven(sun[lane]);
-                let ahead = stage.moved(planet[lane], ahead(planet_steps[lane]));
-                let look = stage.driven(ahead);
-                let step = look.step(met(driven.value));
-                planet[lane] = stage.moved(ahead, step);
-                miss[lane] = miss[lane].abs().max(step.abs());
-                // What the next input needs.
-                let next = machine.sign * step_of_input / stage.angle(sun[lane]).rate;
-                sun_steps[lane] = [next, if i == 0 { next } else { sun_steps[lane][0] }];
-                let next = next * driven.rate / (look.rate + look.change * step);
-                planet_steps[lane] = [next, if i == 0 { next } else { planet_steps[lane][0] }];
-            }
-            for lane in 0..LANES {
-                let index = lane * quarter + i;
-                if !Stage::settled(miss[lane]) {
-                    (sun[lane], planet[lane]) =
-                        machine.mesh(stage, input(index), sun[lane], planet[lane]);
-                }
-                self.sun[index] = sun[lane];
-                self.planet[index] = planet[lane];
-                let chi = stage.angle(planet[lane]).value;
-                let arm = machine.carrier_start + psi[lane] + machine.bend + machine.zero - chi;
-                let [c, s] = self.circle.at(arm + machine.mounting);
-                let [cos, sin] = self.turns[index];
-                let sin = machine.sign * sin;
-                self.x[index] =
-                    machine.leg * (half_cos * cos - half_sin * sin) + machine.tip_distance * c;
-                self.y[index] =
-                    machine.leg * (half_sin * cos + half_cos * sin) + machine.tip_distance * s;
-            }
+        self.sign = machine.sign;
+        let found = if stage.coefficients() <= 3 {
+            self.mesh_round::<3>(stage, machine)
+        } else {
+            self.mesh_round::<{ HIGHEST_DEGREE + 1 }>(stage, machine)
+        };
+        if !found {
+            return Err(SweepError::NoClosure);
         }
-        if self.y.iter().all(|y| y.is_finite()) {
+        let (half_sin, half_cos) = (machine.carrier_start + 0.5 * machine.bend).sin_cos();
+        let (leg, length) = (machine.leg, machine.tip_distance);
+        let tips = self.x.iter_mut().zip(&mut self.y);
+        let angles = self.angles.iter().zip(&self.chi).zip(&self.turns);
+        let mut good = true;
+        for ((x, y), ((&psi, &chi), &[cos, sin])) in tips.zip(angles) {
+            let [c, s] = self.circle.at(machine.arm(psi, chi) + machine.mounting);
+            *x = leg * (half_cos * cos - half_sin * sin) + length * c;
+            *y = leg * (half_sin * cos + half_cos * sin) + length * s;
+            good &= y.is_finite();
+        }
+        if good {
             Ok(())
         } else {
             Err(SweepError::NoClosure)
         }
     }
 
+    /// Solves both meshes at every polar angle of the sun. Whether there was a solution.
+    fn mesh_round<const C: usize>(&mut self, stage: &Stage, machine: &Machine) -> bool {
+        let (angle, driven) = (stage.angle_growth(), stage.driven_growth());
+        if !self.sun.find::<C, _>(angle, &self.angles) {
+            return false;
+        }
+        // Driven angles from parameter zero, on both sides.
+        self.sun
+            .map::<C, _>(driven, machine.met(0.0), &mut self.met);
+        if !self.planet.find::<C, _>(driven, &self.met) {
+            return false;
+        }
+        self.planet.map::<C, _>(angle, 0.0, &mut self.chi);
+        true
+    }
+
+    /// Points at even inputs, from the start.
     pub(super) fn points(&self) -> impl ExactSizeIterator<Item = [f64; 2]> + '_ {
-        self.x.iter().zip(&self.y).map(|(&x, &y)| [x, y])
+        let count = self.x.len();
+        let backwards = self.sign < 0.0;
+        (0..count).map(move |i| {
+            let place = if backwards { (count - i) % count } else { i };
+            [self.x[place], self.y[place]]
+        })
+    }
+
+    /// Polar angle of the sun at an input, in its first turn, and the place of the path nearest to it.
+    fn place(&self, input: f64) -> (f64, usize) {
+        let psi = (self.sign * input).rem_euclid(TAU);
+        (psi, (psi / self.step()) as usize % self.x.len())
     }
 
     /// Direction of the arm's zero at an input.
     pub(super) fn arm(&self, stage: &Stage, machine: &Machine, input: f64) -> f64 {
-        let input = input.rem_euclid(TAU);
-        let index = (input / self.step()) as usize % self.x.len();
-        let (_, planet) = machine.mesh(stage, input, self.sun[index], self.planet[index]);
-        machine.carrier_start + machine.sign * input + machine.bend + machine.zero
-            - stage.angle(planet).value
+        let (psi, place) = self.place(input);
+        let (_, planet) = machine.mesh(stage, psi, self.sun.spot(place), self.planet.spot(place));
+        machine.arm(psi, stage.angle(planet).value)
     }
 
     /// The tip near a known place of the path.
-    fn near(&self, stage: &Stage, machine: &Machine, index: usize, input: f64) -> Tip {
-        machine.near(stage, input, self.sun[index], self.planet[index])
+    fn near(&self, stage: &Stage, machine: &Machine, place: usize, psi: f64) -> Tip {
+        let (sun, planet) = (self.sun.spot(place), self.planet.spot(place));
+        let (sun, planet) = machine.mesh(stage, psi, sun, planet);
+        machine.tip(stage, psi, sun, planet)
     }
 
     /// The tip at any input.
     pub(super) fn tip(&self, stage: &Stage, machine: &Machine, input: f64) -> [f64; 2] {
-        let input = input.rem_euclid(TAU);
-        let index = (input / self.step()) as usize % self.x.len();
-        self.near(stage, machine, index, input).position
+        let (psi, place) = self.place(input);
+        self.near(stage, machine, place, psi).position
     }
 
     /// Where the path reaches farthest in a direction.
@@ -223,20 +229,28 @@ impl Path {
         let [across, up] = direction;
         let count = self.x.len();
         let reach = |i: usize| across * self.x[i] + up * self.y[i];
-        let best = (0..count).map(reach).fold(f64::NEG_INFINITY, f64::max);
-        // Between two inputs the path strays from its chord by the square of their distance.
-        let margin = 4.0 * (machine.leg.abs() + machine.tip_distance) * self.step() * self.step();
+        let [across_all, up_all] = direction.map(f64x4::from);
+        let tips = self.x.chunks_exact(LANES).zip(self.y.chunks_exact(LANES));
+        let best = tips.fold(f64x4::from(f64::NEG_INFINITY), |best, (x, y)| {
+            best.fast_max(across_all * lanes(x, 0) + up_all * lanes(y, 0))
+        });
+        let best = best
+            .to_array()
+            .into_iter()
+            .fold(f64::NEG_INFINITY, f64::max);
         let mut found = Extreme {
             input: 0.0,
             reach: f64::NEG_INFINITY,
         };
         for i in 0..count {
             let here = reach(i);
-            if here < best - margin {
-                continue;
-            }
             let around = [(i + count - 1) % count, (i + 1) % count].map(reach);
             if here < around[0] || here < around[1] {
+                continue;
+            }
+            // A crest stands above the greatest of three points by about an eighth of their second difference.
+            let bend = 2.0 * here - around[0] - around[1];
+            if here + 0.5 * bend < best {
                 continue;
             }
             let crest = self.crest(stage, machine, i, direction, [around[0], here, around[1]]);
@@ -245,12 +259,13 @@ impl Path {
             }
         }
         Extreme {
-            input: found.input.rem_euclid(TAU),
+            input: (self.sign * found.input).rem_euclid(TAU),
             ..found
         }
     }
 
-    /// The crest near an input, by secants of the slope from the crest of a parabola through three points.
+    /// The crest near a place, at a polar angle of the sun, by secants of the slope from the crest of a parabola
+    /// through three points.
     fn crest(
         &self,
         stage: &Stage,
@@ -311,10 +326,8 @@ impl Path {
         let count = self.x.len();
         let step = self.step();
         let off = |input: f64| {
-            let index = (input / step).round().rem_euclid(count as f64) as usize % count;
-            let turns = ((input - step * index as f64) / TAU).round();
-            let tip = self.near(stage, machine, index, input - turns * TAU);
-            tip.position[0] * direction[0] + tip.position[1] * direction[1] - distance
+            let [x, y] = self.tip(stage, machine, input);
+            x * direction[0] + y * direction[1] - distance
         };
         let mut high = before;
         let mut at_high = off(high);

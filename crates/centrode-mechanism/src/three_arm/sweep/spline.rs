@@ -78,20 +78,30 @@ impl SplinePair {
     }
 
     /// Angle and radius of a piece in powers of s, where `middle + half s` is the place on the piece.
+    #[inline]
     pub(super) fn part(&self, piece: usize, middle: f64, half: f64) -> [Polynomial; 2] {
-        self.pieces[piece].map(|mut c| {
-            // Taylor's shift to the middle, then the scale.
-            for low in 0..self.degree {
-                for k in (low..self.degree).rev() {
-                    c[k] += middle * c[k + 1];
-                }
-            }
-            let mut scale = 1.0;
-            for k in &mut c {
-                *k *= scale;
-                scale *= half;
-            }
-            c
-        })
+        if self.degree <= 2 {
+            part::<2>(&self.pieces[piece], middle, half)
+        } else {
+            part::<HIGHEST_DEGREE>(&self.pieces[piece], middle, half)
+        }
     }
+}
+
+/// Two polynomials of at most a degree in powers of s, where `middle + half s` is the place.
+fn part<const DEGREE: usize>(pair: &[Polynomial; 2], middle: f64, half: f64) -> [Polynomial; 2] {
+    pair.map(|mut c| {
+        // Taylor's shift to the middle, then the scale.
+        for low in 0..DEGREE {
+            for k in (low..DEGREE).rev() {
+                c[k] += middle * c[k + 1];
+            }
+        }
+        let mut scale = half;
+        for k in &mut c[1..=DEGREE] {
+            *k *= scale;
+            scale *= half;
+        }
+        c
+    })
 }

@@ -3,49 +3,24 @@ use std::f64::consts::{PI, TAU};
 use centrode_geometry::bracketed_root;
 
 use super::SweepError;
-use super::spline::{Polynomial, SplinePair};
+use super::panel::{
+    COEFFICIENTS, DrivenAngle, Growing, Look, NODES, Panel, PolarAngle, horner, twice,
+};
+use super::spline::SplinePair;
+use super::track::Growth;
 use crate::gear::pitch::{Bspline, HIGHEST_DEGREE};
 
-/// Panels of a piece, and nodes of a panel: the integrand's nearest poles are so far off in panel widths
-/// that the rest of its series is below 1e-10.
+/// Panels of a piece.
 const PANELS: usize = 3;
-const NODES: usize = 10;
-const COEFFICIENTS: usize = NODES + 1;
 /// Greatest step of Halley's method that is the last; what is left is below a hundredth of its cube.
-const LAST: f64 = 1e-3;
-
-/// A part of the pitch curve; everything on it in powers of s in [-1, 1].
-#[derive(Clone, Copy, Debug)]
-struct Panel {
-    driven: [f64; COEFFICIENTS],
-    angle: Polynomial,
-    radius: Polynomial,
-}
+pub(super) const LAST: f64 = 1e-3;
 
 /// A place on the pitch curve: panel, place in it, and whole turns before.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Spot {
-    panel: usize,
-    s: f64,
-    turns: f64,
-}
-
-/// A function at a spot, with its derivatives by s.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Look {
-    pub(super) value: f64,
-    pub(super) rate: f64,
-    pub(super) change: f64,
-}
-
-impl Look {
-    /// Step towards a value by Halley's method.
-    #[inline]
-    pub(super) fn step(&self, to: f64) -> f64 {
-        let inverse = 1.0 / self.rate;
-        let newton = (to - self.value) * inverse;
-        newton - 0.5 * self.change * inverse * newton * newton
-    }
+    pub(super) panel: usize,
+    pub(super) s: f64,
+    pub(super) turns: f64,
 }
 
 /// One stage of the gear train: the integral of r/(a - r) over the polar angle, forwards and backwards.
@@ -104,17 +79,12 @@ impl Stage {
             }
         }
         let count = spline.count() * PANELS;
-        let empty = Panel {
-            driven: [0.0; COEFFICIENTS],
-            angle: [0.0; HIGHEST_DEGREE + 1],
-            radius: [0.0; HIGHEST_DEGREE + 1],
-        };
         Self {
             spline,
             nodes,
             weights,
             primitive,
-            panels: vec![empty; count],
+            panels: vec![Panel::EMPTY; count],
             angles: vec![0.0; count + 1],
             before: vec![0.0; count + 1],
             radii: vec![0.0; count * NODES],
@@ -136,8 +106,7 @@ impl Stage {
             let middle = half * (2 * (index % PANELS) + 1) as f64;
             [panel.angle, panel.radius] = self.spline.part(index / PANELS, middle, half);
         }
-        // The same sums as for any degree, with the zeros left out.
-        if self.spline.degree() <= 2 {
+        if self.coefficients() <= 3 {
             self.look_round::<3>()?;
         } else {
             self.look_round::<{ HIGHEST_DEGREE + 1 }>()?;
@@ -271,6 +240,10 @@ impl Stage {
         self.before[self.panels.len()] = sum;
     }
 
+    pub(super) fn control_points(&self) -> usize {
+        self.spline.count()
+    }
+
     pub(super) fn center_distance(&self) -> f64 {
         self.center_distance
     }
@@ -335,88 +308,67 @@ impl Stage {
         spot
     }
 
+    /// Degree of the spline, as the number of coefficients to reckon with: the sums of a low degree are those of any,
+    /// with the zeros left out.
+    pub(super) fn coefficients(&self) -> usize {
+        self.spline.degree() + 1
+    }
+
+    /// How the polar angle grows along the panels.
+    pub(super) fn angle_growth(&self) -> Growth<'_, PolarAngle> {
+        Growth {
+            of: PolarAngle,
+            panels: &self.panels,
+            ends: &self.angles,
+        }
+    }
+
+    /// How the driven angle grows along the panels, from parameter zero.
+    pub(super) fn driven_growth(&self) -> Growth<'_, DrivenAngle> {
+        Growth {
+            of: DrivenAngle {
+                center_distance: self.center_distance,
+            },
+            panels: &self.panels,
+            ends: &self.before,
+        }
+    }
+
     /// Polar angle at a spot.
     #[inline]
     pub(super) fn angle(&self, spot: Spot) -> Look {
-        let c = &self.panels[spot.panel].angle;
-        let s = spot.s;
-        let base = spot.turns * TAU;
-        if self.spline.degree() <= 2 {
-            return Look {
-                value: base + c[0] + s * (c[1] + s * c[2]),
-                rate: c[1] + 2.0 * s * c[2],
-                change: 2.0 * c[2],
-            };
-        }
-        let (value, rate, change) = twice(c, s);
-        Look {
-            value: base + value,
-            rate,
-            change,
-        }
+        self.look(self.angle_growth(), spot)
     }
 
     /// Driven angle since polar angle zero at a spot.
     #[inline]
     pub(super) fn driven(&self, spot: Spot) -> Look {
+        let mut look = self.look(self.driven_growth(), spot);
+        look.value -= self.offset;
+        look
+    }
+
+    #[inline]
+    fn look<G: Growing>(&self, growth: Growth<'_, G>, spot: Spot) -> Look {
         let panel = &self.panels[spot.panel];
-        let s = spot.s;
-        let c = &panel.driven;
-        // Even and odd powers apart: two short chains instead of a long one.
-        let ss = s * s;
-        let (mut even, mut odd) = (c[COEFFICIENTS - 1], c[COEFFICIENTS - 2]);
-        let mut k = COEFFICIENTS - 3;
-        while k >= 2 {
-            even = even * ss + c[k];
-            odd = odd * ss + c[k - 1];
-            k -= 2;
-        }
-        even = even * ss + c[0];
-        let whole = spot.turns * self.before[self.panels.len()];
-        let (turn, turn_change, r, slope) = if self.spline.degree() <= 2 {
-            let (angle, radius) = (&panel.angle, &panel.radius);
-            (
-                angle[1] + 2.0 * s * angle[2],
-                2.0 * angle[2],
-                radius[0] + s * (radius[1] + s * radius[2]),
-                radius[1] + 2.0 * s * radius[2],
-            )
+        let mut look = if self.coefficients() <= 3 {
+            growth.of.look::<3, _>(panel, spot.s)
         } else {
-            let (_, turn, turn_change) = twice(&panel.angle, s);
-            let (r, slope) = horner(&panel.radius, s);
-            (turn, turn_change, r, slope)
+            growth.of.look::<{ HIGHEST_DEGREE + 1 }, _>(panel, spot.s)
         };
-        let rest = 1.0 / (self.center_distance - r);
-        let ratio = r * rest;
-        Look {
-            value: whole - self.offset + even + odd * s,
-            rate: turn * ratio,
-            change: turn_change * ratio + turn * slope * self.center_distance * rest * rest,
-        }
+        look.value += spot.turns * growth.whole();
+        look
     }
 
     /// Spot at a polar angle, from anywhere.
     pub(super) fn at_angle(&self, angle: f64) -> Spot {
-        let turns = ((angle - self.angles[0]) / TAU).floor();
-        let rest = angle - turns * TAU;
-        let (panel, s) = found(&self.angles, rest, |spot| self.angle(spot));
-        Spot { panel, s, turns }
+        self.angle_growth().spot::<{ HIGHEST_DEGREE + 1 }>(angle)
     }
 
     /// Spot at a driven angle since polar angle zero, from anywhere.
     pub(super) fn at_driven(&self, driven: f64) -> Spot {
-        let whole = self.before[self.panels.len()];
-        let value = driven + self.offset;
-        let turns = (value / whole).floor();
-        let rest = value - turns * whole;
-        let (panel, s) = found(&self.before, rest, |spot| {
-            let look = self.driven(spot);
-            Look {
-                value: look.value + self.offset,
-                ..look
-            }
-        });
-        Spot { panel, s, turns }
+        let growth = self.driven_growth();
+        growth.spot::<{ HIGHEST_DEGREE + 1 }>(driven + self.offset)
     }
 
     /// One step towards a polar angle from a spot nearby: where it leads, and how long it was.
@@ -432,53 +384,10 @@ impl Stage {
         let step = self.driven(spot).step(driven);
         (self.moved(spot, step), step)
     }
-
-    /// Whether a step was the last that is needed.
-    #[inline]
-    pub(super) fn settled(step: f64) -> bool {
-        step.abs() < LAST
-    }
 }
 
-/// Panel and place in it where a growing function, known at the panels' ends, has a value.
-fn found(ends: &[f64], value: f64, look: impl Fn(Spot) -> Look) -> (usize, f64) {
-    let after = ends.partition_point(|&end| end <= value);
-    let panel = after.clamp(1, ends.len() - 1) - 1;
-    let at = |s: f64| {
-        look(Spot {
-            panel,
-            s,
-            turns: 0.0,
-        })
-    };
-    let (low, high) = (ends[panel], ends[panel + 1]);
-    let mut s = 2.0 * (value - low) / (high - low) - 1.0;
-    for _ in 0..8 {
-        let step = at(s).step(value);
-        s = (s + step).clamp(-1.0, 1.0);
-        if Stage::settled(step) {
-            return (panel, s);
-        }
-    }
-    let off = |s: f64| at(s).value - value;
-    let ends = (off(-1.0).min(0.0), off(1.0).max(0.0));
-    (panel, bracketed_root(off, -1.0, 1.0, ends.0, ends.1))
-}
-
-/// Value and derivative of a polynomial.
-fn horner(c: &[f64], s: f64) -> (f64, f64) {
-    let (value, rate, _) = twice(c, s);
-    (value, rate)
-}
-
-/// Value and two derivatives of a polynomial.
+/// Whether a step was the last that is needed.
 #[inline]
-fn twice(c: &[f64], s: f64) -> (f64, f64, f64) {
-    let (mut value, mut rate, mut change) = (0.0, 0.0, 0.0);
-    for &k in c.iter().rev() {
-        change = change * s + rate;
-        rate = rate * s + value;
-        value = value * s + k;
-    }
-    (value, rate, 2.0 * change)
+pub(super) fn settled(step: f64) -> bool {
+    step.abs() < LAST
 }

@@ -1,0 +1,128 @@
+use centrode_mechanism::three_arm::design::ThreeArmDesign;
+use centrode_mechanism::three_arm::{Parameter, Sweep, SweepError, UnknownParameter};
+use rayon::prelude::{IndexedParallelIterator, IntoParallelIterator, ParallelIterator};
+
+/// Many variants of one three-arm design: the figures of its goals 2 to 4 and 6 to 8, about twenty microseconds each.
+///
+/// For pitch curves that a [`Sweep`] knows; the figures agree with those of a check as closely as it says. What a variant
+/// means for arms, seedlings and teeth only a check tells.
+#[derive(Clone, Debug)]
+pub struct Variants {
+    start: ThreeArmDesign,
+    parameters: Vec<Parameter>,
+    sweep: Sweep,
+}
+
+/// Why a design has no such variants.
+#[derive(Clone, Debug, Eq, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum VariantsError {
+    /// A word names no parameter.
+    #[error(transparent)]
+    Unknown(#[from] UnknownParameter),
+    /// The pitch curve has no such control point.
+    #[error("the pitch curve has {points} control points, so there is no `{parameter}`")]
+    NoSuchPoint {
+        /// Name of the parameter.
+        parameter: String,
+        /// Points of the pitch curve.
+        points: usize,
+    },
+    /// The same parameter is asked for twice.
+    #[error("`{0}` is given twice")]
+    Twice(String),
+    /// The pitch curve is of another kind.
+    #[error(transparent)]
+    Sweep(#[from] SweepError),
+}
+
+impl Variants {
+    /// What is told of each variant: the goals' figures by their names, and two lengths; angles in rad, lengths in mm.
+    pub const FIGURES: [&'static str; 8] = [
+        "pick-angle",
+        "push-angle",
+        "angle-difference",
+        "gearbox-clearance",
+        "trajectory-height",
+        "module",
+        "center_distance",
+        "pitch_length",
+    ];
+
+    /// Variants of a design in the parameters of these names; the tip's path is looked at for so many inputs a turn
+    /// before its extremes are sharpened.
+    ///
+    /// # Errors
+    /// [`VariantsError`] where a name is unknown or comes twice, or the pitch curve is of another kind.
+    pub fn of(
+        design: &ThreeArmDesign,
+        names: &[impl AsRef<str>],
+        inputs: usize,
+    ) -> Result<Self, VariantsError> {
+        let sweep = Sweep::like(design, inputs)?;
+        let mut parameters = Vec::new();
+        for name in names {
+            let parameter: Parameter = name.as_ref().parse()?;
+            if let Parameter::Radius(_) | Parameter::Angle(_) = parameter
+                && parameter.of(design).is_none()
+            {
+                let points = sweep.control_points();
+                let parameter = parameter.to_string();
+                return Err(VariantsError::NoSuchPoint { parameter, points });
+            }
+            if parameters.contains(&parameter) {
+                return Err(VariantsError::Twice(parameter.to_string()));
+            }
+            parameters.push(parameter);
+        }
+        Ok(Self {
+            start: design.clone(),
+            parameters,
+            sweep,
+        })
+    }
+
+    /// How many parameters vary.
+    #[must_use]
+    pub fn parameters(&self) -> usize {
+        self.parameters.len()
+    }
+
+    /// The [figures](Self::FIGURES) of `count` variants, whose values of the parameters, in the design file's units, `values`
+    /// writes; NaN where a variant is no mechanism, and for the module where gears have no tooth count. On all cores.
+    pub fn figures(
+        &self,
+        count: usize,
+        values: impl Fn(usize, &mut [f64]) + Sync,
+    ) -> Vec<[f64; Self::FIGURES.len()]> {
+        let start = || {
+            let values = vec![0.0; self.parameters.len()];
+            (self.sweep.clone(), self.start.clone(), values)
+        };
+        let variant = |(sweep, design, row): &mut (Sweep, ThreeArmDesign, Vec<f64>), i: usize| {
+            values(i, row);
+            for (parameter, &value) in self.parameters.iter().zip(&*row) {
+                let angle = parameter.is_angle();
+                parameter.set(design, if angle { value.to_radians() } else { value });
+            }
+            look(sweep, design).unwrap_or([f64::NAN; Self::FIGURES.len()])
+        };
+        let all = (0..count).into_par_iter().with_min_len(64);
+        all.map_init(start, variant).collect()
+    }
+}
+
+fn look(sweep: &mut Sweep, design: &ThreeArmDesign) -> Option<[f64; Variants::FIGURES.len()]> {
+    design.validate().ok()?;
+    let figures = sweep.figures(design).ok()?;
+    Some([
+        figures.pick_angle,
+        figures.push_angle,
+        figures.angle_difference,
+        figures.gearbox_clearance,
+        figures.trajectory_height,
+        figures.module.unwrap_or(f64::NAN),
+        sweep.center_distance(),
+        sweep.pitch_length(),
+    ])
+}

@@ -1,0 +1,192 @@
+use std::ops::Range;
+
+use centrode_geometry::bracketed_root;
+use wide::f64x4;
+
+use super::panel::{Growing, LANES, Panel, inverse_quintic};
+use super::stage::{LAST, Spot, settled};
+
+/// Spots of growing targets along the pitch curve, over one turn of it: a run of targets to each panel, so that
+/// the targets of a run are solved side by side.
+#[derive(Clone, Debug)]
+pub(super) struct Track {
+    /// Place in its panel of each target, with room for the lanes beyond the last.
+    places: Vec<f64>,
+    runs: Vec<Run>,
+    count: usize,
+}
+
+/// The targets of one panel.
+#[derive(Clone, Debug)]
+struct Run {
+    panel: usize,
+    turns: f64,
+    targets: Range<usize>,
+}
+
+/// What grows along the pitch curve: its values at the panels' ends over a turn.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Growth<'a, G> {
+    pub(super) of: G,
+    pub(super) panels: &'a [Panel],
+    pub(super) ends: &'a [f64],
+}
+
+impl<G: Growing> Growth<'_, G> {
+    /// How much it grows in a turn.
+    pub(super) fn whole(&self) -> f64 {
+        self.ends[self.panels.len()] - self.ends[0]
+    }
+
+    /// Whole turns and panel at a value.
+    fn start(&self, value: f64) -> (usize, f64) {
+        let turns = ((value - self.ends[0]) / self.whole()).floor();
+        let rest = value - turns * self.whole();
+        let after = self.ends.partition_point(|&end| end <= rest);
+        (after.clamp(1, self.panels.len()) - 1, turns)
+    }
+
+    /// The spot at a value, from anywhere.
+    pub(super) fn spot<const C: usize>(&self, value: f64) -> Spot {
+        let (panel, turns) = self.start(value);
+        let s = self.place::<C>(panel, value - turns * self.whole());
+        Spot { panel, s, turns }
+    }
+
+    /// The place of a value in a panel.
+    fn place<const C: usize>(&self, index: usize, value: f64) -> f64 {
+        let look = |s: f64| self.of.look::<C, _>(&self.panels[index], s);
+        let (low, high) = (self.ends[index], self.ends[index + 1]);
+        let mut s = 2.0 * (value - low) / (high - low) - 1.0;
+        for _ in 0..8 {
+            let step = look(s).step(value);
+            s = (s + step).clamp(-1.0, 1.0);
+            if settled(step) {
+                return s;
+            }
+        }
+        let off = |s: f64| look(s).value - value;
+        let ends = (off(-1.0).min(0.0), off(1.0).max(0.0));
+        bracketed_root(off, -1.0, 1.0, ends.0, ends.1)
+    }
+}
+
+impl Track {
+    pub(super) fn new(count: usize) -> Self {
+        Self {
+            places: vec![0.0; count + LANES],
+            runs: Vec::new(),
+            count,
+        }
+    }
+
+    /// Finds the targets, which grow by no more than a turn from the first to the last and have [`LANES`] numbers
+    /// more behind them. Whether all were found.
+    #[inline]
+    pub(super) fn find<const C: usize, G: Growing>(
+        &mut self,
+        growth: Growth<'_, G>,
+        targets: &[f64],
+    ) -> bool {
+        let whole = growth.whole();
+        let (mut panel, mut turns) = growth.start(targets[0]);
+        self.runs.clear();
+        let mut first = 0;
+        for _ in 0..growth.panels.len() + 2 {
+            let high = growth.ends[panel + 1] + turns * whole;
+            let inside = targets[first..self.count]
+                .iter()
+                .take_while(|&&target| target < high);
+            let end = first + inside.count();
+            if end > first {
+                self.runs.push(Run {
+                    panel,
+                    turns,
+                    targets: first..end,
+                });
+                self.solve::<C, _>(growth, targets);
+            }
+            first = end;
+            if first == self.count {
+                return true;
+            }
+            panel += 1;
+            if panel == growth.panels.len() {
+                panel = 0;
+                turns += 1.0;
+            }
+        }
+        false
+    }
+
+    /// One step of Halley's method for each target of the last run, from the quintic that has the values and two
+    /// derivatives of the inverse function at the panel's ends; more steps where one was too long to be the last.
+    #[inline]
+    fn solve<const C: usize, G: Growing>(&mut self, growth: Growth<'_, G>, targets: &[f64]) {
+        let Some(run) = self.runs.last() else { return };
+        let panel = &growth.panels[run.panel];
+        let shift = run.turns * growth.whole();
+        let (low, high) = (growth.ends[run.panel], growth.ends[run.panel + 1]);
+        let width = high - low;
+        let guess = inverse_quintic([-1.0, 1.0].map(|end| {
+            let look = growth.of.look::<C, _>(panel, end);
+            let slope = width / look.rate;
+            [slope, -slope * slope * look.change / look.rate]
+        }));
+        let scale = f64x4::from(1.0 / width);
+        let mut long = f64x4::from(0.0);
+        for start in run.targets.clone().step_by(LANES) {
+            // Lanes beyond the run's last target look for the panel's end.
+            let target = (lanes(targets, start) - f64x4::from(shift)).fast_min(f64x4::from(high));
+            let u = (target - f64x4::from(low)) * scale;
+            let s = guess
+                .into_iter()
+                .rev()
+                .fold(f64x4::ZERO, |s, c| s * u + f64x4::from(c));
+            let step = growth.of.look::<C, _>(panel, s).step(target);
+            long |= !step.abs().simd_lt(f64x4::from(LAST));
+            self.places[start..start + LANES].copy_from_slice((s + step).as_array());
+        }
+        if long.any() {
+            for i in run.targets.clone() {
+                self.places[i] = growth.place::<C>(run.panel, targets[i] - shift);
+            }
+        }
+    }
+
+    /// Writes what something that grows is at every target, with so much added at first and for every turn.
+    #[inline]
+    pub(super) fn map<const C: usize, G: Growing>(
+        &self,
+        growth: Growth<'_, G>,
+        first: f64,
+        out: &mut [f64],
+    ) {
+        for run in &self.runs {
+            let panel = &growth.panels[run.panel];
+            let added = f64x4::from(first + run.turns * growth.whole());
+            for start in run.targets.clone().step_by(LANES) {
+                let places = lanes(&self.places, start);
+                let value = growth.of.look::<C, _>(panel, places).value + added;
+                out[start..start + LANES].copy_from_slice(value.as_array());
+            }
+        }
+    }
+
+    /// The spot of a target.
+    pub(super) fn spot(&self, index: usize) -> Spot {
+        let after = self.runs.partition_point(|run| run.targets.start <= index);
+        let run = &self.runs[after.max(1) - 1];
+        Spot {
+            panel: run.panel,
+            s: self.places[index],
+            turns: run.turns,
+        }
+    }
+}
+
+/// So many numbers from a place on, side by side.
+#[inline]
+pub(super) fn lanes(all: &[f64], start: usize) -> f64x4 {
+    f64x4::from(std::array::from_fn::<_, LANES, _>(|lane| all[start + lane]))
+}
