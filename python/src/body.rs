@@ -13,6 +13,7 @@ use crate::error::of_spec;
 ///     density: kg/m^3.
 ///     material: For the drawing.
 ///     bore_fit: Tolerance class of the bore, ISO 286, for the drawing.
+///     keyway_fit: Tolerance class of the keyway's width, ISO 286, for the drawing.
 ///     heat_treatment: For the drawing.
 ///     accuracy: Accuracy class of the teeth, for the drawing.
 ///
@@ -71,7 +72,7 @@ impl Keyway {
 #[pymethods]
 impl Body {
     #[new]
-    #[pyo3(signature = (*, width=None, bore=None, keyway=None, density=None, material=None, bore_fit=None, heat_treatment="", accuracy=""))]
+    #[pyo3(signature = (*, width=None, bore=None, keyway=None, density=None, material=None, bore_fit=None, keyway_fit=None, heat_treatment="", accuracy=""))]
     #[expect(clippy::too_many_arguments, reason = "keyword arguments")]
     fn new(
         width: Option<f64>,
@@ -80,6 +81,7 @@ impl Body {
         density: Option<f64>,
         material: Option<String>,
         bore_fit: Option<String>,
+        keyway_fit: Option<String>,
         heat_treatment: &str,
         accuracy: &str,
     ) -> PyResult<Self> {
@@ -91,6 +93,7 @@ impl Body {
             density: density.unwrap_or(usual.density),
             material: material.unwrap_or(usual.material),
             bore_fit: bore_fit.unwrap_or(usual.bore_fit),
+            keyway_fit: keyway_fit.unwrap_or(usual.keyway_fit),
             heat_treatment: heat_treatment.into(),
             accuracy: accuracy.into(),
         };
@@ -134,6 +137,12 @@ impl Body {
         &self.0.bore_fit
     }
 
+    /// Tolerance class of the keyway's width, for the drawing.
+    #[getter]
+    fn keyway_fit(&self) -> &str {
+        &self.0.keyway_fit
+    }
+
     /// Heat treatment, for the drawing.
     #[getter]
     fn heat_treatment(&self) -> &str {
@@ -153,6 +162,7 @@ impl Body {
             density,
             material,
             bore_fit,
+            keyway_fit,
             heat_treatment,
             accuracy,
             ..
@@ -161,7 +171,7 @@ impl Body {
             .keyway()
             .map_or_else(|| "None".into(), |k| k.__repr__());
         format!(
-            "Body(width={width:?}, bore={bore:?}, keyway={keyway}, density={density:?}, material={material:?}, bore_fit={bore_fit:?}, heat_treatment={heat_treatment:?}, accuracy={accuracy:?})"
+            "Body(width={width:?}, bore={bore:?}, keyway={keyway}, density={density:?}, material={material:?}, bore_fit={bore_fit:?}, keyway_fit={keyway_fit:?}, heat_treatment={heat_treatment:?}, accuracy={accuracy:?})"
         )
     }
 
@@ -176,6 +186,7 @@ impl Body {
         keywords.set_item("density", self.0.density)?;
         keywords.set_item("material", &self.0.material)?;
         keywords.set_item("bore_fit", &self.0.bore_fit)?;
+        keywords.set_item("keyway_fit", &self.0.keyway_fit)?;
         keywords.set_item("heat_treatment", &self.0.heat_treatment)?;
         keywords.set_item("accuracy", &self.0.accuracy)?;
         Ok((PyTuple::empty(py), keywords))

@@ -20,6 +20,7 @@ use crate::error::of_spec;
 ///     projection: "first-angle" or "third-angle".
 ///     general_tolerance: General tolerances.
 ///     edges: State of the edges.
+///     surface: Texture of the surfaces that nothing else is said of, ISO 21920.
 ///
 /// >>> import centrode as ct
 /// >>> ct.DrawingSpec(number="7-204", sheet="A3").projection
@@ -50,7 +51,7 @@ pub(crate) fn projection(name: &str) -> PyResult<spec::Projection> {
 #[pymethods]
 impl DrawingSpec {
     #[new]
-    #[pyo3(signature = (*, number="", revision="", date="", owner="", drawn_by="", approved_by="", sheet=None, projection="first-angle", general_tolerance=None, edges=None))]
+    #[pyo3(signature = (*, number="", revision="", date="", owner="", drawn_by="", approved_by="", sheet=None, projection="first-angle", general_tolerance=None, edges=None, surface=None))]
     #[expect(clippy::too_many_arguments, reason = "keyword arguments")]
     fn new(
         number: &str,
@@ -63,6 +64,7 @@ impl DrawingSpec {
         projection: &str,
         general_tolerance: Option<String>,
         edges: Option<String>,
+        surface: Option<String>,
     ) -> PyResult<Self> {
         let usual = spec::DrawingSpec::default();
         let drawing = spec::DrawingSpec {
@@ -76,6 +78,7 @@ impl DrawingSpec {
             projection: self::projection(projection)?,
             general_tolerance: general_tolerance.unwrap_or(usual.general_tolerance),
             edges: edges.unwrap_or(usual.edges),
+            surface: surface.unwrap_or(usual.surface),
         };
         drawing.validate().map_err(|e| of_spec(&e))?;
         Ok(Self(drawing))
@@ -141,6 +144,12 @@ impl DrawingSpec {
         &self.0.edges
     }
 
+    /// Texture of the surfaces that nothing else is said of.
+    #[getter]
+    fn surface(&self) -> &str {
+        &self.0.surface
+    }
+
     fn __repr__(&self) -> String {
         let words: Vec<String> = self
             .words()
@@ -179,6 +188,7 @@ impl DrawingSpec {
             ("projection", spec.projection.name()),
             ("general_tolerance", spec.general_tolerance.as_str()),
             ("edges", &spec.edges),
+            ("surface", &spec.surface),
         ]);
         words
     }

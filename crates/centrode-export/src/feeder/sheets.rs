@@ -356,7 +356,5 @@ fn notes(lines: &[String]) -> Piece {
 
 /// A number to four places, without trailing zeros.
 fn number(x: f64) -> String {
-    let text = format!("{x:.4}");
-    let text = text.trim_end_matches('0').trim_end_matches('.');
-    if text == "-0" { "0" } else { text }.to_owned()
+    crate::sheet::number(x, 4)
 }

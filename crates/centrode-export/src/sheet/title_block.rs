@@ -8,6 +8,9 @@ pub(super) const WIDTH: f64 = 180.0;
 /// Height of ours, mm.
 pub(super) const HEIGHT: f64 = 45.0;
 
+/// Where the texture of the surfaces stands: left, right, low, high.
+const SURFACE: [f64; 4] = [145.0, 180.0, 36.0, 45.0];
+
 /// Height of the names of the fields, mm.
 const CAPTION: f64 = 1.8;
 
@@ -42,6 +45,8 @@ pub struct TitleBlock {
     pub general_tolerance: String,
     /// State of the edges.
     pub edges: String,
+    /// Texture of the surfaces.
+    pub surface: String,
     /// How the views lie to each other.
     pub projection: Projection,
 }
@@ -59,6 +64,7 @@ impl TitleBlock {
             approved_by: spec.approved_by.clone(),
             general_tolerance: spec.general_tolerance.clone(),
             edges: spec.edges.clone(),
+            surface: spec.surface.clone(),
             projection: spec.projection,
             ..Self::default()
         }
@@ -68,14 +74,15 @@ impl TitleBlock {
     pub(super) fn draft(&self, size: &str, page: usize, pages: usize) -> Draft {
         let mut draft = Draft::default();
         let sheet = format!("{page}/{pages}");
-        let cells: [(&str, &str, [f64; 4]); 16] = [
-            ("Material", &self.material, [0.0, 60.0, 36.0, 45.0]),
+        let cells: [(&str, &str, [f64; 4]); 17] = [
+            ("Material", &self.material, [0.0, 55.0, 36.0, 45.0]),
             (
                 "General tolerances",
                 &self.general_tolerance,
-                [60.0, 115.0, 36.0, 45.0],
+                [55.0, 95.0, 36.0, 45.0],
             ),
-            ("Edges", &self.edges, [115.0, 180.0, 36.0, 45.0]),
+            ("Edges", &self.edges, [95.0, 145.0, 36.0, 45.0]),
+            ("Surface texture", "", SURFACE),
             ("", "", [0.0, 35.0, 18.0, 36.0]),
             ("Created by", &self.drawn_by, [35.0, 85.0, 27.0, 36.0]),
             ("Approved by", &self.approved_by, [85.0, 135.0, 27.0, 36.0]),
@@ -98,11 +105,34 @@ impl TitleBlock {
             let room = right - left - 4.0;
             draft.text_within(at, &[3.5, 2.5], value, Anchor::Left, room);
         }
+        self.surface(&mut draft);
         self.titles(&mut draft);
         let center = Point::new(17.5, 27.0);
         projection::symbol(&mut draft, center, 9.0, self.projection);
         draft.rectangle(Pen::Outline, cell(0.0, WIDTH, 0.0, HEIGHT));
         draft
+    }
+
+    /// The symbol of a surface from which material is removed, ISO 21920-1, and what is asked of it.
+    fn surface(&self, draft: &mut Draft) {
+        if self.surface.is_empty() {
+            return;
+        }
+        let [left, right, low, _] = SURFACE;
+        let slope = 60.0_f64.to_radians().tan();
+        let foot = Point::new(left + 4.0, low + 0.9);
+        let at = |x: f64, y: f64| Point::new(foot.x + x, foot.y + y);
+        let (short, long) = (2.5, 5.0);
+        draft.line(Pen::Thin, foot, at(-short / slope, short));
+        draft.line(Pen::Thin, foot, at(long / slope, long));
+        draft.line(
+            Pen::Thin,
+            at(-short / slope, short),
+            at(short / slope, short),
+        );
+        let from = at(long / slope + 0.8, 0.8);
+        let room = right - from.x - 1.0;
+        draft.text_within(from, &[3.5, 2.5], &self.surface, Anchor::Left, room);
     }
 
     fn titles(&self, draft: &mut Draft) {

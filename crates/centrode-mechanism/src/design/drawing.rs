@@ -37,6 +37,8 @@ pub struct DrawingSpec {
     pub general_tolerance: String,
     /// State of the edges.
     pub edges: String,
+    /// Texture of the surfaces that nothing else is said of, ISO 21920.
+    pub surface: String,
 }
 
 /// Size of a drawing sheet, ISO 5457.
@@ -80,6 +82,7 @@ impl Default for DrawingSpec {
             projection: Projection::default(),
             general_tolerance: "ISO 2768-mK".into(),
             edges: "ISO 13715, -0.2 / +0.1".into(),
+            surface: "Ra 3.2".into(),
         }
     }
 }
@@ -99,6 +102,7 @@ impl DrawingSpec {
             ("approved_by", &self.approved_by),
             ("general_tolerance", &self.general_tolerance),
             ("edges", &self.edges),
+            ("surface", &self.surface),
         ];
         words.iter().try_for_each(|(key, word)| line(key, word))
     }

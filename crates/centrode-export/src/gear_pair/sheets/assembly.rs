@@ -1,9 +1,9 @@
 //! Both gears in place.
 
-use super::part::{Part, number};
+use super::part::Part;
 use crate::{
     drawing::Shape,
-    sheet::{Draft, Pen, Scale},
+    sheet::{Draft, Pen, Scale, number},
 };
 use centrode_geometry::{Bounds, Point, Vector};
 use centrode_mechanism::gear::Member;

@@ -1,9 +1,9 @@
 //! The face of a gear, and the section through its axis.
 
-use super::part::{Extremes, Part, degrees, number};
+use super::part::{Extremes, Part, degrees};
 use crate::{
     drawing::{Anchor, Shape},
-    sheet::{Draft, Pen, Scale, fit, lettering},
+    sheet::{Draft, Pen, Scale, fit, lettering, number},
 };
 use centrode_geometry::{Bounds, Outline, Point, Vector};
 use centrode_mechanism::design::Projection;
@@ -235,7 +235,7 @@ pub(super) fn bore(part: &Part<'_>) -> Option<Draft> {
     let depth = number(body.bore + key.depth, 3);
     draft.dimension([p(-half, 0.0), p(top, wide)], Vector::x(), below, &depth);
     let beside = p(reach + 5.0, 0.0);
-    let width = number(key.width, 3);
+    let width = fit::keyway(key.width, &body.keyway_fit);
     draft.dimension([p(top, -wide), p(top, wide)], Vector::y(), beside, &width);
     let tip = p(-0.5 * half, 0.75_f64.sqrt() * half);
     let elbow = p(-0.75 * reach, reach + 3.0);

@@ -8,14 +8,14 @@ mod tooth;
 
 use crate::{
     drawing::Anchor,
-    sheet::{Corner, Draft, Piece, Scale, Sheet, SheetError, Table, TitleBlock, compose},
+    sheet::{Corner, Draft, Piece, Scale, Sheet, SheetError, Table, TitleBlock, compose, number},
 };
 use centrode_geometry::{Point, Tolerance};
 use centrode_mechanism::{
     design::{Projection, SheetSize},
     gear::{GearPair, Member},
 };
-use part::{Part, number};
+use part::Part;
 
 /// What a sheet is of.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]

@@ -147,13 +147,3 @@ pub(super) fn degrees(p: Point) -> f64 {
     // What would be written as 360.00 is nought.
     if angle > 359.995 { 0.0 } else { angle }
 }
-
-/// A number to so many places, without trailing zeros.
-pub(super) fn number(x: f64, places: usize) -> String {
-    let text = format!("{x:.places$}");
-    let text = match text.contains('.') {
-        true => text.trim_end_matches('0').trim_end_matches('.'),
-        false => &text,
-    };
-    if text == "-0" { "0" } else { text }.to_owned()
-}

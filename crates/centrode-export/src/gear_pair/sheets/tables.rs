@@ -2,9 +2,12 @@
 
 use super::{
     Meshing,
-    part::{Part, degrees, number},
+    part::{Part, degrees},
 };
-use crate::{drawing::Anchor, sheet::Table};
+use crate::{
+    drawing::Anchor,
+    sheet::{Table, number},
+};
 use centrode_mechanism::gear::{
     CurvatureRange, GearPair, Member, PinFault, ToolKind, design::Addendum,
 };

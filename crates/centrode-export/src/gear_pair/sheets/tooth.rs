@@ -1,9 +1,9 @@
 //! One tooth, enlarged.
 
-use super::part::{Part, degrees, number};
+use super::part::{Part, degrees};
 use crate::{
     drawing::{Anchor, Shape},
-    sheet::{Draft, Pen, Scale, lettering},
+    sheet::{Draft, Pen, Scale, lettering, number},
 };
 use centrode_geometry::{Point, Tolerance, Vector};
 use nalgebra::Rotation2;

@@ -12,7 +12,7 @@ use crate::{
     dxf,
     gear_pair::{Format, Options},
     pdf,
-    sheet::{Corner, Draft, Piece, Scale, Sheet, Table, TitleBlock, compose},
+    sheet::{Corner, Draft, Piece, Scale, Sheet, Table, TitleBlock, compose, number},
     svg,
 };
 use centrode_geometry::Point;
@@ -187,16 +187,6 @@ fn mass(grams: f64) -> String {
     } else {
         format!("{} g", number(grams, 1))
     }
-}
-
-/// A number to so many places, without trailing zeros.
-fn number(x: f64, places: usize) -> String {
-    let text = format!("{x:.places$}");
-    let text = match text.contains('.') {
-        true => text.trim_end_matches('0').trim_end_matches('.'),
-        false => &text,
-    };
-    if text == "-0" { "0" } else { text }.to_owned()
 }
 
 /// A shape of a drawing at a scale, with every point put where `place` says; `None` for words and heads.
