@@ -79,6 +79,13 @@ pub(crate) struct CircularGear {
     pub(crate) fillet: Vec<[f64; 2]>,
 }
 
+/// Undercut flanks of the 2021 sun, as the cubic spline in x and y, with its teeth at a phase.
+#[derive(Deserialize)]
+pub(crate) struct UndercutAtPhase {
+    pub(crate) phase: f64,
+    pub(crate) undercut: u32,
+}
+
 /// The three-arm mechanism of 2021 in one reading of its points.
 #[derive(Deserialize)]
 pub(crate) struct ThreeArmReading {
