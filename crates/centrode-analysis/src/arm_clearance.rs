@@ -1,6 +1,6 @@
 use std::f64::consts::{PI, TAU};
 
-use centrode_geometry::{Outline, Point, Tolerance, Vector};
+use centrode_geometry::{Outline, Tolerance, Vector};
 use centrode_mechanism::arm::ArmBody;
 use centrode_mechanism::three_arm::{Link, LinkMotion, ThreeArm};
 use nalgebra::{Isometry2, Rotation2};
@@ -12,8 +12,6 @@ use crate::interference::{
 
 /// Cells of a cycle between which arms move as cubics say: the deviation is below 1e-6 mm.
 const CELLS: usize = 360;
-/// Depth of the plate that stands for a tray, in holes.
-const TRAY_DEPTH: f64 = 2.0;
 
 /// How clear the arms of a planetary transplanting mechanism keep, proven over a whole cycle.
 ///
@@ -26,6 +24,8 @@ pub struct ArmClearance {
     /// Of the first arm's housing from the tray, a plate behind the surface in which the tip picks; the
     /// clamp goes into it and does not count.
     pub tray: Option<Clearance>,
+    /// Of the first arm from the stems of the rows still in the tray; none where no row is.
+    pub unpicked: Option<Clearance>,
     /// Of the first arm from the stems planted before its own: the second of the pair counts them back.
     /// Its own, which its open clamp leaves behind, does not count.
     pub seedlings: Option<Clearance>,
@@ -62,6 +62,7 @@ impl ArmClearance {
         Ok(Self {
             arms: between_arms(mechanism, arm, tolerance)?,
             tray: from_tray(mechanism, arm, tolerance)?,
+            unpicked: from_unpicked(mechanism, arm, tolerance)?,
             seedlings: from_seedlings(mechanism, arm, tolerance)?,
         })
     }
@@ -80,6 +81,11 @@ impl ArmClearance {
             "arm_tray_clearance_bound",
             "arm_tray_clearance_input",
         ];
+        let unpicked = [
+            "arm_unpicked_clearance",
+            "arm_unpicked_clearance_bound",
+            "arm_unpicked_clearance_input",
+        ];
         let seedlings = [
             "arm_seedling_clearance",
             "arm_seedling_clearance_bound",
@@ -88,6 +94,7 @@ impl ArmClearance {
         [
             (self.arms, arms),
             (self.tray, tray),
+            (self.unpicked, unpicked),
             (self.seedlings, seedlings),
         ]
         .into_iter()
@@ -164,35 +171,48 @@ fn from_tray(
     let Some(housing) = arm.parts().iter().find(|part| part.name == "housing") else {
         return Ok(None);
     };
-    let spec = &mechanism.design().tray;
-    // As the trajectory has it: arms enter against the sense of the carrier's turn at the bottom.
-    let (sin, cos) = spec.inclination.sin_cos();
-    let inward = Vector::new(-mechanism.train().direction().sign() * cos, sin);
-    let tip = mechanism.tip(mechanism.picking(0), 0).position;
-    let surface = spec.distance.unwrap_or(tip.coords.dot(&inward));
-    let middle = tip + inward * (surface - tip.coords.dot(&inward));
-    let half = 0.5 * f64::from(spec.rows) * spec.hole_spacing;
-    let depth = TRAY_DEPTH * spec.hole_spacing;
-    let plate = Outline::polygon(&[
-        Point::new(0.0, -half),
-        Point::new(depth, -half),
-        Point::new(depth, half),
-        Point::new(0.0, half),
-    ]);
-    let place = Rest(Isometry2::new(middle.coords, inward.y.atan2(inward.x)));
+    let tray = mechanism.tray_body();
+    at_rest(
+        mechanism,
+        std::slice::from_ref(&housing.outline),
+        (&[tray.plate], tray.place),
+        tolerance,
+    )
+}
+
+fn from_unpicked(
+    mechanism: &ThreeArm,
+    arm: &ArmBody,
+    tolerance: Tolerance,
+) -> Result<Option<Clearance>, ArmClearanceError> {
+    let tray = mechanism.tray_body();
+    if tray.stems.is_empty() {
+        return Ok(None);
+    }
+    let arm = std::slice::from_ref(arm.outline());
+    at_rest(mechanism, arm, (&tray.stems, tray.place), tolerance)
+}
+
+/// Least clearance of what the first arm carries from a body that stands still, over a cycle.
+fn at_rest(
+    mechanism: &ThreeArm,
+    carried: &[Outline],
+    (still, place): (&[Outline], Isometry2<f64>),
+    tolerance: Tolerance,
+) -> Result<Option<Clearance>, ArmClearanceError> {
     let motion = Tabulated::new([0.0, TAU], CELLS, |input| {
         on_frame(&mechanism.link(Link::Arm(0), input))
     })?;
-    let housing = Body::new(std::slice::from_ref(&housing.outline), tolerance)?;
-    let plate = Body::new(&[plate], tolerance)?;
+    let carried = Body::new(carried, tolerance)?;
+    let still = Body::new(still, tolerance)?;
     let moving = [
         Moving {
-            body: &housing,
+            body: &carried,
             motion: &motion,
         },
         Moving {
-            body: &plate,
-            motion: &place,
+            body: &still,
+            motion: &Rest(place),
         },
     ];
     Ok(least_clearance(&moving, &[[0, 1]], [0.0, TAU], tolerance)?)
@@ -203,25 +223,15 @@ fn from_seedlings(
     arm: &ArmBody,
     tolerance: Tolerance,
 ) -> Result<Option<Clearance>, ArmClearanceError> {
-    let spec = &mechanism.design().seedling;
-    if spec.width <= 0.0 || spec.height <= 0.0 {
+    let Some(stem) = mechanism.stem() else {
         return Ok(None);
-    }
+    };
     let release = mechanism.planting(0);
     let inputs = [release - PI, release + PI];
     let motion = Tabulated::new(inputs, CELLS, |input| {
         on_frame(&mechanism.link(Link::Arm(0), input))
     })?;
-    let half = 0.5 * spec.width;
-    let stem = Body::new(
-        &[Outline::polygon(&[
-            Point::new(-half, 0.0),
-            Point::new(half, 0.0),
-            Point::new(half, spec.height),
-            Point::new(-half, spec.height),
-        ])],
-        tolerance,
-    )?;
+    let stem = Body::new(&[stem], tolerance)?;
     let arm = Body::new(std::slice::from_ref(arm.outline()), tolerance)?;
     // Seen from the machine, what is planted moves back evenly.
     let still = mechanism.tip(release, 0);

@@ -45,6 +45,7 @@ pub(crate) fn check_arms(mechanism: &ThreeArm) -> Report {
         let figures = [found.least, found.lower_bound, found.input];
         report.values.extend(names.into_iter().zip(figures));
     }
+    crowded(arms.as_ref(), &mut report);
     report.tables.push(working_points(mechanism));
     unmet(mechanism, arms.as_ref(), &mut report);
     if let Some(teeth) = teeth {
@@ -232,6 +233,31 @@ fn figures(mechanism: &ThreeArm, report: &mut Report) {
         picking_speed * f64::from(mechanism.arms()) / 2.0,
     );
     values.insert("planting_speed", tip(mechanism.planting(0)));
+}
+
+/// A finding where an arm bends the seedlings beside the one it picks.
+fn crowded(arms: Option<&ArmClearance>, report: &mut Report) {
+    let Some(found) = arms.and_then(|found| found.unpicked) else {
+        return;
+    };
+    if found.least >= 0.0 {
+        return;
+    }
+    report.findings.push(Finding {
+        rule: "unpicked-seedlings",
+        // Stems in a tray are held by their plugs and spring back.
+        severity: Severity::Note,
+        message: "an arm bends stems of the rows still in the tray".into(),
+        measured: Some(found.least),
+        required: Some(0.0),
+        unit: "mm",
+        remedy: None,
+        place: Place {
+            part: Some("tray".into()),
+            input: Some(found.input),
+            ..Place::default()
+        },
+    });
 }
 
 /// Table 1 of the paper: carrier turns at which each arm picks and plants.

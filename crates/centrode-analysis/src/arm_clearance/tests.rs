@@ -1,7 +1,8 @@
 use super::*;
+use centrode_geometry::Point;
 use centrode_mechanism::arm::ArmBodySpec;
 use centrode_mechanism::gear::pitch::{Bspline, PitchSpec};
-use centrode_mechanism::three_arm::design::{ArmSpec, ThreeArmDesign};
+use centrode_mechanism::three_arm::design::{ArmSpec, ThreeArmDesign, Unpicked};
 
 /// The set of section 4.1 of the 2021 paper, read as a quadratic B-spline in the polar plane.
 fn published(arms: u32) -> ThreeArm {
@@ -158,4 +159,56 @@ fn tray_and_stems_are_where_the_machine_has_them() {
         (seedlings.least - least).abs() < 0.05,
         "{seedlings:?} {least}"
     );
+}
+
+/// The row above stands a hole's spacing over the picked one, its stems square out of an upright tray.
+#[test]
+fn the_arm_bends_the_row_above_by_as_much_as_samples_say() {
+    let (mut design, arm) = (published(3).design().clone(), default_arm());
+    design.work.picking = Some(20_f64.to_radians());
+    let machine = ThreeArm::resolve(&design).expect("a mechanism");
+    let outline = arm.outline().flatten(tolerance(1e-3));
+    let picked = machine.tip(machine.picking(0), 0).position;
+    let row = |spacing: f64, length: f64| {
+        [[-length, -2.0], [0.0, -2.0], [0.0, 2.0], [-length, 2.0]]
+            .map(|[x, y]| picked + Vector::new(x, y + spacing))
+    };
+    let found = ArmClearance::of(&machine, &arm, tolerance(1e-2)).expect("finite");
+    let unpicked = found.unpicked.expect("stems");
+    assert!((unpicked.least + 7.7).abs() < 0.1, "{unpicked:?}");
+    // The deepest point lies on the border of one and so far inside the other.
+    let deepest = unpicked.points[0];
+    let arm_there = posed(&machine, &outline, 0, unpicked.input);
+    let off = [arm_there.as_slice(), &row(20.0, 60.0)].map(|border| brute(&[deepest], border));
+    assert!(off[0].min(off[1]) < 0.02, "{off:?}");
+    assert!(
+        (off[0].max(off[1]) + unpicked.least).abs() < 0.03,
+        "{off:?} {unpicked:?}"
+    );
+    // With rows far enough apart, or shorter stems, samples tell the clearance.
+    for (spacing, length) in [(40.0, 60.0), (60.0, 25.0)] {
+        let mut design = machine.design().clone();
+        design.tray.hole_spacing = spacing;
+        design.tray.stem_length = length;
+        let wide = ThreeArm::resolve(&design).expect("a mechanism");
+        let found = ArmClearance::of(&wide, &arm, tolerance(1e-2)).expect("finite");
+        let unpicked = found.unpicked.expect("stems");
+        let row = row(spacing, length);
+        let samples = (0..3600).map(|i| posed(&wide, &outline, 0, TAU * f64::from(i) / 3600.0));
+        let least = samples
+            .map(|points| brute(&points, &row))
+            .fold(f64::INFINITY, f64::min);
+        assert!(
+            (unpicked.least - least).abs() < 0.05,
+            "{spacing}: {unpicked:?} {least}"
+        );
+        assert!(unpicked.least > 0.0);
+    }
+    for (rows, expected) in [(Unpicked::None, false), (Unpicked::Below, true)] {
+        let mut design = machine.design().clone();
+        design.tray.unpicked = rows;
+        let other = ThreeArm::resolve(&design).expect("a mechanism");
+        let found = ArmClearance::of(&other, &arm, tolerance(1e-2)).expect("finite");
+        assert_eq!(found.unpicked.is_some(), expected);
+    }
 }

@@ -1,6 +1,8 @@
+use std::f64::consts::TAU;
+
 use centrode_geometry::{Outline, Point, Tolerance};
 use centrode_mechanism::gear::Member;
-use centrode_mechanism::three_arm::Link;
+use centrode_mechanism::three_arm::{Link, ThreeArm};
 use nalgebra::Isometry2;
 
 use super::machine::Machine;
@@ -10,21 +12,31 @@ use crate::drawing::{Anchor, Color, Drawing, LineType, Shape, Text};
 const PATH: u32 = 720;
 
 /// The whole machine as its first arm picks: gears, carrier, cams and forks, arms, path of the tip, ground,
-/// tray.
+/// tray, seedlings.
 pub(super) fn drawing(machine: &Machine<'_>, tolerance: Tolerance) -> Drawing {
+    let mut drawing = layers();
+    for (layer, outline) in contours(machine, tolerance) {
+        drawing.draw(layer, Shape::Contour(outline));
+    }
+    surroundings(machine, &mut drawing);
+    drawing
+}
+
+/// Contours of everything that turns as the first arm picks, each with its layer.
+pub(super) fn contours(
+    machine: &Machine<'_>,
+    tolerance: Tolerance,
+) -> Vec<(&'static str, Outline)> {
     let mechanism = machine.mechanism;
     let input = mechanism.picking(0);
-    let mut drawing = layers();
     let place = |link: Link| {
         let stands = mechanism.link(link, input);
         Isometry2::new(stands.origin.position.coords, stands.angle.position)
     };
-    let mut draw = |layer: &str, outline: &Outline, at: &Isometry2<f64>| {
+    let mut found = Vec::new();
+    let mut draw = |layer: &'static str, outline: &Outline, at: &Isometry2<f64>| {
         // Arcs first: turned splines would be fitted anew for every place.
-        drawing.draw(
-            layer,
-            Shape::Contour(outline.arcs(tolerance).transformed(at)),
-        );
+        found.push((layer, outline.arcs(tolerance).transformed(at)));
     };
     let carrier = place(Link::Carrier);
     draw("CARRIER", &machine.gearbox.outline, &carrier);
@@ -67,8 +79,7 @@ pub(super) fn drawing(machine: &Machine<'_>, tolerance: Tolerance) -> Drawing {
             draw("CAMS", &fork, &at);
         }
     }
-    surroundings(machine, &mut drawing);
-    drawing
+    found
 }
 
 fn layers() -> Drawing {
@@ -76,6 +87,7 @@ fn layers() -> Drawing {
         .layer("PATH", Color::Red, LineType::Center, 0.18)
         .layer("GROUND", Color::Gray, LineType::Continuous, 0.35)
         .layer("TRAY", Color::Gray, LineType::Continuous, 0.35)
+        .layer("SEEDLINGS", Color::Green, LineType::Continuous, 0.18)
         .layer("CARRIER", Color::Gray, LineType::Phantom, 0.25)
         .layer("PITCH_CURVE", Color::Blue, LineType::Center, 0.13)
         .layer("BORE", Color::Foreground, LineType::Continuous, 0.25)
@@ -85,22 +97,45 @@ fn layers() -> Drawing {
         .layer("TEXT", Color::Foreground, LineType::Continuous, 0.25)
 }
 
+/// The tip's path in the machine's frame, closed.
+pub(super) fn path(mechanism: &ThreeArm) -> Vec<Point> {
+    let at = |i: u32| TAU * f64::from(i % PATH) / f64::from(PATH);
+    (0..=PATH)
+        .map(|i| mechanism.tip(at(i), 0).position)
+        .collect()
+}
+
+/// Feet of the seedlings planted so far, up to a distance from the carrier's axis, as the first arm picks.
+pub(super) fn planted(mechanism: &ThreeArm, reach: f64) -> Vec<Point> {
+    let mut feet = mechanism.planted(mechanism.picking(0), 2 * mechanism.arms());
+    feet.retain(|foot| foot.x.abs() < reach);
+    feet
+}
+
+/// Their stems.
+pub(super) fn planted_stems(mechanism: &ThreeArm, reach: f64) -> Vec<Outline> {
+    let feet = planted(mechanism, reach);
+    let place = |stem: &Outline, foot: &Point| stem.transformed(&Isometry2::new(foot.coords, 0.0));
+    mechanism.stem().map_or_else(Vec::new, |stem| {
+        feet.iter().map(|foot| place(&stem, foot)).collect()
+    })
+}
+
 /// What does not turn: path of the tip, ground, tray; and what the drawing is of.
 fn surroundings(machine: &Machine<'_>, drawing: &mut Drawing) {
     let mechanism = machine.mechanism;
-    let path: Vec<Point> = (0..=PATH)
-        .map(|i| {
-            let share = f64::from(i % PATH) / f64::from(PATH);
-            mechanism.tip(std::f64::consts::TAU * share, 0).position
-        })
-        .collect();
+    let path = path(mechanism);
     let reach = path.iter().map(|p| p.coords.norm()).fold(0.0, f64::max);
     drawing.draw("PATH", Shape::Polyline(path));
     let ground = mechanism.ground();
     let (left, right) = (Point::new(-reach, ground), Point::new(reach, ground));
     drawing.draw("GROUND", Shape::Line(left, right));
-    let tray = super::surroundings::tray(mechanism);
-    drawing.draw("TRAY", Shape::Contour(tray));
+    let tray = mechanism.tray_body();
+    drawing.draw("TRAY", Shape::Contour(tray.placed(&tray.plate)));
+    let unpicked = tray.stems.iter().map(|stem| tray.placed(stem));
+    for stem in unpicked.chain(planted_stems(mechanism, reach)) {
+        drawing.draw("SEEDLINGS", Shape::Contour(stem));
+    }
     let height = 0.025 * reach;
     let design = mechanism.design();
     let title = match design.title.as_str() {

@@ -1,5 +1,6 @@
 //! The files of a three-arm mechanism.
 
+mod arrangement;
 mod assembly;
 mod machine;
 mod motion;
@@ -196,11 +197,18 @@ impl Writer<'_> {
     }
 
     fn assembly(&self, bundle: &mut Bundle) -> Result<(), ThreeArmFilesError> {
-        if !self.wants(Format::Dxf) && !self.wants(Format::Svg) {
-            return Ok(());
+        let (part, tolerance) = (Part::Assembly, self.options.tolerance);
+        if self.wants(Format::Dxf) || self.wants(Format::Svg) {
+            let drawing = assembly::drawing(self.machine, tolerance);
+            self.drawing(part.name(), &drawing, bundle)?;
         }
-        let drawing = assembly::drawing(self.machine, self.options.tolerance);
-        self.drawing(Part::Assembly.name(), &drawing, bundle)
+        if self.wants(Format::Sheet) || self.wants(Format::Pdf) {
+            let options = &self.options.sheet;
+            let sheets = arrangement::sheets(self.machine, self.design(), options, tolerance)
+                .map_err(|source| ThreeArmFilesError::Sheet { part, source })?;
+            self.sheets(part, &sheets, bundle)?;
+        }
+        Ok(())
     }
 
     fn plate(&self, part: Part, bundle: &mut Bundle) -> Result<(), ThreeArmFilesError> {
@@ -290,12 +298,21 @@ impl Writer<'_> {
             }
         }
         if self.wants(Format::Urdf) {
-            let mut seen = simulated.model.clone();
-            // By the law alone: a thousand files to touch with would serve nobody.
-            for link in &mut seen.links {
-                link.collision.clear();
+            bundle.add("machine.urdf", urdf::write(&simulated.model)?)?;
+            for body in simulated
+                .model
+                .links
+                .iter()
+                .flat_map(|link| &link.collision)
+            {
+                let name = urdf::collision_file(&body.name);
+                // Planets and arms are alike, and so are their bodies.
+                if !bundle.files().any(|(known, _)| known == name) {
+                    bundle.add(&name, stl::write(&body.mesh))?;
+                }
             }
-            bundle.add("machine.urdf", urdf::write(&seen)?)?;
+            let script = include_str!("play_pybullet.py");
+            bundle.add("play_pybullet.py", gear_pair::script(script))?;
         }
         if self.wants(Format::Mjcf) {
             bundle.add("machine.xml", mjcf::write(&simulated.model)?)?;

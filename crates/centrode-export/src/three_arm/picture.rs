@@ -10,6 +10,9 @@ use crate::page::{Curve, Link, Mark, Motion, Path, Picture, Role, short};
 /// Samples of one carrier turn.
 const SAMPLES: u32 = 720;
 
+/// Planted seedlings that are shown.
+const SEEDLINGS: u32 = 4;
+
 /// Corners of a pitch curve drawn in place of teeth.
 const CORNERS: u32 = 240;
 
@@ -22,7 +25,7 @@ pub enum Teeth<'a> {
     Cut(&'a GearPair),
 }
 
-/// The mechanism as a picture that moves: gears, carrier, arms, and the path of the tip.
+/// The mechanism as a picture that moves: gears, carrier, arms, the path of the tip, tray and seedlings.
 ///
 /// Outlines are within the tolerance of the exact ones.
 #[must_use]
@@ -64,6 +67,24 @@ pub fn picture(mechanism: &ThreeArm, teeth: Teeth<'_>, tolerance: Tolerance) -> 
         input: input.iter().map(|&phi| short(phi, 1e-7)).collect(),
         poses: vec![[0.0; 3].repeat(input.len())],
     };
+    if let Some(stem) = mechanism.stem() {
+        let stem = Path::closed(Role::Ground, &stem, tolerance);
+        // The newest first: where an arm plants, each moves up by one.
+        let mut planted = vec![Vec::with_capacity(3 * input.len()); SEEDLINGS as usize];
+        for &phi in &input {
+            let feet = mechanism.planted(phi, SEEDLINGS);
+            for (poses, foot) in planted.iter_mut().zip(feet) {
+                poses.extend([short(foot.x, length), short(foot.y, length), 0.0]);
+            }
+        }
+        for (poses, before) in planted.into_iter().zip(1..) {
+            motion.poses.push(poses);
+            links.push(Link {
+                name: format!("planted seedling {before}"),
+                paths: vec![stem.clone()],
+            });
+        }
+    }
     for (part, name, paths) in parts {
         motion.poses.push(poses(part));
         links.push(Link { name, paths });
@@ -143,7 +164,7 @@ fn arm(mechanism: &ThreeArm) -> Vec<Path> {
     ]
 }
 
-/// What does not move: the path of the tip in the machine's frame, and the ground.
+/// What does not move: the path of the tip in the machine's frame, the ground, the tray with its seedlings.
 fn machine(mechanism: &ThreeArm, tolerance: Tolerance) -> Vec<Path> {
     let tips: Vec<Point> = inputs()
         .take(SAMPLES as usize)
@@ -152,10 +173,14 @@ fn machine(mechanism: &ThreeArm, tolerance: Tolerance) -> Vec<Path> {
     let [left, _, right, _] = extent(mechanism);
     let ground = mechanism.ground();
     let line = [Point::new(left, ground), Point::new(right, ground)];
-    vec![
+    let mut paths = vec![
         Path::polygon(Role::Trace, &tips, tolerance),
         Path::open(Role::Ground, &line),
-    ]
+    ];
+    let tray = mechanism.tray_body();
+    let still = [&tray.plate].into_iter().chain(&tray.stems);
+    paths.extend(still.map(|outline| Path::closed(Role::Ground, &tray.placed(outline), tolerance)));
+    paths
 }
 
 /// Where an arm picks and where it plants.

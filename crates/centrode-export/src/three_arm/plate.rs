@@ -314,7 +314,7 @@ fn short(x: f64) -> String {
     }
 }
 
-fn notes(lines: &[String]) -> Draft {
+pub(super) fn notes(lines: &[String]) -> Draft {
     let mut draft = Draft::default();
     for (row, line) in lines.iter().enumerate() {
         let at = Point::new(0.0, -4.6 * row as f64);

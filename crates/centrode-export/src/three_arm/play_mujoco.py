@@ -5,7 +5,7 @@ python play_mujoco.py                    every joint follows its law
 python play_mujoco.py --contact          the carrier turns evenly, teeth carry the first chain
 python play_mujoco.py --check            no window: prints how far tips or planet are off their law
 
-Needs: pip install mujoco numpy
+Needs: pip install mujoco numpy; --plot also matplotlib
 """
 
 import argparse
@@ -111,8 +111,34 @@ def check_law(machine):
     print(json.dumps({"mode": "law", "rows": len(table), "tip_off_max_m": off}))
 
 
-def check_contact(machine, turns, plot):
+def rate(law, joint, travel):
+    """Speed of a joint by its law for a radian of the input: exact in the middle between rows, linear from there on."""
+    angles, factor, _ = law.joints[joint]
+    middle = 0.5 * (law.travel[1:] + law.travel[:-1])
+    slope = factor * np.diff(angles) / np.diff(law.travel)
+    return np.interp(np.mod(travel, law.travel[-1]), middle, slope, period=law.travel[-1])
+
+
+def plot(rows, law, speed, path):
+    """Draws how far the planet is off its law, and how its speed wavers about it."""
+    from matplotlib import pyplot
+
+    travel, off, found = rows.T
+    figure, (upper, lower) = pyplot.subplots(2, 1, sharex=True, figsize=(9.0, 6.0), layout="constrained")
+    upper.plot(np.degrees(travel), np.degrees(off), linewidth=0.8)
+    upper.set_ylabel("planet less its law, deg")
+    lower.plot(np.degrees(travel), found / speed, linewidth=0.8, label="through teeth")
+    wanted = rate(law, "planet_0_joint", travel)
+    lower.plot(np.degrees(travel), wanted, "--", color="black", linewidth=0.8, label="law")
+    lower.set_ylabel("planet's turn a turn of the carrier")
+    lower.set_xlabel("carrier's turn, deg")
+    lower.legend(loc="best")
+    figure.savefig(path, dpi=120)
+
+
+def check_contact(machine, options):
     """Prints how far the planet is off its law over some turns, driven by teeth alone."""
+    turns = options.turns
     steps = round(2 * np.pi * turns / machine.speed / machine.model.opt.timestep)
     # The load first takes up the backlash: the teeth are judged after a twentieth of a turn.
     before = round(steps / turns / 20)
@@ -125,16 +151,23 @@ def check_contact(machine, turns, plot):
             overlap = max(overlap, machine.overlap())
     rows = np.array(rows)
     low, high = np.degrees([rows[:, 1].min(), rows[:, 1].max()])
+    wavers = rows[:, 2] / machine.speed - rate(machine.law, "planet_0_joint", rows[:, 0])
     result = {
         "mode": "contact",
         "turns": turns,
         "off_law_max_deg": max(abs(low), abs(high)),
         "off_law_range_deg": high - low,
         "overlap_max_mm": overlap,
+        "speed_off_rms_per_carrier": float(np.sqrt(np.mean(wavers**2))),
+        "speed_off_max_per_carrier": float(np.abs(wavers).max()),
     }
     print(json.dumps(result))
-    if plot:
-        np.savetxt(plot, rows, delimiter=",", header="carrier_turn_rad,off_law_rad,planet_speed_rad_per_s", comments="")
+    if options.plot:
+        plot(rows, machine.law, machine.speed, options.plot)
+    if options.save:
+        np.savetxt(
+            options.save, rows, delimiter=",", header="carrier_turn_rad,off_law_rad,planet_speed_rad_per_s", comments=""
+        )
 
 
 def show(machine):
@@ -158,6 +191,7 @@ def main():
     parser.add_argument("--load", type=float, default=0.02, help="torque against the planet with --contact, N m")
     parser.add_argument("--check", action="store_true", help="no window: print the error as one line of JSON")
     parser.add_argument("--turns", type=int, default=1, help="turns of the carrier with --check --contact (1)")
+    parser.add_argument("--plot", help="picture of the motion found with --check --contact, as PNG, SVG or PDF")
     parser.add_argument("--save", help="CSV file for the motion found with --check --contact")
     options = parser.parse_args()
     if options.speed < 0 or options.turns < 1:
@@ -166,7 +200,7 @@ def main():
     if not options.check:
         show(machine)
     elif options.contact:
-        check_contact(machine, options.turns, options.save)
+        check_contact(machine, options)
     else:
         check_law(machine)
 

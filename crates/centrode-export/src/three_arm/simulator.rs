@@ -1,6 +1,6 @@
 use std::f64::consts::TAU;
 
-use centrode_geometry::{MassProperties, Mesh, Point, Solid, Tolerance, Vector};
+use centrode_geometry::{MassProperties, Mesh, Point, Solid, Tolerance, Vector, convex_pieces};
 use centrode_mechanism::gear::Member;
 use centrode_mechanism::three_arm::Link as Part;
 use nalgebra::Isometry2;
@@ -69,7 +69,7 @@ pub(super) struct Builder<'a> {
 /// The model of a machine: sun, ground and tray fixed to the base or sliding on it, the carrier on the
 /// base, gears and cams on the carrier, arms on planets, forks and rods on arms.
 ///
-/// Gears touch as convex bodies, a tooth one or several; nothing else touches.
+/// Gears and arms touch as convex bodies, a tooth one or several; nothing else touches.
 pub(super) fn simulated(
     machine: &Machine<'_>,
     tolerance: Tolerance,
@@ -91,8 +91,10 @@ pub(super) fn simulated(
         "The laws of motion are not linear: mimic joints are affine and cannot hold them, so none is written. They are in motion.csv, \
          as motion.json describes: every joint over one turn of the carrier, repeated beyond it. Gears touch as convex bodies, of \
          flanks and tip without fillets, over a hub without bore; these stand out of the gears by at most {:.1e} mm. \
-         Arms, cams, forks and rods, ground and tray are there to be seen. {} arms.",
+         Arms touch as convex bodies of housing and clamp, within {:.1e} mm. \
+         Cams, forks and rods, ground, tray and seedlings are there to be seen. {} arms.",
         builder.excess,
+        builder.coarse().mm(),
         mechanism.arms(),
     );
     Ok(Simulated {
@@ -225,6 +227,37 @@ impl Builder<'_> {
         Ok(())
     }
 
+    /// Arms touch nothing as closely as teeth do.
+    fn coarse(&self) -> Tolerance {
+        self.tolerance.scaled(20.0)
+    }
+
+    /// Housing with its covers, and both flakes, as convex bodies in the arm's frame.
+    fn arm_bodies(&self) -> Vec<Convex> {
+        let covers = ["cover-rear", "cover-front"].map(|name| self.machine.of_arm(name));
+        let half = self.coarse().scaled(0.5);
+        let mut bodies = Vec::new();
+        for name in ["housing", "flake-left", "flake-right"] {
+            let Some(part) = self.machine.of_arm(name) else {
+                continue;
+            };
+            let [mut bottom, mut top] = part.span;
+            if name == "housing" {
+                for [rear, front] in covers.iter().flatten().map(|cover| cover.span) {
+                    (bottom, top) = (bottom.min(rear), top.max(front));
+                }
+            }
+            let cut = convex_pieces(&part.outline.flatten(half), half);
+            for (i, piece) in cut.pieces.iter().enumerate() {
+                bodies.push(Convex {
+                    name: format!("arm_{}_{i}", name.replace('-', "_")),
+                    mesh: Mesh::prism(piece, bottom, top),
+                });
+            }
+        }
+        bodies
+    }
+
     fn arms(&mut self) -> Result<(), ThreeArmFilesError> {
         let machine = self.machine;
         let mechanism = machine.mechanism;
@@ -265,6 +298,7 @@ impl Builder<'_> {
         let rod_span = machine.of_arm("push-rod").map_or([0.0, 1.0], |p| p.span);
         let rod = Body::of(&[(plate(super::Part::PushRod)?, rod_span)], self.tolerance)?;
         self.shown("push-rod-body", rod.mesh);
+        let touching = self.arm_bodies();
         let on_planet = mechanism.train().arm_on_planet() + mechanism.clamp_mounting();
         for k in 0..mechanism.arms() {
             let name = format!("cam_{k}");
@@ -274,7 +308,7 @@ impl Builder<'_> {
             let turn = place.rotation.angle();
             self.joint(("carrier", &name), JointKind::Fixed, (at, level), turn);
             let own = format!("arm_{k}");
-            self.link(&own, arm.mass, Some("arm-body"), Vec::new());
+            self.link(&own, arm.mass, Some("arm-body"), touching.clone());
             let planet = format!("planet_{k}");
             let origin = (Point::origin(), level);
             self.joint((&planet, &own), JointKind::Fixed, origin, on_planet);

@@ -1,39 +1,28 @@
-use centrode_geometry::{Mesh, Outline, Point, Vector};
+use centrode_geometry::{Mesh, Outline, Point, Segment, Vector};
 use centrode_mechanism::three_arm::ThreeArm;
-use nalgebra::Isometry2;
 
-/// Depth of the tray, in distances of its holes.
-const TRAY_DEPTH: f64 = 2.0;
 /// Thickness of what stands for the ground, mm.
 const GROUND: f64 = 20.0;
 
-/// The tray from the side: a plate behind the surface in which the tip picks.
-pub(super) fn tray(mechanism: &ThreeArm) -> Outline {
-    let spec = &mechanism.design().tray;
-    // Arms enter against the sense of the carrier's turn at the bottom.
-    let (sin, cos) = spec.inclination.sin_cos();
-    let inward = Vector::new(-mechanism.train().direction().sign() * cos, sin);
-    let tip = mechanism.tip(mechanism.picking(0), 0).position;
-    let surface = spec.distance.unwrap_or(tip.coords.dot(&inward));
-    let middle = tip + inward * (surface - tip.coords.dot(&inward));
-    let half = 0.5 * f64::from(spec.rows) * spec.hole_spacing;
-    let depth = TRAY_DEPTH * spec.hole_spacing;
-    let corners = [[0.0, -half], [depth, -half], [depth, half], [0.0, half]];
-    let turn = Isometry2::new(middle.coords, inward.y.atan2(inward.x));
-    Outline::polygon(&corners.map(|[x, y]| turn * Point::new(x, y)))
-}
-
-/// The tray in space: as wide as its columns, the arms in the middle.
+/// The tray in space with the seedlings still in it: the arms pick from its middle column.
 pub(super) fn tray_body(mechanism: &ThreeArm) -> Mesh {
-    let spec = &mechanism.design().tray;
-    let half = 0.5 * f64::from(spec.columns) * spec.hole_spacing;
+    let design = mechanism.design();
+    let (columns, spacing) = (design.tray.columns, design.tray.hole_spacing);
     let level = mechanism.arm_level();
-    let corners: Vec<Point> = tray(mechanism)
-        .segments()
-        .iter()
-        .map(centrode_geometry::Segment::start)
-        .collect();
-    Mesh::prism(&corners, level - half, level + half)
+    let tray = mechanism.tray_body();
+    let column = |k: u32| level + (f64::from(k) - f64::from(columns / 2)) * spacing;
+    let (rear, front) = (column(0) - 0.5 * spacing, column(columns) - 0.5 * spacing);
+    let prism = |outline: &Outline, from: f64, to: f64| {
+        let placed = tray.placed(outline);
+        let corners: Vec<Point> = placed.segments().iter().map(Segment::start).collect();
+        Mesh::prism(&corners, from, to)
+    };
+    let half = 0.5 * design.seedling.width;
+    let mut bodies = vec![prism(&tray.plate, rear, front)];
+    for stem in &tray.stems {
+        bodies.extend((0..columns).map(|k| prism(stem, column(k) - half, column(k) + half)));
+    }
+    Mesh::joined(&bodies)
 }
 
 /// The ground with the seedlings planted in it, in a frame that travels back under the machine: at the

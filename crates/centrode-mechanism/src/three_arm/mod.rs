@@ -14,6 +14,7 @@ mod seedling;
 mod sweep;
 mod train;
 mod trajectory;
+mod tray;
 
 pub use figures::Figures;
 pub use gearbox::GearboxBody;
@@ -25,6 +26,7 @@ pub use seedling::SeedlingClearance;
 pub use sweep::{Sweep, SweepError};
 pub use train::{ArmOnCarrier, Train, TrainJet};
 pub use trajectory::{Extreme, PickingRule, PlantingRule, Trajectory};
+pub use tray::TrayBody;
 
 use crate::gear::design::SpecError;
 use crate::gear::{GearPair, GearPairError, Member, Rolling, Soundness};

@@ -1,6 +1,6 @@
 use std::f64::consts::TAU;
 
-use centrode_geometry::bracketed_minimum;
+use centrode_geometry::{Outline, Point, bracketed_minimum};
 
 use super::ThreeArm;
 
@@ -50,6 +50,30 @@ impl ThreeArm {
             input: input.rem_euclid(TAU),
             seedling,
         }
+    }
+
+    /// Feet of the seedlings planted last, the newest first, where they stand in the machine's frame at an input, mm.
+    #[must_use]
+    pub fn planted(&self, input: f64, count: u32) -> Vec<Point> {
+        let apart = TAU / f64::from(self.arms());
+        let release = self.planting(0);
+        let first = self.over_ground(&self.tip(release, 0), release).position.x;
+        let travel = -self.train().sign() * self.advance();
+        let newest = ((input - release) / apart).floor();
+        let place = |before: u32| {
+            let ahead = (newest - f64::from(before)) * apart - input;
+            Point::new(first + travel * ahead, self.ground())
+        };
+        (0..count).map(place).collect()
+    }
+
+    /// The stem of a planted seedling over its foot; none where the design gives it no size.
+    #[must_use]
+    pub fn stem(&self) -> Option<Outline> {
+        let spec = &self.design().seedling;
+        let (half, top) = (0.5 * spec.width, spec.height);
+        let corners = [[-half, 0.0], [half, 0.0], [half, top], [-half, top]];
+        (half > 0.0 && top > 0.0).then(|| Outline::polygon(&corners.map(Point::from)))
     }
 
     /// Where a function is least between two inputs, and its value there.

@@ -1,4 +1,4 @@
-use super::design::{ArmSpec, Direction};
+use super::design::{ArmSpec, Direction, Unpicked};
 use super::*;
 use crate::gear::pitch::{Bspline, Circle, PitchSpec};
 use crate::transmission::Transmission as _;
@@ -335,4 +335,72 @@ fn the_arm_on_the_carrier_is_a_transmission_of_one_turn() {
         // The velocity runs on through a break of a quadratic spline, whose own curvature jumps.
         assert!((before.velocity - after.velocity).abs() < 1e-6);
     }
+}
+
+#[test]
+fn unpicked_rows_stand_above_the_picked_one_whichever_way_the_tray_leans() {
+    for (direction, inclination) in [
+        (Direction::Clockwise, 0.0),
+        (Direction::Clockwise, 0.4),
+        (Direction::CounterClockwise, -0.3),
+    ] {
+        let mut design = published();
+        design.direction = direction;
+        design.tray.inclination = inclination;
+        design.tray.rows = 7;
+        for (unpicked, above, below) in [
+            (Unpicked::Above, 3, 0),
+            (Unpicked::Below, 0, 3),
+            (Unpicked::Both, 3, 3),
+            (Unpicked::None, 0, 0),
+        ] {
+            design.tray.unpicked = unpicked;
+            let machine = resolved(&design);
+            let tray = machine.tray_body();
+            let picked = machine.tip(machine.picking(0), 0).position;
+            let inward = machine.tray_direction();
+            let off = tray.place * Point::origin() - picked;
+            assert!(off.norm() < 1e-9, "{off:?}");
+            assert!((tray.place * Vector::x() - inward).norm() < 1e-12);
+            let middles = tray.stems.iter().map(|stem| {
+                let bounds = stem.bounds();
+                let root = Point::new(bounds.max.x, 0.5 * (bounds.min.y + bounds.max.y));
+                assert!((bounds.min.x + 60.0).abs() < 1e-12 && bounds.max.x == 0.0);
+                tray.place * root - picked
+            });
+            let (mut high, mut low) = (0, 0);
+            for middle in middles {
+                assert!(middle.dot(&inward).abs() < 1e-9);
+                let rows = middle.norm() / 20.0;
+                assert!((rows - rows.round()).abs() < 1e-9 && rows > 0.5);
+                if middle.y > 0.0 { high += 1 } else { low += 1 }
+            }
+            assert_eq!((high, low), (above, below), "{unpicked:?}");
+        }
+    }
+}
+
+#[test]
+fn seedlings_stay_where_they_were_planted() {
+    let mut design = published();
+    for direction in [Direction::Clockwise, Direction::CounterClockwise] {
+        design.direction = direction;
+        let machine = resolved(&design);
+        let travel = -machine.train().sign() * machine.advance();
+        for arm in 0..3 {
+            let release = machine.planting(arm);
+            let tip = machine.tip(release, arm).position;
+            // Just planted, and a little later, when it is one among those before.
+            let newest = machine.planted(release + 1e-9, 1)[0];
+            assert!((newest.x - tip.x).abs() < 1e-6 && newest.y == machine.ground());
+            let later = 0.4 * TAU;
+            let found = machine.planted(release + later, 5);
+            let expected = tip.x - travel * later;
+            assert!(found.iter().any(|foot| (foot.x - expected).abs() < 1e-6));
+            let apart = found.windows(2).map(|pair| (pair[0].x - pair[1].x).abs());
+            assert!(apart.into_iter().all(|d| (d - 140.0).abs() < 1e-9));
+        }
+    }
+    design.seedling.width = 0.0;
+    assert_eq!(resolved(&design).stem(), None);
 }

@@ -19,7 +19,7 @@ pub use arm::{ArmSpec, GearboxSpec};
 pub use goals::GoalsSpec;
 pub use optimise::{Objective, OptimiseSpec};
 pub use pusher::{ForkSpec, PusherCamSpec};
-pub use work::{SeedlingSpec, TraySpec, WorkSpec};
+pub use work::{SeedlingSpec, TraySpec, Unpicked, WorkSpec};
 
 /// A planetary transplanting mechanism: a fixed sun, a carrier at constant speed, and evenly spaced arms, each
 /// on the planet of its own bent chain of three non-circular gears.

@@ -85,6 +85,25 @@ pub struct TraySpec {
     pub rows: u32,
     /// Distance of the holes, mm.
     pub hole_spacing: f64,
+    /// Rows that are still full, as seen from the one that is picked.
+    pub unpicked: Unpicked,
+    /// How far an unpicked seedling's stem stands out of the tray's surface, mm; it is as wide as a planted one.
+    pub stem_length: f64,
+}
+
+/// Rows of a tray that are still full while one is picked.
+#[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Unpicked {
+    /// All above it: the tray is emptied from below, as arms that draw seedlings out downwards need.
+    #[default]
+    Above,
+    /// All below it.
+    Below,
+    /// All on both sides.
+    Both,
+    /// None.
+    None,
 }
 
 impl Default for TraySpec {
@@ -95,6 +114,8 @@ impl Default for TraySpec {
             columns: 14,
             rows: 29,
             hole_spacing: 20.0,
+            unpicked: Unpicked::default(),
+            stem_length: 60.0,
         }
     }
 }
@@ -112,7 +133,8 @@ impl TraySpec {
         between("inclination_deg", inclination, [-89.0, 89.0], " deg")?;
         within("columns", self.columns, 1, 1000)?;
         within("rows", self.rows, 1, 1000)?;
-        positive("hole_spacing", self.hole_spacing)
+        positive("hole_spacing", self.hole_spacing)?;
+        not_negative("stem_length", self.stem_length)
     }
 }
 

@@ -1,0 +1,69 @@
+use centrode_geometry::{Outline, Point};
+use nalgebra::Isometry2;
+
+use super::ThreeArm;
+use super::design::Unpicked;
+
+/// Depth of the plate that stands for a tray, in distances of its holes.
+const DEPTH: f64 = 2.0;
+
+/// The tray from the side, with the seedlings that are still in it.
+///
+/// Its frame has its origin in the tray's surface at the hole that is picked from; x points the way the arms enter, y
+/// along the rows.
+#[derive(Clone, Debug)]
+pub struct TrayBody {
+    /// The tray's frame in the machine's.
+    pub place: Isometry2<f64>,
+    /// The plate behind the surface, counter-clockwise, in the tray's frame.
+    pub plate: Outline,
+    /// The stems of the unpicked rows, from the nearest on, in the tray's frame.
+    pub stems: Vec<Outline>,
+}
+
+impl TrayBody {
+    /// A contour of the tray in the machine's frame.
+    #[must_use]
+    pub fn placed(&self, outline: &Outline) -> Outline {
+        outline.transformed(&self.place)
+    }
+}
+
+impl ThreeArm {
+    /// The tray as the arms find it: as many rows as it has, the hole that is picked from in the middle.
+    ///
+    /// The stems of unpicked rows stand square out of its surface; those beside the picked one, in its row, do not count.
+    #[must_use]
+    pub fn tray_body(&self) -> TrayBody {
+        let spec = &self.design().tray;
+        let inward = self.tray_direction();
+        let tip = self.tip(self.picking(0), 0).position;
+        let reach = tip.coords.dot(&inward);
+        let origin = tip + inward * (spec.distance.unwrap_or(reach) - reach);
+        let half = 0.5 * f64::from(spec.rows) * spec.hole_spacing;
+        let box_of = |[left, low]: [f64; 2], [right, high]: [f64; 2]| {
+            let corners = [[left, low], [right, low], [right, high], [left, high]];
+            Outline::polygon(&corners.map(Point::from))
+        };
+        // Up in the machine's frame is up in the tray's where the arms enter it to the right.
+        let up = inward.x.signum();
+        let sides: &[f64] = match spec.unpicked {
+            Unpicked::Above => &[1.0],
+            Unpicked::Below => &[-1.0],
+            Unpicked::Both => &[1.0, -1.0],
+            Unpicked::None => &[],
+        };
+        let (length, thick) = (spec.stem_length, 0.5 * self.design().seedling.width);
+        let rows = (1..).map(|row| f64::from(row) * spec.hole_spacing);
+        let rows = rows.take_while(|far| *far < half);
+        let stems = rows.flat_map(|far| sides.iter().map(move |side| far * side * up));
+        TrayBody {
+            place: Isometry2::new(origin.coords, inward.y.atan2(inward.x)),
+            plate: box_of([0.0, -half], [DEPTH * spec.hole_spacing, half]),
+            stems: stems
+                .filter(|_| length > 0.0 && thick > 0.0)
+                .map(|y| box_of([-length, y - thick], [0.0, y + thick]))
+                .collect(),
+        }
+    }
+}
