@@ -30,6 +30,7 @@ from ._centrode import (
     __version__,
     template,
 )
+from ._clearance import Clearance
 from ._contact import Contact
 from ._design import load, schema
 from ._error import CamError, DesignError, Error, ExportError, GearPairError, LinkageError, MechanismError, PitchError
@@ -45,6 +46,7 @@ from ._tooth import Tooth, ToothSide
 __all__ = [
     "Body",
     "CamError",
+    "Clearance",
     "Contact",
     "DeadCenters",
     "DesignError",

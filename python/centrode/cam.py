@@ -1,10 +1,11 @@
-"""Motion laws, followers and segments of motion for `DiscCam`, by the keys they have in a design file.
+"""Motion laws, followers, forks and segments of motion for `DiscCam`, by the keys they have in a design file.
 
 Angles are radians of cam angle; a lift is millimetres of a slide, a swing radians of an arm.
 """
 
 from ._centrode import (
     Follower,
+    Fork,
     Law,
     Segment,
     dwell,
@@ -21,6 +22,7 @@ from ._centrode import (
 
 __all__ = [
     "Follower",
+    "Fork",
     "Law",
     "Segment",
     "dwell",

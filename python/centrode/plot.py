@@ -1,4 +1,4 @@
-"""Pictures of gear pairs, moving boxes and feeders; needs matplotlib: ``pip install centrode[plot]``.
+"""Pictures of gear pairs and machines; needs matplotlib: ``pip install centrode[plot]``.
 
 Every function draws into the given axes, or into new ones, and gives back what it drew in.
 """
@@ -10,18 +10,22 @@ from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
-from ._centrode import Feeder, Gear, GearPair, MovingBox, SixBar, SpiralShaft
+from ._centrode import Feeder, Gear, GearPair, MovingBox, SixBar, SpiralShaft, ThreeArm
 from ._contact import Contact
+from ._goal import Goal
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from matplotlib.animation import FuncAnimation
     from matplotlib.axes import Axes
     from matplotlib.patches import PathPatch
     from numpy.typing import NDArray
 
-__all__ = ["animate", "contact", "feeder", "motion", "moving", "pair", "pivots", "speed"]
+__all__ = ["animate", "contact", "feeder", "goals", "motion", "moving", "pair", "pivots", "response", "speed"]
 
 _DRIVER, _DRIVEN = "#3b6ea5", "#c98a2b"
+_MET, _MISSED = "#3a7d44", "#b23a48"
 _FINE = 1e-2
 """Tolerance of what is drawn, in modules: below a pixel on any screen."""
 
@@ -203,6 +207,82 @@ def contact(of: GearPair | Contact, axes: NDArray[Any] | None = None) -> NDArray
     clearance.set_xlabel("driver angle, deg")
     clearance.legend(loc="best")
     return axes
+
+
+def goals(of: ThreeArm | Sequence[Goal], ax: Axes | None = None) -> Axes:
+    """Draw how far each goal is reached, a bar each, with its figure and the range it is wanted in.
+
+    Args:
+        of: A mechanism, or its goals.
+        ax: Where to; new axes if left out.
+    """
+    found = of.goals() if isinstance(of, ThreeArm) else tuple(of)
+    ax = ax or _axes((9.0, 0.45 * len(found) + 1.0))
+    rows = np.arange(len(found))
+    colors = [_MET if goal.met else _MISSED for goal in found]
+    ax.barh(rows, [0.0 if goal.progress is None else goal.progress for goal in found], color=colors, height=0.6)
+    for row, goal in enumerate(found):
+        figure = "not looked at" if goal.value is None else f"{_shown(goal, goal.value):.4g} {_unit(goal)}".rstrip()
+        ax.text(1.02, row, f"{figure}, wanted {_range(goal)}", va="center")
+    ax.set_yticks(rows, [f"{goal.number}  {goal.title}" for goal in found])
+    ax.invert_yaxis()
+    ax.set(xlim=(0.0, 1.0), xlabel="progress")
+    ax.spines[["top", "right"]].set_visible(False)
+    return ax
+
+
+def response(
+    of: ThreeArm, parameter: str, values: Sequence[float] | NDArray[Any], axes: NDArray[Any] | None = None
+) -> NDArray[Any]:
+    """Draw how the goals answer one number of the design, a small picture each: Figure 5 of Yin et al. 2021.
+
+    The range in which a figure is wanted is shaded.
+
+    Args:
+        of: The mechanism; all its other numbers stay.
+        parameter: Key of the design file, "arm.tip_distance", or a parameter's name, "r1".
+        values: In the file's unit: mm, degrees.
+        axes: Axes to draw into, one a goal that has a figure; a new grid of four columns if left out.
+    """
+    found = [goal for goal in of.goals() if goal.value is not None]
+    answers = of.response(parameter, values)
+    if axes is None:
+        from matplotlib import pyplot
+
+        rows = -(-len(found) // 4)
+        _, axes = pyplot.subplots(rows, 4, sharex=True, figsize=(13.0, 2.8 * rows), layout="constrained", squeeze=False)
+        for ax in np.ravel(axes)[len(found) :]:
+            ax.set_visible(False)
+    for goal, ax in zip(found, np.ravel(axes), strict=False):
+        figures = _shown(goal, np.asarray(answers[goal.name]))
+        ax.plot(values, figures, ".-", color=_DRIVER, markersize=4)
+        low, high = ax.get_ylim()
+        least, most = (None if end is None else _shown(goal, end) for end in goal.wanted)
+        shaded = (low if least is None else least, high if most is None else most)
+        ax.axhspan(min(shaded), max(shaded), color=_MET, alpha=0.15, linewidth=0)
+        ax.set_ylim(low, high)
+        ax.set_title(f"{goal.number}  {goal.title}", fontsize="small")
+        ax.set_ylabel(_unit(goal))
+        ax.set_xlabel(parameter)
+        # Axes that share theirs with a hidden one would have no numbers.
+        ax.xaxis.set_tick_params(labelbottom=True)
+    return axes
+
+
+def _shown(goal: Goal, figure: Any) -> Any:
+    """A goal's figure as people read it: angles in degrees."""
+    return np.degrees(figure) if goal.unit == "rad" else figure
+
+
+def _unit(goal: Goal) -> str:
+    return "deg" if goal.unit == "rad" else goal.unit
+
+
+def _range(goal: Goal) -> str:
+    least, most = (None if end is None else f"{_shown(goal, end):g}" for end in goal.wanted)
+    if least is None or most is None:
+        return f"at most {most}" if least is None else f"at least {least}"
+    return f"{least} to {most}"
 
 
 def feeder(of: Feeder, axes: NDArray[Any] | None = None) -> NDArray[Any]:

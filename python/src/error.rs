@@ -1,4 +1,4 @@
-use std::error::Error as _;
+use std::error::Error;
 
 use centrode_export::BundleError;
 use centrode_export::cam::CamFilesError;
@@ -172,6 +172,11 @@ pub(crate) fn of_three_arm(error: &ThreeArmError) -> PyErr {
 /// The exception of a push rod that cannot be moved.
 pub(crate) fn of_pusher(error: &PusherError) -> PyErr {
     class::MechanismError::new_err((error.to_string(), error.key()))
+}
+
+/// The exception of an arm that is no body.
+pub(crate) fn of_arm(error: &impl Error) -> PyErr {
+    class::MechanismError::new_err((error.to_string(), "arm.body"))
 }
 
 /// The exception of a search that cannot be made.

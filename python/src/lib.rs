@@ -36,7 +36,7 @@ mod _centrode {
     use crate::body::{Body, Keyway};
     #[pymodule_export]
     use crate::cam::{
-        DiscCam, Follower, Law, Segment, dwell, law, law_of_polynomial, return_, rise,
+        DiscCam, Follower, Fork, Law, Segment, dwell, law, law_of_polynomial, return_, rise,
         swinging_flat, swinging_roller, transition, translating_flat, translating_roller,
     };
     #[pymodule_export]

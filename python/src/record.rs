@@ -1,5 +1,6 @@
 //! Results of many parts, handed over as the records of the Python part of the package.
 
+use centrode_analysis::interference::Clearance;
 use centrode_analysis::optimise::Ended;
 use centrode_analysis::{Contact, Finding, Goal, Report, Severity, Table};
 use centrode_mechanism::gear::{OverPins, Pin, Tooth, ToothSide};
@@ -69,6 +70,17 @@ pub(crate) fn slider_force<'py>(
         .with("transverse", transverse)?
         .with("torque", torque)?
         .with("push", push)?;
+    CLASS.make(&keywords.0)
+}
+
+/// How close two arms come.
+pub(crate) fn clearance<'py>(py: Python<'py>, found: &Clearance) -> PyResult<Bound<'py, PyAny>> {
+    static CLASS: Class = Class::new("centrode._clearance", "Clearance");
+    let keywords = Keywords::new(py)
+        .with("least", found.least)?
+        .with("lower_bound", found.lower_bound)?
+        .with("input", found.input)?
+        .with("arms", PyTuple::new(py, found.pair)?)?;
     CLASS.make(&keywords.0)
 }
 

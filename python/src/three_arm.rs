@@ -2,8 +2,8 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use centrode_analysis::check_three_arm;
 use centrode_analysis::optimise::Settings;
+use centrode_analysis::{between_arms, check_three_arm};
 use centrode_export::Bundle;
 use centrode_export::three_arm as files;
 use centrode_mechanism::design::Design;
@@ -14,6 +14,7 @@ use centrode_mechanism::three_arm::design::{
     ArmSpec, Direction, GearboxSpec, SeedlingSpec, ThreeArmDesign, TraySpec, WorkSpec,
 };
 use centrode_mechanism::three_arm::{Link, PointMotion};
+use numpy::PyArray2;
 use pyo3::IntoPyObjectExt;
 use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::{
@@ -22,14 +23,15 @@ use pyo3::prelude::{
 };
 use pyo3::types::{PyDict, PyTuple};
 
-use crate::array::{Values, each, each_row};
+use crate::array::{Values, each, each_row, points};
 use crate::body::Body;
 use crate::bundle;
+use crate::cam::{DiscCam, Fork};
 use crate::count::{Count, optional};
 use crate::design::{Loaded, path_loaded};
 use crate::error::{
-    no_search, of_design, of_pair, of_pusher, of_three_arm, of_three_arm_files, plain_tolerance,
-    unknown_word,
+    no_search, of_arm, of_design, of_pair, of_pusher, of_three_arm, of_three_arm_files,
+    plain_tolerance, unknown_word,
 };
 use crate::format;
 use crate::gear_pair::GearPair;
@@ -448,6 +450,72 @@ impl ThreeArm {
             poses.set_item(name, rows)?;
         }
         Ok(poses)
+    }
+
+    /// The cam of each arm, fixed to the carrier about the planet's axis.
+    ///
+    /// The cam angle is the turn the arm has made against the carrier since the start.
+    ///
+    /// Raises:
+    ///     MechanismError: Cam and fork cannot be.
+    #[getter]
+    fn cam(&self) -> PyResult<DiscCam> {
+        let pusher = self.0.pusher().map_err(|e| of_pusher(&e))?;
+        Ok(DiscCam(Arc::new(pusher.cam().clone())))
+    }
+
+    /// The fork of each arm, between cam and push rod.
+    ///
+    /// Raises:
+    ///     MechanismError: Cam and fork cannot be.
+    ///
+    /// >>> import centrode as ct
+    /// >>> fork = ct.ThreeArm.from_toml(ct.template("three-arm")).fork
+    /// >>> fork.joint, round(fork.retraction(fork.swing(25.0)), 9)
+    /// ('pin-on-rod', 25.0)
+    #[getter]
+    fn fork(&self) -> PyResult<Fork> {
+        let pusher = self.0.pusher().map_err(|e| of_pusher(&e))?;
+        Ok(Fork(pusher.fork().clone()))
+    }
+
+    /// What an arm must keep clear with, (N, 2), mm, in the frame in which `pose` gives it: corners of a closed
+    /// polygon, counter-clockwise, nowhere farther than `tolerance` (mm) from the exact contour.
+    ///
+    /// Raises:
+    ///     MechanismError: The arm's parts do not fit each other.
+    #[pyo3(signature = (tolerance=1e-3))]
+    fn arm_contour<'py>(
+        &self,
+        py: Python<'py>,
+        tolerance: f64,
+    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let tolerance = plain_tolerance(tolerance)?;
+        let arm = self.0.arm_body().map_err(|e| of_arm(&e))?;
+        points(py, &arm.outline().flatten(tolerance))
+    }
+
+    /// How close arms come over a whole turn, proven between samples to within `tolerance` (mm); None for one arm.
+    ///
+    /// Raises:
+    ///     MechanismError: The arm's parts do not fit each other.
+    ///
+    /// >>> import centrode as ct
+    /// >>> close = ct.ThreeArm.from_toml(ct.template("three-arm")).arm_clearance()
+    /// >>> round(close.least, 1), close.lower_bound > close.least - 0.04
+    /// (62.6, True)
+    #[pyo3(signature = (tolerance=1e-2))]
+    fn arm_clearance<'py>(
+        &self,
+        py: Python<'py>,
+        tolerance: f64,
+    ) -> PyResult<Option<Bound<'py, PyAny>>> {
+        let tolerance = plain_tolerance(tolerance)?;
+        let arm = self.0.arm_body().map_err(|e| of_arm(&e))?;
+        let arms = Arc::clone(&self.0);
+        let found = wait(py, move || between_arms(&arms, &arm, tolerance))?;
+        let found = found.map_err(|e| of_arm(&e))?;
+        found.map(|found| record::clearance(py, &found)).transpose()
     }
 
     /// The goals: figure, range, margin and progress of each.

@@ -138,3 +138,47 @@ def test_bad_values_name_their_key(make, key):
 def test_a_cam_alone_is_no_machine():
     with pytest.raises(ct.ExportError, match="urdf"):
         cam().files(formats=["urdf"])
+
+
+FORK = {"roller_radius": 5, "center_distance": 52, "arm_length": 45, "lever_length": 40, "lever_start": -0.15}
+
+
+@pytest.mark.parametrize("joint", ["pin-on-rod", "pin-on-fork"])
+@pytest.mark.parametrize("lifts", ["counter-clockwise", "clockwise"])
+def test_a_fork_moves_its_rod_as_its_cam_is_made_for(joint, lifts):
+    fork = ct.cam.Fork(joint=joint, lifts=lifts, **FORK)
+    segments = [
+        ct.cam.rise(span=2.4, law="modified-sine", lift=9),
+        ct.cam.dwell(span=1.0),
+        ct.cam.return_(span=1.2, lift=9),
+        ct.cam.dwell(span=2 * math.pi - 4.6),
+    ]
+    cam = fork.cam(segments, base_radius=22, body=ct.Body(width=5, bore=8))
+    theta = np.linspace(0, 2 * math.pi, 100)
+    rod = fork.retraction(cam.motion(theta)[:, 0])
+    slide = ct.DiscCam(ct.cam.translating_roller(roller_radius=5), segments, base_radius=40)
+    np.testing.assert_allclose(rod, slide.motion(theta)[:, 0], atol=1e-9)
+    # By hand, from the law of the joint.
+    law = np.tan if joint == "pin-on-rod" else np.sin
+    np.testing.assert_allclose(rod, 40 * (law(cam.motion(theta)[:, 0] - 0.15) - law(-0.15)), atol=1e-9)
+    np.testing.assert_allclose(fork.swing(rod), cam.motion(theta)[:, 0], atol=1e-12)
+    distance = np.linalg.norm(cam.roller(theta), axis=1)
+    assert distance[0] == pytest.approx(22 + 5)
+    assert (fork.joint, fork.lifts, fork.lever_length) == (joint, lifts, 40)
+    assert fork == ct.cam.Fork(joint=joint, lifts=lifts, **FORK)
+
+
+def test_forks_that_cannot_be_are_refused():
+    with pytest.raises(ct.DesignError, match="length") as error:
+        ct.cam.Fork(**{**FORK, "lever_length": 0})
+    assert error.value.key == "rod.length"
+    with pytest.raises(ct.DesignError, match="joint"):
+        ct.cam.Fork(joint="rivet", **FORK)
+    fork = ct.cam.Fork(joint="pin-on-fork", **FORK)
+    far = [ct.cam.rise(span=3, lift=47), ct.cam.return_(span=2 * math.pi - 3, lift=47)]
+    with pytest.raises(ct.CamError):
+        fork.cam(far, base_radius=22)
+    turning = [ct.cam.rise(span=3, swing=0.2), ct.cam.return_(span=2 * math.pi - 3, swing=0.2)]
+    with pytest.raises(ct.DesignError, match="lifts"):
+        fork.cam(turning, base_radius=22)
+    assert math.isnan(fork.swing(50.0))

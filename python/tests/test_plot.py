@@ -81,3 +81,29 @@ def test_other_kinds_of_film_are_refused(pair, tmp_path):
         ct.plot.animate(pair, tmp_path / "mesh.png")
     with pytest.raises(ValueError, match="frames"):
         ct.plot.animate(pair, frames=0)
+
+
+def test_goals_are_bars_as_long_as_their_progress():
+    arms = ct.ThreeArm.from_toml(ct.template("three-arm"))
+    ax = ct.plot.goals(arms)
+    lengths = [bar.get_width() for bar in ax.patches]
+    assert lengths == [goal.progress or 0 for goal in arms.goals()]
+    words = [text.get_text() for text in ax.texts]
+    assert words[1].startswith("0.6161 deg, wanted -5 to 15")
+    assert words[6].startswith("370.8 mm, wanted at least 260")
+    assert ct.plot.goals(arms.goals(), ax=ax) is ax
+
+
+def test_a_response_is_drawn_a_picture_a_goal():
+    arms = ct.ThreeArm.from_toml(ct.template("three-arm"))
+    values = [15, 21, 27]
+    axes = ct.plot.response(arms, "r1", values)
+    answers = arms.response("r1", values)
+    shown = [goal for goal in arms.goals() if goal.value is not None]
+    for goal, ax in zip(shown, np.ravel(axes), strict=False):
+        drawn = ax.lines[0].get_ydata()
+        wanted = answers[goal.name]
+        np.testing.assert_allclose(drawn, np.degrees(wanted) if goal.unit == "rad" else wanted)
+    pick = np.ravel(axes)[1]
+    low, high = pick.patches[0].get_y(), pick.patches[0].get_y() + pick.patches[0].get_height()
+    assert (low, high) == pytest.approx((-5, 15))

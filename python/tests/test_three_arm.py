@@ -104,6 +104,38 @@ def test_goals(arms):
     assert "goal 7: height of the trajectory 370.821 mm, met" in str(report)
 
 
+def test_the_clearance_of_arms_is_that_of_their_contours(arms):
+    shapely = pytest.importorskip("shapely")
+    found = arms.arm_clearance(1e-3)
+    goals = {goal.name: goal for goal in arms.goals()}
+    assert found.least == pytest.approx(goals["arm-clearance"].value, abs=2e-2)
+    assert found.least - 6e-3 < found.lower_bound <= found.least
+    contour = arms.arm_contour(1e-3)
+    pose = arms.pose(np.append(np.linspace(0, 2 * math.pi, 721), found.input))
+
+    def placed(arm):
+        x, y, turn = pose[f"arm-{arm}"].T
+        return [
+            shapely.Polygon(contour @ [[math.cos(t), math.sin(t)], [-math.sin(t), math.cos(t)]] + [u, v])
+            for u, v, t in zip(x, y, turn, strict=True)
+        ]
+
+    distance = shapely.distance(placed(found.arms[0]), placed(found.arms[1]))
+    assert (distance > found.lower_bound).all()
+    assert distance[-1] == pytest.approx(found.least, abs=2e-3)
+    assert distance.min() == pytest.approx(found.least, abs=0.1)
+    assert published(arms=1).arm_clearance() is None
+
+
+def test_cam_and_fork_draw_the_rod_back(arms):
+    """The cam's angle is the arm's turn against the carrier; what the fork makes of its swing is the rod's way."""
+    theta = np.linspace(0, 2 * math.pi, 90)
+    pose = arms.pose(theta)
+    turned = np.abs(pose["arm-0"][:, 2] - pose["carrier"][:, 2] - (pose["arm-0"][0, 2] - pose["carrier"][0, 2]))
+    swing = arms.cam.motion(turned)[:, 0]
+    np.testing.assert_allclose(arms.fork.retraction(swing), arms.push_rod(theta), atol=1e-9)
+
+
 def test_without_teeth_there_is_no_module():
     goals = {goal.name: goal for goal in published(tooth_count=None).goals()}
     assert goals["module"].value is None

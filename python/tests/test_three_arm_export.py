@@ -94,6 +94,41 @@ def test_mujoco_follows_our_tips(arms, folder):
         assert np.abs(rod + arms.push_rod(middle, arm)).max() < 1.01e-3
 
 
+def test_pybullet_follows_our_tips(folder):
+    pybullet = pytest.importorskip("pybullet", reason="has wheels up to Python 3.11 only")
+    run = [sys.executable, str(folder / "play_pybullet.py"), "--check"]
+    done = subprocess.run(run, check=True, capture_output=True, text=True, cwd="/")
+    found = json.loads(done.stdout.splitlines()[-1])
+    assert found["rows"] > 500
+    assert found["tip_off_max_m"] < 1e-6
+    client = pybullet.connect(pybullet.DIRECT)
+    body = pybullet.loadURDF(str(folder / "machine.urdf"), useFixedBase=True)
+    links = {pybullet.getJointInfo(body, i)[12].decode(): i for i in range(pybullet.getNumJoints(body))}
+    shapes = {name: len(pybullet.getCollisionShapeData(body, links[name])) for name in links}
+    pybullet.disconnect(client)
+    # A hub and a body or more a tooth; planets are suns.
+    assert shapes["sun"] == shapes["planet_2"] > 37
+    assert shapes["intermediate_1"] > 37
+    assert shapes["arm_0"] >= 3
+    assert shapes["carrier"] == shapes["tray"] == shapes["ground"] == 0
+
+
+def test_the_bodies_to_touch_with_are_those_of_the_arm(arms, folder):
+    trimesh = pytest.importorskip("trimesh")
+    shapely = pytest.importorskip("shapely")
+    contour = shapely.Polygon(arms.arm_contour(1e-4))
+    pieces = []
+    for path in sorted((folder / "collision").glob("arm_*.stl")):
+        mesh = trimesh.load(path)
+        assert mesh.is_convex, path.name
+        assert mesh.is_watertight, path.name
+        pieces.append(shapely.MultiPoint(mesh.vertices[:, :2]).convex_hull)
+    whole = shapely.union_all(pieces)
+    # The push rod's end is the only part of the contour that is not among them.
+    assert whole.difference(contour.buffer(0.05)).area < 1e-6
+    assert contour.difference(whole).area < 0.02 * contour.area
+
+
 def test_yourdfpy_reads_the_machine(arms, folder):
     yourdfpy = pytest.importorskip("yourdfpy")
     robot = yourdfpy.URDF.load(str(folder / "machine.urdf"))
@@ -118,7 +153,7 @@ def test_teeth_alone_carry_a_chain_of_the_design_that_meets_all_goals(tmp_path):
     machine = ct.ThreeArm.from_toml(text.replace("backlash = 0.05", "backlash = 0.01"))
     machine.export(tmp_path, formats=["mjcf"])
     run = [sys.executable, str(tmp_path / "play_mujoco.py"), "--check", "--contact", "--speed", "2"]
-    run += ["--save", str(tmp_path / "found.csv")]
+    run += ["--save", str(tmp_path / "found.csv"), "--plot", str(tmp_path / "found.png")]
     found = json.loads(subprocess.run(run, check=True, capture_output=True, text=True).stdout)
     assert found["off_law_max_deg"] < 0.05
     assert found["overlap_max_mm"] < 0.01
@@ -134,3 +169,8 @@ def test_teeth_alone_carry_a_chain_of_the_design_that_meets_all_goals(tmp_path):
     law = (turned(theta + step) - turned(theta - step)) / (2 * step)
     off = rows["planet_speed_rad_per_s"] / 2 - law
     assert 0 < np.sqrt(np.mean(off**2)) < 0.02
+    # The script's own figure takes the law from the table.
+    assert found["speed_off_rms_per_carrier"] == pytest.approx(np.sqrt(np.mean(off**2)), rel=0.05)
+    image = pytest.importorskip("matplotlib.image")
+    grey = image.imread(tmp_path / "found.png")[..., :3].mean(axis=2)
+    assert 0.001 < (grey < 0.8).mean() < 0.3

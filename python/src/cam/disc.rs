@@ -45,7 +45,7 @@ type Peak = (f64, f64);
 /// 0.166
 #[pyclass(frozen, module = "centrode")]
 #[derive(Debug)]
-pub(crate) struct DiscCam(Arc<Cam>);
+pub(crate) struct DiscCam(pub(crate) Arc<Cam>);
 
 impl DiscCam {
     fn contacts(&self, theta: Numbers) -> impl ExactSizeIterator<Item = Contact> {

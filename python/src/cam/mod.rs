@@ -1,10 +1,12 @@
 //! Disc cams.
 
 mod disc;
+mod fork;
 mod laws;
 mod parts;
 
 pub(crate) use disc::DiscCam;
+pub(crate) use fork::Fork;
 pub(crate) use laws::{Law, law, law_of_polynomial};
 pub(crate) use parts::{
     Follower, Segment, dwell, return_, rise, swinging_flat, swinging_roller, transition,
@@ -24,6 +26,13 @@ fn turn(key: &str, word: &str) -> PyResult<Turn> {
         "counter-clockwise" => Ok(Turn::CounterClockwise),
         "clockwise" => Ok(Turn::Clockwise),
         _ => Err(unknown_word(key, word, &TURNS)),
+    }
+}
+
+fn word(turn: Turn) -> &'static str {
+    match turn {
+        Turn::CounterClockwise => TURNS[0],
+        Turn::Clockwise => TURNS[1],
     }
 }
 

@@ -65,7 +65,9 @@ pub struct Lever {
 }
 
 impl RodJoint {
-    fn lever(&self) -> &Lever {
+    /// Its lever.
+    #[must_use]
+    pub fn lever(&self) -> &Lever {
         match self {
             Self::PinOnRod(lever) | Self::PinOnFork(lever) => lever,
         }

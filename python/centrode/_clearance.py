@@ -1,0 +1,17 @@
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, slots=True)
+class Clearance:
+    """How close two arms come over a whole turn of the carrier."""
+
+    __module__ = "centrode"
+
+    least: float
+    """Least distance found, mm; negative where they overlap: how deep one lies in the other."""
+    lower_bound: float
+    """The clearance is proven to be nowhere smaller, mm."""
+    input: float
+    """Carrier turn at which it is least, rad."""
+    arms: tuple[int, int]
+    """The two arms."""

@@ -1,0 +1,216 @@
+//! The fork that moves a push rod, and the cam that moves it.
+
+use std::sync::Arc;
+
+use centrode_mechanism::cam::design::MotionSpec;
+use centrode_mechanism::cam::{Cam, CamError, Fork as Mechanism, Lever, Motion, RodJoint};
+use centrode_mechanism::transmission::MotionJet;
+use pyo3::prelude::{Bound, PyAny, PyRef, PyResult, Python, pyclass, pymethods};
+
+use super::disc::DiscCam;
+use super::parts::Segment;
+use super::{turn, word};
+use crate::array::{Values, each};
+use crate::body::Body;
+use crate::error::{design_error, of_cam, of_spec, unknown_word};
+use crate::wait::wait;
+
+const JOINTS: [&str; 2] = ["pin-on-rod", "pin-on-fork"];
+
+/// A swinging follower with the cam's roller on one end and a push rod on the other.
+///
+/// With b the angle of the lever to the square on the rod's axis, positive towards retraction, and b0 that with the rod
+/// thrown out, a pin on the rod in a slot of the fork draws it back by l (tan b - tan b0), and a pin on the fork in a
+/// slot across the rod by l (sin b - sin b0).
+///
+/// Args:
+///     roller_radius: mm.
+///     center_distance: Of the fork's pivot from the cam's axis, mm.
+///     arm_length: Of the roller's centre from the pivot, mm.
+///     lever_length: l, mm: of the rod's axis, or of the pin on the fork, from the pivot.
+///     lever_start: b0, rad.
+///     lifts: Which way the fork turns when the cam lifts it.
+///     joint: "pin-on-rod" or "pin-on-fork".
+///
+/// Raises:
+///     DesignError: A value breaks a rule.
+///
+/// >>> import centrode as ct
+/// >>> fork = ct.cam.Fork(roller_radius=5, center_distance=52, arm_length=45, lever_length=40, lever_start=-0.15)
+/// >>> round(fork.retraction(0.25), 6)
+/// 10.058796
+#[pyclass(frozen, eq, module = "centrode.cam")]
+#[derive(Debug, PartialEq)]
+pub(crate) struct Fork(pub(crate) Mechanism);
+
+impl Fork {
+    fn lever(&self) -> &Lever {
+        self.0.rod.lever()
+    }
+}
+
+#[pymethods]
+impl Fork {
+    #[new]
+    #[pyo3(signature = (*, roller_radius, center_distance, arm_length, lever_length, lever_start=0.0, lifts="counter-clockwise", joint="pin-on-rod"))]
+    fn new(
+        roller_radius: f64,
+        center_distance: f64,
+        arm_length: f64,
+        lever_length: f64,
+        lever_start: f64,
+        lifts: &str,
+        joint: &str,
+    ) -> PyResult<Self> {
+        let lever = Lever {
+            length: lever_length,
+            start: lever_start,
+        };
+        let fork = Mechanism {
+            roller_radius,
+            center_distance,
+            arm_length,
+            lifts: turn("lifts", lifts)?,
+            rod: match joint {
+                "pin-on-rod" => RodJoint::PinOnRod(lever),
+                "pin-on-fork" => RodJoint::PinOnFork(lever),
+                _ => return Err(unknown_word("joint", joint, &JOINTS)),
+            },
+        };
+        fork.validate().map_err(|e| of_spec(&e))?;
+        Ok(Self(fork))
+    }
+
+    /// Radius of the roller, mm.
+    #[getter]
+    fn roller_radius(&self) -> f64 {
+        self.0.roller_radius
+    }
+
+    /// Distance of the pivot from the cam's axis, mm.
+    #[getter]
+    fn center_distance(&self) -> f64 {
+        self.0.center_distance
+    }
+
+    /// Distance of the roller's centre from the pivot, mm.
+    #[getter]
+    fn arm_length(&self) -> f64 {
+        self.0.arm_length
+    }
+
+    /// Length of the lever on the rod, mm.
+    #[getter]
+    fn lever_length(&self) -> f64 {
+        self.lever().length
+    }
+
+    /// Angle of the lever to the square on the rod's axis with the rod thrown out, rad.
+    #[getter]
+    fn lever_start(&self) -> f64 {
+        self.lever().start
+    }
+
+    /// Which way the fork turns when the cam lifts it.
+    #[getter]
+    fn lifts(&self) -> &'static str {
+        word(self.0.lifts)
+    }
+
+    /// How fork and rod are joined, "pin-on-rod" or "pin-on-fork".
+    #[getter]
+    fn joint(&self) -> &'static str {
+        match self.0.rod {
+            RodJoint::PinOnFork(_) => "pin-on-fork",
+            _ => "pin-on-rod",
+        }
+    }
+
+    /// How far the rod is drawn back, mm, when the fork has swung by angles, rad.
+    fn retraction<'py>(&self, py: Python<'py>, swing: Values) -> PyResult<Bound<'py, PyAny>> {
+        let rod = self.0.rod;
+        each(py, swing, move |swing| {
+            rod.retraction(&at_rest(swing)).position
+        })
+    }
+
+    /// How far the fork has swung, rad, when the rod is drawn back by lengths, mm; not a number where a pin on the
+    /// fork cannot reach so far.
+    ///
+    /// >>> import centrode as ct
+    /// >>> fork = ct.cam.Fork(roller_radius=5, center_distance=52, arm_length=45, lever_length=40)
+    /// >>> round(fork.swing(40.0), 6)
+    /// 0.785398
+    fn swing<'py>(&self, py: Python<'py>, retraction: Values) -> PyResult<Bound<'py, PyAny>> {
+        let rod = self.0.rod;
+        each(py, retraction, move |retraction| {
+            rod.swing(&at_rest(retraction)).position
+        })
+    }
+
+    /// The cam that draws the rod back and lets it go as wanted.
+    ///
+    /// Args:
+    ///     segments: What the rod does while the arm makes one turn about the cam, lifts in mm.
+    ///     base_radius: Radius of the base circle, mm: the roller rests on it with the rod thrown out.
+    ///     rotation: Which way the cam turns, seen from the arm.
+    ///     start: Cam angle at which the first segment begins, rad.
+    ///     body: Width, bore and material.
+    ///     name: Used for file names.
+    ///
+    /// Raises:
+    ///     CamError: Fork or rod cannot follow.
+    ///
+    /// >>> import centrode as ct
+    /// >>> from math import pi
+    /// >>> fork = ct.cam.Fork(roller_radius=5, center_distance=52, arm_length=45, lever_length=40, lever_start=-0.15)
+    /// >>> back = [ct.cam.rise(span=2, lift=9), ct.cam.dwell(span=2), ct.cam.return_(span=2 * pi - 4, lift=9)]
+    /// >>> cam = fork.cam(back, base_radius=22)
+    /// >>> round(float(fork.retraction(cam.motion([3.0])[0, 0])), 9)
+    /// 9.0
+    #[pyo3(signature = (segments, *, base_radius, rotation="counter-clockwise", start=0.0, body=None, name="cam"))]
+    #[expect(clippy::too_many_arguments, reason = "keyword arguments")]
+    fn cam(
+        &self,
+        py: Python<'_>,
+        segments: Vec<PyRef<'_, Segment>>,
+        base_radius: f64,
+        rotation: &str,
+        start: f64,
+        body: Option<PyRef<'_, Body>>,
+        name: &str,
+    ) -> PyResult<DiscCam> {
+        let motion = MotionSpec {
+            start,
+            segments: segments.iter().map(|segment| segment.0.clone()).collect(),
+        };
+        if motion.swings() == Some(true) {
+            return Err(design_error("segments", "must have lifts: a rod slides"));
+        }
+        let (fork, rotation) = (self.0.clone(), turn("rotation", rotation)?);
+        let body = body.map(|body| body.0.clone()).unwrap_or_default();
+        let name = name.to_owned();
+        let cam = wait(py, move || -> Result<Cam, CamError> {
+            let motion = Arc::new(Motion::resolve(&motion)?);
+            Cam::new(fork.cam(motion, base_radius, rotation)?, &name, body)
+        })?;
+        Ok(DiscCam(Arc::new(cam.map_err(|e| of_cam(&e))?)))
+    }
+
+    fn __repr__(&self) -> String {
+        format!(
+            "Fork({}, arm_length={:?}, lever_length={:?})",
+            self.joint(),
+            self.0.arm_length,
+            self.lever().length,
+        )
+    }
+}
+
+/// A place without movement.
+fn at_rest(position: f64) -> MotionJet {
+    MotionJet {
+        position,
+        ..MotionJet::default()
+    }
+}
