@@ -3,6 +3,7 @@
 
 mod bad_designs;
 mod export;
+mod parts;
 mod search;
 
 use std::io::Write as _;
