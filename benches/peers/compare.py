@@ -5,7 +5,6 @@ import math
 import os
 import subprocess
 import tempfile
-import time
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -14,6 +13,7 @@ import centrode as ct
 import ezdxf
 import flanks
 import ncgears
+from timing import best, seconds, times
 
 ALPHA = math.radians(20)
 K = 1 / (2 + math.sqrt(3))
@@ -72,16 +72,6 @@ CASES = [
 ]
 
 
-def best(action, least=3, seconds=1.0):
-    """Shortest of several runs, and the last answer."""
-    times, start = [], time.perf_counter()
-    while len(times) < least or (time.perf_counter() - start < seconds and len(times) < 2000):
-        begin = time.perf_counter()
-        answer = action()
-        times.append(time.perf_counter() - begin)
-    return min(times), answer
-
-
 def peer_pair(case, folder):
     keywords = {
         "teeth": case.teeth,
@@ -133,22 +123,14 @@ def profile(case, outline):
     return flanks.profile_error(outline, curve, ALPHA, length / case.teeth, 0.5 * case.module)
 
 
-def seconds(value):
-    return f"{value * 1e3:.2f} ms" if value < 1 else f"{value:.2f} s"
-
-
-def times(theirs, ours):
-    return f"{theirs / ours:.3g} x"
-
-
 def number(value):
     return "-" if value is None else f"{value:.1e}"
 
 
 def compare(case):
     with tempfile.TemporaryDirectory() as folder:
-        theirs, pair = best(lambda: peer_pair(case, folder), least=2, seconds=0)
-        their_command, _ = best(lambda: peer_command(case, folder), least=1, seconds=0)
+        theirs, pair = best(lambda: peer_pair(case, folder), least=2, span=0)
+        their_command, _ = best(lambda: peer_command(case, folder), least=1, span=0)
         their_vertices = vertices(f"{folder}/pair.dxf")
         ours, (our, report) = best(lambda: our_pair(case))
         our_whole, out = best(lambda: our_command(case, folder))

@@ -124,15 +124,16 @@ def plot(rows, law, speed, path):
     from matplotlib import pyplot
 
     travel, off, found = rows.T
-    figure, (upper, lower) = pyplot.subplots(2, 1, sharex=True, figsize=(9.0, 6.0), layout="constrained")
-    upper.plot(np.degrees(travel), np.degrees(off), linewidth=0.8)
-    upper.set_ylabel("planet less its law, deg")
-    lower.plot(np.degrees(travel), found / speed, linewidth=0.8, label="through teeth")
-    wanted = rate(law, "planet_0_joint", travel)
-    lower.plot(np.degrees(travel), wanted, "--", color="black", linewidth=0.8, label="law")
-    lower.set_ylabel("planet's turn a turn of the carrier")
-    lower.set_xlabel("carrier's turn, deg")
-    lower.legend(loc="best")
+    figure, axes = pyplot.subplots(3, 1, sharex=True, figsize=(8.0, 8.0), layout="constrained")
+    degrees, wanted = np.degrees(travel), rate(law, "planet_0_joint", travel)
+    for ax, values, title in (
+        (axes[0], np.degrees(off), "planet less its law, deg"),
+        (axes[1], found / speed, "planet's speed over the carrier's"),
+        (axes[2], found / speed - wanted, "the same less its law"),
+    ):
+        ax.plot(degrees, values, linewidth=0.8)
+        ax.set_ylabel(title)
+    axes[2].set_xlabel("carrier's turn, deg")
     figure.savefig(path, dpi=120)
 
 
