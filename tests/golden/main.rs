@@ -9,7 +9,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use centrode_export::gear_pair::{Format, Options, files};
-use centrode_export::{Bundle, shaft, three_arm};
+use centrode_export::{Bundle, feeder, shaft, three_arm};
 use centrode_geometry::Tolerance;
 use centrode_mechanism::design::DesignFile;
 use centrode_mechanism::mechanism::Mechanism;
@@ -91,7 +91,10 @@ fn written(mechanism: &Mechanism) -> BTreeMap<String, Value> {
             let bundle = shaft::moving_box_files(machine, &Format::ALL, &coarse());
             counted(&bundle.expect("written"))
         }
-        Mechanism::Feeder(_) => BTreeMap::new(),
+        Mechanism::Feeder(machine) => {
+            let bundle = feeder::files(machine, &Format::ALL, &options).expect("written");
+            counted(&bundle)
+        }
     }
 }
 

@@ -18,7 +18,7 @@ from scipy.optimize import fsolve
 DESIGNS = Path(__file__).resolve().parents[1] / "designs"
 LENGTHS = {
     "feeder-2022": (77.0, 147.0, 127.0, 105.0, (106.83, 67.05)),
-    "feeder-widened": (59.718, 105.477, 98.497, 129.79, (84.12, 63.61)),
+    "feeder-widened": (59.718, 105.477, 98.497, 129.79, (84.118, 63.61)),
 }
 PARTS = ["frame", "crank", "coupler", "rocker", "effector", "slider"]
 JOINTS = ["crank", "coupler", "rocker", "effector"]

@@ -218,7 +218,7 @@ fn tolerance(word: &str) -> Result<Tolerance, String> {
 
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Example: centrode optimise arms.toml --method de --seed 1 --evaluations 20000 -o better.toml\n\nThe table [optimise] of the design says what may move and how far. Ctrl-C ends the search and keeps the best so far; --resume goes on from the search stored beside the output.\n\nExit status: 0 every goal is reached; 1 some are not (the file is written all the same); 2 no search, a bad design file, or the file cannot be written."
+    after_help = "Example: centrode optimise arms.toml --method de --seed 1 --evaluations 20000 -o better.toml\n\nThe table [optimise] of the design says what may move and how far. Ctrl-C ends the search and keeps the best so far; --resume goes on from the search stored beside the output. Where the bounds allow no design that reaches the goals, the search says how near they let it come; --widen then writes the design with the least widening.\n\nExit status: 0 every goal is reached; 1 some are not (the file is written all the same); 2 no search, a bad design file, or the file cannot be written."
 )]
 pub(crate) struct Optimise {
     /// Design file, or - for standard input
@@ -229,9 +229,9 @@ pub(crate) struct Optimise {
     /// Same seed, same answer, on any number of cores
     #[arg(long, default_value_t = 1)]
     pub(crate) seed: u64,
-    /// Most evaluations; the generation under way is finished
-    #[arg(long, default_value_t = 20_000)]
-    pub(crate) evaluations: u64,
+    /// Most evaluations, the generation under way is finished; left out, 20000, or what the search gone on with had
+    #[arg(long)]
+    pub(crate) evaluations: Option<u64>,
     /// Points a generation; left out, by the method and the number of parameters
     #[arg(long)]
     pub(crate) population: Option<usize>,
@@ -241,6 +241,9 @@ pub(crate) struct Optimise {
     /// Go on with the search that is stored beside the output
     #[arg(long)]
     pub(crate) resume: bool,
+    /// Instead of a search, widen the bounds of a feeder by as little as lets all its goals be reached
+    #[arg(long, conflicts_with_all = ["method", "seed", "evaluations", "population", "resume"])]
+    pub(crate) widen: bool,
     /// Print the outcome as JSON
     #[arg(long)]
     pub(crate) json: bool,

@@ -1,6 +1,7 @@
 mod interrupt;
 mod outcome;
 mod stored;
+mod widen;
 
 use std::io::Write;
 use std::ops::ControlFlow;
@@ -29,6 +30,9 @@ pub(crate) fn run(command: &Optimise, out: &mut impl Write) -> Result<ExitCode, 
     let file = source.design()?;
     // A design that gives no mechanism is told as by a check.
     file.mechanism().map_err(|error| source.blame(error))?;
+    if command.widen {
+        return widen::run(command, file.design(), &source.text()?, out);
+    }
     let problem = problem_of(file.design()).map_err(|e| Failure::Usage(e.to_string()))?;
     let problem = problem.as_ref();
     let stored = Stored::beside(&command.output);
@@ -40,7 +44,9 @@ pub(crate) fn run(command: &Optimise, out: &mut impl Write) -> Result<ExitCode, 
                 format!("{name} is the search of another design: parameters or bounds differ");
             return Err(Failure::Usage(other));
         }
-        search.extend(command.evaluations);
+        if let Some(evaluations) = command.evaluations {
+            search.allow(evaluations);
+        }
         search
     } else {
         let strategy = Strategy::NAMES
@@ -52,16 +58,17 @@ pub(crate) fn run(command: &Optimise, out: &mut impl Write) -> Result<ExitCode, 
                 command.method
             )));
         };
+        let usual = Settings::default();
         let settings = Settings {
             seed: command.seed,
             population: command.population,
-            evaluations: command.evaluations,
-            ..Settings::default()
+            evaluations: command.evaluations.unwrap_or(usual.evaluations),
+            ..usual
         };
         DesignSearch::new(problem, strategy, settings).map_err(|e| Failure::Usage(e.to_string()))?
     };
     let text = source.text()?;
-    let (ended, seconds) = watched(command, problem, &mut search, &stored)?;
+    let (ended, seconds) = watched(problem, &mut search, &stored)?;
     let best = search.best();
     stored.write_design(&better(&text, problem, &best)?)?;
     stored.write(&search)?;
@@ -77,13 +84,12 @@ pub(crate) fn run(command: &Optimise, out: &mut impl Write) -> Result<ExitCode, 
 
 /// Runs the search with a bar on the terminal; Ctrl-C ends it.
 fn watched(
-    command: &Optimise,
     problem: &dyn DesignProblem,
     search: &mut DesignSearch,
     stored: &Stored,
 ) -> Result<(Ended, f64), Failure> {
     let interrupt = Interrupt::watch().map_err(Failure::Serve)?;
-    let bar = ProgressBar::with_draw_target(Some(command.evaluations), target());
+    let bar = ProgressBar::with_draw_target(Some(search.allowed()), target());
     let style = "{bar:24} {pos}/{len} {msg} {elapsed}, {eta} to go";
     if let Ok(style) = ProgressStyle::with_template(style) {
         bar.set_style(style);

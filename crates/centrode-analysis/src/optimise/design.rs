@@ -2,6 +2,7 @@ use centrode_mechanism::design::Design;
 use centrode_mechanism::three_arm::SweepError;
 
 use super::Problem;
+use super::feeder::FeederProblem;
 use super::three_arm::ThreeArmProblem;
 use crate::Goal;
 
@@ -16,14 +17,12 @@ pub struct Variable {
     pub bounds: [f64; 2],
     /// True for an angle, in rad, and in degrees in the file.
     pub is_angle: bool,
+    /// Decimals of its values in the file, degrees or mm: the file then holds what was evaluated.
+    pub decimals: u32,
 }
 
-/// Finest step of a variable: a thousandth of a degree, or of a millimetre. A file then holds what was evaluated, and
-/// a machinist can read it.
-const STEP: f64 = 1e-3;
-
 impl Variable {
-    /// The value in the file's unit, on the grid of the finest step.
+    /// The value in the file's unit, to its decimals.
     #[must_use]
     pub fn written(&self, value: f64) -> f64 {
         let value = if self.is_angle {
@@ -31,11 +30,12 @@ impl Variable {
         } else {
             value
         };
-        // Divided, not multiplied: the nearest number to three decimals.
-        (value / STEP).round() / STEP.recip()
+        let grid = 10_f64.powi(self.decimals as i32);
+        // Divided by the whole number: the nearest number to so many decimals.
+        (value * grid).round() / grid
     }
 
-    /// The value on the grid of the finest step, rad or mm.
+    /// The value as the file gives it back, rad or mm.
     #[must_use]
     pub fn rounded(&self, value: f64) -> f64 {
         let written = self.written(value);
@@ -65,6 +65,17 @@ pub trait DesignProblem: Problem {
     /// The goals at a point as a guide needs them: smooth figures, which may be nearer or farther than those of
     /// [`DesignProblem::goals`] but are met only where those are.
     fn guides(&self, point: &[f64]) -> Option<Vec<Goal>>;
+
+    /// The objective at which a point that breaks no constraint is good enough; none where less is always better.
+    fn target(&self) -> Option<f64> {
+        None
+    }
+
+    /// What the problem itself says of a point at which a search has ended: why no better one can be had, or why it
+    /// says little.
+    fn remark(&self, _point: &[f64]) -> Option<String> {
+        None
+    }
 }
 
 /// Why there is no search for a better design.
@@ -86,6 +97,7 @@ pub enum NotSearched {
 pub fn problem_of(design: &Design) -> Result<Box<dyn DesignProblem + Send>, NotSearched> {
     match design {
         Design::ThreeArm(design) => Ok(Box::new(ThreeArmProblem::new(design)?)),
+        Design::Feeder(design) => Ok(Box::new(FeederProblem::new(design))),
         _ => Err(NotSearched::Family),
     }
 }

@@ -47,7 +47,8 @@ fn variables(problem: &dyn DesignProblem) -> Vec<(String, [f64; 2])> {
 }
 
 impl DesignSearch {
-    /// A search from the problem's start. The method of the settings is not looked at.
+    /// A search from the problem's start. The method of the settings is not looked at; without a target the problem's
+    /// own holds.
     ///
     /// # Errors
     /// [`SearchError`] where there is nothing to search.
@@ -61,10 +62,15 @@ impl DesignSearch {
                 return Err(SearchError::NoVariable);
             }
             Strategy::Guided => State::Guided(Box::new(GuidedSearch::new(problem))),
-            Strategy::Global(method) => State::Global(Box::new(Search::new(
-                problem,
-                Settings { method, ..settings },
-            )?)),
+            Strategy::Global(method) => {
+                let target = settings.target.or_else(|| problem.target());
+                let settings = Settings {
+                    method,
+                    target,
+                    ..settings
+                };
+                State::Global(Box::new(Search::new(problem, settings)?))
+            }
         };
         Ok(Self {
             variables: variables(problem),
@@ -79,11 +85,17 @@ impl DesignSearch {
         self.variables == variables(problem)
     }
 
-    /// Allows more evaluations than it was made with.
-    pub fn extend(&mut self, evaluations: u64) {
-        self.evaluations = self.evaluations.max(evaluations);
+    /// Most evaluations in all.
+    #[must_use]
+    pub fn allowed(&self) -> u64 {
+        self.evaluations
+    }
+
+    /// Allows so many evaluations in all, those done among them.
+    pub fn allow(&mut self, evaluations: u64) {
+        self.evaluations = evaluations;
         if let State::Global(search) = &mut self.state {
-            search.extend(evaluations);
+            search.allow(evaluations);
         }
     }
 
@@ -117,6 +129,15 @@ impl DesignSearch {
         match &self.state {
             State::Global(search) => search.history().last().copied(),
             State::Guided(search) => Some(search.progress()),
+        }
+    }
+
+    /// The best after each generation, or after each step of a guided search.
+    #[must_use]
+    pub fn history(&self) -> &[Progress] {
+        match &self.state {
+            State::Global(search) => search.history(),
+            State::Guided(search) => search.history(),
         }
     }
 

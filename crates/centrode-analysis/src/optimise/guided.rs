@@ -71,6 +71,8 @@ pub struct GuidedSearch {
     evaluations: u64,
     misses: Vec<f64>,
     log: Vec<GuidedStep>,
+    #[serde(default)]
+    history: Vec<Progress>,
 }
 
 /// What a look at a point tells: the goals, and by what share of its scale each is missed.
@@ -127,6 +129,7 @@ impl GuidedSearch {
             evaluations: 0,
             misses: Vec::new(),
             log: Vec::new(),
+            history: Vec::new(),
         }
     }
 
@@ -140,6 +143,12 @@ impl GuidedSearch {
     #[must_use]
     pub fn log(&self) -> &[GuidedStep] {
         &self.log
+    }
+
+    /// How far it was at the start and after each step.
+    #[must_use]
+    pub fn history(&self) -> &[Progress] {
+        &self.history
     }
 
     /// Looks at points made.
@@ -170,6 +179,10 @@ impl GuidedSearch {
             return Ended::Stuck;
         };
         self.evaluations += 1;
+        if self.history.is_empty() {
+            self.misses.clone_from(&seen.misses);
+            self.history.push(self.progress());
+        }
         loop {
             let before = self.log.len();
             for goal in 0..seen.goals.len() {
@@ -187,6 +200,8 @@ impl GuidedSearch {
                             self.record(problem, &seen, &trial, goal, helpful);
                             self.point = trial.point;
                             seen = trial.seen;
+                            self.misses.clone_from(&seen.misses);
+                            self.history.push(self.progress());
                         }
                         None => step *= 0.5,
                     }

@@ -9,6 +9,7 @@ mod cma_es;
 mod design;
 mod design_search;
 mod differential_evolution;
+pub mod feeder;
 mod genetic;
 mod guided;
 mod problem;

@@ -246,9 +246,9 @@ impl Search {
         }
     }
 
-    /// Allows more evaluations than the settings did.
-    pub fn extend(&mut self, evaluations: u64) {
-        self.settings.evaluations = self.settings.evaluations.max(evaluations);
+    /// Allows so many evaluations in all, those done among them.
+    pub fn allow(&mut self, evaluations: u64) {
+        self.settings.evaluations = evaluations;
     }
 
     fn take_in(&mut self, points: &[Candidate]) {

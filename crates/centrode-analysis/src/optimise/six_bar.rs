@@ -1,7 +1,7 @@
 //! The picking six-bar's dimensions: Ye et al. 2022, DOI 10.6041/j.issn.1000-1298.2022.05.010,
 //! objective (14) and constraints (15) to (18).
 
-use std::f64::consts::{FRAC_PI_2, PI};
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use centrode_geometry::Point;
 use centrode_mechanism::linkage::{Branch, FourBar, SixBar};
@@ -50,6 +50,32 @@ pub struct WantedSwing {
     pub least_transmission_angle: Option<f64>,
 }
 
+impl WantedSwing {
+    /// What lengths about a pivot are worth, and the six-bar, if there is one.
+    pub(super) fn judged(&self, lengths: &[f64], pivot: Point) -> (Evaluation, Option<SixBar>) {
+        let mut constraints = vec![not_crank_rocker(lengths)];
+        let six_bar = four_bar(lengths, self.branch).and_then(|f| SixBar::new(f, pivot, 1.0).ok());
+        let Some(bar) = six_bar else {
+            // Lengths that are a crank-rocker fail only with the pivot on the slider's path.
+            constraints[0] = 1.0 + constraints[0].max(0.0);
+            let nothing = Evaluation {
+                // A swing misses by less; a number, so that a search can be stored.
+                objective: TAU,
+                constraints,
+            };
+            return (nothing, None);
+        };
+        if let Some(wanted) = self.least_transmission_angle {
+            constraints.push(wanted - bar.four_bar().least_transmission_angle());
+        }
+        let evaluation = Evaluation {
+            objective: (bar.swing() - self.swing).abs(),
+            constraints,
+        };
+        (evaluation, six_bar)
+    }
+}
+
 impl Problem for WantedSwing {
     fn bounds(&self) -> Vec<(f64, f64)> {
         self.bounds.to_vec()
@@ -57,24 +83,7 @@ impl Problem for WantedSwing {
 
     /// The objective is the swing's distance from the wanted one, rad.
     fn evaluate(&self, point: &[f64]) -> Evaluation {
-        let mut constraints = vec![not_crank_rocker(point)];
-        let six_bar =
-            four_bar(point, self.branch).and_then(|f| SixBar::new(f, self.pivot, 1.0).ok());
-        let Some(six_bar) = six_bar else {
-            // Lengths that are a crank-rocker fail only with the pivot on the slider's path.
-            constraints[0] = 1.0 + constraints[0].max(0.0);
-            return Evaluation {
-                objective: f64::INFINITY,
-                constraints,
-            };
-        };
-        if let Some(wanted) = self.least_transmission_angle {
-            constraints.push(wanted - six_bar.four_bar().least_transmission_angle());
-        }
-        Evaluation {
-            objective: (six_bar.swing() - self.swing).abs(),
-            constraints,
-        }
+        self.judged(point, self.pivot).0
     }
 
     fn is_costly(&self) -> bool {

@@ -127,7 +127,7 @@ impl From<MovingBoxDesign> for Design {
 
 impl Family for FeederDesign {
     const TABLES: &'static [&'static str] = &[
-        "linkage", "bounds", "goals", "drive", "gears", "plates", "making", "drawing",
+        "linkage", "bounds", "goals", "drive", "gears", "plates", "making", "optimise", "drawing",
     ];
     const TAGGED: &'static [Tagged] = &[];
 

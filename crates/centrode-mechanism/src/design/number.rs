@@ -1,5 +1,6 @@
 use super::fault::nearest;
 use super::{Design, DesignError, DesignFault};
+use crate::feeder::Dimension;
 use crate::three_arm::Parameter;
 
 /// A design with one of its numbers open.
@@ -22,10 +23,11 @@ impl Design {
     #[must_use]
     pub fn key_of(&self, word: &str) -> String {
         let named = match self {
-            Self::ThreeArm(_) => word.parse::<Parameter>().ok(),
+            Self::ThreeArm(_) => word.parse().ok().map(Parameter::key),
+            Self::Feeder(_) => word.parse().ok().map(|d: Dimension| d.key().to_owned()),
             _ => None,
         };
-        named.map_or_else(|| word.to_owned(), Parameter::key)
+        named.unwrap_or_else(|| word.to_owned())
     }
 
     /// The design with the number at a key of its file open, `arm.tip_distance` or `pitch.radius[3]`.

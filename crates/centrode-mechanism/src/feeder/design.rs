@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{GearsSpec, PlatesSpec};
+use super::{DimensionSearchSpec, GearsSpec, PlatesSpec};
 use crate::degrees;
 use crate::design::DrawingSpec;
 use crate::gear::design::rule::{Rule, broken, finite, line, name, not_negative, positive, within};
@@ -40,6 +40,9 @@ pub struct FeederDesign {
     /// How exactly the links are made.
     #[serde(default)]
     pub making: MakingSpec,
+    /// What a search may move.
+    #[serde(default, skip_serializing_if = "DimensionSearchSpec::is_default")]
+    pub optimise: DimensionSearchSpec,
     /// The drawing sheets.
     #[serde(default, skip_serializing_if = "DrawingSpec::is_default")]
     pub drawing: DrawingSpec,
@@ -231,6 +234,7 @@ impl FeederDesign {
             gears: GearsSpec::default(),
             plates: PlatesSpec::default(),
             making: MakingSpec::default(),
+            optimise: DimensionSearchSpec::default(),
             drawing: DrawingSpec::default(),
         }
     }
@@ -271,6 +275,7 @@ impl FeederDesign {
         self.plates.validate().map_err(|e| e.inside("plates"))?;
         not_negative("making.length_tolerance", self.making.length_tolerance)?;
         not_negative("making.pivot_tolerance", self.making.pivot_tolerance)?;
+        self.optimise.validate().map_err(|e| e.inside("optimise"))?;
         self.drawing.validate().map_err(|e| e.inside("drawing"))
     }
 }

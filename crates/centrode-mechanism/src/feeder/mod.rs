@@ -5,10 +5,12 @@
 //! mechanism of automatic feeding device for cutting willows", 2022, DOI 10.6041/j.issn.1000-1298.2022.05.010.
 
 mod design;
+mod dimension;
 mod error;
 mod gears;
 mod parts;
 mod plates;
+mod search;
 
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
@@ -16,10 +18,12 @@ use std::sync::Arc;
 use centrode_geometry::{Point, bracketed_minimum, bracketed_root};
 
 pub use design::{BoundsSpec, DriveSpec, FeederDesign, FeederGoals, LinkageSpec, MakingSpec};
+pub use dimension::{Dimension, UnknownDimension};
 pub use error::FeederError;
 pub use gears::GearsSpec;
 pub use parts::{JointPositions, Part, Plate, PlateJoint};
 pub use plates::PlatesSpec;
+pub use search::DimensionSearchSpec;
 
 use crate::gear::{IncompleteDrive, IncompletePair};
 use crate::linkage::{FourBar, SixBar};

@@ -16,6 +16,8 @@ pub(super) struct Outcome<'a> {
     before: Vec<Goal>,
     after: Vec<Goal>,
     steps: &'a [GuidedStep],
+    #[serde(skip_serializing_if = "Option::is_none")]
+    remark: Option<String>,
 }
 
 /// A parameter's way, in the file's unit.
@@ -54,6 +56,7 @@ impl<'a> Outcome<'a> {
             before: problem.goals(&start).unwrap_or_default(),
             after: problem.goals(best).unwrap_or_default(),
             steps: search.log(),
+            remark: problem.remark(best),
         }
     }
 
@@ -75,7 +78,8 @@ impl<'a> Outcome<'a> {
             writeln!(out)?;
         }
         let how = match self.ended {
-            Ended::Target => "every goal is reached",
+            Ended::Target if self.reached() => "every goal is reached",
+            Ended::Target => "as good as asked for",
             Ended::Evaluations => "the evaluations are used up",
             Ended::Stopped => "stopped",
             Ended::Stuck => "no step helps any more",
@@ -87,6 +91,9 @@ impl<'a> Outcome<'a> {
             self.seconds,
             evaluations as f64 / self.seconds.max(1e-9)
         )?;
+        if let Some(remark) = &self.remark {
+            writeln!(out, "{remark}")?;
+        }
         writeln!(out, "\n{:40} {:>12} {:>12}", "Goals", "before", "after")?;
         for goal in &self.after {
             let words = goal_words(goal);

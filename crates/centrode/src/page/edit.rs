@@ -25,6 +25,14 @@ impl Edit {
             },
         }
     }
+
+    /// A list of numbers for a key.
+    pub(crate) fn list(key: &str, values: &[f64]) -> Self {
+        Self {
+            key: key.into(),
+            value: values.into(),
+        }
+    }
 }
 
 /// Why an edit cannot be made.

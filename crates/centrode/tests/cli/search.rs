@@ -145,3 +145,141 @@ fn a_response_is_told_as_table_and_written_as_csv() {
     strange.extend(["--of", "nothing"]);
     assert!(text(&centrode(&strange).stderr).contains("no figure \"nothing\""));
 }
+
+#[test]
+fn a_feeder_is_searched_and_told_infeasible_with_the_best_attainable() {
+    let folder = tempfile::tempdir().expect("a place to write");
+    let file = |name: &str| folder.path().join(name).display().to_string();
+    let published = shipped("feeder-2022.toml");
+    let words = |from: &str, to: &str| {
+        let found = centrode(&["optimise", from, "--method", "de", "--seed", "1", "-o", to]);
+        (found.status.code(), text(&found.stdout))
+    };
+    let (code, told) = words(&published, &file("best.toml"));
+    assert_eq!(code, Some(1), "{told}");
+    for line in [
+        "infeasible: no lengths within the bounds reach more than 12.312 deg",
+        "must be widened by 22.443 %",
+    ] {
+        assert!(told.contains(line), "{line} in {told}");
+    }
+    // Without constraint (16), half a turn is reached within a millionth of a degree, and the file says it.
+    let without = fs::read_to_string(&published).expect("shipped");
+    let without = without.replace("transmission_angle_deg = 40", "transmission_angle_deg = 0");
+    fs::write(
+        file("without.toml"),
+        without.replace("crank = 77\n", "crank = 78.5\n"),
+    )
+    .expect("written");
+    let (code, told) = words(&file("without.toml"), &file("half-turn.toml"));
+    assert_eq!(code, Some(0), "{told}");
+    assert!(told.contains("every goal is reached"), "{told}");
+    let json = centrode(&["check", &file("half-turn.toml"), "--json"]);
+    let report: serde_json::Value = serde_json::from_slice(&json.stdout).expect("JSON");
+    let swing = report["values"]["swing"].as_f64().expect("a figure");
+    assert!((swing.to_degrees() - 180.0).abs() < 1e-6, "{swing}");
+    assert!(folder.path().join("half-turn.search.json").exists());
+}
+
+#[test]
+fn the_least_widening_is_written_as_shipped() {
+    let folder = tempfile::tempdir().expect("a place to write");
+    let to = folder.path().join("widened.toml").display().to_string();
+    let published = shipped("feeder-2022.toml");
+    let found = centrode(&["optimise", &published, "--widen", "-o", &to]);
+    let told = text(&found.stdout);
+    assert_eq!(found.status.code(), Some(0), "{}", text(&found.stderr));
+    assert!(told.contains("bounds widened by 22.4432 %"), "{told}");
+    let numbers = |path: &str| {
+        let written = fs::read_to_string(path).expect("written");
+        let root: toml_edit::DocumentMut = written.parse().expect("TOML");
+        let of = |table: &str| root[table].to_string();
+        [of("linkage"), of("bounds")]
+    };
+    assert_eq!(numbers(&to), numbers(&shipped("feeder-widened.toml")));
+    for (design, why) in [
+        (shipped("feeder-widened.toml"), "need not be widened"),
+        (shipped("circular-pair.toml"), "only the bounds of a feeder"),
+    ] {
+        let refused = centrode(&["optimise", &design, "--widen", "-o", &to]);
+        assert_eq!(refused.status.code(), Some(2));
+        assert!(text(&refused.stderr).contains(why));
+    }
+}
+
+/// Whether a process of this number catches Ctrl-C.
+#[cfg(target_os = "linux")]
+fn catches_interrupt(id: u32) -> bool {
+    let status = fs::read_to_string(format!("/proc/{id}/status")).unwrap_or_default();
+    let caught = status.lines().find_map(|l| l.strip_prefix("SigCgt:"));
+    let mask = caught.and_then(|hex| u64::from_str_radix(hex.trim(), 16).ok());
+    // Signals are counted from one, and this is the second.
+    mask.is_some_and(|mask| mask & 2 != 0)
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn ctrl_c_ends_a_search_and_keeps_the_best_so_far() {
+    use std::process::{Command, Stdio};
+    use std::time::{Duration, Instant};
+
+    let folder = tempfile::tempdir().expect("a place to write");
+    let to = folder.path().join("best.toml").display().to_string();
+    let published = shipped("feeder-2022.toml");
+    let words = ["optimise", &published, "--method", "de", "-o", &to];
+    let endless = ["--evaluations", "1000000000000"];
+    let child = Command::new(env!("CARGO_BIN_EXE_centrode"))
+        .args(words)
+        .args(endless)
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("runs");
+    let id = child.id();
+    let begun = Instant::now();
+    while !catches_interrupt(id) {
+        assert!(begun.elapsed() < Duration::from_secs(60), "never listens");
+        std::thread::sleep(Duration::from_millis(20));
+    }
+    std::thread::sleep(Duration::from_millis(200));
+    let sent = Command::new("kill")
+        .args(["-INT", &id.to_string()])
+        .status();
+    assert!(sent.expect("kill is there").success());
+    let ended = child.wait_with_output().expect("ends");
+    let told = text(&ended.stdout);
+    assert_eq!(
+        ended.status.code(),
+        Some(1),
+        "{told}{}",
+        text(&ended.stderr)
+    );
+    assert!(
+        told.contains("; stopped") && told.contains("infeasible"),
+        "{told}"
+    );
+    // What is kept is better than the start, a design, and a search to go on with.
+    let json = centrode(&["check", &to, "--json"]);
+    let report: serde_json::Value = serde_json::from_slice(&json.stdout).expect("JSON");
+    let angle = report["values"]["transmission_angle_min"]
+        .as_f64()
+        .expect("a figure");
+    assert!(angle.to_degrees() > 10.0, "{angle}");
+    let stored = fs::read_to_string(folder.path().join("best.search.json")).expect("stored");
+    let stored: serde_json::Value = serde_json::from_str(&stored).expect("JSON");
+    let history = stored["state"]["Global"]["history"]
+        .as_array()
+        .expect("there");
+    let done = history.last().expect("a generation")["evaluations"]
+        .as_u64()
+        .expect("a count");
+    let more = (done + 400).to_string();
+    let mut resumed = words.to_vec();
+    resumed.extend(["--evaluations", &more, "--resume", "--json"]);
+    let told: serde_json::Value = serde_json::from_slice(&centrode(&resumed).stdout).expect("JSON");
+    let gone = told["progress"]["evaluations"].as_u64().expect("a count");
+    assert!(
+        (done + 400..done + 800).contains(&gone),
+        "{gone} after {done}"
+    );
+}

@@ -13,6 +13,8 @@ use super::{DesignProblem, Evaluation, Problem, Variable};
 use crate::three_arm::{goals, reached};
 use crate::{ArmClearance, Goal};
 
+/// Decimals of the parameters found, degrees or mm: what a machinist reads.
+const DECIMALS: u32 = 3;
 /// Inputs at which the tip's path is looked at before its extremes are sharpened.
 const INPUTS: usize = 120;
 /// What an unsound flank adds to the violation.
@@ -56,6 +58,7 @@ impl ThreeArmProblem {
             key: parameter.key(),
             bounds,
             is_angle: parameter.is_angle(),
+            decimals: DECIMALS,
         };
         Ok(Self {
             start: design.clone(),

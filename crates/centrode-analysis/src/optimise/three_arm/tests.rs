@@ -121,6 +121,7 @@ fn values_are_written_on_a_grid() {
         key: "bend_deg".into(),
         bounds: [-1.0, 0.0],
         is_angle: true,
+        decimals: 3,
     };
     assert_eq!(variable.written(-53.123_456_f64.to_radians()), -53.123);
     assert_eq!(
@@ -226,7 +227,7 @@ fn a_search_is_the_same_on_any_number_of_cores_and_goes_on_from_its_file() {
     let text = serde_json::to_string(&part).expect("a search in JSON");
     let mut part: DesignSearch = serde_json::from_str(&text).expect("the search again");
     assert!(part.is_of(&problem));
-    part.extend(400);
+    part.allow(400);
     part.run(&problem, &mut |_| ControlFlow::Continue(()));
     assert_eq!(part.best(), whole.best().point);
 }

@@ -1,0 +1,91 @@
+use std::f64::consts::FRAC_PI_2;
+use std::fmt;
+use std::ops::ControlFlow;
+
+use centrode_mechanism::feeder::FeederDesign;
+
+use crate::optimise::six_bar::{BestTransmissionAngle, LeastWidening, Lengths};
+use crate::optimise::{Candidate, Method, Problem, Settings, minimise};
+
+/// Evaluations of the search for the best attainable transmission angle.
+const ATTAINABLE: u64 = 20_000;
+/// Evaluations of the search for the least widening of the bounds.
+const WIDENING: u64 = 40_000;
+
+/// What the bounds of a feeder's lengths allow of its least transmission angle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Attainable {
+    /// Greatest least transmission angle of any crank-rocker within the bounds, rad.
+    pub transmission_angle: f64,
+    /// Its crank, coupler, rocker and frame, mm.
+    pub lengths: [f64; 4],
+    /// Share by which all bounds must be widened for the angle wanted; none where they need not.
+    pub widening: Option<f64>,
+    /// Crank, coupler, rocker and frame then, mm.
+    pub widened_lengths: [f64; 4],
+}
+
+impl Attainable {
+    /// Searches the bounds of a design's lengths, the same ones always found alike.
+    ///
+    /// None where the bounds hold no crank-rocker, or none is found that would do.
+    #[must_use]
+    pub fn of(design: &FeederDesign) -> Option<Self> {
+        let bounds: Lengths = design.bounds.named().map(|(_, [a, b])| (a, b));
+        let wanted = design.goals.transmission_angle;
+        let best = search(&BestTransmissionAngle { bounds }, ATTAINABLE)?;
+        let lengths = best.point.clone().try_into().ok()?;
+        let transmission_angle = FRAC_PI_2 - best.evaluation.objective;
+        if transmission_angle >= wanted {
+            return Some(Self {
+                transmission_angle,
+                lengths,
+                widening: None,
+                widened_lengths: lengths,
+            });
+        }
+        let problem = LeastWidening {
+            bounds,
+            least_transmission_angle: wanted,
+        };
+        let least = search(&problem, WIDENING)?;
+        Some(Self {
+            transmission_angle,
+            lengths,
+            widening: Some(least.evaluation.objective),
+            widened_lengths: problem.lengths(&least.point).try_into().ok()?,
+        })
+    }
+}
+
+fn search(problem: &dyn Problem, evaluations: u64) -> Option<Candidate> {
+    let settings = Settings {
+        method: Method::DifferentialEvolution,
+        evaluations,
+        ..Settings::default()
+    };
+    let found = minimise(problem, settings, &mut |_| ControlFlow::Continue(())).ok()?;
+    let best = found.0.best();
+    best.evaluation.feasible().then_some(best)
+}
+
+impl fmt::Display for Attainable {
+    /// How far the bounds let the transmission angle come.
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let best = self.transmission_angle.to_degrees();
+        let words = |lengths: [f64; 4]| lengths.map(|l| format!("{l:.3}")).join(", ");
+        let at = words(self.lengths);
+        let Some(widening) = self.widening else {
+            return write!(
+                out,
+                "within the bounds up to {best:.4} deg can be had, at {at} mm"
+            );
+        };
+        write!(
+            out,
+            "no lengths within the bounds reach more than {best:.3} deg (at {at} mm): the bounds contradict the goal, and must be widened by {:.3} % to hold both (then {} mm)",
+            100.0 * widening,
+            words(self.widened_lengths)
+        )
+    }
+}

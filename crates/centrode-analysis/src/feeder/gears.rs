@@ -1,0 +1,88 @@
+use centrode_geometry::Tolerance;
+use centrode_mechanism::feeder::Feeder;
+
+use crate::{Finding, IncompleteContact, Place, Report, Severity};
+
+/// Inputs at which the incomplete gears are held against each other.
+const GEAR_LOOKS: u32 = 240;
+/// Distance of their contours from the polygons looked at, in modules.
+const CONTOUR: f64 = 1e-4;
+/// Overlap above which they do not run, in modules.
+const OVERLAP: f64 = 1e-3;
+/// Play above which they are loose, as a multiple of the play asked for.
+const LOOSE: f64 = 2.0;
+
+/// Whether the incomplete gears can be cut, and hold the crank all the way: none of it overlaps, and the crank is
+/// free by no more than the play asked for.
+pub(super) fn gears(feeder: &Feeder, report: &mut Report) {
+    let about_gears =
+        |rule, severity, message, [measured, required]: [Option<f64>; 2], unit| Finding {
+            rule,
+            severity,
+            message,
+            measured,
+            required,
+            unit,
+            remedy: None,
+            place: Place {
+                part: Some("gears".into()),
+                ..Place::default()
+            },
+        };
+    let spec = &feeder.design().gears;
+    let cut = feeder.gears();
+    let pair = match cut {
+        Ok(pair) => pair,
+        Err(error) => {
+            let message = error.to_string();
+            let none = [None, None];
+            let finding = about_gears("no-gears", Severity::Error, message, none, "");
+            report.findings.push(finding);
+            return;
+        }
+    };
+    let Ok(tolerance) = Tolerance::new(CONTOUR * spec.module) else {
+        return;
+    };
+    let contact = IncompleteContact::of(&pair, GEAR_LOOKS, tolerance);
+    let most = |moving| {
+        let [ahead, back] = [&contact.ahead, &contact.back];
+        contact
+            .greatest(ahead, moving)
+            .max(contact.greatest(back, moving))
+    };
+    let (moving, resting, overlap) = (most(true), most(false), contact.deepest());
+    let values = &mut report.values;
+    values.insert("gear_center_distance", pair.center_distance());
+    values.insert("gear_teeth", f64::from(pair.teeth()));
+    values.insert("gear_lock_radius", pair.lock_radius());
+    values.insert("gear_play_moving_max", moving);
+    values.insert("gear_play_resting_max", resting);
+    values.insert("gear_overlap_max", overlap);
+    let limit = OVERLAP * spec.module;
+    if overlap > limit {
+        let message = format!("the incomplete gears overlap by {overlap:.4} mm");
+        let figures = [Some(overlap), Some(limit)];
+        report.findings.push(about_gears(
+            "gears-overlap",
+            Severity::Error,
+            message,
+            figures,
+            "mm",
+        ));
+    }
+    let loose = moving.max(resting);
+    let pitch = 0.5 * spec.module * f64::from(spec.driven_pitches);
+    let allowed = LOOSE * (0.5 * spec.backlash / pitch).max(pair.locked_play()) + 1e-4;
+    if loose > allowed {
+        let message = format!(
+            "the incomplete gears leave the crank free by {:.3} deg",
+            loose.to_degrees()
+        );
+        let figures = [Some(loose), Some(allowed)];
+        let mut finding = about_gears("gears-loose", Severity::Warning, message, figures, "rad");
+        finding.remedy =
+            Some("an entry angle, for which cams are made, or pins nearer the line of centres");
+        report.findings.push(finding);
+    }
+}

@@ -1,0 +1,161 @@
+use std::f64::consts::{PI, TAU};
+
+use centrode_mechanism::feeder::{Feeder, FeederGoals};
+use centrode_mechanism::linkage::SixBar;
+
+use super::Attainable;
+use crate::{Finding, Goal, Place, Report, Severity};
+
+/// Crank angle of the feed stroke, rad.
+pub(crate) fn feed_stroke(six_bar: &SixBar) -> f64 {
+    let extremes = six_bar.extremes();
+    let one = (extremes.high.0 - extremes.low.0).rem_euclid(TAU);
+    one.max(TAU - one)
+}
+
+/// Every goal with its figure, in the order of their numbers.
+pub(crate) fn goals(feeder: &Feeder) -> Vec<Goal> {
+    let FeederGoals {
+        swing,
+        swing_tolerance,
+        transmission_angle,
+        quick_return,
+        feed_rate,
+        pushing_time,
+    } = feeder.design().goals;
+    let (six_bar, bar) = (feeder.six_bar(), feeder.six_bar().four_bar());
+    let least = |about, value, wanted, unit, scale| {
+        Goal::new(about, Some(value), [Some(wanted), None], unit, scale)
+    };
+    let size = |wanted: f64| if wanted > 0.0 { wanted } else { 1.0 };
+    let mut goals = vec![
+        Goal::new(
+            (1, "swing", "swing of the effector"),
+            Some(six_bar.swing()),
+            [Some(swing - swing_tolerance), Some(swing + swing_tolerance)],
+            "rad",
+            swing_tolerance,
+        ),
+        least(
+            (2, "crank-rocker", "crank turns: Grashof's margin"),
+            bar.grashof_margin(),
+            0.0,
+            "mm",
+            bar.lengths()[0],
+        ),
+        least(
+            (3, "transmission-angle", "least transmission angle"),
+            bar.least_transmission_angle(),
+            transmission_angle,
+            "rad",
+            size(transmission_angle),
+        ),
+    ];
+    let names = [
+        ("crank-bounds", "crank within its bounds"),
+        ("coupler-bounds", "coupler within its bounds"),
+        ("rocker-bounds", "rocker within its bounds"),
+        ("frame-bounds", "frame within its bounds"),
+    ];
+    let bounds = feeder.design().bounds.named();
+    for ((length, (_, [low, high])), (name, title)) in
+        bar.lengths().into_iter().zip(bounds).zip(names)
+    {
+        let wanted = [Some(low), Some(high)];
+        let goal = Goal::new((4, name, title), Some(length), wanted, "mm", high - low);
+        goals.push(goal);
+    }
+    goals.extend([
+        least(
+            (5, "quick-return", "crank turns for the feed stroke"),
+            feed_stroke(six_bar),
+            TAU * quick_return / (1.0 + quick_return),
+            "rad",
+            PI,
+        ),
+        least(
+            (6, "feed-rate", "cuttings a minute"),
+            feeder.feed_rate(),
+            feed_rate,
+            "1/min",
+            size(feed_rate),
+        ),
+        least(
+            (7, "dwell", "effector rests while it is filled"),
+            feeder.dwell_time(),
+            pushing_time,
+            "s",
+            size(pushing_time),
+        ),
+    ]);
+    goals
+}
+
+/// A finding for each goal that is missed.
+pub(super) fn unmet(feeder: &Feeder, report: &mut Report) {
+    let missed: Vec<Goal> = report
+        .goals
+        .iter()
+        .filter(|goal| goal.met() == Some(false))
+        .cloned()
+        .collect();
+    for goal in missed {
+        let (Some(value), Some(margin)) = (goal.value, goal.margin) else {
+            continue;
+        };
+        let shown = |x: f64| match goal.unit {
+            "rad" => format!("{:.4} deg", x.to_degrees()),
+            unit => format!("{x:.4} {unit}"),
+        };
+        let mut message = format!(
+            "{}: {}, missed by {}",
+            goal.title,
+            shown(value),
+            shown(-margin)
+        );
+        if goal.name == "transmission-angle" {
+            message += &attainable(feeder, report);
+        }
+        let required = match goal.wanted {
+            [Some(least), _] if value < least => Some(least),
+            [_, greatest] => greatest,
+        };
+        report.findings.push(Finding {
+            rule: goal.name,
+            severity: Severity::Error,
+            message,
+            measured: Some(value),
+            required,
+            unit: if matches!(goal.unit, "rad" | "mm") {
+                goal.unit
+            } else {
+                ""
+            },
+            remedy: remedy(goal.name),
+            place: Place::default(),
+        });
+    }
+}
+
+/// How far the bounds let the transmission angle come, in words.
+fn attainable(feeder: &Feeder, report: &mut Report) -> String {
+    let Some(found) = Attainable::of(feeder.design()) else {
+        return "; no crank-rocker that would do was found".into();
+    };
+    let values = &mut report.values;
+    values.insert("attainable_transmission_angle", found.transmission_angle);
+    if let Some(widening) = found.widening {
+        values.insert("least_widening", widening);
+    }
+    format!("; {found}")
+}
+
+fn remedy(goal: &str) -> Option<&'static str> {
+    Some(match goal {
+        "swing" => "other lengths, or the pivot on the chord between the slider's dead centres",
+        "transmission-angle" => "a shorter crank against the other lengths",
+        "feed-rate" => "a faster motor, or more slots",
+        "dwell" => "more pitches round the driver, or a smaller entry angle",
+        _ => return None,
+    })
+}

@@ -1,0 +1,80 @@
+use super::*;
+use centrode_mechanism::feeder::{FeederDesign, LinkageSpec};
+use centrode_mechanism::linkage::Branch;
+
+fn feeder([crank, coupler, rocker, frame]: [f64; 4], pivot: [f64; 2]) -> Feeder {
+    let design = FeederDesign::new(LinkageSpec {
+        crank,
+        coupler,
+        rocker,
+        frame,
+        branch: Branch::Upper,
+        pivot,
+        effector_length: 200.0,
+    });
+    Feeder::resolve(&design).expect("resolves")
+}
+
+fn rules(report: &Report) -> Vec<&'static str> {
+    report.findings.iter().map(|f| f.rule).collect()
+}
+
+#[test]
+fn the_published_bounds_contradict_the_published_transmission_angle() {
+    let feeder = feeder([77.0, 147.0, 127.0, 105.0], [106.83, 67.05]);
+    let report = check_feeder(&feeder);
+    assert_eq!(rules(&report), ["transmission-angle", "pivot-on-chord"]);
+    let message = &report.findings[0].message;
+    for part in ["8.2243 deg", "missed by 31.7757 deg", "12.312", "22.443 %"] {
+        assert!(message.contains(part), "{part}: {message}");
+    }
+    let value = |name: &str| report.values[name];
+    assert!((value("rocker_swing").to_degrees() - 116.235_306).abs() < 5e-7);
+    assert!((value("coupler_rocker_angle_max").to_degrees() - 82.9016).abs() < 5e-5);
+    assert!((value("crank_quick_return") - 2.4015).abs() < 5e-5);
+    assert!(value("tip_speed_ends_max") < 1e-9);
+    assert!(value("quick_return") > 1.0);
+    assert!((value("feed_rate") - 55.5556).abs() < 5e-5);
+    // The times are those of the whole cycle.
+    let cycle = value("feed_time") + value("return_time") + value("dwell_time");
+    assert!((cycle - 60.0 / feeder.cycles_per_minute()).abs() < 1e-12);
+}
+
+#[test]
+fn each_goal_that_is_missed_is_found() {
+    let lengths = [77.0, 147.0, 127.0, 105.0];
+    let mut design = feeder(lengths, [106.83, 67.05]).design().clone();
+    design.goals.transmission_angle = 5_f64.to_radians();
+    let found = |change: &dyn Fn(&mut FeederDesign)| {
+        let mut design = design.clone();
+        change(&mut design);
+        rules(&check_feeder(&Feeder::resolve(&design).expect("resolves")))
+    };
+    assert_eq!(found(&|_| ()), ["pivot-on-chord"]);
+    let beside = found(&|d| d.linkage.pivot[1] = 50.0);
+    assert_eq!(beside, ["swing", "swing-spread"]);
+    assert!(found(&|d| d.bounds.crank = [78.0, 81.0]).contains(&"crank-bounds"));
+    assert!(found(&|d| d.drive.slots = 4).contains(&"feed-rate"));
+    assert!(found(&|d| d.goals.pushing_time = 1.06).contains(&"dwell"));
+    assert!(found(&|d| d.goals.quick_return = 2.5).contains(&"quick-return"));
+    assert!(found(&|d| d.making.length_tolerance = 0.5).contains(&"swing-spread"));
+    let within = found(&|d| d.goals.transmission_angle = 9_f64.to_radians());
+    assert!(within.contains(&"transmission-angle"));
+}
+
+#[test]
+fn bounds_that_allow_the_angle_need_no_widening() {
+    let mut design = feeder([77.0, 147.0, 127.0, 105.0], [106.83, 67.05])
+        .design()
+        .clone();
+    design.goals.transmission_angle = 12_f64.to_radians();
+    let found = Attainable::of(&design).expect("found");
+    assert_eq!(found.widening, None);
+    assert!((found.transmission_angle.to_degrees() - 12.312).abs() < 5e-4);
+    let report = check_feeder(&Feeder::resolve(&design).expect("resolves"));
+    assert!(
+        report.findings[0]
+            .message
+            .contains("within the bounds up to 12.31")
+    );
+}
