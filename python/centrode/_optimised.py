@@ -1,19 +1,22 @@
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Generic, TypeVar
 
 from ._goal import Goal
 
 if TYPE_CHECKING:
-    from . import ThreeArm
+    from . import Feeder, ThreeArm
+
+
+M = TypeVar("M", "ThreeArm", "Feeder", covariant=True)
 
 
 @dataclass(frozen=True, slots=True)
-class Optimised:
+class Optimised(Generic[M]):
     """What a search for a better design has come to."""
 
     __module__ = "centrode"
 
-    mechanism: "ThreeArm"
+    mechanism: M
     """The best found."""
     goals: tuple[Goal, ...]
     """Its goals, and with number 0 whatever else was kept."""
@@ -23,6 +26,10 @@ class Optimised:
     """Points looked at."""
     ended: str
     """"target", "evaluations", "stopped" or "stuck"."""
+    history: tuple[tuple[int, float, float], ...]
+    """Evaluations, violation and objective of the best after each generation, or after each guided step."""
+    remark: str | None
+    """Why no better one can be had, or why it says little; None where there is nothing to say."""
 
     @property
     def reached(self) -> bool:

@@ -5,6 +5,7 @@ Every function draws into the given axes, or into new ones, and gives back what 
 
 from __future__ import annotations
 
+import json
 from os import PathLike, fspath
 from typing import TYPE_CHECKING, Any, cast
 
@@ -13,6 +14,7 @@ import numpy as np
 from ._centrode import Feeder, Gear, GearPair, MovingBox, SixBar, SpiralShaft, ThreeArm
 from ._contact import Contact
 from ._goal import Goal
+from ._optimised import Optimised
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -22,7 +24,19 @@ if TYPE_CHECKING:
     from matplotlib.patches import PathPatch
     from numpy.typing import NDArray
 
-__all__ = ["animate", "contact", "feeder", "goals", "motion", "moving", "pair", "pivots", "response", "speed"]
+__all__ = [
+    "animate",
+    "contact",
+    "feeder",
+    "goals",
+    "history",
+    "motion",
+    "moving",
+    "pair",
+    "pivots",
+    "response",
+    "speed",
+]
 
 _DRIVER, _DRIVEN = "#3b6ea5", "#c98a2b"
 _MET, _MISSED = "#3a7d44", "#b23a48"
@@ -334,6 +348,40 @@ def pivots(of: SixBar, swing: float = np.pi, ax: Axes | None = None) -> Axes:
     ax.set(aspect="equal", xlabel="mm", ylabel="mm")
     ax.legend(loc="best")
     return ax
+
+
+def history(*searches: Optimised[Feeder] | Optimised[ThreeArm] | str | PathLike[str], ax: Axes | None = None) -> Axes:
+    """Draw how searches went: what the best so far misses its goals by, and, from where it misses none, its objective.
+
+    Args:
+        searches: What `optimise` gave, or the files `....search.json` that `centrode optimise` stores, a color each.
+        ax: Where to; new axes if left out.
+    """
+    ax = ax or _axes((8.0, 4.5))
+    for number, search in enumerate(searches):
+        name = f"search {number + 1}" if isinstance(search, Optimised) else fspath(search).rpartition("/")[2]
+        count, violation, objective = _history(search).T
+        missed = violation > 0.0
+        for color, line, values, kept in (
+            (f"C{number}", ":", violation, missed),
+            (f"C{number}", "-", objective, ~missed & (objective > 0.0)),
+        ):
+            label = f"{name}: " + ("goals missed by" if line == ":" else "objective")
+            if kept.any():
+                ax.step(count[kept], values[kept], line, where="post", color=color, label=label)
+    ax.set(yscale="log", xlabel="evaluations", ylabel="best so far")
+    ax.legend(loc="best")
+    return ax
+
+
+def _history(search: Optimised[Feeder] | Optimised[ThreeArm] | str | PathLike[str]) -> NDArray[Any]:
+    """Rows of evaluations, violation and objective."""
+    if isinstance(search, Optimised):
+        return np.array(search.history, dtype=float).reshape(-1, 3)
+    with open(search, encoding="utf-8") as file:
+        (state,) = json.load(file)["state"].values()
+    rows = [(at["evaluations"], at["violation"], at["objective"]) for at in state["history"]]
+    return np.array(rows, dtype=float).reshape(-1, 3)
 
 
 class _Part:

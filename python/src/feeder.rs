@@ -2,19 +2,26 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use centrode_analysis::check_feeder;
+use centrode_analysis::optimise::Settings;
+use centrode_analysis::optimise::feeder::Widened;
 use centrode_export::Bundle;
 use centrode_export::feeder as files;
 use centrode_mechanism::design::Design;
 use centrode_mechanism::feeder as mechanism;
-use pyo3::prelude::{Bound, Py, PyAny, PyResult, Python, pyclass, pymethods};
+use centrode_mechanism::mechanism::Mechanism;
+use pyo3::IntoPyObjectExt;
+use pyo3::prelude::{
+    Bound, Py, PyAny, PyAnyMethods, PyModule, PyResult, Python, pyclass, pymethods,
+};
 use pyo3::types::PyDict;
 
 use crate::array::{Values, each, each_array};
 use crate::bundle;
 use crate::design::Loaded;
-use crate::error::{of_design, of_feeder_files, plain_tolerance};
+use crate::error::{no_search, of_design, of_feeder_files, plain_tolerance};
 use crate::format;
 use crate::record;
+use crate::search;
 use crate::six_bar::SixBar;
 use crate::wait::wait;
 
@@ -40,6 +47,10 @@ impl PartialEq for Feeder {
 }
 
 impl Feeder {
+    fn design(&self) -> Design {
+        Design::Feeder(Box::new(self.feeder.design().clone()))
+    }
+
     fn bundle(
         &self,
         py: Python<'_>,
@@ -66,8 +77,7 @@ impl Feeder {
 
     /// The design file of the feeder; `from_toml` reads it back.
     fn to_toml(&self) -> PyResult<String> {
-        let design = Design::Feeder(Box::new(self.feeder.design().clone()));
-        design.to_toml().map_err(|e| of_design(&e))
+        self.design().to_toml().map_err(|e| of_design(&e))
     }
 
     /// Name, as written in the design.
@@ -176,6 +186,81 @@ impl Feeder {
         record::report(py, &report)
     }
 
+    /// Searches for better dimensions around this feeder; the table [optimise] of its design says what may move, and
+    /// the table [bounds] how far.
+    ///
+    /// Args:
+    ///     method: "guided", "cma-es", "de" or "ga".
+    ///     seed: Same seed, same answer, on any number of cores.
+    ///     evaluations: Most points looked at; the generation under way is finished.
+    ///     population: Points a generation; by the method if left out.
+    ///     progress: Called with evaluations, violation and objective of the best so far; False ends the search.
+    ///
+    /// >>> import centrode as ct
+    /// >>> text = ct.template("feeder").replace("transmission_angle_deg = 40", "transmission_angle_deg = 39")
+    /// >>> found = ct.Feeder.from_toml(text).optimise("de")
+    /// >>> found.ended, abs(found.mechanism.six_bar.swing - 3.141592653589793) < 2e-8
+    /// ('target', True)
+    #[pyo3(signature = (method="guided", *, seed=1, evaluations=20_000, population=None, progress=None))]
+    fn optimise<'py>(
+        &self,
+        py: Python<'py>,
+        method: &str,
+        seed: u64,
+        evaluations: u64,
+        population: Option<usize>,
+        progress: Option<Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let settings = Settings {
+            seed,
+            population,
+            evaluations,
+            ..Settings::default()
+        };
+        let best = |mechanism: &Mechanism| match mechanism {
+            Mechanism::Feeder(feeder) => {
+                let feeder = Arc::new(feeder.as_ref().clone());
+                Some(Self { feeder }.into_bound_py_any(py))
+            }
+            _ => None,
+        };
+        search::optimised(py, self.design(), method, settings, progress.as_ref(), best)
+    }
+
+    /// This feeder with its bounds widened by as little as lets all its goals be reached, its lengths there, and its
+    /// pivot in the middle of the places that give its swing; and the share by which they were widened.
+    ///
+    /// Raises:
+    ///     MechanismError: The bounds hold what is wanted, or no widening helps.
+    fn widened(&self, py: Python<'_>) -> PyResult<(Self, f64)> {
+        let feeder = Arc::clone(&self.feeder);
+        let found = wait(py, move || Widened::of(feeder.design()))?;
+        let found = found.map_err(|error| no_search(&error.to_string()))?;
+        let feeder = mechanism::Feeder::resolve(&found.design);
+        let feeder = Arc::new(feeder.map_err(|error| no_search(&error.to_string()))?);
+        Ok((Self { feeder }, found.share))
+    }
+
+    /// How goals and figures answer one number of the design: by name, a figure at each value, NaN where there is no
+    /// feeder.
+    ///
+    /// Args:
+    ///     parameter: Key of the design file, "linkage.crank", or a dimension's name, "crank" or "pivot_x".
+    ///     values: In the file's unit: mm, degrees.
+    ///
+    /// >>> import centrode as ct, numpy as np
+    /// >>> feeder = ct.Feeder.from_toml(ct.template("feeder"))
+    /// >>> np.degrees(feeder.response("frame", [129.5, 130])["swing"]).round(3).tolist()
+    /// [179.691, 180.225]
+    fn response<'py>(
+        &self,
+        py: Python<'py>,
+        parameter: &str,
+        values: Vec<f64>,
+    ) -> PyResult<Bound<'py, PyDict>> {
+        search::response(py, self.design(), parameter, values, true)
+    }
+
     /// The files of the feeder, name to contents, without writing them; `export` writes them.
     ///
     /// >>> import centrode as ct
@@ -225,5 +310,11 @@ impl Feeder {
             "Feeder({:?}, crank={crank:?}, coupler={coupler:?}, rocker={rocker:?}, frame={frame:?})",
             self.feeder.design().name
         )
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, (Vec<u8>,))> {
+        let text = self.to_toml()?;
+        let module = PyModule::import(py, "centrode._centrode")?;
+        Ok((module.getattr("_load")?, (text.into_bytes(),)))
     }
 }

@@ -1,11 +1,12 @@
 //! Results of many parts, handed over as the records of the Python part of the package.
 
 use centrode_analysis::interference::Clearance;
-use centrode_analysis::optimise::Ended;
+use centrode_analysis::optimise::{Ended, Progress};
 use centrode_analysis::{Contact, Finding, Goal, Report, Severity, Table};
 use centrode_mechanism::gear::{OverPins, Pin, Tooth, ToothSide};
 use centrode_mechanism::linkage;
 use numpy::{IntoPyArray, PyArrayMethods};
+use pyo3::IntoPyObjectExt;
 use pyo3::prelude::{Bound, IntoPyObject, Py, PyAny, PyAnyMethods, PyResult, Python};
 use pyo3::sync::PyOnceLock;
 use pyo3::types::{PyDict, PyDictMethods, PyTuple, PyType};
@@ -107,6 +108,8 @@ pub(crate) fn optimised<'py>(
     found: &Found,
 ) -> PyResult<Bound<'py, PyAny>> {
     static CLASS: Class = Class::new("centrode._optimised", "Optimised");
+    let progress =
+        |at: &Progress| (at.evaluations, at.violation, at.objective).into_bound_py_any(py);
     let steps: Vec<String> = found.steps.iter().map(ToString::to_string).collect();
     let ended = match found.ended {
         Ended::Target => "target",
@@ -119,7 +122,9 @@ pub(crate) fn optimised<'py>(
         .with("goals", goals(py, &found.goals)?)?
         .with("steps", PyTuple::new(py, steps)?)?
         .with("evaluations", found.progress.map_or(0, |p| p.evaluations))?
-        .with("ended", ended)?;
+        .with("ended", ended)?
+        .with("history", tuple(py, found.history.iter().map(progress))?)?
+        .with("remark", found.remark.as_deref())?;
     CLASS.make(&keywords.0)
 }
 

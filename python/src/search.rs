@@ -15,7 +15,8 @@ use centrode_mechanism::mechanism::{Mechanism, MechanismError};
 use pyo3::prelude::{Bound, PyAny, PyAnyMethods, PyResult, Python};
 use pyo3::types::PyDict;
 
-use crate::error::{of_design, unknown_word};
+use crate::error::{no_search, of_design, unknown_word};
+use crate::record;
 use crate::wait::wait;
 
 /// How often a waiting call looks whether the user has had enough.
@@ -26,6 +27,8 @@ pub(crate) struct Found {
     pub(crate) mechanism: Result<Mechanism, MechanismError>,
     pub(crate) goals: Vec<Goal>,
     pub(crate) steps: Vec<GuidedStep>,
+    pub(crate) history: Vec<Progress>,
+    pub(crate) remark: Option<String>,
     pub(crate) progress: Option<Progress>,
     pub(crate) ended: Ended,
 }
@@ -35,8 +38,24 @@ enum Mail {
     Done(Box<Result<Found, String>>),
 }
 
+/// Searches around a design; `best` makes an object of the best mechanism, if it is of the design's family.
+pub(crate) fn optimised<'py>(
+    py: Python<'py>,
+    design: Design,
+    method: &str,
+    settings: Settings,
+    callback: Option<&Bound<'py, PyAny>>,
+    best: impl FnOnce(&Mechanism) -> Option<PyResult<Bound<'py, PyAny>>>,
+) -> PyResult<Bound<'py, PyAny>> {
+    let found = search(py, design, strategy(method)?, settings, callback)?;
+    let found = found.map_err(|reason| no_search(&reason))?;
+    let best = found.mechanism.as_ref().ok().and_then(best);
+    let best = best.ok_or_else(|| no_search("the best point is no mechanism"))??;
+    record::optimised(py, best, &found)
+}
+
 /// The strategy of a name.
-pub(crate) fn strategy(name: &str) -> PyResult<Strategy> {
+fn strategy(name: &str) -> PyResult<Strategy> {
     let found = Strategy::NAMES.iter().find(|(word, _)| *word == name);
     found.map(|&(_, strategy)| strategy).ok_or_else(|| {
         let known = Strategy::NAMES.map(|(word, _)| word);
@@ -46,7 +65,7 @@ pub(crate) fn strategy(name: &str) -> PyResult<Strategy> {
 
 /// Searches until the end, Ctrl-C, or a callback that returns False or raises. After either of the first two kinds of
 /// stop but Ctrl-C and an exception the best so far is the answer.
-pub(crate) fn search(
+fn search(
     py: Python<'_>,
     design: Design,
     strategy: Strategy,
@@ -117,6 +136,8 @@ fn searched(
         mechanism: Mechanism::resolve(&problem.design(&best)),
         goals: problem.goals(&best).unwrap_or_default(),
         steps: search.log().to_vec(),
+        history: search.history().to_vec(),
+        remark: problem.remark(&best),
         progress: search.progress(),
         ended,
     })

@@ -30,8 +30,8 @@ use crate::cam::{DiscCam, Fork};
 use crate::count::{Count, optional};
 use crate::design::{Loaded, path_loaded};
 use crate::error::{
-    no_search, of_arm, of_design, of_pair, of_pusher, of_three_arm, of_three_arm_files,
-    plain_tolerance, unknown_word,
+    of_arm, of_design, of_pair, of_pusher, of_three_arm, of_three_arm_files, plain_tolerance,
+    unknown_word,
 };
 use crate::format;
 use crate::gear_pair::GearPair;
@@ -565,14 +565,13 @@ impl ThreeArm {
             ..Settings::default()
         };
         let design = Design::ThreeArm(Box::new(self.0.design().clone()));
-        let strategy = search::strategy(method)?;
-        let found = search::search(py, design, strategy, settings, progress.as_ref())?;
-        let found = found.map_err(|reason| no_search(&reason))?;
-        let Ok(Mechanism::ThreeArm(best)) = &found.mechanism else {
-            return Err(no_search("the best point is no mechanism"));
+        let best = |mechanism: &Mechanism| match mechanism {
+            Mechanism::ThreeArm(arms) => {
+                Some(Self(Arc::new(arms.as_ref().clone())).into_bound_py_any(py))
+            }
+            _ => None,
         };
-        let best = Self(Arc::new(best.as_ref().clone())).into_bound_py_any(py)?;
-        record::optimised(py, best, &found)
+        search::optimised(py, design, method, settings, progress.as_ref(), best)
     }
 
     /// How goals and figures answer one number of the design: by name, a figure at each value, NaN where there is no

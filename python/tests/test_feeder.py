@@ -1,4 +1,7 @@
+import json
 import math
+import pickle
+from pathlib import Path
 
 import centrode as ct
 import numpy as np
@@ -54,3 +57,66 @@ def test_pictures_are_drawn(feeder):
     assert path.lines
     assert speed.get_xlabel() == "time, s"
     assert ct.plot.pivots(feeder.six_bar, math.radians(170)).get_legend() is not None
+
+
+def shipped(name):
+    return ct.load(Path(__file__).parents[2] / "tests" / "designs" / f"{name}.toml")
+
+
+def test_a_search_reaches_half_a_turn_and_tells_its_way(tmp_path):
+    text = shipped("feeder-2022").to_toml().replace("transmission_angle_deg = 40", "transmission_angle_deg = 0")
+    start = ct.Feeder.from_toml(text.replace("crank = 77.0\n", "crank = 78.5\n"))
+    seen = []
+    found = start.optimise("de", seed=4, progress=lambda *at: seen.append(at))
+    assert found.reached
+    assert (found.ended, found.remark) == ("target", None)
+    assert abs(math.degrees(found.mechanism.six_bar.swing) - 180) < 1e-6
+    assert found.mechanism.six_bar.pivot == start.six_bar.pivot
+    assert found.history[: len(seen)] == tuple(seen)
+    counts, violations, objectives = zip(*found.history, strict=True)
+    assert counts[-1] == found.evaluations
+    assert list(objectives) == sorted(objectives, reverse=True)
+    assert set(violations) == {0.0}
+    assert start.optimise("de", seed=4) == found
+    assert pickle.loads(pickle.dumps(found)).history == found.history
+
+
+def test_bounds_that_contradict_the_goal_are_told_and_widened():
+    published = shipped("feeder-2022")
+    found = published.optimise("de", evaluations=4000)
+    assert not found.reached
+    assert "12.312 deg" in found.remark
+    widened, share = published.widened()
+    assert share == pytest.approx(0.2244318, abs=1e-6)
+    assert all(goal.met for goal in widened.check().goals)
+    assert widened.six_bar == shipped("feeder-widened").six_bar
+    with pytest.raises(ct.MechanismError, match="need not be widened"):
+        widened.widened()
+
+
+def test_a_response_is_that_of_the_design_with_the_value(feeder):
+    answers = feeder.response("crank", [59.0, 59.718])
+    assert answers["swing"][1] == feeder.six_bar.swing
+    assert answers["swing"][0] < answers["swing"][1]
+    slope = (answers["swing"][1] - answers["swing"][0]) / 0.718
+    assert slope == pytest.approx(feeder.six_bar.swing_sensitivity["crank"], rel=0.05)
+    assert feeder.response("making.length_tolerance", [0.5])["swing_made_max"] > feeder.six_bar.swing + 0.01
+    with pytest.raises(ct.DesignError):
+        feeder.response("linkage.nothing", [1.0])
+
+
+def test_the_history_of_searches_is_drawn(feeder, tmp_path):
+    pytest.importorskip("matplotlib").use("Agg")
+    found = shipped("feeder-2022").optimise("ga", evaluations=500)
+    stored = tmp_path / "better.search.json"
+    generations = [
+        {"generation": 1, "evaluations": 40, "objective": 0.1, "violation": 0.5},
+        {"generation": 2, "evaluations": 80, "objective": 0.01, "violation": 0.0},
+        {"generation": 3, "evaluations": 120, "objective": 0.001, "violation": 0.0},
+    ]
+    stored.write_text(json.dumps({"variables": [], "evaluations": 9, "state": {"Global": {"history": generations}}}))
+    ax = ct.plot.history(found, stored)
+    assert ax.get_yscale() == "log"
+    missed, *of_file = ax.lines
+    assert len(missed.get_xdata()) == len(found.history)
+    assert [list(line.get_ydata()) for line in of_file] == [[0.5], [0.01, 0.001]]

@@ -1,6 +1,7 @@
 //! What holds for every design.
 
 mod design;
+mod linkage;
 mod mesh;
 mod pitch;
 mod shaft;

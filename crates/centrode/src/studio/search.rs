@@ -39,6 +39,8 @@ pub(crate) struct State {
     evaluations: u64,
     running: bool,
     ended: Option<Ended>,
+    /// What the problem says of where it ended.
+    remark: Option<String>,
     /// The best at the ends of its generations, thinned out.
     history: Vec<Progress>,
     /// The best design so far, as a file.
@@ -100,6 +102,7 @@ impl Searching {
                 evaluations: ask.evaluations,
                 running: true,
                 ended: None,
+                remark: None,
                 history: Vec::new(),
                 text: ask.text.clone(),
             }),
@@ -146,7 +149,9 @@ fn work(run: &Run, text: &str, problem: &dyn DesignProblem, mut search: DesignSe
             break ended;
         }
     };
+    let remark = problem.remark(&search.best());
     let mut state = run.state();
+    state.remark = remark;
     state.running = false;
     state.ended = Some(ended);
 }

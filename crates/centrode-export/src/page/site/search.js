@@ -128,7 +128,7 @@ export class Search {
     const done = last?.evaluations ?? 0;
     this.bar.value = Math.min(1, done / state.evaluations);
     const worth = !last ? "" : last.violation > 0 ? `; goals missed by ${last.violation.toPrecision(4)}` : `; goals reached, objective ${last.objective.toPrecision(6)}`;
-    this.words.textContent = `${done} evaluations${worth}${state.ended ? `; ${ENDED[state.ended] ?? state.ended}` : ""}`;
+    this.words.textContent = `${done} evaluations${worth}${state.ended ? `; ${ENDED[state.ended] ?? state.ended}` : ""}${state.remark ? `; ${state.remark}` : ""}`;
     if (!this.box.hidden) this.draw(state.history);
   }
 
