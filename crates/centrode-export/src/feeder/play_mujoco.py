@@ -27,7 +27,6 @@ class Feeder:
         self.data = mujoco.MjData(self.model)
         self.about = json.loads((FOLDER / "motion.json").read_text())
         table = np.genfromtxt(FOLDER / "motion.csv", delimiter=",", names=True)
-        self.input = table["input_angle_rad"]
         self.columns = {j["name"]: j["factor"] * table[j["column"]] for j in self.about["joints"]}
         self.speed = speed or self.about["speed_rad_per_s"]
         self.crank = self.model.joint("crank_joint")
@@ -37,9 +36,23 @@ class Feeder:
 
     def law(self, joint, travel):
         """The position motion.csv has for a joint, rad or m."""
-        turns, within = divmod(travel, 2 * np.pi)
         column = self.columns[joint]
-        return turns * (column[-1] - column[0]) + np.interp(within, self.input, column)
+        count, rise = len(column) - 1, column[-1] - column[0]
+        place = travel / (2 * np.pi) * count
+        row = int(place // 1)
+        s = place - row
+        # A cubic through four rows: straight lines between them are off by more than the model is.
+        cubic = (
+            s * (s - 1) * (2 - s) / 6,
+            (s + 1) * (s - 1) * (s - 2) / 2,
+            (s + 1) * s * (2 - s) / 2,
+            (s + 1) * s * (s - 1) / 6,
+        )
+        position = 0.0
+        for at, weight in enumerate(cubic, row - 1):
+            turns, at = divmod(at, count)
+            position += weight * (column[at] + turns * rise)
+        return position
 
     def advance(self):
         """Goes on by one time step."""
