@@ -260,7 +260,7 @@ mod tests {
     fn held(spec: &IncompletePairSpec) {
         let (pair, contact) = contact(spec);
         assert!(contact.deepest() < 1e-3, "{spec:?}: {}", contact.deepest());
-        let most = 1.5 * play(&pair).max(pair.locked_play());
+        let most = 1.1 * play(&pair);
         for column in [&contact.ahead, &contact.back] {
             for moving in [false, true] {
                 let loose = contact.greatest(column, moving);
@@ -309,18 +309,18 @@ mod tests {
         let (pair, contact) = contact(&spec(40, [3, 4], 30, 0.0));
         assert!(contact.deepest() < 1e-3, "{}", contact.deepest());
         assert!((pair.shock() - 4.0 / 3.0).abs() < 1e-9 && pair.cams().is_empty());
-        // The notch's ends are cut back for the first tooth: the lever is shorter than that at the tip circle.
-        let locked = 2.0 * pair.locked_play();
+        let locked = pair.locked_play();
         let motion = pair.law().motion_angle();
         let ends = 0.25 * (TAU - motion);
         // Where the locking arc's ends come to the notch they hold less well; cams do it better.
         for (i, &input) in contact.input.iter().enumerate() {
             let loose = contact.ahead[i].max(contact.back[i]);
-            let inside = input > motion + ends && input < TAU - ends;
-            assert!(
-                !inside || loose < locked,
-                "{loose} of {locked} while locked at {input}"
-            );
+            if input > motion + ends && input < TAU - ends {
+                assert!(
+                    (loose / locked - 1.0).abs() < 0.02,
+                    "{loose} of {locked} while locked at {input}"
+                );
+            }
             assert!(input < motion || loose < 0.02, "{loose} at {input}");
         }
     }

@@ -34,7 +34,7 @@ pub struct IncompletePair {
     pair: GearPair,
     law: IncompleteLaw,
     lock_radius: f64,
-    lock_play: f64,
+    locked_play: f64,
     driver: Outline,
     driven: Outline,
     cams: Vec<Cam>,
@@ -158,7 +158,7 @@ impl IncompletePair {
         let mut made = Self {
             law,
             lock_radius,
-            lock_play: spec.lock_play,
+            locked_play: 0.0,
             driver: Outline::polygon(&[]),
             driven: Outline::polygon(&[]),
             cams: Vec::new(),
@@ -182,6 +182,7 @@ impl IncompletePair {
         made.driver = Outline::polygon(&driver.polygon(accuracy));
         let finished = made.notched(&whole, lock_radius + spec.lock_play);
         made.driven = Outline::polygon(&finished.polygon(accuracy));
+        made.locked_play = made.worked_locked_play(accuracy);
         if spec.entry > 0.0 {
             made.cams = made.cut_cams(&spec.pins, play, accuracy)?;
         }
@@ -428,16 +429,38 @@ impl IncompletePair {
         }
     }
 
-    /// How far the locked driven gear can turn either way by the play of the locking arc, rad: the play over the
-    /// lever of the notch's ends on the tip circle; up to twice that where they are cut back for the first tooth.
+    /// How far the driven gear can turn either way, rad, held by the locking arc alone: where that is before the whole
+    /// notch, in the middle of the dwell. Pins on cams hold it closer.
     #[must_use]
     pub fn locked_play(&self) -> f64 {
-        let a = self.center_distance();
-        let (_, tip) = self.pair.driven().radii();
-        let r = self.lock_radius;
-        let cosine = (a * a + tip * tip - r * r) / (2.0 * a * tip);
-        let lever = a * tip * cosine.clamp(-1.0, 1.0).acos().sin() / r;
-        self.lock_play / lever
+        self.locked_play
+    }
+
+    /// The same on the finished contour: a corner of the driven gear at the distance p from its axis meets the locking arc
+    /// where the cosine of its angle from the line of centres is (a² + p² - r²)/(2 a p).
+    fn worked_locked_play(&self, accuracy: Tolerance) -> f64 {
+        let (a, r) = (self.center_distance(), self.lock_radius);
+        let corners = self.driven.flatten(accuracy);
+        let free = |stop: u32| {
+            let turned = self.law.driven * f64::from(stop);
+            let towards = self.driver_axis(turned).coords;
+            let mut free = [PI; 2];
+            for corner in &corners {
+                let p = corner.coords.norm();
+                let cosine = (a * a + p * p - r * r) / (2.0 * a * p);
+                // Nearer to its axis, or beyond both, a corner passes the arc.
+                if !(-1.0..1.0).contains(&cosine) {
+                    continue;
+                }
+                let off = towards
+                    .perp(&corner.coords)
+                    .atan2(towards.dot(&corner.coords));
+                let side = usize::from(off > 0.0);
+                free[side] = free[side].min(off.abs() - cosine.acos());
+            }
+            free[0].max(free[1])
+        };
+        (0..self.stops).map(free).fold(0.0, f64::max)
     }
 }
 
