@@ -29,7 +29,7 @@ pub fn check_shaft(shaft: &SpiralShaft) -> Report {
     crossings(shaft, &mut report);
     slider(shaft, &mut report);
     forces(shaft, &mut report);
-    report.tables.push(tables::forces(shaft));
+    report.tables = tables::published(shaft);
     sort(&mut report);
     report
 }
@@ -273,6 +273,7 @@ fn crossings(shaft: &SpiralShaft, report: &mut Report) {
             },
         });
     }
+    tilt(shaft, longest, report);
     let design = shaft.design();
     let in_window = |c: &&Crossing| {
         [c.out, c.back]
@@ -300,6 +301,35 @@ fn crossings(shaft: &SpiralShaft, report: &mut Report) {
         unit: "mm",
         remedy: Some("a slider longer than the gap, or a return_offset"),
         place: at(first.out),
+    });
+}
+
+/// A slider free on its pin, pushed against one wall, where a crossing interrupts that wall over `gap` mm.
+///
+/// The load acts at the pin, the wall on whatever of it stands. While the pin passes the gap the slider must
+/// touch the wall before it and behind it, up to a whole gap away at either end: it must be twice as long as
+/// the gap. A shorter one, held on one side of its pin alone, turns into the other groove.
+fn tilt(shaft: &SpiralShaft, gap: f64, report: &mut Report) {
+    let length = shaft.slider().length;
+    report.values.insert("slider_length_free_on_pin", 2.0 * gap);
+    if length >= 2.0 * gap {
+        return;
+    }
+    report.findings.push(Finding {
+        rule: "slider-tilts",
+        severity: Severity::Warning,
+        message: format!(
+            "a crossing takes the wall that pushes the slider away over {gap:.2} mm: {length} mm long and free on its pin, the slider can turn into the other groove there; held by the walls alone it must be {:.2} mm long",
+            2.0 * gap
+        ),
+        measured: Some(length),
+        required: Some(2.0 * gap),
+        unit: "mm",
+        remedy: Some("a narrower groove, a longer slider, or a pin that does not turn freely"),
+        place: Place {
+            part: Some("slider".into()),
+            ..Place::default()
+        },
     });
 }
 

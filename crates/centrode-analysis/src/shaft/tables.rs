@@ -125,26 +125,74 @@ pub(super) fn schemes(machine: &MovingBox) -> Vec<Table> {
     ]
 }
 
-/// Forces over one turn of a stroke by equilibrium, beside equations (14) and (15) of Zhou et al. 2018, which do
-/// not hold: see [`Load::published`](centrode_mechanism::shaft::Load::published).
-pub(super) fn forces(shaft: &SpiralShaft) -> Table {
-    let (load, radius) = (shaft.load(), shaft.groove().radius());
+/// Eighths of a turn at which the paper's equations are looked at.
+const EIGHTHS: u32 = 8;
+
+fn eighths(of: impl Fn(f64) -> Vec<f64>) -> Vec<(String, Vec<f64>)> {
     let row = |i: u32| {
         let theta = FRAC_PI_4 * f64::from(i);
+        (format!("at {} deg", 45 * i), of(theta))
+    };
+    (0..EIGHTHS).map(row).collect()
+}
+
+/// Acceleration and forces over one turn of a stroke by equilibrium, beside equations (14) to (18) of Zhou et al.
+/// 2018, which do not hold: see [`Load::published`](centrode_mechanism::shaft::Load::published).
+///
+/// (16) to (18) are for sines; for another law their columns are left out.
+pub(super) fn published(shaft: &SpiralShaft) -> Vec<Table> {
+    let (load, radius) = (shaft.load(), shaft.groove().radius());
+    let printed = |theta: f64| shaft.published_acceleration(theta, load);
+    let forces = |theta: f64| {
         let motion = shaft.law().at(theta);
         let lead = (motion.velocity / radius).atan();
         let force = load.force(motion, lead, radius);
-        let (normal, transverse) = load.published(motion, lead);
-        let values = vec![force.normal, normal, force.transverse, transverse];
-        (format!("at {} deg", 45 * i), values)
+        let by_motion = load.published(shaft.stroke_acceleration(theta, load), lead);
+        let by_wave = printed(theta).map(|acceleration| load.published(acceleration, lead));
+        let mut values = vec![force.normal, by_motion.normal];
+        values.extend(by_wave.map(|by| by.normal));
+        values.extend([force.transverse, by_motion.transverse]);
+        values.extend(by_wave.map(|by| by.transverse));
+        values
     };
-    Table {
-        name: "forces",
-        title: "Forces beside the paper's",
-        unit: "N",
-        columns: ["normal", "by (14)", "transverse", "by (15)"]
-            .map(String::from)
-            .to_vec(),
-        rows: (0..8).map(row).collect(),
+    let table = |name, title, unit, columns: &[&str], rows| Table {
+        name,
+        title,
+        unit,
+        columns: columns.iter().map(|&c| c.to_owned()).collect(),
+        rows,
+    };
+    let of_forces = |columns| {
+        table(
+            "forces",
+            "Forces beside the paper's",
+            "N",
+            columns,
+            eighths(forces),
+        )
+    };
+    if printed(0.0).is_none() {
+        return vec![of_forces(&["normal", "by (14)", "transverse", "by (15)"])];
     }
+    let accelerations = |theta: f64| {
+        let ours = shaft.stroke_acceleration(theta, load);
+        [Some(ours), printed(theta)].into_iter().flatten().collect()
+    };
+    vec![
+        table(
+            "accelerations",
+            "Acceleration beside the paper's",
+            "m/s^2",
+            &["acceleration", "by (16)"],
+            eighths(accelerations),
+        ),
+        of_forces(&[
+            "normal",
+            "by (14)",
+            "by (17)",
+            "transverse",
+            "by (15)",
+            "by (18)",
+        ]),
+    ]
 }

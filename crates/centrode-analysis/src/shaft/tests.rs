@@ -1,5 +1,8 @@
 use super::*;
-use centrode_mechanism::shaft::{EllipticGears, MovingBoxDesign, Scheme, SpiralShaftDesign};
+use crate::Table;
+use centrode_mechanism::shaft::{
+    EllipticGears, MovingBoxDesign, RotatedSine, Scheme, SpeedFormula, SpeedLaw, SpiralShaftDesign,
+};
 use std::f64::consts::PI;
 
 fn published() -> SpiralShaftDesign {
@@ -13,6 +16,11 @@ fn rules(report: &Report) -> Vec<&'static str> {
     report.findings.iter().map(|f| f.rule).collect()
 }
 
+fn table<'a>(report: &'a Report, name: &str) -> &'a Table {
+    let found = report.tables.iter().find(|t| t.name == name);
+    found.expect("a table of that name")
+}
+
 fn report(design: &SpiralShaftDesign) -> Report {
     check_shaft(&SpiralShaft::resolve(design).expect("resolves"))
 }
@@ -21,19 +29,59 @@ fn report(design: &SpiralShaftDesign) -> Report {
 fn the_published_shaft_works_but_picks_on_its_crossings() {
     let report = report(&published());
     assert!(report.ok());
-    assert_eq!(rules(&report), ["crossing-while-picking", "flat-slider"]);
-    let offered = &report.findings[0].message;
+    assert_eq!(
+        rules(&report),
+        ["slider-tilts", "crossing-while-picking", "flat-slider"]
+    );
+    // Twice the 40.1 mm that the slow crossings leave without walls.
+    assert!((report.findings[0].required.expect("a length") - 80.224).abs() < 1e-3);
+    let offered = &report.findings[1].message;
     assert!(offered.contains("return_offset = "), "{offered}");
     assert!((report.values["moved_distance"] - 2.05).abs() < 1e-12);
     assert!((report.values["contact_limit_rpm"] - 323.36).abs() < 0.01);
     // The table of docs/moving-box.md, at 90 deg.
-    let row = &report.tables[0].rows[2];
-    assert_eq!(row.0, "at 90 deg");
-    for (value, printed) in row.1.iter().zip([21.248, 9.489, 6.489, 1.042]) {
-        assert!((value - printed).abs() < 5.1e-4, "{value} {printed}");
+    let printed = [
+        ("accelerations", &[0.5629, 0.0263][..], 5e-5),
+        (
+            "forces",
+            &[21.248, 9.489, 15.094, 6.489, 1.042, 1.657][..],
+            5e-4,
+        ),
+    ];
+    for (name, figures, half) in printed {
+        let row = &table(&report, name).rows[2];
+        assert_eq!(row.0, "at 90 deg");
+        assert_eq!(row.1.len(), figures.len());
+        for (value, printed) in row.1.iter().zip(figures) {
+            assert!((value - printed).abs() < 1.02 * half, "{value} {printed}");
+        }
     }
     // A flat slider has left a groove on a shaft of 15 mm after 9.63 mm each way.
     assert!((report.values["slider_guided_length"] - 19.261).abs() < 1e-3);
+}
+
+#[test]
+fn the_paper_s_equations_for_a_sine_stand_beside_sines_alone() {
+    let turned = SpiralShaftDesign {
+        law: SpeedLaw::RotatedSine(RotatedSine {
+            amplitude: 1.0,
+            ..RotatedSine::default()
+        }),
+        ..SpiralShaftDesign::default()
+    };
+    // kappa w = 1 mm * 200 r/min, a quarter turn after the slow place.
+    let turned = report(&turned);
+    let row = &table(&turned, "accelerations").rows[2].1;
+    assert!((row[1] - 1e-3 * 200.0 * TAU / 60.0).abs() < 1e-12);
+    let formula = SpiralShaftDesign {
+        law: SpeedLaw::Formula(SpeedFormula {
+            expression: "exp(-0.3*cos(phi))".into(),
+        }),
+        ..SpiralShaftDesign::default()
+    };
+    let report = report(&formula);
+    assert!(report.tables.iter().all(|t| t.name != "accelerations"));
+    assert_eq!(table(&report, "forces").columns.len(), 4);
 }
 
 #[test]
@@ -48,6 +96,10 @@ fn each_fault_is_found() {
     let mut design = published();
     design.slider.length = 30.0;
     assert!(rules(&report(&design)).contains(&"slider-length"));
+    let mut design = published();
+    design.slider.length = 81.0;
+    let long = report(&design);
+    assert!(!rules(&long).contains(&"slider-tilts"));
     let mut design = published();
     design.slider.clearance = 0.1;
     assert!(rules(&report(&design)).contains(&"slider-clearance"));
@@ -81,15 +133,8 @@ fn the_elliptic_scheme_has_its_published_figures() {
     let moved: Vec<f64> = report.tables[0].rows.iter().map(|row| row.1[0]).collect();
     assert!((moved[0] - 10.0 / 3.0).abs() < 1e-12 && (moved[1] - moved[0]).abs() < 1e-12);
     assert!((moved[2] - moved[3]).abs() < 1e-12);
-    let table = |name: &str| {
-        report
-            .tables
-            .iter()
-            .find(|t| t.name == name)
-            .expect("there")
-    };
-    let speeds = &table("scheme-speeds").rows[2].1;
+    let speeds = &table(&report, "scheme-speeds").rows[2].1;
     assert!((speeds[0] - 0.577_350).abs() < 1e-6 && (speeds[1] - 1.732_051).abs() < 1e-6);
-    let forces = &table("scheme-forces").rows;
+    let forces = &table(&report, "scheme-forces").rows;
     assert!((forces[0].1[0] - 15.369).abs() < 1e-3 && (forces[2].1[1] - 26.072).abs() < 1e-3);
 }

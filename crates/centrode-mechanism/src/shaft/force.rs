@@ -102,24 +102,6 @@ impl Load {
         }
     }
 
-    /// Normal and transverse force by equations (14) and (15) of the paper, N, with the true acceleration;
-    /// shown beside [`force`](Self::force), not used.
-    ///
-    /// They take load and acceleration for opposed, and (15) carries the wrong sign of (11) on.
-    #[must_use]
-    pub fn published(&self, motion: MotionJet, lead_angle: f64) -> (f64, f64) {
-        let omega = self.speed();
-        let acceleration = motion.acceleration * 1e-3 * omega * omega;
-        let lead = lead_angle.abs();
-        let friction = self.groove_friction.atan();
-        let load = self.mass * (GRAVITY * self.rail_friction - acceleration);
-        let cos = (lead + friction).cos();
-        (
-            load * friction.cos() / cos,
-            load * (lead - friction).sin() / cos,
-        )
-    }
-
     /// Speed of the shaft, turns a minute, above which a motion whose deceleration along its way is at most
     /// `deceleration` (mm/rad^2) leaves the driving wall: `omega^2 = g mu / deceleration`.
     #[must_use]

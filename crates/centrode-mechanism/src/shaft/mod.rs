@@ -13,6 +13,7 @@ mod force;
 mod groove;
 mod law;
 mod moving_box;
+mod published;
 mod reversal;
 mod schedule;
 mod slider;
@@ -31,6 +32,7 @@ pub use law::{
     AmplitudeFor, RotatedSine, ShaftLaw, Sine, SpeedFormula, SpeedKnots, SpeedLaw, SpeedTable,
 };
 pub use moving_box::{EllipticGears, MovingBox, MovingBoxDesign, Scheme};
+pub use published::PublishedForce;
 pub use reversal::Reversal;
 pub use schedule::{Pick, Schedule, Way};
 pub use slider::SliderSpec;
