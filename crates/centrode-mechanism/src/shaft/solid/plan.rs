@@ -29,11 +29,33 @@ pub(super) struct Level {
     pub(super) radius: f64,
 }
 
+/// An angle round the shaft that gets a line.
+#[derive(Debug)]
+struct Event {
+    phi: f64,
+    /// Edges that meet there.
+    pairs: Vec<[usize; 2]>,
+    /// Heights of all edges there, where they are known already.
+    heights: Option<Vec<f64>>,
+}
+
+impl Event {
+    fn at(phi: f64) -> Self {
+        Self {
+            phi,
+            pairs: Vec::new(),
+            heights: None,
+        }
+    }
+}
+
 /// The angles round the shaft at which anything happens, and every edge's height there.
 #[derive(Debug)]
 pub(super) struct Plan<'a> {
     groove: &'a Groove,
     pub(super) turns: usize,
+    /// By how much each turn of the groove lies above the one before, mm, where both are the same.
+    rises: Vec<Option<f64>>,
     /// Foot of the wall first, then the fillet down to the floor.
     pub(super) levels: Vec<Level>,
     /// Angles in [0, one turn), ascending.
@@ -46,8 +68,12 @@ impl<'a> Plan<'a> {
     pub(super) fn new(groove: &'a Groove, fillet: f64, tolerance: Tolerance) -> Self {
         let mut plan = Self::empty(groove, levels(groove, fillet, tolerance));
         let count = columns(groove.radius(), tolerance);
-        let mut events = even(count);
-        events.extend(plan.meetings(count));
+        let rows = plan.rows(count);
+        let mut events = plan.meetings(&rows);
+        events.extend(even(count).zip(rows).map(|(event, heights)| Event {
+            heights: Some(heights),
+            ..event
+        }));
         plan.set_lines(events);
         plan
     }
@@ -60,9 +86,9 @@ impl<'a> Plan<'a> {
             radius: groove.radius() - groove.depth(),
         };
         let mut plan = Self::empty(groove, vec![floor]);
-        let mut events = even(count);
-        events.extend(plan.meetings(LOOKS.max(count)));
-        events.extend(plan.breaks().into_iter().map(|phi| (phi, Vec::new())));
+        let mut events: Vec<Event> = even(count).collect();
+        events.extend(plan.meetings(&plan.rows(LOOKS.max(count))));
+        events.extend(plan.breaks().into_iter().map(Event::at));
         plan.set_lines(events);
         plan
     }
@@ -71,26 +97,37 @@ impl<'a> Plan<'a> {
         Self {
             groove,
             turns: groove.traverse().turns() as usize,
+            rises: rises(groove),
             levels,
             lines: Vec::new(),
             heights: Vec::new(),
         }
     }
 
-    /// Angles at which edges meet that swap between two of `count` even lines.
-    fn meetings(&self, count: u32) -> Vec<(f64, Vec<[usize; 2]>)> {
-        let angle = |i: usize| TAU * i as f64 / f64::from(count);
-        let heights: Vec<Vec<f64>> = (0..count as usize)
-            .map(|i| self.heights_at(angle(i)))
-            .collect();
+    /// Heights of all edges on `count` even lines.
+    fn rows(&self, count: u32) -> Vec<Vec<f64>> {
+        even(count)
+            .map(|event| self.heights_at(event.phi))
+            .collect()
+    }
+
+    /// Angles at which edges meet that swap between two of the even lines of which these are the heights.
+    fn meetings(&self, rows: &[Vec<f64>]) -> Vec<Event> {
+        let angle = |i: usize| TAU * i as f64 / rows.len() as f64;
         let mut meetings = Vec::new();
-        for (i, before) in heights.iter().enumerate() {
-            let after = match heights.get(i + 1) {
-                Some(heights) => heights.clone(),
-                None => self.next_turn(&heights[0]),
+        for (i, before) in rows.iter().enumerate() {
+            let later;
+            let after = if let Some(heights) = rows.get(i + 1) {
+                heights
+            } else {
+                later = self.next_turn(&rows[0]);
+                &later
             };
-            for pair in self.swapped(before, &after) {
-                meetings.push((self.meeting(pair, angle(i), angle(i + 1)), vec![pair]));
+            for pair in self.swapped(before, after) {
+                meetings.push(Event {
+                    pairs: vec![pair],
+                    ..Event::at(self.meeting(pair, angle(i), angle(i + 1)))
+                });
             }
         }
         meetings
@@ -112,29 +149,33 @@ impl<'a> Plan<'a> {
     }
 
     /// Sorts the angles, makes those that are nearly one into one, and lets edges that meet there meet.
-    fn set_lines(&mut self, mut events: Vec<(f64, Vec<[usize; 2]>)>) {
-        for (phi, pairs) in &mut events {
-            if *phi >= TAU - SAME {
-                *phi = 0.0;
+    fn set_lines(&mut self, mut events: Vec<Event>) {
+        for event in &mut events {
+            if event.phi >= TAU - SAME {
+                event.phi = 0.0;
                 // The same edges, a turn later.
                 let next = |edge: usize| self.edge_after(edge);
-                *pairs = pairs.iter().map(|&[a, b]| [next(a), next(b)]).collect();
+                event.pairs = event
+                    .pairs
+                    .iter()
+                    .map(|&[a, b]| [next(a), next(b)])
+                    .collect();
             }
         }
-        events.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let mut merged: Vec<(f64, Vec<[usize; 2]>)> = Vec::new();
-        for (phi, pairs) in events {
+        events.sort_by(|a, b| a.phi.total_cmp(&b.phi));
+        let mut merged: Vec<Event> = Vec::new();
+        for event in events {
             match merged.last_mut() {
-                Some((last, known)) if phi - *last < SAME => known.extend(pairs),
-                _ => merged.push((phi, pairs)),
+                Some(last) if event.phi - last.phi < SAME => last.pairs.extend(event.pairs),
+                _ => merged.push(event),
             }
         }
-        for (phi, pairs) in merged {
-            let mut heights = self.heights_at(phi);
-            for [a, b] in pairs {
+        for event in merged {
+            let mut heights = event.heights.unwrap_or_else(|| self.heights_at(event.phi));
+            for [a, b] in event.pairs {
                 heights[b] = heights[a];
             }
-            self.lines.push(phi);
+            self.lines.push(event.phi);
             self.heights.push(heights);
         }
     }
@@ -182,13 +223,31 @@ impl<'a> Plan<'a> {
     }
 
     fn heights_at(&self, phi: f64) -> Vec<f64> {
-        (0..self.edges())
-            .map(|edge| self.height(edge, phi))
-            .collect()
+        let row = 2 * self.turns;
+        // The levels of one wall lie close to one another: each starts from the one before.
+        let mut feet = vec![None; row];
+        let mut heights: Vec<f64> = Vec::with_capacity(self.edges());
+        for edge in 0..self.edges() {
+            let height = if let Some(rise) = self.rises[self.edge(edge).turn] {
+                heights[edge - 2] + rise
+            } else {
+                let (height, theta) = self.found(edge, phi, feet[edge % row]);
+                feet[edge % row] = Some(theta);
+                height
+            };
+            heights.push(height);
+        }
+        heights
     }
 
     /// Height of an edge at an angle round the shaft.
     pub(super) fn height(&self, edge: usize, phi: f64) -> f64 {
+        self.found(edge, phi, None).0
+    }
+
+    /// Height of an edge at an angle round the shaft, and the shaft angle of the groove it belongs to, looked
+    /// for from a near one.
+    fn found(&self, edge: usize, phi: f64, near: Option<f64>) -> (f64, f64) {
         let Edge { turn, wall, level } = self.edge(edge);
         let half = self.levels[level].half;
         let side = match wall {
@@ -198,7 +257,7 @@ impl<'a> Plan<'a> {
         let (traverse, r) = (self.groove.traverse(), self.groove.radius());
         let target = phi + TAU * turn as f64;
         // The foot of the normal: R theta - side sin(lead angle) = R target.
-        let mut theta = target;
+        let mut theta = near.unwrap_or(target);
         let mut motion = traverse.at(theta);
         for _ in 0..30 {
             let length = r.hypot(motion.velocity);
@@ -207,11 +266,13 @@ impl<'a> Plan<'a> {
             let step = off / slope;
             theta -= step;
             motion = traverse.at(theta);
-            if step.abs() <= 1e-15 * (1.0 + theta.abs()) {
+            // The error squares: the next step would be below the last digit.
+            if step.abs() <= 1e-8 {
                 break;
             }
         }
-        motion.position + side * r / r.hypot(motion.velocity)
+        let height = motion.position + side * r / r.hypot(motion.velocity);
+        (height, theta)
     }
 
     /// Pairs of edges of one level whose order differs between two lines.
@@ -245,11 +306,33 @@ impl<'a> Plan<'a> {
     }
 }
 
+/// Which turns of the groove repeat the one before them: on a stroke every turn has the same law.
+fn rises(groove: &Groove) -> Vec<Option<f64>> {
+    let traverse = groove.traverse();
+    let (stroke, reversal) = (traverse.stroke(), traverse.reversal());
+    // A wall belongs to a place of the centre line that lies this much farther round at most.
+    let aside = 0.5 * groove.width() / groove.radius();
+    let back = stroke + reversal;
+    let rise = |turn: u32| {
+        let (first, last) = (
+            TAU * (f64::from(turn) - 1.0) - aside,
+            TAU * (f64::from(turn) + 1.0) + aside,
+        );
+        let lead = traverse.law().lead();
+        if first >= 0.0 && last <= stroke {
+            Some(lead)
+        } else if first >= back && last <= back + stroke {
+            Some(-lead)
+        } else {
+            None
+        }
+    };
+    (0..traverse.turns()).map(rise).collect()
+}
+
 /// Even lines round the shaft.
-fn even(count: u32) -> Vec<(f64, Vec<[usize; 2]>)> {
-    (0..count)
-        .map(|i| (TAU * f64::from(i) / f64::from(count), Vec::new()))
-        .collect()
+fn even(count: u32) -> impl Iterator<Item = Event> {
+    (0..count).map(move |i| Event::at(TAU * f64::from(i) / f64::from(count)))
 }
 
 /// Columns round the shaft so that a chord is within the tolerance of its arc.

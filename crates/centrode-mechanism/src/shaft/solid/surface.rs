@@ -1,4 +1,4 @@
-use std::collections::{BTreeMap, HashMap};
+use std::collections::BTreeMap;
 
 use std::f64::consts::TAU;
 
@@ -47,9 +47,10 @@ pub(super) struct Surface<'a> {
     ends: [f64; 2],
     vertices: Vec<[f64; 3]>,
     faces: Vec<[u32; 3]>,
-    index: HashMap<(usize, u64, usize), u32>,
-    /// Levels of the vertices on each line, by height.
-    on_line: Vec<BTreeMap<u64, Vec<usize>>>,
+    /// Vertices on each line, by height and level.
+    on_line: Vec<BTreeMap<(u64, usize), u32>>,
+    /// Sine and cosine of each line's angle.
+    ways: Vec<(f64, f64)>,
     cells: Vec<Cell>,
     /// Edges of the walls' tops: edge of the plan, line, heights there and on the next line.
     tops: Vec<(usize, usize, [f64; 2])>,
@@ -63,8 +64,8 @@ impl<'a> Surface<'a> {
             ends,
             vertices: Vec::new(),
             faces: Vec::new(),
-            index: HashMap::new(),
             on_line: vec![BTreeMap::new(); plan.lines.len()],
+            ways: plan.lines.iter().map(|phi| phi.sin_cos()).collect(),
             cells: Vec::new(),
             tops: Vec::new(),
         }
@@ -176,34 +177,34 @@ impl<'a> Surface<'a> {
     }
 
     fn vertex(&mut self, line: usize, z: f64, level: usize) -> u32 {
-        let (vertices, plan) = (&mut self.vertices, self.plan);
+        let (vertices, (sin, cos)) = (&mut self.vertices, self.ways[line]);
         let radius = if level == LAND {
             self.radius
         } else {
-            plan.levels[level].radius
+            self.plan.levels[level].radius
         };
-        let on_line = &mut self.on_line[line];
-        *self.index.entry((line, key(z), level)).or_insert_with(|| {
-            let (sin, cos) = plan.lines[line].sin_cos();
-            vertices.push([radius * cos, radius * sin, z]);
-            on_line.entry(key(z)).or_default().push(level);
-            (vertices.len() - 1) as u32
-        })
+        *self.on_line[line]
+            .entry((key(z), level))
+            .or_insert_with(|| {
+                vertices.push([radius * cos, radius * sin, z]);
+                (vertices.len() - 1) as u32
+            })
     }
 
     /// Vertices along one side of a cell, upwards: its corners, and what neighbours have between them.
     fn chain(&self, line: usize, side: usize, cell: &Cell) -> Vec<(f64, u32)> {
         let (low, high) = (key(cell.low.0[side]), key(cell.high.0[side]));
+        let on_line = &self.on_line[line];
         let of = |z: u64, level: usize| {
-            let vertex = self.index[&(line, z, level)];
+            let vertex = on_line[&(z, level)];
             (self.vertices[vertex as usize][2], vertex)
         };
         let mut chain = vec![of(low, cell.low.1)];
         if low < high {
             let land = cell.low.1 == LAND && cell.high.1 == LAND;
-            for (&z, levels) in self.on_line[line].range(low + 1..high) {
-                for &level in levels.iter().filter(|&&level| (level == LAND) == land) {
-                    chain.push(of(z, level));
+            for (&(z, level), &vertex) in on_line.range((low + 1, 0)..(high, 0)) {
+                if (level == LAND) == land {
+                    chain.push((height(z), vertex));
                 }
             }
         }
@@ -243,11 +244,13 @@ impl<'a> Surface<'a> {
 
     /// Heights at which something stands on a line, on the shaft's surface or in the groove, ascending.
     pub(super) fn heights_on(&self, line: usize, land: bool) -> Vec<f64> {
-        let on_line = self.on_line[line].iter();
-        on_line
-            .filter(|(_, levels)| levels.iter().any(|&level| (level == LAND) == land))
-            .map(|(&key, _)| height(key))
-            .collect()
+        let on_line = self.on_line[line].keys();
+        let mut keys: Vec<u64> = on_line
+            .filter(|&&(_, level)| (level == LAND) == land)
+            .map(|&(key, _)| key)
+            .collect();
+        keys.dedup();
+        keys.into_iter().map(height).collect()
     }
 
     /// The tops of the walls on the development, each as far as it stands within one turn.
@@ -271,7 +274,7 @@ impl<'a> Surface<'a> {
     pub(super) fn finish(self) -> (Mesh, Vec<u32>, Vec<u32>) {
         let rim = |z: f64| -> Vec<u32> {
             let lines = 0..self.plan.lines.len();
-            lines.map(|l| self.index[&(l, key(z), LAND)]).collect()
+            lines.map(|l| self.on_line[l][&(key(z), LAND)]).collect()
         };
         let (lower, upper) = (rim(self.ends[0]), rim(self.ends[1]));
         let mesh = Mesh {
