@@ -5,14 +5,20 @@ import shutil
 import signal
 import socket
 import tempfile
+import time
 import zipfile
 from pathlib import Path
 
 import pytest
-from conftest import BINARY, DESIGNS, centrode
+from conftest import BINARY, DESIGNS, ROOT, centrode
 from studio import studio
 
 DESIGN = DESIGNS["elliptic"]
+ARMS = (ROOT / "tests" / "designs" / "three-arm-2021.toml").read_text()
+SHAFT = (ROOT / "tests" / "designs" / "spiral-shaft-2018.toml").read_text()
+
+SEARCH = {"text": ARMS, "method": "de", "seed": 1, "evaluations": 100_000_000}
+RESPONSE = {"text": DESIGN, "key": "pitch.module", "from": 2.0, "to": 2.5}
 
 
 @pytest.fixture
@@ -166,6 +172,104 @@ def test_the_zip_holds_the_files_of_export(served, tmp_path):
     status, refused = served.json("POST", "export", {**request, "tolerance": "-1"})
     assert status == 422
     assert "tolerance" in refused["message"]
+
+
+@pytest.mark.parametrize(("method", "path"), [("POST", "search"), ("DELETE", "search"), ("POST", "response")])
+@pytest.mark.parametrize(
+    "headers",
+    [{"Host": "example.org"}, {"Origin": "http://example.org"}, {"Origin": None}],
+    ids=["foreign host", "foreign origin", "no origin"],
+)
+def test_strangers_start_and_stop_no_search(served, method, path, headers):
+    body = None if method == "DELETE" else {"search": SEARCH, "response": RESPONSE}[path]
+    assert served.ask(method, path, body, headers)[0] == 403
+    assert served.ask(method, f"/{'0' * 32}/{path}", body, absolute=True)[0] == 403
+    assert served.json("GET", "search") == (200, None)
+    assert served.answers()
+
+
+@pytest.mark.parametrize("path", ["search", "response"])
+@pytest.mark.parametrize(
+    ("body", "status"),
+    [
+        (b"", 400),
+        (b"{", 400),
+        (b'"text"', 422),
+        ({}, 422),
+        ({"text": 1}, 422),
+        ({**SEARCH, **RESPONSE, "seed": -1, "from": "low"}, 422),
+    ],
+    ids=["nothing", "no JSON", "no object", "nothing in it", "a number for a text", "words for numbers"],
+)
+def test_what_is_no_question_starts_nothing(served, path, body, status):
+    assert served.ask("POST", path, body)[0] == status
+    assert served.json("GET", "search") == (200, None)
+    assert served.answers()
+
+
+@pytest.mark.parametrize(
+    ("change", "reason"),
+    [
+        ({"text": "family ="}, ""),
+        ({"text": SHAFT}, "family"),
+        ({"method": "luck"}, 'unknown method "luck"'),
+    ],
+    ids=["no design", "a family that is not searched", "unknown method"],
+)
+def test_a_search_that_cannot_begin_says_why(served, change, reason):
+    status, answer = served.json("POST", "search", {**SEARCH, **change})
+    assert status == 422
+    assert answer["message"]
+    assert reason in answer["message"]
+    assert served.json("GET", "search") == (200, None)
+
+
+@pytest.mark.parametrize(
+    ("change", "reason"),
+    [
+        ({"text": "family ="}, ""),
+        ({"key": "pitch.modulus"}, "pitch.modulus"),
+        ({"key": "name"}, "name"),
+        ({"key": ""}, ""),
+        ({"from": 3.0}, "the values must rise, but go from 3 to 2.5"),
+        ({"to": 2.0}, "the values must rise, but go from 2 to 2"),
+    ],
+    ids=["no design", "unknown number", "no number", "no key", "falling values", "one value"],
+)
+def test_a_response_that_cannot_be_had_says_why(served, change, reason):
+    status, answer = served.json("POST", "response", {**RESPONSE, **change})
+    assert status == 422
+    assert answer["message"]
+    assert reason in answer["message"]
+    assert served.answers()
+
+
+def test_values_without_a_mechanism_are_gaps_in_the_response(served):
+    status, answer = served.json("POST", "response", {**RESPONSE, "from": -1.0})
+    assert status == 200
+    figures = answer["charts"][0]["figures"]
+    assert figures[0] is None
+    assert figures[-1] is not None
+
+
+def test_a_second_search_takes_the_place_of_the_first(tmp_path):
+    design = tmp_path / "arms.toml"
+    design.write_text(ARMS)
+    with studio(design) as page:
+        assert page.json("POST", "search", SEARCH) == (200, {})
+        assert page.json("POST", "search", {**SEARCH, "method": "luck"})[0] == 422
+        assert page.json("GET", "search")[1]["running"], "a refused search stops none"
+        assert page.json("POST", "search", {**SEARCH, "method": "cma-es"}) == (200, {})
+        state = page.json("GET", "search")[1]
+        assert (state["method"], state["running"]) == ("cma-es", True)
+        assert page.json("DELETE", "search") == (200, {})
+        end = time.monotonic() + 20
+        while page.json("GET", "search")[1]["running"]:
+            assert time.monotonic() < end
+            time.sleep(0.05)
+        state = page.json("GET", "search")[1]
+        assert (state["method"], state["ended"]) == ("cma-es", "Stopped")
+        assert design.read_text() == ARMS
 
 
 def test_saving_a_file_changed_by_others_asks_first(design):
