@@ -180,6 +180,7 @@ def _over_input(
     ax = ax or _axes((8.0, 4.5))
     angles = np.linspace(start, start + 2.0 * np.pi * turns, round(360 * turns) + 1)
     ax.set(xlim=np.degrees(angles[[0, -1]]), xlabel="input angle, deg")
+    ax.xaxis.set_major_locator(_locator(60.0 * max(1.0, np.ceil(turns))))
     shaft = machines[0] if isinstance(machines[0], SpiralShaft) else machines[0].shaft
     for turn in range(int(np.floor(start / (2.0 * np.pi))) - 1, int(np.ceil(angles[-1] / (2.0 * np.pi))) + 2):
         middle, half = np.degrees(shaft.pick) + 360.0 * turn, 0.5 * np.degrees(shaft.window)
@@ -433,6 +434,13 @@ class _Scene:
         self.driver.place(-phi, 0.0, self.ax)
         self.driven.place(self.pair.driven_angle(phi), self.pair.center_distance, self.ax)
         return [*self.driver.patches, *self.driven.patches]
+
+
+def _locator(step: float) -> Any:
+    """Ticks at whole multiples of a step."""
+    from matplotlib.ticker import MultipleLocator
+
+    return MultipleLocator(step)
 
 
 def _axes(size: tuple[float, float]) -> Axes:
