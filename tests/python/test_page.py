@@ -30,8 +30,10 @@ FLAGS = [
 ]
 SHIPPED = sorted((ROOT / "tests" / "designs").glob("*.toml"))
 POINTS = ROOT / "tests" / "designs" / "transplanter-pair-2021.toml"
-
 ARMS = ROOT / "tests" / "designs" / "three-arm-2021.toml"
+FEEDER = ROOT / "tests" / "designs" / "feeder-widened.toml"
+SHAFT = ROOT / "tests" / "designs" / "spiral-shaft-2018.toml"
+BOX = ROOT / "tests" / "designs" / "moving-box-2018.toml"
 
 
 @pytest.fixture(scope="module")
@@ -60,22 +62,27 @@ def shown(browser, url, **options):
     assert not complaints
 
 
+@contextmanager
+def opened(browser, folder, design, **options):
+    """The page of a copy of a design, and the copy."""
+    copy = folder / design.name
+    copy.write_text(design.read_text())
+    with studio(copy) as running, shown(browser, running.url, **options) as page:
+        yield page, copy
+
+
 @pytest.fixture
 def points(browser, tmp_path):
     """The page of the pair whose pitch curve has control points, and its file."""
-    design = tmp_path / "pair.toml"
-    design.write_text(POINTS.read_text())
-    with studio(design) as running, shown(browser, running.url) as page:
-        yield page, design
+    with opened(browser, tmp_path, POINTS) as both:
+        yield both
 
 
 @pytest.fixture
 def arms(browser, tmp_path):
     """The page of the three-arm mechanism, which has goals, and its file."""
-    design = tmp_path / "arms.toml"
-    design.write_text(ARMS.read_text())
-    with studio(design) as running, shown(browser, running.url) as page:
-        yield page, design
+    with opened(browser, tmp_path, ARMS) as both:
+        yield both
 
 
 def settled(page):
@@ -93,6 +100,16 @@ def figures(page):
 def drawing(page):
     """The drawing as an image."""
     return page.locator("#stage canvas").evaluate("canvas => canvas.toDataURL()")
+
+
+def drag(page, handle, right, down):
+    """Draws a point of the drawing aside, pixels."""
+    box = handle.locator("circle").last.bounding_box()
+    x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+    page.mouse.move(x, y)
+    page.mouse.down()
+    page.mouse.move(x + right, y + down, steps=4)
+    page.mouse.up()
 
 
 def field(page, key):
@@ -125,13 +142,7 @@ def test_every_shipped_design_is_shown_with_the_figures_of_check(browser, tmp_pa
 def test_a_dragged_point_changes_numbers_and_drawing_and_can_be_undone(points):
     page, design = points
     before, picture = figures(page), drawing(page)
-    handle = page.locator(".handle").nth(3)
-    box = handle.locator("circle").last.bounding_box()
-    x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
-    page.mouse.move(x, y)
-    page.mouse.down()
-    page.mouse.move(x - 2, y - 3, steps=4)
-    page.mouse.up()
+    drag(page, page.locator(".handle").nth(3), -2, -3)
     expect(page.locator("#undo")).to_be_enabled()
     settled(page)
     assert figures(page)["center_distance"] != before["center_distance"]
@@ -163,6 +174,49 @@ def test_a_point_moves_by_arrow_keys(points):
     page.keyboard.press("ArrowUp")
     expect(page.locator("#undo")).to_be_enabled()
     assert field(page, "pitch.radius").input_value() != "21" or field(page, "pitch.angle_deg").input_value() != "20"
+
+
+@pytest.mark.parametrize(
+    ("design", "name", "keys"),
+    [
+        (FEEDER, "axis of the rocker", ["linkage.frame"]),
+        (FEEDER, "pivot of the effector", ["linkage.pivot-0", "linkage.pivot-1"]),
+        (FEEDER, "end of the crank", ["linkage.crank"]),
+        (FEEDER, "middle of the coupler", ["linkage.coupler"]),
+        (FEEDER, "middle of the rocker", ["linkage.rocker"]),
+        (FEEDER, "tip of the effector", ["linkage.effector_length"]),
+        (SHAFT, "middle of the picking", ["pick_deg"]),
+        (SHAFT, "end of the picking", ["window_deg"]),
+        (BOX, "end of the picking", ["shaft.window_deg"]),
+    ],
+    ids=lambda value: value if isinstance(value, str) else "",
+)
+def test_joints_and_window_are_drawn_aside_by_mouse_and_keys(browser, tmp_path, design, name, keys):
+    with opened(browser, tmp_path, design) as (page, copy):
+        numbers = page.locator("#form input[id^=field-]")
+
+        def written():
+            return dict(numbers.evaluate_all("all => all.map(input => [input.id.slice(6), input.value])"))
+
+        first = written()
+        handle = page.get_by_role("button", name=name)
+        drag(page, handle, 3, 5)
+        expect(page.locator("#undo")).to_be_enabled()
+        settled(page)
+        dragged = written()
+        changed = {key for key in first if dragged[key] != first[key]}
+        assert changed == set(keys)
+        for key in keys:
+            assert float(dragged[key]) == pytest.approx(float(first[key] or 0), abs=30)
+        # The point stays under the pointer: a second drag of nothing changes nothing.
+        at = handle.locator("circle").last.bounding_box()
+        drag(page, handle, 0, 0)
+        assert handle.locator("circle").last.bounding_box() == at
+        handle.focus()
+        page.keyboard.press("ArrowDown")
+        page.keyboard.press("ArrowRight")
+        expect(field(page, keys[0])).not_to_have_value(dragged[keys[0]])
+        assert copy.read_text() == design.read_text()
 
 
 def test_the_scrubber_moves_drawing_and_curves(points):
@@ -319,10 +373,9 @@ def test_a_file_changed_on_disk_is_noticed_and_lost_work_offered(points):
 
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])
-def test_nothing_stands_in_the_way_of_anybody(browser, tmp_path, scheme):
-    design = tmp_path / "pair.toml"
-    design.write_text(POINTS.read_text())
-    with studio(design) as running, shown(browser, running.url, color_scheme=scheme) as page:
+@pytest.mark.parametrize("design", [POINTS, ARMS, FEEDER, BOX], ids=lambda path: path.stem)
+def test_nothing_stands_in_the_way_of_anybody(browser, tmp_path, design, scheme):
+    with opened(browser, tmp_path, design, color_scheme=scheme) as (page, _):
         found = Axe().run(page).response["violations"]
         assert not [(rule["id"], [node["target"] for node in rule["nodes"]]) for rule in found]
         page.set_viewport_size({"width": 400, "height": 800})

@@ -21,9 +21,10 @@ macro_rules! assets {
 const STYLES: [Asset; 2] = assets!("text/css; charset=utf-8": "uplot.css", "page.css");
 
 /// The scripts; `main.js` is the one to start.
-const SCRIPTS: [Asset; 16] = assets!(
+const SCRIPTS: [Asset; 17] = assets!(
     "text/javascript; charset=utf-8":
     "uplot.js",
+    "axes.js",
     "charts.js",
     "dialogs.js",
     "elements.js",

@@ -70,12 +70,16 @@ pub struct Handle {
     pub link: usize,
     /// How the two numbers place it.
     pub plane: HandlePlane,
-    /// Keys of the design: x and y, or radius and polar angle in degrees.
+    /// Keys of the design: x and y, or radius and polar angle in degrees; empty for what cannot be changed.
     pub keys: [String; 2],
     /// The two numbers as written.
     pub values: [f64; 2],
-    /// Millimetres of the picture for one unit of length of the design.
+    /// Millimetres of the picture for one unit of the numbers, lengths or degrees.
     pub scale: f64,
+    /// Where both numbers would be zero, mm in the link's frame.
+    pub origin: [f64; 2],
+    /// Whether a line joins it to the handles before and after.
+    pub chained: bool,
 }
 
 /// How the two numbers of a [`Handle`] place it.

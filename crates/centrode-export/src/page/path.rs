@@ -15,12 +15,16 @@ pub enum Role {
     Pitch,
     /// The path of a point.
     Trace,
+    /// The path of a point as it stays behind on the ground.
+    OverGround,
     /// A bar seen as its centre line.
     Bar,
     /// The same of what grips.
     Clamp,
     /// The ground.
     Ground,
+    /// An edge of the window in which a seedling is picked.
+    Window,
 }
 
 /// A chain of lines and arcs.

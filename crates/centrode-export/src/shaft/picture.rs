@@ -66,6 +66,13 @@ fn picture(machine: &Machine<'_>, tolerance: Tolerance) -> Result<Picture, Shaft
         let edge: Vec<Point> = edge.into_iter().map(drawn).collect();
         surface.push(Path::open(Role::Trace, &edge));
     }
+    let design = shaft.design();
+    for edge in [-0.5, 0.5] {
+        let turned = machine.turn(design.pick + edge * design.window).position;
+        let y = -groove.radius() * turned.rem_euclid(TAU);
+        let ends = [Point::new(low, y), Point::new(high, y)];
+        surface.push(Path::open(Role::Window, &ends));
+    }
     let slider = shaft.slider().outline(groove.width());
     let traverse = shaft.traverse();
     let (lead, holes) = (shaft.law().lead(), f64::from(traverse.holes()));

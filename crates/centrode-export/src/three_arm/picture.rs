@@ -2,7 +2,7 @@ use std::f64::consts::TAU;
 
 use centrode_geometry::{Point, Tolerance};
 use centrode_mechanism::gear::{Gear, GearPair, Member};
-use centrode_mechanism::three_arm::{Link as Part, ThreeArm};
+use centrode_mechanism::three_arm::{Link as Part, LinkMotion, ThreeArm};
 use nalgebra::Isometry2;
 
 use crate::page::{Curve, Link, Mark, Motion, Path, Picture, Role, short};
@@ -30,64 +30,71 @@ pub enum Teeth<'a> {
 /// Outlines are within the tolerance of the exact ones.
 #[must_use]
 pub fn picture(mechanism: &ThreeArm, teeth: Teeth<'_>, tolerance: Tolerance) -> Picture {
-    let arms = mechanism.arms();
     let (sun, intermediate) = gears(mechanism, teeth, tolerance);
-    let mut parts: Vec<(Part, String, Vec<Path>)> = vec![(Part::Sun, "sun".into(), sun.clone())];
-    for k in 0..arms {
-        let name = format!("intermediate gear {}", k + 1);
-        parts.push((Part::Intermediate(k), name, intermediate.clone()));
-    }
-    for k in 0..arms {
-        parts.push((Part::Planet(k), format!("planet {}", k + 1), sun.clone()));
-    }
-    parts.push((Part::Carrier, "carrier".into(), carrier(mechanism)));
-    for k in 0..arms {
-        parts.push((Part::Arm(k), format!("arm {}", k + 1), arm(mechanism)));
-    }
     let input: Vec<f64> = inputs().collect();
     let (length, angle) = (0.1 * tolerance.mm(), 1e-6);
+    let pose = |link: &LinkMotion| {
+        let Point { coords } = link.origin.position;
+        [
+            short(coords.x, length),
+            short(coords.y, length),
+            short(link.angle.position, angle),
+        ]
+    };
     let poses = |part: Part| -> Vec<f64> {
-        let at = |&phi: &f64| {
-            let link = mechanism.link(part, phi);
-            let Point { coords } = link.origin.position;
-            [
-                short(coords.x, length),
-                short(coords.y, length),
-                short(link.angle.position, angle),
-            ]
-        };
+        let at = |&phi: &f64| pose(&mechanism.link(part, phi));
         input.iter().flat_map(at).collect()
     };
-    let mut links = vec![Link {
-        name: "machine".into(),
-        paths: machine(mechanism, tolerance),
-    }];
+    let chains: Vec<[Vec<f64>; 3]> = (0..mechanism.arms())
+        .map(|k| {
+            let mut chain = [const { Vec::new() }; 3];
+            for &phi in &input {
+                for (poses, link) in chain.iter_mut().zip(&mechanism.chain(k, phi)) {
+                    poses.extend(pose(link));
+                }
+            }
+            chain
+        })
+        .collect();
+    let [mut intermediates, mut planets, mut limbs] = [const { Vec::new() }; 3];
+    for (k, [gear, planet, limb]) in (1..).zip(chains) {
+        let named = |name: &str| format!("{name} {k}");
+        intermediates.push((named("intermediate gear"), intermediate.clone(), gear));
+        planets.push((named("planet"), sun.clone(), planet));
+        limbs.push((named("arm"), arm(mechanism), limb));
+    }
+    let ground = |phi: &f64| [short(-travel(mechanism, *phi), length), 0.0, 0.0];
+    let mut parts = vec![
+        (
+            "machine".to_owned(),
+            machine(mechanism, tolerance),
+            [0.0; 3].repeat(input.len()),
+        ),
+        (
+            "ground".to_owned(),
+            over_ground(mechanism, tolerance),
+            input.iter().flat_map(ground).collect(),
+        ),
+    ];
+    parts.extend(planted(mechanism, tolerance));
+    parts.push(("sun".to_owned(), sun.clone(), poses(Part::Sun)));
+    parts.extend(intermediates);
+    parts.extend(planets);
+    parts.push((
+        "carrier".to_owned(),
+        carrier(mechanism),
+        poses(Part::Carrier),
+    ));
+    parts.extend(limbs);
+    let mut links = Vec::new();
     let mut motion = Motion {
         input_name: "carrier".into(),
         input: input.iter().map(|&phi| short(phi, 1e-7)).collect(),
-        poses: vec![[0.0; 3].repeat(input.len())],
+        poses: Vec::new(),
     };
-    if let Some(stem) = mechanism.stem() {
-        let stem = Path::closed(Role::Ground, &stem, tolerance);
-        // The newest first: where an arm plants, each moves up by one.
-        let mut planted = vec![Vec::with_capacity(3 * input.len()); SEEDLINGS as usize];
-        for &phi in &input {
-            let feet = mechanism.planted(phi, SEEDLINGS);
-            for (poses, foot) in planted.iter_mut().zip(feet) {
-                poses.extend([short(foot.x, length), short(foot.y, length), 0.0]);
-            }
-        }
-        for (poses, before) in planted.into_iter().zip(1..) {
-            motion.poses.push(poses);
-            links.push(Link {
-                name: format!("planted seedling {before}"),
-                paths: vec![stem.clone()],
-            });
-        }
-    }
-    for (part, name, paths) in parts {
-        motion.poses.push(poses(part));
+    for (name, paths, poses) in parts {
         links.push(Link { name, paths });
+        motion.poses.push(poses);
     }
     Picture {
         links,
@@ -96,6 +103,29 @@ pub fn picture(mechanism: &ThreeArm, teeth: Teeth<'_>, tolerance: Tolerance) -> 
         marks: marks(mechanism),
         extent: extent(mechanism),
     }
+}
+
+/// The seedlings planted last, each with its pose at every input.
+fn planted(mechanism: &ThreeArm, tolerance: Tolerance) -> Vec<(String, Vec<Path>, Vec<f64>)> {
+    let Some(stem) = mechanism.stem() else {
+        return Vec::new();
+    };
+    let stem = Path::closed(Role::Ground, &stem, tolerance);
+    let unit = 0.1 * tolerance.mm();
+    let mut all: Vec<_> = (1..=SEEDLINGS)
+        .map(|before| {
+            let name = format!("planted seedling {before}");
+            (name, vec![stem.clone()], Vec::new())
+        })
+        .collect();
+    // The newest first: where an arm plants, each moves up by one.
+    for phi in inputs() {
+        let feet = mechanism.planted(phi, SEEDLINGS);
+        for ((_, _, poses), foot) in all.iter_mut().zip(feet) {
+            poses.extend([short(foot.x, unit), short(foot.y, unit), 0.0]);
+        }
+    }
+    all
 }
 
 fn inputs() -> impl Iterator<Item = f64> {
@@ -183,6 +213,23 @@ fn machine(mechanism: &ThreeArm, tolerance: Tolerance) -> Vec<Path> {
     paths
 }
 
+/// How far the machine has gone to the right at a carrier turn, mm.
+fn travel(mechanism: &ThreeArm, phi: f64) -> f64 {
+    let here = mechanism.tip(phi, 0);
+    mechanism.over_ground(&here, phi).position.x - here.position.x
+}
+
+/// The way of the first arm's tip over the ground during one carrier turn.
+fn over_ground(mechanism: &ThreeArm, tolerance: Tolerance) -> Vec<Path> {
+    let unit = 0.1 * tolerance.mm();
+    let place = |phi: f64| {
+        let tip = mechanism.over_ground(&mechanism.tip(phi, 0), phi).position;
+        Point::new(short(tip.x, unit), short(tip.y, unit))
+    };
+    let places: Vec<Point> = inputs().map(place).collect();
+    vec![Path::open(Role::OverGround, &places)]
+}
+
 /// Where an arm picks and where it plants.
 fn marks(mechanism: &ThreeArm) -> Vec<Mark> {
     let mark = |name: &str, input: f64| {
@@ -242,4 +289,36 @@ pub fn curves(mechanism: &ThreeArm) -> Vec<Curve> {
             train(phi).planet.velocity
         }),
     ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use centrode_mechanism::design::Design;
+
+    #[test]
+    fn the_path_left_on_the_ground_goes_through_the_tip_at_every_input() {
+        let text = Design::template("three-arm").expect("a template");
+        let Design::ThreeArm(design) = Design::from_toml(text).expect("sound") else {
+            panic!("a three-arm mechanism")
+        };
+        let mechanism = ThreeArm::resolve(&design).expect("a mechanism");
+        let tolerance = Tolerance::new(1e-3).expect("positive");
+        let picture = picture(&mechanism, Teeth::Plain, tolerance);
+        let link = picture.links.iter().position(|l| l.name == "ground");
+        let link = link.expect("drawn");
+        let way = &picture.links[link].paths[0].vertices;
+        let poses = &picture.motion.poses[link];
+        for (i, &phi) in picture.motion.input.iter().enumerate() {
+            let tip = mechanism.tip(phi, 0).position;
+            let at = Point::new(way[3 * i] + poses[3 * i], way[3 * i + 1] + poses[3 * i + 1]);
+            assert!((at - tip).norm() < 1e-3, "{at} is not {tip} at {phi}");
+        }
+        // One arm plants once a turn, and the machine has gone on by all seedlings of that turn.
+        let gone = poses[0] - poses[poses.len() - 3];
+        assert!(
+            (gone.abs() - TAU * mechanism.advance()).abs() < 1e-3,
+            "{gone}"
+        );
+    }
 }

@@ -100,28 +100,25 @@ impl ThreeArm {
                 origin: rest,
                 angle: self.train().at(input).carrier,
             },
-            Link::Intermediate(chain) => {
-                let jet = self.train().at(self.own_input(input, chain));
-                LinkMotion {
-                    origin: rest.plus(self.center_distance(), &jet.carrier),
-                    angle: jet.intermediate,
-                }
-            }
-            Link::Planet(chain) => {
-                let jet = self.train().at(self.own_input(input, chain));
-                LinkMotion {
-                    origin: self.planet_axis(&jet),
-                    angle: jet.planet,
-                }
-            }
-            Link::Arm(arm) => {
-                let jet = self.train().at(self.own_input(input, arm));
-                LinkMotion {
-                    origin: self.planet_axis(&jet),
-                    angle: moved(jet.arm, self.clamp_mounting()),
-                }
-            }
+            Link::Intermediate(chain) => self.chain(chain, input)[0],
+            Link::Planet(chain) => self.chain(chain, input)[1],
+            Link::Arm(arm) => self.chain(arm, input)[2],
         }
+    }
+
+    /// Intermediate gear, planet and arm of a chain at a carrier turn, as [`link`](Self::link) has them: one
+    /// solution of the train for all three.
+    #[must_use]
+    pub fn chain(&self, chain: u32, input: f64) -> [LinkMotion; 3] {
+        let jet = self.train().at(self.own_input(input, chain));
+        let intermediate = PointMotion::at_rest().plus(self.center_distance(), &jet.carrier);
+        let planet = self.planet_axis(&jet);
+        let motion = |origin, angle| LinkMotion { origin, angle };
+        [
+            motion(intermediate, jet.intermediate),
+            motion(planet, jet.planet),
+            motion(planet, moved(jet.arm, self.clamp_mounting())),
+        ]
     }
 
     fn planet_axis(&self, jet: &TrainJet) -> PointMotion {

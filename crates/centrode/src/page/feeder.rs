@@ -1,14 +1,82 @@
 use centrode::export::feeder;
-use centrode::export::page::Picture;
+use centrode::export::page::{Handle, HandlePlane, Picture};
 use centrode::geometry::Tolerance;
-use centrode::mechanism::feeder::Feeder;
+use centrode::mechanism::feeder::{Feeder, Part};
 
 /// Tolerance of the picture, as a share of the frame.
 const DRAWN: f64 = 1e-4;
 
-/// The six-bar as it moves, with the path of its tip.
+/// The six-bar as it moves, with the path of its tip; its joints can be drawn aside.
 pub(super) fn picture(machine: &Feeder) -> Picture {
     let frame = machine.six_bar().four_bar().lengths()[3];
-    let tolerance = Tolerance::new(DRAWN * frame);
-    tolerance.map_or_else(|_| Picture::default(), |t| feeder::picture(machine, t))
+    let Ok(tolerance) = Tolerance::new(DRAWN * frame) else {
+        return Picture::default();
+    };
+    let mut picture = feeder::picture(machine, tolerance);
+    let link = |part: Part| picture.links.iter().position(|l| l.name == part.name());
+    let handles = joints(machine).into_iter().filter_map(|(part, handle)| {
+        let link = link(part)?;
+        Some(Handle { link, ..handle })
+    });
+    picture.handles = handles.collect();
+    picture
+}
+
+/// A point of each part that stands for one of the linkage's numbers.
+fn joints(machine: &Feeder) -> [(Part, Handle); 6] {
+    let spec = &machine.design().linkage;
+    let handle = |name: &str, plane, keys: [&str; 2], values, scale| Handle {
+        name: name.into(),
+        link: 0,
+        plane,
+        keys: keys.map(|key| match key {
+            "" => String::new(),
+            key => format!("linkage.{key}"),
+        }),
+        values,
+        scale,
+        origin: [0.0; 2],
+        chained: false,
+    };
+    // A length reaches along its own link, at whatever angle that stands.
+    let reach = |name, key, length, scale| {
+        handle(name, HandlePlane::Polar, [key, ""], [length, 0.0], scale)
+    };
+    let place = |name, keys, values| handle(name, HandlePlane::Cartesian, keys, values, 1.0);
+    [
+        (
+            Part::Frame,
+            place("axis of the rocker", ["frame", ""], [spec.frame, 0.0]),
+        ),
+        (
+            Part::Frame,
+            place(
+                "pivot of the effector",
+                ["pivot[0]", "pivot[1]"],
+                spec.pivot,
+            ),
+        ),
+        (
+            Part::Crank,
+            reach("end of the crank", "crank", spec.crank, 1.0),
+        ),
+        // Both end in one joint: each is held in its middle.
+        (
+            Part::Coupler,
+            reach("middle of the coupler", "coupler", spec.coupler, 0.5),
+        ),
+        (
+            Part::Rocker,
+            reach("middle of the rocker", "rocker", spec.rocker, 0.5),
+        ),
+        (
+            Part::Effector,
+            reach(
+                "tip of the effector",
+                "effector_length",
+                spec.effector_length,
+                1.0,
+            ),
+        ),
+    ]
 }

@@ -49,13 +49,15 @@ pub(super) fn handles(pitch: &PitchSpec, length: f64, link: usize) -> Vec<Handle
             }),
             values: [a, b],
             scale,
+            origin: [0.0; 2],
+            chained: true,
         })
     };
     first.iter().enumerate().filter_map(handle).collect()
 }
 
 /// The angle in degrees, without the noise of its way through radians.
-fn degrees(radians: f64) -> f64 {
+pub(super) fn degrees(radians: f64) -> f64 {
     (radians.to_degrees() * 1e10).round() / 1e10
 }
 

@@ -7,14 +7,28 @@ use tokio::sync::oneshot;
 
 use crate::page::{Snapshot, Subject};
 
-/// One thread that solves designs; the latest asked for comes next, and those it overtakes are dropped.
-pub(crate) struct Solver(Arc<Queue>);
+/// Solves designs, the latest asked for first; those it overtakes are dropped.
+///
+/// Pictures and checks have a thread each: a picture never waits until an old design has been checked.
+pub(crate) struct Solver {
+    pictures: Arc<Queue>,
+    checks: Arc<Queue>,
+    shared: Arc<Shared>,
+}
+
+/// What both threads know.
+#[derive(Default)]
+struct Shared {
+    /// Number of the latest job.
+    latest: AtomicU64,
+    /// The last design solved: after its picture its checks are asked for.
+    last: Mutex<Option<Arc<Subject>>>,
+}
 
 #[derive(Default)]
 struct Queue {
     waiting: Mutex<Option<Job>>,
     arrived: Condvar,
-    latest: AtomicU64,
 }
 
 struct Job {
@@ -30,38 +44,47 @@ struct Job {
 pub(crate) struct Overtaken;
 
 impl Solver {
-    /// Starts the thread.
+    /// Starts the threads.
     pub(crate) fn start() -> io::Result<Self> {
-        let queue = Arc::new(Queue::default());
-        let own = Arc::clone(&queue);
-        std::thread::Builder::new()
-            .name("solver".into())
-            .spawn(move || work(&own))?;
-        Ok(Self(queue))
+        let shared = Arc::new(Shared::default());
+        let start = |name: &str| {
+            let queue = Arc::new(Queue::default());
+            let (own, shared) = (Arc::clone(&queue), Arc::clone(&shared));
+            std::thread::Builder::new()
+                .name(name.into())
+                .spawn(move || work(&own, &shared))?;
+            io::Result::Ok(queue)
+        };
+        Ok(Self {
+            pictures: start("pictures")?,
+            checks: start("checks")?,
+            shared,
+        })
     }
 
     /// The snapshot of a design as JSON, with the checks or without.
     pub(crate) async fn solve(&self, text: String, check: bool) -> Result<String, Overtaken> {
         let (reply, answer) = oneshot::channel();
-        let number = self.0.latest.fetch_add(1, Ordering::Relaxed) + 1;
-        *self.0.waiting() = Some(Job {
+        let number = self.shared.latest.fetch_add(1, Ordering::Relaxed) + 1;
+        let queue = if check { &self.checks } else { &self.pictures };
+        *held(&queue.waiting) = Some(Job {
             number,
             text,
             check,
             reply,
         });
-        self.0.arrived.notify_one();
+        queue.arrived.notify_one();
         answer.await.map_err(|_| Overtaken)
     }
 }
 
-impl Queue {
-    fn waiting(&self) -> MutexGuard<'_, Option<Job>> {
-        self.waiting.lock().unwrap_or_else(PoisonError::into_inner)
-    }
+fn held<T>(what: &Mutex<T>) -> MutexGuard<'_, T> {
+    what.lock().unwrap_or_else(PoisonError::into_inner)
+}
 
+impl Queue {
     fn next(&self) -> Job {
-        let mut waiting = self.waiting();
+        let mut waiting = held(&self.waiting);
         loop {
             if let Some(job) = waiting.take() {
                 return job;
@@ -74,30 +97,38 @@ impl Queue {
     }
 }
 
-fn work(queue: &Queue) {
-    // A drag asks for the picture first and for the checks of the same text after.
-    let mut last: Option<Subject> = None;
+impl Shared {
+    fn answer(&self, job: &Job) -> Option<String> {
+        let stale = || job.reply.is_closed() || self.latest.load(Ordering::Relaxed) != job.number;
+        if stale() {
+            return None;
+        }
+        let last = held(&self.last).clone();
+        let subject = match last.filter(|subject| subject.is_of(&job.text)) {
+            Some(subject) => subject,
+            None => match Subject::of(job.text.clone()) {
+                Ok(subject) => Arc::new(subject),
+                Err(snapshot) => return snapshot.json().ok(),
+            },
+        };
+        *held(&self.last) = Some(Arc::clone(&subject));
+        if stale() {
+            return None;
+        }
+        let snapshot: Snapshot = if job.check {
+            subject.checked()
+        } else {
+            subject.drawn()
+        };
+        snapshot.json().ok()
+    }
+}
+
+fn work(queue: &Queue, shared: &Shared) {
     loop {
         let job = queue.next();
-        let stale = || job.reply.is_closed() || queue.latest.load(Ordering::Relaxed) != job.number;
         // A fault of one design must not end the work on the next.
-        let json = catch_unwind(AssertUnwindSafe(|| {
-            let same = last.take().filter(|subject| subject.is_of(&job.text));
-            let subject = match same.map_or_else(|| Subject::of(job.text.clone()), Ok) {
-                Ok(subject) => subject,
-                Err(snapshot) => return snapshot.json().ok(),
-            };
-            if stale() {
-                return None;
-            }
-            let snapshot: Snapshot = if job.check {
-                subject.checked()
-            } else {
-                subject.drawn()
-            };
-            last = Some(subject);
-            snapshot.json().ok()
-        }));
+        let json = catch_unwind(AssertUnwindSafe(|| shared.answer(&job)));
         if let Ok(Some(json)) = json {
             // Nobody waits for what has been overtaken.
             let _ = job.reply.send(json);
@@ -136,6 +167,27 @@ mod tests {
             assert!(last.contains("tooth_count = 59"));
             let done = answers.iter().filter(|a| a.is_ok()).count();
             assert!(done < 39, "{done} stale designs were solved");
+        });
+    }
+
+    #[test]
+    fn a_picture_does_not_wait_for_the_checks_of_an_older_design() {
+        let runtime = tokio::runtime::Builder::new_current_thread()
+            .build()
+            .expect("a runtime");
+        runtime.block_on(async {
+            let solver = Arc::new(Solver::start().expect("a thread"));
+            // Its checks take some seconds in a debug build.
+            let slow = Design::template("three-arm").expect("a template");
+            let quick = Design::template("gear-pair").expect("a template");
+            let first = solver.solve(slow.to_owned(), false).await;
+            assert!(first.expect("nothing overtakes it").contains("\"picture\""));
+            let checker = Arc::clone(&solver);
+            let checks = tokio::spawn(async move { checker.solve(slow.to_owned(), true).await });
+            tokio::task::yield_now().await;
+            let picture = solver.solve(quick.to_owned(), false).await;
+            assert!(picture.expect("the latest").contains("tooth_count"));
+            assert!(!checks.is_finished(), "the picture has waited for them");
         });
     }
 }

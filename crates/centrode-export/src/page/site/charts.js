@@ -1,6 +1,7 @@
 // Curves along the cycle as small multiples, all at the input of the scrubber.
 
 import uPlot from "./uplot.js";
+import { axes } from "./axes.js";
 import { byId, element } from "./elements.js";
 import { read } from "./motion.js";
 import { color } from "./theme.js";
@@ -27,6 +28,7 @@ export class Charts {
     new ResizeObserver(() => this.resize()).observe(this.place);
   }
 
+  /** Takes new curves; `at` says where in the cycle they are read. */
   show(curves, pinned) {
     const groups = new Map();
     for (const curve of curves) {
@@ -43,7 +45,6 @@ export class Charts {
     } else {
       [...groups.values()].forEach((list, i) => this.charts[i].set(list, before));
     }
-    this.at(this.input);
   }
 
   at(input) {
@@ -80,12 +81,6 @@ class Chart {
       series.push({ stroke: () => color(i === 0 ? "ink" : "accent"), width: 1.5, dash: DASH[i % 2], points: { show: false }, spanGaps: false });
       if (this.compared[i]) series.push({ stroke: () => color("pinned"), width: 1.2, dash: [3, 3], points: { show: false } });
     });
-    const axis = {
-      stroke: () => color("muted"),
-      grid: { stroke: () => color("grid"), width: 1 },
-      ticks: { show: false },
-      font: "11px system-ui, sans-serif",
-    };
     this.plot = new uPlot({
       width: Math.max(this.box.clientWidth, 160),
       height: HEIGHT,
@@ -93,10 +88,10 @@ class Chart {
       cursor: { x: false, y: false, points: { show: false }, drag: { x: false, y: false } },
       scales: { x: { time: false, range: (_, least, greatest) => [least, greatest] }, y: { range: span } },
       series,
-      axes: [
-        { ...axis, size: 20, gap: 2, incrs: [15, 30, 45, 60, 90, 180, 360, 720, 1440, 3600], values: (_, list) => list.map((v) => `${v}°`), space: 48 },
-        { ...axis, size: 54, gap: 4, space: 26, values: (_, list) => list.map((v) => tick(v, list)) },
-      ],
+      axes: axes(
+        { incrs: [15, 30, 45, 60, 90, 180, 360, 720, 1440, 3600], values: (_, list) => list.map((v) => `${v}°`), space: 48 },
+        { values: (_, list) => list.map((v) => tick(v, list)) },
+      ),
     }, this.data(curves, before), this.box);
     this.line = element("div", { class: "now" });
     this.plot.over.append(this.line);

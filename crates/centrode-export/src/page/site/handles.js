@@ -5,9 +5,19 @@ import { byId, drawn } from "./elements.js";
 const DEG = Math.PI / 180;
 
 /** Where a handle lies in the frame of its link. */
-function position({ plane, values: [a, b], scale }) {
-  if (plane === "cartesian") return [a * scale, b * scale];
-  return [a * scale * Math.cos(b * DEG), a * scale * Math.sin(b * DEG)];
+function position({ plane, values: [a, b], scale, origin: [x, y] }) {
+  if (plane === "cartesian") return [x + a * scale, y + b * scale];
+  return [x + a * scale * Math.cos(b * DEG), y + a * scale * Math.sin(b * DEG)];
+}
+
+/** The numbers of a handle in words. */
+function words({ keys, values }) {
+  const said = keys.flatMap((key, i) => {
+    const [name] = key.split(".").at(-1).split("[");
+    if (!name) return [];
+    return [name.endsWith("_deg") ? `${name.slice(0, -4)} ${values[i]}°` : `${name} ${values[i]} mm`];
+  });
+  return said.join(", ").replaceAll("_", " ");
 }
 
 /** A power of ten so small that a step of it is no more than the size. */
@@ -37,9 +47,7 @@ export class Handles {
       this.marks = handles.map((_, i) => this.mark(i));
     }
     handles.forEach((handle, i) => {
-      const [a, b] = handle.values;
-      const where = handle.plane === "polar" ? `radius ${a} mm, angle ${b}°` : `x ${a}, y ${b} mm`;
-      this.marks[i].setAttribute("aria-label", `${handle.name}: ${where}`);
+      this.marks[i].setAttribute("aria-label", `${handle.name}: ${words(handle)}`);
     });
     this.place(this.poses);
   }
@@ -50,14 +58,14 @@ export class Handles {
     const hidden = !byId("show-handles").checked || this.list.length === 0;
     this.layer.classList.toggle("hidden", hidden);
     if (hidden || !this.chain) return;
-    const points = this.list.map((handle, i) => {
+    const points = this.list.flatMap((handle, i) => {
       const pose = poses[handle.link];
-      if (!pose) return "";
+      if (!pose) return [];
       const [x, y] = position(handle);
       const [c, s] = [Math.cos(pose[2]), Math.sin(pose[2])];
       const [px, py] = this.stage.toBox(pose[0] + c * x - s * y, pose[1] + s * x + c * y);
       this.marks[i].setAttribute("transform", `translate(${px.toFixed(2)} ${py.toFixed(2)})`);
-      return `${px.toFixed(1)},${py.toFixed(1)}`;
+      return handle.chained ? [`${px.toFixed(1)},${py.toFixed(1)}`] : [];
     });
     this.chain.setAttribute("points", points.join(" "));
   }
@@ -98,13 +106,13 @@ export class Handles {
     const handle = this.list[index];
     const [ox, oy, angle] = this.poses[handle.link];
     const [c, s] = [Math.cos(angle), Math.sin(angle)];
-    const u = (c * (x - ox) + s * (y - oy)) / handle.scale;
-    const v = (c * (y - oy) - s * (x - ox)) / handle.scale;
+    const u = (c * (x - ox) + s * (y - oy) - handle.origin[0]) / handle.scale;
+    const v = (c * (y - oy) - s * (x - ox) - handle.origin[1]) / handle.scale;
     this.give(handle, u, v, final);
   }
 
   give(handle, u, v, final) {
-    const step = power(1 / (this.stage.view.scale * handle.scale));
+    const step = power(1 / (this.stage.view.scale * Math.abs(handle.scale)));
     let values = [rounded(u, step), rounded(v, step)];
     if (handle.plane === "polar") {
       const radius = Math.hypot(u, v);
@@ -115,8 +123,7 @@ export class Handles {
       values = [rounded(radius, step), rounded(now + 360 * turns, turn)];
     }
     const edits = handle.keys.map((key, i) => ({ key, value: values[i] })).filter((edit) => edit.key);
-    if (edits.length === 1) values[1] = handle.values[1];
-    handle.values = values;
+    handle.values = values.map((value, i) => (handle.keys[i] ? value : handle.values[i]));
     this.place(this.poses);
     this.edit(edits, final);
   }

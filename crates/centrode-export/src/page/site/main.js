@@ -15,7 +15,7 @@ import * as theme from "./theme.js";
 import * as verdict from "./verdict.js";
 
 const DEG = 180 / Math.PI;
-/** Solving slower than this shows the picture before the checks while something is dragged, ms. */
+/** Checks slower than this come after the picture, ms. */
 const SLOW = 40;
 
 const embedded = byId("snapshot");
@@ -31,7 +31,8 @@ const state = {
   draft: new Map(),
   pending: null,
   solving: false,
-  answered: 0,
+  /** How long the last checks took, ms: unknown ones come after the picture. */
+  took: Infinity,
 };
 
 const stage = new Stage((poses) => handles?.place(poses));
@@ -94,7 +95,7 @@ function show(snapshot) {
   if (!snapshot.picture && before?.picture) {
     // No mechanism: the last one stays in sight, faded.
     snapshot = { ...before, text: snapshot.text, tables: snapshot.tables, error: snapshot.error };
-  } else if (!snapshot.verdict && before?.verdict) {
+  } else if (!snapshot.verdict && before) {
     snapshot = { ...snapshot, curves: merged(snapshot.curves, before.curves), stale: true };
   }
   state.snapshot = snapshot;
@@ -164,7 +165,7 @@ async function solve() {
     const slow = state.took > SLOW;
     try {
       const start = performance.now();
-      let snapshot = await server.solve({ text, edits, check: !slow });
+      const snapshot = await server.solve({ text, edits, check: !slow });
       if (snapshot.overtaken) {
         // Another window of this page has asked; then it is our turn again.
         state.pending ??= job;
@@ -173,12 +174,8 @@ async function solve() {
       }
       if (job.final) settle(snapshot.text, sent);
       show(snapshot);
-      if (slow && !state.pending) {
-        snapshot = await server.solve({ text: snapshot.text, edits: [], check: true });
-        if (!state.pending && !snapshot.overtaken) show(snapshot);
-      }
-      state.took = performance.now() - start;
-      state.answered += 1;
+      if (!slow) state.took = performance.now() - start;
+      else if (!state.pending && !snapshot.error) check(snapshot.text);
       dialogs.withdraw("server");
     } catch (error) {
       if (job.final) forgetDraft(sent);
@@ -186,6 +183,25 @@ async function solve() {
     }
   }
   state.solving = false;
+}
+
+/** Has the design that is shown checked, while changes to it go on being drawn. */
+async function check(text) {
+  const wanted = () => !state.solving && state.snapshot.text === text;
+  const start = performance.now();
+  try {
+    let snapshot = await server.solve({ text, edits: [], check: true });
+    while (snapshot.overtaken && wanted()) {
+      // Another window of this page has asked; then it is our turn again.
+      await new Promise((resume) => setTimeout(resume, 100));
+      snapshot = await server.solve({ text, edits: [], check: true });
+    }
+    if (snapshot.overtaken || !wanted()) return;
+    state.took = performance.now() - start;
+    show(snapshot);
+  } catch (error) {
+    complain("server", error);
+  }
 }
 
 /** A change has arrived in the text. */

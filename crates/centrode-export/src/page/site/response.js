@@ -1,6 +1,7 @@
 // How the goals answer one number of the design, as small multiples.
 
 import uPlot from "./uplot.js";
+import { axes } from "./axes.js";
 import * as dialogs from "./dialogs.js";
 import { element } from "./elements.js";
 import * as server from "./server.js";
@@ -72,12 +73,6 @@ function draw(place, values, chart, now) {
   const ends = chart.wanted.filter((end) => end !== null);
   place.append(element("figure", { class: "chart" },
     element("figcaption", {}, element("b", {}, chart.title), chart.unit ? element("span", { class: "quiet" }, ` ${chart.unit}`) : null), box));
-  const axis = {
-    stroke: () => color("muted"),
-    grid: { stroke: () => color("grid"), width: 1 },
-    ticks: { show: false },
-    font: "11px system-ui, sans-serif",
-  };
   const lines = (plot) => {
     const { ctx } = plot;
     const { left, top, width, height } = plot.bbox;
@@ -105,7 +100,7 @@ function draw(place, values, chart, now) {
     cursor: { show: false },
     scales: { x: { time: false } },
     series: [{}, { stroke: () => color("ink"), width: 1.5, points: { show: true, size: 4 }, spanGaps: false }],
-    axes: [{ ...axis, size: 20, gap: 2 }, { ...axis, size: 54, gap: 4, space: 26 }],
+    axes: axes(),
     hooks: { draw: [lines] },
   }, [values, chart.figures], box);
 }

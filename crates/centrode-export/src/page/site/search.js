@@ -1,6 +1,7 @@
 // The search for a better design: started, watched, stopped, taken or dropped.
 
 import uPlot from "./uplot.js";
+import { axes } from "./axes.js";
 import { byId, element } from "./elements.js";
 import * as server from "./server.js";
 import { color } from "./theme.js";
@@ -145,12 +146,6 @@ export class Search {
       this.plot.setData(data);
       return;
     }
-    const axis = {
-      stroke: () => color("muted"),
-      grid: { stroke: () => color("grid"), width: 1 },
-      ticks: { show: false },
-      font: "11px system-ui, sans-serif",
-    };
     this.plot = new uPlot({
       width,
       height: HEIGHT,
@@ -162,7 +157,7 @@ export class Search {
         { stroke: () => color("warning"), width: 1.5, points: { show: false } },
         { stroke: () => color("good"), width: 1.5, points: { show: false } },
       ],
-      axes: [{ ...axis, size: 20, gap: 2 }, { ...axis, size: 54, gap: 4, space: 26 }],
+      axes: axes(),
     }, data, this.box);
   }
 

@@ -55,7 +55,9 @@ class Scene {
 const LINES = {
   pitch: ["accent", 1, [9, 3, 2, 3]],
   trace: ["accent", 1.5, []],
+  overground: ["accent", 1.2, [2, 4]],
   ground: ["muted", 1.5, [12, 4]],
+  window: ["pinned", 1.2, [6, 4]],
 };
 
 export class Stage {
@@ -75,10 +77,10 @@ export class Stage {
     this.listen();
   }
 
+  /** Takes a new picture; it is drawn by `at`. */
   show(picture) {
     this.scene = picture ? new Scene(picture) : null;
-    if (this.fitted) this.fit();
-    else this.draw();
+    if (this.fitted) this.frame();
   }
 
   pin(picture) {
@@ -102,6 +104,12 @@ export class Stage {
 
   fit() {
     this.fitted = true;
+    this.frame();
+    this.draw();
+  }
+
+  /** Sets the view so that all of the picture is in it. */
+  frame() {
     if (this.scene) {
       const [left, bottom, right, top] = this.scene.picture.extent;
       const { clientWidth: width, clientHeight: height } = this.box;
@@ -110,7 +118,6 @@ export class Stage {
         this.view = { x: (left + right) / 2, y: (bottom + top) / 2, scale };
       }
     }
-    this.draw();
   }
 
   /** Zooms so that the point under a place of the box stays there. */
