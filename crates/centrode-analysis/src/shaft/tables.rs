@@ -139,60 +139,62 @@ fn eighths(of: impl Fn(f64) -> Vec<f64>) -> Vec<(String, Vec<f64>)> {
 /// Acceleration and forces over one turn of a stroke by equilibrium, beside equations (14) to (18) of Zhou et al.
 /// 2018, which do not hold: see [`Load::published`](centrode_mechanism::shaft::Load::published).
 ///
-/// (16) to (18) are for sines; for another law their columns are left out.
+/// (16) to (18) are for sines; for another law they are left out.
 pub(super) fn published(shaft: &SpiralShaft) -> Vec<Table> {
     let (load, radius) = (shaft.load(), shaft.groove().radius());
     let printed = |theta: f64| shaft.published_acceleration(theta, load);
-    let forces = |theta: f64| {
+    let sine = printed(0.0).is_some();
+    // Ours, by the true acceleration, and by that of (16): normal and transverse.
+    let forces = |theta: f64| -> Vec<[f64; 2]> {
         let motion = shaft.law().at(theta);
         let lead = (motion.velocity / radius).atan();
-        let force = load.force(motion, lead, radius);
-        let by_motion = load.published(shaft.stroke_acceleration(theta, load), lead);
-        let by_wave = printed(theta).map(|acceleration| load.published(acceleration, lead));
-        let mut values = vec![force.normal, by_motion.normal];
-        values.extend(by_wave.map(|by| by.normal));
-        values.extend([force.transverse, by_motion.transverse]);
-        values.extend(by_wave.map(|by| by.transverse));
-        values
+        let ours = load.force(motion, lead, radius);
+        let true_one = Some(shaft.stroke_acceleration(theta, load));
+        let theirs = [true_one, printed(theta)].into_iter().flatten().map(|x| {
+            let force = load.published(x, lead);
+            [force.normal, force.transverse]
+        });
+        std::iter::once([ours.normal, ours.transverse])
+            .chain(theirs)
+            .collect()
     };
-    let table = |name, title, unit, columns: &[&str], rows| Table {
+    let of = |side: usize| eighths(|theta| forces(theta).iter().map(|force| force[side]).collect());
+    let table = |name, title, unit, columns: &[&str], rows: Vec<(String, Vec<f64>)>| Table {
         name,
         title,
         unit,
         columns: columns.iter().map(|&c| c.to_owned()).collect(),
         rows,
     };
-    let of_forces = |columns| {
+    let columns = if sine { 3 } else { 2 };
+    let mut tables = vec![
         table(
-            "forces",
-            "Forces beside the paper's",
+            "normal-forces",
+            "Normal force beside the paper's",
             "N",
-            columns,
-            eighths(forces),
-        )
-    };
-    if printed(0.0).is_none() {
-        return vec![of_forces(&["normal", "by (14)", "transverse", "by (15)"])];
-    }
-    let accelerations = |theta: f64| {
-        let ours = shaft.stroke_acceleration(theta, load);
-        [Some(ours), printed(theta)].into_iter().flatten().collect()
-    };
-    vec![
+            &["normal", "by (14)", "by (17)"][..columns],
+            of(0),
+        ),
         table(
+            "transverse-forces",
+            "Transverse force beside the paper's",
+            "N",
+            &["transverse", "by (15)", "by (18)"][..columns],
+            of(1),
+        ),
+    ];
+    if sine {
+        let accelerations = |theta: f64| {
+            let ours = shaft.stroke_acceleration(theta, load);
+            [Some(ours), printed(theta)].into_iter().flatten().collect()
+        };
+        tables.push(table(
             "accelerations",
             "Acceleration beside the paper's",
             "m/s^2",
             &["acceleration", "by (16)"],
             eighths(accelerations),
-        ),
-        of_forces(&[
-            "normal",
-            "by (14)",
-            "by (17)",
-            "transverse",
-            "by (15)",
-            "by (18)",
-        ]),
-    ]
+        ));
+    }
+    tables
 }

@@ -49,14 +49,6 @@ fn joints(machine: &Feeder) -> [(Part, Handle); 6] {
             place("axis of the rocker", ["frame", ""], [spec.frame, 0.0]),
         ),
         (
-            Part::Frame,
-            place(
-                "pivot of the effector",
-                ["pivot[0]", "pivot[1]"],
-                spec.pivot,
-            ),
-        ),
-        (
             Part::Crank,
             reach("end of the crank", "crank", spec.crank, 1.0),
         ),
@@ -76,6 +68,15 @@ fn joints(machine: &Feeder) -> [(Part, Handle); 6] {
                 "effector_length",
                 spec.effector_length,
                 1.0,
+            ),
+        ),
+        // On top: a coupler that passes over it must not keep it from being reached.
+        (
+            Part::Frame,
+            place(
+                "pivot of the effector",
+                ["pivot[0]", "pivot[1]"],
+                spec.pivot,
             ),
         ),
     ]

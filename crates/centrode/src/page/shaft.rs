@@ -42,13 +42,14 @@ pub(super) fn box_curves(machine: &MovingBox) -> Vec<Curve> {
     shaft::box_curves(machine).unwrap_or_default()
 }
 
-/// Middle and end of the window in which a seedling is picked, at the near end of the development.
+/// Middle and end of the window in which a seedling is picked, at the near and the far end of the development:
+/// side by side they would lie on one another.
 fn window(part: &SpiralShaft, table: &str, turn: impl Fn(f64) -> MotionJet) -> Vec<Handle> {
     let Ok(solid) = ShaftSolid::new(part.groove(), part.body()) else {
         return Vec::new();
     };
     let (design, radius) = (part.design(), part.groove().radius());
-    let handle = |name: &str, key: &str, value: f64, input: f64, share: f64| {
+    let handle = |name: &str, key: &str, value: f64, input: f64, [x, share]: [f64; 2]| {
         let at = turn(input);
         // One degree of the number moves the point so far; the turned surface runs downwards.
         let scale = -radius * at.velocity * share * 1.0_f64.to_radians();
@@ -60,25 +61,21 @@ fn window(part: &SpiralShaft, table: &str, turn: impl Fn(f64) -> MotionJet) -> V
             keys: [String::new(), format!("{table}{key}")],
             values: [0.0, value],
             scale,
-            origin: [solid.ends()[0], place - scale * value],
+            origin: [x, place - scale * value],
             chained: false,
         }
     };
+    let [near, far] = solid.ends();
     let (middle, end) = (design.pick, design.pick + 0.5 * design.window);
+    let (pick, width) = (degrees(middle), degrees(design.window));
     vec![
         handle(
             "middle of the picking",
             "pick_deg",
-            degrees(middle),
+            pick,
             middle,
-            1.0,
+            [near, 1.0],
         ),
-        handle(
-            "end of the picking",
-            "window_deg",
-            degrees(design.window),
-            end,
-            0.5,
-        ),
+        handle("end of the picking", "window_deg", width, end, [far, 0.5]),
     ]
 }

@@ -12,10 +12,12 @@ function position({ plane, values: [a, b], scale, origin: [x, y] }) {
 
 /** The numbers of a handle in words. */
 function words({ keys, values }) {
-  const said = keys.flatMap((key, i) => {
-    const [name] = key.split(".").at(-1).split("[");
+  const names = keys.map((key) => key.split(".").at(-1).split("[")[0]);
+  const said = names.flatMap((name, i) => {
     if (!name) return [];
-    return [name.endsWith("_deg") ? `${name.slice(0, -4)} ${values[i]}°` : `${name} ${values[i]} mm`];
+    if (name.endsWith("_deg")) return [`${name.slice(0, -4)} ${values[i]}°`];
+    // Two numbers of one list are coordinates.
+    return [`${names[0] === names[1] ? "xy"[i] : name} ${values[i]} mm`];
   });
   return said.join(", ").replaceAll("_", " ");
 }
@@ -79,6 +81,7 @@ export class Handles {
       mark.focus();
       mark.setPointerCapture(event.pointerId);
       this.dragged = index;
+      this.stage.held = true;
       this.began();
     });
     mark.addEventListener("pointermove", (event) => {
@@ -88,6 +91,7 @@ export class Handles {
       mark.addEventListener(end, (event) => {
         if (this.dragged !== index) return;
         this.dragged = null;
+        this.stage.held = false;
         this.move(index, this.pointed(event), true);
       });
     }

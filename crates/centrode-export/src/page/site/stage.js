@@ -72,6 +72,8 @@ export class Stage {
     this.stale = false;
     this.view = { x: 0, y: 0, scale: 1 };
     this.fitted = true;
+    /** Whether a point is being drawn aside: the view must not move under it. */
+    this.held = false;
     this.density = 1;
     new ResizeObserver(() => this.resize()).observe(this.box);
     this.listen();
@@ -80,7 +82,7 @@ export class Stage {
   /** Takes a new picture; it is drawn by `at`. */
   show(picture) {
     this.scene = picture ? new Scene(picture) : null;
-    if (this.fitted) this.frame();
+    if (this.fitted && !this.held) this.frame();
   }
 
   pin(picture) {
