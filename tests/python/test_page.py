@@ -205,7 +205,7 @@ def test_joints_and_window_are_drawn_aside_by_mouse_and_keys(browser, tmp_path, 
             page.keyboard.press("PageUp")
         handle = page.get_by_role("button", name=name)
         drag(page, handle, 3, 5)
-        expect(page.locator("#undo")).to_be_enabled()
+        expect(page.locator("#undo")).to_be_enabled(timeout=30_000)
         for key in keys:
             expect(field(page, key)).not_to_have_value(first[key])
         dragged = written()
