@@ -510,7 +510,7 @@ impl SpiralShaft {
     /// >>> import centrode as ct
     /// >>> report = ct.SpiralShaft.for_moved_distance(2.05).check()
     /// >>> [finding.rule for finding in report.findings]
-    /// ['crossing-while-picking', 'flat-slider']
+    /// ['slider-tilts', 'crossing-while-picking', 'flat-slider']
     fn check<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let shaft = Arc::clone(&self.shaft);
         let report = wait(py, move || check_shaft(&shaft))?;

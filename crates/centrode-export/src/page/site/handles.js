@@ -35,7 +35,8 @@ export class Handles {
     this.began = began;
     this.layer = stage.box.querySelector("svg");
     this.list = [];
-    this.marks = [];
+    /** Marks by the names of their points. */
+    this.marks = new Map();
     this.poses = [];
     this.dragged = null;
     byId("show-handles").addEventListener("change", () => this.place(this.poses));
@@ -43,14 +44,25 @@ export class Handles {
 
   show(handles) {
     this.list = handles;
-    if (this.marks.length !== handles.length) {
-      this.layer.replaceChildren();
-      this.chain = this.layer.appendChild(drawn("polygon", { class: "chain" }));
-      this.marks = handles.map((_, i) => this.mark(i));
+    this.chain ??= this.layer.appendChild(drawn("polygon", { class: "chain" }));
+    // A mark that is held stays, even if this design has no such point.
+    const names = new Set(handles.map((handle) => handle.name));
+    for (const [name, mark] of this.marks) {
+      if (names.has(name) || name === this.dragged) continue;
+      mark.remove();
+      this.marks.delete(name);
     }
-    handles.forEach((handle, i) => {
-      this.marks[i].setAttribute("aria-label", `${handle.name}: ${words(handle)}`);
-    });
+    let next = null;
+    for (const handle of handles.toReversed()) {
+      let mark = this.marks.get(handle.name);
+      if (!mark) {
+        mark = this.mark(handle.name);
+        this.marks.set(handle.name, mark);
+        this.layer.insertBefore(mark, next);
+      }
+      mark.setAttribute("aria-label", `${handle.name}: ${words(handle)}`);
+      next = mark;
+    }
     this.place(this.poses);
   }
 
@@ -60,19 +72,19 @@ export class Handles {
     const hidden = !byId("show-handles").checked || this.list.length === 0;
     this.layer.classList.toggle("hidden", hidden);
     if (hidden || !this.chain) return;
-    const points = this.list.flatMap((handle, i) => {
+    const points = this.list.flatMap((handle) => {
       const pose = poses[handle.link];
       if (!pose) return [];
       const [x, y] = position(handle);
       const [c, s] = [Math.cos(pose[2]), Math.sin(pose[2])];
       const [px, py] = this.stage.toBox(pose[0] + c * x - s * y, pose[1] + s * x + c * y);
-      this.marks[i].setAttribute("transform", `translate(${px.toFixed(2)} ${py.toFixed(2)})`);
+      this.marks.get(handle.name).setAttribute("transform", `translate(${px.toFixed(2)} ${py.toFixed(2)})`);
       return handle.chained ? [`${px.toFixed(1)},${py.toFixed(1)}`] : [];
     });
     this.chain.setAttribute("points", points.join(" "));
   }
 
-  mark(index) {
+  mark(name) {
     const mark = drawn("g", { class: "handle", tabindex: 0, role: "button" });
     mark.append(drawn("circle", { r: 12, class: "reach" }), drawn("circle", { r: 5 }));
     mark.addEventListener("pointerdown", (event) => {
@@ -80,24 +92,27 @@ export class Handles {
       event.stopPropagation();
       mark.focus();
       mark.setPointerCapture(event.pointerId);
-      this.dragged = index;
+      this.dragged = name;
       this.stage.held = true;
       this.began();
     });
     mark.addEventListener("pointermove", (event) => {
-      if (this.dragged === index) this.move(index, this.pointed(event), false);
+      if (this.dragged === name) this.move(name, this.pointed(event), false);
     });
     for (const end of ["pointerup", "pointercancel"]) {
       mark.addEventListener(end, (event) => {
-        if (this.dragged !== index) return;
+        if (this.dragged !== name) return;
         this.dragged = null;
         this.stage.held = false;
-        this.move(index, this.pointed(event), true);
+        this.move(name, this.pointed(event), true);
       });
     }
-    mark.addEventListener("keydown", (event) => this.nudge(index, event));
-    this.layer.append(mark);
+    mark.addEventListener("keydown", (event) => this.nudge(name, event));
     return mark;
+  }
+
+  named(name) {
+    return this.list.find((handle) => handle.name === name);
   }
 
   pointed(event) {
@@ -106,8 +121,13 @@ export class Handles {
   }
 
   /** Takes a point of the drawing back to the numbers it stands for. */
-  move(index, [x, y], final) {
-    const handle = this.list[index];
+  move(name, [x, y], final) {
+    const handle = this.named(name);
+    if (!handle) {
+      // This design has no such point: it stays as it is, and so does what was asked for last.
+      if (final) this.edit([], true);
+      return;
+    }
     const [ox, oy, angle] = this.poses[handle.link];
     const [c, s] = [Math.cos(angle), Math.sin(angle)];
     const u = (c * (x - ox) + s * (y - oy) - handle.origin[0]) / handle.scale;
@@ -132,18 +152,19 @@ export class Handles {
     this.edit(edits, final);
   }
 
-  nudge(index, event) {
+  nudge(name, event) {
     const ways = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
     const way = ways[event.key];
     if (!way) return;
     event.preventDefault();
     event.stopPropagation();
     this.began();
-    const handle = this.list[index];
+    const handle = this.named(name);
+    if (!handle) return;
     const [ox, oy, angle] = this.poses[handle.link];
     const [c, s] = [Math.cos(angle), Math.sin(angle)];
     const [x, y] = position(handle);
     const reach = (event.shiftKey ? 10 : 1) * 2 * power(10 / this.stage.view.scale) / 2;
-    this.move(index, [ox + c * x - s * y + way[0] * reach, oy + s * x + c * y + way[1] * reach], true);
+    this.move(name, [ox + c * x - s * y + way[0] * reach, oy + s * x + c * y + way[1] * reach], true);
   }
 }
