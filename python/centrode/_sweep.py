@@ -1,6 +1,5 @@
 from collections.abc import Callable, Iterable, Mapping
 from concurrent.futures import BrokenExecutor, Executor, Future, wait
-from functools import lru_cache
 from typing import TypeAlias, TypeVar, overload
 
 import numpy as np
@@ -25,6 +24,7 @@ _VARIANTS = 4096
 def sweep(
     designs: Iterable[str | GearPair | ThreeArm | SpiralShaft | MovingBox | Feeder],
     *,
+    over: None = None,
     executor: Pool = None,
     chunk: int | None = None,
     attempts: int = 3,
@@ -107,7 +107,7 @@ def _variants(
     chunk: int,
     attempts: int,
 ) -> Columns:
-    arms = _arms(design) if isinstance(design, str) else design
+    arms = ThreeArm.from_toml(design) if isinstance(design, str) else design
     # What is wrong is told here rather than by a worker.
     given = {name: np.asarray(values, dtype=float) for name, values in over.items()}
     arms.sweep({name: values.flat[:1] for name, values in given.items()}, inputs=inputs)
@@ -123,15 +123,10 @@ def _variants(
     return {name: np.concatenate([column[name] for column in columns]) for name in columns[0]}
 
 
-@lru_cache(maxsize=8)
-def _arms(text: str) -> ThreeArm:
-    return ThreeArm.from_toml(text)
-
-
 def _part(part: tuple[str, Columns, int]) -> Columns:
     """The figures of some variants in this process."""
     text, columns, inputs = part
-    return _arms(text).sweep(columns, inputs=inputs)
+    return ThreeArm.from_toml(text).sweep(columns, inputs=inputs)
 
 
 def _spread(
