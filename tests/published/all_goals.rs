@@ -2,16 +2,13 @@
 
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
-use std::path::Path;
 
 use centrode_analysis::{Report, Severity, check, check_three_arm};
 use centrode_mechanism::design::{Design, DesignFile};
 use centrode_mechanism::three_arm::design::ThreeArmDesign;
 use centrode_mechanism::three_arm::{Parameter, ThreeArm};
 
-fn file(name: &str) -> std::path::PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join(name)
-}
+use crate::data::{documented, file};
 
 fn design(name: &str) -> ThreeArmDesign {
     let text = std::fs::read(file(&format!("designs/{name}.toml"))).expect("shipped");
@@ -161,16 +158,5 @@ fn table() -> String {
 
 #[test]
 fn the_documented_moves_are_the_computed_ones() {
-    let path = file("../docs/three-arm.md");
-    let (begin, end) = ("<!-- all goals -->\n", "<!-- end of all goals -->\n");
-    let document = std::fs::read_to_string(&path).expect("checked in");
-    let (before, rest) = document.split_once(begin).expect("the table begins");
-    let (written, after) = rest.split_once(end).expect("and ends");
-    let computed = table();
-    if std::env::var_os("UPDATE_GOLDEN").is_some() {
-        let document = format!("{before}{begin}{computed}{end}{after}");
-        std::fs::write(&path, document).expect("written");
-        return;
-    }
-    assert_eq!(written, computed, "UPDATE_GOLDEN=1 writes it anew");
+    documented("../docs/three-arm.md", "all goals", &table());
 }

@@ -101,3 +101,26 @@ pub(crate) struct ThreeArmReading {
     pub(crate) planting_tip: [f64; 2],
     pub(crate) height: f64,
 }
+
+/// A file by its place from the folder of the tests.
+pub(crate) fn file(name: &str) -> std::path::PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join(name)
+}
+
+/// Holds the table of a document, between comments of its name, against the computed one; `UPDATE_GOLDEN` writes it.
+pub(crate) fn documented(document: &str, name: &str, computed: &str) {
+    let path = file(document);
+    let (begin, end) = (
+        format!("<!-- {name} -->\n"),
+        format!("<!-- end of {name} -->\n"),
+    );
+    let document = std::fs::read_to_string(&path).expect("checked in");
+    let (before, rest) = document.split_once(&begin).expect("the table begins");
+    let (written, after) = rest.split_once(&end).expect("and ends");
+    if std::env::var_os("UPDATE_GOLDEN").is_some() {
+        let document = format!("{before}{begin}{computed}{end}{after}");
+        std::fs::write(&path, document).expect("written");
+        return;
+    }
+    assert_eq!(written, computed, "UPDATE_GOLDEN=1 writes it anew");
+}

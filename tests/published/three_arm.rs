@@ -1,5 +1,4 @@
 use std::fmt::Write as _;
-use std::path::Path;
 
 use centrode_analysis::{Goal, check_three_arm};
 use centrode_mechanism::design::{Design, DesignFile};
@@ -9,11 +8,7 @@ use centrode_mechanism::gear::{Member, Soundness};
 use centrode_mechanism::three_arm::ThreeArm;
 use centrode_mechanism::three_arm::design::ThreeArmDesign;
 
-use crate::data::{ThreeArmReading, UndercutAtPhase, cases};
-
-fn file(name: &str) -> std::path::PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join(name)
-}
+use crate::data::{ThreeArmReading, UndercutAtPhase, cases, documented, file};
 
 /// The shipped design of the published set.
 fn published() -> ThreeArmDesign {
@@ -226,16 +221,5 @@ fn table() -> String {
 
 #[test]
 fn the_documented_table_of_readings_is_the_computed_one() {
-    let path = file("../docs/three-arm.md");
-    let (begin, end) = ("<!-- readings -->\n", "<!-- end of readings -->\n");
-    let document = std::fs::read_to_string(&path).expect("checked in");
-    let (before, rest) = document.split_once(begin).expect("the table begins");
-    let (written, after) = rest.split_once(end).expect("and ends");
-    let computed = table();
-    if std::env::var_os("UPDATE_GOLDEN").is_some() {
-        let document = format!("{before}{begin}{computed}{end}{after}");
-        std::fs::write(&path, document).expect("written");
-        return;
-    }
-    assert_eq!(written, computed, "UPDATE_GOLDEN=1 writes it anew");
+    documented("../docs/three-arm.md", "readings", &table());
 }

@@ -82,12 +82,6 @@ impl Variants {
         })
     }
 
-    /// How many parameters vary.
-    #[must_use]
-    pub fn parameters(&self) -> usize {
-        self.parameters.len()
-    }
-
     /// The [figures](Self::FIGURES) of `count` variants, whose values of the parameters, in the design file's units, `values`
     /// writes; NaN where a variant is no mechanism, and for the module where gears have no tooth count. On all cores.
     pub fn figures(
