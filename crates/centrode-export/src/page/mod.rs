@@ -6,6 +6,7 @@
 
 mod html;
 mod path;
+mod scene;
 
 pub use html::{Asset, INDEX, asset, report};
 pub(crate) use path::short;
@@ -14,7 +15,9 @@ pub use path::{Path, Role};
 use serde::Serialize;
 
 /// A machine drawn to scale, and how it moves.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+///
+/// As JSON its links name a shape each, so that parts which look alike are told, and drawn, once.
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Picture {
     /// The moving parts, the hindmost first.
     pub links: Vec<Link>,
@@ -29,7 +32,7 @@ pub struct Picture {
 }
 
 /// A rigid part.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Link {
     /// Name, as in findings.
     pub name: String,
@@ -57,7 +60,8 @@ pub struct Motion {
     pub input_name: String,
     /// Input angles, rad, ascending, over one whole cycle.
     pub input: Vec<f64>,
-    /// For every link: x, y (mm) and angle (rad) at every input, one after the other.
+    /// For every link: x, y (mm) and angle (rad) at every input, one after the other; the three alone for
+    /// one that stands still.
     pub poses: Vec<Vec<f64>>,
 }
 

@@ -9,6 +9,7 @@ mod picture;
 mod plate;
 mod simulator;
 mod surroundings;
+mod turn;
 
 use centrode_geometry::SolidError;
 use centrode_mechanism::arm::ArmError;

@@ -1,14 +1,16 @@
-use std::f64::consts::TAU;
-
 use centrode_geometry::{Point, Tolerance};
 use centrode_mechanism::gear::{Gear, GearPair, Member};
-use centrode_mechanism::three_arm::{Link as Part, LinkMotion, ThreeArm};
+use centrode_mechanism::three_arm::{Chain, Link as Part, LinkMotion, PointMotion, ThreeArm};
 use nalgebra::Isometry2;
 
+use super::turn::Turn;
 use crate::page::{Curve, Link, Mark, Motion, Path, Picture, Role, short};
 
-/// Samples of one carrier turn.
+/// Fewest samples of one carrier turn.
 const SAMPLES: u32 = 720;
+
+/// The same for the curves.
+const SHOWN: u32 = 360;
 
 /// Planted seedlings that are shown.
 const SEEDLINGS: u32 = 4;
@@ -31,7 +33,8 @@ pub enum Teeth<'a> {
 #[must_use]
 pub fn picture(mechanism: &ThreeArm, teeth: Teeth<'_>, tolerance: Tolerance) -> Picture {
     let (sun, intermediate) = gears(mechanism, teeth, tolerance);
-    let input: Vec<f64> = inputs().collect();
+    let turn = Turn::of(mechanism, SAMPLES);
+    let extent = extent(mechanism, &turn);
     let (length, angle) = (0.1 * tolerance.mm(), 1e-6);
     let pose = |link: &LinkMotion| {
         let Point { coords } = link.origin.position;
@@ -41,15 +44,13 @@ pub fn picture(mechanism: &ThreeArm, teeth: Teeth<'_>, tolerance: Tolerance) -> 
             short(link.angle.position, angle),
         ]
     };
-    let poses = |part: Part| -> Vec<f64> {
-        let at = |&phi: &f64| pose(&mechanism.link(part, phi));
-        input.iter().flat_map(at).collect()
-    };
+    let still = |part: Part| pose(&mechanism.link(part, 0.0)).to_vec();
+    let carrier_at = |&phi: &f64| pose(&mechanism.link(Part::Carrier, phi));
     let chains: Vec<[Vec<f64>; 3]> = (0..mechanism.arms())
         .map(|k| {
             let mut chain = [const { Vec::new() }; 3];
-            for &phi in &input {
-                for (poses, link) in chain.iter_mut().zip(&mechanism.chain(k, phi)) {
+            for links in turn.links(k) {
+                for (poses, link) in chain.iter_mut().zip(&links) {
                     poses.extend(pose(link));
                 }
             }
@@ -63,33 +64,33 @@ pub fn picture(mechanism: &ThreeArm, teeth: Teeth<'_>, tolerance: Tolerance) -> 
         planets.push((named("planet"), sun.clone(), planet));
         limbs.push((named("arm"), arm(mechanism), limb));
     }
-    let ground = |phi: &f64| [short(-travel(mechanism, *phi), length), 0.0, 0.0];
+    let ground = |phi: &f64| [short(travel(mechanism, *phi), length), 0.0, 0.0];
     let mut parts = vec![
         (
             "machine".to_owned(),
-            machine(mechanism, tolerance),
-            [0.0; 3].repeat(input.len()),
+            machine(mechanism, &turn, extent, tolerance),
+            vec![0.0; 3],
         ),
         (
             "ground".to_owned(),
-            over_ground(mechanism, tolerance),
-            input.iter().flat_map(ground).collect(),
+            over_ground(mechanism, &turn, tolerance),
+            turn.inputs().iter().flat_map(ground).collect(),
         ),
     ];
-    parts.extend(planted(mechanism, tolerance));
-    parts.push(("sun".to_owned(), sun.clone(), poses(Part::Sun)));
+    parts.extend(planted(mechanism, &turn, tolerance));
+    parts.push(("sun".to_owned(), sun, still(Part::Sun)));
     parts.extend(intermediates);
     parts.extend(planets);
     parts.push((
         "carrier".to_owned(),
         carrier(mechanism),
-        poses(Part::Carrier),
+        turn.inputs().iter().flat_map(carrier_at).collect(),
     ));
     parts.extend(limbs);
     let mut links = Vec::new();
     let mut motion = Motion {
         input_name: "carrier".into(),
-        input: input.iter().map(|&phi| short(phi, 1e-7)).collect(),
+        input: turn.inputs().iter().map(|&phi| short(phi, 1e-7)).collect(),
         poses: Vec::new(),
     };
     for (name, paths, poses) in parts {
@@ -101,12 +102,16 @@ pub fn picture(mechanism: &ThreeArm, teeth: Teeth<'_>, tolerance: Tolerance) -> 
         motion,
         handles: Vec::new(),
         marks: marks(mechanism),
-        extent: extent(mechanism),
+        extent,
     }
 }
 
 /// The seedlings planted last, each with its pose at every input.
-fn planted(mechanism: &ThreeArm, tolerance: Tolerance) -> Vec<(String, Vec<Path>, Vec<f64>)> {
+fn planted(
+    mechanism: &ThreeArm,
+    turn: &Turn<'_>,
+    tolerance: Tolerance,
+) -> Vec<(String, Vec<Path>, Vec<f64>)> {
     let Some(stem) = mechanism.stem() else {
         return Vec::new();
     };
@@ -119,17 +124,13 @@ fn planted(mechanism: &ThreeArm, tolerance: Tolerance) -> Vec<(String, Vec<Path>
         })
         .collect();
     // The newest first: where an arm plants, each moves up by one.
-    for phi in inputs() {
+    for &phi in turn.inputs() {
         let feet = mechanism.planted(phi, SEEDLINGS);
         for ((_, _, poses), foot) in all.iter_mut().zip(feet) {
             poses.extend([short(foot.x, unit), short(foot.y, unit), 0.0]);
         }
     }
     all
-}
-
-fn inputs() -> impl Iterator<Item = f64> {
-    (0..=SAMPLES).map(|i| TAU * f64::from(i) / f64::from(SAMPLES))
 }
 
 /// Paths of the sun, which are those of each planet, and of an intermediate gear.
@@ -195,12 +196,15 @@ fn arm(mechanism: &ThreeArm) -> Vec<Path> {
 }
 
 /// What does not move: the path of the tip in the machine's frame, the ground, the tray with its seedlings.
-fn machine(mechanism: &ThreeArm, tolerance: Tolerance) -> Vec<Path> {
-    let tips: Vec<Point> = inputs()
-        .take(SAMPLES as usize)
-        .map(|phi| mechanism.tip(phi, 0).position)
-        .collect();
-    let [left, _, right, _] = extent(mechanism);
+fn machine(
+    mechanism: &ThreeArm,
+    turn: &Turn<'_>,
+    [left, _, right, _]: [f64; 4],
+    tolerance: Tolerance,
+) -> Vec<Path> {
+    let mut tips: Vec<Point> = turn.tips().collect();
+    // It ends where it begins.
+    tips.pop();
     let ground = mechanism.ground();
     let line = [Point::new(left, ground), Point::new(right, ground)];
     let mut paths = vec![
@@ -213,20 +217,24 @@ fn machine(mechanism: &ThreeArm, tolerance: Tolerance) -> Vec<Path> {
     paths
 }
 
-/// How far the machine has gone to the right at a carrier turn, mm.
+/// How far what is left on the ground has gone in the machine's frame at a carrier turn, mm along x.
 fn travel(mechanism: &ThreeArm, phi: f64) -> f64 {
-    let here = mechanism.tip(phi, 0);
-    mechanism.over_ground(&here, phi).position.x - here.position.x
+    -mechanism
+        .over_ground(&PointMotion::at_rest(), phi)
+        .position
+        .x
 }
 
 /// The way of the first arm's tip over the ground during one carrier turn.
-fn over_ground(mechanism: &ThreeArm, tolerance: Tolerance) -> Vec<Path> {
+fn over_ground(mechanism: &ThreeArm, turn: &Turn<'_>, tolerance: Tolerance) -> Vec<Path> {
     let unit = 0.1 * tolerance.mm();
-    let place = |phi: f64| {
-        let tip = mechanism.over_ground(&mechanism.tip(phi, 0), phi).position;
-        Point::new(short(tip.x, unit), short(tip.y, unit))
+    let place = |(&phi, tip): (&f64, Point)| {
+        Point::new(
+            short(tip.x - travel(mechanism, phi), unit),
+            short(tip.y, unit),
+        )
     };
-    let places: Vec<Point> = inputs().map(place).collect();
+    let places: Vec<Point> = turn.inputs().iter().zip(turn.tips()).map(place).collect();
     vec![Path::open(Role::OverGround, &places)]
 }
 
@@ -247,9 +255,10 @@ fn marks(mechanism: &ThreeArm) -> Vec<Mark> {
 }
 
 /// Round the path of the tip and the gearbox.
-fn extent(mechanism: &ThreeArm) -> [f64; 4] {
-    let reach = inputs()
-        .map(|phi| mechanism.tip(phi, 0).position.coords.norm())
+fn extent(mechanism: &ThreeArm, turn: &Turn<'_>) -> [f64; 4] {
+    let reach = turn
+        .tips()
+        .map(|tip| tip.coords.norm())
         .fold(mechanism.gearbox_radius(), f64::max);
     [-reach, -reach, reach, reach]
 }
@@ -257,42 +266,42 @@ fn extent(mechanism: &ThreeArm) -> [f64; 4] {
 /// What the motion of the first arm is along a carrier turn, at the design's rate.
 #[must_use]
 pub fn curves(mechanism: &ThreeArm) -> Vec<Curve> {
-    const SHOWN: u32 = 360;
-    let input: Vec<f64> = (0..=SHOWN)
-        .map(|i| TAU * f64::from(i) / f64::from(SHOWN))
-        .collect();
+    let turn = Turn::of(mechanism, SHOWN);
     let speed = mechanism.carrier_speed();
-    let curve = |chart, name, unit, f: &dyn Fn(f64) -> f64| Curve {
+    let curve = |chart, name, unit, f: &dyn Fn(&Chain<'_>) -> f64| Curve {
         chart,
         name,
         unit,
-        value: input.iter().map(|&phi| f(phi)).collect(),
-        input: input.clone(),
+        value: turn.chains().iter().map(f).collect(),
+        input: turn.inputs().to_vec(),
     };
-    let tip = |phi: f64| mechanism.tip(phi, 0).at_speed(speed);
-    let train = |phi: f64| mechanism.train().at(phi);
+    let tip = |chain: &Chain<'_>| chain.tip().at_speed(speed);
     vec![
-        curve("Clamp above horizontal", "", "°", &|phi| {
-            mechanism.clamp_elevation(phi, 0).to_degrees()
+        curve("Clamp above horizontal", "", "°", &|chain| {
+            chain.clamp_elevation().to_degrees()
         }),
-        curve("Height of the tip", "", "mm", &|phi| tip(phi).position.y),
-        curve("Speed of the tip", "", "mm/s", &|phi| {
-            tip(phi).velocity.norm()
+        curve("Height of the tip", "", "mm", &|chain| {
+            chain.tip().position.y
         }),
-        curve("Acceleration of the tip", "", "m/s²", &|phi| {
-            1e-3 * tip(phi).acceleration.norm()
+        curve("Speed of the tip", "", "mm/s", &|chain| {
+            tip(chain).velocity.norm()
         }),
-        curve("Turn a carrier turn", "intermediate gear", "", &|phi| {
-            train(phi).intermediate.velocity
+        curve("Acceleration of the tip", "", "m/s²", &|chain| {
+            1e-3 * tip(chain).acceleration.norm()
         }),
-        curve("Turn a carrier turn", "planet", "", &|phi| {
-            train(phi).planet.velocity
+        curve("Turn a carrier turn", "intermediate gear", "", &|chain| {
+            chain.train().intermediate.velocity
+        }),
+        curve("Turn a carrier turn", "planet", "", &|chain| {
+            chain.train().planet.velocity
         }),
     ]
 }
 
 #[cfg(test)]
 mod tests {
+    use std::f64::consts::TAU;
+
     use super::*;
     use centrode_mechanism::design::Design;
 

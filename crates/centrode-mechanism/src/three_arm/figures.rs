@@ -26,7 +26,7 @@ impl ThreeArm {
     /// Elevation of an arm's clamp above the horizontal, seen from the machine towards the tray, in (-pi, pi], rad.
     #[must_use]
     pub fn clamp_elevation(&self, input: f64, arm: u32) -> f64 {
-        elevation(self.clamp(input, arm).position, self.train().sign())
+        self.chain(arm, input).clamp_elevation()
     }
 
     /// Height of the ground in the machine's frame, mm: the tip at its lowest is the planting depth below it.

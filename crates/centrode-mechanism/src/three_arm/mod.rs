@@ -20,7 +20,7 @@ pub use figures::Figures;
 pub use gearbox::GearboxBody;
 pub use mesh::{Mesh, MeshPose};
 pub use parameter::{Parameter, UnknownParameter};
-pub use pose::{Link, LinkMotion, PointMotion};
+pub use pose::{Chain, Link, LinkMotion, PointMotion};
 pub use pusher::{Pusher, PusherError};
 pub use seedling::SeedlingClearance;
 pub use sweep::{Sweep, SweepError};

@@ -1,6 +1,7 @@
 use centrode_geometry::{Point, Vector};
 
 use super::ThreeArm;
+use super::figures::elevation;
 use super::train::{TrainJet, moved};
 use crate::transmission::MotionJet;
 
@@ -56,7 +57,9 @@ impl PointMotion {
         }
     }
 
-    fn at_rest() -> Self {
+    /// The origin, standing still.
+    #[must_use]
+    pub fn at_rest() -> Self {
         Self {
             position: Point::origin(),
             velocity: Vector::zeros(),
@@ -83,6 +86,62 @@ impl LinkMotion {
     }
 }
 
+/// Intermediate gear, planet and arm of one chain, solved at one carrier turn.
+#[derive(Clone, Copy, Debug)]
+pub struct Chain<'a> {
+    mechanism: &'a ThreeArm,
+    jet: TrainJet,
+}
+
+impl Chain<'_> {
+    /// The angles they follow from.
+    #[must_use]
+    pub fn train(&self) -> &TrainJet {
+        &self.jet
+    }
+
+    /// Intermediate gear, planet and arm, as [`ThreeArm::link`] has them.
+    #[must_use]
+    pub fn links(&self) -> [LinkMotion; 3] {
+        let center_distance = self.mechanism.center_distance();
+        let intermediate = PointMotion::at_rest().plus(center_distance, &self.jet.carrier);
+        let planet = self.planet_axis();
+        let motion = |origin, angle| LinkMotion { origin, angle };
+        [
+            motion(intermediate, self.jet.intermediate),
+            motion(planet, self.jet.planet),
+            motion(planet, self.clamp()),
+        ]
+    }
+
+    fn planet_axis(&self) -> PointMotion {
+        let a = self.mechanism.center_distance();
+        let leg = moved(self.jet.carrier, self.mechanism.train().bend());
+        let rest = PointMotion::at_rest();
+        rest.plus(a, &self.jet.carrier).plus(a, &leg)
+    }
+
+    /// Motion of the arm's tip in the machine's frame.
+    #[must_use]
+    pub fn tip(&self) -> PointMotion {
+        let spec = &self.mechanism.design().arm;
+        let along = moved(self.jet.arm, spec.mounting_angle);
+        self.planet_axis().plus(spec.tip_distance, &along)
+    }
+
+    /// Direction in which the arm's clamp points, from the x axis, rad.
+    #[must_use]
+    pub fn clamp(&self) -> MotionJet {
+        moved(self.jet.arm, self.mechanism.clamp_mounting())
+    }
+
+    /// Elevation of the clamp above the horizontal, seen from the machine towards the tray, in (-pi, pi], rad.
+    #[must_use]
+    pub fn clamp_elevation(&self) -> f64 {
+        elevation(self.clamp().position, self.mechanism.train().sign())
+    }
+}
+
 impl ThreeArm {
     /// Where a link stands at a carrier turn; any real input. Chains beyond the last wrap round.
     #[must_use]
@@ -100,47 +159,32 @@ impl ThreeArm {
                 origin: rest,
                 angle: self.train().at(input).carrier,
             },
-            Link::Intermediate(chain) => self.chain(chain, input)[0],
-            Link::Planet(chain) => self.chain(chain, input)[1],
-            Link::Arm(arm) => self.chain(arm, input)[2],
+            Link::Intermediate(chain) => self.chain(chain, input).links()[0],
+            Link::Planet(chain) => self.chain(chain, input).links()[1],
+            Link::Arm(arm) => self.chain(arm, input).links()[2],
         }
     }
 
-    /// Intermediate gear, planet and arm of a chain at a carrier turn, as [`link`](Self::link) has them: one
-    /// solution of the train for all three.
+    /// A chain at a carrier turn: one solution of the train for whatever is asked of it. Chains beyond the last wrap
+    /// round.
     #[must_use]
-    pub fn chain(&self, chain: u32, input: f64) -> [LinkMotion; 3] {
-        let jet = self.train().at(self.own_input(input, chain));
-        let intermediate = PointMotion::at_rest().plus(self.center_distance(), &jet.carrier);
-        let planet = self.planet_axis(&jet);
-        let motion = |origin, angle| LinkMotion { origin, angle };
-        [
-            motion(intermediate, jet.intermediate),
-            motion(planet, jet.planet),
-            motion(planet, moved(jet.arm, self.clamp_mounting())),
-        ]
-    }
-
-    fn planet_axis(&self, jet: &TrainJet) -> PointMotion {
-        let a = self.center_distance();
-        let leg = moved(jet.carrier, self.train().bend());
-        PointMotion::at_rest().plus(a, &jet.carrier).plus(a, &leg)
+    pub fn chain(&self, chain: u32, input: f64) -> Chain<'_> {
+        Chain {
+            mechanism: self,
+            jet: self.train().at(self.own_input(input, chain)),
+        }
     }
 
     /// Motion of an arm's tip in the machine's frame.
     #[must_use]
     pub fn tip(&self, input: f64, arm: u32) -> PointMotion {
-        let jet = self.train().at(self.own_input(input, arm));
-        let spec = &self.design().arm;
-        let along = moved(jet.arm, spec.mounting_angle);
-        self.planet_axis(&jet).plus(spec.tip_distance, &along)
+        self.chain(arm, input).tip()
     }
 
     /// Direction in which an arm's clamp points, from the x axis, rad.
     #[must_use]
     pub fn clamp(&self, input: f64, arm: u32) -> MotionJet {
-        let jet = self.train().at(self.own_input(input, arm));
-        moved(jet.arm, self.clamp_mounting())
+        self.chain(arm, input).clamp()
     }
 
     /// A motion in the machine's frame as it is over ground, for a machine that has travelled from zero at input zero.

@@ -2,7 +2,7 @@ use std::f64::consts::TAU;
 
 use centrode_geometry::{Vector, bracketed_root};
 
-use super::{ThreeArm, ThreeArmError};
+use super::{PointMotion, ThreeArm, ThreeArmError};
 
 /// Where and how far the tip's path reaches in some direction.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -57,36 +57,35 @@ pub struct Trajectory {
 /// Inputs at which extremes are looked for before they are sharpened to the float limit.
 const LOOKS: u32 = 720;
 
-/// The tip's path, looked at evenly: input, reach, reach by input.
+/// The tip's path, looked at evenly: input, reach in a direction, reach by input.
 struct Looks<'a> {
     mechanism: &'a ThreeArm,
     direction: Vector,
     list: Vec<[f64; 3]>,
 }
 
+/// The tip at each input that is looked at.
+fn tips(mechanism: &ThreeArm) -> Vec<(f64, PointMotion)> {
+    let input = |i: u32| TAU * f64::from(i) / f64::from(LOOKS);
+    let look = |i| (input(i), mechanism.tip(input(i), 0));
+    (0..=LOOKS).map(look).collect()
+}
+
 impl<'a> Looks<'a> {
-    fn along(mechanism: &'a ThreeArm, direction: Vector) -> Self {
-        let mut looks = Self {
+    fn along(mechanism: &'a ThreeArm, tips: &[(f64, PointMotion)], direction: Vector) -> Self {
+        let look = |(input, tip): &(f64, PointMotion)| {
+            let [reach, slope] = reach(tip, &direction);
+            [*input, reach, slope]
+        };
+        Self {
             mechanism,
             direction,
-            list: Vec::new(),
-        };
-        let input = |i: u32| TAU * f64::from(i) / f64::from(LOOKS);
-        looks.list = (0..=LOOKS)
-            .map(|i| {
-                let [reach, slope] = looks.at(input(i));
-                [input(i), reach, slope]
-            })
-            .collect();
-        looks
+            list: tips.iter().map(look).collect(),
+        }
     }
 
     fn at(&self, input: f64) -> [f64; 2] {
-        let tip = self.mechanism.tip(input, 0);
-        [
-            tip.position.coords.dot(&self.direction),
-            tip.velocity.dot(&self.direction),
-        ]
+        reach(&self.mechanism.tip(input, 0), &self.direction)
     }
 
     /// The greatest reach with sign 1, the least with sign -1.
@@ -134,12 +133,21 @@ impl<'a> Looks<'a> {
     }
 }
 
+/// How far a point is in a direction, and its speed that way.
+fn reach(tip: &PointMotion, direction: &Vector) -> [f64; 2] {
+    [
+        tip.position.coords.dot(direction),
+        tip.velocity.dot(direction),
+    ]
+}
+
 impl Trajectory {
     pub(super) fn of(mechanism: &ThreeArm) -> Result<Self, ThreeArmError> {
         let design = mechanism.design();
-        let upright = Looks::along(mechanism, Vector::y());
+        let tips = tips(mechanism);
+        let upright = Looks::along(mechanism, &tips, Vector::y());
         let (lowest, highest) = (upright.extreme(-1.0), upright.extreme(1.0));
-        let towards = Looks::along(mechanism, mechanism.tray_direction());
+        let towards = Looks::along(mechanism, &tips, mechanism.tray_direction());
         let farthest = towards.extreme(1.0);
         let (picking, picking_rule) = match (design.work.picking, design.tray.distance) {
             (Some(given), _) => (given, PickingRule::Given),

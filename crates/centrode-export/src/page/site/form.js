@@ -186,6 +186,11 @@ export class Form {
     const control = this.controls.get(field.key);
     control.field = field;
     const values = Array.isArray(field.value) && control.inputs.length > 1 ? field.value : [field.value];
+    // Most numbers stay as they are, and writing them again would have the browser lay them out again.
+    const filled = JSON.stringify([field.value, field.written, field.choices]);
+    const shown = control.inputs.every((input) => input.type === "checkbox" ? input.checked === Boolean(field.value) : input.value === input.dataset.value);
+    if (control.filled === filled && shown) return;
+    control.filled = filled;
     control.row.classList.toggle("written", field.written);
     control.inputs.forEach((input, i) => {
       const value = Array.isArray(values[i]) ? (values[i].length === 1 ? values[i][0] : values[i].join(" ")) : values[i];
@@ -213,6 +218,7 @@ export class Form {
     if (value === null || field.optional && field.value === null) list.unshift(element("option", { value: "" }, "auto"));
     select.replaceChildren(...list);
     select.value = value ?? "";
+    select.dataset.value = select.value;
   }
 
   /** Errors and findings beside what causes them. */
@@ -233,6 +239,9 @@ export class Form {
     for (const control of this.controls.values()) {
       const list = snapshot.error || snapshot.verdict ? remarks.get(control) ?? [] : null;
       if (list === null) continue;
+      const said = JSON.stringify(list);
+      if (control.said === said) continue;
+      control.said = said;
       control.remark.replaceChildren(...list.map(({ severity, message }) =>
         element("span", { class: severity }, element("b", {}, `${severity} `), message)));
       const bad = list.some(({ severity }) => severity === "error");

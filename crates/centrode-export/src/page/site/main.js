@@ -31,6 +31,8 @@ const state = {
   draft: new Map(),
   pending: null,
   solving: false,
+  /** Resolves when the panels show the snapshot, while they do not yet. */
+  shown: null,
   /** How long the last checks took, ms: unknown ones come after the picture. */
   took: Infinity,
 };
@@ -50,15 +52,20 @@ let search = null;
 const cycle = () => stage.scene?.motion.cycle ?? 2 * Math.PI;
 
 function move(input) {
+  draw(input);
+  readout();
+  charts.at(state.input);
+}
+
+/** The mechanism at an input, and where the scrubber stands. */
+function draw(input) {
   state.input = Math.min(Math.max(input, 0), cycle());
   const scrub = byId("scrub");
   scrub.value = state.input / cycle();
   const words = `${(state.input * DEG).toFixed(1)}°`;
   byId("angle").textContent = words;
-  readout();
   scrub.setAttribute("aria-valuetext", words);
   stage.at(state.input);
-  charts.at(state.input);
 }
 
 /** The curves that stand alone, at the input. */
@@ -99,18 +106,39 @@ function show(snapshot) {
     snapshot = { ...snapshot, curves: merged(snapshot.curves, before.curves), stale: true };
   }
   state.snapshot = snapshot;
-  byId("heading").textContent = snapshot.title || snapshot.name || state.file;
-  byId("definition").textContent = snapshot.definition;
   stage.stale = Boolean(snapshot.error);
   stage.show(snapshot.picture);
-  form.show(snapshot);
   handles?.show(snapshot.picture?.handles ?? []);
+  draw(state.input);
+  // Panels cost the browser more than the picture does: the eye has that first.
+  if (embedded) panels();
+  else state.shown ??= painted().then(panels);
+}
+
+/** Resolves when the next frame is on the screen; at once where there are no frames, in a hidden window. */
+function painted() {
+  if (document.hidden) return Promise.resolve();
+  return new Promise((resolve) => {
+    requestAnimationFrame(() => setTimeout(resolve));
+    // A window hidden in between has no frame to come.
+    setTimeout(resolve, 100);
+  });
+}
+
+/** Everything of the snapshot but its picture. */
+function panels() {
+  state.shown = null;
+  const { snapshot } = state;
+  byId("heading").textContent = snapshot.title || snapshot.name || state.file;
+  byId("definition").textContent = snapshot.definition;
+  form.show(snapshot);
   charts.show(snapshot.curves, state.pinned?.curves);
   verdict.show(snapshot, state.pinned, (input) => {
     play(false);
     move(input);
   });
-  move(state.input);
+  readout();
+  charts.at(state.input);
   buttons();
 }
 
@@ -188,6 +216,9 @@ async function solve() {
 /** Has the design that is shown checked, while changes to it go on being drawn. */
 async function check(text) {
   const wanted = () => !state.solving && state.snapshot.text === text;
+  // The screen first: the checks take the computer's time.
+  await state.shown;
+  if (!wanted()) return;
   const start = performance.now();
   try {
     let snapshot = await server.solve({ text, edits: [], check: true });
@@ -315,13 +346,13 @@ function listen() {
     event.preventDefault();
     play(!state.playing);
   });
-  addEventListener("beforeprint", () => stage.resize(3));
-  addEventListener("afterprint", () => stage.resize());
   theme.start(() => {
     stage.draw();
     charts.recolor();
     search?.recolor();
   });
+  addEventListener("beforeprint", () => stage.resize(3));
+  addEventListener("afterprint", () => stage.resize());
   if (embedded) return;
   byId("undo").addEventListener("click", () => step(state.history.undo()));
   byId("redo").addEventListener("click", () => step(state.history.redo()));

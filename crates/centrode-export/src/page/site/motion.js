@@ -20,10 +20,11 @@ export class Motion {
     return [low, span > 0 ? (input - this.input[low]) / span : 0];
   }
 
-  /** x, y and angle of every link. */
+  /** x, y and angle of every link; one that stands still has them once. */
   at(input) {
     const [index, share] = this.place(Math.min(Math.max(input, 0), this.cycle));
     return this.poses.map((samples) => {
+      if (samples.length === 3) return samples;
       const i = 3 * index;
       const j = Math.min(i + 3, samples.length - 3);
       return [0, 1, 2].map((k) => samples[i + k] + share * (samples[j + k] - samples[i + k]));

@@ -12,7 +12,7 @@ function outline({ vertices, closed }) {
   const count = vertices.length / 3;
   path.moveTo(vertices[0], vertices[1]);
   for (let i = 0; i < (closed ? count : count - 1); i += 1) {
-    const [x, y, bulge] = vertices.slice(3 * i, 3 * i + 3);
+    const [x, y, bulge] = [vertices[3 * i], vertices[3 * i + 1], vertices[3 * i + 2]];
     const j = (i + 1) % count;
     const [u, v] = [vertices[3 * j], vertices[3 * j + 1]];
     const chord = Math.hypot(u - x, v - y);
@@ -29,22 +29,25 @@ function outline({ vertices, closed }) {
   return path;
 }
 
+/** The lines of a part. */
+function shape(paths) {
+  const body = new Path2D();
+  const lines = [];
+  for (const path of paths) {
+    if (path.vertices.length === 0) continue;
+    if (path.role === "body" || path.role === "hole") body.addPath(outline(path));
+    else lines.push({ role: path.role, path: outline(path) });
+  }
+  return { body, lines, solid: paths.some((path) => path.role === "body") };
+}
+
 /** A picture ready to be drawn. */
 class Scene {
   constructor(picture) {
     this.picture = picture;
     this.motion = new Motion(picture.motion);
-    this.links = picture.links.map((link) => {
-      const body = new Path2D();
-      const lines = [];
-      for (const path of link.paths) {
-        if (path.vertices.length === 0) continue;
-        if (path.role === "body" || path.role === "hole") body.addPath(outline(path));
-        else lines.push({ role: path.role, path: outline(path) });
-      }
-      const solid = link.paths.some((path) => path.role === "body");
-      return { name: link.name, kind: link.name.replace(/ \d+$/, ""), body, lines, solid };
-    });
+    const shapes = picture.shapes.map(shape);
+    this.links = picture.links.map((link) => ({ ...shapes[link.shape], name: link.name, kind: link.name.replace(/ \d+$/, "") }));
     // Links of one kind have one colour.
     const kinds = [...new Set(this.links.filter((link) => link.solid).map((link) => link.kind))];
     for (const link of this.links) link.tint = kinds.indexOf(link.kind);
@@ -75,6 +78,10 @@ export class Stage {
     /** Whether a point is being drawn aside: the view must not move under it. */
     this.held = false;
     this.density = 1;
+    /** Of the box: asking the page for it costs a layout. */
+    this.width = 0;
+    this.height = 0;
+    this.resize();
     new ResizeObserver(() => this.resize()).observe(this.box);
     this.listen();
   }
@@ -97,9 +104,10 @@ export class Stage {
 
   resize(density = window.devicePixelRatio || 1) {
     this.density = density;
-    const { clientWidth: width, clientHeight: height } = this.box;
-    this.canvas.width = Math.max(1, Math.round(width * density));
-    this.canvas.height = Math.max(1, Math.round(height * density));
+    this.width = this.box.clientWidth;
+    this.height = this.box.clientHeight;
+    this.canvas.width = Math.max(1, Math.round(this.width * density));
+    this.canvas.height = Math.max(1, Math.round(this.height * density));
     if (this.fitted) this.fit();
     else this.draw();
   }
@@ -114,8 +122,7 @@ export class Stage {
   frame() {
     if (this.scene) {
       const [left, bottom, right, top] = this.scene.picture.extent;
-      const { clientWidth: width, clientHeight: height } = this.box;
-      const scale = Math.min((width - 48) / (right - left), (height - 88) / (top - bottom));
+      const scale = Math.min((this.width - 48) / (right - left), (this.height - 88) / (top - bottom));
       if (scale > 0 && Number.isFinite(scale)) {
         this.view = { x: (left + right) / 2, y: (bottom + top) / 2, scale };
       }
@@ -123,7 +130,7 @@ export class Stage {
   }
 
   /** Zooms so that the point under a place of the box stays there. */
-  zoom(factor, px = this.box.clientWidth / 2, py = this.box.clientHeight / 2) {
+  zoom(factor, px = this.width / 2, py = this.height / 2) {
     const [x, y] = this.toModel(px, py);
     this.view.scale = Math.min(Math.max(this.view.scale * factor, 1 / CLOSEST), CLOSEST);
     const [nx, ny] = this.toModel(px, py);
@@ -142,15 +149,15 @@ export class Stage {
 
   toModel(px, py) {
     return [
-      this.view.x + (px - this.box.clientWidth / 2) / this.view.scale,
-      this.view.y - (py - this.box.clientHeight / 2) / this.view.scale,
+      this.view.x + (px - this.width / 2) / this.view.scale,
+      this.view.y - (py - this.height / 2) / this.view.scale,
     ];
   }
 
   toBox(x, y) {
     return [
-      this.box.clientWidth / 2 + (x - this.view.x) * this.view.scale,
-      this.box.clientHeight / 2 - (y - this.view.y) * this.view.scale,
+      this.width / 2 + (x - this.view.x) * this.view.scale,
+      this.height / 2 - (y - this.view.y) * this.view.scale,
     ];
   }
 
@@ -178,11 +185,14 @@ export class Stage {
 
   /** A rule at the corner of the drawing. */
   measure() {
-    const { length, pixels } = ruler(this.view.scale, this.box.clientWidth);
+    const { length, pixels } = ruler(this.view.scale, this.width);
+    const words = length >= 1 ? `${length} mm` : `${Number(length.toPrecision(2))} mm`;
+    const wide = `${pixels}px`;
     const rule = byId("rule");
-    rule.style.width = `${pixels}px`;
     const label = rule.firstChild ?? rule.appendChild(document.createElement("span"));
-    label.textContent = length >= 1 ? `${length} mm` : `${Number(length.toPrecision(2))} mm`;
+    if (rule.style.width === wide && label.textContent === words) return;
+    rule.style.width = wide;
+    label.textContent = words;
   }
 
   /** Into the frame of a link; the returned function makes a width in pixels one of the frame. */

@@ -4,9 +4,16 @@ import { byId } from "./elements.js";
 
 const KEY = "centrode-theme";
 
+/** Colours asked for since they last changed. */
+const known = new Map();
+
 /** Starts the switch; calls back whenever the colours change. */
 export function start(changed) {
   const root = document.documentElement;
+  const switched = () => {
+    known.clear();
+    changed();
+  };
   const dark = matchMedia("(prefers-color-scheme: dark)");
   const stored = remembered();
   if (stored) root.dataset.theme = stored;
@@ -14,14 +21,20 @@ export function start(changed) {
     const now = root.dataset.theme ?? (dark.matches ? "dark" : "light");
     root.dataset.theme = now === "dark" ? "light" : "dark";
     remember(root.dataset.theme);
-    changed();
+    switched();
   });
-  dark.addEventListener("change", changed);
+  dark.addEventListener("change", switched);
+  for (const turn of ["beforeprint", "afterprint"]) addEventListener(turn, () => known.clear());
 }
 
 /** A colour of the page by its name. */
 export function color(name) {
-  return getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
+  let value = known.get(name);
+  if (value === undefined) {
+    value = getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
+    known.set(name, value);
+  }
+  return value;
 }
 
 // A page opened from a file may have no storage.
