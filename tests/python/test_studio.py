@@ -275,12 +275,12 @@ def test_a_second_search_takes_the_place_of_the_first(tmp_path):
 def test_saving_a_file_changed_by_others_asks_first(design):
     with studio(design) as page:
         design.write_text("# changed\n" + DESIGN)
-        status, body = page.json("POST", "save", {"text": DESIGN + "# mine\n"})
+        status, body = page.json("POST", "save", {"text": DESIGN + "# mine\n", "base": DESIGN})
         assert status == 200
         assert not body["saved"]
         assert "changed on disk" in body["message"]
         assert design.read_text().startswith("# changed")
-        assert page.json("POST", "save", {"text": DESIGN + "# mine\n", "over": True})[0] == 200
+        assert page.json("POST", "save", {"text": DESIGN + "# mine\n", "base": DESIGN, "over": True})[0] == 200
         assert design.read_text() == DESIGN + "# mine\n"
 
 
@@ -293,8 +293,8 @@ def test_a_crash_loses_nothing(design):
     assert design.read_text() == DESIGN
     with studio(design) as page:
         recovered = page.json("GET", "design")[1]["recovered"]
-        assert recovered == {"text": work, "file": "pair.toml.autosave"}
-        assert page.json("POST", "save", {"text": work})[0] == 200
+        assert recovered == [{"text": work, "file": "pair.toml.autosave"}]
+        assert page.json("POST", "save", {"text": work, "base": DESIGN})[0] == 200
     assert sorted(path.name for path in design.parent.iterdir()) == ["pair.toml"]
     assert design.read_text() == work
 
@@ -306,7 +306,7 @@ def full_disk():
 
 def test_a_full_disk_is_told_and_the_old_file_stays(design):
     with studio(design, preexec_fn=full_disk, restore_signals=False) as page:
-        status, body = page.json("POST", "save", {"text": DESIGN + "# more\n" * 20})
+        status, body = page.json("POST", "save", {"text": DESIGN + "# more\n" * 20, "base": DESIGN})
         assert status == 507
         assert "cannot write" in body["message"]
         assert page.answers()
@@ -336,10 +336,10 @@ def test_a_folder_that_cannot_be_written_is_told(open_place):
     folder.chmod(0o555)
     try:
         with studio(design, binary, **options) as page:
-            status, body = page.json("POST", "save", {"text": DESIGN + "# more\n"})
+            status, body = page.json("POST", "save", {"text": DESIGN + "# more\n", "base": DESIGN})
             assert status == 507
             assert "cannot create" in body["message"]
-            assert page.json("POST", "keep", {"text": DESIGN + "# more\n"})[0] == 507
+            assert page.json("POST", "keep", {"text": DESIGN + "# more\n", "base": DESIGN})[0] == 507
             assert page.answers()
     finally:
         folder.chmod(0o755)

@@ -31,6 +31,7 @@ use centrode_geometry::{SolidError, Tolerance};
 use centrode_mechanism::gear::{GearPair, Member};
 pub use format::{Format, UnknownFormat};
 pub(crate) use part::{add_part, contact_bodies};
+pub(crate) use picture::drawn_gear;
 pub use picture::{curves, picture};
 pub(crate) use play::whole as script;
 use sheet::Contours;

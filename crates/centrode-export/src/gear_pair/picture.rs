@@ -10,7 +10,7 @@ const SAMPLES: u32 = 360;
 #[must_use]
 pub fn picture(pair: &GearPair, tolerance: Tolerance) -> Picture {
     let members = [Member::Driven, Member::Driver];
-    let links = members.map(|member| link(pair.gear(member), tolerance));
+    let links = members.map(|member| drawn_gear(pair.gear(member), tolerance));
     let input = motion::angles(pair, tolerance);
     let a = pair.center_distance();
     // Angles rounded to a hundredth of what the tolerance is seen under.
@@ -53,7 +53,8 @@ pub fn picture(pair: &GearPair, tolerance: Tolerance) -> Picture {
     }
 }
 
-fn link(gear: &Gear, tolerance: Tolerance) -> Link {
+/// Outline, bore and pitch curve of a gear, in its own frame.
+pub(crate) fn drawn_gear(gear: &Gear, tolerance: Tolerance) -> Link {
     let mut paths = vec![Path::closed(Role::Body, gear.outline(), tolerance)];
     if let Some(bore) = gear.bore() {
         paths.push(Path::closed(Role::Hole, &bore, tolerance));

@@ -111,4 +111,11 @@ impl Gears<'_> {
             PI
         }
     }
+
+    /// Turns of driver and driven gear in their own frames by the input, rad, counter-clockwise: the driver
+    /// turns with the input and drives its mate backwards.
+    pub(super) fn turns(&self, input: f64) -> [f64; 2] {
+        let driver = input - self.drive.phase - self.slowest();
+        [driver, self.pair.driven_angle(-driver)]
+    }
 }

@@ -1,12 +1,17 @@
 use super::ShaftFilesError;
-use super::machine::Machine;
+use super::machine::{Gears, Machine};
+use crate::gear_pair::drawn_gear;
 use crate::page::{Curve, Link, Motion, Path, Picture, Role, short};
 use centrode_geometry::{Bounds, Outline, Point, Tolerance};
+use centrode_mechanism::gear::Member;
 use centrode_mechanism::shaft::{MovingBox, ShaftSolid, SpiralShaft};
 use std::f64::consts::{PI, TAU};
 
 /// Step of the moving picture and of the curves, rad.
 const STEP: f64 = PI / 30.0;
+
+/// Turn of the line between the gears' axes from the x axis, rad.
+const UPRIGHT: f64 = 0.5 * PI;
 
 /// How long a jump from one edge of the development to the other lasts, rad.
 const JUMP: f64 = 1e-6;
@@ -94,11 +99,19 @@ fn picture(machine: &Machine<'_>, tolerance: Tolerance) -> Result<Picture, Shaft
         );
         rows.push(Path::closed(Role::Hole, &hole, tolerance));
     }
-    let links = [
+    let mut links = vec![
         ("shaft", surface),
         ("box", rows),
         ("slider", vec![Path::closed(Role::Body, &slider, tolerance)]),
     ];
+    let axes = machine.gears.as_ref().map(|gears| {
+        let members = [Member::Driver, Member::Driven];
+        links.extend(members.map(|member| {
+            let link = drawn_gear(gears.pair.gear(member), tolerance);
+            (member.name(), link.paths)
+        }));
+        gear_axes(gears, Point::new(low, -0.5 * around), 0.5 * lead)
+    });
     let mut motion = Motion {
         input_name: if machine.gears.is_some() {
             "driver"
@@ -114,6 +127,13 @@ fn picture(machine: &Machine<'_>, tolerance: Tolerance) -> Result<Picture, Shaft
         min: Point::new(low, -around),
         max: Point::new(high, lead + depth),
     };
+    if let (Some(axes), Some(gears)) = (axes, &machine.gears) {
+        for (axis, member) in axes.into_iter().zip([Member::Driver, Member::Driven]) {
+            let (_, reach) = gears.pair.gear(member).radii();
+            let corner = nalgebra::Vector2::repeat(reach);
+            bounds = bounds.with(axis - corner).with(axis + corner);
+        }
+    }
     let mut before: Option<f64> = None;
     for input in groove.steps(STEP) {
         let turned = machine.turn(input).position;
@@ -134,11 +154,15 @@ fn picture(machine: &Machine<'_>, tolerance: Tolerance) -> Result<Picture, Shaft
                 stroke.position,
             ));
             motion.input.push(short(input, 1e-7));
-            let poses = [
+            let mut poses = vec![
                 [0.0; 3],
                 [at.x, 0.0, 0.0],
                 [at.x, at.y, (-groove.radius()).atan2(slope)],
             ];
+            if let (Some(axes), Some(gears)) = (axes, &machine.gears) {
+                let turns = axes.into_iter().zip(gears.turns(input));
+                poses.extend(turns.map(|(axis, turn)| [axis.x, axis.y, UPRIGHT + turn]));
+            }
             for (all, [x, y, angle]) in motion.poses.iter_mut().zip(poses) {
                 all.extend([short(x, unit), short(y, unit), short(angle, 1e-6)]);
             }
@@ -148,16 +172,26 @@ fn picture(machine: &Machine<'_>, tolerance: Tolerance) -> Result<Picture, Shaft
     }
     Ok(Picture {
         links: links
+            .into_iter()
             .map(|(name, paths)| Link {
                 name: name.into(),
                 paths,
             })
-            .into(),
+            .collect(),
         motion,
         handles: Vec::new(),
         marks: Vec::new(),
         extent: [bounds.min.x, bounds.min.y, bounds.max.x, bounds.max.y],
     })
+}
+
+/// Where the gears are drawn, driver and driven: beside the end of the shaft at `end`, seen along the shaft, the driver
+/// below.
+fn gear_axes(gears: &Gears<'_>, end: Point, room: f64) -> [Point; 2] {
+    let reach = [Member::Driver, Member::Driven].map(|member| gears.pair.gear(member).radii().1);
+    let x = end.x - room - reach[0].max(reach[1]);
+    let center_distance = gears.pair.center_distance();
+    [Point::new(x, end.y - center_distance), Point::new(x, end.y)]
 }
 
 fn curves(machine: &Machine<'_>) -> Vec<Curve> {
@@ -175,16 +209,16 @@ fn curves(machine: &Machine<'_>) -> Vec<Curve> {
         curve("Speed of the box", "mm/s", &|t| {
             omega * machine.motion(t).velocity
         }),
-        curve("Acceleration of the box", "m/s^2", &|t| {
+        curve("Acceleration of the box", "m/s²", &|t| {
             1e-3 * omega * omega * machine.motion(t).acceleration
         }),
-        curve("Lead angle", "deg", &|t| {
+        curve("Lead angle", "°", &|t| {
             machine.swivel(t).position.to_degrees()
         }),
         curve("Force on the groove's wall", "N", &|t| {
             machine.force(t).normal
         }),
-        curve("Torque of the shaft", "N m", &|t| {
+        curve("Torque of the shaft", "N·m", &|t| {
             1e-3 * machine.force(t).torque
         }),
     ]

@@ -226,11 +226,7 @@ fn the_gears_of_the_model_turn_the_shaft_as_the_law_has_it() {
     let machine = MovingBox::resolve(&design).expect("resolves");
     let machine = Machine::of_box(&machine).expect("gears");
     let gears = machine.gears.as_ref().expect("gears");
-    // The driver stands at input - phase - slowest, and drives its mate backwards.
-    let mesh = |input: f64| {
-        let driver = input - gears.drive.phase - gears.slowest();
-        gears.pair.driven_angle(-driver)
-    };
+    let mesh = |input: f64| gears.turns(input)[1];
     let rest = gears.pair.driven_angle(gears.slowest()) + gears.drive.phase;
     for i in 0..100 {
         let input = 0.13 * f64::from(i) - 2.0;

@@ -2,7 +2,7 @@ use serde::Deserialize;
 use serde_json::Value as Json;
 use toml_edit::{Array, DocumentMut, InlineTable, Item, Table, Value};
 
-use super::field::keys_beside;
+use super::field::{keys_beside, list, required};
 
 /// A new value for a key of the design file.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
@@ -55,7 +55,8 @@ enum Step {
 
 /// The text with the edits made; comments, order and all other values stay as they are.
 ///
-/// A new `kind` takes out what does not belong to it.
+/// A new `kind` takes out what does not belong to it; a table that is new gets what it cannot be without, as it
+/// holds where the table is left out.
 pub(crate) fn edited(text: &str, edits: &[Edit]) -> Result<String, EditError> {
     let mut document: DocumentMut = text.parse()?;
     for edit in edits {
@@ -64,6 +65,9 @@ pub(crate) fn edited(text: &str, edits: &[Edit]) -> Result<String, EditError> {
         };
         let mut steps = steps(&edit.key).ok_or_else(unknown)?;
         let last = steps.pop().ok_or_else(unknown)?;
+        if !edit.value.is_null() {
+            complete(&mut document, &steps);
+        }
         let parent = container(document.as_item_mut(), &steps, edit.value.is_null());
         let Some(parent) = parent else {
             if edit.value.is_null() {
@@ -116,6 +120,39 @@ fn steps(path: &str) -> Option<Vec<Step>> {
         }
     }
     Some(steps)
+}
+
+/// Makes the tables of a path that are missing, with what they need.
+fn complete(document: &mut DocumentMut, steps: &[Step]) {
+    let mut path = String::new();
+    for (depth, step) in (1..).zip(steps) {
+        let Step::Name(name) = step else { return };
+        if !path.is_empty() {
+            path.push('.');
+        }
+        path.push_str(name);
+        if container(document.as_item_mut(), &steps[..depth], true).is_some() {
+            continue;
+        }
+        let text = document.to_string();
+        if let Some(value) = list(&text, &path).and_then(|list| written(&list)) {
+            // A number of a list that holds though it is not written.
+            if let Some(parent) = container(document.as_item_mut(), &steps[..depth - 1], true) {
+                let _ = set(parent, step, value);
+            }
+            return;
+        }
+        let needed = required(&text, &path);
+        let Some(table) = container(document.as_item_mut(), &steps[..depth], false) else {
+            return;
+        };
+        for (name, value) in needed {
+            if let Some(value) = written(&value) {
+                // A path that leads nowhere is told by who sets the value.
+                let _ = set(table, &Step::Name(name), value);
+            }
+        }
+    }
 }
 
 /// The table or list at the path; tables that are missing are made unless `only_there`.
@@ -209,7 +246,9 @@ fn written(value: &Json) -> Option<Value> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::field::tables;
     use super::*;
+    use centrode::mechanism::design::Design;
 
     const TEXT: &str = "# head\nfamily = \"gear-pair\" # a pair\n\n[pitch] # the curve\nkind = \"bspline\"\n\
                         radius = [1, 2, # two\n  3]\nmodule = 2.250 # mm\n# tail\n[driver]\nkeyway = { width = 4, depth = 1.8 }\n";
@@ -267,6 +306,36 @@ mod tests {
         ] {
             assert!(text.contains(kept), "{kept} in {text}");
         }
+    }
+
+    #[test]
+    fn a_new_table_has_what_it_cannot_be_without() {
+        for family in Design::FAMILIES {
+            let text = Design::template(family).expect("a template");
+            let fields = tables(text).into_iter().flat_map(|table| table.fields);
+            for field in fields {
+                let (key, value) = match &field.value {
+                    Json::Number(_) => (field.key.clone(), field.value.clone()),
+                    Json::Array(list) if !list.is_empty() => {
+                        (format!("{}[0]", field.key), list[0].clone())
+                    }
+                    _ => continue,
+                };
+                let edits = [edit(&key, value)];
+                let changed = edited(text, &edits).expect("edited");
+                assert!(
+                    Design::from_toml(&changed).is_ok(),
+                    "{} of {family}: {:?}",
+                    field.key,
+                    Design::from_toml(&changed)
+                );
+            }
+        }
+        let changed = after(&[edit("tool.pressure_angle_deg", 25)]);
+        let read: toml::Table = changed.parse().expect("toml");
+        assert_eq!(read["tool"]["kind"].as_str(), Some("rack"));
+        assert_eq!(read["tool"]["pressure_angle_deg"].as_integer(), Some(25));
+        assert_eq!(read["tool"].as_table().map(toml::Table::len), Some(2));
     }
 
     #[test]

@@ -111,6 +111,28 @@ pub(crate) fn keys_beside(text: &str, table: &str, word: &str) -> Option<Vec<Str
     }
 }
 
+/// What a table that is not written cannot be without: name and value of each key, as they hold now.
+pub(crate) fn required(text: &str, table: &str) -> Vec<(String, Value)> {
+    let tables = tables(text);
+    let fields = tables.into_iter().filter(|t| t.key == table);
+    let needed = fields
+        .flat_map(|t| t.fields)
+        .filter(|field| !field.optional && !field.value.is_null());
+    needed
+        .filter_map(|field| {
+            let name = field.key.rsplit('.').next()?;
+            Some((name.to_owned(), field.value))
+        })
+        .collect()
+}
+
+/// The list of a key, as it holds now; none for any other key.
+pub(crate) fn list(text: &str, key: &str) -> Option<Value> {
+    let mut fields = tables(text).into_iter().flat_map(|table| table.fields);
+    let field = fields.find(|field| field.key == key)?;
+    field.value.is_array().then_some(field.value)
+}
+
 fn schema() -> &'static Value {
     static SCHEMA: OnceLock<Value> = OnceLock::new();
     SCHEMA.get_or_init(Design::json_schema)

@@ -1,5 +1,6 @@
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use centrode::export::{Bundle, BundleError};
@@ -9,12 +10,25 @@ use serde::Serialize;
 use crate::failure::Failure;
 use crate::input::Source;
 
-/// The design file the page was started with, and its autosave beside it: all that is ever written.
+/// The design file the page was started with, and its autosaves beside it: all that is ever written.
 pub(crate) struct Document {
     folder: PathBuf,
     name: String,
     /// What the file held when it was last read or written here.
     known: Mutex<String>,
+    /// Whether the autosave holds work of the page that is open now: what earlier work left is not
+    /// written over.
+    own: AtomicBool,
+}
+
+/// What is in the file's place.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum Disk {
+    /// Its text.
+    Text(String),
+    /// Why there is none, after the file's name.
+    Missing(String),
 }
 
 /// Work that was not saved before the program ended.
@@ -29,6 +43,8 @@ pub(crate) struct Recovered {
 pub(crate) enum SaveError {
     #[error("{name} has been changed on disk since it was opened here")]
     Changed { name: String },
+    #[error("{name} {how}")]
+    Missing { name: String, how: String },
     #[error(transparent)]
     Bundle(#[from] BundleError),
     #[error(
@@ -61,6 +77,7 @@ impl Document {
             folder,
             name,
             known: Mutex::new(text),
+            own: AtomicBool::new(false),
         })
     }
 
@@ -74,27 +91,28 @@ impl Document {
         self.known().clone()
     }
 
-    /// What the file holds now, if that is something else.
-    pub(crate) fn changed(&self) -> Option<String> {
-        let known = self.known();
-        let disk = self.disk();
-        (disk != *known).then_some(disk)
-    }
-
     /// Takes what the file holds now as read.
-    pub(crate) fn reread(&self) -> String {
+    pub(crate) fn reread(&self) -> Result<String, SaveError> {
         let mut known = self.known();
-        *known = self.disk();
-        known.clone()
+        *known = self.found(self.disk())?;
+        Ok(known.clone())
     }
 
-    /// Writes the file, whole or not at all; a file changed by others only if `over` says so.
-    pub(crate) fn save(&self, text: &str, over: bool) -> Result<(), SaveError> {
+    fn found(&self, disk: Disk) -> Result<String, SaveError> {
+        let name = self.name.clone();
+        match disk {
+            Disk::Text(text) => Ok(text),
+            Disk::Missing(how) => Err(SaveError::Missing { name, how }),
+        }
+    }
+
+    /// Writes the file, whole or not at all; a file that no longer holds `base` only if `over` says so.
+    pub(crate) fn save(&self, text: &str, base: &str, over: bool) -> Result<(), SaveError> {
         if text.len() > DesignFile::LARGEST {
             return Err(SaveError::TooLarge { bytes: text.len() });
         }
         let mut known = self.known();
-        if self.disk() != *known && !over {
+        if !over && self.found(self.disk())? != base {
             return Err(SaveError::Changed {
                 name: self.name.clone(),
             });
@@ -102,48 +120,116 @@ impl Document {
         write(&self.folder, &self.name, text)?;
         text.clone_into(&mut known);
         drop(known);
-        self.forget();
+        // Work that was neither restored nor discarded stays.
+        if self.own.load(Ordering::Relaxed) || self.kept().as_deref() == Some(text.as_bytes()) {
+            self.forget(&self.autosave());
+        }
         Ok(())
     }
 
     /// Writes what is not saved yet beside the file; takes it away once it is what the file holds.
+    ///
+    /// What earlier work left there gets a name of its own first.
     pub(crate) fn keep(&self, text: &str) -> Result<(), SaveError> {
         if text.len() > DesignFile::LARGEST {
             return Err(SaveError::TooLarge { bytes: text.len() });
         }
-        if *self.known() == text {
-            self.forget();
+        let known = self.known();
+        let saved = *known == text;
+        if !self.own.load(Ordering::Relaxed) {
+            let settled = [text.as_bytes(), known.as_bytes()];
+            let left = self.kept().filter(|left| !settled.contains(&&**left));
+            if saved && left.is_some() {
+                return Ok(());
+            }
+            if left.is_some() {
+                self.set_aside()?;
+            }
+            self.own.store(true, Ordering::Relaxed);
+        }
+        if saved {
+            self.forget(&self.autosave());
             return Ok(());
         }
         Ok(write(&self.folder, &self.autosave(), text)?)
     }
 
-    /// What an autosave holds, if it is not what the file holds.
-    pub(crate) fn recovered(&self) -> Option<Recovered> {
-        let file = self.autosave();
-        let text = fs::read_to_string(self.folder.join(&file)).ok()?;
-        (text != *self.known()).then_some(Recovered { text, file })
+    /// What autosaves hold, if it is not what the file holds; none of them is written over from now on.
+    pub(crate) fn recovered(&self) -> Vec<Recovered> {
+        let known = self.known();
+        self.own.store(false, Ordering::Relaxed);
+        let names = fs::read_dir(&self.folder).into_iter().flatten();
+        let names = names.filter_map(|entry| entry.ok()?.file_name().into_string().ok());
+        let mut files: Vec<String> = names.filter(|name| self.is_autosave(name)).collect();
+        files.sort_by_key(|name| (name.len(), name.clone()));
+        files
+            .into_iter()
+            .filter_map(|file| {
+                let bytes = fs::read(self.folder.join(&file)).ok()?;
+                let text = String::from_utf8_lossy(&bytes).into_owned();
+                (text != *known).then_some(Recovered { text, file })
+            })
+            .collect()
     }
 
-    /// Takes the autosave away.
-    pub(crate) fn forget(&self) {
-        // Usually there is none.
-        let _ = fs::remove_file(self.folder.join(self.autosave()));
+    /// Takes an autosave away; any other file stays.
+    pub(crate) fn forget(&self, file: &str) {
+        if self.is_autosave(file) {
+            // Usually there is none.
+            let _ = fs::remove_file(self.folder.join(file));
+        }
     }
 
     fn autosave(&self) -> String {
         format!("{}.autosave", self.name)
     }
 
-    /// The file as it is now; a file that has gone or cannot be read is empty.
-    fn disk(&self) -> String {
+    /// What the autosave holds, if there is one.
+    fn kept(&self) -> Option<Vec<u8>> {
+        fs::read(self.folder.join(self.autosave())).ok()
+    }
+
+    /// Whether this is the name of an autosave, or of an earlier one that has been set aside.
+    fn is_autosave(&self, file: &str) -> bool {
+        let rest = file.strip_prefix(&self.autosave());
+        rest.is_some_and(|rest| {
+            let number = rest.strip_prefix('-').unwrap_or_default();
+            rest.is_empty() || number.parse::<u32>().is_ok_and(|n| n.to_string() == number)
+        })
+    }
+
+    /// Gives the autosave that was found a name that nothing writes to.
+    fn set_aside(&self) -> Result<(), BundleError> {
+        let found = self.folder.join(self.autosave());
+        let place = |number: u32| {
+            let name = format!("{}-{number}", self.autosave());
+            self.folder.join(name)
+        };
+        let free = (1..)
+            .map(place)
+            .find(|path| fs::symlink_metadata(path).is_err());
+        let Some(free) = free else { return Ok(()) };
+        fs::rename(&found, &free).map_err(|source| BundleError::Disk {
+            action: "set aside",
+            path: found,
+            source,
+        })
+    }
+
+    /// The file as it is now.
+    pub(crate) fn disk(&self) -> Disk {
         let path = self.folder.join(&self.name);
+        let most = DesignFile::LARGEST;
         match fs::metadata(&path) {
-            Ok(meta) if meta.len() > DesignFile::LARGEST as u64 => String::new(),
-            Ok(_) => fs::read(&path)
-                .map(|bytes| String::from_utf8_lossy(&bytes).into_owned())
-                .unwrap_or_default(),
-            Err(_) => String::new(),
+            Ok(meta) if meta.len() > most as u64 => Disk::Missing(format!(
+                "has {} bytes on disk; a design file has at most {most}",
+                meta.len()
+            )),
+            Ok(_) => match fs::read(&path) {
+                Ok(bytes) => Disk::Text(String::from_utf8_lossy(&bytes).into_owned()),
+                Err(error) => Disk::Missing(format!("cannot be read: {error}")),
+            },
+            Err(_) => Disk::Missing("has been deleted or moved".into()),
         }
     }
 
@@ -173,37 +259,83 @@ mod tests {
     #[test]
     fn a_file_changed_by_others_is_kept() {
         let (_folder, path, document) = opened();
-        assert!(document.changed().is_none());
+        assert_eq!(document.disk(), Disk::Text("a = 1\n".into()));
         fs::write(&path, "a = 2\n").expect("written");
-        assert_eq!(document.changed().as_deref(), Some("a = 2\n"));
-        let refused = document.save("a = 3\n", false);
+        assert_eq!(document.disk(), Disk::Text("a = 2\n".into()));
+        let refused = document.save("a = 3\n", "a = 1\n", false);
         assert!(matches!(refused, Err(SaveError::Changed { .. })));
         assert_eq!(fs::read_to_string(&path).expect("there"), "a = 2\n");
-        document.save("a = 3\n", true).expect("written over");
+        document
+            .save("a = 3\n", "a = 1\n", true)
+            .expect("written over");
         assert_eq!(fs::read_to_string(&path).expect("there"), "a = 3\n");
         fs::write(&path, "a = 4\n").expect("written");
-        assert_eq!(document.reread(), "a = 4\n");
-        document.save("a = 5\n", false).expect("saved");
+        assert_eq!(document.reread().expect("read"), "a = 4\n");
+        document.save("a = 5\n", "a = 4\n", false).expect("saved");
+        // Another window has not seen that.
+        let refused = document.save("a = 6\n", "a = 4\n", false);
+        assert!(matches!(refused, Err(SaveError::Changed { .. })));
         fs::remove_file(&path).expect("gone");
-        assert!(matches!(
-            document.save("a = 6\n", false),
-            Err(SaveError::Changed { .. })
-        ));
+        let refused = document
+            .save("a = 6\n", "a = 5\n", false)
+            .expect_err("gone");
+        assert!(refused.to_string().contains("deleted"), "{refused}");
+        assert!(document.reread().is_err());
+        document
+            .save("a = 6\n", "a = 5\n", true)
+            .expect("written anew");
+        fs::write(&path, vec![b' '; DesignFile::LARGEST + 1]).expect("written");
+        let refused = document.reread().expect_err("too large");
+        assert!(refused.to_string().contains("bytes"), "{refused}");
+    }
+
+    fn texts(document: &Document) -> Vec<String> {
+        let recovered = document.recovered().into_iter();
+        recovered.map(|found| found.text).collect()
     }
 
     #[test]
     fn what_is_not_saved_is_found_again() {
         let (folder, path, document) = opened();
-        assert!(document.recovered().is_none());
+        assert!(texts(&document).is_empty());
         document.keep("a = 2\n").expect("kept");
         assert_eq!(fs::read_to_string(&path).expect("there"), "a = 1\n");
         let again = Document::open(&path).expect("opened");
-        assert_eq!(again.recovered().expect("kept").text, "a = 2\n");
-        again.save("a = 2\n", false).expect("saved");
+        assert_eq!(texts(&again), ["a = 2\n"]);
+        again.save("a = 2\n", "a = 1\n", false).expect("saved");
         assert_eq!(fs::read_dir(folder.path()).expect("readable").count(), 1);
         again.keep("a = 3\n").expect("kept");
         again.keep("a = 2\n").expect("nothing to keep");
-        assert!(again.recovered().is_none());
+        assert!(texts(&again).is_empty());
+    }
+
+    #[test]
+    fn work_found_again_stays_until_it_is_restored_or_discarded() {
+        let (folder, path, document) = opened();
+        document.keep("a = 2\n").expect("kept");
+        let again = Document::open(&path).expect("opened");
+        // Nobody says what is to be done with it, and work goes on.
+        again.keep("a = 3\n").expect("kept");
+        again.keep("a = 4\n").expect("kept");
+        again.keep("a = 1\n").expect("back to the file");
+        assert_eq!(texts(&again), ["a = 2\n"]);
+        again.keep("a = 5\n").expect("kept");
+        assert_eq!(texts(&again), ["a = 5\n", "a = 2\n"]);
+        // After a reload the same holds for this page's own work.
+        again.keep("a = 6\n").expect("kept");
+        assert_eq!(texts(&again), ["a = 6\n", "a = 2\n", "a = 5\n"]);
+        again.save("a = 7\n", "a = 1\n", false).expect("saved");
+        assert_eq!(texts(&again), ["a = 6\n", "a = 2\n", "a = 5\n"]);
+        for found in again.recovered() {
+            again.forget(&found.file);
+        }
+        again.forget("pair.toml");
+        again.forget("pair.toml.autosave-01");
+        let left = fs::read_dir(folder.path()).expect("readable").count();
+        assert_eq!(
+            (left, fs::read_to_string(&path).expect("there")),
+            (1, "a = 7\n".into())
+        );
     }
 
     #[cfg(unix)]
@@ -213,7 +345,7 @@ mod tests {
         let link = folder.path().join("link.toml");
         std::os::unix::fs::symlink(&path, &link).expect("linked");
         let document = Document::open(&link).expect("opened");
-        document.save("a = 9\n", false).expect("saved");
+        document.save("a = 9\n", "a = 1\n", false).expect("saved");
         assert!(fs::symlink_metadata(&link).expect("there").is_symlink());
         assert_eq!(fs::read_to_string(&path).expect("there"), "a = 9\n");
     }
@@ -225,9 +357,9 @@ mod tests {
             .path()
             .join(format!(".pair.toml.{}.part", std::process::id()));
         fs::create_dir(way).expect("in the way");
-        let error = document.save("a = 2\n", false).expect_err("in the way");
+        let error = document.save("a = 2\n", "a = 1\n", false);
+        let error = error.expect_err("in the way");
         assert!(error.to_string().contains("pair.toml"), "{error}");
         assert_eq!(fs::read_to_string(&path).expect("there"), "a = 1\n");
-        assert!(document.changed().is_none());
     }
 }

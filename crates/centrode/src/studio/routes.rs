@@ -78,7 +78,9 @@ impl From<SaveError> for Refused {
     fn from(error: SaveError) -> Self {
         let message = error.to_string();
         match error {
-            SaveError::Changed { .. } => Self::because(StatusCode::CONFLICT, message),
+            SaveError::Changed { .. } | SaveError::Missing { .. } => {
+                Self::because(StatusCode::CONFLICT, message)
+            }
             SaveError::Bundle(_) => Self::because(StatusCode::INSUFFICIENT_STORAGE, message),
             SaveError::TooLarge { .. } => Self::because(StatusCode::PAYLOAD_TOO_LARGE, message),
         }
@@ -149,18 +151,22 @@ async fn solve(State(desk): Shared, Json(ask): Json<Solve>) -> Result<Response, 
 #[derive(Deserialize)]
 struct Save {
     text: String,
-    /// Whether a file changed on disk is written over.
+    /// What the page believes the file holds.
+    base: String,
+    /// Whether a file that holds something else is written over.
     #[serde(default)]
     over: bool,
 }
 
 async fn save(State(desk): Shared, Json(ask): Json<Save>) -> Result<Response, Refused> {
-    match apart(move || desk.document.save(&ask.text, ask.over)).await? {
+    match apart(move || desk.document.save(&ask.text, &ask.base, ask.over)).await? {
         Ok(()) => Ok(Json(json!({ "saved": true })).into_response()),
         // A question to the user, no failure.
-        Err(error @ SaveError::Changed { .. }) => {
+        Err(error @ (SaveError::Changed { .. } | SaveError::Missing { .. })) => {
+            let gone = matches!(error, SaveError::Missing { .. });
             let message = error.to_string();
-            Ok(Json(json!({ "saved": false, "message": message })).into_response())
+            let answer = json!({ "saved": false, "message": message, "gone": gone });
+            Ok(Json(answer).into_response())
         }
         Err(error) => Err(error.into()),
     }
@@ -175,16 +181,23 @@ async fn keep(State(desk): Shared, Json(ask): Json<Keep>) -> Result<Response, Re
     on_disk(move || desk.document.keep(&ask.text)).await
 }
 
-async fn forget(State(desk): Shared) -> Result<Response, Refused> {
+#[derive(Deserialize)]
+struct Forget {
+    /// An autosave, as `design` names it.
+    file: String,
+}
+
+async fn forget(State(desk): Shared, Json(ask): Json<Forget>) -> Result<Response, Refused> {
     on_disk(move || {
-        desk.document.forget();
+        desk.document.forget(&ask.file);
         Ok(())
     })
     .await
 }
 
-async fn reread(State(desk): Shared) -> Response {
-    Json(json!({ "text": desk.document.reread() })).into_response()
+async fn reread(State(desk): Shared) -> Result<Response, Refused> {
+    let text = apart(move || desk.document.reread()).await??;
+    Ok(Json(json!({ "text": text })).into_response())
 }
 
 /// Waits for the disk without holding up other requests.

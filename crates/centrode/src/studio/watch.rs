@@ -7,12 +7,13 @@ use serde_json::json;
 use tokio::sync::watch::{Receiver, Sender};
 
 use super::Desk;
+use super::document::Disk;
 
 /// Time between two looks at the file.
 const PERIOD: Duration = Duration::from_millis(500);
 
 /// What happens without the page asking: the file changes on disk.
-pub(crate) struct Watch(Sender<Option<String>>);
+pub(crate) struct Watch(Sender<Option<Disk>>);
 
 impl Default for Watch {
     fn default() -> Self {
@@ -27,10 +28,10 @@ impl Watch {
         receiver.mark_changed();
         let events = unfold(
             receiver,
-            |mut receiver: Receiver<Option<String>>| async move {
+            |mut receiver: Receiver<Option<Disk>>| async move {
                 receiver.changed().await.ok()?;
-                let text = receiver.borrow_and_update().clone();
-                let data = json!({ "text": text }).to_string();
+                let disk = receiver.borrow_and_update().clone();
+                let data = json!(disk).to_string();
                 Some((Ok(Event::default().event("disk").data(data)), receiver))
             },
         );
@@ -38,15 +39,15 @@ impl Watch {
     }
 }
 
-/// Looks at the file for ever, and tells what it holds when that is not what is known.
+/// Looks at the file for ever, and tells what it holds whenever that is something else.
 pub(crate) async fn disk(desk: &Desk) {
     loop {
-        tokio::time::sleep(PERIOD).await;
-        let changed = desk.document.changed();
+        let now = Some(desk.document.disk());
         desk.watch.0.send_if_modified(|told| {
-            let news = *told != changed;
-            *told = changed;
+            let news = *told != now;
+            *told = now;
             news
         });
+        tokio::time::sleep(PERIOD).await;
     }
 }

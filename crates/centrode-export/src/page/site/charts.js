@@ -9,12 +9,14 @@ import { color } from "./theme.js";
 const DEG = 180 / Math.PI;
 const HEIGHT = 128;
 const DASH = [[], [6, 3]];
+/** What is smaller is a rounding error, whatever its unit: a figure of a machine is not. */
+const NOISE = 1e-9;
 
 /** A figure of a curve, short enough to read. */
 function brief(value) {
   if (value === null || value === undefined) return "–";
-  if (value === 0) return "0";
   const size = Math.abs(value);
+  if (size < NOISE) return "0";
   return size < 1e-3 || size >= 1e5 ? value.toExponential(2) : value.toPrecision(4);
 }
 
@@ -86,10 +88,10 @@ class Chart {
       height: HEIGHT,
       legend: { show: false },
       cursor: { x: false, y: false, points: { show: false }, drag: { x: false, y: false } },
-      scales: { x: { time: false, range: (_, least, greatest) => [least, greatest] }, y: { range: span } },
+      scales: { x: { time: false, range: (_, least, greatest) => [whole(least), whole(greatest)] }, y: { range: span } },
       series,
       axes: axes(
-        { incrs: [15, 30, 45, 60, 90, 180, 360, 720, 1440, 3600], values: (_, list) => list.map((v) => `${v}°`), space: 48 },
+        { incrs: [15, 30, 45, 60, 90, 180, 360, 720, 1080, 1440, 2160, 2880, 3600, 5400, 7200, 10800, 14400, 36000], values: (_, list) => list.map((v) => `${v}°`), space: 48 },
         { values: (_, list) => list.map((v) => tick(v, list)) },
       ),
     }, this.data(curves, before), this.box);
@@ -141,8 +143,11 @@ function span(_, least, greatest) {
   if (least === null || !Number.isFinite(least)) return [0, 1];
   const size = Math.max(Math.abs(least), Math.abs(greatest));
   const room = greatest - least < 1e-6 * size ? Math.max(0.1 * size, Number.MIN_VALUE) : 0.08 * (greatest - least);
-  return size === 0 ? [-1, 1] : [least - room, greatest + room];
+  return size < NOISE ? [-1, 1] : [least - room, greatest + room];
 }
+
+/** A cycle ends at a whole degree, which its last digit may fall short of. */
+const whole = (angle) => (Math.abs(angle - Math.round(angle)) < 1e-3 ? Math.round(angle) : angle);
 
 function tick(value, list) {
   const size = Math.max(...list.map(Math.abs));

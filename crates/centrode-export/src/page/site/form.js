@@ -21,10 +21,14 @@ function sizeOf(field) {
 /** What is typed, as a value of the design: a number where it reads as one. */
 function typed(text) {
   const plain = text.trim().replace(",", ".").replace("−", "-");
-  return plain !== "" && Number.isFinite(Number(plain)) ? Number(plain) : text.trim();
+  return /^[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?$/i.test(plain) && Number.isFinite(Number(plain)) ? Number(plain) : text.trim();
 }
 
-const tidy = (value, step) => Number(value.toFixed(Math.max(0, Math.ceil(-Math.log10(step)))));
+/** Digits after the point. */
+const decimals = (value) => (String(value).split("e")[0].split(".")[1] ?? "").length + Math.max(0, -(String(value).split("e")[1] ?? 0));
+
+/** A number some steps on, with no digits but its own and the step's: back again it is what it was. */
+const stepped = (value, count, step) => Number((value + count * step).toFixed(Math.min(100, Math.max(decimals(value), decimals(step)))));
 
 export class Form {
   /** `edit(edits, final)` takes new values; `fixed` shows them only. */
@@ -35,6 +39,8 @@ export class Form {
     this.shape = "";
     this.controls = new Map();
     this.folded = new Set(["drawing"]);
+    /** Whether the last design was none. */
+    this.failed = false;
   }
 
   show(snapshot) {
@@ -107,7 +113,8 @@ export class Form {
       return box;
     }
     if (Array.isArray(field.value) && ["numbers", "integers"].includes(field.kind)) {
-      const list = element("div", { class: "numbers", role: "group", "aria-label": words(field.key) });
+      const few = field.value.length < 4 ? ` of-${field.value.length}` : "";
+      const list = element("div", { class: `numbers${few}`, role: "group", "aria-label": words(field.key) });
       control.inputs = field.value.map((_, i) => this.number(field, `${field.key}[${i}]`, {
         ...common, id: i ? `${id}-${i}` : id, "aria-label": `${words(field.key)} ${i + 1}`,
       }));
@@ -148,7 +155,7 @@ export class Form {
       if (!way || typeof value !== "number" || event.ctrlKey || event.metaKey) return;
       event.preventDefault();
       const step = stepOf(field, Number(box.dataset.value ?? value)) * (event.shiftKey ? 10 : 1);
-      const next = tidy(value + way * step, step);
+      const next = stepped(value, way, step);
       box.value = String(next);
       give(next);
     });
@@ -168,7 +175,7 @@ export class Form {
     const follow = (event, final) => {
       if (!start) return;
       const count = Math.round((event.clientX - start.x) / SLOW);
-      const next = tidy(start.value + count * start.step, start.step);
+      const next = stepped(start.value, count, start.step);
       start.moved ||= count !== 0;
       if (start.moved && (final || next !== start.now)) {
         start.now = next;
@@ -218,6 +225,8 @@ export class Form {
     if (value === null || field.optional && field.value === null) list.unshift(element("option", { value: "" }, "auto"));
     select.replaceChildren(...list);
     select.value = value ?? "";
+    // Another family is another design: centrode new makes one.
+    select.disabled = this.fixed || field.key === "family" && field.choices.some(({ word }) => word === value);
     select.dataset.value = select.value;
   }
 
@@ -236,9 +245,11 @@ export class Form {
       });
       if (cause && finding.severity !== "note") put(cause, finding.severity, `${finding.rule}: ${finding.message}`);
     }
+    // Until the checks are done their last remarks stay, but those of an error that is no more do not.
+    if (!snapshot.error && !snapshot.verdict && !this.failed) return;
+    this.failed = Boolean(snapshot.error);
     for (const control of this.controls.values()) {
-      const list = snapshot.error || snapshot.verdict ? remarks.get(control) ?? [] : null;
-      if (list === null) continue;
+      const list = remarks.get(control) ?? [];
       const said = JSON.stringify(list);
       if (control.said === said) continue;
       control.said = said;

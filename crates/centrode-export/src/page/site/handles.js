@@ -44,6 +44,7 @@ export class Handles {
 
   show(handles) {
     this.list = handles;
+    byId("show-handles").parentElement.hidden = handles.length === 0;
     this.chain ??= this.layer.appendChild(drawn("polygon", { class: "chain" }));
     // A mark that is held stays, even if this design has no such point.
     const names = new Set(handles.map((handle) => handle.name));

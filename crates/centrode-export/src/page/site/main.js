@@ -31,6 +31,8 @@ const state = {
   draft: new Map(),
   pending: null,
   solving: false,
+  /** Whether the program has not answered of late. */
+  away: false,
   /** Resolves when the panels show the snapshot, while they do not yet. */
   shown: null,
   /** How long the last checks took, ms: unknown ones come after the picture. */
@@ -73,7 +75,8 @@ function readout() {
   const lines = (state.snapshot?.curves ?? []).filter((curve) => curve.name === "").slice(0, 3);
   byId("readout").replaceChildren(...lines.map((curve) => {
     const value = read(curve, state.input);
-    return element("div", {}, `${curve.chart} ${value === null ? "–" : value.toFixed(4)}${curve.unit && ` ${curve.unit}`}`);
+    const words = value === null ? "–" : value.toFixed(4).replace(/^-(0\.0*)$/, "$1");
+    return element("div", {}, `${curve.chart} ${words}${curve.unit && ` ${curve.unit}`}`);
   }));
 }
 
@@ -106,6 +109,8 @@ function show(snapshot) {
     snapshot = { ...snapshot, curves: merged(snapshot.curves, before.curves), stale: true };
   }
   state.snapshot = snapshot;
+  // Pinned before its checks were done.
+  if (state.pinned && !state.pinned.verdict && snapshot.verdict && snapshot.text === state.pinned.text) state.pinned = snapshot;
   stage.stale = Boolean(snapshot.error);
   stage.show(snapshot.picture);
   handles?.show(snapshot.picture?.handles ?? []);
@@ -206,7 +211,8 @@ async function solve() {
       else if (!state.pending && !snapshot.error) check(snapshot.text);
       dialogs.withdraw("server");
     } catch (error) {
-      if (job.final) forgetDraft(sent);
+      // What was typed is due when the program answers again.
+      if (job.final && !(error instanceof server.Away)) forgetDraft(sent);
       complain("server", error);
     }
   }
@@ -248,8 +254,10 @@ function forgetDraft(sent) {
 }
 
 function complain(key, error) {
-  const words = error instanceof server.Refused ? error.message : "the program does not answer: is centrode studio still running?";
-  dialogs.notice(key, words, [], "error");
+  const away = error instanceof server.Away;
+  state.away ||= away;
+  // One line, however many requests get no answer.
+  dialogs.notice(away ? "server" : key, error.message, [], "error");
 }
 
 let keeping = 0;
@@ -269,9 +277,9 @@ function step(text) {
 async function save(over = false) {
   const text = state.history.text;
   try {
-    const answer = await server.save(text, over);
+    const answer = await server.save(text, state.history.saved, over);
     if (!answer.saved) {
-      await settleConflict(answer.message);
+      await settleConflict(answer);
       return;
     }
     clearTimeout(keeping);
@@ -286,20 +294,50 @@ async function save(over = false) {
 }
 
 /** The file has been changed by others: whose work stays? */
-async function settleConflict(message) {
-  const words = element("p", {}, `${message}. Saving would write over that.`);
-  const answer = await dialogs.ask("Changed on disk", [words],
-    [["", "Cancel"], ["load", "Load the file"], ["over", "Write over it", "danger"]]);
+async function settleConflict({ message, gone }) {
+  const words = element("p", {}, `${message}. Saving would ${gone ? "make it anew" : "write over that"}.`);
+  const answer = await dialogs.ask(gone ? "Not there" : "Changed on disk", [words],
+    [["", "Cancel"], ...(gone ? [] : [["load", "Load the file"]]), ["over", gone ? "Save" : "Write over it", gone ? "main" : "danger"]]);
   if (answer === "over") await save(true);
   if (answer === "load") await load();
 }
 
 /** Takes what is on disk now. */
 async function load() {
-  const { text } = await server.reread();
-  state.history.saved = text;
-  replace(text);
-  dialogs.withdraw("disk");
+  try {
+    const { text } = await server.reread();
+    state.history.saved = text;
+    replace(text);
+    dialogs.withdraw("disk");
+  } catch (error) {
+    complain("disk", error);
+  }
+}
+
+/** Says what has become of the file, if it is not what this page knows. */
+function compare({ text, missing }) {
+  if (text === state.history.saved) {
+    dialogs.withdraw("disk");
+    return;
+  }
+  if (missing) dialogs.notice("disk", `${state.file} ${missing}.`, [], "warning");
+  else dialogs.notice("disk", `${state.file} has been changed on disk.`, [["Load the file", load]], "warning");
+  // Another window that saved has taken the autosave away.
+  if (state.history.dirty) keep();
+}
+
+/** The program does not answer: nothing can be solved or kept until it does. */
+function lost() {
+  complain("server", new server.Away());
+}
+
+/** It answers again: what was given meanwhile is due. */
+function found() {
+  if (!state.away) return;
+  state.away = false;
+  dialogs.withdraw("server");
+  request({ text: state.history.text, final: true });
+  if (state.history.dirty) keep();
 }
 
 async function download() {
@@ -410,19 +448,13 @@ async function start() {
   });
   buttons();
   replace(text);
-  if (recovered) {
-    dialogs.notice("recovered", `${recovered.file} holds changes that were not saved.`, [
-      ["Restore", () => replace(recovered.text)],
-      ["Discard", () => server.forget().catch((error) => complain("keep", error))],
+  for (const { file: left, text: work } of recovered) {
+    dialogs.notice(left, `${left} holds changes that were not saved.`, [
+      ["Restore", () => replace(work)],
+      ["Discard", () => server.forget(left).catch((error) => complain("keep", error))],
     ], "warning");
   }
-  server.watch((disk) => {
-    if (disk === null) {
-      dialogs.withdraw("disk");
-    } else {
-      dialogs.notice("disk", `${file} has been changed on disk.`, [["Load the file", load]], "warning");
-    }
-  });
+  server.watch({ disk: compare, lost, found });
 }
 
 start().catch((error) => complain("server", error));

@@ -9,13 +9,24 @@ export class Refused extends Error {
   }
 }
 
-async function ask(path, method, body, signal) {
-  const answer = await fetch(path, {
-    method,
-    signal,
-    headers: body === undefined ? {} : { "Content-Type": "application/json" },
-    body: body === undefined ? undefined : JSON.stringify(body),
-  });
+/** No answer at all. */
+export class Away extends Error {
+  constructor() {
+    super("the program does not answer: is centrode studio still running?");
+  }
+}
+
+async function ask(path, method, body) {
+  let answer;
+  try {
+    answer = await fetch(path, {
+      method,
+      headers: body === undefined ? {} : { "Content-Type": "application/json" },
+      body: body === undefined ? undefined : JSON.stringify(body),
+    });
+  } catch {
+    throw new Away();
+  }
   if (!answer.ok) {
     const text = await answer.text();
     let parsed;
@@ -32,20 +43,22 @@ async function ask(path, method, body, signal) {
 const json = async (answer) => (await answer).json();
 
 export const design = () => json(ask("design", "GET"));
-export const save = (text, over) => json(ask("save", "POST", { text, over }));
+export const save = (text, base, over) => json(ask("save", "POST", { text, base, over }));
 export const keep = (text) => json(ask("keep", "POST", { text }));
-export const forget = () => json(ask("keep", "DELETE"));
+export const forget = (file) => json(ask("keep", "DELETE", { file }));
 export const reread = () => json(ask("reread", "POST", {}));
 export const search = (options) => json(ask("search", "POST", options));
 export const searched = () => json(ask("search", "GET"));
 export const stopSearch = () => json(ask("search", "DELETE"));
 export const response = (options) => json(ask("response", "POST", options));
 export const files = async (options) => (await ask("export", "POST", options)).blob();
-export const solve = (request, signal) => json(ask("solve", "POST", request, signal));
+export const solve = (request) => json(ask("solve", "POST", request));
 
-/** Calls back with the file's text whenever it is not what is known, and with null when it is again. */
-export function watch(changed) {
+/** Calls `disk` with the file's text, or with what is missing, whenever that changes; `lost` and `found` as the program goes and comes. */
+export function watch({ disk, lost, found }) {
   const events = new EventSource("events");
-  events.addEventListener("disk", (event) => changed(JSON.parse(event.data).text));
+  events.addEventListener("disk", (event) => disk(JSON.parse(event.data)));
+  events.addEventListener("error", lost);
+  events.addEventListener("open", found);
   return events;
 }

@@ -89,6 +89,8 @@ export class Stage {
   /** Takes a new picture; it is drawn by `at`. */
   show(picture) {
     this.scene = picture ? new Scene(picture) : null;
+    const pitch = this.scene?.links.some((link) => link.lines.some(({ role }) => role === "pitch"));
+    byId("show-pitch").parentElement.hidden = !pitch;
     if (this.fitted && !this.held) this.frame();
   }
 

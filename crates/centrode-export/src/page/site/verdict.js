@@ -13,14 +13,18 @@ export function show(snapshot, pinned, go) {
   if (snapshot.error) {
     const { key, line, column, message } = snapshot.error;
     place.replaceChildren(
-      title("No mechanism", "error"),
+      title("No mechanism", "error no-mechanism"),
       element("ul", { class: "findings" }, element("li", { class: "error" },
         element("p", {}, element("b", {}, `${SIGN.error} error `), message),
         element("p", { class: "detail" }, key ? `${key}, line ${line}, column ${column}` : `line ${line}, column ${column}`))),
     );
     return;
   }
-  if (!verdict) return;
+  if (!verdict) {
+    // Nothing is known to be wrong any more.
+    if (place.querySelector(".no-mechanism")) place.replaceChildren(element("p", { class: "quiet" }, "Being checked …"));
+    return;
+  }
   place.replaceChildren(
     title(verdict.ok ? "Sound" : "Does not do its job", verdict.ok ? "good" : "error", verdict.summary),
     element("ul", { class: "findings" }, ...verdict.findings.map((finding) => item(finding, go))),
