@@ -1,7 +1,8 @@
 mod figures;
 mod findings;
 mod goals;
-mod tables;
+mod groups;
+mod unit;
 
 use std::io::Write;
 
@@ -53,7 +54,6 @@ pub(crate) fn write(
     writeln!(out)?;
     findings::write(report, out)?;
     goals::write(report, out)?;
-    tables::write(report, out)?;
     figures::write(report, out)
 }
 

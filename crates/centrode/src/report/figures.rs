@@ -5,412 +5,13 @@ use anstyle::Style;
 use centrode::analysis::{Report, Table};
 use serde::Serialize;
 
+use super::groups::{GROUPS, Group, Row};
+use super::unit::{Unit, figure};
+
 pub(super) const HEADING: Style = Style::new().bold();
 /// Width of the names and of each column of figures.
 const NAME: usize = 32;
 const COLUMN: usize = 12;
-
-/// What a figure is measured in, which settles how it is shown.
-#[derive(Clone, Copy)]
-enum Unit {
-    Count,
-    Number,
-    Millimetre,
-    PerMillimetre,
-    /// Kept in rad, shown in degrees.
-    Degree,
-    /// Kept and shown in rad: errors too small for degrees.
-    Radian,
-    RadianPerSecond,
-    MillimetrePerSecond,
-    Newton,
-    NewtonMillimetre,
-    TurnsPerMinute,
-    Second,
-}
-
-/// A line of the table: what it is called, the figures on it, their unit.
-struct Row(&'static str, &'static [&'static str], Unit);
-
-/// A part of the table: its heading, the columns, the rows.
-struct Group(&'static str, &'static [&'static str], &'static [Row]);
-
-const GROUPS: [Group; 12] = [
-    Group(
-        "Pitch curves",
-        &["driver", "driven"],
-        &[
-            Row(
-                "teeth",
-                &["driver_tooth_count", "driven_tooth_count"],
-                Unit::Count,
-            ),
-            Row(
-                "length",
-                &["driver_pitch_length", "driven_pitch_length"],
-                Unit::Millimetre,
-            ),
-            Row(
-                "least radius",
-                &["driver_radius_min", "driven_radius_min"],
-                Unit::Millimetre,
-            ),
-            Row(
-                "greatest radius",
-                &["driver_radius_max", "driven_radius_max"],
-                Unit::Millimetre,
-            ),
-            Row(
-                "least curvature",
-                &["driver_curvature_min", "driven_curvature_min"],
-                Unit::PerMillimetre,
-            ),
-            Row(
-                "greatest curvature",
-                &["driver_curvature_max", "driven_curvature_max"],
-                Unit::PerMillimetre,
-            ),
-        ],
-    ),
-    Group(
-        "Teeth",
-        &["driver", "driven"],
-        &[
-            Row(
-                "tip radius, greatest",
-                &["driver_tip_radius_max", "driven_tip_radius_max"],
-                Unit::Millimetre,
-            ),
-            Row(
-                "root radius, least",
-                &["driver_root_radius_min", "driven_root_radius_min"],
-                Unit::Millimetre,
-            ),
-            Row(
-                "tip width, least",
-                &["driver_tip_width_min", "driven_tip_width_min"],
-                Unit::Millimetre,
-            ),
-            Row(
-                "fillet radius, least",
-                &["driver_fillet_radius_min", "driven_fillet_radius_min"],
-                Unit::Millimetre,
-            ),
-        ],
-    ),
-    Group(
-        "Mesh, over the whole cycle",
-        &["least", "greatest"],
-        &[
-            Row(
-                "ratio, driven to driver",
-                &["ratio_min", "ratio_max"],
-                Unit::Number,
-            ),
-            Row(
-                "contacts at once",
-                &["contact_ratio_min", "contact_ratio_max"],
-                Unit::Count,
-            ),
-            Row("contact ratio, mean", &["contact_ratio_mean"], Unit::Number),
-            Row(
-                "backlash of the driven gear",
-                &["backlash_min", "backlash_max"],
-                Unit::Degree,
-            ),
-            Row(
-                "backlash, normal",
-                &["normal_backlash_min", "normal_backlash_max"],
-                Unit::Millimetre,
-            ),
-            Row(
-                "transmission error",
-                &["", "transmission_error_max"],
-                Unit::Radian,
-            ),
-            Row("overlap", &["", "overlap_max"], Unit::Millimetre),
-            Row("pressure angle", &["", "pressure_angle_max"], Unit::Degree),
-            Row(
-                "sliding a rad of the driver",
-                &["", "sliding_max"],
-                Unit::Millimetre,
-            ),
-            Row(
-                "clearance, tip to root",
-                &["clearance_min"],
-                Unit::Millimetre,
-            ),
-            Row(
-                "clearance, tip to fillet",
-                &["fillet_clearance_min"],
-                Unit::Millimetre,
-            ),
-        ],
-    ),
-    Group(
-        "Pitch curves of sun and intermediate gears",
-        &["sun", "intermediate"],
-        &[
-            Row(
-                "least radius",
-                &["sun_radius_min", "intermediate_radius_min"],
-                Unit::Millimetre,
-            ),
-            Row(
-                "greatest radius",
-                &["sun_radius_max", "intermediate_radius_max"],
-                Unit::Millimetre,
-            ),
-            Row("length", &["pitch_length"], Unit::Millimetre),
-        ],
-    ),
-    Group(
-        "Reach of the tip from the carrier's axis",
-        &[],
-        &[
-            Row("lowest", &["tip_lowest"], Unit::Millimetre),
-            Row("highest", &["tip_highest"], Unit::Millimetre),
-            Row(
-                "farthest towards the tray",
-                &["tip_farthest"],
-                Unit::Millimetre,
-            ),
-            Row(
-                "radius swept by the gearbox",
-                &["gearbox_radius"],
-                Unit::Millimetre,
-            ),
-        ],
-    ),
-    Group(
-        "Speed at the design's rate",
-        &[],
-        &[
-            Row("carrier", &["carrier_speed"], Unit::RadianPerSecond),
-            Row(
-                "tip at picking",
-                &["picking_speed"],
-                Unit::MillimetrePerSecond,
-            ),
-            Row(
-                "the same with two arms",
-                &["picking_speed_of_two_arms"],
-                Unit::MillimetrePerSecond,
-            ),
-            Row(
-                "tip at planting",
-                &["planting_speed"],
-                Unit::MillimetrePerSecond,
-            ),
-        ],
-    ),
-    Group(
-        "Limits and settings",
-        &[],
-        &[
-            Row("centre distance", &["center_distance"], Unit::Millimetre),
-            Row("module", &["module"], Unit::Millimetre),
-            Row(
-                "largest module, no undercut",
-                &["largest_module"],
-                Unit::Millimetre,
-            ),
-            Row(
-                "largest addendum, no undercut",
-                &["largest_addendum"],
-                Unit::Millimetre,
-            ),
-            Row("phase of the first tooth", &["phase"], Unit::Millimetre),
-            Row("planet's zero, behind", &["planet_reference"], Unit::Degree),
-            Row("closure error", &["closure_error"], Unit::Radian),
-        ],
-    ),
-    Group(
-        "Box and groove",
-        &[],
-        &[
-            Row("moves while picking", &["moved_distance"], Unit::Millimetre),
-            Row(
-                "limit, a sixth of the pot",
-                &["moved_distance_limit"],
-                Unit::Millimetre,
-            ),
-            Row(
-                "with a plain shaft",
-                &["moved_distance_plain"],
-                Unit::Millimetre,
-            ),
-            Row("amplitude", &["amplitude"], Unit::Millimetre),
-            Row(
-                "least speed over the mean",
-                &["speed_ratio_min"],
-                Unit::Number,
-            ),
-            Row(
-                "greatest speed over the mean",
-                &["speed_ratio_max"],
-                Unit::Number,
-            ),
-            Row("turns out and back", &["cycle_turns"], Unit::Count),
-            Row(
-                "worst miss of a hole",
-                &["misplacement_max"],
-                Unit::Millimetre,
-            ),
-            Row("least lead angle", &["lead_angle_min"], Unit::Degree),
-            Row("greatest lead angle", &["lead_angle_max"], Unit::Degree),
-            Row(
-                "greatest pressure angle",
-                &["pressure_angle_max"],
-                Unit::Degree,
-            ),
-            Row("tightest bend", &["bend_radius_min"], Unit::Millimetre),
-            Row("crossings", &["crossing_count"], Unit::Count),
-            Row(
-                "longest gap at a crossing",
-                &["crossing_gap_max"],
-                Unit::Millimetre,
-            ),
-            Row(
-                "slider in the groove, if flat",
-                &["slider_guided_length"],
-                Unit::Millimetre,
-            ),
-            Row(
-                "clearance the slider needs",
-                &["slider_clearance_min"],
-                Unit::Millimetre,
-            ),
-        ],
-    ),
-    Group(
-        "Forces on the slider",
-        &[],
-        &[
-            Row("least on the strokes", &["normal_force_min"], Unit::Newton),
-            Row(
-                "greatest on the strokes",
-                &["normal_force_max"],
-                Unit::Newton,
-            ),
-            Row("while picking", &["normal_force_picking"], Unit::Newton),
-            Row(
-                "greatest in a reversal",
-                &["normal_force_reversal_max"],
-                Unit::Newton,
-            ),
-            Row("least torque", &["torque_min"], Unit::NewtonMillimetre),
-            Row("greatest torque", &["torque_max"], Unit::NewtonMillimetre),
-            Row("speed", &["speed_rpm"], Unit::TurnsPerMinute),
-            Row(
-                "stays on one wall up to",
-                &["contact_limit_rpm"],
-                Unit::TurnsPerMinute,
-            ),
-            Row("jams at a lead angle of", &["jamming_angle"], Unit::Degree),
-        ],
-    ),
-    Group(
-        "Strokes of the effector",
-        &["feed", "return", "rest"],
-        &[
-            Row(
-                "time",
-                &["feed_time", "return_time", "dwell_time"],
-                Unit::Second,
-            ),
-            Row(
-                "greatest speed of the tip",
-                &["tip_speed_feed_max", "tip_speed_return_max"],
-                Unit::MillimetrePerSecond,
-            ),
-            Row(
-                "feed time over return time",
-                &["quick_return"],
-                Unit::Number,
-            ),
-        ],
-    ),
-    Group(
-        "Crank-rocker",
-        &["least", "greatest"],
-        &[
-            Row(
-                "angle of coupler and rocker",
-                &["coupler_rocker_angle_min", "coupler_rocker_angle_max"],
-                Unit::Degree,
-            ),
-            Row(
-                "angle of the effector",
-                &["effector_angle_min", "effector_angle_max"],
-                Unit::Degree,
-            ),
-            Row(
-                "swing, as made",
-                &["swing_made_min", "swing_made_max"],
-                Unit::Degree,
-            ),
-            Row("swing of the rocker", &["", "rocker_swing"], Unit::Degree),
-            Row(
-                "dead centres, folded, stretched",
-                &["dead_center_folded", "dead_center_stretched"],
-                Unit::Degree,
-            ),
-            Row(
-                "crank free: driven, at rest",
-                &["gear_play_moving_max", "gear_play_resting_max"],
-                Unit::Degree,
-            ),
-            Row(
-                "rest of the incomplete gear",
-                &["dwell_angle"],
-                Unit::Degree,
-            ),
-            Row(
-                "crank while driven",
-                &["", "crank_rpm_driven"],
-                Unit::TurnsPerMinute,
-            ),
-        ],
-    ),
-    Group(
-        "Box by the turn of the gears",
-        &[],
-        &[
-            Row("eccentricity", &["gear_eccentricity"], Unit::Number),
-            Row(
-                "least speed over the mean",
-                &["box_speed_ratio_min"],
-                Unit::Number,
-            ),
-            Row(
-                "greatest speed over the mean",
-                &["box_speed_ratio_max"],
-                Unit::Number,
-            ),
-            Row(
-                "greatest acceleration, m/s^2",
-                &["box_acceleration_max_m_s2"],
-                Unit::Number,
-            ),
-            Row(
-                "least normal force",
-                &["box_normal_force_min"],
-                Unit::Newton,
-            ),
-            Row(
-                "greatest normal force",
-                &["box_normal_force_max"],
-                Unit::Newton,
-            ),
-            Row(
-                "stays on one wall up to",
-                &["box_contact_limit_rpm"],
-                Unit::TurnsPerMinute,
-            ),
-        ],
-    ),
-];
 
 /// Figures that go together, as rows and columns.
 #[derive(Clone, Debug, Serialize)]
@@ -524,101 +125,26 @@ fn section(table: &Table) -> Section {
     }
 }
 
-/// Writes every figure in its group; figures of no group come last, as they are.
+/// Writes every table, then every figure in its group; figures of no group come last, as they are.
 pub(super) fn write(report: &Report, out: &mut impl Write) -> Result<()> {
-    let mut shown = BTreeSet::from([""]);
-    for Group(heading, columns, rows) in &GROUPS {
-        let known = |Row(_, keys, _): &Row| keys.iter().any(|key| report.values.contains_key(key));
-        if !rows.iter().any(known) {
-            continue;
-        }
-        let width = if columns.is_empty() { 0 } else { NAME };
-        write!(out, "\n{HEADING}{heading:width$}{HEADING:#}")?;
-        for column in *columns {
+    for section in sections(report) {
+        let width = if section.columns.is_empty() { 0 } else { NAME };
+        write!(out, "\n{HEADING}{:width$}{HEADING:#}", section.heading)?;
+        for column in &section.columns {
             write!(out, "  {column:>COLUMN$}")?;
         }
         writeln!(out)?;
-        for Row(name, keys, unit) in *rows {
-            if !keys.iter().any(|key| report.values.contains_key(key)) {
-                continue;
+        for line in &section.rows {
+            write!(out, "  {:width$}", line.name, width = NAME - 2)?;
+            for cell in &line.cells {
+                let shown = cell.as_ref().map_or("", |cell| &cell.shown);
+                write!(out, "  {shown:>COLUMN$}")?;
             }
-            write!(out, "  {name:width$}", width = NAME - 2)?;
-            for key in *keys {
-                shown.insert(key);
-                let figure = report.values.get(key).map(|value| unit.show(*value));
-                write!(out, "  {:>COLUMN$}", figure.unwrap_or_default())?;
-            }
-            let unit = unit.name();
-            writeln!(out, "{}{unit}", if unit.is_empty() { "" } else { "  " })?;
+            let gap = if line.unit.is_empty() { "" } else { "  " };
+            writeln!(out, "{gap}{}", line.unit)?;
         }
-    }
-    let mut heading = false;
-    for (key, value) in report
-        .values
-        .iter()
-        .filter(|(key, _)| !shown.contains(*key))
-    {
-        if !heading {
-            writeln!(out, "\n{HEADING}More{HEADING:#}")?;
-            heading = true;
-        }
-        writeln!(
-            out,
-            "  {key:width$}  {:>COLUMN$}",
-            Unit::Number.show(*value),
-            width = NAME - 2
-        )?;
     }
     Ok(())
-}
-
-impl Unit {
-    fn name(self) -> &'static str {
-        match self {
-            Self::Count | Self::Number => "",
-            Self::Millimetre => "mm",
-            Self::PerMillimetre => "1/mm",
-            Self::Degree => "deg",
-            Self::Radian => "rad",
-            Self::RadianPerSecond => "rad/s",
-            Self::MillimetrePerSecond => "mm/s",
-            Self::Newton => "N",
-            Self::NewtonMillimetre => "N mm",
-            Self::TurnsPerMinute => "r/min",
-            Self::Second => "s",
-        }
-    }
-
-    /// The figure in few enough digits to read; what is smaller keeps its leading digits.
-    fn show(self, value: f64) -> String {
-        match self {
-            Self::Count => format!("{value:.0}"),
-            Self::Number | Self::PerMillimetre | Self::RadianPerSecond => figure(value, 6),
-            Self::MillimetrePerSecond
-            | Self::Newton
-            | Self::NewtonMillimetre
-            | Self::TurnsPerMinute => figure(value, 2),
-            Self::Second => figure(value, 4),
-            Self::Millimetre => figure(value, 4),
-            Self::Degree => figure(value.to_degrees(), 4),
-            Self::Radian => figure(value, 0),
-        }
-    }
-}
-
-/// A number with so many decimals, or in powers of ten where they would hide it; without decimals,
-/// always in powers of ten.
-pub(super) fn figure(value: f64, decimals: i32) -> String {
-    let hidden = 50.0 * 0.1_f64.powi(decimals);
-    if value == 0.0 {
-        "0".into()
-    } else if !value.is_finite() {
-        "none".into()
-    } else if value.abs() < hidden || value.abs() >= 1e9 {
-        format!("{value:.1e}")
-    } else {
-        format!("{value:.0$}", usize::try_from(decimals).unwrap_or(0))
-    }
 }
 
 #[cfg(test)]
@@ -626,21 +152,10 @@ mod tests {
     use super::*;
 
     #[test]
-    fn figures_keep_what_matters() {
-        assert_eq!(Unit::Millimetre.show(52.709_221), "52.7092");
-        assert_eq!(Unit::Millimetre.show(-3.2e-7), "-3.2e-7");
-        assert_eq!(Unit::Degree.show(std::f64::consts::PI), "180.0000");
-        assert_eq!(Unit::Count.show(23.0), "23");
-        assert_eq!(Unit::Radian.show(f64::INFINITY), "none");
-        assert_eq!(Unit::Radian.show(-0.0), "0");
-        assert_eq!(Unit::Radian.show(2.489e-7), "2.5e-7");
-    }
-
-    #[test]
     fn a_figure_of_no_group_is_shown_too() {
         let mut report = Report::default();
         report.values.insert("module", 2.25);
-        report.values.insert("swing", 0.5);
+        report.values.insert("unheard_of", 0.5);
         report.values.insert("clearance_min", f64::INFINITY);
         let exact: Vec<(String, String)> = sections(&report)
             .into_iter()
@@ -652,7 +167,7 @@ mod tests {
         let expected = [
             ("clearance_min", "null"),
             ("module", "2.25"),
-            ("swing", "0.5"),
+            ("unheard_of", "0.5"),
         ];
         assert_eq!(
             exact,
@@ -661,7 +176,42 @@ mod tests {
         let mut out = Vec::new();
         write(&report, &mut out).expect("written");
         let text = String::from_utf8(out).expect("text");
-        assert!(text.contains("More") && text.contains("swing"), "{text}");
+        assert!(
+            text.contains("More") && text.contains("unheard_of"),
+            "{text}"
+        );
         assert!(text.contains("2.2500  mm"), "{text}");
+    }
+
+    #[test]
+    fn every_figure_of_the_shipped_designs_has_a_name_and_one_place() {
+        let keys: Vec<&str> = GROUPS
+            .iter()
+            .flat_map(|Group(_, _, rows)| *rows)
+            .flat_map(|Row(_, keys, _)| *keys)
+            .filter(|key| !key.is_empty())
+            .copied()
+            .collect();
+        let known: BTreeSet<&str> = keys.iter().copied().collect();
+        assert_eq!(keys.len(), known.len(), "a figure stands in two places");
+        let golden = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/golden");
+        let mut read = 0;
+        for entry in std::fs::read_dir(golden).expect("checked in") {
+            let path = entry.expect("readable").path();
+            if path.extension().is_none_or(|extension| extension != "json") {
+                continue;
+            }
+            let text = std::fs::read_to_string(&path).expect("readable");
+            let golden: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+            let values = golden["values"].as_object();
+            let values = values.unwrap_or_else(|| panic!("no values in {}", path.display()));
+            read += values.len();
+            let nameless: Vec<&String> = values
+                .keys()
+                .filter(|key| !known.contains(key.as_str()))
+                .collect();
+            assert!(nameless.is_empty(), "{}: {nameless:?}", path.display());
+        }
+        assert!(read > 100);
     }
 }

@@ -4,7 +4,7 @@ use anstyle::{AnsiColor, Style};
 use centrode::analysis::{Finding, Report, Severity};
 use serde::Serialize;
 
-use super::figures::figure;
+use super::unit::figure;
 
 /// Writes how many findings there are, then each: severity, rule, where, what, by how much, what helps.
 pub(super) fn write(report: &Report, out: &mut impl Write) -> Result<()> {

@@ -4,7 +4,8 @@ use anstyle::{AnsiColor, Style};
 use centrode::analysis::{Goal, Report};
 use serde::Serialize;
 
-use super::figures::{HEADING, figure};
+use super::figures::HEADING;
+use super::unit::figure;
 
 /// Characters of a progress bar.
 const BAR: usize = 12;
