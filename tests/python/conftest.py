@@ -94,3 +94,35 @@ def fine(exported, tmp_path_factory):
     folder = tmp_path_factory.mktemp("fine")
     centrode("export", exported.design, "--to", folder, "--format", "urdf", "--tolerance", "3e-6")
     return folder
+
+
+@pytest.fixture(scope="module")
+def browser():
+    """A Chromium without a window."""
+    from page import CHROMIUM, FLAGS
+    from playwright.sync_api import sync_playwright
+
+    if CHROMIUM is None:
+        pytest.skip("no chromium on this machine: the page is not tested (apt-get install chromium)")
+    with sync_playwright() as playwright:
+        running = playwright.chromium.launch(executable_path=CHROMIUM, args=FLAGS)
+        yield running
+        running.close()
+
+
+@pytest.fixture
+def points(browser, tmp_path):
+    """The page of the pair whose pitch curve has control points, and its file."""
+    from page import POINTS, opened
+
+    with opened(browser, tmp_path, POINTS) as both:
+        yield both
+
+
+@pytest.fixture
+def arms(browser, tmp_path):
+    """The page of the three-arm mechanism, which has goals, and its file."""
+    from page import ARMS, opened
+
+    with opened(browser, tmp_path, ARMS) as both:
+        yield both

@@ -2,118 +2,14 @@
 
 import json
 import re
-import shutil
 import zipfile
-from contextlib import contextmanager
 
 import pytest
-from conftest import ROOT, centrode
+from axe_playwright_python.sync_playwright import Axe
+from conftest import centrode
+from page import ARMS, BOX, FEEDER, POINTS, SHAFT, SHIPPED, drag, drawing, field, figures, opened, settled, shown
+from playwright.sync_api import expect
 from studio import studio
-
-CHROMIUM = next(filter(None, map(shutil.which, ["chromium", "chromium-browser", "google-chrome"])), None)
-if CHROMIUM is None:
-    pytest.skip(
-        "no chromium on this machine: the page is not tested (apt-get install chromium)", allow_module_level=True
-    )
-
-from axe_playwright_python.sync_playwright import Axe  # noqa: E402
-from playwright.sync_api import expect, sync_playwright  # noqa: E402
-
-FLAGS = [
-    "--no-sandbox",
-    "--disable-gpu",
-    "--disable-quic",
-    "--no-first-run",
-    "--disable-background-networking",
-    "--disable-component-update",
-    "--disable-sync",
-]
-SHIPPED = sorted((ROOT / "tests" / "designs").glob("*.toml"))
-POINTS = ROOT / "tests" / "designs" / "transplanter-pair-2021.toml"
-ARMS = ROOT / "tests" / "designs" / "three-arm-2021.toml"
-FEEDER = ROOT / "tests" / "designs" / "feeder-widened.toml"
-SHAFT = ROOT / "tests" / "designs" / "spiral-shaft-2018.toml"
-BOX = ROOT / "tests" / "designs" / "moving-box-2018.toml"
-
-
-@pytest.fixture(scope="module")
-def browser():
-    with sync_playwright() as playwright:
-        running = playwright.chromium.launch(executable_path=CHROMIUM, args=FLAGS)
-        yield running
-        running.close()
-
-
-@contextmanager
-def shown(browser, url, **options):
-    """A page that may not complain on its console."""
-    context = browser.new_context(viewport={"width": 1440, "height": 900}, **options)
-    context.set_default_timeout(15_000)
-    page = context.new_page()
-    complaints = []
-    page.on(
-        "console", lambda message: complaints.append(message.text) if message.type in ("error", "warning") else None
-    )
-    page.on("pageerror", lambda error: complaints.append(str(error)))
-    page.goto(url)
-    settled(page)
-    yield page
-    context.close()
-    assert not complaints
-
-
-@contextmanager
-def opened(browser, folder, design, **options):
-    """The page of a copy of a design, and the copy."""
-    copy = folder / design.name
-    copy.write_text(design.read_text())
-    with studio(copy) as running, shown(browser, running.url, **options) as page:
-        yield page, copy
-
-
-@pytest.fixture
-def points(browser, tmp_path):
-    """The page of the pair whose pitch curve has control points, and its file."""
-    with opened(browser, tmp_path, POINTS) as both:
-        yield both
-
-
-@pytest.fixture
-def arms(browser, tmp_path):
-    """The page of the three-arm mechanism, which has goals, and its file."""
-    with opened(browser, tmp_path, ARMS) as both:
-        yield both
-
-
-def settled(page):
-    """Waits until the checks have been heard."""
-    expect(page.locator("#findings h2")).to_be_visible(timeout=30_000)
-    expect(page.locator("#verdict:not(.stale)")).to_be_visible(timeout=30_000)
-
-
-def figures(page):
-    """Every figure on the page, all digits, by its key in the report."""
-    cells = page.locator("#figures td[data-key]")
-    return dict(cells.evaluate_all("cells => cells.map(cell => [cell.dataset.key, cell.dataset.exact])"))
-
-
-def drawing(page):
-    """The drawing as an image."""
-    return page.locator("#stage canvas").evaluate("canvas => canvas.toDataURL()")
-
-
-def drag(page, handle, right, down):
-    """Draws a point of the drawing aside, pixels."""
-    box = handle.locator("circle").last.bounding_box()
-    x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
-    page.mouse.move(x, y)
-    page.mouse.down()
-    page.mouse.move(x + right, y + down, steps=4)
-    page.mouse.up()
-
-
-def field(page, key):
-    return page.locator(f'[id="field-{key}"]')
 
 
 @pytest.mark.parametrize("design", SHIPPED, ids=lambda path: path.stem)

@@ -127,7 +127,7 @@ def test_every_answer_has_the_policy(served):
 
 
 def test_the_page_says_what_check_says(served):
-    status, snapshot = served.json("POST", "solve", {"text": DESIGN, "check": True})
+    status, snapshot = served.json("POST", "solve", {"text": DESIGN, "depth": "checks"})
     assert status == 200
     cells = {}
     for group in snapshot["verdict"]["figures"]:
@@ -142,7 +142,7 @@ def test_the_page_says_what_check_says(served):
 def test_an_edit_keeps_comments_and_order(served):
     text = "# mine\n" + DESIGN.replace("module = 2.25", "module = 2.25   # mm")
     edits = [{"key": "pitch.module", "value": 2.5}]
-    status, snapshot = served.json("POST", "solve", {"text": text, "edits": edits, "check": False})
+    status, snapshot = served.json("POST", "solve", {"text": text, "edits": edits, "depth": "picture"})
     assert status == 200
     assert snapshot["text"] == text.replace("2.25 ", "2.5 ")
     assert snapshot["picture"]["links"]
@@ -151,7 +151,7 @@ def test_an_edit_keeps_comments_and_order(served):
 
 def test_an_error_stands_at_its_key_in_the_words_of_check(served, tmp_path):
     edits = [{"key": "teeth.backlash", "value": -1}]
-    _, snapshot = served.json("POST", "solve", {"text": DESIGN, "edits": edits, "check": True})
+    _, snapshot = served.json("POST", "solve", {"text": DESIGN, "edits": edits, "depth": "checks"})
     assert snapshot["error"]["key"] == "teeth.backlash"
     bad = tmp_path / "bad.toml"
     bad.write_text(snapshot["text"])

@@ -29,6 +29,16 @@ const ON_CHORD: f64 = 1e-3;
 /// Lengths are mm, angles rad, times s; speeds of the tip are mm/s, angular accelerations rad/s².
 #[must_use]
 pub fn check_feeder(feeder: &Feeder) -> Report {
+    let mut report = check_strokes(feeder);
+    gears::gears(feeder, &mut report);
+    report
+        .findings
+        .sort_by_key(|f| std::cmp::Reverse(f.severity));
+    report
+}
+
+/// The same without the contact analysis of the incomplete gears.
+pub(crate) fn check_strokes(feeder: &Feeder) -> Report {
     let mut report = Report {
         goals: goals(feeder),
         ..Report::default()
@@ -39,7 +49,6 @@ pub fn check_feeder(feeder: &Feeder) -> Report {
     goals::unmet(feeder, &mut report);
     vacuous(feeder, &mut report);
     plates::plates(feeder, &mut report);
-    gears::gears(feeder, &mut report);
     report
         .findings
         .sort_by_key(|f| std::cmp::Reverse(f.severity));

@@ -18,7 +18,12 @@ pub(super) fn picture(design: &Design, mechanism: &Mechanism) -> Picture {
     }
 }
 
-/// The picture with what takes longer to make; `None` where nothing is left out at first.
+/// Whether that lacks what takes longer to make.
+pub(super) fn is_coarse(mechanism: &Mechanism) -> bool {
+    matches!(mechanism, Mechanism::ThreeArm(_))
+}
+
+/// The picture with what takes longer to make; `None` where nothing is left out at first, or nothing can be made.
 pub(super) fn detailed(mechanism: &Mechanism) -> Option<Picture> {
     match mechanism {
         Mechanism::GearPair(_)

@@ -22,6 +22,8 @@ pub(crate) struct Snapshot {
     /// Why there is no mechanism.
     error: Option<Fault>,
     picture: Option<Picture>,
+    /// Whether the picture lacks what takes longer to make.
+    coarse: bool,
     curves: Vec<Curve>,
     verdict: Option<Verdict>,
 }
@@ -125,6 +127,7 @@ impl Subject {
         snapshot.title = mechanism.title().into();
         snapshot.definition = report::definition(&mechanism);
         snapshot.picture = Some(family::picture(design, &mechanism));
+        snapshot.coarse = family::is_coarse(&mechanism);
         snapshot.curves = family::curves(&mechanism);
         Ok(Self {
             snapshot,
@@ -142,14 +145,21 @@ impl Subject {
         self.snapshot.clone()
     }
 
-    /// The picture with what the checks say.
-    pub(crate) fn checked(&self) -> Snapshot {
+    /// The picture with all that belongs to it.
+    pub(crate) fn detailed(&self) -> Snapshot {
         let mut snapshot = self.snapshot.clone();
-        let (found, curves) = family::checked(&self.mechanism);
-        snapshot.curves.extend(curves);
+        snapshot.coarse = false;
         if let Some(picture) = family::detailed(&self.mechanism) {
             snapshot.picture = Some(picture);
         }
+        snapshot
+    }
+
+    /// The same with what the checks say.
+    pub(crate) fn checked(&self) -> Snapshot {
+        let mut snapshot = self.detailed();
+        let (found, curves) = family::checked(&self.mechanism);
+        snapshot.curves.extend(curves);
         snapshot.verdict = Some(Verdict::of(&found));
         snapshot
     }

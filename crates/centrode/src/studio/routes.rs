@@ -7,8 +7,9 @@ use axum::http::{StatusCode, header};
 use axum::response::{Html, IntoResponse, Response};
 use axum::routing::{get, post};
 use axum::{Json, Router};
-use centrode::analysis::optimise::Strategy;
+use centrode::analysis::optimise::{NotSearched, Strategy, problem_of};
 use centrode::export::page;
+use centrode::mechanism::design::DesignFile;
 use clap::{Parser as _, ValueEnum as _};
 use serde::Deserialize;
 use serde_json::json;
@@ -18,7 +19,7 @@ use tower_http::timeout::RequestBodyTimeoutLayer;
 use super::Desk;
 use super::document::SaveError;
 use super::guard::{self, Guard};
-use super::solver::Overtaken;
+use super::solver::{Depth, Overtaken};
 use super::{response, search};
 use crate::args::{Arguments, Command, Export, File};
 use crate::export;
@@ -107,8 +108,18 @@ async fn design(State(desk): Shared) -> Response {
         "recovered": document.recovered(),
         "formats": formats(),
         "methods": Strategy::NAMES.map(|(name, _)| name),
+        "unsearched": unsearchable(&document.text()),
     }))
     .into_response()
+}
+
+/// Why there is no search for designs of this family; null where there is one.
+fn unsearchable(text: &str) -> Option<String> {
+    let file = DesignFile::read(text.as_bytes()).ok()?;
+    match problem_of(file.design()) {
+        Err(reason @ NotSearched::Family) => Some(reason.to_string()),
+        _ => None,
+    }
 }
 
 /// Kinds of file that can be exported: the word for each, and what it is.
@@ -129,8 +140,7 @@ struct Solve {
     text: String,
     #[serde(default)]
     edits: Vec<Edit>,
-    /// Whether the checks are wanted, too.
-    check: bool,
+    depth: Depth,
 }
 
 async fn solve(State(desk): Shared, Json(ask): Json<Solve>) -> Result<Response, Refused> {
@@ -140,7 +150,7 @@ async fn solve(State(desk): Shared, Json(ask): Json<Solve>) -> Result<Response, 
         let made = edited(&ask.text, &ask.edits);
         made.map_err(|error| Refused::because(StatusCode::UNPROCESSABLE_ENTITY, error))?
     };
-    let solved = desk.solver.solve(text, ask.check).await;
+    let solved = desk.solver.solve(text, ask.depth).await;
     // To be overtaken is no failure: browsers would log it as one.
     Ok(solved.map_or_else(
         |Overtaken| Json(json!({ "overtaken": true })).into_response(),
@@ -226,7 +236,7 @@ async fn searched(State(desk): Shared) -> Response {
 }
 
 async fn unsearched(State(desk): Shared) -> Response {
-    desk.searching.stop();
+    desk.searching.dismiss();
     Json(json!({})).into_response()
 }
 

@@ -4,6 +4,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
+use centrode::analysis::check_motion;
 use centrode::analysis::optimise::{
     DesignProblem, DesignSearch, Ended, Progress, Settings, Strategy, problem_of,
 };
@@ -11,6 +12,7 @@ use centrode::mechanism::design::DesignFile;
 use serde::{Deserialize, Serialize};
 
 use crate::optimise::better;
+use crate::report::{GoalWords, goal_words};
 
 /// How often the best design so far is written out for the page.
 const SHOW: Duration = Duration::from_millis(400);
@@ -45,6 +47,8 @@ pub(crate) struct State {
     history: Vec<Progress>,
     /// The best design so far, as a file.
     text: String,
+    /// Its goals.
+    goals: Vec<GoalWords>,
 }
 
 struct Run {
@@ -104,6 +108,7 @@ impl Searching {
                 ended: None,
                 remark: None,
                 history: Vec::new(),
+                goals: goals(&ask.text),
                 text: ask.text.clone(),
             }),
         });
@@ -121,12 +126,35 @@ impl Searching {
         self.run().as_ref().map(|run| run.state().clone())
     }
 
-    /// Stops at the end of the generation; the best so far is kept.
-    pub(crate) fn stop(&self) {
+    /// Stops at the end of the generation; the best so far is kept until it is dismissed by stopping once more.
+    pub(crate) fn dismiss(&self) {
+        self.stop();
+        let mut run = self.run();
+        if run.as_ref().is_some_and(|run| !run.state().running) {
+            *run = None;
+        }
+    }
+
+    fn stop(&self) {
         if let Some(run) = self.run().as_ref() {
             run.stop.store(true, Ordering::Relaxed);
         }
     }
+}
+
+/// The goals of a design; none where there is no mechanism.
+fn goals(text: &str) -> Vec<GoalWords> {
+    let mechanism = DesignFile::read(text.as_bytes()).and_then(|file| file.mechanism());
+    mechanism.map_or_else(
+        |_| Vec::new(),
+        |mechanism| {
+            check_motion(&mechanism)
+                .goals
+                .iter()
+                .map(goal_words)
+                .collect()
+        },
+    )
 }
 
 fn work(run: &Run, text: &str, problem: &dyn DesignProblem, mut search: DesignSearch) {
@@ -142,8 +170,12 @@ fn work(run: &Run, text: &str, problem: &dyn DesignProblem, mut search: DesignSe
                 ControlFlow::Continue(())
             }
         });
-        if let Ok(best) = better(text, problem, &search.best()) {
-            run.state().text = best;
+        if let Ok(best) = better(text, problem, &search.best())
+            && best != run.state().text
+        {
+            let goals = goals(&best);
+            let mut state = run.state();
+            (state.text, state.goals) = (best, goals);
         }
         if !shown || run.stopped() {
             break ended;

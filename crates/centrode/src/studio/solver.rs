@@ -3,6 +3,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 
+use serde::Deserialize;
 use tokio::sync::oneshot;
 
 use crate::page::{Snapshot, Subject};
@@ -34,8 +35,20 @@ struct Queue {
 struct Job {
     number: u64,
     text: String,
-    check: bool,
+    depth: Depth,
     reply: oneshot::Sender<String>,
+}
+
+/// How much of a design is asked for.
+#[derive(Clone, Copy, Debug, Deserialize, Eq, PartialEq)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum Depth {
+    /// What is drawn at once.
+    Picture,
+    /// The picture with what takes longer to make.
+    Detail,
+    /// What the checks say, too.
+    Checks,
 }
 
 /// A later design has been asked for, or solving has failed in a way it never should.
@@ -62,15 +75,18 @@ impl Solver {
         })
     }
 
-    /// The snapshot of a design as JSON, with the checks or without.
-    pub(crate) async fn solve(&self, text: String, check: bool) -> Result<String, Overtaken> {
+    /// The snapshot of a design as JSON.
+    pub(crate) async fn solve(&self, text: String, depth: Depth) -> Result<String, Overtaken> {
         let (reply, answer) = oneshot::channel();
         let number = self.shared.latest.fetch_add(1, Ordering::Relaxed) + 1;
-        let queue = if check { &self.checks } else { &self.pictures };
+        let queue = match depth {
+            Depth::Picture => &self.pictures,
+            Depth::Detail | Depth::Checks => &self.checks,
+        };
         *held(&queue.waiting) = Some(Job {
             number,
             text,
-            check,
+            depth,
             reply,
         });
         queue.arrived.notify_one();
@@ -115,10 +131,10 @@ impl Shared {
         if stale() {
             return None;
         }
-        let snapshot: Snapshot = if job.check {
-            subject.checked()
-        } else {
-            subject.drawn()
+        let snapshot: Snapshot = match job.depth {
+            Depth::Picture => subject.drawn(),
+            Depth::Detail => subject.detailed(),
+            Depth::Checks => subject.checked(),
         };
         snapshot.json().ok()
     }
@@ -153,7 +169,9 @@ mod tests {
             for z in 20..60 {
                 let text = template.replace("tooth_count = 23", &format!("tooth_count = {z}"));
                 let solver = Arc::clone(&solver);
-                asked.push(tokio::spawn(async move { solver.solve(text, true).await }));
+                asked.push(tokio::spawn(async move {
+                    solver.solve(text, Depth::Checks).await
+                }));
                 tokio::task::yield_now().await;
             }
             let mut answers = Vec::new();
@@ -180,12 +198,13 @@ mod tests {
             // Its checks take some seconds in a debug build.
             let slow = Design::template("three-arm").expect("a template");
             let quick = Design::template("gear-pair").expect("a template");
-            let first = solver.solve(slow.to_owned(), false).await;
+            let first = solver.solve(slow.to_owned(), Depth::Picture).await;
             assert!(first.expect("nothing overtakes it").contains("\"picture\""));
             let checker = Arc::clone(&solver);
-            let checks = tokio::spawn(async move { checker.solve(slow.to_owned(), true).await });
+            let checks =
+                tokio::spawn(async move { checker.solve(slow.to_owned(), Depth::Checks).await });
             tokio::task::yield_now().await;
-            let picture = solver.solve(quick.to_owned(), false).await;
+            let picture = solver.solve(quick.to_owned(), Depth::Picture).await;
             assert!(picture.expect("the latest").contains("tooth_count"));
             // The checks are still under way, or were dropped before they began; had the picture waited, they would be done.
             let waited = checks.is_finished() && checks.await.expect("no panic").is_ok();

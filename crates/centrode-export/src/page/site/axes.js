@@ -12,5 +12,5 @@ const AXIS = {
 /** The axis along the bottom, then the one up the side, each with what it has of its own. */
 export const axes = (across = {}, up = {}) => [
   { ...AXIS, size: 20, gap: 2, ...across },
-  { ...AXIS, size: 54, gap: 4, space: 26, ...up },
+  { ...AXIS, size: 54, gap: 4, space: 18, ...up },
 ];

@@ -73,6 +73,7 @@ class Chart {
     const unit = curves[0].unit;
     this.values = curves.map(() => element("output", {}));
     const legend = curves.map((curve, i) => element("span", { class: `series series-${i}` }, curve.name ? `${curve.name} ` : "", this.values[i]));
+    if (curves.some((curve) => before.has(`${name} ${curve.name}`))) legend.push(element("span", { class: "series series-pinned" }, "pinned"));
     this.box = element("div", { class: "plot" });
     charts.place.append(element("figure", { class: "chart" },
       element("figcaption", {}, element("b", {}, name), unit ? element("span", { class: "quiet" }, ` ${unit}`) : null, ...legend),

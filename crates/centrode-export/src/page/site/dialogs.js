@@ -8,8 +8,10 @@ export function ask(title, content, buttons) {
   const form = element("form", { method: "dialog" },
     element("h2", { id: "dialog-title" }, title),
     ...content,
-    element("div", { class: "buttons" }, ...buttons.map(([value, words, kind]) =>
-      element("button", { value, class: kind }, words))));
+    element("div", { class: "buttons" }, ...buttons.map(([value, words, kind]) => value
+      ? element("button", { value, class: kind }, words)
+      // Not what the Enter key presses.
+      : element("button", { type: "button", onclick: () => dialog.close("") }, words))));
   dialog.replaceChildren(form);
   dialog.returnValue = "";
   dialog.showModal();
@@ -41,13 +43,13 @@ export async function files(formats) {
       .map(([value, words]) => element("option", { value }, words)));
   const answer = await ask("Export", [
     element("fieldset", {}, element("legend", {}, "Files"),
-      ...boxes.map((box, i) => element("label", { title: formats[i][1] }, box, ` ${box.value.toUpperCase()}`))),
+      ...boxes.map((box, i) => element("label", {}, box, ` ${box.value.toUpperCase()} `, element("span", { class: "quiet" }, formats[i][1])))),
     element("p", { class: "option" }, element("label", { for: "export-tolerance" }, "Tolerance"), tolerance, element("span", {}, "mm")),
     element("p", { class: "option" }, element("label", { for: "export-dxf" }, "DXF"), dxf),
   ], [["", "Cancel"], ["export", "Export zip", "main"]]);
   if (answer !== "export") return null;
   const chosen = boxes.filter((box) => box.checked).map((box) => box.value);
-  return chosen.length ? { formats: chosen, tolerance: tolerance.value, dxf: dxf.value } : null;
+  return { formats: chosen, tolerance: tolerance.value, dxf: dxf.value };
 }
 
 /** A line below the bar; `key` names it, so that the next of its kind takes its place. */

@@ -27,6 +27,9 @@ function typed(text) {
 /** Digits after the point. */
 const decimals = (value) => (String(value).split("e")[0].split(".")[1] ?? "").length + Math.max(0, -(String(value).split("e")[1] ?? 0));
 
+/** A power of ten without the rounding of its making. */
+const tidy = (power) => Number(power.toPrecision(1));
+
 /** A number some steps on, with no digits but its own and the step's: back again it is what it was. */
 const stepped = (value, count, step) => Number((value + count * step).toFixed(Math.min(100, Math.max(decimals(value), decimals(step)))));
 
@@ -141,7 +144,14 @@ export class Form {
     const box = element("input", { ...attributes, type: "text", inputmode: "decimal", class: "number", role: "spinbutton", spellcheck: "false", autocomplete: "off",
       "aria-valuemin": field.least, "aria-valuemax": field.greatest });
     const give = (value) => this.edit([{ key, value }], true);
+    // Of one size while the keys are at it: as many steps down as up lead back.
+    let step = 1;
+    const measure = () => {
+      step = stepOf(field, typed(box.value));
+    };
+    box.addEventListener("focus", measure);
     box.addEventListener("change", () => {
+      measure();
       if (box.value.trim() === "" && field.optional && key === field.key) give(null);
       else give(typed(box.value));
     });
@@ -154,8 +164,8 @@ export class Form {
       const value = typed(box.value);
       if (!way || typeof value !== "number" || event.ctrlKey || event.metaKey) return;
       event.preventDefault();
-      const step = stepOf(field, Number(box.dataset.value ?? value)) * (event.shiftKey ? 10 : 1);
-      const next = stepped(value, way, step);
+      const coarser = event.shiftKey ? 10 : event.altKey && field.kind !== "integer" ? 0.1 : 1;
+      const next = stepped(value, way, tidy(step * coarser));
       box.value = String(next);
       give(next);
     });
@@ -208,11 +218,12 @@ export class Form {
       } else {
         const text = value === null || value === undefined ? "" : String(value);
         input.placeholder = field.optional && field.value === null ? "auto" : "";
+        // What is being typed is not touched, nor what is on its way; a number changed elsewhere is not being typed.
+        const idle = input.value === (input.dataset.value ?? "");
         input.dataset.value = text;
         if (typeof value === "number") input.setAttribute("aria-valuenow", text);
         else input.removeAttribute("aria-valuenow");
-        // What is being typed is not touched; dragging the point that stands for it is not typing.
-        if (document.activeElement !== input || typed(input.value) !== value) input.value = text;
+        if (document.activeElement !== input || idle || typed(input.value) === value) input.value = text;
       }
     });
   }

@@ -91,9 +91,11 @@ export class Handles {
     mark.addEventListener("pointerdown", (event) => {
       event.preventDefault();
       event.stopPropagation();
-      mark.focus();
-      mark.setPointerCapture(event.pointerId);
-      this.dragged = name;
+      // Where marks lie on each other, the one whose middle is nearest is meant.
+      const taken = this.nearest(event) ?? name;
+      this.marks.get(taken).focus();
+      this.marks.get(taken).setPointerCapture(event.pointerId);
+      this.dragged = taken;
       this.stage.held = true;
       this.began();
     });
@@ -110,6 +112,18 @@ export class Handles {
     }
     mark.addEventListener("keydown", (event) => this.nudge(name, event));
     return mark;
+  }
+
+  /** Name of the mark whose middle is nearest to a pointer. */
+  nearest(event) {
+    let best = Infinity;
+    let found = null;
+    for (const [name, mark] of this.marks) {
+      const { left, right, top, bottom } = mark.firstChild.getBoundingClientRect();
+      const off = Math.hypot(event.clientX - (left + right) / 2, event.clientY - (top + bottom) / 2);
+      if (off < best) [best, found] = [off, name];
+    }
+    return found;
   }
 
   named(name) {

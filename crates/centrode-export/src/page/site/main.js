@@ -17,6 +17,8 @@ import * as verdict from "./verdict.js";
 const DEG = 180 / Math.PI;
 /** Checks slower than this come after the picture, ms. */
 const SLOW = 40;
+/** Whoever waits longer is told so, ms. */
+const PATIENCE = 300;
 
 const embedded = byId("snapshot");
 const state = {
@@ -31,6 +33,10 @@ const state = {
   draft: new Map(),
   pending: null,
   solving: false,
+  /** Resolves when nothing is left to solve. */
+  work: null,
+  /** Goals of the best design so far, while a search shows it. */
+  goals: null,
   /** Whether the program has not answered of late. */
   away: false,
   /** Resolves when the panels show the snapshot, while they do not yet. */
@@ -138,6 +144,7 @@ function panels() {
   byId("definition").textContent = snapshot.definition;
   form.show(snapshot);
   charts.show(snapshot.curves, state.pinned?.curves);
+  if (!snapshot.verdict && state.goals) verdict.goals(state.goals, state.pinned?.verdict?.goals);
   verdict.show(snapshot, state.pinned, (input) => {
     play(false);
     move(input);
@@ -178,13 +185,14 @@ function edit(edits, final) {
 /** Another text altogether. */
 function replace(text) {
   state.draft.clear();
-  request({ text, final: true });
+  request({ text, final: true, fresh: true });
 }
 
 function request(job) {
   // A change that ends a drag stays one, whatever overtakes it.
-  state.pending = { ...job, text: job.text ?? state.pending?.text, final: job.final || Boolean(state.pending?.final) };
-  if (!state.solving) solve();
+  const { text, final, fresh } = state.pending ?? {};
+  state.pending = { text: job.text ?? text, final: job.final || Boolean(final), fresh: job.fresh || (job.text === undefined && Boolean(fresh)) };
+  if (!state.solving) state.work = solve();
 }
 
 async function solve() {
@@ -196,55 +204,68 @@ async function solve() {
     const text = job.text ?? state.history.text;
     const edits = [...sent].map(([key, value]) => ({ key, value }));
     const slow = state.took > SLOW;
+    const waiting = setTimeout(() => document.body.classList.add("busy"), PATIENCE);
     try {
       const start = performance.now();
-      const snapshot = await server.solve({ text, edits, check: !slow });
+      const snapshot = await server.solve({ text, edits, depth: slow ? "picture" : "checks" });
       if (snapshot.overtaken) {
         // Another window of this page has asked; then it is our turn again.
         state.pending ??= job;
         await new Promise((resume) => setTimeout(resume, 100));
         continue;
       }
-      if (job.final) settle(snapshot.text, sent);
+      if (job.final) settle(snapshot.text, sent, edits.length > 0 || job.fresh);
       show(snapshot);
       if (!slow) state.took = performance.now() - start;
-      else if (!state.pending && !snapshot.error) check(snapshot.text);
+      else if (!state.pending && !snapshot.error) check(snapshot);
       dialogs.withdraw("server");
     } catch (error) {
       // What was typed is due when the program answers again.
-      if (job.final && !(error instanceof server.Away)) forgetDraft(sent);
+      const away = error instanceof server.Away;
+      if (job.final && !away) forgetDraft(sent);
+      if (away && job.fresh) state.history.push(text);
       complain("server", error);
+    } finally {
+      clearTimeout(waiting);
+      document.body.classList.remove("busy");
     }
   }
   state.solving = false;
 }
 
-/** Has the design that is shown checked, while changes to it go on being drawn. */
-async function check(text) {
+/** Waits until every change given so far is in the text. */
+async function settled() {
+  while (state.solving) await state.work;
+}
+
+/** Has the design that is shown drawn in full and checked, while changes to it go on being drawn. */
+async function check({ text, coarse }) {
   const wanted = () => !state.solving && state.snapshot.text === text;
   // The screen first: the checks take the computer's time.
   await state.shown;
-  if (!wanted()) return;
-  const start = performance.now();
   try {
-    let snapshot = await server.solve({ text, edits: [], check: true });
-    while (snapshot.overtaken && wanted()) {
-      // Another window of this page has asked; then it is our turn again.
-      await new Promise((resume) => setTimeout(resume, 100));
-      snapshot = await server.solve({ text, edits: [], check: true });
+    for (const depth of coarse ? ["detail", "checks"] : ["checks"]) {
+      if (!wanted()) return;
+      const start = performance.now();
+      let snapshot = await server.solve({ text, edits: [], depth });
+      while (snapshot.overtaken && wanted()) {
+        // Another window of this page has asked; then it is our turn again.
+        await new Promise((resume) => setTimeout(resume, 100));
+        snapshot = await server.solve({ text, edits: [], depth });
+      }
+      if (snapshot.overtaken || !wanted()) return;
+      if (depth === "checks") state.took = performance.now() - start;
+      show(snapshot);
     }
-    if (snapshot.overtaken || !wanted()) return;
-    state.took = performance.now() - start;
-    show(snapshot);
   } catch (error) {
     complain("server", error);
   }
 }
 
-/** A change has arrived in the text. */
-function settle(text, sent) {
+/** A change has arrived in the text; a step back or forth is in the history already, and is no new one. */
+function settle(text, sent, fresh) {
   const changed = text !== state.history.text;
-  state.history.push(text);
+  if (fresh) state.history.push(text);
   forgetDraft(sent);
   if (changed) keep();
 }
@@ -269,12 +290,16 @@ function keep() {
   }, 200);
 }
 
-function step(text) {
-  replace(text);
+/** One step back or forth, after the changes that are on their way. */
+async function step(way) {
+  if (state.draft.size) await settled();
+  const text = state.history[way]();
+  request({ text, final: true, fresh: false });
   keep();
 }
 
 async function save(over = false) {
+  await settled();
   const text = state.history.text;
   try {
     const answer = await server.save(text, state.history.saved, over);
@@ -341,8 +366,14 @@ function found() {
 }
 
 async function download() {
+  await settled();
   const options = await dialogs.files(state.formats);
   if (!options) return;
+  if (options.formats.length === 0) {
+    dialogs.notice("export", "nothing to export: no kind of file is chosen", [], "warning");
+    return;
+  }
+  dialogs.withdraw("export");
   try {
     const blob = await server.files({ text: state.history.text, ...options });
     const link = Object.assign(document.createElement("a"), {
@@ -389,15 +420,19 @@ function listen() {
     charts.recolor();
     search?.recolor();
   });
-  addEventListener("beforeprint", () => stage.resize(3));
-  addEventListener("afterprint", () => stage.resize());
+  // On paper everything is dark on light, and drawn finer.
+  addEventListener("beforeprint", () => theme.paper(true, () => {
+    stage.resize(3);
+    charts.recolor();
+  }));
+  addEventListener("afterprint", () => theme.paper(false, () => {
+    stage.resize();
+    charts.recolor();
+  }));
   if (embedded) return;
-  byId("undo").addEventListener("click", () => step(state.history.undo()));
-  byId("redo").addEventListener("click", () => step(state.history.redo()));
-  byId("reset").addEventListener("click", () => {
-    state.history.push(state.history.saved);
-    step(state.history.text);
-  });
+  byId("undo").addEventListener("click", () => step("undo"));
+  byId("redo").addEventListener("click", () => step("redo"));
+  byId("reset").addEventListener("click", () => replace(state.history.saved));
   byId("pin").addEventListener("click", pin);
   byId("save").addEventListener("click", () => save());
   byId("export").addEventListener("click", download);
@@ -419,8 +454,7 @@ function listen() {
     } else if ((key === "z" || key === "y") && !typing) {
       event.preventDefault();
       const forth = key === "y" || event.shiftKey;
-      if (forth && state.history.canRedo) step(state.history.redo());
-      if (!forth && state.history.canUndo) step(state.history.undo());
+      step(forth ? "redo" : "undo");
     }
   });
 }
@@ -434,15 +468,22 @@ async function start() {
     show(snapshot);
     return;
   }
-  const { file, text, recovered, formats, methods } = await server.design();
+  const { file, text, recovered, formats, methods, unsearched } = await server.design();
+  if (unsearched) Object.assign(byId("optimise"), { disabled: true, title: unsearched });
   state.file = file;
   state.formats = formats;
   state.history = new History(text);
   search = new Search(methods, {
     text: () => state.history.text,
-    preview: (best) => request({ text: best, final: false }),
+    preview: (best, goals) => {
+      state.goals = goals;
+      request({ text: best, final: false });
+    },
     take: replace,
     drop: () => request({ text: state.history.text, final: false }),
+    left: () => {
+      state.goals = null;
+    },
     changed: buttons,
     complain,
   });

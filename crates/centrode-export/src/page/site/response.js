@@ -23,6 +23,12 @@ function numbers(snapshot) {
   return found;
 }
 
+/** In what a number is written. */
+function unitOf(snapshot, name) {
+  const fields = snapshot.tables.flatMap((table) => table.fields);
+  return fields.find((field) => field.key === name.replace(/\[\d+\]$/, ""))?.unit ?? "";
+}
+
 /** A range about a value: a tenth of it to both sides. */
 function around(value) {
   const reach = Math.abs(value) * 0.1 || 1;
@@ -34,6 +40,7 @@ const number = (input) => Number(input.value.trim().replace(",", "."));
 /** The dialog: which number, between which values; the answers below. */
 export async function ask(snapshot, text) {
   const known = new Map(numbers(snapshot));
+  const units = new Map([...known.keys()].map((name) => [name, unitOf(snapshot, name)]));
   const key = element("select", { id: "response-key" }, ...[...known.keys()].map((name) => element("option", { value: name }, name)));
   const from = element("input", { type: "text", inputmode: "decimal", class: "number", id: "response-from" });
   const to = element("input", { type: "text", inputmode: "decimal", class: "number", id: "response-to" });
@@ -44,19 +51,35 @@ export async function ask(snapshot, text) {
   };
   key.addEventListener("change", reach);
   reach();
+  for (const end of [from, to]) {
+    end.addEventListener("keydown", (event) => {
+      if (event.key !== "Enter") return;
+      event.preventDefault();
+      show();
+    });
+  }
+  let asked = 0;
   const show = async () => {
+    asked += 1;
+    const own = asked;
     place.replaceChildren();
-    if (!(number(from) < number(to))) {
+    if (from.value.trim() === "" || to.value.trim() === "" || !(number(from) < number(to))) {
       words.textContent = `the values must rise, but go from ${from.value} to ${to.value}`;
       return;
     }
     words.textContent = "checking…";
     try {
-      const answers = await server.response({ text, key: key.value, from: number(from), to: number(to) });
-      words.textContent = "";
-      for (const chart of answers.charts) draw(place, answers.values, chart, known.get(key.value));
+      const name = key.value;
+      const answers = await server.response({ text, key: name, from: number(from), to: number(to) });
+      // Another has been asked for since.
+      if (own !== asked) return;
+      const gaps = answers.charts.some((chart) => chart.figures.includes(null));
+      words.textContent = answers.charts.length === 0
+        ? "no value between these makes a mechanism, or none changes a figure"
+        : `Across: ${name}${units.get(name) && `, ${units.get(name)}`}. Blue: the design as it is. Dashed: the range that is wanted.${gaps ? " No point: no mechanism, or no such figure." : ""}`;
+      for (const chart of answers.charts) draw(place, answers.values, chart, known.get(name));
     } catch (error) {
-      words.replaceChildren(element("span", { class: "error" }, error.message));
+      if (own === asked) words.replaceChildren(element("span", { class: "error" }, error.message));
     }
   };
   await dialogs.ask("Response", [

@@ -25,6 +25,8 @@ export class Search {
     this.design = design;
     this.place = byId("search");
     this.best = null;
+    /** How the search stood when the program was last asked. */
+    this.last = null;
     this.showing = false;
     this.method = element("select", { id: "search-method" }, ...methods.map((name) => element("option", { value: name }, name)));
     this.seed = element("input", { type: "text", inputmode: "numeric", class: "number", id: "search-seed", value: "1" });
@@ -37,6 +39,11 @@ export class Search {
     this.words = element("p", { class: "detail", role: "status" });
     this.box = element("div", { class: "plot" });
     const row = (words, input) => element("p", { class: "option" }, element("label", { for: input.id }, words), input);
+    for (const input of [this.seed, this.evaluations]) {
+      input.addEventListener("keydown", (event) => {
+        if (event.key === "Enter") this.begin();
+      });
+    }
     this.place.append(
       element("h2", {}, "Optimise"),
       row("Method", this.method), row("Seed", this.seed), row("Evaluations", this.evaluations),
@@ -45,10 +52,10 @@ export class Search {
     this.show(null);
     // A page loaded anew finds its search again.
     server.searched().then((state) => {
-      if (!state?.running) return;
+      if (!state) return undefined;
       this.toggle();
-      this.follow();
-    }).catch((error) => this.design.complain("search", error));
+      return this.follow();
+    }).catch((error) => (this.last ? this.fail(error) : this.design.complain("search", error)));
   }
 
   toggle() {
@@ -70,13 +77,19 @@ export class Search {
       this.best = null;
       await this.follow();
     } catch (error) {
-      this.words.textContent = error.message;
-      this.words.classList.add("error");
+      this.fail(error);
     }
   }
 
+  /** Says why it does not go on; the best so far can still be taken. */
+  fail(error) {
+    if (this.last) this.show({ ...this.last, running: false, ended: null });
+    this.words.textContent = error.message;
+    this.words.classList.add("error");
+  }
+
   end() {
-    server.stopSearch().catch((error) => this.design.complain("search", error));
+    server.stopSearch().catch((error) => this.fail(error));
   }
 
   /** Looks at the search until it ends. */
@@ -85,10 +98,11 @@ export class Search {
     for (;;) {
       const state = await server.searched();
       if (!state || !this.showing) return;
+      this.last = state;
       this.show(state);
       if (state.text !== this.best) {
         this.best = state.text;
-        this.design.preview(state.text);
+        this.design.preview(state.text, state.goals);
       }
       if (!state.running) return;
       await new Promise((resume) => setTimeout(resume, EVERY));
@@ -97,8 +111,10 @@ export class Search {
 
   /** Ends to show the best: it becomes the design, or the design is shown again. */
   close(taken) {
-    this.end();
+    server.stopSearch().catch((error) => this.design.complain("search", error));
+    this.last = null;
     this.hold(false);
+    this.design.left();
     if (taken && this.best !== null) this.design.take(this.best);
     else this.design.drop();
     this.show(null);
@@ -118,6 +134,7 @@ export class Search {
     this.stop.hidden = !running;
     this.take.hidden = this.drop.hidden = !state || running;
     for (const input of [this.method, this.seed, this.evaluations]) input.disabled = Boolean(state);
+    if (state) [this.method.value, this.evaluations.value] = [state.method, String(state.evaluations)];
     this.words.classList.remove("error");
     this.bar.hidden = !state;
     this.box.hidden = !state || state.history.length < 2;

@@ -108,6 +108,8 @@ export class Stage {
     this.density = density;
     this.width = this.box.clientWidth;
     this.height = this.box.clientHeight;
+    // On paper the drawing keeps its shape.
+    this.box.style.setProperty("--aspect", this.width > 0 && this.height > 0 ? this.width / this.height : 1);
     this.canvas.width = Math.max(1, Math.round(this.width * density));
     this.canvas.height = Math.max(1, Math.round(this.height * density));
     if (this.fitted) this.fit();
@@ -189,7 +191,7 @@ export class Stage {
   measure() {
     const { length, pixels } = ruler(this.view.scale, this.width);
     const words = length >= 1 ? `${length} mm` : `${Number(length.toPrecision(2))} mm`;
-    const wide = `${pixels}px`;
+    const wide = `${(100 * pixels) / Math.max(1, this.width)}%`;
     const rule = byId("rule");
     const label = rule.firstChild ?? rule.appendChild(document.createElement("span"));
     if (rule.style.width === wide && label.textContent === words) return;
@@ -209,7 +211,7 @@ export class Stage {
   link(link, pose) {
     if (!link.solid) return;
     const width = this.enter(pose);
-    this.context.fillStyle = color(`link-${link.tint % 4}`);
+    this.context.fillStyle = color(`link-${link.tint % 5}`);
     this.context.strokeStyle = color("ink");
     this.context.lineWidth = width(1.1);
     this.context.lineJoin = "round";

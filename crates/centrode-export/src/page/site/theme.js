@@ -24,7 +24,22 @@ export function start(changed) {
     switched();
   });
   dark.addEventListener("change", switched);
-  for (const turn of ["beforeprint", "afterprint"]) addEventListener(turn, () => known.clear());
+
+}
+
+/** Takes the colours of paper, or those of the screen again; calls back to have all drawn with them. */
+export function paper(on, draw) {
+  const root = document.documentElement;
+  if (on) {
+    root.dataset.screen = root.dataset.theme ?? "";
+    root.dataset.theme = "light";
+  } else if (root.dataset.screen !== undefined) {
+    if (root.dataset.screen) root.dataset.theme = root.dataset.screen;
+    else delete root.dataset.theme;
+    delete root.dataset.screen;
+  }
+  known.clear();
+  draw();
 }
 
 /** A colour of the page by its name. */

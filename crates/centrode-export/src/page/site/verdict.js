@@ -34,7 +34,7 @@ export function show(snapshot, pinned, go) {
 }
 
 /** Goals as bars: figure, range, and how near it is. */
-function goals(list, pinned) {
+export function goals(list, pinned) {
   if (list.length === 0) {
     byId("goals").replaceChildren();
     return;

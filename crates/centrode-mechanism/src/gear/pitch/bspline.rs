@@ -70,13 +70,13 @@ impl Bspline {
             y: &self.y,
         };
         let points = lists.points((degree + 1).max(3))?;
-        let (points, role) = if self.interpolate {
+        let (points, [before, after]) = if self.interpolate {
             let controls = points
                 .periodic()
                 .map(|values| controls_through(&values, degree));
-            (points.with_periodic(controls), "through")
+            (points.with_periodic(controls), ["through", "points"])
         } else {
-            (points, "with control points")
+            (points, ["with", "control points"])
         };
         let size = Size {
             module: self.module,
@@ -88,7 +88,7 @@ impl Bspline {
             Plane::Cartesian => "x, y",
         };
         let definition = format!(
-            "closed uniform B-spline of degree {degree} {role} {} points in {plane}",
+            "closed uniform B-spline of degree {degree} {before} {} {after} in {plane}",
             points.len()
         );
         let curve = PiecewiseCurve::new(points.coordinates, pieces(&points, degree));

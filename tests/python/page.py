@@ -1,0 +1,83 @@
+"""The design page in a real browser: opened, read, and worked on with mouse and keys."""
+
+import shutil
+from contextlib import contextmanager
+
+from conftest import ROOT
+from playwright.sync_api import expect
+from studio import studio
+
+CHROMIUM = next(filter(None, map(shutil.which, ["chromium", "chromium-browser", "google-chrome"])), None)
+FLAGS = [
+    "--no-sandbox",
+    "--disable-gpu",
+    "--disable-quic",
+    "--no-first-run",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+]
+SHIPPED = sorted((ROOT / "tests" / "designs").glob("*.toml"))
+POINTS = ROOT / "tests" / "designs" / "transplanter-pair-2021.toml"
+ARMS = ROOT / "tests" / "designs" / "three-arm-2021.toml"
+FEEDER = ROOT / "tests" / "designs" / "feeder-widened.toml"
+SHAFT = ROOT / "tests" / "designs" / "spiral-shaft-2018.toml"
+BOX = ROOT / "tests" / "designs" / "moving-box-2018.toml"
+
+
+@contextmanager
+def shown(browser, url, **options):
+    """A page that may not complain on its console."""
+    context = browser.new_context(viewport={"width": 1440, "height": 900}, **options)
+    context.set_default_timeout(15_000)
+    page = context.new_page()
+    complaints = []
+    page.on(
+        "console", lambda message: complaints.append(message.text) if message.type in ("error", "warning") else None
+    )
+    page.on("pageerror", lambda error: complaints.append(str(error)))
+    page.goto(url)
+    settled(page)
+    yield page
+    context.close()
+    assert not complaints
+
+
+@contextmanager
+def opened(browser, folder, design, **options):
+    """The page of a copy of a design, and the copy."""
+    copy = folder / design.name
+    copy.write_text(design.read_text())
+    with studio(copy) as running, shown(browser, running.url, **options) as page:
+        yield page, copy
+
+
+def settled(page):
+    """Waits until the checks have been heard."""
+    expect(page.locator("#findings h2")).to_be_visible(timeout=30_000)
+    expect(page.locator("#verdict:not(.stale)")).to_be_visible(timeout=30_000)
+
+
+def figures(page):
+    """Every figure on the page, all digits, by its key in the report."""
+    cells = page.locator("#figures td[data-key]")
+    return dict(cells.evaluate_all("cells => cells.map(cell => [cell.dataset.key, cell.dataset.exact])"))
+
+
+def drawing(page):
+    """The drawing as an image."""
+    return page.locator("#stage canvas").evaluate("canvas => canvas.toDataURL()")
+
+
+def drag(page, handle, right, down):
+    """Draws a point of the drawing aside, pixels."""
+    box = handle.locator("circle").last.bounding_box()
+    x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+    page.mouse.move(x, y)
+    page.mouse.down()
+    page.mouse.move(x + right, y + down, steps=4)
+    page.mouse.up()
+
+
+def field(page, key):
+    return page.locator(f'[id="field-{key}"]')
