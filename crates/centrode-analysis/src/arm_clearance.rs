@@ -114,6 +114,59 @@ pub fn between_arms(
     arm: &ArmBody,
     tolerance: Tolerance,
 ) -> Result<Option<Clearance>, ArmClearanceError> {
+    let found = among_arms(mechanism, arm, tolerance, |moving, pairs| {
+        least_clearance(moving, pairs, [0.0, TAU], tolerance)
+    })?;
+    Ok(found.flatten())
+}
+
+/// How far the arms keep from what is near them as the carrier turns.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ArmClearanceCourse {
+    /// Middles of the parts of a carrier turn, rad, from zero on.
+    pub input: Vec<f64>,
+    /// Least distance of the first arm from another within each part, mm; empty for a single arm.
+    pub arms: Vec<f64>,
+    /// The same of its housing from the tray; empty for an arm without a housing.
+    pub tray: Vec<f64>,
+}
+
+impl ArmClearanceCourse {
+    /// The clearances in so many equal parts of a carrier turn, to within the tolerance; none for no parts.
+    ///
+    /// # Errors
+    /// [`ArmClearanceError`] where a pose or the contour is not finite.
+    pub fn of(
+        mechanism: &ThreeArm,
+        arm: &ArmBody,
+        tolerance: Tolerance,
+        parts: u32,
+    ) -> Result<Self, ArmClearanceError> {
+        let place = |i: u32, share: f64| TAU * (f64::from(i) + share) / f64::from(parts);
+        let along = |moving: &[Moving<'_>], pairs: &[[usize; 2]]| {
+            let least = (0..parts).map(|i| {
+                let inputs = [place(i, 0.0), place(i, 1.0)];
+                let found = least_clearance(moving, pairs, inputs, tolerance)?;
+                Ok(found.map_or(f64::INFINITY, |found| found.least))
+            });
+            least.collect::<Result<Vec<f64>, InterferenceError>>()
+        };
+        Ok(Self {
+            input: (0..parts).map(|i| place(i, 0.5)).collect(),
+            arms: among_arms(mechanism, arm, tolerance, along)?.unwrap_or_default(),
+            tray: beside_tray(mechanism, arm, tolerance, along)?.unwrap_or_default(),
+        })
+    }
+}
+
+/// What `look` makes of the first arm and those it could meet, as they turn against the carrier; none for a
+/// single arm.
+fn among_arms<R>(
+    mechanism: &ThreeArm,
+    arm: &ArmBody,
+    tolerance: Tolerance,
+    look: impl FnOnce(&[Moving<'_>], &[[usize; 2]]) -> Result<R, InterferenceError>,
+) -> Result<Option<R>, ArmClearanceError> {
     if mechanism.arms() < 2 {
         return Ok(None);
     }
@@ -151,7 +204,7 @@ pub fn between_arms(
         motion: motion as &dyn Motion,
     }));
     let pairs: Vec<_> = (1..moving.len()).map(|k| [0, k]).collect();
-    Ok(least_clearance(&moving, &pairs, [0.0, TAU], tolerance)?)
+    Ok(Some(look(&moving, &pairs)?))
 }
 
 fn on_frame(link: &LinkMotion) -> PoseJet {
@@ -168,16 +221,26 @@ fn from_tray(
     arm: &ArmBody,
     tolerance: Tolerance,
 ) -> Result<Option<Clearance>, ArmClearanceError> {
+    let found = beside_tray(mechanism, arm, tolerance, |moving, pairs| {
+        least_clearance(moving, pairs, [0.0, TAU], tolerance)
+    })?;
+    Ok(found.flatten())
+}
+
+/// What `look` makes of the first arm's housing and the tray; none for an arm without a housing.
+fn beside_tray<R>(
+    mechanism: &ThreeArm,
+    arm: &ArmBody,
+    tolerance: Tolerance,
+    look: impl FnOnce(&[Moving<'_>], &[[usize; 2]]) -> Result<R, InterferenceError>,
+) -> Result<Option<R>, ArmClearanceError> {
     let Some(housing) = arm.parts().iter().find(|part| part.name == "housing") else {
         return Ok(None);
     };
     let tray = mechanism.tray_body();
-    at_rest(
-        mechanism,
-        std::slice::from_ref(&housing.outline),
-        (&[tray.plate], tray.place),
-        tolerance,
-    )
+    let housing = std::slice::from_ref(&housing.outline);
+    let plate = (&[tray.plate][..], tray.place);
+    at_rest(mechanism, housing, plate, tolerance, look).map(Some)
 }
 
 fn from_unpicked(
@@ -190,16 +253,20 @@ fn from_unpicked(
         return Ok(None);
     }
     let arm = std::slice::from_ref(arm.outline());
-    at_rest(mechanism, arm, (&tray.stems, tray.place), tolerance)
+    let stems = (&tray.stems[..], tray.place);
+    at_rest(mechanism, arm, stems, tolerance, |moving, pairs| {
+        least_clearance(moving, pairs, [0.0, TAU], tolerance)
+    })
 }
 
-/// Least clearance of what the first arm carries from a body that stands still, over a cycle.
-fn at_rest(
+/// What `look` makes of what the first arm carries and a body that stands still.
+fn at_rest<R>(
     mechanism: &ThreeArm,
     carried: &[Outline],
     (still, place): (&[Outline], Isometry2<f64>),
     tolerance: Tolerance,
-) -> Result<Option<Clearance>, ArmClearanceError> {
+    look: impl FnOnce(&[Moving<'_>], &[[usize; 2]]) -> Result<R, InterferenceError>,
+) -> Result<R, ArmClearanceError> {
     let motion = Tabulated::new([0.0, TAU], CELLS, |input| {
         on_frame(&mechanism.link(Link::Arm(0), input))
     })?;
@@ -215,7 +282,7 @@ fn at_rest(
             motion: &Rest(place),
         },
     ];
-    Ok(least_clearance(&moving, &[[0, 1]], [0.0, TAU], tolerance)?)
+    Ok(look(&moving, &[[0, 1]])?)
 }
 
 fn from_seedlings(

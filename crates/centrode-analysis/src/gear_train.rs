@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use centrode_geometry::{Tolerance, Vector};
-use centrode_mechanism::gear::{GearPair, Member};
+use centrode_mechanism::gear::{GearPair, GearPairError, Member};
 use centrode_mechanism::three_arm::{Link, ThreeArm};
 
 use crate::interference::{Body, Clearance, Motion, Moving, PoseJet, Tabulated, least_clearance};
@@ -19,11 +19,45 @@ const CELLS: usize = 720;
 /// How closely clearances of gears are told, in modules.
 const TOLERANCE: f64 = 1e-3;
 
+/// The teeth of a train, run together over a whole cycle.
+///
+/// Sun and intermediate gear of the first chain stand for every mesh.
+#[derive(Clone, Debug)]
+pub struct TrainTeeth {
+    /// Sun and intermediate gear.
+    pub pair: GearPair,
+    /// What their flanks do, by the sun's polar angle.
+    pub contact: Contact,
+}
+
+impl TrainTeeth {
+    /// Cuts the teeth and runs them together; none where the design has no tooth count.
+    ///
+    /// # Errors
+    /// [`GearPairError`] where no teeth can be laid out or cut.
+    pub fn of(mechanism: &ThreeArm) -> Result<Option<Self>, GearPairError> {
+        if mechanism.design().gear_tooth_count().is_none() {
+            return Ok(None);
+        }
+        let pair = mechanism.pair()?;
+        let contact = Contact::of(&pair);
+        Ok(Some(Self { pair, contact }))
+    }
+}
+
+/// Turn of the carrier at which the first intermediate gear meets the sun at a polar angle of the sun, in
+/// `[0, 2 pi)`.
+#[must_use]
+pub fn carrier_turn(mechanism: &ThreeArm, sun: f64) -> f64 {
+    (mechanism.train().direction().sign() * sun).rem_euclid(TAU)
+}
+
 /// Checks the teeth of every mesh and the clearance of gears that are not in mesh.
 ///
 /// All meshes of all chains are poses of the one pair of sun and intermediate gear, which is shown here from
 /// the links' poses alone; its contact analysis over a whole cycle is then that of every mesh.
-pub(crate) fn check_gear_train(mechanism: &ThreeArm, pair: &GearPair, report: &mut Report) {
+pub(crate) fn check_gear_train(mechanism: &ThreeArm, teeth: &TrainTeeth, report: &mut Report) {
+    let TrainTeeth { pair, contact } = teeth;
     let (off, input) = phase_error(mechanism, pair);
     report.values.insert("mesh_phase_error_max", off);
     if off > PHASE {
@@ -41,8 +75,7 @@ pub(crate) fn check_gear_train(mechanism: &ThreeArm, pair: &GearPair, report: &m
             },
         });
     }
-    let contact = Contact::of(pair);
-    let of_pair = check_contact(pair, &contact);
+    let of_pair = check_contact(pair, contact);
     for name in [
         "transmission_error_max",
         "overlap_max",
@@ -66,8 +99,11 @@ pub(crate) fn check_gear_train(mechanism: &ThreeArm, pair: &GearPair, report: &m
                 .map(|finding| Finding {
                     message: format!("every mesh: {}", finding.message),
                     place: Place {
-                        // At the sun's polar angle, which is the carrier's turn.
                         part: Some("gears".into()),
+                        input: finding
+                            .place
+                            .input
+                            .map(|driver| carrier_turn(mechanism, driver)),
                         ..finding.place
                     },
                     ..finding

@@ -1,13 +1,13 @@
 use std::f64::consts::TAU;
 
 use centrode_geometry::Tolerance;
-use centrode_mechanism::gear::{Member, Soundness};
+use centrode_mechanism::gear::{GearPairError, Member, Soundness};
 use centrode_mechanism::three_arm::design::GoalsSpec;
 use centrode_mechanism::three_arm::{Figures, PickingRule, PlantingRule, ThreeArm};
 
-use crate::gear_train::check_gear_train;
+use crate::gear_train::{TrainTeeth, check_gear_train};
 use crate::pusher::check_pusher;
-use crate::{ArmClearance, Finding, Goal, Place, Report, Severity, Table};
+use crate::{ArmClearance, ArmClearanceCourse, Finding, Goal, Place, Report, Severity, Table};
 
 /// How closely clearances of arms are told, as a share of the tip's distance from the planet's axis.
 const ARM_TOLERANCE: f64 = 1e-4;
@@ -15,8 +15,17 @@ const ARM_TOLERANCE: f64 = 1e-4;
 /// Checks a three-arm mechanism: its goals, where its arms work, and what teeth its curves can bear.
 #[must_use]
 pub fn check_three_arm(mechanism: &ThreeArm) -> Report {
+    check_three_arm_teeth(mechanism, &TrainTeeth::of(mechanism))
+}
+
+/// The same for teeth that have been run together already.
+#[must_use]
+pub fn check_three_arm_teeth(
+    mechanism: &ThreeArm,
+    teeth: &Result<Option<TrainTeeth>, GearPairError>,
+) -> Report {
     let mut report = check_arms(mechanism);
-    check_teeth(mechanism, &mut report);
+    check_teeth(mechanism, teeth, &mut report);
     check_pusher(mechanism, &mut report);
     worst_first(&mut report);
     report
@@ -93,12 +102,14 @@ fn all_goals(
 }
 
 /// The teeth of every mesh, where the design has any.
-fn check_teeth(mechanism: &ThreeArm, report: &mut Report) {
-    if mechanism.design().gear_tooth_count().is_none() {
-        return;
-    }
-    match mechanism.pair() {
-        Ok(pair) => check_gear_train(mechanism, &pair, report),
+fn check_teeth(
+    mechanism: &ThreeArm,
+    teeth: &Result<Option<TrainTeeth>, GearPairError>,
+    report: &mut Report,
+) {
+    match teeth {
+        Ok(None) => {}
+        Ok(Some(teeth)) => check_gear_train(mechanism, teeth, report),
         Err(error) => report.findings.push(Finding {
             rule: "teeth",
             severity: Severity::Error,
@@ -127,8 +138,20 @@ fn arm_clearance(mechanism: &ThreeArm) -> Result<Option<ArmClearance>, Box<Findi
         },
         remedy: None,
     })?;
-    let tolerance = Tolerance::new(ARM_TOLERANCE * mechanism.design().arm.tip_distance).ok();
-    Ok(tolerance.and_then(|t| ArmClearance::of(mechanism, &body, t).ok()))
+    Ok(arm_tolerance(mechanism).and_then(|t| ArmClearance::of(mechanism, &body, t).ok()))
+}
+
+/// How closely clearances of arms are told.
+fn arm_tolerance(mechanism: &ThreeArm) -> Option<Tolerance> {
+    Tolerance::new(ARM_TOLERANCE * mechanism.design().arm.tip_distance).ok()
+}
+
+/// How far the arms keep from what is near them in so many parts of a carrier turn, as closely as
+/// [`check_three_arm`] tells the least; none without such an arm.
+#[must_use]
+pub fn arm_clearance_course(mechanism: &ThreeArm, parts: u32) -> Option<ArmClearanceCourse> {
+    let (body, tolerance) = (mechanism.arm_body().ok()?, arm_tolerance(mechanism)?);
+    ArmClearanceCourse::of(mechanism, &body, tolerance, parts).ok()
 }
 
 /// The goals of a mechanism as far as its figures reach: those of arms, seedlings and flanks are left open.

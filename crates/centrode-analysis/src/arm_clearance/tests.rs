@@ -51,6 +51,33 @@ fn posed(machine: &ThreeArm, outline: &[Point], arm: u32, input: f64) -> Vec<Poi
 }
 
 #[test]
+fn the_clearance_along_the_turn_has_the_least_one_and_is_that_of_the_outlines() {
+    let (machine, arm) = (published(3), default_arm());
+    let fine = tolerance(1e-3);
+    let whole = ArmClearance::of(&machine, &arm, fine).expect("finite");
+    let course = ArmClearanceCourse::of(&machine, &arm, fine, 90).expect("finite");
+    let least = |list: &[f64]| list.iter().copied().fold(f64::INFINITY, f64::min);
+    let off = least(&course.arms) - whole.arms.expect("three arms").least;
+    assert!(off.abs() < 2e-3, "{off}");
+    let off = least(&course.tray) - whole.tray.expect("a tray").least;
+    assert!(off.abs() < 2e-3, "{off}");
+    let corners: Vec<Point> = arm.outline().flatten(fine);
+    for i in (0..90).step_by(7) {
+        let looks = (0..=20).map(|j| course.input[i] + TAU / 90.0 * (f64::from(j) / 20.0 - 0.5));
+        let seen = looks
+            .map(|input| {
+                let first = posed(&machine, &corners, 0, input);
+                brute(&first, &posed(&machine, &corners, 1, input))
+            })
+            .fold(f64::INFINITY, f64::min);
+        let over = seen - course.arms[i];
+        assert!((-2e-3..0.2).contains(&over), "{over} at {}", course.input[i]);
+    }
+    let single = ArmClearanceCourse::of(&published(1), &arm, fine, 4).expect("finite");
+    assert!(single.arms.is_empty() && single.tray.len() == 4);
+}
+
+#[test]
 fn the_published_arms_are_clear_of_each_other() {
     let (machine, arm) = (published(3), default_arm());
     let found = between_arms(&machine, &arm, tolerance(1e-2)).expect("finite");

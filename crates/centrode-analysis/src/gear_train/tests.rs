@@ -2,7 +2,7 @@ use super::*;
 use centrode_mechanism::design::Design;
 use centrode_mechanism::gear::pitch::{Limacon, PitchSpec};
 use centrode_mechanism::three_arm::Mesh;
-use centrode_mechanism::three_arm::design::ThreeArmDesign;
+use centrode_mechanism::three_arm::design::{Direction, ThreeArmDesign};
 
 /// Gentle gears with full teeth, three chains as published.
 fn gentle(change: impl Fn(&mut ThreeArmDesign)) -> (ThreeArm, GearPair) {
@@ -65,11 +65,34 @@ fn a_mesh_half_a_pitch_off_is_seen() {
     assert!(off > 0.1 * half_pitch, "{off}");
 }
 
+fn toothed(change: impl Fn(&mut ThreeArmDesign)) -> (ThreeArm, TrainTeeth) {
+    let (mechanism, pair) = gentle(change);
+    let contact = Contact::of(&pair);
+    (mechanism, TrainTeeth { pair, contact })
+}
+
+/// What goes wrong at a polar angle of the sun is told at the carrier turn at which it is met there.
+#[test]
+fn a_finding_of_the_teeth_is_told_at_the_carriers_turn() {
+    for direction in [Direction::Clockwise, Direction::CounterClockwise] {
+        let (mechanism, mut teeth) = toothed(|d| d.direction = direction);
+        let at = teeth.contact.input.len() / 5;
+        teeth.contact.overlap[at] = 0.5;
+        let mut report = Report::default();
+        check_gear_train(&mechanism, &teeth, &mut report);
+        let found = report.findings.iter().find(|f| f.rule == "interference");
+        let input = found.and_then(|f| f.place.input).expect("an input");
+        let met = mechanism.mesh_pose(Mesh::Sun(0), input).driver;
+        let off = (met - teeth.contact.input[at]).rem_euclid(TAU);
+        assert!(off.min(TAU - off) < 1e-9, "{direction:?}: {off}");
+    }
+}
+
 #[test]
 fn the_check_tells_phases_contact_and_clearance() {
-    let (mechanism, pair) = gentle(|_| {});
+    let (mechanism, teeth) = toothed(|_| {});
     let mut report = Report::default();
-    check_gear_train(&mechanism, &pair, &mut report);
+    check_gear_train(&mechanism, &teeth, &mut report);
     assert!(report.findings.is_empty(), "{:?}", report.findings);
     assert!(report.values["mesh_phase_error_max"] < 1e-11);
     assert!(report.values["transmission_error_max"] < 1e-6);
@@ -80,9 +103,9 @@ fn the_check_tells_phases_contact_and_clearance() {
 #[test]
 fn gears_of_neighbouring_chains_that_collide_are_told() {
     // Six intermediate gears around one sun: their axes are as far apart as those in mesh.
-    let (mechanism, pair) = gentle(|d| d.arms = 6);
+    let (mechanism, teeth) = toothed(|d| d.arms = 6);
     let mut report = Report::default();
-    check_gear_train(&mechanism, &pair, &mut report);
+    check_gear_train(&mechanism, &teeth, &mut report);
     let found = report.findings.iter().find(|f| f.rule == "gears-collide");
     let found = found.expect("they overlap");
     assert!(

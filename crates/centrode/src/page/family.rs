@@ -1,6 +1,8 @@
 //! What each family of mechanism shows of itself.
 
-use centrode::analysis::{Contact, Report, check_contact, check_mechanism};
+use centrode::analysis::{
+    Contact, Report, TrainTeeth, check_contact, check_mechanism, check_three_arm_teeth,
+};
 use centrode::export::page::{Curve, Picture};
 use centrode::mechanism::design::Design;
 use centrode::mechanism::mechanism::Mechanism;
@@ -53,9 +55,16 @@ pub(super) fn checked(mechanism: &Mechanism) -> (Report, Vec<Curve>) {
             let curves = gear_pair::contact_curves(&contact);
             (check_contact(pair, &contact), curves)
         }
-        Mechanism::ThreeArm(_)
-        | Mechanism::SpiralShaft(_)
-        | Mechanism::MovingBox(_)
-        | Mechanism::Feeder(_) => (check_mechanism(mechanism), Vec::new()),
+        Mechanism::ThreeArm(arms) => {
+            let teeth = TrainTeeth::of(arms);
+            let found = check_three_arm_teeth(arms, &teeth);
+            (
+                found,
+                three_arm::checked_curves(arms, teeth.ok().flatten().as_ref()),
+            )
+        }
+        Mechanism::SpiralShaft(_) | Mechanism::MovingBox(_) | Mechanism::Feeder(_) => {
+            (check_mechanism(mechanism), Vec::new())
+        }
     }
 }
