@@ -71,7 +71,11 @@ fn the_clearance_along_the_turn_has_the_least_one_and_is_that_of_the_outlines() 
             })
             .fold(f64::INFINITY, f64::min);
         let over = seen - course.arms[i];
-        assert!((-2e-3..0.2).contains(&over), "{over} at {}", course.input[i]);
+        assert!(
+            (-2e-3..0.2).contains(&over),
+            "{over} at {}",
+            course.input[i]
+        );
     }
     let single = ArmClearanceCourse::of(&published(1), &arm, fine, 4).expect("finite");
     assert!(single.arms.is_empty() && single.tray.len() == 4);

@@ -270,7 +270,8 @@ impl<'a> Reader<'a> {
         }
         if let (true, Some(name)) = (message.starts_with("missing field"), names.first()) {
             let fault = DesignFault::MissingKey(name.clone());
-            let path = if key.is_empty() {
+            // What lacks it begins with the text itself: no table has been opened, whatever key comes first.
+            let path = if key.is_empty() || offset == 0 {
                 name.clone()
             } else {
                 format!("{key}.{name}")

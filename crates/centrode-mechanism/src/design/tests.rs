@@ -286,6 +286,29 @@ fn every_bad_line_is_named_with_key_and_place() {
 }
 
 #[test]
+fn a_missing_table_is_told_by_its_own_name() {
+    for (text, key) in [
+        ("family = \"gear-pair\"\n", "pitch"),
+        (
+            "family = \"three-arm\"\n[pitch]\nkind = \"circle\"\n",
+            "carrier_start_deg",
+        ),
+    ] {
+        let error = DesignFile::read(text.as_bytes())
+            .map(drop)
+            .expect_err("missing");
+        assert_eq!(error.key, key);
+    }
+}
+
+#[test]
+fn too_much_play_is_told_at_the_play() {
+    let text = GOOD.replacen("backlash = 0.05", "backlash = 24", 1);
+    let found = DesignFile::read(text.as_bytes()).and_then(|file| pair_of(&file).map(drop));
+    assert_eq!(found.expect_err("no tooth left").key, "teeth.backlash");
+}
+
+#[test]
 fn pitch_curve_faults_name_their_line() {
     let head = "family = \"gear-pair\"\ntooth_count = 20\n[pitch]\n";
     for (pitch, expected) in [

@@ -47,12 +47,14 @@ pub enum TeethError {
         greatest: f64,
     },
     /// A tooth or a space is left with no width.
-    #[error("the {} is left with a tooth {width} mm wide on a pitch of {pitch} mm", .member.name())]
+    #[error("the {} is left with a tooth {width} mm wide on a pitch of {pitch} mm; the play takes {play} mm of it", .member.name())]
     NoWidth {
         /// Which gear.
         member: Member,
         /// Width of the tooth on the pitch curve, mm.
         width: f64,
+        /// What it is thinned by, mm.
+        play: f64,
         /// Pitch, mm.
         pitch: f64,
     },
@@ -102,6 +104,7 @@ pub(crate) fn layout(
             return Err(TeethError::NoWidth {
                 member,
                 width: width - 2.0 * thinning,
+                play: 2.0 * thinning,
                 pitch,
             });
         }

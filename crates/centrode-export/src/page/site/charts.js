@@ -26,6 +26,7 @@ export class Charts {
     this.go = go;
     this.charts = [];
     this.input = 0;
+    this.reach = [0, 360];
     this.place = byId("charts");
     new ResizeObserver(() => this.resize()).observe(this.place);
   }
@@ -37,6 +38,9 @@ export class Charts {
       if (!groups.has(curve.chart)) groups.set(curve.chart, []);
       groups.get(curve.chart).push(curve);
     }
+    // All charts show the same stretch of the input.
+    const ends = curves.flatMap(({ input }) => [input[0], input.at(-1)]).filter(Number.isFinite);
+    this.reach = [Math.min(...ends), Math.max(...ends)].map((end) => whole(end * DEG));
     const before = new Map((pinned ?? []).map((curve) => [`${curve.chart} ${curve.name}`, curve]));
     const same = this.charts.length === groups.size &&
       [...groups].every(([name, list], i) => this.charts[i].name === name && this.charts[i].fits(list, before));
@@ -89,7 +93,7 @@ class Chart {
       height: HEIGHT,
       legend: { show: false },
       cursor: { x: false, y: false, points: { show: false }, drag: { x: false, y: false } },
-      scales: { x: { time: false, range: (_, least, greatest) => [whole(least), whole(greatest)] }, y: { range: span } },
+      scales: { x: { time: false, range: () => charts.reach }, y: { range: span } },
       series,
       axes: axes(
         { incrs: [15, 30, 45, 60, 90, 180, 360, 720, 1080, 1440, 2160, 2880, 3600, 5400, 7200, 10800, 14400, 36000], values: (_, list) => list.map((v) => `${v}°`), space: 48 },
