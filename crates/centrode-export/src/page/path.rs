@@ -21,6 +21,8 @@ pub enum Role {
     Bar,
     /// The same of what grips.
     Clamp,
+    /// What moves, where it does its work.
+    Pose,
     /// The ground.
     Ground,
     /// An edge of the window in which a seedling is picked.

@@ -179,20 +179,34 @@ fn carrier(mechanism: &ThreeArm) -> Vec<Path> {
         .collect()
 }
 
-/// From the planet's axis to the pusher's, along it, and the clamp to the tip.
-fn arm(mechanism: &ThreeArm) -> Vec<Path> {
+/// From the planet's axis to the pusher's, along it, and the clamp to the tip: ends in the arm's frame.
+fn joints(mechanism: &ThreeArm) -> [Point; 4] {
     let spec = &mechanism.design().arm;
     let offset = -spec.pusher_offset;
     let reach = (spec.tip_distance.powi(2) - offset.powi(2)).max(0.0).sqrt();
-    let [foot, clamp, tip] = [
+    [
+        Point::origin(),
         Point::new(0.0, offset),
         Point::new(reach - spec.clamp_length, offset),
         Point::new(reach, offset),
-    ];
-    vec![
-        Path::open(Role::Bar, &[Point::origin(), foot, clamp]),
-        Path::open(Role::Clamp, &[clamp, tip]),
     ]
+}
+
+fn arm(mechanism: &ThreeArm) -> Vec<Path> {
+    let joints = joints(mechanism);
+    vec![
+        Path::open(Role::Bar, &joints[..3]),
+        Path::open(Role::Clamp, &joints[2..]),
+    ]
+}
+
+/// The first arm as it picks and as it plants, in the machine's frame.
+fn working_poses(mechanism: &ThreeArm) -> [Path; 2] {
+    [mechanism.picking(0), mechanism.planting(0)].map(|input| {
+        let arm = mechanism.link(Part::Arm(0), input);
+        let placed = joints(mechanism).map(|joint| arm.point(joint).position);
+        Path::open(Role::Pose, &placed)
+    })
 }
 
 /// What does not move: the path of the tip in the machine's frame, the ground, the tray with its seedlings.
@@ -211,6 +225,7 @@ fn machine(
         Path::polygon(Role::Trace, &tips, tolerance),
         Path::open(Role::Ground, &line),
     ];
+    paths.extend(working_poses(mechanism));
     let tray = mechanism.tray_body();
     let still = [&tray.plate].into_iter().chain(&tray.stems);
     paths.extend(still.map(|outline| Path::closed(Role::Ground, &tray.placed(outline), tolerance)));
@@ -304,6 +319,19 @@ mod tests {
 
     use super::*;
     use centrode_mechanism::design::Design;
+
+    #[test]
+    fn arms_that_work_have_their_tips_at_the_marks() {
+        let text = Design::template("three-arm").expect("a template");
+        let Design::ThreeArm(design) = Design::from_toml(text).expect("sound") else {
+            panic!("a three-arm mechanism")
+        };
+        let mechanism = ThreeArm::resolve(&design).expect("a mechanism");
+        for (pose, mark) in working_poses(&mechanism).iter().zip(marks(&mechanism)) {
+            let tip = Point::new(pose.vertices[9], pose.vertices[10]);
+            assert!((tip - Point::from(mark.at)).norm() < 1e-9, "{}", mark.name);
+        }
+    }
 
     #[test]
     fn the_path_left_on_the_ground_goes_through_the_tip_at_every_input() {

@@ -59,6 +59,7 @@ const LINES = {
   pitch: ["accent", 1, [9, 3, 2, 3]],
   trace: ["accent", 1.5, []],
   overground: ["accent", 1.2, [2, 4]],
+  pose: ["pinned", 1.5, [5, 3]],
   ground: ["muted", 1.5, [12, 4]],
   window: ["pinned", 1.2, [6, 4]],
 };
