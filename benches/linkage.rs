@@ -45,6 +45,9 @@ fn positions(c: &mut Criterion) {
             }
         });
     });
+    group.bench_function("six-bar, all joints to the jerk, side by side", |b| {
+        b.iter(|| six_bar.at_each(black_box(&inputs)));
+    });
     group.bench_function("six-bar, joints alone", |b| {
         b.iter(|| {
             for &phi in &inputs {
@@ -52,12 +55,18 @@ fn positions(c: &mut Criterion) {
             }
         });
     });
+    group.bench_function("six-bar, joints alone, side by side", |b| {
+        b.iter(|| six_bar.joints_each(black_box(&inputs)));
+    });
     group.bench_function("six-bar, effector's angle to the jerk", |b| {
         b.iter(|| {
             for &phi in &inputs {
                 black_box(six_bar.effector_angle(black_box(phi)));
             }
         });
+    });
+    group.bench_function("six-bar, effector's angle to the jerk, side by side", |b| {
+        b.iter(|| six_bar.effector_angle_each(black_box(&inputs)));
     });
     let linkage = composed();
     group.bench_function("the same as a composition", |b| {

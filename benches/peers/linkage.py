@@ -123,12 +123,18 @@ def main():
     for name, took in theirs.items():
         print(f"peer     {name:<50} {min(took) * 1e9:14.1f} ns")
     full = min(mine["position/six-bar, all joints to the jerk"]) / INPUTS
-    plain = min(mine["position/six-bar, joints alone"]) / INPUTS
+    beside = min(mine["position/six-bar, all joints to the jerk, side by side"]) / INPUTS
+    plain = min(mine["position/six-bar, joints alone, side by side"]) / INPUTS
     search = min(mine["search/de"])
-    print(f"step_fast / all joints to the jerk          {min(theirs['positions']) / full:6.2f}")
-    print(f"with kinematics / all joints to the jerk    {min(theirs['with two derivatives']) / full:6.2f}")
-    print(f"step_fast / joints alone                    {min(theirs['positions']) / plain:6.2f}")
-    print(f"scipy's search / ours                       {min(theirs['scipy']) / search:6.2f}")
+    positions, kinematics = min(theirs["positions"]), min(theirs["with two derivatives"])
+    for name, ratio in (
+        ("step_fast / all joints to the jerk, side by side", positions / beside),
+        ("step_fast / all joints to the jerk, one by one", positions / full),
+        ("step_fast / joints alone, side by side", positions / plain),
+        ("with kinematics / all joints to the jerk, side by side", kinematics / beside),
+        ("scipy's search / ours", min(theirs["scipy"]) / search),
+    ):
+        print(f"{name:<55} {ratio:6.2f}")
 
 
 if __name__ == "__main__":

@@ -119,9 +119,38 @@ pub(crate) fn each_array<const COUNT: usize>(
 ) -> PyResult<Py<PyAny>> {
     let shape = [values.shape(), tail].concat();
     let answer: Vec<f64> = wait(py, move || values.iter().flat_map(|&v| f(v)).collect())?;
-    let array = ArrayD::from_shape_vec(shape, answer);
-    let array = array.map_err(|error| PyValueError::new_err(error.to_string()))?;
-    Ok(array.into_pyarray(py).into_any().unbind())
+    Ok(shaped(shape, answer)?.into_pyarray(py).into_any().unbind())
+}
+
+/// As [`each`] with a function of all numbers at once.
+pub(crate) fn together(
+    py: Python<'_>,
+    Values(values): Values,
+    f: impl Fn(&[f64]) -> Vec<f64> + Send + 'static,
+) -> PyResult<Bound<'_, PyAny>> {
+    let shape = values.shape().to_vec();
+    let answer = wait(py, move || f(&Values(values).into_flat()))?;
+    if let ([], &[number]) = (&shape[..], &answer[..]) {
+        return number.into_bound_py_any(py);
+    }
+    Ok(shaped(shape, answer)?.into_pyarray(py).into_any())
+}
+
+/// As [`each_array`] with a function of all numbers at once.
+pub(crate) fn together_array<const COUNT: usize>(
+    py: Python<'_>,
+    Values(values): Values,
+    tail: &[usize],
+    f: impl Fn(&[f64]) -> Vec<[f64; COUNT]> + Send + 'static,
+) -> PyResult<Py<PyAny>> {
+    let shape = [values.shape(), tail].concat();
+    let answer = wait(py, move || f(&Values(values).into_flat()).into_flattened())?;
+    Ok(shaped(shape, answer)?.into_pyarray(py).into_any().unbind())
+}
+
+fn shaped(shape: Vec<usize>, numbers: Vec<f64>) -> PyResult<ArrayD<f64>> {
+    let array = ArrayD::from_shape_vec(shape, numbers);
+    array.map_err(|error| PyValueError::new_err(error.to_string()))
 }
 
 /// As [`each_array`] with one axis more.

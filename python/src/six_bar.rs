@@ -2,10 +2,11 @@ use std::collections::BTreeMap;
 
 use centrode_geometry::Point;
 use centrode_mechanism::linkage::{self, Branch, FourBar};
+use centrode_mechanism::transmission::MotionJet;
 use numpy::PyArray2;
 use pyo3::prelude::{Bound, Py, PyAny, PyResult, Python, pyclass, pymethods};
 
-use crate::array::{Values, each, each_array, points};
+use crate::array::{Values, each, points, together, together_array};
 use crate::error::{of_four_bar, of_six_bar, unknown_word};
 use crate::record;
 
@@ -70,16 +71,19 @@ impl SixBar {
     ///        [290.519775, 127.845833]])
     fn position(&self, py: Python<'_>, phi: Values) -> PyResult<Py<PyAny>> {
         let six_bar = self.0;
-        each_array(py, phi, &[3, 2], move |phi| {
-            let [b, c, e] = six_bar.joints(phi);
-            [b.x, b.y, c.x, c.y, e.x, e.y]
+        together_array(py, phi, &[3, 2], move |phi| {
+            let flat = |[b, c, e]: [Point; 3]| [b.x, b.y, c.x, c.y, e.x, e.y];
+            six_bar.joints_each(phi).into_iter().map(flat).collect()
         })
     }
 
     /// The effector's angle at a crank angle, rad; of an array, an array of the same shape.
     fn effector_angle<'py>(&self, py: Python<'py>, phi: Values) -> PyResult<Bound<'py, PyAny>> {
         let six_bar = self.0;
-        each(py, phi, move |phi| six_bar.effector_angle(phi).position)
+        together(py, phi, move |phi| {
+            let angles = six_bar.effector_angle_each(phi).into_iter();
+            angles.map(|jet| jet.position).collect()
+        })
     }
 
     /// The effector's angle and its first three derivatives by the crank angle: an array of the shape of `phi` and
@@ -91,18 +95,19 @@ impl SixBar {
     /// True
     fn effector_motion(&self, py: Python<'_>, phi: Values) -> PyResult<Py<PyAny>> {
         let six_bar = self.0;
-        each_array(py, phi, &[4], move |phi| {
-            let jet = six_bar.effector_angle(phi);
-            [jet.position, jet.velocity, jet.acceleration, jet.jerk]
+        together_array(py, phi, &[4], move |phi| {
+            let angles = six_bar.effector_angle_each(phi).into_iter();
+            let flat = |jet: MotionJet| [jet.position, jet.velocity, jet.acceleration, jet.jerk];
+            angles.map(flat).collect()
         })
     }
 
     /// The effector's tip E at a crank angle, mm: an array of the shape of `phi` and then (2,).
     fn effector_tip(&self, py: Python<'_>, phi: Values) -> PyResult<Py<PyAny>> {
         let six_bar = self.0;
-        each_array(py, phi, &[2], move |phi| {
-            let [_, _, e] = six_bar.joints(phi);
-            [e.x, e.y]
+        together_array(py, phi, &[2], move |phi| {
+            let joints = six_bar.joints_each(phi).into_iter();
+            joints.map(|[_, _, e]| [e.x, e.y]).collect()
         })
     }
 

@@ -4,8 +4,9 @@ use std::f64::consts::TAU;
 
 use centrode_geometry::{Jet, Point, Vector};
 use centrode_mechanism::linkage::{Branch, FourBar, Link, Linkage, SixBar};
+use centrode_mechanism::transmission::MotionJet;
 use nalgebra::Matrix2;
-use proptest::prelude::{ProptestConfig, Strategy, any, prop_assert, proptest};
+use proptest::prelude::{Just, ProptestConfig, Strategy, any, prop_assert, prop_oneof, proptest};
 
 /// Least transmission angle: nearer to a change point nothing is known to ten digits.
 const LEAST: f64 = 0.25;
@@ -147,6 +148,15 @@ fn off(found: &Jet, solved: &Motion) -> f64 {
         .fold(0.0, f64::max)
 }
 
+fn motions_agree(a: MotionJet, b: MotionJet) -> bool {
+    let size = 1.0 + a.jerk.abs();
+    let off = |a: f64, b: f64| (a - b).abs() <= 1e-12 * size;
+    off(a.position, b.position)
+        && off(a.velocity, b.velocity)
+        && off(a.acceleration, b.acceleration)
+        && off(a.jerk, b.jerk)
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(512))]
 
@@ -172,6 +182,43 @@ proptest! {
         for (found, [_, solved]) in found.into_iter().zip(effector) {
             let difference = (found - solved).abs() / (1.0 + solved.abs());
             prop_assert!(difference < 1e-10, "{found} {solved}");
+        }
+    }
+
+    #[test]
+    fn a_six_bar_side_by_side_is_where_it_is_alone(
+        six_bar in six_bars(),
+        mut inputs in proptest::collection::vec(-50.0..50.0_f64, 0..12),
+        odd in proptest::option::of((0..12_usize, prop_oneof![Just(f64::NAN), Just(f64::INFINITY), Just(1e7)])),
+    ) {
+        if let Some((place, value)) = odd && place < inputs.len() {
+            inputs[place] = value;
+        }
+        let all = six_bar.at_each(&inputs);
+        let joints = six_bar.joints_each(&inputs);
+        let angles = six_bar.effector_angle_each(&inputs);
+        prop_assert!(all.len() == inputs.len() && joints.len() == inputs.len() && angles.len() == inputs.len());
+        for (i, &input) in inputs.iter().enumerate() {
+            let (alone, beside) = (six_bar.at(input), all[i]);
+            if !input.is_finite() {
+                let found = [beside.b, beside.c, beside.e].map(|j| j.point.x + j.point.y);
+                prop_assert!(found.iter().all(|x| x.is_nan()));
+                prop_assert!(beside.effector.position.is_nan() && joints[i].iter().all(|p| p.x.is_nan()));
+                continue;
+            }
+            // Near a dead centre digits of the highest derivatives are lost in either way.
+            for (a, b) in [(alone.b, beside.b), (alone.c, beside.c), (alone.e, beside.e)] {
+                for (a, b) in [(a.point.coords, b.point.coords), (a.first, b.first), (a.second, b.second), (a.third, b.third)] {
+                    prop_assert!((a - b).norm() <= 1e-12 * (200.0 + a.norm()), "{a} {b}");
+                }
+            }
+            prop_assert!(motions_agree(alone.effector, beside.effector));
+            prop_assert!(motions_agree(six_bar.effector_angle(input), angles[i]));
+            for (a, b) in six_bar.joints(input).into_iter().zip(joints[i]) {
+                prop_assert!((a - b).norm() <= 1e-12 * 200.0);
+            }
+            // Bits do not depend on what is worked out beside.
+            prop_assert!(six_bar.at_each(&[input]) == [beside]);
         }
     }
 

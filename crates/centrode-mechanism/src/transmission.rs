@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use centrode_geometry::bracketed_root;
 
-use crate::formula::Taylor;
+use crate::formula::{Number, Taylor};
 
 /// A position and its first three derivatives with respect to the input.
 ///
@@ -53,12 +53,18 @@ impl MotionJet {
     }
 
     pub(crate) fn of<const N: usize>(series: &Taylor<N>) -> Self {
+        Self::of_lane(series, 0)
+    }
+
+    /// One of those that a series holds side by side.
+    #[inline(always)]
+    pub(crate) fn of_lane<const N: usize, T: Number>(series: &Taylor<N, T>, lane: usize) -> Self {
         let [position, velocity, acceleration, jerk] = series.derivatives();
         Self {
-            position,
-            velocity,
-            acceleration,
-            jerk,
+            position: position.lane(lane),
+            velocity: velocity.lane(lane),
+            acceleration: acceleration.lane(lane),
+            jerk: jerk.lane(lane),
         }
     }
 

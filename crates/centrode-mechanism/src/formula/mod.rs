@@ -1,8 +1,12 @@
 //! Formulas in one variable, read once and evaluated with exact derivatives.
 
+mod lanes;
+mod number;
 mod parser;
 mod taylor;
 
+pub(crate) use lanes::{LANES, Lanes};
+pub(crate) use number::Number;
 pub(crate) use parser::FormulaError;
 pub(crate) use taylor::Taylor;
 

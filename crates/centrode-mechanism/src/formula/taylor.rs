@@ -1,34 +1,96 @@
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
+use super::number::Number;
+
 /// Coefficients of a Taylor polynomial: value, slope, half the second derivative, and so on.
 ///
 /// Five of them are enough for the third derivative of a function given by its integral, four for the
-/// jerk of a linkage, two for a sensitivity, one for a position.
+/// jerk of a linkage, two for a sensitivity, one for a position. They are numbers, or several side by side.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Taylor<const ORDERS: usize = 5>(pub(crate) [f64; ORDERS]);
+pub(crate) struct Taylor<const ORDERS: usize = 5, T = f64>(pub(crate) [T; ORDERS]);
 
-impl<const ORDERS: usize> Taylor<ORDERS> {
-    pub(crate) fn constant(value: f64) -> Self {
-        let mut c = [0.0; ORDERS];
+impl<const ORDERS: usize, T: Number> Taylor<ORDERS, T> {
+    #[inline(always)]
+    pub(crate) fn constant(value: T) -> Self {
+        let mut c = [T::from(0.0); ORDERS];
         c[0] = value;
         Self(c)
     }
 
-    pub(crate) fn variable(value: f64) -> Self {
-        let mut c = [0.0; ORDERS];
-        c[0] = value;
-        if let Some(slope) = c.get_mut(1) {
-            *slope = 1.0;
+    #[inline(always)]
+    pub(crate) fn variable(value: T) -> Self {
+        let mut series = Self::constant(value);
+        if let Some(slope) = series.0.get_mut(1) {
+            *slope = T::from(1.0);
         }
-        Self(c)
+        series
     }
 
     /// Value and first three derivatives.
-    pub(crate) fn derivatives(&self) -> [f64; 4] {
-        let known = |k: usize| self.0.get(k).copied().unwrap_or_default();
-        [known(0), known(1), 2.0 * known(2), 6.0 * known(3)]
+    #[inline(always)]
+    pub(crate) fn derivatives(&self) -> [T; 4] {
+        let known = |k: usize| self.0.get(k).copied().unwrap_or(T::from(0.0));
+        [
+            known(0),
+            known(1),
+            known(2) * T::from(2.0),
+            known(3) * T::from(6.0),
+        ]
     }
 
+    /// The pair with `s' = a' c` and `c' = sign a' s`.
+    #[inline(always)]
+    fn circular(self, (s0, c0): (T, T), sign: f64) -> (Self, Self) {
+        let (mut s, mut c) = (Self::constant(s0), Self::constant(c0));
+        for k in 1..ORDERS {
+            for i in 1..=k {
+                let slope = self.0[i] * T::from(i as f64 / k as f64);
+                s.0[k] = s.0[k] + slope * c.0[k - i];
+                c.0[k] = c.0[k] + slope * s.0[k - i] * T::from(sign);
+            }
+        }
+        (s, c)
+    }
+
+    #[inline(always)]
+    pub(crate) fn sin_cos(self) -> (Self, Self) {
+        self.circular(self.0[0].sin_cos(), -1.0)
+    }
+
+    /// Sine and cosine, whose values are known.
+    #[inline(always)]
+    pub(crate) fn sin_cos_from(self, value: (T, T)) -> (Self, Self) {
+        self.circular(value, -1.0)
+    }
+
+    /// The series of the direction of (x, y), where this series is y: its slope is exact however x and y
+    /// are scaled, its value the principal one.
+    #[inline(always)]
+    pub(crate) fn atan2(self, x: Self) -> Self {
+        let y = self;
+        let mut a = Self::constant(y.0[0].atan2(x.0[0]));
+        let inverse = T::from(1.0) / (x.0[0] * x.0[0] + y.0[0] * y.0[0]);
+        for k in 1..ORDERS {
+            // a' (x² + y²) = x y' - y x', of which each product comes twice with the sign changed.
+            let mut turning = T::from(0.0);
+            for i in k / 2 + 1..=k {
+                let cross = x.0[k - i] * y.0[i] - y.0[k - i] * x.0[i];
+                turning = turning + cross * T::from((2 * i - k) as f64 / k as f64);
+            }
+            for i in 1..k {
+                let mut square = T::from(0.0);
+                for j in 0..=k - i {
+                    square = square + x.0[j] * x.0[k - i - j] + y.0[j] * y.0[k - i - j];
+                }
+                turning = turning - a.0[i] * square * T::from(i as f64 / k as f64);
+            }
+            a.0[k] = turning * inverse;
+        }
+        a
+    }
+}
+
+impl<const ORDERS: usize> Taylor<ORDERS> {
     /// The slope's own series; its last coefficient is not known and left zero.
     pub(crate) fn differentiated(&self) -> Self {
         Self(std::array::from_fn(|k| {
@@ -47,20 +109,6 @@ impl<const ORDERS: usize> Taylor<ORDERS> {
         Self(y)
     }
 
-    /// The pair with `s' = a' c` and `c' = sign a' s`.
-    fn circular(self, (s0, c0): (f64, f64), sign: f64) -> (Self, Self) {
-        let (mut s, mut c) = ([0.0; ORDERS], [0.0; ORDERS]);
-        (s[0], c[0]) = (s0, c0);
-        for k in 1..ORDERS {
-            for i in 1..=k {
-                let slope = i as f64 * self.0[i] / k as f64;
-                s[k] += slope * c[k - i];
-                c[k] += sign * slope * s[k - i];
-            }
-        }
-        (Self(s), Self(c))
-    }
-
     pub(crate) fn reciprocal(self) -> Self {
         let mut q = [0.0; ORDERS];
         let r = 1.0 / self.0[0];
@@ -70,10 +118,6 @@ impl<const ORDERS: usize> Taylor<ORDERS> {
             q[k] = -known * r;
         }
         Self(q)
-    }
-
-    pub(crate) fn sin_cos(self) -> (Self, Self) {
-        self.circular(self.0[0].sin_cos(), -1.0)
     }
 
     pub(crate) fn sinh_cosh(self) -> (Self, Self) {
@@ -103,33 +147,16 @@ impl<const ORDERS: usize> Taylor<ORDERS> {
         self.integral_over(self.0[0].asin(), g)
     }
 
-    /// The series of the direction of (x, y), where this series is y: its slope is exact however x and y
-    /// are scaled, its value the principal one.
-    pub(crate) fn atan2(self, x: Self) -> Self {
-        let g = x * x + self * self;
-        let mut a = [0.0; ORDERS];
-        a[0] = self.0[0].atan2(x.0[0]);
-        for k in 1..ORDERS {
-            // a' g = x y' - y x'
-            let mut turning = 0.0;
-            for i in 1..=k {
-                turning += i as f64 * (self.0[i] * x.0[k - i] - x.0[i] * self.0[k - i]);
-            }
-            let known: f64 = (1..k).map(|i| i as f64 * a[i] * g.0[k - i]).sum();
-            a[k] = (turning - known) / (k as f64 * g.0[0]);
-        }
-        Self(a)
-    }
-
     pub(crate) fn sqrt(self) -> Self {
         let mut s = [0.0; ORDERS];
         s[0] = self.0[0].sqrt();
         if self.0 == [0.0; ORDERS] {
             return self;
         }
+        let inverse = 0.5 / s[0];
         for k in 1..ORDERS {
             let known: f64 = (1..k).map(|i| s[i] * s[k - i]).sum();
-            s[k] = (self.0[k] - known) / (2.0 * s[0]);
+            s[k] = (self.0[k] - known) * inverse;
         }
         Self(s)
     }
@@ -169,32 +196,37 @@ impl<const ORDERS: usize> Taylor<ORDERS> {
     }
 }
 
-impl<const ORDERS: usize> Add for Taylor<ORDERS> {
+impl<const ORDERS: usize, T: Number> Add for Taylor<ORDERS, T> {
     type Output = Self;
+    #[inline(always)]
     fn add(self, b: Self) -> Self {
         Self(std::array::from_fn(|k| self.0[k] + b.0[k]))
     }
 }
 
-impl<const ORDERS: usize> Sub for Taylor<ORDERS> {
+impl<const ORDERS: usize, T: Number> Sub for Taylor<ORDERS, T> {
     type Output = Self;
+    #[inline(always)]
     fn sub(self, b: Self) -> Self {
         Self(std::array::from_fn(|k| self.0[k] - b.0[k]))
     }
 }
 
-impl<const ORDERS: usize> Neg for Taylor<ORDERS> {
+impl<const ORDERS: usize, T: Number> Neg for Taylor<ORDERS, T> {
     type Output = Self;
+    #[inline(always)]
     fn neg(self) -> Self {
         Self(self.0.map(|c| -c))
     }
 }
 
-impl<const ORDERS: usize> Mul for Taylor<ORDERS> {
+impl<const ORDERS: usize, T: Number> Mul for Taylor<ORDERS, T> {
     type Output = Self;
+    #[inline(always)]
     fn mul(self, b: Self) -> Self {
         Self(std::array::from_fn(|k| {
-            (0..=k).map(|i| self.0[i] * b.0[k - i]).sum()
+            let first = self.0[0] * b.0[k];
+            (1..=k).fold(first, |sum, i| sum + self.0[i] * b.0[k - i])
         }))
     }
 }
@@ -211,25 +243,27 @@ impl<const ORDERS: usize> Div for Taylor<ORDERS> {
     }
 }
 
-impl<const ORDERS: usize> Mul<f64> for Taylor<ORDERS> {
+impl<const ORDERS: usize, T: Number> Mul<f64> for Taylor<ORDERS, T> {
     type Output = Self;
+    #[inline(always)]
     fn mul(self, k: f64) -> Self {
-        Self(self.0.map(|c| c * k))
+        Self(self.0.map(|c| c * T::from(k)))
     }
 }
 
-impl<const ORDERS: usize> Add<f64> for Taylor<ORDERS> {
+impl<const ORDERS: usize, T: Number> Add<f64> for Taylor<ORDERS, T> {
     type Output = Self;
+    #[inline(always)]
     fn add(mut self, k: f64) -> Self {
-        self.0[0] += k;
+        self.0[0] = self.0[0] + T::from(k);
         self
     }
 }
 
-impl<const ORDERS: usize> Sub<f64> for Taylor<ORDERS> {
+impl<const ORDERS: usize, T: Number> Sub<f64> for Taylor<ORDERS, T> {
     type Output = Self;
-    fn sub(mut self, k: f64) -> Self {
-        self.0[0] -= k;
-        self
+    #[inline(always)]
+    fn sub(self, k: f64) -> Self {
+        self + -k
     }
 }

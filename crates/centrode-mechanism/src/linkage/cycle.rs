@@ -23,7 +23,7 @@ impl Linkage {
         let mut open = vec![(0.0, TAU)];
         for dyad in 0..self.series::<1>(0.0).room.len() {
             // Dyads before this one close on the open intervals, so what this one stands on is known.
-            let room = |input: f64| self.series::<1>(input).room[dyad].0[0];
+            let room = |input: f64| self.series::<1>(input).room[dyad];
             open = open
                 .into_iter()
                 .flat_map(|interval| positive(&room, interval))
@@ -43,9 +43,7 @@ impl Linkage {
         };
         let past = if input > 0.0 { input + 1e-9 } else { input };
         let rooms = self.series::<1>(past).room;
-        let dyad = rooms
-            .iter()
-            .position(|r| r.0[0] <= 0.0 || r.0[0].is_nan())?;
+        let dyad = rooms.iter().position(|&r| r <= 0.0 || r.is_nan())?;
         let missing = self.missing(dyad, past).max(0.0);
         Some(LinkageError::DoesNotClose {
             dyad,

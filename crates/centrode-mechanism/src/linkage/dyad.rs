@@ -1,9 +1,7 @@
-use std::ops::{Add, Mul, Sub};
-
 use serde::{Deserialize, Serialize};
 
 use super::point_series::PointSeries;
-use crate::formula::Taylor;
+use crate::formula::{Number, Taylor};
 
 /// Which of its two ways a dyad is assembled.
 #[derive(
@@ -41,39 +39,62 @@ impl Branch {
 
 /// A dyad's closed form.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Closed<const N: usize, T> {
-    pub(crate) at: T,
+pub(crate) struct Closed<const N: usize, T = f64> {
+    pub(crate) at: PointSeries<N, T>,
     /// Above zero where the dyad closes with room, zero where it is stretched or folded, below where it
     /// cannot close: in mm⁴ (two bars) or mm² (the others).
-    pub(crate) room: Taylor<N>,
+    pub(crate) room: T,
 }
 
 /// A length that is a plain number, or a series where its own influence is asked for.
-pub(crate) trait Length<const N: usize>:
-    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self>
-{
-    fn times(self, series: Taylor<N>) -> Taylor<N>;
+pub(crate) trait Length<const N: usize, T>: Copy {
+    fn value(self) -> T;
 
-    fn taken_from(self, series: Taylor<N>) -> Taylor<N>;
+    fn series(self) -> Taylor<N, T>;
+
+    fn times(self, series: Taylor<N, T>) -> Taylor<N, T>;
+
+    /// Coefficient `order` of half its square, which is not the first one, and `rest`.
+    fn half_square_and(self, rest: T, order: usize) -> T;
 }
 
-impl<const N: usize> Length<N> for f64 {
-    fn times(self, series: Taylor<N>) -> Taylor<N> {
+impl<const N: usize, T: Number> Length<N, T> for f64 {
+    #[inline(always)]
+    fn value(self) -> T {
+        T::from(self)
+    }
+
+    #[inline(always)]
+    fn series(self) -> Taylor<N, T> {
+        Taylor::constant(T::from(self))
+    }
+
+    #[inline(always)]
+    fn times(self, series: Taylor<N, T>) -> Taylor<N, T> {
         series * self
     }
 
-    fn taken_from(self, series: Taylor<N>) -> Taylor<N> {
-        series - self
+    #[inline(always)]
+    fn half_square_and(self, rest: T, _: usize) -> T {
+        rest
     }
 }
 
-impl<const N: usize> Length<N> for Taylor<N> {
+impl<const N: usize> Length<N, f64> for Taylor<N> {
+    fn value(self) -> f64 {
+        self.0[0]
+    }
+
+    fn series(self) -> Self {
+        self
+    }
+
     fn times(self, series: Self) -> Self {
         series * self
     }
 
-    fn taken_from(self, series: Self) -> Self {
-        series - self
+    fn half_square_and(self, rest: f64, order: usize) -> f64 {
+        rest + 0.5 * (self * self).0[order]
     }
 }
 
@@ -82,27 +103,62 @@ impl<const N: usize> Length<N> for Taylor<N> {
 /// With d the way from p to q and s = d², the joint is p + a d + h d⊥, where
 /// a = 1/2 + (first² - second²) / (2 s) and, after Heron,
 /// h = sqrt(((first + second)² - s) (s - (first - second)²)) / (2 s).
+/// That it stays so far from p and from q gives its derivatives one after the other: each is the solution of the two
+/// linear equations u·x = e, v·x = f along the bars u and v, whose determinant is s h.
 #[inline(always)]
-pub(crate) fn rrr<const N: usize, L: Length<N>>(
-    p: PointSeries<N>,
-    q: PointSeries<N>,
+pub(crate) fn rrr<const N: usize, T: Number, L: Length<N, T>>(
+    p: PointSeries<N, T>,
+    q: PointSeries<N, T>,
     (first, second): (L, L),
     branch: Branch,
-) -> Closed<N, PointSeries<N>> {
-    let d = q.minus(p);
-    let s = d.dot(d);
-    let sum = first + second;
-    let difference = first - second;
-    let (short, long) = (
-        (difference * difference).taken_from(s),
-        (sum * sum).taken_from(s),
-    );
-    let room = -(long * short);
-    let half = (s + s).reciprocal();
-    let a = (sum * difference).times(half) + 0.5;
-    let h = room.sqrt() * half * branch.sign();
-    let at = p.plus(d.times(a)).plus(d.left().times(h));
+) -> Closed<N, T> {
+    let (dx, dy) = (q.x.0[0] - p.x.0[0], q.y.0[0] - p.y.0[0]);
+    let s = dx * dx + dy * dy;
+    let sum = first.value() + second.value();
+    let difference = first.value() - second.value();
+    let room = (sum * sum - s) * (s - difference * difference);
+    let twice_area = room.sqrt() * T::from(0.5 * branch.sign());
+    let inverse = T::from(1.0) / s;
+    let a = sum * difference * inverse * T::from(0.5) + T::from(0.5);
+    let h = twice_area * inverse;
+    let mut at = PointSeries {
+        x: Taylor::constant(p.x.0[0] + (a * dx - h * dy)),
+        y: Taylor::constant(p.y.0[0] + (a * dy + h * dx)),
+    };
+    let inverse = T::from(1.0) / twice_area;
+    let (mut u, mut v) = (at.minus(p), at.minus(q));
+    let (ux, uy) = (u.x.0[0] * inverse, u.y.0[0] * inverse);
+    let (vx, vy) = (v.x.0[0] * inverse, v.y.0[0] * inverse);
+    for k in 1..N {
+        let e = along(u, p, k, first);
+        let f = along(v, q, k, second);
+        at.x.0[k] = e * vy - f * uy;
+        at.y.0[k] = f * ux - e * vx;
+        (u, v) = (at.minus(p), at.minus(q));
+    }
     Closed { at, room }
+}
+
+/// What the component along a bar of its far end's coefficient `order` must be, times the bar's length: `bar` is the
+/// bar's way from `start`, known below that order.
+#[inline(always)]
+fn along<const N: usize, T: Number, L: Length<N, T>>(
+    bar: PointSeries<N, T>,
+    start: PointSeries<N, T>,
+    order: usize,
+    length: L,
+) -> T {
+    let with =
+        |v: PointSeries<N, T>, i: usize, k: usize| bar.x.0[i] * v.x.0[k] + bar.y.0[i] * v.y.0[k];
+    let mut sum = with(start, 0, order);
+    // Half the square of the way's known part, each product of two orders once.
+    for i in 1..order.div_ceil(2) {
+        sum = sum - with(bar, i, order - i);
+    }
+    if order.is_multiple_of(2) {
+        sum = sum - with(bar, order / 2, order / 2) * T::from(0.5);
+    }
+    length.half_square_and(sum, order)
 }
 
 /// The slider on the line through `u` along the unit vector `e`, at the end of a bar from `p`.
@@ -113,13 +169,16 @@ pub(crate) fn rrp<const N: usize>(
     u: PointSeries<N>,
     e: PointSeries<N>,
     branch: Branch,
-) -> Closed<N, PointSeries<N>> {
+) -> Closed<N> {
     let w = p.minus(u);
     let away = e.cross(w);
     let room = -(away * away - length * length);
     let along = w.dot(e) + room.sqrt() * branch.sign();
     let at = u.plus(e.times(along));
-    Closed { at, room }
+    Closed {
+        at,
+        room: room.0[0],
+    }
 }
 
 /// The direction of a link that turns about `q` and slides through the block at `p`, its line passing
@@ -130,7 +189,7 @@ pub(crate) fn rpr<const N: usize>(
     q: PointSeries<N>,
     offset: f64,
     branch: Branch,
-) -> Closed<N, PointSeries<N>> {
+) -> Closed<N> {
     let w = p.minus(q);
     let s = w.dot(w);
     let room = s - offset * offset;
@@ -138,7 +197,10 @@ pub(crate) fn rpr<const N: usize>(
     // As complex numbers w = (along + i offset) e.
     let turned = w.times(along).minus(w.left().times(offset));
     let at = turned.times(s.reciprocal());
-    Closed { at, room }
+    Closed {
+        at,
+        room: room.0[0],
+    }
 }
 
 /// The joint of two sliders, on the lines through `u` along `e` and through `v` along `f`.
@@ -148,12 +210,12 @@ pub(crate) fn prp<const N: usize>(
     e: PointSeries<N>,
     v: PointSeries<N>,
     f: PointSeries<N>,
-) -> Closed<N, PointSeries<N>> {
+) -> Closed<N> {
     let slant = e.cross(f);
     let along = v.minus(u).cross(f) * slant.reciprocal();
     let at = u.plus(e.times(along));
     Closed {
         at,
-        room: slant * slant,
+        room: slant.0[0] * slant.0[0],
     }
 }

@@ -4,7 +4,7 @@ use centrode_geometry::{Jet, Point};
 
 use super::dyad::{Branch, Closed, Length, rrr};
 use super::point_series::PointSeries;
-use crate::formula::Taylor;
+use crate::formula::{Number, Taylor};
 use crate::transmission::{MotionJet, Transmission};
 
 /// What turns in a four-bar, after Grashof (1883), named from the input crank.
@@ -196,8 +196,12 @@ impl FourBar {
     /// # Errors
     /// [`FourBarError::DoesNotClose`].
     pub fn joints(&self, input: f64) -> Result<[Jet; 2], FourBarError> {
-        let (b, c) = joints(self.lengths(), self.branch, Taylor::<4>::variable(input));
-        if c.room.0[0] > 0.0 {
+        let (b, c) = joints(
+            self.lengths(),
+            self.branch,
+            PointSeries::<4>::turning(input),
+        );
+        if c.room > 0.0 {
             Ok([b.jet(), c.at.jet()])
         } else {
             Err(self.limit(input))
@@ -209,8 +213,12 @@ impl FourBar {
     /// # Errors
     /// [`FourBarError::DoesNotClose`].
     pub fn rocker_angle(&self, input: f64) -> Result<MotionJet, FourBarError> {
-        let (_, c) = joints(self.lengths(), self.branch, Taylor::<4>::variable(input));
-        if c.room.0[0] > 0.0 {
+        let (_, c) = joints(
+            self.lengths(),
+            self.branch,
+            PointSeries::<4>::turning(input),
+        );
+        if c.room > 0.0 {
             let d = PointSeries::fixed(Point::new(self.frame, 0.0));
             let mut jet = MotionJet::of(&c.at.minus(d).angle());
             jet.position = self.unwrapped_rocker(input);
@@ -333,22 +341,20 @@ impl FourBar {
     }
 }
 
-/// B and C of a four-bar whose lengths may be series.
+/// B and C of a four-bar whose lengths may be series, for the crank's unit vector.
 #[inline(always)]
-pub(super) fn joints<const N: usize, L: Length<N>>(
+pub(super) fn joints<const N: usize, T: Number, L: Length<N, T>>(
     [a, b, c, d]: [L; 4],
     branch: Branch,
-    input: Taylor<N>,
-) -> (PointSeries<N>, Closed<N, PointSeries<N>>) {
-    let unit = PointSeries::unit(input);
+    crank: PointSeries<N, T>,
+) -> (PointSeries<N, T>, Closed<N, T>) {
     let at_b = PointSeries {
-        x: a.times(unit.x),
-        y: a.times(unit.y),
+        x: a.times(crank.x),
+        y: a.times(crank.y),
     };
-    let zero = Taylor::constant(0.0);
     let at_d = PointSeries {
-        x: -d.taken_from(zero),
-        y: zero,
+        x: d.series(),
+        y: Taylor::constant(T::from(0.0)),
     };
     (at_b, rrr(at_b, at_d, (b, c), branch))
 }

@@ -6,7 +6,6 @@ use super::error::LinkageError;
 use super::parts::{Line, Link};
 use super::point_series::PointSeries;
 use super::pose::{Body, Pose};
-use crate::formula::Taylor;
 use crate::transmission::MotionJet;
 
 /// Joints and links while a pose is worked out.
@@ -15,7 +14,7 @@ pub(super) struct Series<const N: usize> {
     /// Origin and first axis.
     frames: Vec<(PointSeries<N>, PointSeries<N>)>,
     /// What is left to every dyad before it no longer closes.
-    pub(super) room: Vec<Taylor<N>>,
+    pub(super) room: Vec<f64>,
 }
 
 impl<const N: usize> Series<N> {
@@ -50,11 +49,11 @@ impl Linkage {
     }
 
     fn closes(&self, series: &Series<4>, input: f64) -> Result<(), LinkageError> {
-        for (dyad, room) in series.room.iter().enumerate() {
-            if room.0[0] == 0.0 && !self.is_prp(dyad) {
+        for (dyad, &room) in series.room.iter().enumerate() {
+            if room == 0.0 && !self.is_prp(dyad) {
                 return Err(LinkageError::Flat { dyad, input });
             }
-            if room.0[0] <= 0.0 || room.0[0].is_nan() {
+            if room <= 0.0 || room.is_nan() {
                 let missing = self.missing(dyad, input);
                 return Err(LinkageError::DoesNotClose {
                     dyad,
@@ -101,7 +100,6 @@ impl Linkage {
 
     /// The pose as series of order N - 1; where a dyad does not close, what follows is not a number.
     pub(super) fn series<const N: usize>(&self, input: f64) -> Series<N> {
-        let input = Taylor::<N>::variable(input);
         let still = PointSeries::fixed(Point::origin());
         let mut s = Series {
             joints: Vec::with_capacity(self.owners.len()),
@@ -117,7 +115,7 @@ impl Linkage {
                     s.joints.push(origin.plus(axis.turned(*local)));
                 }
                 Step::Crank { pivot, phase } => {
-                    let axis = PointSeries::unit(input + *phase);
+                    let axis = PointSeries::turning(input + *phase);
                     s.frames.push((s.joints[*pivot], axis));
                 }
                 Step::Rrr {

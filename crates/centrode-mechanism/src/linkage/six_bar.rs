@@ -1,13 +1,13 @@
 use std::f64::consts::{PI, TAU};
 
-use centrode_geometry::{Jet, Point, Vector};
+use centrode_geometry::{Point, Vector};
 
-use super::cycle::wrapped;
 use super::four_bar::{FourBar, Grashof, joints};
+use super::laps::Laps;
 use super::point_series::PointSeries;
 use super::slider_arc::SliderArc;
 use crate::formula::Taylor;
-use crate::transmission::{FromFn, MotionJet, Transmission};
+use crate::transmission::{FromFn, Transmission};
 
 /// Why there is no such six-bar.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -52,19 +52,6 @@ pub struct EffectorExtremes {
     pub high: (f64, f64),
 }
 
-/// All of a six-bar at one crank angle, per radian of crank angle.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SixBarPosition {
-    /// Joint of crank and coupler.
-    pub b: Jet,
-    /// Joint of coupler and rocker, and the slider.
-    pub c: Jet,
-    /// Tip of the effector.
-    pub e: Jet,
-    /// Angle of the effector, without jumps.
-    pub effector: MotionJet,
-}
-
 /// How the swing changes with each dimension: rad/mm.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SwingSensitivity {
@@ -87,6 +74,7 @@ pub struct SixBar {
     pivot: Point,
     effector_length: f64,
     extremes: EffectorExtremes,
+    pub(super) laps: Laps,
 }
 
 impl SixBar {
@@ -111,11 +99,13 @@ impl SixBar {
             let (x, y) = (pivot.x, pivot.y);
             return Err(SixBarError::PivotOnPath { x, y });
         }
+        let extremes = arc.extremes(pivot);
         Ok(Self {
             four_bar,
             pivot,
             effector_length,
-            extremes: arc.extremes(pivot),
+            extremes,
+            laps: Laps::about(0.5 * (extremes.low.1 + extremes.high.1)),
         })
     }
 
@@ -135,64 +125,6 @@ impl SixBar {
     #[must_use]
     pub fn effector_length(&self) -> f64 {
         self.effector_length
-    }
-
-    /// Every joint at a crank angle.
-    #[must_use]
-    pub fn at(&self, input: f64) -> SixBarPosition {
-        let (lengths, branch) = (self.four_bar.lengths(), self.four_bar.branch());
-        let (b, c) = joints(lengths, branch, Taylor::<4>::variable(input));
-        let c = c.at;
-        let f = PointSeries::fixed(self.pivot);
-        let way = c.minus(f);
-        let s = way.dot(way);
-        let unit = way.times(s.sqrt().reciprocal());
-        let e = unit.times(self.effector_length).plus(f);
-        let mut effector = MotionJet::of(&way.angle());
-        effector.position = self.unwrapped(effector.position);
-        SixBarPosition {
-            b: b.jet(),
-            c: c.jet(),
-            e: e.jet(),
-            effector,
-        }
-    }
-
-    /// B, C and E at a crank angle, without derivatives.
-    #[must_use]
-    pub fn joints(&self, input: f64) -> [Point; 3] {
-        let (lengths, branch) = (self.four_bar.lengths(), self.four_bar.branch());
-        let (b, c) = joints(lengths, branch, Taylor::<1>::constant(input));
-        let c = c.at.value();
-        let e = self.pivot + (c - self.pivot).normalize() * self.effector_length;
-        [b.value(), c, e]
-    }
-
-    /// The angle that differs from a direction by whole turns and lies in the effector's range, which is
-    /// always less than a turn.
-    fn unwrapped(&self, direction: f64) -> f64 {
-        let middle = 0.5 * (self.extremes.low.1 + self.extremes.high.1);
-        middle + wrapped(direction - middle)
-    }
-
-    /// The effector's angle and its derivatives by the crank angle, without jumps.
-    #[must_use]
-    pub fn effector_angle(&self, input: f64) -> MotionJet {
-        let (lengths, branch) = (self.four_bar.lengths(), self.four_bar.branch());
-        let (_, c) = joints(lengths, branch, Taylor::<4>::variable(input));
-        let way = c.at.minus(PointSeries::fixed(self.pivot));
-        let mut effector = MotionJet::of(&way.angle());
-        effector.position = self.unwrapped(effector.position);
-        effector
-    }
-
-    /// Distance of the slider from the effector's pivot, and its derivatives by the crank angle.
-    #[must_use]
-    pub fn slider_distance(&self, input: f64) -> MotionJet {
-        let (lengths, branch) = (self.four_bar.lengths(), self.four_bar.branch());
-        let (_, c) = joints(lengths, branch, Taylor::<4>::variable(input));
-        let way = c.at.minus(PointSeries::fixed(self.pivot));
-        MotionJet::of(&way.dot(way).sqrt())
     }
 
     /// Least distance of the slider from the effector's pivot, mm.
@@ -241,8 +173,8 @@ impl SixBar {
                 x: is(4, self.pivot.x),
                 y: is(5, self.pivot.y),
             };
-            let input = Taylor::constant(input);
-            let (_, c) = joints(lengths, self.four_bar.branch(), input);
+            let crank = PointSeries::unit(Taylor::constant(input));
+            let (_, c) = joints(lengths, self.four_bar.branch(), crank);
             c.at.minus(pivot).angle().0[1]
         };
         let change = |dimension: usize| {

@@ -5,7 +5,6 @@ use centrode_geometry::Point;
 use super::dyad::{Branch, rrp};
 use super::four_bar::FourBarError;
 use super::point_series::PointSeries;
-use crate::formula::Taylor;
 use crate::transmission::MotionJet;
 
 /// A slider-crank: the crank turns about the origin, the slider runs along the line y = `offset`.
@@ -47,11 +46,11 @@ impl SliderCrank {
     /// # Errors
     /// [`FourBarError::DoesNotClose`] with the crank angle at which the rod stands square to the line.
     pub fn slider(&self, input: f64) -> Result<MotionJet, FourBarError> {
-        let b = PointSeries::unit(Taylor::<4>::variable(input)).times(self.crank);
+        let b = PointSeries::<4>::turning(input).times(self.crank);
         let line = PointSeries::fixed(Point::new(0.0, self.offset));
         let along = PointSeries::fixed(Point::new(1.0, 0.0));
         let closed = rrp(b, self.rod, line, along, self.branch);
-        if closed.room.0[0] > 0.0 {
+        if closed.room > 0.0 {
             return Ok(MotionJet::of(&closed.at.x));
         }
         let side = (self.crank * input.sin() - self.offset).signum();

@@ -1,0 +1,52 @@
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+/// A number, or several side by side: what closed forms and series are worked out in.
+pub(crate) trait Number:
+    Copy
+    + From<f64>
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+{
+    fn sqrt(self) -> Self;
+
+    fn sin_cos(self) -> (Self, Self);
+
+    /// The direction of (x, y), where this is y; (0, 0) has none.
+    fn atan2(self, x: Self) -> Self;
+
+    /// One of those side by side; a single number is its only one.
+    fn lane(self, lane: usize) -> f64;
+
+    /// `then` where this is below a bound, `otherwise` where it is not.
+    fn if_below(self, bound: f64, then: f64, otherwise: f64) -> Self;
+}
+
+impl Number for f64 {
+    #[inline]
+    fn sqrt(self) -> Self {
+        self.sqrt()
+    }
+
+    #[inline]
+    fn sin_cos(self) -> (Self, Self) {
+        self.sin_cos()
+    }
+
+    #[inline]
+    fn atan2(self, x: Self) -> Self {
+        self.atan2(x)
+    }
+
+    #[inline]
+    fn lane(self, _: usize) -> f64 {
+        self
+    }
+
+    #[inline]
+    fn if_below(self, bound: f64, then: f64, otherwise: f64) -> Self {
+        if self < bound { then } else { otherwise }
+    }
+}
