@@ -2,17 +2,21 @@ use std::f64::consts::{PI, TAU};
 
 use centrode_geometry::{Bounds, Point, Tolerance};
 use centrode_mechanism::feeder::{Feeder, Part, Plate};
+use centrode_mechanism::linkage::SixBar;
 
 use crate::page::{Curve, Link, Mark, Motion, Path, Picture, Role, short};
 
 /// Samples of one cycle.
 const SAMPLES: u32 = 720;
+/// Points of the curve on which the effector's pivot may lie.
+const PIVOTS: usize = 240;
 
 fn inputs() -> impl Iterator<Item = f64> {
     (0..=SAMPLES).map(|i| TAU * f64::from(i) / f64::from(SAMPLES))
 }
 
-/// The six-bar as a picture that moves, with the path of the tip; links that make no plate are left out.
+/// The six-bar as a picture that moves, with the path of the tip and with all places of the effector's pivot that would
+/// give the swing asked for: a chord for half a turn, see [`SixBar::pivots`]. Links that make no plate are left out.
 #[must_use]
 pub fn picture(feeder: &Feeder, tolerance: Tolerance) -> Picture {
     let input: Vec<f64> = inputs().collect();
@@ -34,6 +38,9 @@ pub fn picture(feeder: &Feeder, tolerance: Tolerance) -> Picture {
         if plate.part == Part::Frame {
             let tip = feeder.path(2, SAMPLES);
             paths.push(Path::open(Role::Trace, &tip));
+            let bar = feeder.six_bar().four_bar();
+            let pivots = SixBar::pivots(bar, feeder.design().goals.swing, PIVOTS);
+            paths.push(Path::open(Role::Locus, &pivots));
         }
         links.push(Link {
             name: plate.part.name().into(),

@@ -15,6 +15,8 @@ pub enum Role {
     Pitch,
     /// The path of a point.
     Trace,
+    /// Where a point may lie.
+    Locus,
     /// The path of a point as it stays behind on the ground.
     OverGround,
     /// A bar seen as its centre line.

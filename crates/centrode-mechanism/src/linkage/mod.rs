@@ -13,6 +13,7 @@ mod error;
 mod four_bar;
 mod laps;
 mod parts;
+mod pivots;
 mod point_series;
 mod pose;
 mod series;

@@ -1,4 +1,4 @@
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::TAU;
 
 use centrode_geometry::{Point, Vector};
 
@@ -193,40 +193,5 @@ impl SixBar {
         FromFn::new(TAU, 0.0, Vec::new(), move |input| {
             six_bar.effector_angle(input)
         })
-    }
-
-    /// `count` places of the effector's pivot that all give this swing (rad), in order along a curve;
-    /// empty for a swing that is not between 0 and 2 pi, or for what is not a crank-rocker.
-    ///
-    /// The slider runs on an arc about D. Half a turn is seen from the chord between its dead centres,
-    /// and from nowhere else: from outside the circle the arc looks smaller, on the near side of the
-    /// chord larger. Every other swing is seen from an isoptic of the arc, found along rays from the
-    /// chord's middle, on which the swing falls all the way (and is below half a turn past the arc). No
-    /// pivot sees more than half a turn and half the rocker's swing.
-    #[must_use]
-    pub fn pivots(four_bar: &FourBar, swing: f64, count: usize) -> Vec<Point> {
-        let Some(arc) = SliderArc::of(four_bar) else {
-            return Vec::new();
-        };
-        if !(swing > 0.0 && swing < TAU) || count == 0 {
-            return Vec::new();
-        }
-        let [from, to] = arc.ends();
-        let chord = to - from;
-        let share = |i: usize| (i as f64 + 0.5) / count as f64;
-        if swing == PI {
-            return (0..count).map(|i| from + chord * share(i)).collect();
-        }
-        let middle = from + 0.5 * chord;
-        let whole = if swing > PI { PI } else { TAU };
-        // Rays to the side of the arc first; the chord runs from its start to its end, clockwise seen
-        // from D's far side.
-        let across = arc.outwards(middle, chord);
-        let place = |i: usize| {
-            let (sin, cos) = (whole * share(i)).sin_cos();
-            let ray = chord.normalize() * cos + across * sin;
-            arc.seen_at(middle, ray, swing)
-        };
-        (0..count).filter_map(place).collect()
     }
 }

@@ -398,9 +398,14 @@ proptest! {
     fn pivots_on_the_locus_give_the_swing(lengths in crank_rockers(), degrees in 20.0..240.0_f64, side in 0..2_usize) {
         let bar = four_bar(lengths, SIDES[side]);
         for swing in [degrees.to_radians(), PI] {
-            let pivots = SixBar::pivots(&bar, swing, 24);
+            let pivots = SixBar::pivots(&bar, swing, 96);
             let most = PI + 0.5 * bar.rocker_swing().expect("a crank-rocker");
-            prop_assert_eq!(pivots.len(), if swing < most - 1e-6 { 24 } else { 0 });
+            prop_assert_eq!(pivots.len(), if swing < most - 1e-6 { 96 } else { 0 });
+            let spaces: Vec<f64> = pivots.windows(2).map(|p| (p[1] - p[0]).norm()).collect();
+            let mean = spaces.iter().sum::<f64>() / spaces.len() as f64;
+            // Shorter only across one of the curve's corners, two of which may lie at either end of the chord.
+            prop_assert!(spaces.iter().all(|space| space / mean < 1.05), "{spaces:?}");
+            prop_assert!(spaces.iter().filter(|&space| space / mean < 0.95).count() <= 4, "{spaces:?}");
             for pivot in pivots {
                 let six_bar = SixBar::new(bar, pivot, 10.0).expect("off the path");
                 prop_assert!((six_bar.swing() - swing).abs() < 1e-8, "{} {}", six_bar.swing(), swing);

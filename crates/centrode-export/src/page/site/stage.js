@@ -58,6 +58,7 @@ class Scene {
 const LINES = {
   pitch: ["accent", 1, [9, 3, 2, 3]],
   trace: ["accent", 1.5, []],
+  locus: ["pinned", 1.5, [2, 3]],
   overground: ["accent", 1.2, [2, 4]],
   pose: ["pinned", 1.5, [5, 3]],
   ground: ["muted", 1.5, [12, 4]],

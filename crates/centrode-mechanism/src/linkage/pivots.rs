@@ -1,0 +1,100 @@
+use std::f64::consts::{PI, TAU};
+
+use centrode_geometry::Point;
+
+use super::four_bar::FourBar;
+use super::six_bar::SixBar;
+use super::slider_arc::SliderArc;
+
+/// Points between which a curve is measured for each that is asked for, and the least number of them.
+const MEASURED: (usize, usize) = (4, 256);
+/// Times that these points are moved to equal lengths.
+const PASSES: usize = 3;
+
+impl SixBar {
+    /// `count` places of the effector's pivot that all give this swing (rad), in order along a curve and evenly spaced
+    /// along its length; empty for a swing that is not between 0 and 2 pi, or for what is not a crank-rocker.
+    ///
+    /// The slider runs on an arc about D. Half a turn is seen from the chord between its dead centres,
+    /// and from nowhere else: from outside the circle the arc looks smaller, on the near side of the
+    /// chord larger. Every other swing is seen from an isoptic of the arc, found along rays from the
+    /// chord's middle, on which the swing falls all the way (and is below half a turn past the arc). No
+    /// pivot sees more than half a turn and half the rocker's swing. Each place gives the swing to the float limit;
+    /// the spaces between them are equal to about a hundredth.
+    #[must_use]
+    pub fn pivots(four_bar: &FourBar, swing: f64, count: usize) -> Vec<Point> {
+        let Some(arc) = SliderArc::of(four_bar) else {
+            return Vec::new();
+        };
+        if !(swing > 0.0 && swing < TAU) || count == 0 {
+            return Vec::new();
+        }
+        let [from, to] = arc.ends();
+        let chord = to - from;
+        let middle = from + 0.5 * chord;
+        let shares = (0..count).map(|i| (i as f64 + 0.5) / count as f64);
+        if swing == PI {
+            return shares.map(|share| from + chord * share).collect();
+        }
+        let across = arc.outwards(middle, chord);
+        let place = |turn: f64| {
+            let (sin, cos) = turn.sin_cos();
+            arc.seen_at(middle, chord.normalize() * cos + across * sin, swing)
+        };
+        // Past half a turn the curve runs from end to end of the chord beside the arc, else all round it.
+        let whole = if swing > PI { PI } else { TAU };
+        let knots = even_knots(whole, count, |turn| {
+            if swing > PI && turn <= 0.0 {
+                Some(to)
+            } else if swing > PI && turn >= whole {
+                Some(from)
+            } else {
+                place(turn)
+            }
+        });
+        let turns = shares.filter_map(|share| along(&knots, share));
+        turns.filter_map(place).collect()
+    }
+}
+
+/// Parameters of a curve at equal shares of its length, each with its share.
+fn even_knots(whole: f64, count: usize, place: impl Fn(f64) -> Option<Point>) -> Vec<(f64, f64)> {
+    let steps = (MEASURED.0 * count).max(MEASURED.1);
+    let mut knots: Vec<(f64, f64)> = Vec::new();
+    for pass in 0..=PASSES {
+        let even = (0..=steps).filter_map(|i| {
+            let share = i as f64 / steps as f64;
+            let turn = if pass == 0 {
+                whole * share
+            } else {
+                along(&knots, share)?
+            };
+            Some((turn, place(turn)?))
+        });
+        let points: Vec<(f64, Point)> = even.collect();
+        let mut length = 0.0;
+        let mut measured: Vec<(f64, f64)> = points.iter().take(1).map(|p| (0.0, p.0)).collect();
+        for pair in points.windows(2) {
+            length += (pair[1].1 - pair[0].1).norm();
+            measured.push((length, pair[1].0));
+        }
+        knots = measured
+            .into_iter()
+            .map(|(reached, turn)| (reached / length, turn))
+            .collect();
+    }
+    knots
+}
+
+/// The parameter at a share of the length.
+fn along(knots: &[(f64, f64)], share: f64) -> Option<f64> {
+    let after = knots.partition_point(|knot| knot.0 < share).max(1);
+    let (before, after) = (knots.get(after - 1)?, knots.get(after)?);
+    let step = after.0 - before.0;
+    let within = if step > 0.0 {
+        (share - before.0) / step
+    } else {
+        0.0
+    };
+    Some(before.1 + within * (after.1 - before.1))
+}
