@@ -126,10 +126,10 @@ pub(crate) fn each_array<const COUNT: usize>(
 pub(crate) fn together(
     py: Python<'_>,
     Values(values): Values,
-    f: impl Fn(&[f64]) -> Vec<f64> + Send + 'static,
+    f: impl Fn(&[f64]) -> PyResult<Vec<f64>> + Send + 'static,
 ) -> PyResult<Bound<'_, PyAny>> {
     let shape = values.shape().to_vec();
-    let answer = wait(py, move || f(&Values(values).into_flat()))?;
+    let answer = wait(py, move || f(&Values(values).into_flat()))??;
     if let ([], &[number]) = (&shape[..], &answer[..]) {
         return number.into_bound_py_any(py);
     }
@@ -141,11 +141,14 @@ pub(crate) fn together_array<const COUNT: usize>(
     py: Python<'_>,
     Values(values): Values,
     tail: &[usize],
-    f: impl Fn(&[f64]) -> Vec<[f64; COUNT]> + Send + 'static,
+    f: impl Fn(&[f64]) -> PyResult<Vec<[f64; COUNT]>> + Send + 'static,
 ) -> PyResult<Py<PyAny>> {
     let shape = [values.shape(), tail].concat();
-    let answer = wait(py, move || f(&Values(values).into_flat()).into_flattened())?;
-    Ok(shaped(shape, answer)?.into_pyarray(py).into_any().unbind())
+    let answer = wait(py, move || f(&Values(values).into_flat()))??;
+    Ok(shaped(shape, answer.into_flattened())?
+        .into_pyarray(py)
+        .into_any()
+        .unbind())
 }
 
 fn shaped(shape: Vec<usize>, numbers: Vec<f64>) -> PyResult<ArrayD<f64>> {

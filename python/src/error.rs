@@ -174,6 +174,11 @@ pub(crate) fn of_pusher(error: &PusherError) -> PyErr {
     class::MechanismError::new_err((error.to_string(), error.key()))
 }
 
+/// The exception of links that are no plates, or have no balance.
+pub(crate) fn of_plates(error: &impl Error) -> PyErr {
+    class::MechanismError::new_err((error.to_string(), "plates"))
+}
+
 /// The exception of an arm that is no body.
 pub(crate) fn of_arm(error: &impl Error) -> PyErr {
     class::MechanismError::new_err((error.to_string(), "arm.body"))

@@ -1,9 +1,9 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use centrode_analysis::check_feeder;
 use centrode_analysis::optimise::Settings;
 use centrode_analysis::optimise::feeder::Widened;
+use centrode_analysis::{FeederForces, Forces, check_feeder};
 use centrode_export::Bundle;
 use centrode_export::feeder as files;
 use centrode_mechanism::design::Design;
@@ -15,15 +15,28 @@ use pyo3::prelude::{
 };
 use pyo3::types::PyDict;
 
-use crate::array::{Values, each, each_array};
+use crate::array::{Values, each, each_array, together, together_array};
 use crate::bundle;
 use crate::design::Loaded;
-use crate::error::{no_search, of_design, of_feeder_files, plain_tolerance};
+use crate::error::{no_search, of_design, of_feeder_files, of_plates, plain_tolerance};
 use crate::format;
 use crate::record;
 use crate::search;
 use crate::six_bar::SixBar;
 use crate::wait::wait;
+
+fn forces(
+    feeder: &mechanism::Feeder,
+    inputs: &[f64],
+    moving: bool,
+    carried: f64,
+) -> PyResult<Vec<Forces>> {
+    let system = FeederForces::new(feeder, carried);
+    let system = system.map_err(|error| of_plates(&error))?;
+    let at = |&input: &f64| system.at(input, moving);
+    let all: Result<_, _> = inputs.iter().map(at).collect();
+    all.map_err(|error| of_plates(&error))
+}
 
 /// A willow-cutting feeder: a picking six-bar that rests while it is filled, driven by an incomplete gear.
 ///
@@ -135,6 +148,60 @@ impl Feeder {
     fn tip_speed<'py>(&self, py: Python<'py>, phi: Values) -> PyResult<Bound<'py, PyAny>> {
         let feeder = Arc::clone(&self.feeder);
         each(py, phi, move |phi| feeder.tip_speed(phi))
+    }
+
+    /// Torque the crank needs at an input, N mm, counter-clockwise: the links weigh what their plates do, the y axis points
+    /// up, and nothing rubs.
+    ///
+    /// Args:
+    ///     phi: Inputs, rad.
+    ///     moving: Whether the links' inertia at the design's speed is counted, or each is held still where it is.
+    ///     carried: Mass at the tip of the effector, kg.
+    ///
+    /// Raises:
+    ///     MechanismError: A link cannot be cut from plate, or what is carried is no mass.
+    ///
+    /// >>> import centrode as ct
+    /// >>> feeder = ct.Feeder.from_toml(ct.template("feeder"))
+    /// >>> feeder.crank_torque([0.0, 1.0], moving=False).round(1)
+    /// array([89.4, 86.9])
+    #[pyo3(signature = (phi, *, moving=true, carried=0.0))]
+    fn crank_torque<'py>(
+        &self,
+        py: Python<'py>,
+        phi: Values,
+        moving: bool,
+        carried: f64,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let feeder = Arc::clone(&self.feeder);
+        together(py, phi, move |phi| {
+            let forces = forces(&feeder, phi, moving, carried)?;
+            Ok(forces.iter().map(|f| f.torque).collect())
+        })
+    }
+
+    /// Forces in the joints at an input, N, with the arguments of `crank_torque`: an array of the shape of `phi` and then
+    /// (7, 2). Those on the crank at A, on the coupler at B, on the rocker at D and, from the coupler, at C, on the slider
+    /// from the coupler at C, on the effector at F, and on the slider from the slot.
+    ///
+    /// Raises:
+    ///     MechanismError: A link cannot be cut from plate, or what is carried is no mass.
+    #[pyo3(signature = (phi, *, moving=true, carried=0.0))]
+    fn joint_forces(
+        &self,
+        py: Python<'_>,
+        phi: Values,
+        moving: bool,
+        carried: f64,
+    ) -> PyResult<Py<PyAny>> {
+        let feeder = Arc::clone(&self.feeder);
+        together_array(py, phi, &[7, 2], move |phi| {
+            let forces = forces(&feeder, phi, moving, carried)?;
+            let flat = |f: &Forces| -> [f64; 14] {
+                std::array::from_fn(|i| f.reactions[i / 2].force[i % 2])
+            };
+            Ok(forces.iter().map(flat).collect())
+        })
     }
 
     /// Crank angle at which the effector rests and is filled, rad.

@@ -73,7 +73,7 @@ impl SixBar {
         let six_bar = self.0;
         together_array(py, phi, &[3, 2], move |phi| {
             let flat = |[b, c, e]: [Point; 3]| [b.x, b.y, c.x, c.y, e.x, e.y];
-            six_bar.joints_each(phi).into_iter().map(flat).collect()
+            Ok(six_bar.joints_each(phi).into_iter().map(flat).collect())
         })
     }
 
@@ -82,7 +82,7 @@ impl SixBar {
         let six_bar = self.0;
         together(py, phi, move |phi| {
             let angles = six_bar.effector_angle_each(phi).into_iter();
-            angles.map(|jet| jet.position).collect()
+            Ok(angles.map(|jet| jet.position).collect())
         })
     }
 
@@ -98,7 +98,7 @@ impl SixBar {
         together_array(py, phi, &[4], move |phi| {
             let angles = six_bar.effector_angle_each(phi).into_iter();
             let flat = |jet: MotionJet| [jet.position, jet.velocity, jet.acceleration, jet.jerk];
-            angles.map(flat).collect()
+            Ok(angles.map(flat).collect())
         })
     }
 
@@ -107,7 +107,7 @@ impl SixBar {
         let six_bar = self.0;
         together_array(py, phi, &[2], move |phi| {
             let joints = six_bar.joints_each(phi).into_iter();
-            joints.map(|[_, _, e]| [e.x, e.y]).collect()
+            Ok(joints.map(|[_, _, e]| [e.x, e.y]).collect())
         })
     }
 

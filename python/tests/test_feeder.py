@@ -32,6 +32,23 @@ def test_derivatives_are_those_of_the_angle(feeder):
     np.testing.assert_allclose(motion[:, 1], slope, atol=1e-6)
 
 
+def test_the_crank_holds_the_weight_of_the_links_and_of_what_is_carried(feeder):
+    phi, step = np.linspace(0.1, 4.0, 40), 1e-6
+    more = feeder.crank_torque(phi, moving=False, carried=2.0) - feeder.crank_torque(phi, moving=False)
+    raised = (feeder.tip(phi + step) - feeder.tip(phi - step))[:, 1]
+    turned = feeder.crank_angle(phi + step) - feeder.crank_angle(phi - step)
+    np.testing.assert_allclose(more, 2.0 * 9.80665 * raised / turned, rtol=1e-5, atol=1e-2)
+    forces = feeder.joint_forces(phi)
+    assert forces.shape == (40, 7, 2)
+    # Nothing else acts on slider and slot: the slot passes on a force square to the effector.
+    angle = feeder.effector_angle(phi)
+    along = np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    assert np.abs((forces[:, 6] * along).sum(axis=1)).max() < 1e-9
+    assert isinstance(feeder.crank_torque(1.0), float)
+    with pytest.raises(ct.MechanismError, match="mass"):
+        feeder.crank_torque(1.0, carried=-1.0)
+
+
 def test_a_design_reads_back_and_bad_ones_say_where(feeder, tmp_path):
     again = ct.Feeder.from_toml(feeder.to_toml())
     assert again == feeder

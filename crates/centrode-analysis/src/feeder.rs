@@ -1,6 +1,7 @@
 //! The check of a feeder.
 
 mod attainable;
+mod forces;
 mod gears;
 mod goals;
 mod plates;
@@ -13,6 +14,7 @@ use centrode_mechanism::feeder::Feeder;
 use centrode_mechanism::transmission::Transmission;
 
 pub use attainable::Attainable;
+pub use forces::{FeederForces, FeederForcesError};
 pub(crate) use goals::{feed_stroke, goals};
 
 use crate::{Finding, Place, Report, Severity, SixBarTolerances, SwingSpread, Table};
@@ -26,7 +28,7 @@ const ON_CHORD: f64 = 1e-3;
 /// Checks a feeder: swing, transmission angle, strokes and speeds, dwell and feed rate, each goal met or by how
 /// much not.
 ///
-/// Lengths are mm, angles rad, times s; speeds of the tip are mm/s, angular accelerations rad/s².
+/// Lengths are mm, angles rad, times s; speeds of the tip are mm/s, angular accelerations rad/s², torques N mm, forces N.
 #[must_use]
 pub fn check_feeder(feeder: &Feeder) -> Report {
     let mut report = check_strokes(feeder);
@@ -46,6 +48,7 @@ pub(crate) fn check_strokes(feeder: &Feeder) -> Report {
     linkage(feeder, &mut report);
     motion(feeder, &mut report);
     spread(feeder, &mut report);
+    forces::forces(feeder, &mut report);
     goals::unmet(feeder, &mut report);
     vacuous(feeder, &mut report);
     plates::plates(feeder, &mut report);

@@ -23,7 +23,7 @@ mod variants;
 pub use arm_clearance::{ArmClearance, ArmClearanceCourse, ArmClearanceError, between_arms};
 pub use check::{check, check_contact};
 pub use contact::Contact;
-pub use feeder::{Attainable, check_feeder};
+pub use feeder::{Attainable, FeederForces, FeederForcesError, check_feeder};
 pub use gear_train::{TrainTeeth, carrier_turn};
 pub use goal::Goal;
 pub use incomplete_contact::IncompleteContact;

@@ -61,7 +61,7 @@ pub struct Table {
     pub name: &'static str,
     /// What the figures are.
     pub title: &'static str,
-    /// Unit of every figure: `mm`, `rad`, or empty for a plain number.
+    /// Unit of every figure: `mm`, `rad`, `N`, or empty for a plain number.
     pub unit: &'static str,
     /// What each column is of.
     pub columns: Vec<String>,

@@ -78,3 +78,45 @@ fn bounds_that_allow_the_angle_need_no_widening() {
             .contains("within the bounds up to 12.31")
     );
 }
+
+/// Power of the crank is the growth of what energy the links have, and the force of the tip's mass in F is its weight.
+#[test]
+fn the_crank_moves_the_masses_of_the_plates() {
+    let feeder = feeder([59.718, 105.477, 98.497, 129.79], [84.118, 63.61]);
+    let [empty, full] =
+        [0.0, 2.0].map(|carried| FeederForces::new(&feeder, carried).expect("plates"));
+    let at = |forces: &FeederForces<'_>, input, moving| forces.at(input, moving).expect("it turns");
+    let step = 1e-4;
+    for i in 1..40 {
+        let input = 0.1 * f64::from(i);
+        let turned = feeder.crank(input);
+        // Held still, the torque is the slope of the height of all masses: nothing but weight.
+        for system in [&empty, &full] {
+            let energy = |x: f64| at(system, x, false).potential_energy;
+            let slope = (energy(input + step) - energy(input - step)) / (2.0 * step);
+            let torque = at(system, input, false).torque;
+            assert!((torque * turned.velocity - slope).abs() < 1e-5 * (1.0 + slope.abs()));
+            let whole = |x: f64| {
+                let forces = at(system, x, true);
+                forces.potential_energy + forces.kinetic_energy
+            };
+            let slope = (whole(input + step) - whole(input - step)) / (2.0 * step);
+            let torque = at(system, input, true).torque;
+            assert!((torque * turned.velocity - slope).abs() < 1e-4 * (1.0 + slope.abs()));
+        }
+        let raised = feeder.tip(input).y;
+        let more =
+            at(&full, input, false).potential_energy - at(&empty, input, false).potential_energy;
+        assert!((more - 2.0 * 9.80665 * raised).abs() < 1e-9 * (1.0 + more.abs()));
+    }
+    assert!(FeederForces::new(&feeder, -1.0).is_err());
+    let report = check_feeder(&feeder);
+    let still = at(&empty, 0.0, false).torque.abs();
+    assert!(report.values["crank_torque_still_max"] >= still);
+    assert!(
+        report
+            .tables
+            .iter()
+            .any(|table| table.name == "joint_forces" && table.rows.len() == 7)
+    );
+}

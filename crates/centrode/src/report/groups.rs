@@ -567,6 +567,11 @@ pub(super) const GROUPS: [Group; 16] = [
                 Unit::Number,
             ),
             Row(
+                "torque of the crank, at most",
+                &["crank_torque_moving_max", "crank_torque_still_max"],
+                Unit::NewtonMillimetre,
+            ),
+            Row(
                 "jump of the crank's speed",
                 &["crank_speed_jump"],
                 Unit::RadianPerSecond,

@@ -1,0 +1,159 @@
+use centrode_geometry::{Point, SolidError, Vector};
+use centrode_mechanism::feeder::{Feeder, FeederError, Part};
+use centrode_mechanism::linkage::{Branch, Link, Linkage, LinkageError};
+
+use crate::{CrankMotion, ForceError, Forces, Kinetostatics, LinkMass, Report, Table};
+
+/// Standard acceleration of free fall, down the y axis, mm/s².
+const GRAVITY: Vector = Vector::new(0.0, -9806.65);
+/// Looks along a cycle for the greatest forces.
+const LOOKS: u32 = 720;
+
+/// Why there are no forces.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum FeederForcesError {
+    /// A link cannot be cut from plate, so it has no mass.
+    #[error(transparent)]
+    Plate(#[from] FeederError),
+    /// A plate encloses no volume.
+    #[error("the {part} has no volume: {source}")]
+    Solid {
+        /// Which one.
+        part: &'static str,
+        /// Why.
+        source: SolidError,
+    },
+    /// The linkage's balance has no answer.
+    #[error(transparent)]
+    Balance(#[from] ForceError),
+}
+
+impl From<LinkageError> for FeederForcesError {
+    fn from(error: LinkageError) -> Self {
+        Self::Balance(error.into())
+    }
+}
+
+/// A feeder whose links weigh what their plates do: the torque its crank needs and the forces in its joints.
+///
+/// The y axis points up. The links' inertia at the design's speed is counted or left out; a jump of speed, which has no
+/// finite force, and friction are not.
+#[derive(Clone, Debug)]
+pub struct FeederForces<'a> {
+    feeder: &'a Feeder,
+    linkage: Linkage,
+    masses: Vec<LinkMass>,
+}
+
+impl<'a> FeederForces<'a> {
+    /// Connections of the linkage in the order of [`Forces::reactions`]: the shafts A and D of crank and rocker and the pin
+    /// B, what the coupler's pin C does to the rocker and to the slider, the pivot F, what the slot does to the slider.
+    pub const CONNECTIONS: [&'static str; 7] =
+        ["A", "B", "D", "C, rocker", "C, slider", "F", "slot"];
+
+    /// A feeder that carries a mass (kg) at the tip of its effector.
+    ///
+    /// # Errors
+    /// [`FeederForcesError`].
+    pub fn new(feeder: &'a Feeder, carried: f64) -> Result<Self, FeederForcesError> {
+        let six_bar = feeder.six_bar();
+        let [crank, coupler, rocker, frame] = six_bar.four_bar().lengths();
+        let mut linkage = Linkage::new();
+        let a = linkage.point(Link::FRAME, Point::origin())?;
+        let d = linkage.point(Link::FRAME, Point::new(frame, 0.0))?;
+        let f = linkage.point(Link::FRAME, six_bar.pivot())?;
+        let (crank, b) = linkage.crank(a, crank, 0.0)?;
+        let bars = linkage.rrr(b, d, (coupler, rocker), six_bar.four_bar().branch())?;
+        let effector = linkage.rpr(bars.joint, f, 0.0, Branch::Upper)?;
+        let density = feeder.design().plates.density;
+        let mut masses = Vec::new();
+        for (part, link) in [
+            (Part::Crank, crank),
+            (Part::Coupler, bars.first),
+            (Part::Rocker, bars.second),
+            (Part::Slider, effector.block),
+            (Part::Effector, effector.link),
+        ] {
+            let solid = feeder.plate(part)?.solid();
+            let solid = solid.map_err(|source| FeederForcesError::Solid {
+                part: part.name(),
+                source,
+            })?;
+            let whole = solid.mass_properties(density);
+            masses.push(LinkMass {
+                link,
+                mass: whole.mass,
+                center: whole.center.xy(),
+                inertia: whole.inertia[(2, 2)],
+            });
+        }
+        masses.push(LinkMass {
+            link: effector.link,
+            mass: carried,
+            center: Point::new(six_bar.effector_length(), 0.0),
+            inertia: 0.0,
+        });
+        // Refuses what is carried where it is no mass.
+        Kinetostatics::new(&linkage, masses.clone(), Vec::new(), GRAVITY)?;
+        Ok(Self {
+            feeder,
+            linkage,
+            masses,
+        })
+    }
+
+    /// Torque and forces at an input, moving at the design's speed or held still there.
+    ///
+    /// # Errors
+    /// [`FeederForcesError::Balance`].
+    pub fn at(&self, input: f64, moving: bool) -> Result<Forces, FeederForcesError> {
+        let crank = self.feeder.crank(input);
+        let speed = self.feeder.speed();
+        let motion = if moving {
+            CrankMotion {
+                speed: crank.velocity * speed,
+                acceleration: crank.acceleration * speed * speed,
+            }
+        } else {
+            CrankMotion::default()
+        };
+        let system = Kinetostatics::new(&self.linkage, self.masses.clone(), Vec::new(), GRAVITY)?;
+        Ok(system.at(crank.position, motion)?)
+    }
+}
+
+/// Greatest torque and joint forces of the empty feeder, held still and moving.
+pub(super) fn forces(feeder: &Feeder, report: &mut Report) {
+    // A link that cannot be cut is a finding of its own.
+    let Ok(system) = FeederForces::new(feeder, 0.0) else {
+        return;
+    };
+    let mut torque = [0.0_f64; 2];
+    let mut greatest = [[0.0_f64; 2]; FeederForces::CONNECTIONS.len()];
+    for i in 0..LOOKS {
+        let input = std::f64::consts::TAU * f64::from(i) / f64::from(LOOKS);
+        for (column, moving) in [false, true].into_iter().enumerate() {
+            let Ok(forces) = system.at(input, moving) else {
+                return;
+            };
+            torque[column] = torque[column].max(forces.torque.abs());
+            for (row, reaction) in greatest.iter_mut().zip(&forces.reactions) {
+                row[column] = row[column].max(reaction.force.norm());
+            }
+        }
+    }
+    let values = &mut report.values;
+    values.insert("crank_torque_still_max", torque[0]);
+    values.insert("crank_torque_moving_max", torque[1]);
+    let rows = FeederForces::CONNECTIONS.iter().zip(greatest);
+    report.tables.push(Table {
+        name: "joint_forces",
+        title: "Greatest force in a joint",
+        unit: "N",
+        columns: vec!["held still".into(), "moving".into()],
+        rows: rows
+            .map(|(name, row)| ((*name).into(), row.to_vec()))
+            .collect(),
+    });
+}
