@@ -31,15 +31,16 @@ INPUTS = 1000
 
 
 def ours(group):
-    """Seconds an iteration of every benchmark of a group, by name."""
+    """Seconds and what it counts (positions, evaluations) of an iteration of every benchmark of a group, by name."""
     command = ["cargo", "bench", "--workspace", "--bench", "linkage", "--", f"linkage/{group}"]
     environment = os.environ | {"RAYON_NUM_THREADS": "1"}
     subprocess.run(command, check=True, cwd=ROOT, env=environment, capture_output=True)
     folder = ROOT / "target" / "criterion" / f"linkage_{group}"
     found = {}
     for path in folder.glob("*/new/estimates.json"):
-        name = json.loads(path.with_name("benchmark.json").read_text())["function_id"] or path.parents[1].name
-        found[name] = json.loads(path.read_text())["median"]["point_estimate"] * 1e-9
+        about = json.loads(path.with_name("benchmark.json").read_text())
+        took = json.loads(path.read_text())["median"]["point_estimate"] * 1e-9
+        found[about["function_id"] or path.parents[1].name] = took, about["throughput"]["Elements"]
     return found
 
 
@@ -108,15 +109,19 @@ def main():
     linkage.step_fast_with_kinematics(iterations=10)
     theirs = {"positions": [], "with two derivatives": [], "scipy": []}
     mine: dict[str, list[float]] = {}
+    evaluations = {}
     for _ in range(rounds):
         for group in ("position", "search"):
-            for name, took in ours(group).items():
+            for name, (took, count) in ours(group).items():
                 mine.setdefault(f"{group}/{name}", []).append(took)
+                if group == "search":
+                    evaluations[name] = count
         theirs["positions"].append(seconds(lambda: linkage.step_fast(iterations=STEPS)) / STEPS)
         theirs["with two derivatives"].append(
             seconds(lambda: linkage.step_fast_with_kinematics(iterations=STEPS)) / STEPS
         )
-        theirs["scipy"].append(sorted(searched(seed)[0] for seed in range(5))[2])
+        took, evaluations["scipy"] = sorted(searched(seed) for seed in range(5))[2]
+        theirs["scipy"].append(took)
     for name, took in mine.items():
         each = INPUTS if name.startswith("position") else 1
         print(f"centrode {name:<50} {min(took) / each * 1e9:14.1f} ns")
@@ -126,6 +131,8 @@ def main():
     beside = min(mine["position/six-bar, all joints to the jerk, side by side"]) / INPUTS
     plain = min(mine["position/six-bar, joints alone, side by side"]) / INPUTS
     search = min(mine["search/de"])
+    for name, count in evaluations.items():
+        print(f"evaluations of {name:<44} {count:14d}")
     positions, kinematics = min(theirs["positions"]), min(theirs["with two derivatives"])
     for name, ratio in (
         ("step_fast / all joints to the jerk, side by side", positions / beside),

@@ -347,7 +347,7 @@ def pivots(of: SixBar, swing: float = np.pi, ax: Axes | None = None) -> Axes:
     ax.plot(curve[:, 0], curve[:, 1], ".", color=_DRIVEN, markersize=3, label=f"{np.degrees(swing):g} deg")
     ax.plot(*of.pivot, "+", color="black", markersize=9, label="pivot")
     ax.set(aspect="equal", xlabel="mm", ylabel="mm")
-    ax.legend(loc="best")
+    ax.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=3, frameon=False)
     return ax
 
 

@@ -111,6 +111,13 @@ def test_bounds_that_contradict_the_goal_are_told_and_widened():
         widened.widened()
 
 
+def test_the_template_is_the_widened_design(feeder):
+    widened = shipped("feeder-widened")
+    assert feeder.six_bar == widened.six_bar
+    # Its bounds are rounded outwards, on which no figure depends.
+    assert feeder.check().values == widened.check().values
+
+
 def test_a_response_is_that_of_the_design_with_the_value(feeder):
     answers = feeder.response("crank", [59.0, 59.718])
     assert answers["swing"][1] == feeder.six_bar.swing

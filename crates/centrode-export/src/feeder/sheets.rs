@@ -10,6 +10,7 @@ use centrode_geometry::{Bounds, Outline, Point, Vector};
 use centrode_mechanism::design::SheetSize;
 use centrode_mechanism::feeder::{Feeder, Part, Plate};
 use nalgebra::Isometry2;
+use std::f64::consts::TAU;
 
 /// Room between a view and its first dimension line, mm, and from one line to the next.
 const FIRST: f64 = 10.0;
@@ -117,27 +118,29 @@ fn view(plate: &Plate, pin: f64, scale: Scale, letters: f64) -> Draft {
         let name = at + Vector::new(beside, beside);
         draft.text(name, letters, joint.name, Anchor::Left);
     }
-    let mut row = min.y - FIRST;
     let origin = plate.joints[0].at * k;
-    for joint in plate.joints.iter().skip(1) {
-        let at = joint.at * k;
-        if joint.at.x != 0.0 {
-            let low = Point::new(0.0, row);
-            draft.dimension([origin, at], Vector::x(), low, &number(joint.at.x));
-            row -= NEXT;
-        }
-        if joint.at.y != 0.0 {
-            let beside = Point::new(max.x + FIRST, 0.0);
-            draft.dimension([origin, at], Vector::y(), beside, &number(joint.at.y));
-        }
+    let joints = plate.joints.iter().skip(1);
+    let mut along: Vec<Point> = joints
+        .clone()
+        .map(|j| j.at)
+        .filter(|at| at.x != 0.0)
+        .collect();
+    let slot = plate.slot.as_ref();
+    along.extend(
+        slot.iter()
+            .flat_map(|(ends, _)| ends.map(|x| Point::new(x, 0.0))),
+    );
+    distances(&mut draft, along, min.y, k);
+    for joint in joints.filter(|j| j.at.y != 0.0) {
+        let beside = Point::new(max.x + FIRST, 0.0);
+        draft.dimension(
+            [origin, joint.at * k],
+            Vector::y(),
+            beside,
+            &number(joint.at.y),
+        );
     }
-    if let Some(([start, end], slot)) = &plate.slot {
-        for x in [*start, *end] {
-            let at = Point::new(x * k, 0.0);
-            let low = Point::new(0.0, row);
-            draft.dimension([origin, at], Vector::x(), low, &number(x));
-            row -= NEXT;
-        }
+    if let Some(([start, end], slot)) = slot {
         let width = slot.bounds().max.y - slot.bounds().min.y;
         let tip = Point::new(0.5 * (start + end) * k, slot.bounds().max.y * k);
         let elbow = Point::new(tip.x + 8.0, max.y + 8.0);
@@ -162,6 +165,17 @@ fn view(plate: &Plate, pin: f64, scale: Scale, letters: f64) -> Draft {
     draft.leader(tip, elbow, &[words]);
     ends(plate, k, &mut draft);
     draft
+}
+
+/// Distances of points from the origin along x, below what lies above `low` on paper: the shortest one nearest, so that no line
+/// crosses another.
+fn distances(draft: &mut Draft, mut points: Vec<Point>, low: f64, k: f64) {
+    points.sort_by(|a, b| a.x.abs().total_cmp(&b.x.abs()));
+    for (row, at) in points.into_iter().enumerate() {
+        let below = Point::new(0.0, low - FIRST - NEXT * row as f64);
+        let ends = [Point::origin(), at * k];
+        draft.dimension(ends, Vector::x(), below, &number(at.x));
+    }
 }
 
 /// Width of the plate and the radius of its ends.
@@ -291,8 +305,13 @@ fn six_bar(feeder: &Feeder, plates: &[Plate], scale: Scale, letters: f64) -> Dra
             draft.draw(pen, Shape::Contour(on_paper(&hole, &place)));
         }
     }
-    for joint in 0..3 {
-        let path: Vec<Point> = feeder.path(joint, POINTS).iter().map(|p| p * k).collect();
+    // B goes all round; C and E come back the way they went, and dashes drawn twice would fill each other's gaps.
+    let [feed, _] = feeder.strokes();
+    let there = feeder.crank(feed.to).position - feeder.start();
+    for (joint, turned) in [(0, TAU), (1, there), (2, there)] {
+        let at = |i: u32| feeder.start() + turned * f64::from(i) / f64::from(POINTS);
+        let points = (0..=POINTS).map(|i| feeder.six_bar().joints(at(i))[joint] * k);
+        let path: Vec<Point> = points.collect();
         whole = path.iter().fold(whole, |b, p| b.with(*p));
         draft.draw(Pen::Axis, Shape::Polyline(path));
     }
@@ -311,16 +330,8 @@ fn six_bar(feeder: &Feeder, plates: &[Plate], scale: Scale, letters: f64) -> Dra
     for (name, at) in joints {
         draft.text(at * k + off, letters, name, Anchor::Left);
     }
-    let below = Point::new(0.0, whole.min.y - FIRST);
-    let d = Point::new(frame, 0.0) * k;
-    draft.dimension([Point::origin(), d], Vector::x(), below, &number(frame));
-    let lower = below - Vector::new(0.0, NEXT);
-    draft.dimension(
-        [Point::origin(), pivot * k],
-        Vector::x(),
-        lower,
-        &number(pivot.x),
-    );
+    let across = vec![Point::new(frame, 0.0), pivot];
+    distances(&mut draft, across, whole.min.y, k);
     let beside = Point::new(whole.max.x + FIRST, 0.0);
     draft.dimension(
         [Point::origin(), pivot * k],

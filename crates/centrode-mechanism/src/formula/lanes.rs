@@ -96,15 +96,16 @@ fn near_sin_cos(x: f64x2) -> (f64x2, f64x2) {
     )
 }
 
-/// One by one where an angle is far away or none: its neighbour's bits do not depend on it.
+/// The sine and cosine of a number beside which one is far away or none: its bits do not depend on its neighbour.
 #[cold]
-fn far_sin_cos(x: f64x2, near: f64x2) -> (f64x2, f64x2) {
-    let (sin, cos) = near_sin_cos(near.bitselect(x, f64x2::ZERO));
-    let far = x.to_array().map(f64::sin_cos);
-    (
-        near.bitselect(sin, far.map(|e| e.0).into()),
-        near.bitselect(cos, far.map(|e| e.1).into()),
-    )
+#[inline(never)]
+fn sin_cos_alone(x: f64) -> (f64, f64) {
+    if x.abs() < FARTHEST {
+        let (sin, cos) = near_sin_cos(x.into());
+        (sin.lane(0), cos.lane(0))
+    } else {
+        x.sin_cos()
+    }
 }
 
 impl Number for f64x2 {
@@ -115,12 +116,11 @@ impl Number for f64x2 {
 
     #[inline(always)]
     fn sin_cos(self) -> (Self, Self) {
-        let near = self.abs().simd_lt(Self::from(FARTHEST));
-        if near.all() {
-            near_sin_cos(self)
-        } else {
-            far_sin_cos(self, near)
+        if self.abs().simd_lt(Self::from(FARTHEST)).all() {
+            return near_sin_cos(self);
         }
+        let each = self.to_array().map(sin_cos_alone);
+        (each.map(|e| e.0).into(), each.map(|e| e.1).into())
     }
 
     /// From the octant's start, middle or end, whichever is nearest, to the direction.
