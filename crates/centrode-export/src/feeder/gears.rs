@@ -84,7 +84,7 @@ pub(super) fn assembly(gears: &IncompletePair, parts: &[GearPart]) -> Drawing {
         } else {
             0.0
         };
-        let layer = if part.name == "gear-cam" {
+        let layer = if part.name.ends_with("cam") {
             CAM
         } else {
             PROFILE

@@ -24,7 +24,7 @@ use crate::{
 };
 use centrode_geometry::{Solid, SolidError};
 use centrode_mechanism::feeder::{Feeder, FeederError, Part, Plate};
-pub use picture::{curves, picture};
+pub use picture::{Teeth, curves, picture};
 pub use plates::{assembly, plate};
 pub use sheets::sheets;
 use thiserror::Error;

@@ -23,6 +23,8 @@ pub enum Role {
     Bar,
     /// The same of what grips.
     Clamp,
+    /// What belongs to the part but lies beside it, in another plane.
+    Beside,
     /// What moves, where it does its work.
     Pose,
     /// The ground.

@@ -22,17 +22,15 @@ pub(super) fn picture(design: &Design, mechanism: &Mechanism) -> Picture {
 
 /// Whether that lacks what takes longer to make.
 pub(super) fn is_coarse(mechanism: &Mechanism) -> bool {
-    matches!(mechanism, Mechanism::ThreeArm(_))
+    matches!(mechanism, Mechanism::ThreeArm(_) | Mechanism::Feeder(_))
 }
 
 /// The picture with what takes longer to make; `None` where nothing is left out at first, or nothing can be made.
 pub(super) fn detailed(mechanism: &Mechanism) -> Option<Picture> {
     match mechanism {
-        Mechanism::GearPair(_)
-        | Mechanism::SpiralShaft(_)
-        | Mechanism::MovingBox(_)
-        | Mechanism::Feeder(_) => None,
+        Mechanism::GearPair(_) | Mechanism::SpiralShaft(_) | Mechanism::MovingBox(_) => None,
         Mechanism::ThreeArm(arms) => three_arm::with_teeth(arms),
+        Mechanism::Feeder(machine) => feeder::with_teeth(machine),
     }
 }
 

@@ -1,4 +1,4 @@
-use centrode::export::feeder;
+use centrode::export::feeder::{self, Teeth};
 use centrode::export::page::{Handle, HandlePlane, Picture};
 use centrode::geometry::Tolerance;
 use centrode::mechanism::feeder::{Feeder, Part};
@@ -6,13 +6,24 @@ use centrode::mechanism::feeder::{Feeder, Part};
 /// Tolerance of the picture, as a share of the frame.
 const DRAWN: f64 = 1e-4;
 
-/// The six-bar as it moves, with the path of its tip; its joints can be drawn aside.
+/// The six-bar as it moves, with the path of its tip; its joints can be drawn aside. The gears are plain: cutting their teeth
+/// takes longer than an eye waits.
 pub(super) fn picture(machine: &Feeder) -> Picture {
+    drawn(machine, Teeth::Plain)
+}
+
+/// The same with the teeth of its gears, where they can be cut.
+pub(super) fn with_teeth(machine: &Feeder) -> Option<Picture> {
+    let pair = machine.gears().ok()?;
+    Some(drawn(machine, Teeth::Cut(&pair)))
+}
+
+fn drawn(machine: &Feeder, teeth: Teeth<'_>) -> Picture {
     let frame = machine.six_bar().four_bar().lengths()[3];
     let Ok(tolerance) = Tolerance::new(DRAWN * frame) else {
         return Picture::default();
     };
-    let mut picture = feeder::picture(machine, tolerance);
+    let mut picture = feeder::picture(machine, teeth, tolerance);
     let link = |part: Part| picture.links.iter().position(|l| l.name == part.name());
     let handles = joints(machine).into_iter().filter_map(|(part, handle)| {
         let link = link(part)?;
