@@ -29,8 +29,9 @@ fn forces(
     feeder: &mechanism::Feeder,
     inputs: &[f64],
     moving: bool,
-    carried: f64,
+    carried: Option<f64>,
 ) -> PyResult<Vec<Forces>> {
+    let carried = carried.unwrap_or(feeder.design().drive.carried_mass);
     let system = FeederForces::new(feeder, carried);
     let system = system.map_err(|error| of_plates(&error))?;
     let at = |&input: &f64| system.at(input, moving);
@@ -156,7 +157,7 @@ impl Feeder {
     /// Args:
     ///     phi: Inputs, rad.
     ///     moving: Whether the links' inertia at the design's speed is counted, or each is held still where it is.
-    ///     carried: Mass at the tip of the effector, kg.
+    ///     carried: Mass at the tip of the effector, kg; left out, the design's.
     ///
     /// Raises:
     ///     MechanismError: A link cannot be cut from plate, or what is carried is no mass.
@@ -165,13 +166,13 @@ impl Feeder {
     /// >>> feeder = ct.Feeder.from_toml(ct.template("feeder"))
     /// >>> feeder.crank_torque([0.0, 1.0], moving=False).round(1)
     /// array([89.4, 86.9])
-    #[pyo3(signature = (phi, *, moving=true, carried=0.0))]
+    #[pyo3(signature = (phi, *, moving=true, carried=None))]
     fn crank_torque<'py>(
         &self,
         py: Python<'py>,
         phi: Values,
         moving: bool,
-        carried: f64,
+        carried: Option<f64>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let feeder = Arc::clone(&self.feeder);
         together(py, phi, move |phi| {
@@ -186,13 +187,13 @@ impl Feeder {
     ///
     /// Raises:
     ///     MechanismError: A link cannot be cut from plate, or what is carried is no mass.
-    #[pyo3(signature = (phi, *, moving=true, carried=0.0))]
+    #[pyo3(signature = (phi, *, moving=true, carried=None))]
     fn joint_forces(
         &self,
         py: Python<'_>,
         phi: Values,
         moving: bool,
-        carried: f64,
+        carried: Option<f64>,
     ) -> PyResult<Py<PyAny>> {
         let feeder = Arc::clone(&self.feeder);
         together_array(py, phi, &[7, 2], move |phi| {

@@ -52,6 +52,14 @@ impl<'a> FeederForces<'a> {
     pub const CONNECTIONS: [&'static str; 7] =
         ["A", "B", "D", "C, rocker", "C, slider", "F", "slot"];
 
+    /// A feeder that carries what its design says.
+    ///
+    /// # Errors
+    /// [`FeederForcesError`].
+    pub fn of(feeder: &'a Feeder) -> Result<Self, FeederForcesError> {
+        Self::new(feeder, feeder.design().drive.carried_mass)
+    }
+
     /// A feeder that carries a mass (kg) at the tip of its effector.
     ///
     /// # Errors
@@ -123,10 +131,10 @@ impl<'a> FeederForces<'a> {
     }
 }
 
-/// Greatest torque and joint forces of the empty feeder, held still and moving.
+/// Greatest torque and joint forces, held still and moving.
 pub(super) fn forces(feeder: &Feeder, report: &mut Report) {
     // A link that cannot be cut is a finding of its own.
-    let Ok(system) = FeederForces::new(feeder, 0.0) else {
+    let Ok(system) = FeederForces::of(feeder) else {
         return;
     };
     let mut torque = [0.0_f64; 2];

@@ -120,6 +120,8 @@ pub struct DriveSpec {
     pub chain_ratio: f64,
     /// Cuttings the effector takes in one cycle.
     pub slots: u32,
+    /// Mass the effector carries at its tip, kg.
+    pub carried_mass: f64,
 }
 
 /// How exactly the links are made: each dimension lies evenly spread within plus or minus this.
@@ -166,6 +168,7 @@ impl Default for DriveSpec {
             motor_rpm: 30.0,
             chain_ratio: 2.7,
             slots: 5,
+            carried_mass: 0.0,
         }
     }
 }
@@ -271,6 +274,7 @@ impl FeederDesign {
         positive("drive.motor_rpm", self.drive.motor_rpm)?;
         positive("drive.chain_ratio", self.drive.chain_ratio)?;
         within("drive.slots", self.drive.slots, 1, 1000)?;
+        not_negative("drive.carried_mass", self.drive.carried_mass)?;
         self.gears.validate().map_err(|e| e.inside("gears"))?;
         self.plates.validate().map_err(|e| e.inside("plates"))?;
         not_negative("making.length_tolerance", self.making.length_tolerance)?;

@@ -61,7 +61,8 @@ pub(super) fn checked(mechanism: &Mechanism) -> (Report, Vec<Curve>) {
                 three_arm::checked_curves(arms, teeth.ok().flatten().as_ref()),
             )
         }
-        Mechanism::SpiralShaft(_) | Mechanism::MovingBox(_) | Mechanism::Feeder(_) => {
+        Mechanism::Feeder(machine) => (check_mechanism(mechanism), feeder::checked_curves(machine)),
+        Mechanism::SpiralShaft(_) | Mechanism::MovingBox(_) => {
             (check_mechanism(mechanism), Vec::new())
         }
     }

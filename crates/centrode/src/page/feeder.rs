@@ -1,7 +1,13 @@
+use std::f64::consts::TAU;
+
+use centrode::analysis::FeederForces;
 use centrode::export::feeder::{self, Teeth};
-use centrode::export::page::{Handle, HandlePlane, Picture};
+use centrode::export::page::{Curve, Handle, HandlePlane, Picture};
 use centrode::geometry::Tolerance;
 use centrode::mechanism::feeder::{Feeder, Part};
+
+/// Places of a cycle at which the torque is worked out.
+const LOOKS: u32 = 360;
 
 /// Tolerance of the picture, as a share of the frame.
 const DRAWN: f64 = 1e-4;
@@ -16,6 +22,27 @@ pub(super) fn picture(machine: &Feeder) -> Picture {
 pub(super) fn with_teeth(machine: &Feeder) -> Option<Picture> {
     let pair = machine.gears().ok()?;
     Some(drawn(machine, Teeth::Cut(&pair)))
+}
+
+/// Torque of the crank along the cycle; none where a link makes no plate.
+pub(super) fn checked_curves(machine: &Feeder) -> Vec<Curve> {
+    let Ok(system) = FeederForces::of(machine) else {
+        return Vec::new();
+    };
+    let input: Vec<f64> = (0..=LOOKS)
+        .map(|i| TAU * f64::from(i) / f64::from(LOOKS))
+        .collect();
+    let curve = |name, moving| {
+        let torque = |&phi: &f64| system.at(phi, moving).map_or(f64::NAN, |f| f.torque);
+        Curve {
+            chart: "Torque of the crank",
+            name,
+            unit: "N·mm",
+            value: input.iter().map(torque).collect(),
+            input: input.clone(),
+        }
+    };
+    vec![curve("moving", true), curve("held still", false)]
 }
 
 fn drawn(machine: &Feeder, teeth: Teeth<'_>) -> Picture {
