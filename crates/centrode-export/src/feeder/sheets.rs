@@ -8,7 +8,7 @@ use crate::{
 };
 use centrode_geometry::{Bounds, Outline, Point, Vector};
 use centrode_mechanism::design::SheetSize;
-use centrode_mechanism::feeder::{Feeder, Part, Plate};
+use centrode_mechanism::feeder::{Feeder, MakingSpec, Part, Plate};
 use nalgebra::Isometry2;
 use std::f64::consts::TAU;
 
@@ -78,7 +78,8 @@ fn part(
         format!("Cutting file: {}.dxf.", plate.part.name()),
     ];
     let pieces = |scale: Scale, size: SheetSize| {
-        let draft = view(plate, spec.pin_diameter, scale, letters(size));
+        let making = &feeder.design().making;
+        let draft = view(plate, (spec.pin_diameter, making), scale, letters(size));
         vec![
             notes(&lines),
             Piece {
@@ -95,8 +96,19 @@ fn part(
     compose(size, &block, (bounds.max - bounds.min).amax(), &pieces, &[])
 }
 
+/// A length and how far it may be off either way, where that is given.
+fn toleranced(length: f64, tolerance: f64) -> String {
+    if tolerance > 0.0 {
+        format!("{} ±{}", number(length), number(tolerance))
+    } else {
+        number(length)
+    }
+}
+
 /// A plate with its joints' distances, its holes, its width and its slot.
-fn view(plate: &Plate, pin: f64, scale: Scale, letters: f64) -> Draft {
+///
+/// The distances of the holes are as exact as the swing needs them.
+fn view(plate: &Plate, (pin, making): (f64, &MakingSpec), scale: Scale, letters: f64) -> Draft {
     let k = scale.factor();
     let mut draft = Draft::lettered(letters);
     draft.draw(Pen::Outline, Shape::Contour(plate.outline.scaled(k)));
@@ -120,15 +132,29 @@ fn view(plate: &Plate, pin: f64, scale: Scale, letters: f64) -> Draft {
     }
     let origin = plate.joints[0].at * k;
     let joints = plate.joints.iter().skip(1);
-    let mut along: Vec<Point> = joints
+    // Only the effector's pivot lies off the line through the others.
+    let exact = |at: Point| {
+        if at.y == 0.0 {
+            making.length_tolerance
+        } else {
+            making.pivot_tolerance
+        }
+    };
+    let mut along: Vec<(Point, String)> = joints
         .clone()
-        .map(|j| j.at)
-        .filter(|at| at.x != 0.0)
+        .filter(|joint| joint.at.x != 0.0)
+        .map(|joint| {
+            let tolerance = if joint.hole { exact(joint.at) } else { 0.0 };
+            (joint.at, toleranced(joint.at.x, tolerance))
+        })
         .collect();
     let slot = plate.slot.as_ref();
     along.extend(
         slot.iter()
-            .flat_map(|(ends, _)| ends.map(|x| Point::new(x, 0.0))),
+            // Its ends have play enough: a hundredth says all.
+            .flat_map(|(ends, _)| {
+                ends.map(|x| (Point::new(x, 0.0), number((100.0 * x).round() / 100.0)))
+            }),
     );
     distances(&mut draft, along, min.y, k);
     for joint in joints.filter(|j| j.at.y != 0.0) {
@@ -137,7 +163,7 @@ fn view(plate: &Plate, pin: f64, scale: Scale, letters: f64) -> Draft {
             [origin, joint.at * k],
             Vector::y(),
             beside,
-            &number(joint.at.y),
+            &toleranced(joint.at.y, exact(joint.at)),
         );
     }
     if let Some(([start, end], slot)) = slot {
@@ -169,12 +195,12 @@ fn view(plate: &Plate, pin: f64, scale: Scale, letters: f64) -> Draft {
 
 /// Distances of points from the origin along x, below what lies above `low` on paper: the shortest one nearest, so that no line
 /// crosses another.
-fn distances(draft: &mut Draft, mut points: Vec<Point>, low: f64, k: f64) {
-    points.sort_by(|a, b| a.x.abs().total_cmp(&b.x.abs()));
-    for (row, at) in points.into_iter().enumerate() {
+fn distances(draft: &mut Draft, mut points: Vec<(Point, String)>, low: f64, k: f64) {
+    points.sort_by(|(a, _), (b, _)| a.x.abs().total_cmp(&b.x.abs()));
+    for (row, (at, words)) in points.into_iter().enumerate() {
         let below = Point::new(0.0, low - FIRST - NEXT * row as f64);
         let ends = [Point::origin(), at * k];
-        draft.dimension(ends, Vector::x(), below, &number(at.x));
+        draft.dimension(ends, Vector::x(), below, &words);
     }
 }
 
@@ -330,8 +356,8 @@ fn six_bar(feeder: &Feeder, plates: &[Plate], scale: Scale, letters: f64) -> Dra
     for (name, at) in joints {
         draft.text(at * k + off, letters, name, Anchor::Left);
     }
-    let across = vec![Point::new(frame, 0.0), pivot];
-    distances(&mut draft, across, whole.min.y, k);
+    let across = [Point::new(frame, 0.0), pivot].map(|at| (at, number(at.x)));
+    distances(&mut draft, across.into(), whole.min.y, k);
     let beside = Point::new(whole.max.x + FIRST, 0.0);
     draft.dimension(
         [Point::origin(), pivot * k],
