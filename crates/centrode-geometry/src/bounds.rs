@@ -40,6 +40,15 @@ impl Bounds {
         (self.max - self.min).norm()
     }
 
+    /// Whether the two have a point in common; never where a coordinate is not a number.
+    #[must_use]
+    pub fn meets(&self, other: &Self) -> bool {
+        self.min.x <= other.max.x
+            && other.min.x <= self.max.x
+            && self.min.y <= other.max.y
+            && other.min.y <= self.max.y
+    }
+
     /// Whether some point of the rectangle has a coordinate beyond those of `self`.
     fn may_grow_by(&self, other: &Self) -> bool {
         other.min.x < self.min.x
@@ -65,11 +74,7 @@ impl Segment {
                 grown(ends, sagitta, sagitta)
             }
             Self::Spline(spline) => {
-                let part = if u0 == -1.0 && u1 == 1.0 {
-                    *spline
-                } else {
-                    spline.part(u0, u1)
-                };
+                let part = spline.part(u0, u1);
                 let c = part.coefficients();
                 let ends = Bounds::EMPTY
                     .with(part.at(-1.0).point)

@@ -131,6 +131,7 @@ impl Outline {
         for (index, segment) in self.segments().iter().enumerate() {
             stack.push((Piece::new(segment, index, -1.0, 1.0), 0));
             while let Some((piece, depth)) = stack.pop() {
+                // A cusp turns at once, however short: it stays one strand, with bounds as true as any other's.
                 if depth < least_depth || (piece.turning() > 0.5 && depth < 24) {
                     let [first, second] = piece.halves(segment);
                     stack.push((second, depth + 1));
@@ -172,6 +173,7 @@ impl Search<'_> {
         let mut stack = vec![(*a, *b)];
         while let Some((a, b)) = stack.pop() {
             let slack = a.sagitta + b.sagitta;
+            // Either proof, apart or touching, is found by halving: a bound shrinks with its part.
             if gap(&a, &b) > slack + self.touch {
                 continue;
             }

@@ -108,6 +108,23 @@ impl Segment {
         }
     }
 
+    /// The part between two parameters, itself over `[-1, 1]`.
+    #[must_use]
+    pub fn part(&self, u0: f64, u1: f64) -> Self {
+        if (u0, u1) == (-1.0, 1.0) {
+            return *self;
+        }
+        match self {
+            Self::Line(..) => Self::Line(self.at(u0).point, self.at(u1).point),
+            Self::Arc(arc) => Self::Arc(Arc {
+                start: self.at(u0).point,
+                end: self.at(u1).point,
+                bulge: (0.125 * (u1 - u0) * arc.sweep()).tan(),
+            }),
+            Self::Spline(spline) => Self::Spline(spline.part(u0, u1)),
+        }
+    }
+
     /// The same curve walked the other way.
     #[must_use]
     pub fn reversed(&self) -> Self {
@@ -133,14 +150,19 @@ impl Outline {
     /// Joins segments into a closed contour.
     ///
     /// # Errors
-    /// [`OpenOutline`] where a segment does not start exactly where the one before it ends.
+    /// [`OpenOutline`] where a segment does not start exactly where the one before it ends, or is not a number.
     pub fn new(segments: Vec<Segment>) -> Result<Self, OpenOutline> {
         let mut before = segments.last().map_or(Point::origin(), Segment::end);
         for (index, segment) in segments.iter().enumerate() {
-            if segment.start() != before {
+            let is_somewhere = segment.at(0.0).point.coords.norm().is_finite();
+            if segment.start() != before || !is_somewhere {
                 return Err(OpenOutline {
                     index,
-                    gap: (segment.start() - before).norm(),
+                    gap: if is_somewhere {
+                        (segment.start() - before).norm()
+                    } else {
+                        f64::NAN
+                    },
                 });
             }
             before = segment.end();
@@ -168,13 +190,40 @@ impl Outline {
 pub struct OpenOutline {
     /// The segment that does not start where the one before it ends.
     pub index: usize,
-    /// The distance between the two, mm.
+    /// The distance between the two, mm; not a number where a coordinate is none.
     pub gap: f64,
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_segment_that_is_not_a_number_between_its_ends_is_refused() {
+        let tolerance = crate::Tolerance::new(1e-9).expect("positive");
+        let bow = |t: f64| Point::new(t, if t.abs() < 0.5 { f64::NAN } else { 1.0 - t * t });
+        let bow = Spline::fit(bow, -1.0, 1.0, tolerance)[0];
+        let back = Segment::Line(bow.end(), bow.start());
+        let refused = Outline::new(vec![Segment::Spline(bow), back]).expect_err("no outline");
+        assert!(refused.index == 0 && refused.gap.is_nan());
+    }
+
+    #[test]
+    fn a_part_of_a_segment_is_the_same_curve() {
+        let (p, q) = (Point::new(3.0, 1.0), Point::new(5.0, 4.0));
+        let arc = Segment::Arc(Arc {
+            start: p,
+            end: q,
+            bulge: -0.7,
+        });
+        for segment in [Segment::Line(p, q), arc] {
+            let part = segment.part(-0.5, 0.7);
+            for u in [-1.0, -0.3, 0.4, 1.0] {
+                let (on_part, on_whole) = (part.at(u).point, segment.at(0.1 + 0.6 * u).point);
+                assert!((on_part - on_whole).norm() < 1e-14, "{segment:?} {u}");
+            }
+        }
+    }
 
     #[test]
     fn an_arc_has_the_jet_of_its_circle() {

@@ -208,6 +208,7 @@ impl Outline {
             stack.push((Piece::new(segment, index, -1.0, 1.0), 0));
             while let Some((piece, depth)) = stack.pop() {
                 let matters = piece.sagitta() > tolerance.mm();
+                // A cusp's bound stays loose, and true: it is stepped over in chords no longer than the tolerance.
                 if depth < 40 && matters && piece.curvature > 1.4 * piece.middle {
                     let [first, second] = piece.halves(segment);
                     stack.push((second, depth + 1));

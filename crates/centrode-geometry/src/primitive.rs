@@ -37,7 +37,10 @@ impl Primitive {
     pub fn of(mut f: impl FnMut(f64) -> f64, breaks: &[f64]) -> Self {
         let mut pending: Vec<(f64, f64, u32)> = Vec::new();
         for pair in breaks.windows(2).rev() {
-            pending.push((pair[0], pair[1], 0));
+            // Two breaks on one place leave no panel between them to be evaluated.
+            if pair[0] < pair[1] {
+                pending.push((pair[0], pair[1], 0));
+            }
         }
         let tables = tables();
         let mut ends = vec![breaks[0]];
@@ -195,6 +198,16 @@ mod tests {
         }
         let sum: f64 = p.nodes().map(|(t, w)| w / (1.0 + 25.0 * t * t)).sum();
         assert!((sum - p.total()).abs() < 1e-14);
+    }
+
+    #[test]
+    fn a_break_given_twice_changes_nothing() {
+        let ends = [0.0, 0.0, 1.0, 1.0, 2.0, 2.0];
+        let p = Primitive::of(|t| t, &ends);
+        for t in [0.0, 1.0, 2.0] {
+            assert!((p.at(t) - 0.5 * t * t).abs() < 1e-15, "{t}: {}", p.at(t));
+            assert!((p.inverse(p.at(t)) - t).abs() < 1e-15);
+        }
     }
 
     #[test]

@@ -193,6 +193,9 @@ impl Spline {
     /// The part between `u0` and `u1`, itself on `[-1, 1]`.
     #[must_use]
     pub fn part(&self, u0: f64, u1: f64) -> Self {
+        if (u0, u1) == (-1.0, 1.0) {
+            return *self;
+        }
         let middle = 0.5 * (u0 + u1);
         let half = 0.5 * (u1 - u0);
         let mut values = [Point::origin(); NODES];

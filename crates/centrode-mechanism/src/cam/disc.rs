@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
-use centrode_geometry::OpenOutline;
+use centrode_geometry::{LoopError, OpenOutline};
 use thiserror::Error;
 
 use super::design::{CamSpec, Follower, Turn};
@@ -122,6 +122,9 @@ pub enum CamError {
         "the cam has no profile: every part of it lies in a loop, so the roller is too large for the base circle"
     )]
     Looped,
+    /// It cannot be told where the profile crosses itself.
+    #[error("the cam has no profile: {0}")]
+    Unresolved(LoopError),
     /// A profile that leaves the axis outside.
     #[error("the profile does not go round the axis")]
     AxisOutside,
@@ -150,7 +153,9 @@ impl CamError {
             Self::Offset { .. } => "follower.offset".into(),
             Self::Reach { .. } | Self::FaceTurnsBack { .. } => "follower".into(),
             Self::Bore { .. } => "body.bore".into(),
-            Self::Looped | Self::AxisOutside | Self::Open(_) => "base_radius".into(),
+            Self::Looped | Self::Unresolved(_) | Self::AxisOutside | Self::Open(_) => {
+                "base_radius".into()
+            }
             Self::NotPeriodic { .. }
             | Self::ArmTurnsOver { .. }
             | Self::ThroughAxis { .. }

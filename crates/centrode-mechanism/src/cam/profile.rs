@@ -2,7 +2,9 @@
 
 use std::f64::consts::{PI, TAU};
 
-use centrode_geometry::{Arc, Outline, Point, Segment, Spline, Tolerance, without_loops};
+use centrode_geometry::{
+    Arc, LoopError, Outline, Point, Segment, Spline, Tolerance, without_loops,
+};
 
 use super::disc::{CamError, DiscCam};
 use super::extreme::least;
@@ -64,23 +66,9 @@ struct Part {
 impl Part {
     /// The part between two parameters of the segment.
     fn between(&self, from: f64, to: f64) -> Self {
-        if (from, to) == (-1.0, 1.0) {
-            return *self;
-        }
-        let segment = match self.segment {
-            Segment::Line(..) => {
-                Segment::Line(self.segment.at(from).point, self.segment.at(to).point)
-            }
-            Segment::Arc(arc) => Segment::Arc(Arc {
-                start: self.segment.at(from).point,
-                end: self.segment.at(to).point,
-                bulge: (0.125 * (to - from) * arc.sweep()).tan(),
-            }),
-            Segment::Spline(spline) => Segment::Spline(spline.part(from, to)),
-        };
         let input = |u: f64| self.from + 0.5 * (1.0 + u) * (self.to - self.from);
         Self {
-            segment,
+            segment: self.segment.part(from, to),
             from: if from == -1.0 { self.from } else { input(from) },
             to: if to == 1.0 { self.to } else { input(to) },
         }
@@ -103,10 +91,11 @@ impl DiscCam {
     /// away is taken away, and [`Profile::undercut`] tells what the follower loses.
     ///
     /// # Errors
-    /// [`CamError::Looped`] where nothing is left, [`CamError::AxisOutside`] where it leaves the axis out.
+    /// [`CamError::Looped`] where nothing is left, [`CamError::Unresolved`] where it cannot be told where it
+    /// crosses itself, [`CamError::AxisOutside`] where it leaves the axis out.
     pub fn profile(&self, tolerance: Tolerance) -> Result<Profile, CamError> {
         let whole = self.envelope(&|input| self.contact(input).point, &self.turns(), tolerance);
-        let kept = sound(whole, tolerance)?;
+        let kept = sound(&whole, tolerance)?;
         let ends = self.ends();
         let (first, last) = (ends[0], ends[ends.len() - 1]);
         let mut undercut: Vec<(f64, f64)> = Vec::new();
@@ -251,22 +240,13 @@ fn moved_start(segment: &Segment, start: Point) -> Segment {
     }
 }
 
-/// What is left of the parts without their loops. A further pass sees the loops an earlier one laid
-/// bare; a sound profile has none and takes one.
-fn sound(mut parts: Vec<Part>, tolerance: Tolerance) -> Result<Vec<Part>, CamError> {
-    const PASSES: u32 = 3;
-    for _ in 0..PASSES {
-        let segments: Vec<Segment> = parts.iter().map(|part| part.segment).collect();
-        let count = segments.len();
-        let kept = without_loops(&segments, |_| count / 2, tolerance).ok_or(CamError::Looped)?;
-        let done = kept.len() == count && kept.iter().all(|k| (k.from, k.to) == (-1.0, 1.0));
-        parts = kept
-            .iter()
-            .map(|k| parts[k.index].between(k.from, k.to))
-            .collect();
-        if done {
-            break;
-        }
-    }
-    Ok(parts)
+/// What is left of the parts without their loops.
+fn sound(parts: &[Part], tolerance: Tolerance) -> Result<Vec<Part>, CamError> {
+    let segments: Vec<Segment> = parts.iter().map(|part| part.segment).collect();
+    let kept = without_loops(&segments, |_, _| true, tolerance).map_err(|cause| match cause {
+        LoopError::Everywhere => CamError::Looped,
+        cause => CamError::Unresolved(cause),
+    })?;
+    let parts = kept.iter().map(|k| parts[k.index].between(k.from, k.to));
+    Ok(parts.collect())
 }

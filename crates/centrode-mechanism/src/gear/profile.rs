@@ -1,5 +1,5 @@
 use centrode_geometry::{
-    Kept, OpenOutline, Outline, Point, Segment, Spline, Tolerance, without_loops,
+    Kept, LoopError, OpenOutline, Outline, Point, Segment, Spline, Tolerance, without_loops,
 };
 
 use super::{
@@ -114,16 +114,6 @@ struct Piece {
     side: Side,
 }
 
-impl Piece {
-    fn part(&self, kept: &Kept) -> Spline {
-        if (kept.from, kept.to) == (-1.0, 1.0) {
-            self.spline
-        } else {
-            self.spline.part(kept.from, kept.to)
-        }
-    }
-}
-
 /// The fillet's own parameter w, with roll = depth of the rounding's centre x sinh w: the distance
 /// from the pitch point to that centre is then entire, and the fillet far smoother than in the roll,
 /// which moves it slowly at the root and fast at the flank.
@@ -179,6 +169,14 @@ pub enum ProfileError {
         /// Which gear.
         member: Member,
     },
+    /// It cannot be told where the contour crosses itself.
+    #[error("the {} has no profile: {cause}", .member.name())]
+    Unresolved {
+        /// Which gear.
+        member: Member,
+        /// Where and why.
+        cause: LoopError,
+    },
     /// The contour does not close: a coordinate is not a number.
     #[error(transparent)]
     Open(#[from] OpenOutline),
@@ -221,56 +219,20 @@ impl Cutter<'_> {
         self.join(&pieces, &kept, teeth)
     }
 
-    /// What is left of the pieces. A second pass sees the loops the first one laid bare; sound teeth
-    /// have none and take one.
+    /// What is left of the pieces without their loops.
     fn without_loops(&self, pieces: &[Piece], teeth: u32) -> Result<Vec<Kept>, ProfileError> {
-        const PASSES: u32 = 3;
-        let looped = ProfileError::Looped {
-            member: self.member,
-        };
-        let whole = |index| Kept {
-            index,
-            from: -1.0,
-            to: 1.0,
-        };
-        let mut left: Vec<Kept> = (0..pieces.len()).map(whole).collect();
-        for _ in 0..PASSES {
-            let segments: Vec<Segment> = left
-                .iter()
-                .map(|k| Segment::Spline(pieces[k.index].part(k)))
-                .collect();
-            let count = left.len();
-            // Up to the end of the next tooth: a longer detour is not one tooth's own.
-            let ahead = |i: usize| {
-                let owner = pieces[left[i].index].tooth;
-                (1..count)
-                    .take_while(|step| {
-                        let other = pieces[left[(i + step) % count].index].tooth;
-                        (other + teeth - owner) % teeth <= 1
-                    })
-                    .count()
-            };
-            let kept = without_loops(&segments, ahead, self.tolerance).ok_or(looped)?;
-            let done = kept.len() == count && kept.iter().all(|k| (k.from, k.to) == (-1.0, 1.0));
-            left = kept
-                .iter()
-                .map(|k| {
-                    let of = left[k.index];
-                    let at = |u: f64| of.from + 0.5 * (1.0 + u) * (of.to - of.from);
-                    let to = if k.to == 1.0 { of.to } else { at(k.to) };
-                    let from = if k.from == -1.0 { of.from } else { at(k.from) };
-                    Kept {
-                        index: of.index,
-                        from,
-                        to,
-                    }
-                })
-                .collect();
-            if done {
-                break;
-            }
-        }
-        Ok(left)
+        let segments: Vec<Segment> = pieces.iter().map(|p| p.spline.into()).collect();
+        // Up to the end of the next tooth: a longer detour is not one tooth's own.
+        let near = |i: usize, j: usize| (pieces[j].tooth + teeth - pieces[i].tooth) % teeth <= 1;
+        without_loops(&segments, near, self.tolerance).map_err(|cause| match cause {
+            LoopError::Everywhere => ProfileError::Looped {
+                member: self.member,
+            },
+            cause => ProfileError::Unresolved {
+                member: self.member,
+                cause,
+            },
+        })
     }
 
     fn ends(&self, flank: &Flank<'_>, plan: &FlankPlan) -> Ends {
@@ -468,7 +430,10 @@ impl Cutter<'_> {
         kept: &[Kept],
         mut teeth: Vec<Tooth>,
     ) -> Result<Profile, ProfileError> {
-        let mut splines: Vec<Spline> = kept.iter().map(|k| pieces[k.index].part(k)).collect();
+        let mut splines: Vec<Spline> = kept
+            .iter()
+            .map(|k| pieces[k.index].spline.part(k.from, k.to))
+            .collect();
         let count = splines.len();
         for i in 0..count {
             let end = splines[i].end();

@@ -1,0 +1,362 @@
+//! Crossings of curves, by subdivision with tangent cones (Sederberg and Meyers, Loop detection in surface patch
+//! intersections, CAGD 5, 1988).
+
+use crate::{Point, Segment, SegmentJet, Tolerance, Vector};
+
+/// Pairs of parts to compare for one pair of segments; a crossing, however flat, takes some hundreds. What takes
+/// more has no end: the segments lie on each other.
+const MOST_PAIRS: u32 = 20_000;
+
+/// Share of a segment below which a loop inside that one segment is not looked for.
+const CUSP: f64 = 1e-5;
+
+/// A part of one segment, with what is needed to tell it from another without solving anything.
+#[derive(Clone, Copy)]
+struct Part<'a> {
+    segment: &'a Segment,
+    /// Bound of the third derivative over the whole segment.
+    third: f64,
+    from: f64,
+    to: f64,
+    start: Point,
+    end: Point,
+    middle: SegmentJet,
+    joined: bool,
+}
+
+impl<'a> Part<'a> {
+    fn whole(segment: &'a Segment) -> Result<Self, Unresolved> {
+        let third = match segment {
+            Segment::Line(..) => 0.0,
+            Segment::Arc(arc) => (0.5 * arc.sweep().abs()).powi(3) * arc.radius(),
+            Segment::Spline(spline) => spline
+                .coefficients()
+                .iter()
+                .enumerate()
+                .skip(3)
+                .map(|(k, c)| (k * (k - 1) * (k - 2)) as f64 * c.norm())
+                .sum(),
+        };
+        let whole = Self {
+            segment,
+            third,
+            from: -1.0,
+            to: 1.0,
+            start: segment.start(),
+            end: segment.end(),
+            middle: segment.at(0.0),
+            joined: false,
+        };
+        if whole.size().is_finite() {
+            Ok(whole)
+        } else {
+            Err(Unresolved::NotFinite)
+        }
+    }
+
+    fn halves(&self) -> [Self; 2] {
+        let u = 0.5 * (self.from + self.to);
+        [
+            Self {
+                to: u,
+                end: self.middle.point,
+                middle: self.segment.at(0.5 * (self.from + u)),
+                ..*self
+            },
+            Self {
+                from: u,
+                start: self.middle.point,
+                middle: self.segment.at(0.5 * (u + self.to)),
+                ..*self
+            },
+        ]
+    }
+
+    /// Bound of the distance between any two points of the part.
+    fn size(&self) -> f64 {
+        (self.end - self.start).norm() + 2.0 * self.sagitta()
+    }
+
+    fn length(&self) -> f64 {
+        self.to - self.from
+    }
+
+    /// Whether the part is shorter than a length, or so short that it has no middle.
+    fn is_shorter(&self, length: f64) -> bool {
+        self.size() < length || self.length() <= 4.0 * f64::EPSILON
+    }
+
+    /// Bound of the second derivative.
+    fn bend(&self) -> f64 {
+        self.middle.second.norm() + 0.5 * self.third * self.length()
+    }
+
+    /// Greatest distance of the part from its chord.
+    fn sagitta(&self) -> f64 {
+        0.125 * self.bend() * self.length() * self.length()
+    }
+
+    /// Middle tangent and the half-angle of the cone that holds every tangent of the part.
+    fn cone(&self) -> Option<(Vector, f64)> {
+        let first = self.middle.first;
+        let size = first.norm();
+        let spread = 0.5 * self.bend() * self.length();
+        (size > spread).then(|| (first / size, (spread / size).asin()))
+    }
+
+    /// Whether an axis or the normal of a chord keeps the two parts apart.
+    fn apart(&self, other: &Self) -> bool {
+        let margin = self.sagitta() + other.sagitta();
+        let clear = |axis: &Vector| {
+            let along = |p: &Point| axis.dot(&p.coords);
+            let (a0, a1) = (along(&self.start), along(&self.end));
+            let (b0, b1) = (along(&other.start), along(&other.end));
+            let margin = margin * axis.norm();
+            a0.max(a1) + margin < b0.min(b1) || b0.max(b1) + margin < a0.min(a1)
+        };
+        let normal = |part: &Self| {
+            let chord = part.end - part.start;
+            Vector::new(-chord.y, chord.x)
+        };
+        clear(&Vector::x()) || clear(&Vector::y()) || clear(&normal(self)) || clear(&normal(other))
+    }
+}
+
+/// Why the crossings of two curves, or of one with itself, cannot be told.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum Unresolved {
+    /// A curve without a place: a coordinate of it is not a number.
+    #[error("a coordinate is not a number")]
+    NotFinite,
+    /// Curves that lie on each other, within the tolerance, for a length.
+    #[error("two parts lie on each other about ({:.6}, {:.6}) mm", .near.x, .near.y)]
+    Overlap {
+        /// A place of the overlap, mm.
+        near: Point,
+    },
+}
+
+fn angle_between(a: &Vector, b: &Vector) -> f64 {
+    a.perp(b).atan2(a.dot(b)).abs()
+}
+
+/// Parameters at which two segments cross; `joined` says that `b` starts where `a` ends, which is then
+/// not a crossing.
+///
+/// Parts are halved until their bounding boxes part or their tangent cones do; a crossing is then
+/// polished by Newton's method. Parts smaller than `tolerance` are taken to touch, not to cross.
+///
+/// # Errors
+/// [`Unresolved`] where the segments lie on each other or a coordinate is not a number.
+pub fn crossings(
+    a: &Segment,
+    b: &Segment,
+    joined: bool,
+    tolerance: Tolerance,
+) -> Result<Vec<(f64, f64)>, Unresolved> {
+    let first = Part {
+        joined,
+        ..Part::whole(a)?
+    };
+    let mut out = Vec::new();
+    search(first, Part::whole(b)?, tolerance.mm(), &mut out)?;
+    Ok(out)
+}
+
+/// Parameters at which a segment crosses itself.
+///
+/// # Errors
+/// [`Unresolved`] where it lies on itself or a coordinate is not a number.
+pub fn self_crossings(
+    segment: &Segment,
+    tolerance: Tolerance,
+) -> Result<Vec<(f64, f64)>, Unresolved> {
+    let mut out = Vec::new();
+    let whole = Part::whole(segment)?;
+    // A smooth curve is cut a few times, one with a cusp once a level. The branches of a cusp part so
+    // slowly that to follow them to the tolerance would cost more than all the rest.
+    let shortest = tolerance.mm().max(CUSP * whole.size());
+    let mut pending = vec![whole];
+    while let Some(part) = pending.pop() {
+        // A curve whose tangents fit in half a turn cannot come back to itself.
+        let straight = part.cone().is_some_and(|(_, half)| half < 1.5);
+        if straight || part.is_shorter(shortest) {
+            continue;
+        }
+        let [mut left, right] = part.halves();
+        pending.push(left);
+        pending.push(right);
+        left.joined = true;
+        search(left, right, shortest, &mut out)?;
+    }
+    Ok(out)
+}
+
+fn search(
+    a: Part<'_>,
+    b: Part<'_>,
+    shortest: f64,
+    out: &mut Vec<(f64, f64)>,
+) -> Result<(), Unresolved> {
+    let mut near = a.end;
+    let mut pending = vec![(a, b)];
+    for _ in 0..MOST_PAIRS {
+        let Some((a, b)) = pending.pop() else {
+            return Ok(());
+        };
+        near = a.middle.point;
+        if !a.joined && a.apart(&b) {
+            continue;
+        }
+        if let (Some((ta, ha)), Some((tb, hb))) = (a.cone(), b.cone()) {
+            let between = angle_between(&ta, &tb);
+            if a.joined {
+                if between + ha + hb < std::f64::consts::PI {
+                    continue;
+                }
+            } else if between > ha + hb && between + ha + hb < std::f64::consts::PI {
+                // Neither parallel nor opposed anywhere: at most one crossing. Newton's method that leads
+                // elsewhere does not prove that there is none.
+                if let Some(found) = polish(&a, &b) {
+                    let near = |x: f64, y: f64| (x - y).abs() < 1e-7;
+                    if !out
+                        .iter()
+                        .any(|&(u, v)| near(u, found.0) && near(v, found.1))
+                    {
+                        out.push(found);
+                    }
+                    continue;
+                }
+            }
+        }
+        if a.is_shorter(shortest) && b.is_shorter(shortest) {
+            continue;
+        }
+        if a.joined {
+            let [a0, a1] = a.halves();
+            let [b0, b1] = b.halves();
+            // The joint last: what lies nearest to it is least likely to cross.
+            pending.push((a1, b0));
+            pending.push((unjoined(a0), b0));
+            pending.push((unjoined(a1), b1));
+            pending.push((unjoined(a0), b1));
+        } else if a.size() >= b.size() {
+            for half in a.halves() {
+                pending.push((half, b));
+            }
+        } else {
+            for half in b.halves() {
+                pending.push((a, half));
+            }
+        }
+    }
+    Err(Unresolved::Overlap { near })
+}
+
+fn unjoined(part: Part<'_>) -> Part<'_> {
+    Part {
+        joined: false,
+        ..part
+    }
+}
+
+/// Newton's method on the two parameters, kept to the parts and a rounding beyond.
+fn polish(a: &Part<'_>, b: &Part<'_>) -> Option<(f64, f64)> {
+    let (mut u, mut v) = (0.5 * (a.from + a.to), 0.5 * (b.from + b.to));
+    for _ in 0..50 {
+        let (p, q) = (a.segment.at(u), b.segment.at(v));
+        let gap = q.point - p.point;
+        let area = p.first.perp(&q.first);
+        let (du, dv) = (gap.perp(&q.first) / area, gap.perp(&p.first) / area);
+        if !(du.is_finite() && dv.is_finite()) {
+            return None;
+        }
+        // Half a part outside is as far as a straight-line guess may stray.
+        let before = (u, v);
+        u = (u + du).clamp(a.from - 0.5 * a.length(), a.to + 0.5 * a.length());
+        v = (v + dv).clamp(b.from - 0.5 * b.length(), b.to + 0.5 * b.length());
+        if (u, v) == before || (du.abs() < 1e-15 && dv.abs() < 1e-15) {
+            break;
+        }
+    }
+    let gap = (b.segment.at(v).point - a.segment.at(u).point).norm();
+    let size = a
+        .segment
+        .at(u)
+        .first
+        .norm()
+        .max(b.segment.at(v).first.norm());
+    let inside = |x: f64, part: &Part<'_>| x >= part.from - 1e-12 && x <= part.to + 1e-12;
+    let hit = gap <= 1e-11 * (size + a.start.coords.amax()) && inside(u, a) && inside(v, b);
+    hit.then(|| (u.clamp(-1.0, 1.0), v.clamp(-1.0, 1.0)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Spline;
+
+    fn fine() -> Tolerance {
+        Tolerance::new(1e-13).expect("positive")
+    }
+
+    fn splines(f: impl Fn(f64) -> Point, a: f64, b: f64) -> Vec<Segment> {
+        let tolerance = Tolerance::new(1e-10).expect("positive");
+        Spline::fit(f, a, b, tolerance)
+            .into_iter()
+            .map(Segment::from)
+            .collect()
+    }
+
+    #[test]
+    fn the_loop_of_a_folium_is_found_at_every_size() {
+        // x = t^2, y = t^3 - e t crosses itself at t = +-sqrt e.
+        for exponent in 0..3 {
+            let e = 10_f64.powi(-exponent);
+            let whole = splines(|t| Point::new(t * t, t * (t * t - e)), -1.2, 1.2);
+            let found: Vec<_> = if whole.len() == 1 {
+                self_crossings(&whole[0], fine()).expect("told")
+            } else {
+                crossings(&whole[0], &whole[1], true, fine()).expect("told")
+            };
+            assert_eq!(found.len(), 1, "{e}");
+            let point = whole[0].at(found[0].0).point;
+            assert!((point - Point::new(e, 0.0)).norm() < 1e-9, "{point} {e}");
+        }
+    }
+
+    #[test]
+    fn curves_that_lie_on_each_other_are_an_error_that_names_a_place() {
+        let quarter = splines(|t| Point::new(t.cos(), t.sin()), 0.0, 1.5)[0];
+        let found = crossings(&quarter, &quarter.reversed(), false, fine());
+        let Err(Unresolved::Overlap { near }) = found else {
+            panic!("{found:?}")
+        };
+        assert!((near.coords.norm() - 1.0).abs() < 1e-9, "{near}");
+    }
+
+    #[test]
+    fn a_curve_that_is_not_a_number_is_an_error_and_ends() {
+        let inside = |t: f64| Point::new(t, if t.abs() < 0.5 { f64::NAN } else { t * t });
+        for nowhere in [
+            splines(inside, -1.0, 1.0)[0],
+            Segment::Line(Point::origin(), Point::new(f64::NAN, 1.0)),
+        ] {
+            let line = Segment::Line(Point::origin(), Point::new(1.0, 1.0));
+            assert_eq!(self_crossings(&nowhere, fine()), Err(Unresolved::NotFinite));
+            assert_eq!(
+                crossings(&line, &nowhere, true, fine()),
+                Err(Unresolved::NotFinite)
+            );
+        }
+    }
+
+    #[test]
+    fn a_tolerance_below_every_rounding_ends_as_well() {
+        let tiny = Tolerance::new(f64::MIN_POSITIVE).expect("positive");
+        let cusp = splines(|t| Point::new(t * t, t * t * t), -1.0, 1.0)[0];
+        assert_eq!(self_crossings(&cusp, tiny), Ok(Vec::new()));
+        let [a, b] = [-1.0, 1.0].map(|x| Segment::Line(Point::new(x, 2.0), Point::origin()));
+        assert_eq!(crossings(&a, &b, false, tiny).map(|c| c.len()), Ok(1));
+    }
+}
