@@ -74,6 +74,9 @@ pub struct Rolling {
     greatest: Extreme,
 }
 
+/// Share of the period within which two parameters are the same but for rounding.
+const SAME: f64 = 1e-12;
+
 /// A pitch radius that is the least or the greatest, and the parameter it is at.
 #[derive(Clone, Copy, Debug)]
 struct Extreme {
@@ -134,8 +137,12 @@ impl Rolling {
         let ratio = reduced(mean_ratio)?;
         let period = curve.period();
         let (start, half) = axis_crossings(&*curve, period)?;
-        let mut jumps: Vec<f64> = curve
-            .breaks()
+        let breaks = curve.breaks();
+        // A curve drawn from angle zero on has a break there: rounding must not part the two, nor the break
+        // from itself a turn on.
+        let on = breaks.iter().find(|&&b| (b - start).abs() <= SAME * period);
+        let start = on.copied().unwrap_or(start);
+        let mut jumps: Vec<f64> = breaks
             .into_iter()
             .map(|b| if b < start { b + period } else { b })
             .collect();
@@ -517,7 +524,7 @@ fn axis_crossings(curve: &dyn Curve, period: f64) -> Result<(f64, f64), RollingE
     match (start, half) {
         (Some(start), Some(half)) if (turned - TAU).abs() < 1e-6 => {
             // A start at the very end of the turn is one at its start.
-            let start = if period - start <= 1e-12 * period {
+            let start = if period - start <= SAME * period {
                 0.0
             } else {
                 start
@@ -619,4 +626,42 @@ fn driven_angle(curve: &dyn Curve, breaks: &[f64], a: f64) -> Primitive {
         },
         breaks,
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::gear::pitch::{Bspline, PitchSpec};
+
+    #[test]
+    fn a_knot_where_the_cycle_starts_is_its_start_whatever_the_rounding() {
+        for degree in 2..=5 {
+            for count in 6..30 {
+                let step = TAU / f64::from(count);
+                let spline = Bspline {
+                    degree,
+                    interpolate: true,
+                    radius: (0..count).map(|i| 30.0 + f64::from(i * i % 7)).collect(),
+                    angle: (0..count).map(|i| step * f64::from(i)).collect(),
+                    ..Bspline::default()
+                };
+                let curve = PitchSpec::Bspline(spline).resolve().expect("a curve").curve;
+                let rolling = Rolling::of(curve, (1, 1)).expect("rolls");
+                let (start, end) = (rolling.start, rolling.start + f64::from(count));
+                let frame = rolling.frame(Member::Driven, end);
+                assert!((frame.arc / rolling.arc.total() - 1.0).abs() < 1e-15);
+                assert!(frame.point.coords.norm().is_finite());
+                // Between knots there is a whole span, or where the cycle starts inside one, two parts of it.
+                let inside = rolling.breaks_between(start, end);
+                let spans = inside.windows(2).map(|w| w[1] - w[0]);
+                assert!(spans.clone().all(|s| (s - 1.0).abs() < 1e-9), "{inside:?}");
+                let knot = degree % 2 == 1;
+                assert_eq!(
+                    inside.len(),
+                    count as usize - usize::from(knot),
+                    "{degree} {count}"
+                );
+            }
+        }
+    }
 }
