@@ -2,6 +2,7 @@ mod tables;
 
 use std::f64::consts::{FRAC_PI_6, TAU};
 
+use centrode_geometry::extremes;
 use centrode_mechanism::shaft::{ClearOffset, Crossing, MovingBox, Pick, ShaftError, SpiralShaft};
 use centrode_mechanism::transmission::Transmission;
 
@@ -11,8 +12,6 @@ use crate::{Finding, Place, Report, Severity};
 const PRESSURE_ANGLE: f64 = FRAC_PI_6;
 /// Misplacement, mm, below which a hole is met.
 const MET: f64 = 1e-6;
-/// Steps of one turn at which the box of a geared shaft is looked at.
-const STEPS: u32 = 3600;
 
 /// Checks a spiral shaft: what it moves while picking, its crossings, slider and forces.
 ///
@@ -57,33 +56,23 @@ pub fn check_moving_box(machine: &MovingBox) -> Report {
     values.insert("box_moved_distance", machine.moved_in_window());
     let load = machine.shaft().load();
     let mean = machine.shaft().law().mean_speed();
-    let inputs = (0..STEPS).map(|i| TAU * f64::from(i) / f64::from(STEPS));
-    let motions: Vec<_> = inputs.map(|input| machine.stroke_at(input)).collect();
-    let over = |of: &dyn Fn(usize) -> f64| {
-        (0..motions.len())
-            .map(of)
-            .fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| {
-                (a.min(x), b.max(x))
-            })
-    };
-    let (slow, fast) = over(&|i| motions[i].velocity / mean);
+    let ends = machine.stroke_pieces();
+    let over = |of: &dyn Fn(f64) -> f64| extremes(of, &ends).map(|extreme| extreme.value);
+    let [slow, fast] = over(&|input| machine.stroke_at(input).velocity / mean);
     values.insert("box_speed_ratio_min", slow);
     values.insert("box_speed_ratio_max", fast);
-    let (braking, speeding) = over(&|i| motions[i].acceleration);
+    let [braking, speeding] = over(&|input| machine.stroke_at(input).acceleration);
     values.insert("box_acceleration_max", speeding.max(-braking));
     let metres = 1e-3 * load.speed() * load.speed();
     values.insert("box_acceleration_max_m_s2", metres * speeding.max(-braking));
     let limit = load.contact_limit_rpm(-braking);
     values.insert("box_contact_limit_rpm", limit);
-    let input = |i: usize| TAU * i as f64 / f64::from(STEPS);
-    let stroke = |i: usize| {
-        let turn = machine.shaft_turn(input(i));
-        let lead = (machine.shaft().law().at(turn.position).velocity
-            / machine.shaft().groove().radius())
-        .atan();
-        load.force(motions[i], lead, machine.shaft().groove().radius())
-    };
-    let (least, greatest) = over(&|i| stroke(i).normal);
+    let radius = machine.shaft().groove().radius();
+    let [least, greatest] = over(&|input| {
+        let turn = machine.shaft_turn(input).position;
+        let lead = (machine.shaft().law().at(turn).velocity / radius).atan();
+        load.force(machine.stroke_at(input), lead, radius).normal
+    });
     values.insert("box_normal_force_min", least);
     values.insert("box_normal_force_max", greatest);
     report.findings.retain(|f| f.rule != "contact-lost");

@@ -1,4 +1,6 @@
-use centrode_geometry::{Point, SolidError, Vector};
+use std::cell::Cell;
+
+use centrode_geometry::{Extreme, Point, SolidError, Vector, greatest_each};
 use centrode_mechanism::feeder::{Feeder, FeederError, Part};
 use centrode_mechanism::linkage::{Branch, Link, Linkage, LinkageError};
 
@@ -6,8 +8,8 @@ use crate::{CrankMotion, ForceError, Forces, Kinetostatics, LinkMass, Report, Ta
 
 /// Standard acceleration of free fall, down the y axis, mm/s².
 const GRAVITY: Vector = Vector::new(0.0, -9806.65);
-/// Looks along a cycle for the greatest forces.
-const LOOKS: u32 = 720;
+/// Figures of a state: the torque and the force in every joint.
+const FIGURES: usize = 1 + FeederForces::CONNECTIONS.len();
 
 /// Why there are no forces.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -137,31 +139,34 @@ pub(super) fn forces(feeder: &Feeder, report: &mut Report) {
     let Ok(system) = FeederForces::of(feeder) else {
         return;
     };
-    let mut torque = [0.0_f64; 2];
-    let mut greatest = [[0.0_f64; 2]; FeederForces::CONNECTIONS.len()];
-    for i in 0..LOOKS {
-        let input = std::f64::consts::TAU * f64::from(i) / f64::from(LOOKS);
-        for (column, moving) in [false, true].into_iter().enumerate() {
-            let Ok(forces) = system.at(input, moving) else {
-                return;
-            };
-            torque[column] = torque[column].max(forces.torque.abs());
-            for (row, reaction) in greatest.iter_mut().zip(&forces.reactions) {
-                row[column] = row[column].max(reaction.force.norm());
-            }
-        }
+    let balanced = Cell::new(true);
+    let sizes = |input: f64, moving: bool| -> [f64; FIGURES] {
+        let Ok(forces) = system.at(input, moving) else {
+            balanced.set(false);
+            return [f64::NAN; FIGURES];
+        };
+        std::array::from_fn(|k| match k.checked_sub(1) {
+            None => forces.torque.abs(),
+            Some(joint) => forces.reactions[joint].force.norm(),
+        })
+    };
+    let ends = feeder.pieces();
+    let [still, moving] =
+        [false, true].map(|moving| greatest_each(|input| sizes(input, moving), &ends));
+    if !balanced.get() {
+        return;
     }
     let values = &mut report.values;
-    values.insert("crank_torque_still_max", torque[0]);
-    values.insert("crank_torque_moving_max", torque[1]);
-    let rows = FeederForces::CONNECTIONS.iter().zip(greatest);
+    values.insert("crank_torque_still_max", still[0].value);
+    values.insert("crank_torque_moving_max", moving[0].value);
+    let of = |Extreme { value, .. }: &Extreme| *value;
+    let greatest = still.iter().zip(&moving).map(|(a, b)| vec![of(a), of(b)]);
+    let rows = FeederForces::CONNECTIONS.iter().zip(greatest.skip(1));
     report.tables.push(Table {
         name: "joint_forces",
         title: "Greatest force in a joint",
         unit: "N",
         columns: vec!["held still".into(), "moving".into()],
-        rows: rows
-            .map(|(name, row)| ((*name).into(), row.to_vec()))
-            .collect(),
+        rows: rows.map(|(name, row)| ((*name).into(), row)).collect(),
     });
 }

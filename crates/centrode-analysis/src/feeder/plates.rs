@@ -1,10 +1,7 @@
-use centrode_geometry::bracketed_minimum;
+use centrode_geometry::{Extreme, least};
 use centrode_mechanism::feeder::{Feeder, Part};
 
 use crate::{Finding, Place, Report, Severity};
-
-/// Looks over the motion for where the effector comes near the rocker's shaft.
-const LOOKS: u32 = 1440;
 
 /// Whether the links can be cut from plate, and run clear of the shaft that passes them.
 pub(super) fn plates(feeder: &Feeder, report: &mut Report) {
@@ -25,23 +22,18 @@ pub(super) fn plates(feeder: &Feeder, report: &mut Report) {
             },
         });
     }
-    let motion = feeder.drive().motion_angle();
-    let at = |i: u32| motion * f64::from(i) / f64::from(LOOKS);
     let room = |input: f64| feeder.shaft_clearance(input);
-    let nearest = (1..LOOKS)
-        .min_by(|&a, &b| room(at(a)).total_cmp(&room(at(b))))
-        .unwrap_or(1);
-    let (input, least) = bracketed_minimum(room, at(nearest - 1), at(nearest + 1));
-    report.values.insert("shaft_clearance_min", least);
-    if least < 0.0 {
+    let Extreme { input, value } = least(room, &feeder.pieces());
+    report.values.insert("shaft_clearance_min", value);
+    if value < 0.0 {
         report.findings.push(Finding {
             rule: "effector-meets-shaft",
             severity: Severity::Error,
             message: format!(
                 "the effector runs into the rocker's shaft, which passes it: {:.4} mm too near",
-                -least
+                -value
             ),
-            measured: Some(least),
+            measured: Some(value),
             required: Some(0.0),
             unit: "mm",
             remedy: Some(

@@ -1,12 +1,10 @@
 use std::f64::consts::{FRAC_PI_4, TAU};
 
+use centrode_geometry::{extremes, pieces};
 use centrode_mechanism::shaft::{MovingBox, SpiralShaft};
 use centrode_mechanism::transmission::{MotionJet, Transmission};
 
 use crate::Table;
-
-/// Steps of one turn at which a scheme is looked at.
-const STEPS: u32 = 720;
 
 /// A way to move the box on a stroke: its motion by the input, and the lead angle under the slider.
 struct Way<'a> {
@@ -59,15 +57,10 @@ pub(super) fn schemes(machine: &MovingBox) -> Vec<Table> {
     let (load, design) = (shaft.load(), shaft.design());
     let metres = 1e-3 * load.speed() * load.speed();
     let (pick, half) = (design.pick, 0.5 * design.window);
-    let inputs: Vec<f64> = (0..STEPS)
-        .map(|i| pick + TAU * f64::from(i) / f64::from(STEPS))
-        .collect();
-    let range = |of: &dyn Fn(f64) -> f64| {
-        let values = inputs.iter().map(|&input| of(input));
-        values.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| {
-            (a.min(x), b.max(x))
-        })
-    };
+    // Those of the groove alone and as designed: a break too many costs little.
+    let both = [shaft.law().pieces(pick), machine.stroke_pieces()].concat();
+    let ends = pieces(pick, pick + TAU, 1, &both);
+    let range = |of: &dyn Fn(f64) -> f64| extremes(of, &ends).map(|extreme| extreme.value).to_vec();
     let table = |name, title, unit, columns: &[&str], of: &dyn Fn(&Way<'_>) -> Vec<f64>| Table {
         name,
         title,
@@ -94,20 +87,14 @@ pub(super) fn schemes(machine: &MovingBox) -> Vec<Table> {
             "Speed over its mean",
             "",
             &["least", "greatest"],
-            &|way| {
-                let (slow, fast) = range(&|input| (way.at)(input).0.velocity / mean);
-                vec![slow, fast]
-            },
+            &|way| range(&|input| (way.at)(input).0.velocity / mean),
         ),
         table(
             "scheme-accelerations",
             "Acceleration on a stroke",
             "m/s^2",
             &["least", "greatest"],
-            &|way| {
-                let (least, greatest) = range(&|input| metres * (way.at)(input).0.acceleration);
-                vec![least, greatest]
-            },
+            &|way| range(&|input| metres * (way.at)(input).0.acceleration),
         ),
         table(
             "scheme-forces",
@@ -115,11 +102,10 @@ pub(super) fn schemes(machine: &MovingBox) -> Vec<Table> {
             "N",
             &["least", "greatest"],
             &|way| {
-                let (least, greatest) = range(&|input| {
+                range(&|input| {
                     let (motion, lead) = (way.at)(input);
                     load.force(motion, lead, radius).normal
-                });
-                vec![least, greatest]
+                })
             },
         ),
     ]

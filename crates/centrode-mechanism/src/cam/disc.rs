@@ -3,11 +3,10 @@
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
-use centrode_geometry::{LoopError, OpenOutline};
+use centrode_geometry::{LoopError, OpenOutline, extremes, least};
 use thiserror::Error;
 
 use super::design::{CamSpec, Follower, Turn};
-use super::extreme::{greatest, least};
 use super::motion::{Motion, MotionError, Peaks, ends, peaks};
 use crate::gear::design::SpecError;
 use crate::gear::design::rule::positive;
@@ -244,7 +243,7 @@ impl DiscCam {
             }
         }
         let position = |input: f64| self.motion.at(input).position;
-        let (low, high) = (least(position, &ends), greatest(position, &ends));
+        let [low, high] = extremes(position, &ends);
         match self.follower {
             Follower::SwingingRoller(_) | Follower::SwingingFlat(_) => {
                 for extreme in [low, high] {

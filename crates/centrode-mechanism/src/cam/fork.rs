@@ -6,12 +6,12 @@
 use std::f64::consts::{FRAC_PI_2, TAU};
 use std::sync::Arc;
 
+use centrode_geometry::extremes;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::design::{Follower, SwingingRoller, Turn};
 use super::disc::{CamError, DiscCam};
-use super::extreme::{greatest, least};
 use super::motion::ends;
 use crate::degrees;
 use crate::formula::Taylor;
@@ -138,7 +138,7 @@ impl Fork {
         let ends = ends(retraction.as_ref());
         let swing = |input: f64| self.rod.swing(&retraction.at(input)).position;
         let position = |input: f64| retraction.at(input).position;
-        for extreme in [least(position, &ends), greatest(position, &ends)] {
+        for extreme in extremes(position, &ends) {
             // Square to its own path a pin on the fork moves the rod no more.
             let lever = self.rod.lever().start + swing(extreme.input);
             if lever.is_nan() || lever.abs() >= FRAC_PI_2 {

@@ -1,9 +1,8 @@
 //! How far a cam is from what it cannot do.
 
-use centrode_geometry::bracketed_root;
+use centrode_geometry::{Extreme, bracketed_root, extremes, greatest, least};
 
 use super::disc::DiscCam;
-use super::extreme::{Extreme, greatest, least};
 
 /// Pressure angles and radii of curvature of a cam, over a whole turn, to the float limit.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -85,7 +84,8 @@ impl DiscCam {
         };
         let face = roller.is_none().then(|| {
             let place = |input: f64| self.contact(input).face.unwrap_or(0.0);
-            (least(place, &ends).value, greatest(place, &ends).value)
+            let [low, high] = extremes(place, &ends);
+            (low.value, high.value)
         });
         Limits {
             rise_pressure_angle: pressure(1.0),

@@ -3,7 +3,6 @@
 mod contact;
 pub mod design;
 mod disc;
-pub(crate) mod extreme;
 mod fork;
 pub mod law;
 mod limits;
@@ -11,9 +10,9 @@ mod motion;
 mod part;
 mod profile;
 
+pub use centrode_geometry::Extreme;
 pub use contact::Contact;
 pub use disc::{CamError, DiscCam};
-pub use extreme::Extreme;
 pub use fork::{Fork, Lever, RodJoint};
 pub use limits::Limits;
 pub use motion::{Join, Motion, MotionError, Peaks};

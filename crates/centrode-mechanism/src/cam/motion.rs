@@ -2,10 +2,10 @@
 
 use std::f64::consts::TAU;
 
+use centrode_geometry::{Extreme, greatest};
 use thiserror::Error;
 
 use super::design::{MotionSpec, SegmentSpec};
-use super::extreme::{Extreme, greatest};
 use super::law::{Coefficients, Law};
 use crate::formula::Taylor;
 use crate::gear::design::SpecError;

@@ -3,11 +3,10 @@
 use std::f64::consts::{PI, TAU};
 
 use centrode_geometry::{
-    Arc, LoopError, Outline, Point, Segment, Spline, Tolerance, without_loops,
+    Arc, LoopError, Outline, Point, Segment, Spline, Tolerance, least, without_loops,
 };
 
 use super::disc::{CamError, DiscCam};
-use super::extreme::least;
 
 /// The contour of a cam, counter-clockwise.
 #[derive(Clone, Debug, PartialEq)]

@@ -15,7 +15,7 @@ mod search;
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
-use centrode_geometry::{Point, bracketed_minimum, bracketed_root};
+use centrode_geometry::{Extreme, Point, bracketed_root, greatest, pieces};
 
 pub use design::{BoundsSpec, DriveSpec, FeederDesign, FeederGoals, LinkageSpec, MakingSpec};
 pub use dimension::{Dimension, UnknownDimension};
@@ -29,8 +29,8 @@ use crate::gear::{IncompleteDrive, IncompletePair};
 use crate::linkage::{FourBar, SixBar};
 use crate::transmission::{MotionJet, Transmission};
 
-/// Looks along a stroke for its greatest speed.
-const LOOKS: u32 = 720;
+/// Parts of a stroke in each of which the motion is smooth but for its breaks.
+const PARTS: u32 = 8;
 
 /// One way of the effector.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -161,6 +161,12 @@ impl Feeder {
         self.law.breaks()
     }
 
+    /// Inputs of one cycle between which the motion is smooth and short, from 0 to a whole turn.
+    #[must_use]
+    pub fn pieces(&self) -> Vec<f64> {
+        pieces(0.0, TAU, 2 * PARTS, &self.breaks())
+    }
+
     /// Input at which the crank has turned by an angle from where it rests, up to a turn, rad.
     #[must_use]
     pub fn input_at(&self, turned: f64) -> f64 {
@@ -189,16 +195,13 @@ impl Feeder {
 
     fn stroke(&self, from: f64, to: f64) -> Stroke {
         let speed = |input: f64| self.effector(input).velocity.abs();
-        let at = |i: u32| from + (to - from) * f64::from(i) / f64::from(LOOKS);
-        let best = (1..LOOKS)
-            .max_by(|&a, &b| speed(at(a)).total_cmp(&speed(at(b))))
-            .unwrap_or(1);
-        let (fastest, slow) = bracketed_minimum(|x| -speed(x), at(best - 1), at(best + 1));
+        let ends = pieces(from, to, PARTS, &self.breaks());
+        let Extreme { input, value } = greatest(speed, &ends);
         Stroke {
             from,
             to,
-            fastest,
-            speed: -slow,
+            fastest: input,
+            speed: value,
         }
     }
 

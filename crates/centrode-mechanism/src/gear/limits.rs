@@ -1,4 +1,4 @@
-use centrode_geometry::bracketed_minimum;
+use centrode_geometry::{Extreme, extremes};
 
 use super::{
     design::GearPairDesign,
@@ -38,47 +38,10 @@ impl CurvatureRange {
     /// Over the whole pitch curve of a member, to the float limit between its breaks.
     #[must_use]
     pub fn of(rolling: &Rolling, member: Member) -> Self {
-        const SAMPLES: u32 = 256;
-        let start = rolling.parameter(0.0);
-        let end = rolling.parameter(rolling.pitch_length(Member::Driver));
-        let at = |t: f64| rolling.frame(member, t).curvature;
-        let mut ends = vec![start];
-        ends.extend(rolling.breaks_between(start, end));
-        ends.push(end);
-        let step = (end - start) / f64::from(SAMPLES);
-        let mut samples: Vec<(f64, f64)> = Vec::new();
-        for pair in ends.windows(2) {
-            let last = pair[1].next_down();
-            let count = ((pair[1] - pair[0]) / step).ceil().max(2.0);
-            for i in 0..=count as u32 {
-                let t = (pair[0] + (pair[1] - pair[0]) * f64::from(i) / count).min(last);
-                samples.push((t, at(t)));
-            }
-        }
-        let refined = |sign: f64| {
-            let (index, best) = samples
-                .iter()
-                .enumerate()
-                .min_by(|a, b| (sign * a.1.1).total_cmp(&(sign * b.1.1)))
-                .map_or((0, (start, 0.0)), |(i, &s)| (i, s));
-            let mut found = best;
-            // Within a piece the extreme lies between the neighbours of the best sample.
-            let low = samples[index.saturating_sub(1)].0;
-            let high = samples[(index + 1).min(samples.len() - 1)].0;
-            for (a, b) in [(low, best.0), (best.0, high), (low, high)] {
-                if b > a {
-                    let (t, value) = bracketed_minimum(|t| sign * at(t), a, b);
-                    if value < sign * found.1 {
-                        found = (t, sign * value);
-                    }
-                }
-            }
-            (rolling.arc_length(found.0), found.1)
-        };
-        Self {
-            least: refined(1.0),
-            greatest: refined(-1.0),
-        }
+        let curvature = |t: f64| rolling.frame(member, t).curvature;
+        let [least, greatest] = extremes(curvature, &rolling.pieces())
+            .map(|Extreme { input, value }| (rolling.arc_length(input), value));
+        Self { least, greatest }
     }
 }
 

@@ -1,7 +1,10 @@
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
-use centrode_geometry::{Curve, Jet, Point, Primitive, Vector, bracketed_root};
+use centrode_geometry::{Curve, Jet, Point, Primitive, Vector, bracketed_root, pieces};
+
+/// Even parts of a turn in each of which a pitch curve has few extremes.
+const PIECES: u32 = 8;
 
 /// Which gear of a pair.
 #[derive(Clone, Copy, Debug, Eq, Hash, PartialEq)]
@@ -449,6 +452,12 @@ impl Rolling {
             out.reverse();
         }
         out
+    }
+
+    /// Parameters of one turn of the driver's pitch curve between which both curves are smooth and short.
+    pub(crate) fn pieces(&self) -> Vec<f64> {
+        let (start, end) = (self.start, self.start + self.curve.period());
+        pieces(start, end, PIECES, &self.breaks_between(start, end))
     }
 
     /// Breaks in `[from, to)`.

@@ -1,4 +1,4 @@
-use centrode_geometry::bracketed_minimum;
+use centrode_geometry::least;
 
 use super::{
     design::{Addendum, Phase},
@@ -191,24 +191,16 @@ pub(crate) fn layout(
 /// The length that turns play along the normal into the greatest play in angle over the cycle, mm: the
 /// least harmonic mean of the driven shaft's distances from the two common normals.
 fn least_lever(rolling: &Rolling, pressure_angle: f64) -> f64 {
-    const SAMPLES: u32 = 256;
     let (sin, cos) = pressure_angle.sin_cos();
-    let step = rolling.pitch_length(Member::Driver) / f64::from(SAMPLES);
-    let lever = |arc: f64| {
-        let frame = rolling.frame(Member::Driven, rolling.parameter(arc));
+    let lever = |t: f64| {
+        let frame = rolling.frame(Member::Driven, t);
         let distance = |side: f64| {
             let line = frame.tangent * cos + frame.normal * (side * sin);
             frame.point.coords.perp(&line).abs()
         };
         2.0 / (1.0 / distance(-1.0) + 1.0 / distance(1.0))
     };
-    let levers = (0..SAMPLES).map(|i| (f64::from(i) * step, lever(f64::from(i) * step)));
-    let least = levers.min_by(|a, b| a.1.total_cmp(&b.1));
-    least.map_or(f64::INFINITY, |(arc, value)| {
-        bracketed_minimum(lever, arc - step, arc + step)
-            .1
-            .min(value)
-    })
+    least(lever, &rolling.pieces()).value
 }
 
 /// Pitches from phi = 0 to the middle of a driver tooth, and whether the gears are congruent.

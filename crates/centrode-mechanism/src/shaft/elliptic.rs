@@ -57,6 +57,15 @@ impl EllipticDrive {
             phase: 0.0,
         })
     }
+
+    /// Input at which the shaft has turned by an angle, rad: the gears with their parts exchanged,
+    /// `y + 2 atan2(k sin y, 1 - k cos y)` with `y = turn - phase`.
+    #[must_use]
+    pub fn input_at(&self, turn: f64) -> f64 {
+        let k = self.eccentricity;
+        let (sin, cos) = (turn - self.phase).sin_cos();
+        turn + 2.0 * (k * sin).atan2(1.0 - k * cos)
+    }
 }
 
 impl Transmission for EllipticDrive {

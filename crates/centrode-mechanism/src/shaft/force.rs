@@ -1,11 +1,10 @@
 use std::f64::consts::{FRAC_PI_2, TAU};
 
+use centrode_geometry::{Extreme, extremes, greatest};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::Groove;
-use crate::cam::Extreme;
-use crate::cam::extreme::{greatest, least};
 use crate::gear::design::SpecError;
 use crate::gear::design::rule::{not_negative, positive};
 use crate::transmission::{MotionJet, Transmission};
@@ -169,9 +168,9 @@ impl Groove {
             -way(&motion) * motion.acceleration
         };
         ForceRange {
-            normal: [least(normal, &out), greatest(normal, &out)],
+            normal: extremes(normal, &out),
             normal_of_reversal: greatest(normal, &back),
-            torque: [least(torque, &ends), greatest(torque, &ends)],
+            torque: extremes(torque, &ends),
             deceleration: greatest(slowing, &out),
             deceleration_of_cycle: greatest(slowing, &ends),
         }

@@ -1,8 +1,6 @@
-use centrode_geometry::{Point, Vector};
+use centrode_geometry::{Extreme, Point, Vector, greatest, least};
 
 use super::{ShaftError, Traverse};
-use crate::cam::Extreme;
-use crate::cam::extreme::{greatest, least};
 use crate::gear::design::rule::positive;
 use crate::transmission::Transmission;
 

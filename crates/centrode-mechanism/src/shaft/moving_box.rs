@@ -1,6 +1,7 @@
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
+use centrode_geometry::pieces;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -9,6 +10,9 @@ use crate::gear::design::rule::{Rule, between, broken, line, name, positive, wit
 use crate::gear::design::{BodySpec, GearPairDesign, SpecError, TeethSpec, ToolSpec};
 use crate::gear::pitch::{Ellipse, PitchSpec};
 use crate::transmission::{MotionJet, Transmission};
+
+/// Even parts of a turn in each of which a stroke has few extremes.
+const PARTS: u32 = 16;
 
 /// What slows the box down while a seedling is picked.
 #[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
@@ -290,6 +294,18 @@ impl MovingBox {
         self.shaft.law().at(turn.position).after(&turn)
     }
 
+    /// Inputs of one turn of a stroke, from the pick on, between which its motion is smooth and short.
+    #[must_use]
+    pub fn stroke_pieces(&self) -> Vec<f64> {
+        // The gears turn the shaft by the input at the pick.
+        let pick = self.shaft.design().pick;
+        let mut ends = self.shaft.law().pieces(pick);
+        if let Some(drive) = &self.drive {
+            ends = ends.iter().map(|&theta| drive.input_at(theta)).collect();
+        }
+        pieces(pick, pick + TAU, PARTS, &ends)
+    }
+
     /// Forces on the slider at an input, with a load whose speed is that of the input.
     #[must_use]
     pub fn force(&self, input: f64, load: &Load) -> SliderForce {
@@ -321,19 +337,15 @@ impl Transmission for Driven {
     }
 
     fn breaks(&self) -> Vec<f64> {
-        // The gears turn the shaft once for each turn of the input: one turn's inverse serves all.
         let turns = self.traverse.turns();
         let mut breaks: Vec<f64> = self
             .traverse
             .breaks()
             .into_iter()
             .map(|theta| {
-                let turn = (theta / TAU).floor();
-                let within = theta - turn * TAU;
-                let off = |input: f64| self.drive.at(input).position - within;
-                let (low, high) = (within - 2.0, within + 2.0);
-                let input = centrode_geometry::bracketed_root(off, low, high, off(low), off(high));
-                (input + turn * TAU).rem_euclid(TAU * f64::from(turns))
+                self.drive
+                    .input_at(theta)
+                    .rem_euclid(TAU * f64::from(turns))
             })
             .collect();
         breaks.sort_by(f64::total_cmp);

@@ -1,6 +1,6 @@
 use std::f64::consts::TAU;
 
-use centrode_geometry::{Outline, Point, bracketed_minimum};
+use centrode_geometry::{Extreme, Outline, Point, least, pieces};
 
 use super::ThreeArm;
 
@@ -15,8 +15,8 @@ pub struct SeedlingClearance {
     pub seedling: u32,
 }
 
-/// Inputs at which the clamp is looked at before the least clearance is sharpened.
-const LOOKS: u32 = 720;
+/// Parts of a turn in each of which the clearance is smooth enough for its extremes to be found.
+const PARTS: u32 = 15;
 
 impl ThreeArm {
     /// Least clearance of an arm's clamp from the seedlings it has planted and finds planted, over a whole cycle.
@@ -32,15 +32,11 @@ impl ThreeArm {
     pub fn seedling_clearance(&self) -> SeedlingClearance {
         let release = self.planting(0);
         let half_turn = 0.5 * TAU;
-        let own = Self::least_of(
-            |input| self.behind(input, release),
-            [release, release + half_turn],
-        );
-        let before = Self::least_of(
-            |input| self.in_front(input, release),
-            [release - half_turn, release + half_turn],
-        );
-        let (seedling, (input, value)) = if before.1 < own.1 {
+        let from = |start: f64| pieces(start, release + half_turn, PARTS, &[]);
+        let own = least(|input| self.behind(input, release), &from(release));
+        let front = |input| self.in_front(input, release);
+        let before = least(front, &from(release - half_turn));
+        let (seedling, Extreme { input, value }) = if before.value < own.value {
             (1, before)
         } else {
             (0, own)
@@ -74,27 +70,6 @@ impl ThreeArm {
         let (half, top) = (0.5 * spec.width, spec.height);
         let corners = [[-half, 0.0], [half, 0.0], [half, top], [-half, top]];
         (half > 0.0 && top > 0.0).then(|| Outline::polygon(&corners.map(Point::from)))
-    }
-
-    /// Where a function is least between two inputs, and its value there.
-    fn least_of(clearance: impl Fn(f64) -> f64, [from, to]: [f64; 2]) -> (f64, f64) {
-        let step = (to - from) / f64::from(LOOKS);
-        let place = |i: u32| from + step * f64::from(i);
-        let values: Vec<f64> = (0..=LOOKS).map(|i| clearance(place(i))).collect();
-        let mut least = (from, values[0]);
-        for (i, looks) in (1..).zip(values.windows(3)) {
-            let dips = looks[1] <= looks[0] && looks[1] <= looks[2] && looks[1].is_finite();
-            let found = [
-                Some((place(i), looks[1])),
-                dips.then(|| bracketed_minimum(&clearance, place(i - 1), place(i + 1))),
-            ];
-            for candidate in found.into_iter().flatten() {
-                if candidate.1 < least.1 {
-                    least = candidate;
-                }
-            }
-        }
-        least
     }
 
     /// Ends of the part of the clamp below the stems' top, along the travel over ground from the stem, mm.

@@ -1,5 +1,5 @@
 use super::Label;
-use centrode_geometry::{Bounds, Outline, Point, Tolerance, Vector, bracketed_minimum};
+use centrode_geometry::{Bounds, Extreme, Outline, Point, Tolerance, Vector, least};
 use centrode_mechanism::gear::{Frame, Gear, GearPair, Member, Role};
 use std::f64::consts::TAU;
 
@@ -39,15 +39,10 @@ impl<'a> Part<'a> {
                 Role::Root | Role::Fillet => (&mut roots, 1.0),
             };
             let radius = |u: f64| sign * segment.at(u).point.coords.norm();
-            for i in 0..8 {
-                let low = -1.0 + 0.25 * f64::from(i);
-                let (u, _) = bracketed_minimum(radius, low, low + 0.25);
-                for u in [low, u, low + 0.25] {
-                    let found: &mut Option<(f64, Point)> = &mut list[owner as usize];
-                    if found.is_none_or(|(best, _)| radius(u) < best) {
-                        *found = Some((radius(u), segment.at(u).point));
-                    }
-                }
+            let Extreme { input, value } = least(radius, &[-1.0, 1.0]);
+            let found: &mut Option<(f64, Point)> = &mut list[owner as usize];
+            if found.is_none_or(|(best, _)| value < best) {
+                *found = Some((value, segment.at(input).point));
             }
         }
         let points = |list: Vec<Option<(f64, Point)>>| -> Vec<Point> {

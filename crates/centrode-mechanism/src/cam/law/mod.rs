@@ -5,6 +5,7 @@
 use std::fmt;
 use std::sync::Arc;
 
+use centrode_geometry::{Extreme, greatest};
 use schemars::JsonSchema;
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize};
@@ -26,8 +27,6 @@ pub use polynomial::Polynomial;
 use crate::formula::Taylor;
 use crate::gear::design::SpecError;
 use crate::transmission::MotionJet;
-
-use super::extreme::{Extreme, greatest};
 
 /// A motion law as written: one of the kinds, by the key `kind`.
 #[derive(Clone, Debug, Default, JsonSchema, PartialEq, Serialize)]

@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
+use centrode_geometry::{Extreme, extremes, greatest, pieces};
 use schemars::JsonSchema;
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize};
@@ -16,8 +17,6 @@ pub use rotated::RotatedSine;
 pub use sine::{AmplitudeFor, Sine};
 
 use super::ShaftError;
-use crate::cam::Extreme;
-use crate::cam::extreme::{greatest, least};
 use crate::gear::design::rule::positive;
 use crate::transmission::{MotionJet, Transmission};
 
@@ -108,12 +107,8 @@ impl ShaftLaw {
     /// # Errors
     /// [`ShaftError::SpeedNotPositive`] where it stands still or runs back.
     pub fn new(form: Arc<dyn Transmission>) -> Result<Self, ShaftError> {
-        let mut ends: Vec<f64> = (0..=16).map(|i| TAU * f64::from(i) / 16.0).collect();
-        ends.extend(form.breaks());
-        ends.sort_by(f64::total_cmp);
-        ends.dedup();
-        let speed = |theta: f64| form.at(theta).velocity;
-        let (slowest, fastest) = (least(speed, &ends), greatest(speed, &ends));
+        let ends = turn_pieces(form.as_ref(), 0.0);
+        let [slowest, fastest] = extremes(|theta| form.at(theta).velocity, &ends);
         let mean = form.advance() / TAU;
         if slowest.value > 0.0 && fastest.value.is_finite() {
             Ok(Self {
@@ -153,6 +148,12 @@ impl ShaftLaw {
         self.fastest
     }
 
+    /// Shaft angles of the turn that begins at `from` between which the law is smooth and short.
+    #[must_use]
+    pub fn pieces(&self, from: f64) -> Vec<f64> {
+        turn_pieces(self.form.as_ref(), from)
+    }
+
     /// Distance moved from one shaft angle to another, mm.
     #[must_use]
     pub fn moved(&self, start: f64, stop: f64) -> f64 {
@@ -164,9 +165,17 @@ impl ShaftLaw {
     #[must_use]
     pub fn departure(&self, other: &Self, from: f64) -> f64 {
         let apart = |theta: f64| (self.moved(from, theta) - other.moved(from, theta)).abs();
-        let ends: Vec<f64> = (0..=16).map(|i| from + TAU * f64::from(i) / 16.0).collect();
-        greatest(apart, &ends).value
+        greatest(apart, &self.pieces(from)).value
     }
+}
+
+/// Even parts of a turn in each of which a law has few extremes.
+const PARTS: u32 = 16;
+
+fn turn_pieces(form: &dyn Transmission, from: f64) -> Vec<f64> {
+    let within = |theta: &f64| from + (theta - from).rem_euclid(TAU);
+    let breaks: Vec<f64> = form.breaks().iter().map(within).collect();
+    pieces(from, from + TAU, PARTS, &breaks)
 }
 
 impl Transmission for ShaftLaw {
