@@ -119,7 +119,7 @@ impl<'a> Rings<'a> {
         Self {
             body,
             radius,
-            columns: columns(0.5 * body.journal_diameter, tolerance),
+            columns: columns(0.5 * body.journal_diameter, tolerance.mm()),
         }
     }
 

@@ -6,7 +6,7 @@ use std::f64::consts::PI;
 use centrode_geometry::{Shell, ShellCurve, ShellEdge, ShellFace, ShellSurface};
 use nalgebra::{DMatrix, DVector};
 
-use super::plan::Plan;
+use super::plan::{Level, Plan};
 use super::surface::Surface;
 use super::{ShaftBody, ends};
 use crate::shaft::{Groove, Wall};
@@ -106,7 +106,11 @@ pub(super) fn back((edge, forward): (usize, bool)) -> (usize, bool) {
 pub(super) fn shell(groove: &Groove, body: &ShaftBody, thick: [f64; 2]) -> Option<Shell> {
     let fit = Fit::new();
     LINES.iter().find_map(|&count| {
-        let plan = Plan::smooth(groove, count);
+        let floor = Level {
+            half: 0.5 * groove.width(),
+            radius: groove.radius() - groove.depth(),
+        };
+        let plan = Plan::smooth(groove, floor, count);
         let mut boundary = Boundary::default();
         grooved(&mut boundary, &fit, &plan, groove.radius(), thick)?;
         ends::close(&mut boundary, body, groove.radius(), thick, &plan.lines);

@@ -60,7 +60,7 @@ impl<'a> ShaftSolid<'a> {
 
     /// A closed triangle mesh with outward normals, every triangle within the tolerance of the surface.
     ///
-    /// Cost grows as the inverse square root of the tolerance.
+    /// Walls twist and fillets bend, so the number of triangles grows as the inverse of the tolerance.
     #[must_use]
     pub fn mesh(&self, tolerance: Tolerance) -> Mesh {
         let plan = Plan::new(self.groove, self.body.fillet, tolerance);

@@ -8,6 +8,12 @@ use crate::transmission::Transmission;
 /// Angles nearer than this are one, rad.
 const SAME: f64 = 1e-9;
 
+/// Share of the tolerance by which an edge may be bent between two lines; the rest is for the walls' twist.
+const BENT: f64 = 0.25;
+
+/// Halvings of the angle between two lines at most.
+const DEEPEST: u32 = 12;
+
 /// Lines looked at for edges that meet.
 const LOOKS: u32 = 360;
 
@@ -27,6 +33,18 @@ pub(super) struct Edge {
 pub(super) struct Level {
     pub(super) half: f64,
     pub(super) radius: f64,
+}
+
+impl Level {
+    /// A line along the fillet: at the angle 0 the foot of the wall, `half` off the middle; at a quarter turn the
+    /// floor.
+    pub(super) fn of(half: f64, floor: f64, fillet: f64, angle: f64) -> Self {
+        let (sin, cos) = angle.sin_cos();
+        Self {
+            half: half - fillet * (1.0 - cos),
+            radius: floor + fillet * (1.0 - sin),
+        }
+    }
 }
 
 /// An angle round the shaft that gets a line.
@@ -58,6 +76,8 @@ pub(super) struct Plan<'a> {
     rises: Vec<Option<f64>>,
     /// Foot of the wall first, then the fillet down to the floor.
     pub(super) levels: Vec<Level>,
+    /// Rows of faces from the foot of a wall up to the surface.
+    pub(super) rows: u32,
     /// Angles in [0, one turn), ascending.
     pub(super) lines: Vec<f64>,
     /// Heights by line and edge.
@@ -66,8 +86,11 @@ pub(super) struct Plan<'a> {
 
 impl<'a> Plan<'a> {
     pub(super) fn new(groove: &'a Groove, fillet: f64, tolerance: Tolerance) -> Self {
-        let mut plan = Self::empty(groove, levels(groove, fillet, tolerance));
-        let count = columns(groove.radius(), tolerance);
+        let (foot, tol) = (groove.radius() - groove.depth() + fillet, tolerance.mm());
+        // Along the fillet the chords round the shaft and those down the fillet add up.
+        let chord = if fillet > 0.0 { 0.5 * tol } else { tol };
+        let mut plan = Self::empty(groove, levels(groove, fillet, 0.5 * tol));
+        let count = columns(groove.radius(), tol).max(columns(foot, chord));
         let rows = plan.rows(count);
         let mut events = plan.meetings(&rows);
         events.extend(even(count).zip(rows).map(|(event, heights)| Event {
@@ -75,17 +98,15 @@ impl<'a> Plan<'a> {
             ..event
         }));
         plan.set_lines(events);
+        plan.refine(BENT * tol);
+        plan.rows = plan.wall_rows((1.0 - BENT) * tol);
         plan
     }
 
-    /// A plan without fillet whose edges are smooth between its lines: `count` even ones, those where edges
-    /// meet, and those where the law breaks.
-    pub(super) fn smooth(groove: &'a Groove, count: u32) -> Self {
-        let floor = Level {
-            half: 0.5 * groove.width(),
-            radius: groove.radius() - groove.depth(),
-        };
-        let mut plan = Self::empty(groove, vec![floor]);
+    /// A plan of one level whose edges are smooth between its lines: `count` even ones, those where edges meet,
+    /// and those where the law breaks.
+    pub(super) fn smooth(groove: &'a Groove, level: Level, count: u32) -> Self {
+        let mut plan = Self::empty(groove, vec![level]);
         let mut events: Vec<Event> = even(count).collect();
         events.extend(plan.meetings(&plan.rows(LOOKS.max(count))));
         events.extend(plan.breaks().into_iter().map(Event::at));
@@ -99,6 +120,7 @@ impl<'a> Plan<'a> {
             turns: groove.traverse().turns() as usize,
             rises: rises(groove),
             levels,
+            rows: 1,
             lines: Vec::new(),
             heights: Vec::new(),
         }
@@ -136,7 +158,11 @@ impl<'a> Plan<'a> {
     /// Angles round the shaft at which an edge is not smooth.
     fn breaks(&self) -> Vec<f64> {
         let (traverse, r) = (self.groove.traverse(), self.groove.radius());
-        let sides = Wall::BOTH.map(|wall| wall.sign() * 0.5 * self.groove.width());
+        let sides = self
+            .levels
+            .iter()
+            .flat_map(|level| Wall::BOTH.map(|wall| wall.sign() * level.half));
+        let sides: Vec<f64> = sides.collect();
         let breaks = traverse.breaks();
         let at = |theta: f64, side: f64| {
             let slope = traverse.at(theta).velocity;
@@ -144,7 +170,7 @@ impl<'a> Plan<'a> {
         };
         breaks
             .iter()
-            .flat_map(|&theta| sides.map(|side| at(theta, side)))
+            .flat_map(|&theta| sides.iter().map(move |&side| at(theta, side)))
             .collect()
     }
 
@@ -180,6 +206,83 @@ impl<'a> Plan<'a> {
         }
     }
 
+    /// Adds lines until every edge is straight between two lines to within `limit`, mm.
+    fn refine(&mut self, limit: f64) {
+        let mut lines = Vec::new();
+        let mut heights = Vec::new();
+        for line in 0..self.lines.len() {
+            let end = self.lines.get(line + 1).copied().unwrap_or(TAU);
+            let mut open = vec![(
+                self.lines[line],
+                end,
+                self.heights(line),
+                self.heights(line + 1),
+                0,
+            )];
+            while let Some((from, to, low, high, depth)) = open.pop() {
+                let angle = 0.5 * (from + to);
+                let middle = self.heights_at(angle);
+                let bent = |k: usize| (middle[k] - 0.5 * (low[k] + high[k])).abs() > limit;
+                if depth < DEEPEST && (0..middle.len()).any(bent) {
+                    open.push((angle, to, middle.clone(), high, depth + 1));
+                    open.push((from, angle, low, middle, depth + 1));
+                } else {
+                    lines.push(from);
+                    heights.push(low);
+                }
+            }
+        }
+        (self.lines, self.heights) = (lines, heights);
+    }
+
+    /// Rows of faces that keep the walls, which are twisted, within `limit` (mm) of their triangles: between lines
+    /// an angle `h` apart, rows `d` high and a height that grows by `s` with the angle, the middle of a diagonal
+    /// is off by `h d s / (4 sqrt(r^2 + s^2))`.
+    fn wall_rows(&self, limit: f64) -> u32 {
+        let radius = self.groove.radius();
+        let slope = radius * self.groove.steepest().value.tan();
+        let foot = self.levels[0].radius;
+        let ends = self.lines.iter().copied().chain([TAU]);
+        let widest = ends
+            .clone()
+            .zip(ends.skip(1))
+            .map(|(from, to)| to - from)
+            .fold(0.0, f64::max);
+        let twist = 0.25 * widest * (radius - foot) * slope / foot.hypot(slope);
+        (twist / limit).ceil().clamp(1.0, 1e3) as u32
+    }
+
+    /// Where the walls of two turns meet at an angle round the shaft below the level at which they do not yet, and
+    /// above the next: between `above` and `above + 1`. `low` is a left edge, `high` a right one, both of the latter
+    /// level. Height and radius; none where they do not meet.
+    pub(super) fn ridge(&self, [low, high]: [usize; 2], line: usize) -> Option<(f64, f64)> {
+        // The line after the last is the first, a turn later.
+        let (phi, low, high) = match self.lines.get(line) {
+            Some(&phi) => (phi, low, high),
+            None => (self.lines[0], self.edge_after(low), self.edge_after(high)),
+        };
+        let [deep, above] = [self.edge(low).level, self.edge(low).level.checked_sub(1)?];
+        let floor = self.groove.radius() - self.groove.depth();
+        let fillet = self.levels[0].radius - floor;
+        let at = |angle: f64| Level::of(0.5 * self.groove.width(), floor, fillet, angle);
+        let apart = |angle: f64| {
+            let half = at(angle).half;
+            self.found(low, half, phi, None).0 - self.found(high, half, phi, None).0
+        };
+        let [from, to] = [above, deep].map(|level| self.fillet_angle(level));
+        let (start, end) = (apart(from), apart(to));
+        if start <= 0.0 || end >= 0.0 {
+            return None;
+        }
+        let level = at(bracketed_root(apart, from, to, start, end));
+        Some((self.found(low, level.half, phi, None).0, level.radius))
+    }
+
+    /// How far down the fillet a level lies: 0 at the foot of the wall, a quarter turn at the floor.
+    fn fillet_angle(&self, level: usize) -> f64 {
+        FRAC_PI_2 * level as f64 / (self.levels.len() - 1) as f64
+    }
+
     pub(super) fn edges(&self) -> usize {
         2 * self.turns * self.levels.len()
     }
@@ -207,6 +310,30 @@ impl<'a> Plan<'a> {
         })
     }
 
+    /// Lower and upper edges of the groove at a level, upwards: turns that overlap are open together. `height`
+    /// tells how high an edge is.
+    pub(super) fn open(&self, level: usize, height: impl Fn(usize) -> f64) -> Vec<[usize; 2]> {
+        let row = 2 * self.turns;
+        // Left and right wall of a turn stand side by side in the numbering.
+        let mut turns: Vec<[usize; 2]> = (level * row..(level + 1) * row)
+            .step_by(2)
+            .map(|left| [left + 1, left])
+            .collect();
+        turns.sort_by(|a, b| height(a[0]).total_cmp(&height(b[0])));
+        let mut open: Vec<[usize; 2]> = Vec::new();
+        for turn in turns {
+            match open.last_mut() {
+                Some(last) if height(turn[0]) <= height(last[1]) => {
+                    if height(turn[1]) > height(last[1]) {
+                        last[1] = turn[1];
+                    }
+                }
+                _ => open.push(turn),
+            }
+        }
+        open
+    }
+
     /// Heights at the end of the turn from those at its start.
     pub(super) fn next_turn(&self, heights: &[f64]) -> Vec<f64> {
         (0..heights.len())
@@ -222,7 +349,8 @@ impl<'a> Plan<'a> {
         }
     }
 
-    fn heights_at(&self, phi: f64) -> Vec<f64> {
+    /// Heights of all edges at an angle round the shaft.
+    pub(super) fn heights_at(&self, phi: f64) -> Vec<f64> {
         let row = 2 * self.turns;
         // The levels of one wall lie close to one another: each starts from the one before.
         let mut feet = vec![None; row];
@@ -231,7 +359,8 @@ impl<'a> Plan<'a> {
             let height = if let Some(rise) = self.rises[self.edge(edge).turn] {
                 heights[edge - 2] + rise
             } else {
-                let (height, theta) = self.found(edge, phi, feet[edge % row]);
+                let half = self.levels[self.edge(edge).level].half;
+                let (height, theta) = self.found(edge, half, phi, feet[edge % row]);
                 feet[edge % row] = Some(theta);
                 height
             };
@@ -242,14 +371,14 @@ impl<'a> Plan<'a> {
 
     /// Height of an edge at an angle round the shaft.
     pub(super) fn height(&self, edge: usize, phi: f64) -> f64 {
-        self.found(edge, phi, None).0
+        let half = self.levels[self.edge(edge).level].half;
+        self.found(edge, half, phi, None).0
     }
 
-    /// Height of an edge at an angle round the shaft, and the shaft angle of the groove it belongs to, looked
-    /// for from a near one.
-    fn found(&self, edge: usize, phi: f64, near: Option<f64>) -> (f64, f64) {
-        let Edge { turn, wall, level } = self.edge(edge);
-        let half = self.levels[level].half;
+    /// Height of an edge, if the groove were `half` wide to each side, at an angle round the shaft, and the shaft
+    /// angle of the groove it belongs to, looked for from a near one.
+    fn found(&self, edge: usize, half: f64, phi: f64, near: Option<f64>) -> (f64, f64) {
+        let Edge { turn, wall, .. } = self.edge(edge);
         let side = match wall {
             Wall::Left => half,
             Wall::Right => -half,
@@ -335,14 +464,14 @@ fn even(count: u32) -> impl Iterator<Item = Event> {
     (0..count).map(move |i| Event::at(TAU * f64::from(i) / f64::from(count)))
 }
 
-/// Columns round the shaft so that a chord is within the tolerance of its arc.
-pub(super) fn columns(radius: f64, tolerance: Tolerance) -> u32 {
-    let half = (1.0 - (tolerance.mm() / radius).min(0.5)).acos();
+/// Columns round the shaft so that a chord is within `limit` (mm) of its arc.
+pub(super) fn columns(radius: f64, limit: f64) -> u32 {
+    let half = (1.0 - (limit / radius).min(0.5)).acos();
     ((FRAC_PI_2 * 2.0 / half).ceil().min(1e5) as u32).max(16)
 }
 
-/// Foot of the wall, and the fillet down to the floor within the tolerance.
-fn levels(groove: &Groove, fillet: f64, tolerance: Tolerance) -> Vec<Level> {
+/// Foot of the wall, and the fillet down to the floor within `limit`, mm.
+fn levels(groove: &Groove, fillet: f64, limit: f64) -> Vec<Level> {
     let (half, floor) = (0.5 * groove.width(), groove.radius() - groove.depth());
     if fillet == 0.0 {
         return vec![Level {
@@ -350,15 +479,9 @@ fn levels(groove: &Groove, fillet: f64, tolerance: Tolerance) -> Vec<Level> {
             radius: floor,
         }];
     }
-    let step = 2.0 * (1.0 - (tolerance.mm() / fillet).min(0.5)).acos();
+    let step = 2.0 * (1.0 - (limit / fillet).min(0.5)).acos();
     let count = (FRAC_PI_2 / step).ceil().clamp(1.0, 64.0);
     (0..=count as u32)
-        .map(|i| {
-            let (sin, cos) = (FRAC_PI_2 * f64::from(i) / count).sin_cos();
-            Level {
-                half: half - fillet * (1.0 - cos),
-                radius: floor + fillet * (1.0 - sin),
-            }
-        })
+        .map(|i| Level::of(half, floor, fillet, FRAC_PI_2 * f64::from(i) / count))
         .collect()
 }

@@ -9,6 +9,9 @@ use crate::shaft::Wall;
 
 /// Which surface a vertex belongs to: the shaft's, or a level of the groove.
 const LAND: usize = usize::MAX;
+/// The same for the crest between two grooves' fillets, and from here on for rows of the walls.
+const RIDGE: usize = usize::MAX / 4;
+const WALL: usize = usize::MAX / 2;
 
 /// A height as a key that sorts as the number does.
 fn key(z: f64) -> u64 {
@@ -34,9 +37,24 @@ fn height(key: u64) -> f64 {
 struct Cell {
     /// The first of its two lines.
     line: usize,
-    /// Lower and upper edge: height on both lines, and the level seen from this cell.
-    low: ([f64; 2], usize),
-    high: ([f64; 2], usize),
+    low: Rim,
+    high: Rim,
+}
+
+/// An edge of a cell: on both lines its height, and the level seen from the cell.
+#[derive(Clone, Copy, Debug)]
+struct Rim {
+    heights: [f64; 2],
+    levels: [usize; 2],
+}
+
+impl Rim {
+    fn new(heights: [f64; 2], level: usize) -> Self {
+        Self {
+            heights,
+            levels: [level; 2],
+        }
+    }
 }
 
 /// The shaft's surface with the groove in it, between two heights: an open mesh.
@@ -96,33 +114,17 @@ impl<'a> Surface<'a> {
     /// The cells between a line and the next, and the walls between them.
     fn strip(&mut self, line: usize, here: &[f64], next: &[f64]) {
         let middle = |edge: usize| here[edge] + next[edge];
-        let mut visible: Vec<usize> = Vec::new();
-        let row = 2 * self.plan.turns;
-        for level in 0..self.plan.levels.len() {
-            // Left and right wall of a turn stand side by side in the numbering.
-            let mut turns: Vec<[usize; 2]> = (level * row..(level + 1) * row)
-                .step_by(2)
-                .map(|left| [left + 1, left])
-                .collect();
-            turns.sort_by(|a, b| middle(a[0]).total_cmp(&middle(b[0])));
-            let mut merged: Vec<[usize; 2]> = Vec::new();
-            for turn in turns {
-                match merged.last_mut() {
-                    Some(last) if middle(turn[0]) <= middle(last[1]) => {
-                        if middle(turn[1]) > middle(last[1]) {
-                            last[1] = turn[1];
-                        }
-                    }
-                    _ => merged.push(turn),
-                }
-            }
-            visible.extend(merged.into_iter().flatten());
-        }
+        let levels = 0..self.plan.levels.len();
+        let mut visible: Vec<usize> = levels
+            .flat_map(|level| self.plan.open(level, middle))
+            .flatten()
+            .collect();
         visible.sort_by(|&a, &b| {
             let by_height = middle(a).total_cmp(&middle(b));
             by_height.then(self.plan.edge(a).level.cmp(&self.plan.edge(b).level))
         });
-        let mut low = ([self.ends[0]; 2], LAND);
+        let mut low = Rim::new([self.ends[0]; 2], LAND);
+        let mut before = None;
         for &edge in &visible {
             let heights = [here[edge], next[edge]];
             let (level, wall) = (self.plan.edge(edge).level, self.plan.edge(edge).wall);
@@ -132,12 +134,22 @@ impl<'a> Surface<'a> {
                 Wall::Right => (outside, level),
                 Wall::Left => (level, outside),
             };
-            self.cell(Cell {
-                line,
-                low,
-                high: (heights, below),
-            });
-            low = (heights, above);
+            let high = Rim::new(heights, below);
+            // From a left edge to a right one, and no land between.
+            let crest = before
+                .filter(|_| wall == Wall::Right && below != LAND && low.levels[0] == below)
+                .and_then(|before| self.crest(line, [before, edge], [here, next]));
+            if let Some(crest) = crest {
+                self.cell(Cell {
+                    line,
+                    low,
+                    high: crest,
+                });
+                low = crest;
+            }
+            self.cell(Cell { line, low, high });
+            low = Rim::new(heights, above);
+            before = Some(edge);
             if level == 0 {
                 self.upright(line, heights, wall);
                 self.tops.push((edge, line, heights));
@@ -146,15 +158,50 @@ impl<'a> Surface<'a> {
         self.cell(Cell {
             line,
             low,
-            high: ([self.ends[1]; 2], LAND),
+            high: Rim::new([self.ends[1]; 2], LAND),
         });
+    }
+
+    /// The crest between the fillets of two grooves that are open together one level up: between a left edge and
+    /// the right edge above it.
+    fn crest(&mut self, line: usize, pair: [usize; 2], heights: [&[f64]; 2]) -> Option<Rim> {
+        let level = self.plan.edge(pair[0]).level;
+        let above = pair.map(|edge| edge - 2 * self.plan.turns);
+        let mut crest = Rim::new([0.0; 2], level);
+        let mut found = false;
+        for side in 0..2 {
+            let [[low, high], [met, other]] =
+                [pair, above].map(|p| p.map(|edge| heights[side][edge]));
+            // Where the edges of a level meet the crest ends on them.
+            (crest.heights[side], crest.levels[side]) = if low == high {
+                (low, level)
+            } else if met == other {
+                (met, level - 1)
+            } else if let Some((z, radius)) = self.plan.ridge(pair, line + side)
+                && low < z
+                && z < high
+            {
+                self.vertex_at((line + side) % self.plan.lines.len(), (z, RIDGE), radius);
+                (z, RIDGE)
+            } else {
+                (low, level)
+            };
+            found |= crest.levels[side] != level;
+        }
+        found.then_some(crest)
     }
 
     fn cell(&mut self, cell: Cell) {
         let count = self.plan.lines.len();
-        for (heights, level) in [cell.low, cell.high] {
-            for (side, z) in heights.into_iter().enumerate() {
-                self.vertex((cell.line + side) % count, z, level);
+        for rim in [&cell.low, &cell.high] {
+            for side in 0..2 {
+                if rim.levels[side] != RIDGE {
+                    self.vertex(
+                        (cell.line + side) % count,
+                        rim.heights[side],
+                        rim.levels[side],
+                    );
+                }
             }
         }
         self.cells.push(cell);
@@ -163,26 +210,43 @@ impl<'a> Surface<'a> {
     /// The upright wall along an edge between a line and the next.
     fn upright(&mut self, line: usize, heights: [f64; 2], wall: Wall) {
         let next = (line + 1) % self.plan.lines.len();
-        let corners = [
-            self.vertex(line, heights[0], 0),
-            self.vertex(line, heights[0], LAND),
-            self.vertex(next, heights[1], LAND),
-            self.vertex(next, heights[1], 0),
-        ];
-        let [a, b, c, d] = corners;
-        match wall {
-            Wall::Right => self.faces.extend([[a, b, c], [a, c, d]]),
-            Wall::Left => self.faces.extend([[a, c, b], [a, d, c]]),
+        let rows = self.plan.rows as usize;
+        let level = |row: usize| match row {
+            0 => 0,
+            row if row == rows => LAND,
+            row => WALL + row,
+        };
+        for row in 0..rows {
+            let [below, above] = [row, row + 1].map(level);
+            let corners = [
+                self.vertex(line, heights[0], below),
+                self.vertex(line, heights[0], above),
+                self.vertex(next, heights[1], above),
+                self.vertex(next, heights[1], below),
+            ];
+            let [a, b, c, d] = corners;
+            match wall {
+                Wall::Right => self.faces.extend([[a, b, c], [a, c, d]]),
+                Wall::Left => self.faces.extend([[a, c, b], [a, d, c]]),
+            }
         }
     }
 
     fn vertex(&mut self, line: usize, z: f64, level: usize) -> u32 {
-        let (vertices, (sin, cos)) = (&mut self.vertices, self.ways[line]);
-        let radius = if level == LAND {
-            self.radius
-        } else {
-            self.plan.levels[level].radius
+        let foot = self.plan.levels[0].radius;
+        let radius = match level {
+            LAND => self.radius,
+            row if row > WALL => {
+                let share = (row - WALL) as f64 / f64::from(self.plan.rows);
+                foot + (self.radius - foot) * share
+            }
+            level => self.plan.levels[level].radius,
         };
+        self.vertex_at(line, (z, level), radius)
+    }
+
+    fn vertex_at(&mut self, line: usize, (z, level): (f64, usize), radius: f64) -> u32 {
+        let (vertices, (sin, cos)) = (&mut self.vertices, self.ways[line]);
         *self.on_line[line]
             .entry((key(z), level))
             .or_insert_with(|| {
@@ -193,22 +257,23 @@ impl<'a> Surface<'a> {
 
     /// Vertices along one side of a cell, upwards: its corners, and what neighbours have between them.
     fn chain(&self, line: usize, side: usize, cell: &Cell) -> Vec<(f64, u32)> {
-        let (low, high) = (key(cell.low.0[side]), key(cell.high.0[side]));
+        let [low, high] = [&cell.low, &cell.high].map(|rim| key(rim.heights[side]));
         let on_line = &self.on_line[line];
         let of = |z: u64, level: usize| {
             let vertex = on_line[&(z, level)];
             (self.vertices[vertex as usize][2], vertex)
         };
-        let mut chain = vec![of(low, cell.low.1)];
+        let mut chain = vec![of(low, cell.low.levels[side])];
         if low < high {
-            let land = cell.low.1 == LAND && cell.high.1 == LAND;
+            let land = cell.low.levels == [LAND; 2] && cell.high.levels == [LAND; 2];
             for (&(z, level), &vertex) in on_line.range((low + 1, 0)..(high, 0)) {
-                if (level == LAND) == land {
+                let walls_own = level > WALL && level != LAND;
+                if (level == LAND) == land && !walls_own {
                     chain.push((height(z), vertex));
                 }
             }
         }
-        chain.push(of(high, cell.high.1));
+        chain.push(of(high, cell.high.levels[side]));
         chain.dedup_by_key(|(_, vertex)| *vertex);
         chain
     }

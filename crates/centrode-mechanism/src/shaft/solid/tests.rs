@@ -264,3 +264,98 @@ fn the_exact_boundary_is_closed_and_encloses_what_the_mesh_does() {
         assert!(!torn.is_closed());
     }
 }
+
+/// Distance of a point from the centre line on the development, mm, the shaft's turns taken together.
+fn beside_line(groove: &Groove, samples: &[(f64, f64)], phi: f64, z: f64) -> f64 {
+    let r = groove.radius();
+    let round = |x: f64| x - TAU * r * (x / (TAU * r)).round();
+    let off = |theta: f64| {
+        let p = groove.center(theta);
+        round(p.x - r * phi).hypot(p.y - z)
+    };
+    let mut near: Vec<(f64, f64)> = samples
+        .iter()
+        .map(|&(theta, height)| (round(r * (theta - phi)).hypot(height - z), theta))
+        .collect();
+    let step = samples[1].0 - samples[0].0;
+    let least = near.iter().map(|n| n.0).fold(f64::INFINITY, f64::min);
+    // Samples lie closer together than this.
+    near.retain(|n| n.0 < least + 0.5);
+    let mut best = least;
+    for (_, theta) in near {
+        let (_, value) = centrode_geometry::bracketed_minimum(off, theta - step, theta + step);
+        best = best.min(value);
+    }
+    best
+}
+
+/// Distance of a point from the grooved length's exact surface, mm, hardly too great.
+fn off_surface(groove: &Groove, fillet: f64, samples: &[(f64, f64)], [x, y, z]: [f64; 3]) -> f64 {
+    let (radius, half) = (groove.radius(), 0.5 * groove.width());
+    let floor = radius - groove.depth();
+    let r = x.hypot(y);
+    let d = beside_line(groove, samples, y.atan2(x), z);
+    let foot = floor + fillet;
+    let land = (radius - r).hypot((half - d).max(0.0));
+    let bottom = (r - floor).hypot((d - half + fillet).max(0.0));
+    let wall = (d - half).hypot((foot - r).max(r - radius).max(0.0));
+    let round = if d >= half - fillet && r <= foot {
+        ((d - half + fillet).hypot(foot - r) - fillet).abs()
+    } else {
+        f64::INFINITY
+    };
+    land.min(bottom).min(wall).min(round)
+}
+
+/// Greatest distance of corners, middles of edges and middles of triangles of the grooved length from its exact surface,
+/// over some 400 triangles.
+fn greatest_deviation(groove: &Groove, body: &ShaftBody, tol: f64) -> f64 {
+    let solid = ShaftSolid::new(groove, body).expect("fits");
+    let samples: Vec<(f64, f64)> = (0..groove.traverse().turns() * 200)
+        .map(|i| TAU * f64::from(i) / 200.0)
+        .map(|theta| (theta, groove.center(theta).y))
+        .collect();
+    let mesh = solid.mesh(tolerance(tol));
+    let [low, high] = solid.ends();
+    let of_groove = |corners: &[[f64; 3]; 3]| {
+        let within = |p: &[f64; 3]| p[2] > low - 1e-9 && p[2] < high + 1e-9;
+        let outside = |p: &[f64; 3]| p[0].hypot(p[1]) > groove.radius() - groove.depth() - 1e-9;
+        let flat = corners.iter().all(|p| p[2] == corners[0][2]);
+        corners.iter().all(|p| within(p) && outside(p)) && !flat
+    };
+    let mut worst = 0.0_f64;
+    for face in mesh.faces.iter().step_by(mesh.faces.len() / 400 + 1) {
+        let corners = mesh.triangle(face);
+        if !of_groove(&corners) {
+            continue;
+        }
+        for weights in [
+            [1.0, 0.0, 0.0],
+            [0.5, 0.5, 0.0],
+            [0.0, 0.5, 0.5],
+            [0.5, 0.0, 0.5],
+            [1.0 / 3.0; 3],
+        ] {
+            let point = [0, 1, 2].map(|k| (0..3).map(|i| weights[i] * corners[i][k]).sum());
+            worst = worst.max(off_surface(groove, body.fillet, &samples, point));
+        }
+    }
+    worst
+}
+
+#[test]
+fn every_triangle_is_within_the_tolerance_of_walls_fillets_and_floor() {
+    for (holes, offset, phase, width, fillet) in [
+        (4, 0.0, 0.0, 8.0, 0.0),
+        (3, 0.0, 0.0, 3.0, 0.5),
+        (6, 9.9, 1.0, 12.0, 0.5),
+    ] {
+        let groove = groove(holes, offset, phase, width);
+        let body = ShaftBody { fillet, ..sharp() };
+        for tol in [0.1, 0.01, 0.001] {
+            let off = greatest_deviation(&groove, &body, tol);
+            assert!(off <= tol, "{holes} {width} {fillet}: {off} at {tol}");
+            assert!(off > 0.3 * tol, "finer than asked for: {off} at {tol}");
+        }
+    }
+}
