@@ -44,7 +44,7 @@ pub use curve::{Curve, Jet};
 pub use extreme::{Extreme, extremes, greatest, greatest_each, least, pieces};
 pub use flatten::Sample;
 pub use loops::{Kept, LoopError, without_loops};
-pub use mass::MassProperties;
+pub use mass::{MassProperties, VolumeMoments};
 pub use mesh::Mesh;
 pub use moments::AreaMoments;
 pub use outline::{Arc, OpenOutline, Outline, Segment};

@@ -1,4 +1,4 @@
-use crate::{AreaMoments, Mesh};
+use crate::AreaMoments;
 use nalgebra::{Matrix3, Point3, Vector3};
 
 /// Mass, center of mass and inertia of a body.
@@ -53,29 +53,42 @@ impl MassProperties {
             inertia: inertia.sum(),
         })
     }
+}
 
-    /// A body inside a closed mesh with outward normals, at a density in kg/m³; exact for the mesh.
+/// Volume and first and second moments of a body about the origin.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct VolumeMoments {
+    /// `∫ dV`, mm³.
+    pub volume: f64,
+    /// `∫ p dV`, mm⁴.
+    pub first: Vector3<f64>,
+    /// `∫ p pᵀ dV`, mm⁵.
+    pub second: Matrix3<f64>,
+}
+
+impl VolumeMoments {
+    /// Adds a point (mm) with the volume it stands for (mm³): the node of a quadrature rule and its weight.
+    pub fn add(&mut self, point: Vector3<f64>, volume: f64) {
+        self.volume += volume;
+        self.first += point * volume;
+        self.second += point * point.transpose() * volume;
+    }
+
+    /// Takes a body away.
+    pub fn subtract(&mut self, other: &Self) {
+        self.volume -= other.volume;
+        self.first -= other.first;
+        self.second -= other.second;
+    }
+
+    /// Mass, center of mass and inertia at a density in kg/m³.
     #[must_use]
-    pub fn of_mesh(mesh: &Mesh, density: f64) -> Self {
-        let (mut volume, mut first, mut second) = (0.0, Vector3::zeros(), Matrix3::zeros());
-        for face in &mesh.faces {
-            let corners = mesh.triangle(face).map(Vector3::from);
-            let [a, b, c] = corners;
-            // The tetrahedron over the origin.
-            let part = a.dot(&b.cross(&c)) / 6.0;
-            let sum = a + b + c;
-            let squares = corners
-                .iter()
-                .fold(sum * sum.transpose(), |s, p| s + p * p.transpose());
-            volume += part;
-            first += sum * (0.25 * part);
-            second += squares * (0.05 * part);
-        }
-        let center = first / volume;
+    pub fn mass_properties(&self, density: f64) -> MassProperties {
+        let center = self.first / self.volume;
         // 1 kg/m³ = 1e-9 kg/mm³.
-        let about = (second - center * center.transpose() * volume) * (density * 1e-9);
-        Self {
-            mass: volume * density * 1e-9,
+        let about = (self.second - center * self.first.transpose()) * (density * 1e-9);
+        MassProperties {
+            mass: self.volume * density * 1e-9,
             center: Point3::from(center),
             inertia: Matrix3::identity() * about.trace() - about,
         }
@@ -127,13 +140,24 @@ mod tests {
     }
 
     #[test]
-    fn a_mesh_has_the_mass_of_its_prism() {
-        let p = Point::new;
-        let corners = [p(1.0, 0.0), p(7.0, -1.0), p(6.0, 4.0), p(2.0, 3.0)];
+    fn the_nodes_of_a_quadrature_rule_have_the_mass_of_their_block() {
+        let corners = [[-3.0, 1.0], [2.0, 1.0], [2.0, 5.0], [-3.0, 5.0]].map(Point::from);
         let solid = Solid::new(Outline::polygon(&corners), vec![], -3.0, 5.0).expect("has height");
         let exact = solid.mass_properties(2700.0);
-        let mesh = crate::Mesh::prism(&corners, -3.0, 5.0);
-        let found = crate::MassProperties::of_mesh(&mesh, 2700.0);
+        // Two Gauss points along each edge.
+        let nodes = |low: f64, high: f64| {
+            let off = 0.5 * (high - low) / 3.0_f64.sqrt();
+            [-1.0, 1.0].map(|side| 0.5 * (low + high) + side * off)
+        };
+        let mut moments = crate::VolumeMoments::default();
+        for x in nodes(-3.0, 2.0) {
+            for y in nodes(1.0, 5.0) {
+                for z in nodes(-3.0, 5.0) {
+                    moments.add(Vector3::new(x, y, z), 5.0 * 4.0 * 8.0 / 8.0);
+                }
+            }
+        }
+        let found = moments.mass_properties(2700.0);
         assert!((found.mass - exact.mass).abs() < 1e-12 * exact.mass);
         assert!((found.center - exact.center).norm() < 1e-12);
         assert!((found.inertia - exact.inertia).norm() < 1e-12 * exact.inertia.norm());

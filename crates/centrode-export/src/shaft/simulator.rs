@@ -4,6 +4,7 @@ use crate::gear_pair::simulator as pair_model;
 use crate::model::{Joint, JointKind, Link, Model};
 use centrode_geometry::{MassProperties, Tolerance};
 use centrode_mechanism::gear::Member;
+use centrode_mechanism::shaft::ShaftSolid;
 use nalgebra::{Matrix3, Point3};
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -28,7 +29,7 @@ pub(super) fn model(machine: &Machine<'_>, tolerance: Tolerance) -> Result<Model
         mesh: mesh.map(Into::into),
         collision: Vec::new(),
     };
-    let solid = MassProperties::of_mesh(&shaft.mesh(tolerance)?, shaft.body().density);
+    let solid = shaft.mass_properties()?;
     let mut links = vec![
         body("base", None, None),
         body("frame", None, None),
@@ -97,12 +98,7 @@ fn hang(
 ) -> Result<(), ShaftFilesError> {
     let of_pair = pair_model::model(&gears.pair, tolerance)
         .map_err(|e| ShaftFilesError::GearFiles(Box::new(e)))?;
-    let end = machine.shaft.mesh(tolerance)?;
-    let end = end
-        .vertices
-        .iter()
-        .map(|v| v[2])
-        .fold(f64::INFINITY, f64::min);
+    let [end, _] = ShaftSolid::new(machine.shaft.groove(), machine.shaft.body())?.whole();
     let place = |member: Member| {
         let bottom = crate::gear_pair::solid(&gears.pair, member).map(|solid| solid.bottom());
         bottom.map_err(|e| ShaftFilesError::GearFiles(Box::new(e)))

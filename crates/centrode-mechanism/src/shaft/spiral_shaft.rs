@@ -1,4 +1,6 @@
-use centrode_geometry::{Mesh, Outline, Point, Shell, Solid, SolidError, Tolerance};
+use centrode_geometry::{
+    MassProperties, Mesh, Outline, Point, Shell, Solid, SolidError, Tolerance,
+};
 
 use super::{
     Groove, Load, Schedule, ShaftBody, ShaftError, ShaftLaw, ShaftSolid, SliderForce, SliderSpec,
@@ -144,6 +146,14 @@ impl SpiralShaft {
     /// [`ShaftError`] where body and groove do not go together.
     pub fn mesh(&self, tolerance: Tolerance) -> Result<Mesh, ShaftError> {
         Ok(ShaftSolid::new(&self.groove, self.body())?.mesh(tolerance))
+    }
+
+    /// Mass, center of mass and inertia of the shaft, integrated over its exact surfaces.
+    ///
+    /// # Errors
+    /// [`ShaftError`] where body and groove do not go together.
+    pub fn mass_properties(&self) -> Result<MassProperties, ShaftError> {
+        Ok(ShaftSolid::new(&self.groove, self.body())?.mass_properties())
     }
 
     /// The shaft's boundary on exact surfaces; the fillet along the groove's floor is left out.

@@ -27,8 +27,7 @@ pub fn shaft_sheets(shaft: &SpiralShaft, options: &Options) -> Result<Vec<Sheet>
     let tolerance = options.tolerance;
     let mut block = block(shaft, "shaft", "Spiral shaft", options);
     block.material = shaft.body().material.clone();
-    let grams = shaft.mesh(tolerance)?.volume() * shaft.body().density * 1e-6;
-    block.mass = mass(grams);
+    block.mass = mass(shaft.mass_properties()?.mass * 1e3);
     let views = side::Views::new(shaft, tolerance)?;
     let data = tables::data(shaft);
     let lines = notes(shaft);

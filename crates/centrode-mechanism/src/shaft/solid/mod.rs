@@ -3,10 +3,11 @@
 mod blank;
 mod boundary;
 mod ends;
+mod moments;
 mod plan;
 mod surface;
 
-use centrode_geometry::{Mesh, Point, Shell, Tolerance};
+use centrode_geometry::{MassProperties, Mesh, Point, Shell, Tolerance};
 
 pub use blank::ShaftBody;
 
@@ -56,6 +57,12 @@ impl<'a> ShaftSolid<'a> {
         // The journals begin beyond the chamfers.
         let beyond = self.body.chamfer + self.body.journal_length;
         [low - beyond, high + beyond]
+    }
+
+    /// Mass, center of mass and inertia, integrated over the exact surfaces, fillet and keyway included.
+    #[must_use]
+    pub fn mass_properties(&self) -> MassProperties {
+        moments::moments(self.groove, self.body, self.ends).mass_properties(self.body.density)
     }
 
     /// A closed triangle mesh with outward normals, every triangle within the tolerance of the surface.

@@ -359,3 +359,65 @@ fn every_triangle_is_within_the_tolerance_of_walls_fillets_and_floor() {
         }
     }
 }
+
+/// Volume, centre and second moments about the origin of the body inside a mesh, a tetrahedron over the origin each.
+fn moments_of(mesh: &centrode_geometry::Mesh) -> (f64, [f64; 3], [f64; 6]) {
+    const PAIRS: [[usize; 2]; 6] = [[0, 0], [1, 1], [2, 2], [0, 1], [0, 2], [1, 2]];
+    let (mut volume, mut first, mut second) = (0.0, [0.0; 3], [0.0; 6]);
+    for face in &mesh.faces {
+        let [a, b, c] = mesh.triangle(face);
+        let cross = [
+            b[1] * c[2] - b[2] * c[1],
+            b[2] * c[0] - b[0] * c[2],
+            b[0] * c[1] - b[1] * c[0],
+        ];
+        let part = (a[0] * cross[0] + a[1] * cross[1] + a[2] * cross[2]) / 6.0;
+        let sum = [0, 1, 2].map(|k| a[k] + b[k] + c[k]);
+        volume += part;
+        for k in 0..3 {
+            first[k] += 0.25 * part * sum[k];
+        }
+        for (m, [i, j]) in PAIRS.into_iter().enumerate() {
+            let squares = sum[i] * sum[j] + a[i] * a[j] + b[i] * b[j] + c[i] * c[j];
+            second[m] += 0.05 * part * squares;
+        }
+    }
+    (volume, first.map(|f| f / volume), second)
+}
+
+#[test]
+fn mass_and_inertia_are_those_of_ever_finer_meshes() {
+    for (holes, offset, phase, width, body) in [
+        (4, 0.0, 0.0, 8.0, sharp()),
+        (3, 0.7, 0.4, 10.0, ShaftBody::default()),
+    ] {
+        let groove = groove(holes, offset, phase, width);
+        let solid = ShaftSolid::new(&groove, &body).expect("fits");
+        let exact = solid.mass_properties();
+        let density = body.density * 1e-9;
+        let mut before = f64::INFINITY;
+        for tol in [0.02, 0.005, 0.00125] {
+            let (volume, center, second) = moments_of(&solid.mesh(tolerance(tol)));
+            let off = (volume * density / exact.mass - 1.0).abs();
+            assert!(off < 0.3 * before && off < 0.2 * tol, "{off} at {tol}");
+            before = off;
+            let apart = (0..3).map(|k| (center[k] - exact.center[k]).abs());
+            assert!(apart.fold(0.0, f64::max) < tol, "{center:?} {exact:?}");
+            let [xx, yy, zz, xy, xz, yz] = second.map(|s| s * density);
+            let m = volume * density;
+            let [x, y, z] = center;
+            let own = [
+                (yy + zz - m * (y * y + z * z), (0, 0)),
+                (xx + zz - m * (x * x + z * z), (1, 1)),
+                (xx + yy - m * (x * x + y * y), (2, 2)),
+                (m * x * y - xy, (0, 1)),
+                (m * x * z - xz, (0, 2)),
+                (m * y * z - yz, (1, 2)),
+            ];
+            for (found, at) in own {
+                let off = (found - exact.inertia[at]).abs() / exact.inertia[(2, 2)];
+                assert!(off < 2.0 * tol, "{at:?} {found} {exact:?} at {tol}");
+            }
+        }
+    }
+}

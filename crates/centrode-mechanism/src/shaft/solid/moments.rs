@@ -1,0 +1,156 @@
+//! Volume and moments of the grooved shaft: integrals over its exact surfaces.
+
+use std::f64::consts::{FRAC_PI_2, TAU};
+
+use centrode_geometry::{Primitive, VolumeMoments};
+use nalgebra::Vector3;
+
+use super::ShaftBody;
+use super::plan::{Level, Plan};
+use crate::gear::design::Keyway;
+use crate::shaft::Groove;
+
+/// Nodes and weights of the Gauss rule on `[-1, 1]` that is exact up to degree 5: along the radius and the axis the
+/// moments are polynomials below that.
+const RULE: [(f64, f64); 3] = [
+    (-0.774_596_669_241_483_4, 5.0 / 9.0),
+    (0.0, 8.0 / 9.0),
+    (0.774_596_669_241_483_4, 5.0 / 9.0),
+];
+/// Parts of the keyway's width and of its chamfer, on each of which the rule is exact to rounding.
+const PARTS: u32 = 32;
+/// Parts of the fillet, down which the groove's width and what it opens change smoothly.
+const FILLET: u32 = 4;
+/// Even lines round the shaft between which the walls are integrated: those tried first, and the most.
+const LINES: [u32; 2] = [8, 512];
+/// Share by which the volume may change with twice the lines.
+const SAME: f64 = 1e-13;
+
+/// Nodes and weights on an interval cut into `parts`.
+fn nodes([low, high]: [f64; 2], parts: u32) -> impl Iterator<Item = (f64, f64)> {
+    let half = 0.5 * (high - low) / f64::from(parts);
+    (0..parts).flat_map(move |part| {
+        let middle = low + half * f64::from(2 * part + 1);
+        RULE.map(|(node, weight)| (middle + half * node, half * weight))
+    })
+}
+
+/// Moments of the shaft: the blank, less the groove and the keyway.
+pub(super) fn moments(groove: &Groove, body: &ShaftBody, thick: [f64; 2]) -> VolumeMoments {
+    let mut sum = VolumeMoments::default();
+    let (r, j, c) = (groove.radius(), 0.5 * body.journal_diameter, body.chamfer);
+    revolved(&mut sum, thick, [r, r]);
+    for (end, way) in thick.into_iter().zip([-1.0, 1.0]) {
+        let shoulder = end + way * c;
+        let edge = shoulder + way * (body.journal_length - c);
+        revolved(&mut sum, [end, shoulder], [r, r - c]);
+        revolved(&mut sum, [shoulder, edge], [j, j]);
+        revolved(&mut sum, [edge, edge + way * c], [j, j - c]);
+        if let (Some(keyway), true) = (body.keyway, way < 0.0) {
+            let tip = edge + way * c;
+            let inner = tip - way * body.keyway_length;
+            slot(&mut sum, keyway, j - keyway.depth, [inner, edge], [j, j]);
+            slot(&mut sum, keyway, j - keyway.depth, [edge, tip], [j, j - c]);
+        }
+    }
+    grooved(&mut sum, groove, body.fillet);
+    sum
+}
+
+/// Adds a cylinder or cone about the axis between two heights, given its radius at both.
+fn revolved(sum: &mut VolumeMoments, ends: [f64; 2], radii: [f64; 2]) {
+    let length = (ends[1] - ends[0]).abs();
+    for (share, along) in nodes([0.0, 1.0], 1) {
+        let z = ends[0] + (ends[1] - ends[0]) * share;
+        let edge = radii[0] + (radii[1] - radii[0]) * share;
+        for (radius, out) in nodes([0.0, edge], 1) {
+            // Moments up to the second are those of three even angles and more.
+            for i in 0..4 {
+                let volume = length * along * out * radius * FRAC_PI_2;
+                sum.add(at(radius, FRAC_PI_2 * f64::from(i), z), volume);
+            }
+        }
+    }
+}
+
+/// Takes away a keyway along x between two heights, given the radius of the surface at both.
+fn slot(sum: &mut VolumeMoments, key: Keyway, foot: f64, ends: [f64; 2], radii: [f64; 2]) {
+    let length = (ends[1] - ends[0]).abs();
+    let parts = if radii[0] == radii[1] { 1 } else { PARTS };
+    for (share, along) in nodes([0.0, 1.0], parts) {
+        let z = ends[0] + (ends[1] - ends[0]) * share;
+        let radius = radii[0] + (radii[1] - radii[0]) * share;
+        let edge = (0.5 * key.width / radius).asin();
+        for (angle, turned) in nodes([-edge, edge], PARTS) {
+            let (sin, cos) = angle.sin_cos();
+            for (x, out) in nodes([foot, radius * cos], 1) {
+                let across = turned * radius * cos;
+                sum.add(
+                    Vector3::new(x, radius * sin, z),
+                    -length * along * across * out,
+                );
+            }
+        }
+    }
+}
+
+/// Takes away the groove: its radial walls, and below them the fillet down to the floor.
+fn grooved(sum: &mut VolumeMoments, groove: &Groove, fillet: f64) {
+    let (half, floor) = (0.5 * groove.width(), groove.radius() - groove.depth());
+    let foot = floor + fillet;
+    let whole: Vec<(f64, f64)> = nodes([foot, groove.radius()], 1).collect();
+    let open = |lines: u32| opened(groove, half, &whole, lines);
+    let (mut lines, mut before) = (LINES[0], open(LINES[0]));
+    let walls = loop {
+        lines *= 2;
+        let now = open(lines);
+        if (now.volume - before.volume).abs() <= SAME * now.volume || lines >= LINES[1] {
+            break now;
+        }
+        before = now;
+    };
+    sum.subtract(&walls);
+    if fillet == 0.0 {
+        return;
+    }
+    for (angle, turned) in nodes([0.0, FRAC_PI_2], FILLET) {
+        let level = Level::of(half, floor, fillet, angle);
+        let height = fillet * angle.cos() * turned;
+        sum.subtract(&opened(
+            groove,
+            level.half,
+            &[(level.radius, height)],
+            lines / 2,
+        ));
+    }
+}
+
+/// Moments of what the groove opens at some radii, given with their weights, where it is `half` wide to each side.
+fn opened(groove: &Groove, half: f64, radii: &[(f64, f64)], even: u32) -> VolumeMoments {
+    let level = Level {
+        half,
+        radius: groove.radius(),
+    };
+    let plan = Plan::smooth(groove, level, even);
+    let mut lines = plan.lines.clone();
+    lines.push(TAU);
+    let mut sum = VolumeMoments::default();
+    // Sixteen nodes between two lines: a constant needs no more panels.
+    for (angle, turned) in Primitive::of(|_| 1.0, &lines).nodes() {
+        let heights = plan.heights_at(angle);
+        for [low, high] in plan.open(0, |edge| heights[edge]) {
+            for (z, along) in nodes([heights[low], heights[high]], 1) {
+                for &(radius, out) in radii {
+                    sum.add(at(radius, angle, z), turned * along * out * radius);
+                }
+            }
+        }
+    }
+    sum
+}
+
+/// A point at a radius and angle.
+fn at(radius: f64, angle: f64, z: f64) -> Vector3<f64> {
+    let (sin, cos) = angle.sin_cos();
+    Vector3::new(radius * cos, radius * sin, z)
+}
