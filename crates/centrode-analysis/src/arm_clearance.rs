@@ -6,12 +6,8 @@ use centrode_mechanism::three_arm::{Link, LinkMotion, ThreeArm};
 use nalgebra::{Isometry2, Rotation2};
 
 use crate::interference::{
-    Body, BodyError, Clearance, InterferenceError, Later, Motion, Moving, PoseJet, Rest, Tabulated,
-    Uniform, least_clearance,
+    BodyError, Clearance, InterferenceError, Later, Motion, Moving, PoseJet, Rest, Shares, Uniform,
 };
-
-/// Cells of a cycle between which arms move as cubics say: the deviation is below 1e-6 mm.
-const CELLS: usize = 360;
 
 /// How clear the arms of a planetary transplanting mechanism keep, proven over a whole cycle.
 ///
@@ -114,8 +110,9 @@ pub fn between_arms(
     arm: &ArmBody,
     tolerance: Tolerance,
 ) -> Result<Option<Clearance>, ArmClearanceError> {
-    let found = among_arms(mechanism, arm, tolerance, |moving, pairs| {
-        least_clearance(moving, pairs, [0.0, TAU], tolerance)
+    let shares = Shares::of(tolerance);
+    let found = among_arms(mechanism, arm, shares, |moving, pairs| {
+        shares.least(moving, pairs, [0.0, TAU])
     })?;
     Ok(found.flatten())
 }
@@ -142,19 +139,20 @@ impl ArmClearanceCourse {
         tolerance: Tolerance,
         parts: u32,
     ) -> Result<Self, ArmClearanceError> {
+        let shares = Shares::of(tolerance);
         let place = |i: u32, share: f64| TAU * (f64::from(i) + share) / f64::from(parts);
         let along = |moving: &[Moving<'_>], pairs: &[[usize; 2]]| {
             let least = (0..parts).map(|i| {
                 let inputs = [place(i, 0.0), place(i, 1.0)];
-                let found = least_clearance(moving, pairs, inputs, tolerance)?;
+                let found = shares.least(moving, pairs, inputs)?;
                 Ok(found.map_or(f64::INFINITY, |found| found.least))
             });
             least.collect::<Result<Vec<f64>, InterferenceError>>()
         };
         Ok(Self {
             input: (0..parts).map(|i| place(i, 0.5)).collect(),
-            arms: among_arms(mechanism, arm, tolerance, along)?.unwrap_or_default(),
-            tray: beside_tray(mechanism, arm, tolerance, along)?.unwrap_or_default(),
+            arms: among_arms(mechanism, arm, shares, along)?.unwrap_or_default(),
+            tray: beside_tray(mechanism, arm, shares, along)?.unwrap_or_default(),
         })
     }
 }
@@ -164,13 +162,13 @@ impl ArmClearanceCourse {
 fn among_arms<R>(
     mechanism: &ThreeArm,
     arm: &ArmBody,
-    tolerance: Tolerance,
+    shares: Shares,
     look: impl FnOnce(&[Moving<'_>], &[[usize; 2]]) -> Result<R, InterferenceError>,
 ) -> Result<Option<R>, ArmClearanceError> {
     if mechanism.arms() < 2 {
         return Ok(None);
     }
-    let body = Body::new(std::slice::from_ref(arm.outline()), tolerance)?;
+    let body = shares.body(std::slice::from_ref(arm.outline()))?;
     let train = mechanism.train();
     let (axis, carrier) = (
         mechanism.link(Link::Arm(0), 0.0).origin.position,
@@ -178,7 +176,7 @@ fn among_arms<R>(
     );
     let axis = Rotation2::new(-carrier) * axis;
     // Seen from the carrier an arm turns about its planet's axis, and does no more.
-    let first = Tabulated::new([0.0, TAU], CELLS, |input| {
+    let first = shares.motion(&body, [0.0, TAU], |input| {
         let jet = train.at(input);
         PoseJet {
             position: axis,
@@ -221,8 +219,9 @@ fn from_tray(
     arm: &ArmBody,
     tolerance: Tolerance,
 ) -> Result<Option<Clearance>, ArmClearanceError> {
-    let found = beside_tray(mechanism, arm, tolerance, |moving, pairs| {
-        least_clearance(moving, pairs, [0.0, TAU], tolerance)
+    let shares = Shares::of(tolerance);
+    let found = beside_tray(mechanism, arm, shares, |moving, pairs| {
+        shares.least(moving, pairs, [0.0, TAU])
     })?;
     Ok(found.flatten())
 }
@@ -231,7 +230,7 @@ fn from_tray(
 fn beside_tray<R>(
     mechanism: &ThreeArm,
     arm: &ArmBody,
-    tolerance: Tolerance,
+    shares: Shares,
     look: impl FnOnce(&[Moving<'_>], &[[usize; 2]]) -> Result<R, InterferenceError>,
 ) -> Result<Option<R>, ArmClearanceError> {
     let Some(housing) = arm.parts().iter().find(|part| part.name == "housing") else {
@@ -240,7 +239,7 @@ fn beside_tray<R>(
     let tray = mechanism.tray_body();
     let housing = std::slice::from_ref(&housing.outline);
     let plate = (&[tray.plate][..], tray.place);
-    at_rest(mechanism, housing, plate, tolerance, look).map(Some)
+    at_rest(mechanism, housing, plate, shares, look).map(Some)
 }
 
 fn from_unpicked(
@@ -254,8 +253,9 @@ fn from_unpicked(
     }
     let arm = std::slice::from_ref(arm.outline());
     let stems = (&tray.stems[..], tray.place);
-    at_rest(mechanism, arm, stems, tolerance, |moving, pairs| {
-        least_clearance(moving, pairs, [0.0, TAU], tolerance)
+    let shares = Shares::of(tolerance);
+    at_rest(mechanism, arm, stems, shares, |moving, pairs| {
+        shares.least(moving, pairs, [0.0, TAU])
     })
 }
 
@@ -264,14 +264,14 @@ fn at_rest<R>(
     mechanism: &ThreeArm,
     carried: &[Outline],
     (still, place): (&[Outline], Isometry2<f64>),
-    tolerance: Tolerance,
+    shares: Shares,
     look: impl FnOnce(&[Moving<'_>], &[[usize; 2]]) -> Result<R, InterferenceError>,
 ) -> Result<R, ArmClearanceError> {
-    let motion = Tabulated::new([0.0, TAU], CELLS, |input| {
+    let carried = shares.body(carried)?;
+    let still = shares.body(still)?;
+    let motion = shares.motion(&carried, [0.0, TAU], |input| {
         on_frame(&mechanism.link(Link::Arm(0), input))
     })?;
-    let carried = Body::new(carried, tolerance)?;
-    let still = Body::new(still, tolerance)?;
     let moving = [
         Moving {
             body: &carried,
@@ -295,11 +295,12 @@ fn from_seedlings(
     };
     let release = mechanism.planting(0);
     let inputs = [release - PI, release + PI];
-    let motion = Tabulated::new(inputs, CELLS, |input| {
+    let shares = Shares::of(tolerance);
+    let stem = shares.body(&[stem])?;
+    let arm = shares.body(std::slice::from_ref(arm.outline()))?;
+    let motion = shares.motion(&arm, inputs, |input| {
         on_frame(&mechanism.link(Link::Arm(0), input))
     })?;
-    let stem = Body::new(&[stem], tolerance)?;
-    let arm = Body::new(std::slice::from_ref(arm.outline()), tolerance)?;
     // Seen from the machine, what is planted moves back evenly.
     let still = mechanism.tip(release, 0);
     let back = still.velocity - mechanism.over_ground(&still, release).velocity;
@@ -324,7 +325,7 @@ fn from_seedlings(
         motion: motion as &dyn Motion,
     }));
     let pairs: Vec<_> = (2..moving.len()).map(|k| [0, k]).collect();
-    let found = least_clearance(&moving, &pairs, inputs, tolerance)?;
+    let found = shares.least(&moving, &pairs, inputs)?;
     Ok(found.map(|clearance| Clearance {
         input: clearance.input.rem_euclid(TAU),
         pair: [0, clearance.pair[1] - 1],

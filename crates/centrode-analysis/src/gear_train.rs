@@ -6,7 +6,7 @@ use centrode_geometry::{Tolerance, Vector};
 use centrode_mechanism::gear::{GearPair, GearPairError, Member};
 use centrode_mechanism::three_arm::{Link, ThreeArm};
 
-use crate::interference::{Body, Clearance, Motion, Moving, PoseJet, Tabulated, least_clearance};
+use crate::interference::{Clearance, Motion, Moving, PoseJet, Shares};
 use crate::{ArmClearanceError, Contact};
 use crate::{Finding, Place, Report, Severity, check_contact};
 
@@ -14,8 +14,6 @@ use crate::{Finding, Place, Report, Severity, check_contact};
 const LOOKS: u32 = 360;
 /// Turn of a gear, rad, by which a mesh may be off its teeth: rounding.
 const PHASE: f64 = 1e-9;
-/// Cells of a cycle between which gears move as cubics say.
-const CELLS: usize = 720;
 /// How closely clearances of gears are told, in modules.
 const TOLERANCE: f64 = 1e-3;
 
@@ -234,30 +232,30 @@ fn between(
     if clearance.bound > 0.0 {
         return Ok(clearance);
     }
-    let bodies = [
-        Body::new(std::slice::from_ref(gear(links[0]).outline()), tolerance)?,
-        Body::new(std::slice::from_ref(gear(links[1]).outline()), tolerance)?,
-    ];
-    let motion = |link: Link, at: centrode_geometry::Point| {
-        Tabulated::new([0.0, TAU], CELLS, |input| {
+    let shares = Shares::of(tolerance);
+    let body = |link: Link| shares.body(std::slice::from_ref(gear(link).outline()));
+    let bodies = [body(links[0])?, body(links[1])?];
+    let motion = |k: usize| {
+        let link = links[k];
+        shares.motion(&bodies[k], [0.0, TAU], |input| {
             let (gear, carrier) = (
                 mechanism.link(link, input).angle,
                 mechanism.link(Link::Carrier, input).angle,
             );
             PoseJet {
-                position: at,
+                position: axes[k],
                 angle: gear.position - carrier.position,
                 velocity: Vector::zeros(),
                 turning: gear.velocity - carrier.velocity,
             }
         })
     };
-    let motions = [motion(links[0], axes[0])?, motion(links[1], axes[1])?];
+    let motions = [motion(0)?, motion(1)?];
     let moving = [0, 1].map(|i| Moving {
         body: &bodies[i],
         motion: &motions[i] as &dyn Motion,
     });
-    clearance.found = least_clearance(&moving, &[[0, 1]], [0.0, TAU], tolerance)?;
+    clearance.found = shares.least(&moving, &[[0, 1]], [0.0, TAU])?;
     if let Some(found) = clearance.found {
         clearance.bound = clearance.bound.max(found.lower_bound);
     }

@@ -243,3 +243,39 @@ fn the_arm_bends_the_row_above_by_as_much_as_samples_say() {
         assert_eq!(found.unpicked.is_some(), expected);
     }
 }
+
+/// Least distance over inputs near one, by ever finer looks: no code of the search.
+fn sharpened(apart: impl Fn(f64) -> f64, middle: f64) -> f64 {
+    let (mut middle, mut reach, mut least) = (middle, 0.02, f64::INFINITY);
+    while reach > 1e-7 {
+        for i in -8..=8 {
+            let input = middle + reach * f64::from(i) / 8.0;
+            let here = apart(input);
+            if here < least {
+                (least, middle) = (here, input);
+            }
+        }
+        reach *= 0.25;
+    }
+    least
+}
+
+#[test]
+fn the_least_clearance_is_that_of_the_outlines_to_within_the_tolerance() {
+    let (machine, arm) = (published(3), default_arm());
+    let fine = arm.outline().flatten(tolerance(1e-4));
+    let apart = |input: f64| {
+        let [a, b] = [0, 1].map(|arm| posed(&machine, &fine, arm, input));
+        brute(&a, &b)
+    };
+    let close = between_arms(&machine, &arm, tolerance(1e-4)).expect("finite");
+    let truth = sharpened(apart, close.expect("three arms").input);
+    for tol in [4.0, 2.0, 1.0, 0.5, 0.2, 0.1, 0.02, 0.005] {
+        let found = between_arms(&machine, &arm, tolerance(tol)).expect("finite");
+        let found = found.expect("three arms");
+        let over = found.least - truth;
+        assert!(over.abs() <= tol, "{over} at {tol}");
+        assert!(found.lower_bound <= truth + 2e-4, "{found:?} {truth}");
+        assert!(found.least - found.lower_bound <= tol, "{found:?} at {tol}");
+    }
+}

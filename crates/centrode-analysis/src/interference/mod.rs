@@ -6,7 +6,7 @@ mod motion;
 mod parry;
 mod sweep;
 
-use centrode_geometry::{Point, Tolerance};
+use centrode_geometry::{Outline, Point, Tolerance};
 
 pub use body::{Body, BodyError};
 pub use motion::{Bend, Later, Motion, MotionError, PoseJet, Rest, Tabulated, Uniform};
@@ -40,6 +40,50 @@ pub struct Clearance {
     pub points: [Point; 2],
     /// The two bodies, by their places in the list.
     pub pair: [usize; 2],
+}
+
+/// What a clearance told to within a tolerance may lose where: the sum over two bodies, their motions and the search
+/// is the tolerance. The least clearance told is then above the true one by no more, nor is the bound farther below.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Shares {
+    body: Tolerance,
+    motion: Tolerance,
+    search: Tolerance,
+}
+
+impl Shares {
+    pub(crate) fn of(tolerance: Tolerance) -> Self {
+        Self {
+            body: tolerance.scaled(0.125),
+            motion: tolerance.scaled(0.0625),
+            search: tolerance.scaled(0.625),
+        }
+    }
+
+    /// A body of such outlines.
+    pub(crate) fn body(self, outlines: &[Outline]) -> Result<Body, BodyError> {
+        Body::new(outlines, self.body)
+    }
+
+    /// A motion of such a body.
+    pub(crate) fn motion(
+        self,
+        body: &Body,
+        inputs: [f64; 2],
+        motion: impl FnMut(f64) -> PoseJet,
+    ) -> Result<Tabulated, MotionError> {
+        Tabulated::within(inputs, body.reach(), motion, self.motion)
+    }
+
+    /// The least clearance among pairs of such bodies.
+    pub(crate) fn least(
+        self,
+        bodies: &[Moving<'_>],
+        pairs: &[[usize; 2]],
+        inputs: [f64; 2],
+    ) -> Result<Option<Clearance>, InterferenceError> {
+        least_clearance(bodies, pairs, inputs, self.search)
+    }
 }
 
 /// Why a clearance cannot be told.

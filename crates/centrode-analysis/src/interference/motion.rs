@@ -1,4 +1,4 @@
-use centrode_geometry::{Point, Vector};
+use centrode_geometry::{Point, Tolerance, Vector};
 use nalgebra::{Isometry2, Rotation2};
 
 /// Where a body is at an input and how fast it moves there; speeds are per radian of the input.
@@ -139,6 +139,10 @@ pub struct Tabulated {
     deviation: (f64, f64),
 }
 
+/// Cells with which a motion that is to keep a tolerance is tabulated first, and at which it is left as it is.
+const FEWEST: usize = 360;
+const MOST: usize = 360 << 8;
+
 /// Why a motion cannot be tabulated.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -205,6 +209,28 @@ impl Tabulated {
             *turned = turned.max(2.0 * (ours.angle - theirs.angle).abs());
         }
         Ok(table)
+    }
+
+    /// Reads `motion` at as many even inputs as keep every point of a body that reaches `reach` (mm) from its
+    /// frame's origin within the tolerance of where the motion has it; at the most there may be.
+    ///
+    /// # Errors
+    /// [`MotionError`] for an empty interval or a pose that is not finite.
+    pub fn within(
+        inputs: [f64; 2],
+        reach: f64,
+        mut motion: impl FnMut(f64) -> PoseJet,
+        tolerance: Tolerance,
+    ) -> Result<Self, MotionError> {
+        let mut cells = FEWEST;
+        loop {
+            let table = Self::new(inputs, cells, &mut motion)?;
+            let (far, turned) = table.deviation;
+            if far + turned * reach <= tolerance.mm() || cells >= MOST {
+                return Ok(table);
+            }
+            cells *= 2;
+        }
     }
 
     /// From the first input to the last.
