@@ -50,6 +50,20 @@ pub enum PitchError {
         /// The key that is not.
         missing: &'static str,
     },
+    /// A curve so long or so short that powers of its lengths are lost.
+    #[error(
+        "{key} makes a pitch curve {length:e} mm long; it must be {least:e} to {greatest:e} mm"
+    )]
+    Size {
+        /// The key that sets the size.
+        key: &'static str,
+        /// Length of one turn, mm.
+        length: f64,
+        /// Least length allowed, mm.
+        least: f64,
+        /// Greatest length allowed, mm.
+        greatest: f64,
+    },
     /// Nothing sets the size of the curve.
     #[error("nothing sets the size of the curve: give module and tooth_count, or {0}")]
     NoSize(&'static str),
@@ -240,6 +254,7 @@ impl PitchError {
             Self::NotFinite { key, .. }
             | Self::NotPositive { key, .. }
             | Self::OutOfRange { key, .. }
+            | Self::Size { key, .. }
             | Self::TooFewPoints { key, .. }
             | Self::TooManyPoints { key, .. }
             | Self::ArcsIncomplete { key, .. }

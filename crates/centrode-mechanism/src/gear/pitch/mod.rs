@@ -127,7 +127,7 @@ impl PitchSpec {
     /// # Errors
     /// [`PitchError`] naming the violated rule and its numbers.
     pub fn resolve(&self) -> Result<Pitch, PitchError> {
-        self.draft().map(Draft::finish)
+        self.draft()?.finish()
     }
 
     /// Number of teeth written with the curve.
@@ -168,6 +168,8 @@ impl PitchSpec {
 /// A proved shape, before scaling.
 #[derive(Debug)]
 pub(crate) struct Draft {
+    /// Key of the shape.
+    key: &'static str,
     curve: Box<dyn Shape>,
     size: Size,
     definition: String,
@@ -184,6 +186,7 @@ impl Draft {
         size.check()?;
         proof::goes_round_once(&curve, key)?;
         Ok(Self {
+            key,
             curve: Box::new(curve),
             size,
             definition,
@@ -191,26 +194,44 @@ impl Draft {
         })
     }
 
-    fn finish(mut self) -> Pitch {
+    fn finish(mut self) -> Result<Pitch, PitchError> {
+        let written = sized(self.key, perimeter(self.curve.as_ref()))?;
         let tooth_count = self.size.tooth_count;
         let module = match (self.size.module, tooth_count) {
             (Some(module), Some(z)) => {
-                let factor = PI * module * f64::from(z) / perimeter(self.curve.as_ref());
-                self.curve.rescale(factor);
+                let length = sized("module", PI * module * f64::from(z))?;
+                self.curve.rescale(length / written);
                 Some(module)
             }
-            (None, Some(z)) => Some(perimeter(self.curve.as_ref()) / (PI * f64::from(z))),
+            (None, Some(z)) => Some(written / (PI * f64::from(z))),
             (_, None) => None,
         };
         let shape: Arc<dyn Shape> = Arc::from(self.curve);
-        Pitch {
+        Ok(Pitch {
             curve: shape,
             tooth_count,
             module,
             definition: self.definition,
             implied_ratio: self.implied_ratio,
-        }
+        })
     }
+}
+
+/// Least and greatest length of a pitch curve, mm: its moments, up to the fourth power, are normal numbers.
+const LENGTHS: [f64; 2] = [1e-50, 1e50];
+
+/// The length of a pitch curve, if it is one that can be computed with.
+fn sized(key: &'static str, length: f64) -> Result<f64, PitchError> {
+    let [least, greatest] = LENGTHS;
+    if (least..=greatest).contains(&length) {
+        return Ok(length);
+    }
+    Err(PitchError::Size {
+        key,
+        length,
+        least,
+        greatest,
+    })
 }
 
 /// Length of one turn of a curve, mm.
