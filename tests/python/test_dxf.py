@@ -19,6 +19,15 @@ def test_units_are_millimetres(exported, name):
     assert ezdxf.readfile(exported / name).header["$INSUNITS"] == units.MM
 
 
+@pytest.mark.parametrize("option", ["r2010", "r12"])
+def test_measurement_is_metric(exported, run, tmp_path, option):
+    run("export", exported.design, "--to", tmp_path, "--format", "dxf,sheet", "--dxf", option)
+    files = sorted(tmp_path.glob("*.dxf"))
+    assert len(files) > 3
+    for file in files:
+        assert ezdxf.readfile(file).header["$MEASUREMENT"] == 1, file.name
+
+
 @pytest.mark.parametrize("gear", GEARS)
 def test_the_profile_is_one_closed_simple_contour_of_few_arcs(exported, gear):
     document = ezdxf.readfile(exported / f"{gear}.dxf")

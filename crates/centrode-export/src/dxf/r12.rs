@@ -55,6 +55,7 @@ fn header(file: &mut Pairs, drawing: &Drawing) {
     file.word(9, "$ACADVER").word(1, "AC1009");
     // Unknown to R12 itself, read by most programs since: millimetres.
     file.word(9, "$INSUNITS").whole(70, 4);
+    file.word(9, "$MEASUREMENT").whole(70, 1);
     file.word(9, "$LTSCALE").number(40, 1.0);
     let bounds = drawing.bounds();
     if bounds.diagonal().is_finite() {

@@ -10,7 +10,7 @@ use chrono::{Local, NaiveDate, TimeZone};
 use dxf::{
     Drawing as File, LwPolylineVertex, Point as Position,
     entities::{self, EntityType},
-    enums::{AcadVersion, HorizontalTextJustification, Units},
+    enums::{AcadVersion, DrawingUnits, HorizontalTextJustification, Units},
     tables,
 };
 
@@ -102,6 +102,7 @@ fn with_table_handles(bytes: &[u8]) -> Vec<u8> {
 fn header(file: &mut File, drawing: &Drawing) {
     file.header.version = AcadVersion::R2010;
     file.header.default_drawing_units = Units::Millimeters;
+    file.header.drawing_units = DrawingUnits::Metric;
     file.header.line_type_scale = 1.0;
     let bounds = drawing.bounds();
     if bounds.diagonal().is_finite() {
