@@ -2,6 +2,7 @@
 
 import csv
 import json
+import re
 import subprocess
 import sys
 from collections import Counter
@@ -13,6 +14,7 @@ import pytest
 import trimesh
 import yourdfpy
 from conftest import BINARY, ROOT, centrode
+from ezdxf import path
 from OCP.BRepAdaptor import BRepAdaptor_Surface
 from OCP.BRepCheck import BRepCheck_Analyzer
 from OCP.BRepGProp import BRepGProp
@@ -25,7 +27,7 @@ from OCP.TopExp import TopExp_Explorer
 from OCP.TopoDS import TopoDS
 from reading import rows as table
 from shapely.affinity import translate
-from shapely.geometry import LineString, Point, box
+from shapely.geometry import LineString, Point, Polygon, box
 from shapely.ops import unary_union
 
 MACHINES = ["spiral-shaft", "moving-box"]
@@ -157,6 +159,51 @@ def test_mass_and_inertia_are_those_the_kernel_integrates(tmp_path):
     matrix = kernel.MatrixOfInertia()
     inertia = np.array([[matrix.Value(i, j) for j in (1, 2, 3)] for i in (1, 2, 3)]) * density * 1e-6
     np.testing.assert_allclose(ours.inertia, inertia, rtol=0, atol=1e-7 * inertia[2, 2])
+
+
+def arrow(sheet):
+    """Way the arrows of the cutting plane point along the shaft: each has its letter before its tip."""
+    letters = [e for e in sheet.query("TEXT") if e.dxf.text == "A"]
+    assert len(letters) == 2
+    heads = [np.mean([e.dxf.vtx0.vec2, e.dxf.vtx1.vec2, e.dxf.vtx2.vec2], axis=0) for e in sheet.query("SOLID")]
+    ways = set()
+    for letter in letters:
+        at = np.array(letter.get_placement()[1].vec2)
+        ways.add(np.sign((at - min(heads, key=lambda head: np.hypot(*(head - at))))[0]))
+    (way,) = ways
+    return way
+
+
+def sectioned(sheet):
+    """The contour of section A-A about its centre, in millimetres of the part."""
+    (title,) = [e for e in sheet.query("TEXT") if e.dxf.text.startswith("A-A (")]
+    paper, part = map(float, re.fullmatch(r"A-A \(([\d.]+):([\d.]+)\)", title.dxf.text).groups())
+    above = np.array(title.get_placement()[1].vec2)
+    closed = [e for e in sheet.query("LWPOLYLINE[layer=='OUTLINE']") if e.closed and e.has_arc]
+    contour = min(closed, key=lambda e: np.hypot(*(np.mean(e.get_points("xy"), axis=0) - above)))
+    arcs = [e for e in contour.virtual_entities() if e.dxftype() == "ARC"]
+    centre = np.mean([arc.dxf.center.vec2 for arc in arcs], axis=0)
+    points = np.array([p.vec2 for p in path.make_path(contour).flattening(0.01)]) - centre
+    return Polygon(points * part / paper)
+
+
+@pytest.mark.parametrize("projection", ["first-angle", "third-angle"])
+def test_section_a_a_is_the_solid_cut_there_and_seen_along_the_arrows(machines, tmp_path, projection):
+    design = ROOT / "tests" / "designs" / "spiral-shaft-2018.toml"
+    centrode("export", design, "--to", tmp_path, "--format", "sheet", "--projection", projection)
+    sheet = ezdxf.readfile(sorted(tmp_path.glob("shaft-sheet*.dxf"))[0]).modelspace()
+    mesh = trimesh.load(machines / "spiral-shaft" / "shaft.stl")
+    # In the side view the axis z runs to the right and the angle zero, x, faces the viewer: -y is up.
+    up, seen_from = np.array([0, -1, 0]), np.array([0, 0, -arrow(sheet)])
+    right = np.cross(up, seen_from)
+    # Through the middle of the keyway, 18 mm long from the near end.
+    cut = mesh.section(plane_origin=[0, 0, mesh.bounds[0, 2] + 9], plane_normal=[0, 0, 1])
+    (ring,) = cut.discrete
+    solid = Polygon(np.column_stack([ring @ right, ring @ up]))
+    drawn = sectioned(sheet)
+    assert drawn.symmetric_difference(solid).area < 0.01 * solid.area
+    mirrored = Polygon(np.asarray(drawn.exterior.coords) * [-1, 1])
+    assert mirrored.symmetric_difference(solid).area > 0.05 * solid.area
 
 
 def played(folder, *options):

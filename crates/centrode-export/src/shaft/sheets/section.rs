@@ -13,7 +13,8 @@ use std::f64::consts::PI;
 /// Longest side of a section on paper, mm.
 const ROOM: f64 = 45.0;
 
-/// Section A-A across the near journal, seen towards the near end.
+/// Section A-A across the near journal, seen towards the near end: what faces the viewer of the side view lies to
+/// the left.
 pub(super) fn journal(shaft: &SpiralShaft, tolerance: Tolerance) -> Draft {
     let body = shaft.body();
     let scale = Scale::largest(body.journal_diameter, ROOM);
@@ -35,14 +36,19 @@ pub(super) fn journal(shaft: &SpiralShaft, tolerance: Tolerance) -> Draft {
         let (half, foot) = (0.5 * k * key.width, radius - k * key.depth);
         let below = p(0.0, -reach - 6.0);
         let rest = number(body.journal_diameter - key.depth, 3);
-        draft.dimension([p(-radius, 0.0), p(foot, -half)], Vector::x(), below, &rest);
+        draft.dimension([p(-foot, -half), p(radius, 0.0)], Vector::x(), below, &rest);
         let edge = (radius * radius - half * half).max(0.0).sqrt();
-        let beside = p(reach + 5.0, 0.0);
+        let beside = p(-reach - 5.0, 0.0);
         let width = number(key.width, 3);
-        draft.dimension([p(edge, -half), p(edge, half)], Vector::y(), beside, &width);
+        draft.dimension(
+            [p(-edge, -half), p(-edge, half)],
+            Vector::y(),
+            beside,
+            &width,
+        );
     }
-    let tip = p(-0.6 * radius, 0.8 * radius);
-    let elbow = p(-0.8 * reach, reach + 3.0);
+    let tip = p(0.6 * radius, 0.8 * radius);
+    let elbow = p(0.8 * reach, reach + 3.0);
     draft.leader(
         tip,
         elbow,
@@ -52,7 +58,7 @@ pub(super) fn journal(shaft: &SpiralShaft, tolerance: Tolerance) -> Draft {
     draft
 }
 
-/// A circle with a slot on the x axis, open to the right; `None` where the slot is wider than the circle.
+/// A circle with a slot on the x axis, open to the left; `None` where the slot is wider than the circle.
 fn slotted(radius: f64, key: Keyway, k: f64) -> Option<Outline> {
     let (half, foot) = (0.5 * k * key.width, radius - k * key.depth);
     let edge = (half / radius).asin();
@@ -60,18 +66,18 @@ fn slotted(radius: f64, key: Keyway, k: f64) -> Option<Outline> {
     let x = radius * edge.cos();
     let segments = vec![
         Segment::Arc(Arc {
-            start: p(x, half),
-            end: p(-radius, 0.0),
+            start: p(-x, -half),
+            end: p(radius, 0.0),
             bulge: (0.25 * (PI - edge)).tan(),
         }),
         Segment::Arc(Arc {
-            start: p(-radius, 0.0),
-            end: p(x, -half),
+            start: p(radius, 0.0),
+            end: p(-x, half),
             bulge: (0.25 * (PI - edge)).tan(),
         }),
-        Segment::Line(p(x, -half), p(foot, -half)),
-        Segment::Line(p(foot, -half), p(foot, half)),
-        Segment::Line(p(foot, half), p(x, half)),
+        Segment::Line(p(-x, half), p(-foot, half)),
+        Segment::Line(p(-foot, half), p(-foot, -half)),
+        Segment::Line(p(-foot, -half), p(-x, -half)),
     ];
     Outline::new(segments).ok()
 }
