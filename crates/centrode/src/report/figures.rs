@@ -184,6 +184,16 @@ mod tests {
     }
 
     #[test]
+    fn the_phase_of_the_first_tooth_is_told_in_pitches() {
+        let mut report = Report::default();
+        report.values.insert("phase", 0.25);
+        let mut out = Vec::new();
+        write(&report, &mut out).expect("written");
+        let text = String::from_utf8(out).expect("text");
+        assert!(text.contains("0.2500  pitches"), "{text}");
+    }
+
+    #[test]
     fn every_figure_of_the_shipped_designs_has_a_name_and_one_place() {
         let keys: Vec<&str> = GROUPS
             .iter()

@@ -272,7 +272,7 @@ pub(super) const GROUPS: [Group; 16] = [
                 &["largest_addendum"],
                 Unit::Millimetre,
             ),
-            Row("phase of the first tooth", &["phase"], Unit::Millimetre),
+            Row("phase of the first tooth", &["phase"], Unit::Pitch),
             Row(
                 "teeth off their mates",
                 &["mesh_phase_error_max"],

@@ -15,6 +15,8 @@ pub(super) enum Unit {
     NewtonMillimetre,
     TurnsPerMinute,
     Second,
+    /// Lengths along a pitch curve in pitches of its teeth.
+    Pitch,
 }
 
 impl Unit {
@@ -32,6 +34,7 @@ impl Unit {
             Self::NewtonMillimetre => "N mm",
             Self::TurnsPerMinute => "r/min",
             Self::Second => "s",
+            Self::Pitch => "pitches",
         }
     }
 
@@ -44,8 +47,7 @@ impl Unit {
             | Self::Newton
             | Self::NewtonMillimetre
             | Self::TurnsPerMinute => figure(value, 2),
-            Self::Second => figure(value, 4),
-            Self::Millimetre => figure(value, 4),
+            Self::Second | Self::Millimetre | Self::Pitch => figure(value, 4),
             Self::Degree => figure(value.to_degrees(), 4),
             Self::Radian => figure(value, 0),
         }
