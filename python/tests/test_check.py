@@ -70,3 +70,11 @@ def test_the_command_line_gives_the_same_numbers(design):
     shared = told.keys() & values.keys()
     assert {"center_distance", "module"} <= shared
     assert {name: told[name] for name in shared} == {name: values[name] for name in shared}
+
+
+def test_an_infinite_figure_is_infinite_in_python_and_the_string_that_float_reads_in_json():
+    design = ROOT / "tests" / "designs" / "moving-box-2018.toml"
+    values = ct.load(design).check().values
+    assert values["contact_limit_rpm"] == math.inf
+    printed = subprocess.run([BINARY, "check", design, "--json"], check=True, capture_output=True, text=True)
+    assert {name: float(value) for name, value in json.loads(printed.stdout)["values"].items()} == dict(values)

@@ -50,13 +50,15 @@ fn outcome(name: &str) -> Value {
         .iter()
         .map(|f| json!({"rule": f.rule, "severity": f.severity, "part": f.place.part, "teeth": f.place.teeth}))
         .collect();
+    let figures = json!(report);
     let mut outcome =
-        json!({"values": report.values, "findings": findings, "files": written(&mechanism)});
-    for goal in &report.goals {
-        outcome["goals"][goal.name] = json!({"value": goal.value, "met": goal.met()});
+        json!({"values": figures["values"], "findings": findings, "files": written(&mechanism)});
+    for (i, goal) in report.goals.iter().enumerate() {
+        let value = &figures["goals"][i]["value"];
+        outcome["goals"][goal.name] = json!({"value": value, "met": goal.met()});
     }
-    for table in &report.tables {
-        outcome["tables"][table.name] = json!(table.rows);
+    for (i, table) in report.tables.iter().enumerate() {
+        outcome["tables"][table.name] = figures["tables"][i]["rows"].clone();
     }
     outcome
 }

@@ -4,7 +4,7 @@ import signal
 import subprocess
 
 import pytest
-from conftest import BINARY
+from conftest import BINARY, ROOT
 
 
 def test_a_good_pair_checks_out(exported, run):
@@ -16,6 +16,19 @@ def test_a_good_pair_checks_out(exported, run):
     assert report["values"]["transmission_error_max"] < bound
     assert report["ok"]
     assert exported.report() == report
+
+
+def test_an_infinite_figure_is_a_string_that_float_reads(run, tmp_path):
+    design = ROOT / "tests" / "designs" / "moving-box-2018.toml"
+    text = run("check", design, "--json").stdout
+    assert "null" not in text
+    values = json.loads(text)["values"]
+    # The shaft alone is plain and keeps its wall at any speed.
+    assert values["contact_limit_rpm"] == "Infinity"
+    assert float(values["contact_limit_rpm"]) == float("inf")
+    assert "infinite" in run("check", design).stdout
+    run("export", design, "--to", tmp_path, "--format", "json")
+    assert json.loads((tmp_path / "report.json").read_text())["values"] == values
 
 
 def test_the_new_design_file_is_a_good_pair(run, tmp_path):

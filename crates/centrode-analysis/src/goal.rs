@@ -1,5 +1,7 @@
 use serde::Serialize;
 
+use crate::figure;
+
 /// What a mechanism is to reach: a figure and the range it is wanted in.
 ///
 /// Margin and progress say how well: both rise as the figure comes nearer to its range, so an optimiser can follow
@@ -13,6 +15,7 @@ pub struct Goal {
     /// The goal in a few words.
     pub title: &'static str,
     /// The figure, in `unit`; none where it was not looked at.
+    #[serde(serialize_with = "figure::option")]
     pub value: Option<f64>,
     /// Least and greatest figure wanted; none where it is open.
     pub wanted: [Option<f64>; 2],
@@ -21,6 +24,7 @@ pub struct Goal {
     /// Size of a miss that leaves half the progress, in `unit`.
     pub scale: f64,
     /// Distance of the figure from the nearest end of its range: positive inside, negative outside.
+    #[serde(serialize_with = "figure::option")]
     pub margin: Option<f64>,
     /// 1 where the goal is reached, falling smoothly to 0 as the figure goes away from it:
     /// 1/(1 + (miss/scale)^2), the scale being the size of what is wanted.

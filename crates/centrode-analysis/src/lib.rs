@@ -4,6 +4,7 @@ mod arm_clearance;
 mod check;
 mod contact;
 mod feeder;
+mod figure;
 mod gear_train;
 mod goal;
 mod incomplete_contact;
@@ -24,6 +25,7 @@ pub use arm_clearance::{ArmClearance, ArmClearanceCourse, ArmClearanceError, bet
 pub use check::{check, check_contact};
 pub use contact::Contact;
 pub use feeder::{Attainable, FeederForces, FeederForcesError, check_feeder};
+pub use figure::Figure;
 pub use gear_train::{TrainTeeth, carrier_turn};
 pub use goal::Goal;
 pub use incomplete_contact::IncompleteContact;

@@ -2,7 +2,7 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
-use crate::Goal;
+use crate::{Goal, figure};
 
 /// How much a finding matters.
 #[derive(Clone, Copy, Debug, Eq, Ord, PartialEq, PartialOrd, Serialize)]
@@ -40,10 +40,16 @@ pub struct Finding {
     /// One sentence for a person.
     pub message: String,
     /// The measured figure, in `unit`.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(
+        skip_serializing_if = "Option::is_none",
+        serialize_with = "figure::option"
+    )]
     pub measured: Option<f64>,
     /// The figure it is held against, in `unit`.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(
+        skip_serializing_if = "Option::is_none",
+        serialize_with = "figure::option"
+    )]
     pub required: Option<f64>,
     /// Unit of both figures: `mm`, `rad`, or empty for a plain number.
     pub unit: &'static str,
@@ -66,19 +72,25 @@ pub struct Table {
     /// What each column is of.
     pub columns: Vec<String>,
     /// What each row is of, and its figures.
+    #[serde(serialize_with = "figure::rows")]
     pub rows: Vec<(String, Vec<f64>)>,
 }
 
 /// All findings and figures of one mechanism.
+///
+/// In JSON an infinite figure is a string, as [`Figure`](crate::Figure) tells.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Report {
     /// What is wrong or worth knowing, worst first.
     pub findings: Vec<Finding>,
     /// Figures by name; the unit is in the documentation of the check that makes them.
+    #[serde(serialize_with = "figure::values")]
     pub values: BTreeMap<&'static str, f64>,
     /// What it is to reach, if its design says.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
     pub goals: Vec<Goal>,
     /// Figures in rows and columns.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
     pub tables: Vec<Table>,
 }
 
@@ -87,5 +99,35 @@ impl Report {
     #[must_use]
     pub fn ok(&self) -> bool {
         self.findings.iter().all(|f| f.severity < Severity::Error)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_infinite_figure_is_a_word_in_json_that_readers_take_for_it() {
+        let mut report = Report::default();
+        report.values.insert("limit", f64::INFINITY);
+        report.values.insert("least", f64::NEG_INFINITY);
+        report.values.insert("module", 2.25);
+        let goal = Goal::new((1, "a", "a"), Some(f64::INFINITY), [None; 2], "", 1.0);
+        report.goals.push(goal);
+        report.tables.push(Table {
+            name: "t",
+            title: "t",
+            unit: "",
+            columns: vec!["a".into(), "b".into()],
+            rows: vec![("row".into(), vec![1.0, f64::INFINITY])],
+        });
+        let json = serde_json::to_value(&report).expect("JSON");
+        assert_eq!(json["values"]["limit"], "Infinity");
+        assert_eq!(json["values"]["least"], "-Infinity");
+        assert_eq!(json["values"]["module"], 2.25);
+        assert_eq!(json["goals"][0]["value"], "Infinity");
+        assert_eq!(json["tables"][0]["rows"][0][1][1], "Infinity");
+        let word = json["values"]["limit"].as_str().expect("a string");
+        assert_eq!(word.parse(), Ok(f64::INFINITY));
     }
 }

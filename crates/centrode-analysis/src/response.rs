@@ -3,7 +3,7 @@ use centrode_mechanism::mechanism::{Mechanism, MechanismError};
 use rayon::prelude::{IntoParallelIterator, ParallelIterator};
 use serde::Serialize;
 
-use crate::{Report, check_mechanism, check_motion};
+use crate::{Report, check_mechanism, check_motion, figure};
 
 /// How the figures of a mechanism answer one number of its design: the parameter response of Yin et al. 2021, Figure
 /// 5, DOI 10.25165/j.ijabe.20211405.6844, for any number of any family.
@@ -35,6 +35,7 @@ pub struct Answer {
     /// Its unit: `mm`, `rad`, or empty for a plain number or a unit its name tells.
     pub unit: &'static str,
     /// The figure at each value; none where there is none.
+    #[serde(serialize_with = "figure::options")]
     pub figures: Vec<Option<f64>>,
 }
 

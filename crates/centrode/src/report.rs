@@ -6,7 +6,7 @@ mod unit;
 
 use std::io::Write;
 
-use centrode::analysis::{Finding, Goal, Report, Table};
+use centrode::analysis::Report;
 use centrode::mechanism::mechanism::Mechanism;
 use centrode::mechanism::shaft::{Scheme, SpiralShaft};
 use serde::Serialize;
@@ -19,22 +19,15 @@ pub(crate) use goals::{GoalWords, goal_words};
 #[derive(Serialize)]
 struct Json<'a> {
     ok: bool,
-    findings: &'a [Finding],
-    values: &'a std::collections::BTreeMap<&'static str, f64>,
-    #[serde(skip_serializing_if = "<[Goal]>::is_empty")]
-    goals: &'a [Goal],
-    #[serde(skip_serializing_if = "<[Table]>::is_empty")]
-    tables: &'a [Table],
+    #[serde(flatten)]
+    report: &'a Report,
 }
 
-/// The report as JSON with every digit; an infinite figure is null. Ends with a newline.
+/// The report as JSON with every digit; an infinite figure is the string "Infinity". Ends with a newline.
 pub(crate) fn json(report: &Report) -> std::io::Result<String> {
     let json = Json {
         ok: report.ok(),
-        findings: &report.findings,
-        values: &report.values,
-        goals: &report.goals,
-        tables: &report.tables,
+        report,
     };
     let mut text = serde_json::to_string_pretty(&json)?;
     text.push('\n');

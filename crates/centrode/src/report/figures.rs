@@ -2,7 +2,7 @@ use std::collections::BTreeSet;
 use std::io::{Result, Write};
 
 use anstyle::Style;
-use centrode::analysis::{Report, Table};
+use centrode::analysis::{Figure, Report, Table};
 use serde::Serialize;
 
 use super::groups::{GROUPS, Group, Row};
@@ -51,9 +51,9 @@ impl Cell {
     }
 }
 
-/// A figure as the writer of the JSON report has it; what is not finite is null.
-fn exact(value: f64) -> String {
-    serde_json::to_string(&value).unwrap_or_else(|_| "null".into())
+/// A figure as the writer of the JSON report has it.
+pub(super) fn exact(value: f64) -> String {
+    serde_json::to_string(&Figure(value)).unwrap_or_default()
 }
 
 /// Every table and figure of the report, figures of no group last.
@@ -165,7 +165,7 @@ mod tests {
             .map(|cell| (cell.key, cell.exact))
             .collect();
         let expected = [
-            ("clearance_min", "null"),
+            ("clearance_min", "\"Infinity\""),
             ("module", "2.25"),
             ("unheard_of", "0.5"),
         ];

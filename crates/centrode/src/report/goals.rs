@@ -4,7 +4,7 @@ use anstyle::{AnsiColor, Style};
 use centrode::analysis::{Goal, Report};
 use serde::Serialize;
 
-use super::figures::HEADING;
+use super::figures::{HEADING, exact};
 use super::unit::figure;
 
 /// Characters of a progress bar.
@@ -107,7 +107,7 @@ pub(crate) fn goal_words(goal: &Goal) -> GoalWords {
         name: goal.name,
         title: goal.title,
         value: goal.value.map_or("-".into(), show),
-        exact: goal.value.and_then(|v| serde_json::to_string(&v).ok()),
+        exact: goal.value.map(exact),
         unit,
         wanted,
         verdict,

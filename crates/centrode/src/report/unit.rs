@@ -60,7 +60,9 @@ pub(super) fn figure(value: f64, decimals: i32) -> String {
     let hidden = 50.0 * 0.1_f64.powi(decimals);
     if value == 0.0 {
         "0".into()
-    } else if !value.is_finite() {
+    } else if value.is_infinite() {
+        if value > 0.0 { "infinite" } else { "-infinite" }.into()
+    } else if value.is_nan() {
         "none".into()
     } else if value.abs() < hidden || value.abs() >= 1e9 {
         format!("{value:.1e}")
@@ -79,7 +81,7 @@ mod tests {
         assert_eq!(Unit::Millimetre.show(-3.2e-7), "-3.2e-7");
         assert_eq!(Unit::Degree.show(std::f64::consts::PI), "180.0000");
         assert_eq!(Unit::Count.show(23.0), "23");
-        assert_eq!(Unit::Radian.show(f64::INFINITY), "none");
+        assert_eq!(Unit::Radian.show(f64::INFINITY), "infinite");
         assert_eq!(Unit::Radian.show(-0.0), "0");
         assert_eq!(Unit::Radian.show(2.489e-7), "2.5e-7");
     }
