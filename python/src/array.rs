@@ -11,6 +11,7 @@ use pyo3::prelude::{
 use pyo3::sync::PyOnceLock;
 use pyo3::types::{PyDict, PyDictMethods};
 
+use crate::error::finite;
 use crate::wait::wait;
 
 /// Numbers in an array of any shape, or a single one: whatever `NumPy` makes real numbers of.
@@ -77,6 +78,14 @@ impl Values {
         }
     }
 
+    /// The numbers, if all are finite: a function of an angle has no value anywhere else.
+    fn finite(self) -> PyResult<Self> {
+        for &value in &self.0 {
+            finite("every input", value)?;
+        }
+        Ok(self)
+    }
+
     pub(crate) fn into_flat(self) -> Vec<f64> {
         self.0.iter().copied().collect()
     }
@@ -96,9 +105,10 @@ pub(crate) fn list(numbers: Option<Numbers>) -> Vec<f64> {
 /// A function applied to each number; the answer has the shape of the question.
 pub(crate) fn each(
     py: Python<'_>,
-    Values(mut values): Values,
+    values: Values,
     f: impl Fn(f64) -> f64 + Send + 'static,
 ) -> PyResult<Bound<'_, PyAny>> {
+    let Values(mut values) = values.finite()?;
     if let (0, Some(&value)) = (values.ndim(), values.first()) {
         return f(value).into_bound_py_any(py);
     }
@@ -113,10 +123,11 @@ pub(crate) fn each(
 /// answer, `tail`.
 pub(crate) fn each_array<const COUNT: usize>(
     py: Python<'_>,
-    Values(values): Values,
+    values: Values,
     tail: &[usize],
     f: impl Fn(f64) -> [f64; COUNT] + Send + 'static,
 ) -> PyResult<Py<PyAny>> {
+    let Values(values) = values.finite()?;
     let shape = [values.shape(), tail].concat();
     let answer: Vec<f64> = wait(py, move || values.iter().flat_map(|&v| f(v)).collect())?;
     Ok(shaped(shape, answer)?.into_pyarray(py).into_any().unbind())
@@ -125,9 +136,10 @@ pub(crate) fn each_array<const COUNT: usize>(
 /// As [`each`] with a function of all numbers at once.
 pub(crate) fn together(
     py: Python<'_>,
-    Values(values): Values,
+    values: Values,
     f: impl Fn(&[f64]) -> PyResult<Vec<f64>> + Send + 'static,
 ) -> PyResult<Bound<'_, PyAny>> {
+    let Values(values) = values.finite()?;
     let shape = values.shape().to_vec();
     let answer = wait(py, move || f(&Values(values).into_flat()))??;
     if let ([], &[number]) = (&shape[..], &answer[..]) {
@@ -139,10 +151,11 @@ pub(crate) fn together(
 /// As [`each_array`] with a function of all numbers at once.
 pub(crate) fn together_array<const COUNT: usize>(
     py: Python<'_>,
-    Values(values): Values,
+    values: Values,
     tail: &[usize],
     f: impl Fn(&[f64]) -> PyResult<Vec<[f64; COUNT]>> + Send + 'static,
 ) -> PyResult<Py<PyAny>> {
+    let Values(values) = values.finite()?;
     let shape = [values.shape(), tail].concat();
     let answer = wait(py, move || f(&Values(values).into_flat()))??;
     Ok(shaped(shape, answer.into_flattened())?

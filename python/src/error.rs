@@ -107,6 +107,28 @@ pub(crate) fn of_feeder_files(error: &FeederFilesError) -> PyErr {
     class::ExportError::new_err(error.to_string())
 }
 
+/// A number, if it is finite.
+pub(crate) fn finite(key: &str, value: f64) -> PyResult<f64> {
+    if value.is_finite() {
+        return Ok(value);
+    }
+    Err(design_error(
+        key,
+        &format!("must be a finite number, not {value}"),
+    ))
+}
+
+/// A length, if it is finite and greater than zero.
+pub(crate) fn positive(key: &str, value: f64) -> PyResult<f64> {
+    if finite(key, value)? > 0.0 {
+        return Ok(value);
+    }
+    Err(design_error(
+        key,
+        &format!("must be greater than 0, not {value}"),
+    ))
+}
+
 /// A tolerance for what is exact at every one.
 pub(crate) fn plain_tolerance(mm: f64) -> PyResult<Tolerance> {
     let finest = 1e-9;

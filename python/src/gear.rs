@@ -12,7 +12,7 @@ use pyo3::types::{PyDict, PyTuple};
 
 use crate::array::{points, rows};
 use crate::body::Body;
-use crate::error::{of_bundle, of_files, of_solid, tolerance as within};
+use crate::error::{of_bundle, of_files, of_solid, positive, tolerance as within};
 use crate::record;
 use crate::sheet::{Drawing, Sheets, layout};
 use crate::wait::wait;
@@ -117,6 +117,7 @@ impl Gear {
         py: Python<'py>,
         diameter: Option<f64>,
     ) -> PyResult<Bound<'py, PyAny>> {
+        let diameter = diameter.map(|d| positive("diameter", d)).transpose()?;
         let (pair, member) = (Arc::clone(&self.pair), self.member);
         let over = wait(py, move || {
             let diameter = diameter.unwrap_or_else(|| pair.pin_diameter(member));

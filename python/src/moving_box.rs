@@ -15,7 +15,9 @@ use crate::array::{Values, each};
 use crate::bundle;
 use crate::count::Count;
 use crate::design::Loaded;
-use crate::error::{of_design, of_pair, of_shaft, of_shaft_files, plain_tolerance, unknown_word};
+use crate::error::{
+    finite, of_design, of_pair, of_shaft, of_shaft_files, plain_tolerance, unknown_word,
+};
 use crate::format;
 use crate::gear_pair::GearPair;
 use crate::record;
@@ -270,9 +272,9 @@ impl MovingBox {
     /// >>> machine = ct.MovingBox(speed_ratio=3)
     /// >>> round(machine.moved(-math.pi / 6, math.pi / 6), 6)
     /// 1.954217
-    fn moved(&self, start: f64, stop: f64) -> f64 {
+    fn moved(&self, start: f64, stop: f64) -> PyResult<f64> {
         let at = |phi: f64| self.machine.stroke_at(phi).position;
-        at(stop) - at(start)
+        Ok(at(finite("stop", stop)?) - at(finite("start", start)?))
     }
 
     /// Forces on the slider at the input angles `phi`; the input's speed, mass and frictions stand in for the

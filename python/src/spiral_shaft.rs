@@ -20,7 +20,7 @@ use crate::array::{Numbers, Values, each, points, rows};
 use crate::bundle;
 use crate::count::Count;
 use crate::design::Loaded;
-use crate::error::{of_design, of_shaft, of_shaft_files, plain_tolerance, unknown_word};
+use crate::error::{finite, of_design, of_shaft, of_shaft_files, plain_tolerance, unknown_word};
 use crate::format;
 use crate::record;
 use crate::wait::wait;
@@ -394,8 +394,9 @@ impl SpiralShaft {
     }
 
     /// Distance moved by a stroke from one shaft angle to another, mm, as if the stroke had no end.
-    fn moved(&self, start: f64, stop: f64) -> f64 {
-        self.shaft.law().moved(start, stop)
+    fn moved(&self, start: f64, stop: f64) -> PyResult<f64> {
+        let (start, stop) = (finite("start", start)?, finite("stop", stop)?);
+        Ok(self.shaft.law().moved(start, stop))
     }
 
     /// Lead angle of the groove on the shaft's surface, rad; negative on the way back.
