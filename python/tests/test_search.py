@@ -50,6 +50,9 @@ def test_words_and_designs_without_a_search_are_refused() -> None:
     arms = ct.ThreeArm.from_toml(ct.template("three-arm"))
     with pytest.raises(ct.DesignError):
         arms.optimise("luck")  # type: ignore[arg-type]
+    for method in ("guided", "de"):
+        with pytest.raises(ct.MechanismError, match="at least 1 evaluation"):
+            arms.optimise(method, evaluations=0)
     round_ = ct.ThreeArm(
         ct.pitch.circle(radius=40), carrier_start=1.5, bend=-0.9, arm_mounting_angle=-0.5, tip_distance=145,
         pusher_offset=65,

@@ -230,7 +230,7 @@ pub(crate) struct Optimise {
     #[arg(long, default_value_t = 1)]
     pub(crate) seed: u64,
     /// Most evaluations, the generation under way is finished; left out, 20000, or what the search gone on with had
-    #[arg(long)]
+    #[arg(long, value_parser = clap::value_parser!(u64).range(1..))]
     pub(crate) evaluations: Option<u64>,
     /// Points a generation; left out, by the method and the number of parameters
     #[arg(long)]

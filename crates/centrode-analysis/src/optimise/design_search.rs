@@ -61,6 +61,9 @@ impl DesignSearch {
             Strategy::Guided if problem.variables().is_empty() => {
                 return Err(SearchError::NoVariable);
             }
+            Strategy::Guided if settings.evaluations == 0 => {
+                return Err(SearchError::NoEvaluation);
+            }
             Strategy::Guided => State::Guided(Box::new(GuidedSearch::new(problem))),
             Strategy::Global(method) => {
                 let target = settings.target.or_else(|| problem.target());

@@ -94,6 +94,9 @@ pub enum SearchError {
     /// No variable.
     #[error("the problem has no variable")]
     NoVariable,
+    /// No evaluation allowed.
+    #[error("a search needs at least 1 evaluation; evaluations is 0")]
+    NoEvaluation,
     /// A variable with no room.
     #[error("variable {index} runs from {low} to {high}: the bounds must be finite and ascending")]
     Bounds {
@@ -147,6 +150,9 @@ impl Search {
         let bounds = problem.bounds();
         if bounds.is_empty() {
             return Err(SearchError::NoVariable);
+        }
+        if settings.evaluations == 0 {
+            return Err(SearchError::NoEvaluation);
         }
         for (index, &(low, high)) in bounds.iter().enumerate() {
             if !(low.is_finite() && high.is_finite() && low <= high) {

@@ -152,6 +152,12 @@ fn nothing_to_search_is_refused() {
         new(vec![(0.0, 1.0)], Some(3)),
         SearchError::Population { count: 3, .. }
     ));
+    let none = Settings {
+        evaluations: 0,
+        ..Settings::default()
+    };
+    let refused = Search::new(&Bounds(vec![(0.0, 1.0)]), none).expect_err("refused");
+    assert_eq!(refused, SearchError::NoEvaluation);
 }
 
 /// What is not a number is never the best.

@@ -54,6 +54,18 @@ fn a_better_design_is_written_with_its_comments_and_its_search() {
 }
 
 #[test]
+fn a_search_of_no_evaluations_is_refused_in_words() {
+    let design = shipped("three-arm-2021.toml");
+    let run = ["optimise", &design, "--evaluations", "0", "-o", "-"];
+    for run in [&run[..], &[&run[..], &["--resume"]].concat()] {
+        let refused = centrode(run);
+        assert_eq!(refused.status.code(), Some(2));
+        let told = text(&refused.stderr);
+        assert!(told.contains("--evaluations"), "{told}");
+    }
+}
+
+#[test]
 fn a_stored_search_goes_on_as_if_never_stopped() {
     let folder = tempfile::tempdir().expect("a place to write");
     let file = |name: &str| folder.path().join(name).display().to_string();
