@@ -202,6 +202,7 @@ pub fn curves(feeder: &Feeder) -> Vec<Curve> {
         chart,
         name: "",
         unit,
+        count: false,
         input: input.clone(),
         value: input.iter().map(|&phi| f(phi)).collect(),
     };

@@ -78,6 +78,7 @@ pub fn curves(pair: &GearPair) -> Vec<Curve> {
         chart,
         name,
         unit,
+        count: false,
         input: input.clone(),
         value,
     };

@@ -105,6 +105,8 @@ pub struct Curve {
     pub name: &'static str,
     /// Unit as shown; empty for a plain number.
     pub unit: &'static str,
+    /// Whether it counts: whole numbers, each up to the next input.
+    pub count: bool,
     /// Input angles, rad, ascending.
     #[serde(serialize_with = "path::drawn")]
     pub input: Vec<f64>,

@@ -201,6 +201,7 @@ fn curves(machine: &Machine<'_>) -> Vec<Curve> {
         chart,
         name: "",
         unit,
+        count: false,
         value: input.iter().map(|&t| f(t)).collect(),
         input: input.clone(),
     };

@@ -287,6 +287,7 @@ pub fn curves(mechanism: &ThreeArm) -> Vec<Curve> {
         chart,
         name,
         unit,
+        count: false,
         value: turn.chains().iter().map(f).collect(),
         input: turn.inputs().to_vec(),
     };

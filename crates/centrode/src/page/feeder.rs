@@ -38,6 +38,7 @@ pub(super) fn checked_curves(machine: &Feeder) -> Vec<Curve> {
             chart: "Torque of the crank",
             name,
             unit: "N·mm",
+            count: false,
             value: input.iter().map(torque).collect(),
             input: input.clone(),
         }

@@ -35,17 +35,21 @@ pub(super) fn contact_curves(contact: &Contact) -> Vec<Curve> {
         chart,
         name,
         unit,
+        count: false,
         input: contact.input.clone(),
         value,
     };
     let degrees = |list: &[f64]| list.iter().map(|v| v.to_degrees()).collect::<Vec<_>>();
     vec![
-        curve(
-            "Contacts at once",
-            "",
-            "",
-            contact.contacts.iter().map(|&n| f64::from(n)).collect(),
-        ),
+        Curve {
+            count: true,
+            ..curve(
+                "Contacts at once",
+                "",
+                "",
+                contact.contacts.iter().map(|&n| f64::from(n)).collect(),
+            )
+        },
         curve(
             "Backlash of the driven gear",
             "",

@@ -38,6 +38,7 @@ pub(super) fn checked_curves(mechanism: &ThreeArm, teeth: Option<&TrainTeeth>) -
             chart: "Clearance of the arms",
             name,
             unit: "mm",
+            count: false,
             input: course.input.clone(),
             value,
         }));

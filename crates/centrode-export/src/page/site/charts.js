@@ -1,10 +1,9 @@
 // Curves along the cycle as small multiples, all at the input of the scrubber.
 
 import uPlot from "./uplot.js";
-import { axes } from "./axes.js";
+import { WHOLE, axes, line } from "./axes.js";
 import { byId, element } from "./elements.js";
 import { read } from "./motion.js";
-import { color } from "./theme.js";
 
 const DEG = 180 / Math.PI;
 const HEIGHT = 128;
@@ -13,8 +12,9 @@ const DASH = [[], [6, 3]];
 const NOISE = 1e-9;
 
 /** A figure of a curve, short enough to read. */
-function brief(value) {
+function brief(value, count) {
   if (value === null || value === undefined) return "–";
+  if (count) return String(value);
   const size = Math.abs(value);
   if (size < NOISE) return "0";
   return size < 1e-3 || size >= 1e5 ? value.toExponential(2) : value.toPrecision(4);
@@ -85,8 +85,10 @@ class Chart {
     this.compared = curves.map((curve) => before.has(`${name} ${curve.name}`));
     const series = [{}];
     curves.forEach((curve, i) => {
-      series.push({ stroke: () => color(i === 0 ? "ink" : "accent"), width: 1.5, dash: DASH[i % 2], points: { show: false }, spanGaps: false });
-      if (this.compared[i]) series.push({ stroke: () => color("pinned"), width: 1.2, dash: [3, 3], points: { show: false } });
+      // A count jumps from one whole number to the next.
+      const own = curve.count ? { paths: uPlot.paths.stepped({ align: 1 }) } : {};
+      series.push(line(i === 0 ? "ink" : "accent", { ...own, dash: DASH[i % 2] }));
+      if (this.compared[i]) series.push(line("pinned", { ...own, width: 1.2, dash: [3, 3] }));
     });
     this.plot = new uPlot({
       width: Math.max(this.box.clientWidth, 160),
@@ -97,7 +99,7 @@ class Chart {
       series,
       axes: axes(
         { incrs: [15, 30, 45, 60, 90, 180, 360, 720, 1080, 1440, 2160, 2880, 3600, 5400, 7200, 10800, 14400, 36000], values: (_, list) => list.map((v) => `${v}°`), space: 48 },
-        { values: (_, list) => list.map((v) => tick(v, list)) },
+        curves[0].count ? { incrs: WHOLE } : {},
       ),
     }, this.data(curves, before), this.box);
     this.line = element("div", { class: "now" });
@@ -138,7 +140,7 @@ class Chart {
     const left = this.plot.valToPos(input * DEG, "x");
     this.line.style.transform = `translateX(${left}px)`;
     this.curves.forEach((curve, i) => {
-      this.values[i].textContent = brief(read(curve, input));
+      this.values[i].textContent = brief(read(curve, input), curve.count);
     });
   }
 }
@@ -153,10 +155,3 @@ function span(_, least, greatest) {
 
 /** A cycle ends at a whole degree, which its last digit may fall short of. */
 const whole = (angle) => (Math.abs(angle - Math.round(angle)) < 1e-3 ? Math.round(angle) : angle);
-
-function tick(value, list) {
-  const size = Math.max(...list.map(Math.abs));
-  if (size !== 0 && (size < 1e-2 || size >= 1e5)) return value === 0 ? "0" : value.toExponential(0);
-  const step = list.length > 1 ? list[1] - list[0] : 1;
-  return value.toFixed(Math.min(Math.max(0, Math.ceil(-Math.log10(step) - 1e-9)), 6));
-}

@@ -32,7 +32,7 @@ export class Motion {
   }
 }
 
-/** A curve at an input, or nothing where it has no value. */
+/** A curve at an input, or nothing where it has no value; a count is that of the sample before. */
 export function read(curve, input) {
   const x = curve.input;
   if (x.length < 2) return null;
@@ -43,6 +43,7 @@ export function read(curve, input) {
     if (x[middle] <= input) low = middle;
     else high = middle;
   }
+  if (curve.count) return curve.value[input >= x[high] ? high : low];
   const [a, b] = [curve.value[low], curve.value[high]];
   if (a === null || b === null) return null;
   const share = Math.min(Math.max((input - x[low]) / (x[high] - x[low]), 0), 1);

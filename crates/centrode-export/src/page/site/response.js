@@ -1,7 +1,7 @@
 // How the goals answer one number of the design, as small multiples.
 
 import uPlot from "./uplot.js";
-import { axes } from "./axes.js";
+import { axes, line } from "./axes.js";
 import * as dialogs from "./dialogs.js";
 import { element } from "./elements.js";
 import * as server from "./server.js";
@@ -122,7 +122,7 @@ function draw(place, values, chart, now) {
     legend: { show: false },
     cursor: { show: false },
     scales: { x: { time: false } },
-    series: [{}, { stroke: () => color("ink"), width: 1.5, points: { show: true, size: 4 }, spanGaps: false }],
+    series: [{}, line("ink", { points: { show: true, size: 4 } })],
     axes: axes(),
     hooks: { draw: [lines] },
   }, [values, chart.figures], box);
