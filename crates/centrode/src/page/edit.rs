@@ -2,7 +2,8 @@ use serde::Deserialize;
 use serde_json::Value as Json;
 use toml_edit::{Array, DocumentMut, InlineTable, Item, Table, Value};
 
-use super::field::{keys_beside, list, required};
+use super::field::{list, required};
+use super::kind::switched;
 
 /// A new value for a key of the design file.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
@@ -23,6 +24,15 @@ impl Edit {
             } else {
                 value.into()
             },
+        }
+    }
+
+    /// A word for a key.
+    #[cfg(test)]
+    pub(crate) fn word(key: &str, word: &str) -> Self {
+        Self {
+            key: key.into(),
+            value: word.into(),
         }
     }
 
@@ -48,15 +58,30 @@ pub(crate) enum EditError {
 
 /// A step of a path.
 #[derive(Clone, Debug, Eq, PartialEq)]
-enum Step {
+pub(super) enum Step {
     Name(String),
     Index(usize),
 }
 
+impl Step {
+    /// The step into a table.
+    pub(super) fn named(name: &str) -> Self {
+        Self::Name(name.into())
+    }
+
+    /// Its name; none for the place in a list.
+    pub(super) fn name(&self) -> Option<&str> {
+        match self {
+            Self::Name(name) => Some(name),
+            Self::Index(_) => None,
+        }
+    }
+}
+
 /// The text with the edits made; comments, order and all other values stay as they are.
 ///
-/// A new `kind` takes out what does not belong to it; a table that is new gets what it cannot be without, as it
-/// holds where the table is left out.
+/// A new `kind` changes its table so that the design stays a mechanism; a table that is new gets what it cannot be
+/// without, as it holds where the table is left out.
 pub(crate) fn edited(text: &str, edits: &[Edit]) -> Result<String, EditError> {
     let mut document: DocumentMut = text.parse()?;
     for edit in edits {
@@ -67,6 +92,12 @@ pub(crate) fn edited(text: &str, edits: &[Edit]) -> Result<String, EditError> {
         let last = steps.pop().ok_or_else(unknown)?;
         if !edit.value.is_null() {
             complete(&mut document, &steps);
+        }
+        if let (Some("kind"), Json::String(word)) = (last.name(), &edit.value)
+            && let Some(made) = switched(&document, &steps, word)
+        {
+            document = made;
+            continue;
         }
         let parent = container(document.as_item_mut(), &steps, edit.value.is_null());
         let Some(parent) = parent else {
@@ -83,23 +114,6 @@ pub(crate) fn edited(text: &str, edits: &[Edit]) -> Result<String, EditError> {
                 value: edit.value.clone(),
             })?;
             set(parent, &last, value).ok_or_else(unknown)?;
-        }
-        if let (Step::Name(tag), Json::String(word)) = (&last, &edit.value)
-            && tag == "kind"
-        {
-            let table = edit
-                .key
-                .strip_suffix("kind")
-                .unwrap_or_default()
-                .trim_end_matches('.');
-            let keys = keys_beside(&document.to_string(), table, word);
-            let table = container(document.as_item_mut(), &steps, true);
-            if let (Some(keys), Some(table)) = (keys, table.and_then(Item::as_table_like_mut)) {
-                let strange: Vec<String> = table.iter().map(|(k, _)| k.to_owned()).collect();
-                for key in strange.iter().filter(|key| !keys.contains(key)) {
-                    table.remove(key);
-                }
-            }
         }
     }
     Ok(document.to_string())
@@ -156,7 +170,11 @@ fn complete(document: &mut DocumentMut, steps: &[Step]) {
 }
 
 /// The table or list at the path; tables that are missing are made unless `only_there`.
-fn container<'a>(root: &'a mut Item, steps: &[Step], only_there: bool) -> Option<&'a mut Item> {
+pub(super) fn container<'a>(
+    root: &'a mut Item,
+    steps: &[Step],
+    only_there: bool,
+) -> Option<&'a mut Item> {
     let mut here = root;
     for step in steps {
         here = match step {
@@ -217,7 +235,7 @@ fn set(parent: &mut Item, last: &Step, value: Value) -> Option<()> {
 }
 
 /// Puts a value in the place of another, with the blanks and comments around that.
-fn replace(old: &mut Value, mut new: Value) {
+pub(super) fn replace(old: &mut Value, mut new: Value) {
     match (&mut *old, &new) {
         (Value::Array(old), Value::Array(new)) if old.len() == new.len() => {
             for (old, new) in old.iter_mut().zip(new) {
@@ -231,7 +249,8 @@ fn replace(old: &mut Value, mut new: Value) {
     *old = new;
 }
 
-fn written(value: &Json) -> Option<Value> {
+/// A value as it is written in a design file; none for a table and for what is not finite.
+pub(super) fn written(value: &Json) -> Option<Value> {
     Some(match value {
         Json::Bool(b) => (*b).into(),
         Json::String(s) => s.as_str().into(),

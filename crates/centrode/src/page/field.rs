@@ -40,6 +40,22 @@ pub(crate) struct Field {
     greatest: Option<f64>,
 }
 
+impl Field {
+    /// Whether it stands in the file and may be left out.
+    pub(crate) fn may_go(&self) -> bool {
+        self.written && self.optional
+    }
+
+    /// The words to choose from.
+    #[cfg(test)]
+    pub(crate) fn words(&self) -> Vec<String> {
+        self.choices
+            .iter()
+            .map(|choice| choice.word.clone())
+            .collect()
+    }
+}
+
 /// What a field takes.
 #[derive(Clone, Copy, Debug, Eq, PartialEq, Serialize)]
 #[serde(rename_all = "lowercase")]
@@ -88,8 +104,9 @@ pub(crate) fn tables(text: &str) -> Vec<Table> {
     out
 }
 
-/// The keys that may stand in a table beside a tag of the given word; `None` where the table has no tag.
-pub(crate) fn keys_beside(text: &str, table: &str, word: &str) -> Option<Vec<String>> {
+/// The keys that may stand in a table beside a tag of the given word, with their defaults, null where there is none;
+/// `None` where the table has no such tag.
+pub(crate) fn keys_beside(text: &str, table: &str, word: &str) -> Option<Map<String, Value>> {
     let written = serde_json::to_value(text.parse::<toml::Table>().ok()?).ok()?;
     let mut here = schema();
     let mut value = written;
@@ -106,7 +123,11 @@ pub(crate) fn keys_beside(text: &str, table: &str, word: &str) -> Option<Vec<Str
             tag: Some(_),
             properties,
             ..
-        } => Some(properties.keys().cloned().collect()),
+        } => {
+            let default = |sub: &Value| sub.get("default").cloned().unwrap_or_default();
+            let keys = properties.iter();
+            Some(keys.map(|(key, sub)| (key.clone(), default(sub))).collect())
+        }
         _ => None,
     }
 }
@@ -320,7 +341,7 @@ mod tests {
     fn a_kind_knows_what_stands_beside_it() {
         let text = "family = \"gear-pair\"\n[pitch]\nkind = \"ellipse\"\n";
         let keys = keys_beside(text, "pitch", "circle").expect("tagged");
-        assert!(keys.contains(&"radius".to_owned()) && !keys.contains(&"eccentricity".to_owned()));
+        assert!(keys.contains_key("radius") && !keys.contains_key("eccentricity"));
         assert_eq!(keys_beside(text, "teeth", "circle"), None);
     }
 }

@@ -6,9 +6,11 @@ mod feeder;
 mod field;
 mod gear_pair;
 mod handles;
+mod kind;
 mod schema;
 mod shaft;
 mod snapshot;
+mod start;
 mod three_arm;
 
 pub(crate) use edit::{Edit, edited};
