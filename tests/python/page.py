@@ -26,9 +26,10 @@ BOX = ROOT / "tests" / "designs" / "moving-box-2018.toml"
 
 
 @contextmanager
-def shown(browser, url, **options):
-    """A page that may not complain on its console."""
+def shown(browser, url, script="", **options):
+    """A page that may not complain on its console; a script runs before its own."""
     context = browser.new_context(viewport={"width": 1440, "height": 900}, **options)
+    context.add_init_script(script)
     context.set_default_timeout(15_000)
     page = context.new_page()
     complaints = []
@@ -50,6 +51,17 @@ def opened(browser, folder, design, **options):
     copy.write_text(design.read_text())
     with studio(copy) as running, shown(browser, running.url, **options) as page:
         yield page, copy
+
+
+# Answers of the solver come so many milliseconds late.
+SLOW = """
+const ask = window.fetch;
+window.fetch = async (path, ...rest) => {
+  const answer = await ask(path, ...rest);
+  if (String(path).endsWith("solve")) await new Promise((resume) => setTimeout(resume, window.late ?? 0));
+  return answer;
+};
+"""
 
 
 def settled(page):

@@ -186,13 +186,41 @@ def test_text_pin_and_reset(points):
     text.fill(text.input_value().replace("58, 47", "57, 47"))
     page.get_by_role("button", name="Apply").click()
     expect(page.locator("#figures .before").first).to_be_visible()
-    page.locator("#source").click()
-    text.fill("= nothing")
-    page.get_by_role("button", name="Apply").click()
-    expect(page.locator("#findings")).to_contain_text("line 1, column 1")
     page.locator("#reset").click()
-    expect(page.locator("#findings")).to_contain_text("Sound")
     expect(page.locator("#figures .before")).to_have_count(0)
+
+
+def test_a_text_that_is_no_design_stays_in_its_dialog(points):
+    page, design = points
+    dialog, text = page.locator("#dialog"), page.get_by_role("textbox", name="Design file")
+    page.locator("#source").click()
+    design_text = text.input_value()
+    for wrong, words in [
+        (design_text + "= nothing\n", f"line {design_text.count(chr(10)) + 1}, column 1"),
+        (design_text.replace("backlash = 0.05", "backlash = -1"), "teeth.backlash, line"),
+        (design_text.replace("backlash", "backslash"), "teeth.backslash, line"),
+    ]:
+        text.fill(wrong)
+        dialog.get_by_role("button", name="Apply").click()
+        expect(dialog.locator(".error")).to_contain_text(words)
+        expect(text).to_have_value(wrong)
+    start, line = text.evaluate("area => [area.selectionStart, area.value.slice(area.selectionStart, area.selectionEnd)]")
+    assert line == "backslash = 0.05", start
+    page.keyboard.press("Escape")
+    expect(dialog).to_be_hidden()
+    expect(field(page, "teeth.backlash")).to_have_value("0.05")
+    page.locator("#source").click()
+    expect(text).to_have_value(wrong)
+    expect(dialog).to_contain_text("not been applied")
+    text.fill(design_text.replace("backlash = 0.05", "backlash = 0.06"))
+    dialog.get_by_role("button", name="Apply").click()
+    expect(field(page, "teeth.backlash")).to_have_value("0.06")
+    page.locator("#source").click()
+    text.fill("given up")
+    dialog.get_by_role("button", name="Cancel").click()
+    page.locator("#source").click()
+    expect(text).to_have_value(design_text.replace("backlash = 0.05", "backlash = 0.06"))
+    assert design.read_text() == POINTS.read_text()
 
 
 def test_the_export_is_a_zip(points, tmp_path):

@@ -158,6 +158,26 @@ def test_an_error_stands_at_its_key_in_the_words_of_check(served, tmp_path):
     assert f"error: {snapshot['error']['message']}\n" in centrode("check", bad, check=False).stderr
 
 
+@pytest.mark.parametrize(
+    ("text", "fault"),
+    [
+        (DESIGN, None),
+        (DESIGN + "= nothing", {"key": "", "line": DESIGN.count("\n") + 1, "column": 1}),
+        (DESIGN.replace("bore", "bores"), {"key": "driver.bores", "line": 11, "column": 1}),
+    ],
+    ids=["a design", "no TOML", "an unknown key"],
+)
+def test_a_text_is_read_and_its_fault_told(served, text, fault):
+    status, answer = served.json("POST", "fault", {"text": text})
+    assert status == 200
+    assert answer.keys() == {"fault"}
+    if fault is None:
+        assert answer["fault"] is None
+    else:
+        assert answer["fault"].pop("message")
+        assert answer["fault"] == fault
+
+
 def test_the_zip_holds_the_files_of_export(served, tmp_path):
     request = {"text": DESIGN, "formats": [], "tolerance": "0.01", "dxf": "r2010"}
     status, archive = served.ask("POST", "export", request)
@@ -213,8 +233,10 @@ def test_what_is_no_question_starts_nothing(served, path, body, status):
         ({"text": "family ="}, ""),
         ({"text": SHAFT}, "family"),
         ({"method": "luck"}, 'unknown method "luck"'),
+        ({"evaluations": 0}, "a search needs at least 1 evaluation"),
+        ({"method": "guided", "evaluations": 0}, "a search needs at least 1 evaluation"),
     ],
-    ids=["no design", "a family that is not searched", "unknown method"],
+    ids=["no design", "a family that is not searched", "unknown method", "no evaluation", "no evaluation, guided"],
 )
 def test_a_search_that_cannot_begin_says_why(served, change, reason):
     status, answer = served.json("POST", "search", {**SEARCH, **change})

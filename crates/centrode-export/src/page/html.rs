@@ -21,7 +21,7 @@ macro_rules! assets {
 const STYLES: [Asset; 2] = assets!("text/css; charset=utf-8": "uplot.css", "page.css");
 
 /// The scripts; `main.js` is the one to start.
-const SCRIPTS: [Asset; 17] = assets!(
+const SCRIPTS: [Asset; 20] = assets!(
     "text/javascript; charset=utf-8":
     "uplot.js",
     "axes.js",
@@ -29,6 +29,7 @@ const SCRIPTS: [Asset; 17] = assets!(
     "dialogs.js",
     "elements.js",
     "figures.js",
+    "file.js",
     "form.js",
     "handles.js",
     "history.js",
@@ -37,8 +38,10 @@ const SCRIPTS: [Asset; 17] = assets!(
     "response.js",
     "search.js",
     "server.js",
+    "source.js",
     "stage.js",
     "theme.js",
+    "transport.js",
     "verdict.js",
 );
 

@@ -14,4 +14,4 @@ mod start;
 mod three_arm;
 
 pub(crate) use edit::{Edit, edited};
-pub(crate) use snapshot::{Snapshot, Subject};
+pub(crate) use snapshot::{Fault, Snapshot, Subject};

@@ -23,7 +23,7 @@ use super::solver::{Depth, Overtaken};
 use super::{response, search};
 use crate::args::{Arguments, Command, Export, File};
 use crate::export;
-use crate::page::{Edit, edited};
+use crate::page::{Edit, Fault, edited};
 
 /// Largest body of a request: a design file at its largest, as JSON, and some edits.
 const LARGEST: usize = 4 << 20;
@@ -43,6 +43,7 @@ pub(crate) fn router(desk: Arc<Desk>, guard: Guard) -> Router {
             get(async |State(desk): Shared| desk.watch.events()),
         )
         .route("/solve", post(solve))
+        .route("/fault", post(fault))
         .route("/save", post(save))
         .route("/keep", post(keep).delete(forget))
         .route("/reread", post(reread))
@@ -147,7 +148,8 @@ async fn solve(State(desk): Shared, Json(ask): Json<Solve>) -> Result<Response, 
     let text = if ask.edits.is_empty() {
         ask.text
     } else {
-        let made = edited(&ask.text, &ask.edits);
+        // A new kind is tried out.
+        let made = apart(move || edited(&ask.text, &ask.edits)).await?;
         made.map_err(|error| Refused::because(StatusCode::UNPROCESSABLE_ENTITY, error))?
     };
     let solved = desk.solver.solve(text, ask.depth).await;
@@ -156,6 +158,17 @@ async fn solve(State(desk): Shared, Json(ask): Json<Solve>) -> Result<Response, 
         |Overtaken| Json(json!({ "overtaken": true })).into_response(),
         as_json,
     ))
+}
+
+#[derive(Deserialize)]
+struct Text {
+    text: String,
+}
+
+/// Why a text does not read as a design; null where it does.
+async fn fault(Json(ask): Json<Text>) -> Response {
+    let fault = DesignFile::read(ask.text.as_bytes()).err();
+    Json(json!({ "fault": fault.as_ref().map(Fault::from) })).into_response()
 }
 
 #[derive(Deserialize)]
@@ -182,12 +195,7 @@ async fn save(State(desk): Shared, Json(ask): Json<Save>) -> Result<Response, Re
     }
 }
 
-#[derive(Deserialize)]
-struct Keep {
-    text: String,
-}
-
-async fn keep(State(desk): Shared, Json(ask): Json<Keep>) -> Result<Response, Refused> {
+async fn keep(State(desk): Shared, Json(ask): Json<Text>) -> Result<Response, Refused> {
     on_disk(move || desk.document.keep(&ask.text)).await
 }
 

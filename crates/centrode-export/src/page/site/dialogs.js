@@ -1,9 +1,9 @@
-// Questions to the user: the text of the design, what to export, whom to believe about a file.
+// Questions to the user: what to export, whom to believe about a file.
 
 import { byId, element } from "./elements.js";
 
-/** Shows a dialog; resolves to what its button says, or to null when it is closed. */
-export function ask(title, content, buttons) {
+/** Shows a dialog; resolves to what its button says, or to null when it is closed. Where `sound(answer)` resolves to false it stays. */
+export function ask(title, content, buttons, sound) {
   const dialog = byId("dialog");
   const form = element("form", { method: "dialog" },
     element("h2", { id: "dialog-title" }, title),
@@ -12,22 +12,19 @@ export function ask(title, content, buttons) {
       ? element("button", { value, class: kind }, words)
       // Not what the Enter key presses.
       : element("button", { type: "button", onclick: () => dialog.close("") }, words))));
+  if (sound) {
+    form.addEventListener("submit", async (event) => {
+      event.preventDefault();
+      const answer = event.submitter?.value ?? "";
+      if (await sound(answer) && dialog.open && form.isConnected) dialog.close(answer);
+    });
+  }
   dialog.replaceChildren(form);
   dialog.returnValue = "";
   dialog.showModal();
   return new Promise((resolve) => {
     dialog.addEventListener("close", () => resolve(dialog.returnValue || null), { once: true });
   });
-}
-
-/** The design file as text; resolves to the new text, or to null. */
-export async function source(file, text, error) {
-  const area = element("textarea", { "aria-label": "Design file", spellcheck: "false", rows: 28, cols: 92 });
-  area.value = text;
-  const remark = error ? element("p", { class: "remark" }, element("span", { class: "error" },
-    `line ${error.line}, column ${error.column}: ${error.message}`)) : null;
-  const answer = await ask(file, [remark, area].filter(Boolean), [["", "Cancel"], ["apply", "Apply", "main"]]);
-  return answer === "apply" ? area.value : null;
 }
 
 /** What to export, of kinds given as word and description; resolves to the options, or to null. */

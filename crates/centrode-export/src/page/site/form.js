@@ -44,9 +44,26 @@ export class Form {
     this.folded = new Set(["drawing"]);
     /** Whether the last design was none. */
     this.failed = false;
+    /** Grows with every change of an input, which keeps the number it was changed at. */
+    this.clock = 0;
+    this.changed = new WeakMap();
+    this.place.addEventListener("input", ({ target }) => this.touch(target));
   }
 
-  show(snapshot) {
+  /** An input has been given something. */
+  touch(input) {
+    this.clock += 1;
+    this.changed.set(input, this.clock);
+  }
+
+  /** Whether an input was given something since the program was asked for what is shown. */
+  isAhead(input) {
+    return (this.changed.get(input) ?? 0) > this.asked;
+  }
+
+  /** Shows a design; `asked` is the clock as it was when the program was asked for it: what was given since stays. */
+  show(snapshot, asked = this.clock) {
+    this.asked = asked;
     const shape = JSON.stringify(snapshot.tables.map((table) => [table.key, table.fields.map((field) =>
       [field.key, field.kind, Array.isArray(field.value) ? field.value.length : 0, field.choices])]));
     if (shape !== this.shape) this.build(snapshot.tables);
@@ -66,10 +83,30 @@ export class Form {
   }
 
   build(tables) {
-    const focused = document.activeElement?.id;
+    const focused = document.activeElement;
+    const typing = (input) => input === focused && input.type === "text" && input.value !== input.dataset.value;
+    const all = [...this.controls.values()].flatMap((control) => control.inputs);
+    const ahead = all.filter((input) => typing(input) || this.isAhead(input));
+    const [start, end] = ahead.includes(focused) ? [focused.selectionStart, focused.selectionEnd] : [];
     this.controls.clear();
     this.place.replaceChildren(...tables.filter((table) => table.fields.length).map((table) => this.table(table)));
-    if (focused) byId(focused)?.focus();
+    for (const old of ahead) this.carry(old, byId(old.id));
+    const again = focused?.id ? byId(focused.id) : null;
+    again?.focus();
+    if (start !== undefined && again?.type === "text") again.setSelectionRange(start, end);
+  }
+
+  /** Takes what an input held over to the one in its place. */
+  carry(old, input) {
+    if (input?.type !== old.type) return;
+    if (old.tagName === "SELECT") input.replaceChildren(...old.children);
+    input.checked = old.checked;
+    input.value = old.value;
+    if (this.changed.has(old)) this.changed.set(input, this.changed.get(old));
+    // The browser tells of a change only what was typed into this very element.
+    input.addEventListener("blur", () => {
+      if (input.value !== input.dataset.value) input.dispatchEvent(new Event("change"));
+    }, { once: true });
   }
 
   table(table) {
@@ -167,6 +204,7 @@ export class Form {
       const coarser = event.shiftKey ? 10 : event.altKey && field.kind !== "integer" ? 0.1 : 1;
       const next = stepped(value, way, tidy(step * coarser));
       box.value = String(next);
+      this.touch(box);
       give(next);
     });
     return box;
@@ -190,6 +228,7 @@ export class Form {
       if (start.moved && (final || next !== start.now)) {
         start.now = next;
         control.inputs[0].value = String(next);
+        this.touch(control.inputs[0]);
         this.edit([{ key: control.field.key, value: next }], final);
       }
       if (final) start = null;
@@ -210,6 +249,7 @@ export class Form {
     control.filled = filled;
     control.row.classList.toggle("written", field.written);
     control.inputs.forEach((input, i) => {
+      if (this.isAhead(input)) return;
       const value = Array.isArray(values[i]) ? (values[i].length === 1 ? values[i][0] : values[i].join(" ")) : values[i];
       if (input.type === "checkbox") {
         input.checked = Boolean(value);

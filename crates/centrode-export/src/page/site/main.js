@@ -2,19 +2,20 @@
 
 import { Charts } from "./charts.js";
 import * as dialogs from "./dialogs.js";
-import { byId, element } from "./elements.js";
+import { byId } from "./elements.js";
+import { DesignFile } from "./file.js";
 import { Form } from "./form.js";
 import { Handles } from "./handles.js";
 import { History } from "./history.js";
-import { read } from "./motion.js";
 import * as response from "./response.js";
 import { Search } from "./search.js";
 import * as server from "./server.js";
+import * as source from "./source.js";
 import { Stage } from "./stage.js";
 import * as theme from "./theme.js";
+import { Transport } from "./transport.js";
 import * as verdict from "./verdict.js";
 
-const DEG = 180 / Math.PI;
 /** Checks slower than this come after the picture, ms. */
 const SLOW = 40;
 /** Whoever waits longer is told so, ms. */
@@ -24,11 +25,9 @@ const embedded = byId("snapshot");
 const state = {
   snapshot: null,
   pinned: null,
+  /** The last snapshot with checks that is no search's. */
+  checked: null,
   history: null,
-  file: "",
-  formats: [],
-  input: 0,
-  playing: false,
   /** Values given but not answered for yet, by key. */
   draft: new Map(),
   pending: null,
@@ -46,71 +45,28 @@ const state = {
 };
 
 const stage = new Stage((poses) => handles?.place(poses));
-const charts = new Charts((input) => {
-  play(false);
-  move(input);
-});
+const transport = new Transport(stage);
+const charts = new Charts((input) => transport.go(input));
+transport.charts = charts;
 const form = new Form({ edit, fixed: Boolean(embedded) });
-const handles = embedded ? null : new Handles(stage, { edit, began: () => play(false) });
+const handles = embedded ? null : new Handles(stage, { edit, began: () => transport.play(false) });
 
+let file = null;
 let search = null;
-
-// Motion
-
-const cycle = () => stage.scene?.motion.cycle ?? 2 * Math.PI;
-
-function move(input) {
-  draw(input);
-  readout();
-  charts.at(state.input);
-}
-
-/** The mechanism at an input, and where the scrubber stands. */
-function draw(input) {
-  state.input = Math.min(Math.max(input, 0), cycle());
-  const scrub = byId("scrub");
-  scrub.value = state.input / cycle();
-  const words = `${(state.input * DEG).toFixed(1)}°`;
-  byId("angle").textContent = words;
-  scrub.setAttribute("aria-valuetext", words);
-  stage.at(state.input);
-}
-
-/** The curves that stand alone, at the input. */
-function readout() {
-  const lines = (state.snapshot?.curves ?? []).filter((curve) => curve.name === "").slice(0, 3);
-  byId("readout").replaceChildren(...lines.map((curve) => {
-    const value = read(curve, state.input);
-    const words = value === null ? "–" : value.toFixed(4).replace(/^-(0\.0*)$/, "$1");
-    return element("div", {}, `${curve.chart} ${words}${curve.unit && ` ${curve.unit}`}`);
-  }));
-}
-
-function play(on) {
-  if (state.playing === on) return;
-  state.playing = on;
-  const button = byId("play");
-  button.textContent = on ? "Pause" : "Play";
-  button.setAttribute("aria-pressed", String(on));
-  if (!on) return;
-  let last = performance.now();
-  const step = (now) => {
-    if (!state.playing) return;
-    const turned = ((now - last) / 60000) * Number(byId("speed").value) * 2 * Math.PI;
-    last = now;
-    move((state.input + turned) % cycle());
-    requestAnimationFrame(step);
-  };
-  requestAnimationFrame(step);
-}
 
 // What is shown
 
-function show(snapshot) {
+/** Shows what the program answers; `asked` is the form's clock when it was asked. */
+function show(snapshot, asked = snapshot.asked) {
   const before = state.snapshot;
+  snapshot.asked = asked;
+  if (snapshot.verdict && !snapshot.error && !search?.showing) state.checked = snapshot;
   if (!snapshot.picture && before?.picture) {
     // No mechanism: the last one stays in sight, faded.
-    snapshot = { ...before, text: snapshot.text, tables: snapshot.tables, error: snapshot.error };
+    snapshot = { ...before, asked, text: snapshot.text, tables: snapshot.tables, error: snapshot.error };
+  } else if (!snapshot.verdict && !snapshot.error && snapshot.text === state.checked?.text) {
+    const { verdict, curves } = state.checked;
+    snapshot = { ...snapshot, verdict, curves };
   } else if (!snapshot.verdict && before) {
     snapshot = { ...snapshot, curves: merged(snapshot.curves, before.curves), stale: true };
   }
@@ -120,7 +76,7 @@ function show(snapshot) {
   stage.stale = Boolean(snapshot.error);
   stage.show(snapshot.picture);
   handles?.show(snapshot.picture?.handles ?? []);
-  draw(state.input);
+  transport.draw();
   // Panels cost the browser more than the picture does: the eye has that first.
   if (embedded) panels();
   else state.shown ??= painted().then(panels);
@@ -140,17 +96,13 @@ function painted() {
 function panels() {
   state.shown = null;
   const { snapshot } = state;
-  byId("heading").textContent = snapshot.title || snapshot.name || state.file;
+  byId("heading").textContent = snapshot.title || snapshot.name || file?.name || "";
   byId("definition").textContent = snapshot.definition;
-  form.show(snapshot);
+  form.show(snapshot, snapshot.asked);
   charts.show(snapshot.curves, state.pinned?.curves);
   if (!snapshot.verdict && state.goals) verdict.goals(state.goals, state.pinned?.verdict?.goals);
-  verdict.show(snapshot, state.pinned, (input) => {
-    play(false);
-    move(input);
-  });
-  readout();
-  charts.at(state.input);
+  verdict.show(snapshot, state.pinned, (input) => transport.go(input));
+  transport.show(snapshot.curves);
   buttons();
 }
 
@@ -170,8 +122,8 @@ function buttons() {
   byId("reset").disabled = held || !history.dirty;
   byId("source").disabled = held;
   byId("save").disabled = held || !history.dirty;
-  byId("file").textContent = history.dirty ? `${state.file} — not saved` : state.file;
-  document.title = `${history.dirty ? "• " : ""}${state.file} — centrode`;
+  byId("file").textContent = history.dirty ? `${file.name} — not saved` : file.name;
+  document.title = `${history.dirty ? "• " : ""}${file.name} — centrode`;
 }
 
 // Changes
@@ -182,16 +134,18 @@ function edit(edits, final) {
   request({ final });
 }
 
-/** Another text altogether. */
+/** Another text altogether; what is searched for the old one is no more. */
 function replace(text) {
+  if (search?.showing) search.abandon();
   state.draft.clear();
   request({ text, final: true, fresh: true });
 }
 
+/** Asks for a text or for the draft; what is not `wanted` any more when the answer comes is not shown. */
 function request(job) {
   // A change that ends a drag stays one, whatever overtakes it.
   const { text, final, fresh } = state.pending ?? {};
-  state.pending = { text: job.text ?? text, final: job.final || Boolean(final), fresh: job.fresh || (job.text === undefined && Boolean(fresh)) };
+  state.pending = { text: job.text ?? text, final: job.final || Boolean(final), fresh: job.fresh || (job.text === undefined && Boolean(fresh)), wanted: job.wanted };
   if (!state.solving) state.work = solve();
 }
 
@@ -201,6 +155,7 @@ async function solve() {
     const job = state.pending;
     state.pending = null;
     const sent = new Map(state.draft);
+    const asked = form.clock;
     const text = job.text ?? state.history.text;
     const edits = [...sent].map(([key, value]) => ({ key, value }));
     const slow = state.took > SLOW;
@@ -214,8 +169,9 @@ async function solve() {
         await new Promise((resume) => setTimeout(resume, 100));
         continue;
       }
+      if (job.wanted && !job.wanted()) continue;
       if (job.final) settle(snapshot.text, sent, edits.length > 0 || job.fresh);
-      show(snapshot);
+      show(snapshot, asked);
       if (!slow) state.took = performance.now() - start;
       else if (!state.pending && !snapshot.error) check(snapshot);
       dialogs.withdraw("server");
@@ -247,6 +203,7 @@ async function check({ text, coarse }) {
     for (const depth of coarse ? ["detail", "checks"] : ["checks"]) {
       if (!wanted()) return;
       const start = performance.now();
+      const asked = form.clock;
       let snapshot = await server.solve({ text, edits: [], depth });
       while (snapshot.overtaken && wanted()) {
         // Another window of this page has asked; then it is our turn again.
@@ -255,7 +212,7 @@ async function check({ text, coarse }) {
       }
       if (snapshot.overtaken || !wanted()) return;
       if (depth === "checks") state.took = performance.now() - start;
-      show(snapshot);
+      show(snapshot, asked);
     }
   } catch (error) {
     complain("server", error);
@@ -267,7 +224,7 @@ function settle(text, sent, fresh) {
   const changed = text !== state.history.text;
   if (fresh) state.history.push(text);
   forgetDraft(sent);
-  if (changed) keep();
+  if (changed) file.keep();
 }
 
 function forgetDraft(sent) {
@@ -281,74 +238,12 @@ function complain(key, error) {
   dialogs.notice(away ? "server" : key, error.message, [], "error");
 }
 
-let keeping = 0;
-/** Puts what is not saved beside the file, soon. */
-function keep() {
-  clearTimeout(keeping);
-  keeping = setTimeout(() => {
-    server.keep(state.history.text).then(() => dialogs.withdraw("keep")).catch((error) => complain("keep", error));
-  }, 200);
-}
-
 /** One step back or forth, after the changes that are on their way. */
 async function step(way) {
   if (state.draft.size) await settled();
   const text = state.history[way]();
   request({ text, final: true, fresh: false });
-  keep();
-}
-
-async function save(over = false) {
-  await settled();
-  const text = state.history.text;
-  try {
-    const answer = await server.save(text, state.history.saved, over);
-    if (!answer.saved) {
-      await settleConflict(answer);
-      return;
-    }
-    clearTimeout(keeping);
-    state.history.saved = text;
-    if (state.history.dirty) keep();
-    dialogs.withdraw("disk");
-    dialogs.withdraw("save");
-    buttons();
-  } catch (error) {
-    complain("save", error);
-  }
-}
-
-/** The file has been changed by others: whose work stays? */
-async function settleConflict({ message, gone }) {
-  const words = element("p", {}, `${message}. Saving would ${gone ? "make it anew" : "write over that"}.`);
-  const answer = await dialogs.ask(gone ? "Not there" : "Changed on disk", [words],
-    [["", "Cancel"], ...(gone ? [] : [["load", "Load the file"]]), ["over", gone ? "Save" : "Write over it", gone ? "main" : "danger"]]);
-  if (answer === "over") await save(true);
-  if (answer === "load") await load();
-}
-
-/** Takes what is on disk now. */
-async function load() {
-  try {
-    const { text } = await server.reread();
-    state.history.saved = text;
-    replace(text);
-    dialogs.withdraw("disk");
-  } catch (error) {
-    complain("disk", error);
-  }
-}
-
-/** Says what has become of the file, if it is not what this page knows. */
-function compare({ text, missing }) {
-  if (text === state.history.saved) {
-    dialogs.withdraw("disk");
-    return;
-  }
-  if (missing) dialogs.notice("disk", `${state.file} ${missing}.`, [], "warning");
-  else dialogs.notice("disk", `${state.file} has been changed on disk.`, [["Load the file", load]], "warning");
-  // Another window that saved has taken the autosave away.
-  if (state.history.dirty) keep();
+  file.keep();
 }
 
 /** The program does not answer: nothing can be solved or kept until it does. */
@@ -362,29 +257,7 @@ function found() {
   state.away = false;
   dialogs.withdraw("server");
   request({ text: state.history.text, final: true });
-  if (state.history.dirty) keep();
-}
-
-async function download() {
-  await settled();
-  const options = await dialogs.files(state.formats);
-  if (!options) return;
-  if (options.formats.length === 0) {
-    dialogs.notice("export", "nothing to export: no kind of file is chosen", [], "warning");
-    return;
-  }
-  dialogs.withdraw("export");
-  try {
-    const blob = await server.files({ text: state.history.text, ...options });
-    const link = Object.assign(document.createElement("a"), {
-      href: URL.createObjectURL(blob),
-      download: `${state.snapshot.name || "design"}.zip`,
-    });
-    link.click();
-    setTimeout(() => URL.revokeObjectURL(link.href), 60000);
-  } catch (error) {
-    complain("export", error);
-  }
+  if (state.history.dirty) file.keep();
 }
 
 function pin() {
@@ -398,23 +271,6 @@ function pin() {
 // Start
 
 function listen() {
-  byId("play").addEventListener("click", () => play(!state.playing));
-  byId("scrub").addEventListener("input", (event) => {
-    play(false);
-    move(Number(event.target.value) * cycle());
-  });
-  byId("scrub").addEventListener("keydown", (event) => {
-    const way = { ArrowLeft: -1, ArrowRight: 1, PageDown: -10, PageUp: 10 }[event.key];
-    if (!way) return;
-    event.preventDefault();
-    play(false);
-    move(state.input + way / DEG);
-  });
-  stage.box.addEventListener("keydown", (event) => {
-    if (event.key !== " " || event.target !== stage.box) return;
-    event.preventDefault();
-    play(!state.playing);
-  });
   theme.start(() => {
     stage.draw();
     charts.recolor();
@@ -434,12 +290,12 @@ function listen() {
   byId("redo").addEventListener("click", () => step("redo"));
   byId("reset").addEventListener("click", () => replace(state.history.saved));
   byId("pin").addEventListener("click", pin);
-  byId("save").addEventListener("click", () => save());
-  byId("export").addEventListener("click", download);
+  byId("save").addEventListener("click", () => file.save());
+  byId("export").addEventListener("click", () => file.download(state.snapshot.name));
   byId("optimise").addEventListener("click", () => search.toggle());
   byId("response").addEventListener("click", () => response.ask(state.snapshot, state.history.text));
   byId("source").addEventListener("click", async () => {
-    const text = await dialogs.source(state.file, state.history.text, state.snapshot?.error);
+    const text = await source.edit(file.name, state.history.text, state.snapshot?.error);
     if (text !== null) replace(text);
   });
   addEventListener("keydown", (event) => {
@@ -450,7 +306,7 @@ function listen() {
     if (key === "s") {
       event.preventDefault();
       document.activeElement?.blur();
-      save();
+      file.save();
     } else if ((key === "z" || key === "y") && !typing) {
       event.preventDefault();
       const forth = key === "y" || event.shiftKey;
@@ -468,22 +324,22 @@ async function start() {
     show(snapshot);
     return;
   }
-  const { file, text, recovered, formats, methods, unsearched } = await server.design();
+  const { file: name, text, recovered, formats, methods, unsearched } = await server.design();
   if (unsearched) Object.assign(byId("optimise"), { disabled: true, title: unsearched });
-  state.file = file;
-  state.formats = formats;
   state.history = new History(text);
+  file = new DesignFile(name, formats, state.history, { settled, replace, complain, saved: buttons });
   search = new Search(methods, {
     text: () => state.history.text,
     preview: (best, goals) => {
       state.goals = goals;
-      request({ text: best, final: false });
+      request({ text: best, final: false, wanted: () => search.showing });
+    },
+    left: () => {
+      state.goals = null;
+      verdict.clear();
     },
     take: replace,
     drop: () => request({ text: state.history.text, final: false }),
-    left: () => {
-      state.goals = null;
-    },
     changed: buttons,
     complain,
   });
@@ -495,7 +351,7 @@ async function start() {
       ["Discard", () => server.forget(left).catch((error) => complain("keep", error))],
     ], "warning");
   }
-  server.watch({ disk: compare, lost, found });
+  server.watch({ disk: (state) => file.compare(state), lost, found });
 }
 
 start().catch((error) => complain("server", error));

@@ -1,10 +1,9 @@
 // The search for a better design: started, watched, stopped, taken or dropped.
 
 import uPlot from "./uplot.js";
-import { axes } from "./axes.js";
+import { axes, line } from "./axes.js";
 import { byId, element } from "./elements.js";
 import * as server from "./server.js";
-import { color } from "./theme.js";
 
 /** Time between two looks at a search, ms. */
 const EVERY = 400;
@@ -18,8 +17,9 @@ const ENDED = {
 
 export class Search {
   /**
-   * `design.text()` is the design to start from; `preview(text)` shows the best so far without taking it, `take(text)` takes
-   * it, `drop()` shows the design again; `changed()` is told when a search begins or ends to show.
+   * `design.text()` is the design to start from; `preview(text, goals)` shows the best so far without taking it, `left()` is
+   * told when it is shown no more, `take(text)` takes it, `drop()` shows the design again; `changed()` is told when a search
+   * begins or ends to show.
    */
   constructor(methods, design) {
     this.design = design;
@@ -27,7 +27,7 @@ export class Search {
     this.best = null;
     /** How the search stood when the program was last asked. */
     this.last = null;
-    this.showing = false;
+    this.showing = null;
     this.method = element("select", { id: "search-method" }, ...methods.map((name) => element("option", { value: name }, name)));
     this.seed = element("input", { type: "text", inputmode: "numeric", class: "number", id: "search-seed", value: "1" });
     this.evaluations = element("input", { type: "text", inputmode: "numeric", class: "number", id: "search-evaluations", value: "20000" });
@@ -68,12 +68,9 @@ export class Search {
 
   async begin() {
     try {
-      await server.search({
-        text: this.design.text(),
-        method: this.method.value,
-        seed: whole(this.seed),
-        evaluations: whole(this.evaluations),
-      });
+      const [seed, evaluations] = [whole(this.seed), whole(this.evaluations)];
+      if (evaluations === 0) throw new Error("a search needs at least 1 evaluation; evaluations is 0");
+      await server.search({ text: this.design.text(), method: this.method.value, seed, evaluations });
       this.best = null;
       await this.follow();
     } catch (error) {
@@ -94,10 +91,16 @@ export class Search {
 
   /** Looks at the search until it ends. */
   async follow() {
-    this.hold(true);
+    const own = this.hold(true);
     for (;;) {
       const state = await server.searched();
-      if (!state || !this.showing) return;
+      if (this.showing !== own) return;
+      if (!state) {
+        // Ended from another window, or with the program.
+        this.leave();
+        this.design.drop();
+        return;
+      }
       this.last = state;
       this.show(state);
       if (state.text !== this.best) {
@@ -111,21 +114,44 @@ export class Search {
 
   /** Ends to show the best: it becomes the design, or the design is shown again. */
   close(taken) {
+    const best = this.best;
+    this.leave();
     server.stopSearch().catch((error) => this.design.complain("search", error));
-    this.last = null;
-    this.hold(false);
-    this.design.left();
-    if (taken && this.best !== null) this.design.take(this.best);
+    if (taken && best !== null) this.design.take(best);
     else this.design.drop();
+  }
+
+  /** Another design has come: the search for the old one is over, wherever it is. */
+  async abandon() {
+    const running = this.last?.running;
+    this.leave();
+    try {
+      await server.stopSearch();
+      // The program keeps the best of a search that was running until it is told once more.
+      while (running && !this.showing && (await server.searched())?.running) await new Promise((resume) => setTimeout(resume, EVERY));
+      if (running && !this.showing) await server.stopSearch();
+    } catch (error) {
+      this.design.complain("search", error);
+    }
+  }
+
+  /** Nothing of the search stays in sight. */
+  leave() {
+    this.last = null;
+    this.best = null;
+    this.hold(false);
     this.show(null);
+    this.design.left();
   }
 
   /** The numbers of the design cannot be changed while the best so far is shown in their place. */
   hold(on) {
-    this.showing = on;
+    // Told from any other, so that who follows one that is over finds out.
+    this.showing = on ? Symbol("search") : null;
     document.body.classList.toggle("searching", on);
     byId("form").inert = on;
     this.design.changed();
+    return this.showing;
   }
 
   show(state) {
@@ -169,11 +195,7 @@ export class Search {
       legend: { show: false },
       cursor: { show: false },
       scales: { x: { time: false } },
-      series: [
-        {},
-        { stroke: () => color("warning"), width: 1.5, points: { show: false } },
-        { stroke: () => color("good"), width: 1.5, points: { show: false } },
-      ],
+      series: [{}, line("warning"), line("good")],
       axes: axes(),
     }, data, this.box);
   }

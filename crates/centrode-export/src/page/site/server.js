@@ -47,6 +47,7 @@ export const save = (text, base, over) => json(ask("save", "POST", { text, base,
 export const keep = (text) => json(ask("keep", "POST", { text }));
 export const forget = (file) => json(ask("keep", "DELETE", { file }));
 export const reread = () => json(ask("reread", "POST", {}));
+export const fault = (text) => json(ask("fault", "POST", { text }));
 export const search = (options) => json(ask("search", "POST", options));
 export const searched = () => json(ask("search", "GET"));
 export const stopSearch = () => json(ask("search", "DELETE"));

@@ -5,6 +5,15 @@ import * as figures from "./figures.js";
 
 const SIGN = { error: "✕", warning: "▲", note: "●" };
 
+const checking = () => element("p", {}, "Checking …");
+
+/** Nothing is known of the design yet. */
+export function clear() {
+  byId("goals").replaceChildren();
+  byId("findings").replaceChildren(checking());
+  byId("figures").replaceChildren();
+}
+
 /** Shows what the checks say; `go` leads to an input angle. */
 export function show(snapshot, pinned, go) {
   const place = byId("findings");
@@ -22,7 +31,7 @@ export function show(snapshot, pinned, go) {
   }
   if (!verdict) {
     // Nothing is known to be wrong any more.
-    if (place.querySelector(".no-mechanism")) place.replaceChildren(element("p", { class: "quiet" }, "Being checked …"));
+    if (place.querySelector(".no-mechanism")) place.replaceChildren(checking());
     return;
   }
   place.replaceChildren(

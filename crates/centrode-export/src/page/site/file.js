@@ -1,0 +1,103 @@
+// The design file on disk: kept beside, saved, loaded, exported from, and compared with what others make of it.
+
+import * as dialogs from "./dialogs.js";
+import { element } from "./elements.js";
+import * as server from "./server.js";
+
+/** Work is put beside the file when no change has come for so long, ms. */
+const REST = 200;
+
+export class DesignFile {
+  /**
+   * `page.settled()` waits for the changes on their way, `page.replace(text)` takes another text, `page.saved()` is told of
+   * a new state of the file, `page.complain(key, error)` of what goes wrong.
+   */
+  constructor(name, formats, history, page) {
+    this.name = name;
+    this.formats = formats;
+    this.history = history;
+    this.page = page;
+    this.keeping = 0;
+  }
+
+  /** Puts what is not saved beside the file, soon. */
+  keep() {
+    clearTimeout(this.keeping);
+    this.keeping = setTimeout(() => {
+      server.keep(this.history.text).then(() => dialogs.withdraw("keep")).catch((error) => this.page.complain("keep", error));
+    }, REST);
+  }
+
+  async save(over = false) {
+    await this.page.settled();
+    const text = this.history.text;
+    try {
+      const answer = await server.save(text, this.history.saved, over);
+      if (!answer.saved) {
+        await this.settle(answer);
+        return;
+      }
+      clearTimeout(this.keeping);
+      this.history.saved = text;
+      if (this.history.dirty) this.keep();
+      dialogs.withdraw("disk");
+      dialogs.withdraw("save");
+      this.page.saved();
+    } catch (error) {
+      this.page.complain("save", error);
+    }
+  }
+
+  /** The file has been changed by others: whose work stays? */
+  async settle({ message, gone }) {
+    const words = element("p", {}, `${message}. Saving would ${gone ? "make it anew" : "write over that"}.`);
+    const answer = await dialogs.ask(gone ? "Not there" : "Changed on disk", [words],
+      [["", "Cancel"], ...(gone ? [] : [["load", "Load the file"]]), ["over", gone ? "Save" : "Write over it", gone ? "main" : "danger"]]);
+    if (answer === "over") await this.save(true);
+    if (answer === "load") await this.load();
+  }
+
+  /** Takes what is on disk now. */
+  async load() {
+    try {
+      const { text } = await server.reread();
+      this.history.saved = text;
+      this.page.replace(text);
+      dialogs.withdraw("disk");
+    } catch (error) {
+      this.page.complain("disk", error);
+    }
+  }
+
+  /** Says what has become of the file, if it is not what this page knows. */
+  compare({ text, missing }) {
+    if (text === this.history.saved) {
+      dialogs.withdraw("disk");
+      return;
+    }
+    if (missing) dialogs.notice("disk", `${this.name} ${missing}.`, [], "warning");
+    else dialogs.notice("disk", `${this.name} has been changed on disk.`, [["Load the file", () => this.load()]], "warning");
+    // Another window that saved has taken the autosave away.
+    if (this.history.dirty) this.keep();
+  }
+
+  /** Exports the files of the design, as a zip with a name. */
+  async download(name) {
+    await this.page.settled();
+    const options = await dialogs.files(this.formats);
+    if (!options) return;
+    if (options.formats.length === 0) {
+      dialogs.notice("export", "nothing to export: no kind of file is chosen", [], "warning");
+      return;
+    }
+    dialogs.withdraw("export");
+    try {
+      const blob = await server.files({ text: this.history.text, ...options });
+      const link = Object.assign(document.createElement("a"), { href: URL.createObjectURL(blob), download: `${name || "design"}.zip` });
+      link.click();
+      setTimeout(() => URL.revokeObjectURL(link.href), 60000);
+    } catch (error) {
+      this.page.complain("export", error);
+    }
+  }
+}
