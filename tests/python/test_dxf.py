@@ -16,7 +16,21 @@ def test_the_audit_finds_nothing(exported, name):
 
 @pytest.mark.parametrize("name", FILES)
 def test_units_are_millimetres(exported, name):
-    assert ezdxf.readfile(exported / name).header["$INSUNITS"] == units.MM
+    header = ezdxf.readfile(exported / name).header
+    assert header["$INSUNITS"] == units.MM
+    assert header["$MEASUREMENT"] == 1  # metric
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_a_program_opens_the_drawing_whole_with_the_widths_of_its_layers(exported, name):
+    document = ezdxf.readfile(exported / name)
+    view = document.viewports.get("*Active")[0].dxf
+    low, high = document.header["$EXTMIN"], document.header["$EXTMAX"]
+    assert view.center == pytest.approx([(low[0] + high[0]) / 2, (low[1] + high[1]) / 2])
+    assert view.height >= high[1] - low[1]
+    assert view.height * view.aspect_ratio >= high[0] - low[0]
+    for entity in document.modelspace():
+        assert document.layers.get(entity.dxf.layer).dxf.lineweight == entity.dxf.lineweight > 0
 
 
 @pytest.mark.parametrize("option", ["r2010", "r12"])
@@ -54,7 +68,9 @@ def test_other_programs_read_the_other_flavours(exported, run, tmp_path, option,
     run("export", exported.design, "--to", tmp_path, "--format", "dxf", "--dxf", option)
     for gear in GEARS:
         document = ezdxf.readfile(tmp_path / f"{gear}.dxf")
-        assert not document.audit().errors
+        audit = document.audit()
+        assert not audit.errors
+        assert not audit.fixes
         kinds = {e.dxftype() for e in document.modelspace() if "profile" in e.dxf.layer.lower()}
         assert kind in kinds
         polygons = contours(tmp_path / f"{gear}.dxf")

@@ -179,7 +179,7 @@ impl Writer {
         let squeeze = text.width.map_or(1.0, |width| width / natural);
         let glyphs: Vec<KrillaGlyph> = lettering::letters(&text.words)
             .map(|letter| {
-                let glyph = GlyphId::new(u32::from(letter.glyph.0));
+                let glyph = GlyphId::new(letter.glyph);
                 let advance = letter.advance as f32;
                 KrillaGlyph::new(glyph, advance, 0.0, 0.0, 0.0, letter.bytes, None)
             })

@@ -5,7 +5,7 @@ use crate::{
     sheet::{Sheet, lettering},
 };
 use centrode_geometry::{Arc, Outline, Point, Segment, Tolerance, Vector};
-use std::{collections::BTreeMap, fmt::Write};
+use std::{collections::BTreeSet, fmt::Write};
 
 /// A drawing as an SVG picture, one user unit to the millimetre, with lines and true arcs.
 ///
@@ -47,17 +47,17 @@ pub fn sheet(sheet: &Sheet, tolerance: Tolerance) -> String {
          width=\"{width}mm\" height=\"{height}mm\" viewBox=\"0 -{height} {width} {height}\">\n\
          <rect x=\"0\" y=\"-{height}\" width=\"{width}\" height=\"{height}\" fill=\"#fff\"/>",
     );
-    let mut glyphs = BTreeMap::new();
+    let mut glyphs = BTreeSet::new();
     for entity in &sheet.drawing.entities {
         if let Shape::Text(text) = &entity.shape {
             let inked = lettering::letters(&text.words).filter(|l| l.is_inked());
-            glyphs.extend(inked.map(|l| (l.glyph.0, l.glyph)));
+            glyphs.extend(inked.map(|l| l.glyph));
         }
     }
     out.push_str("<defs>\n");
-    for (id, glyph) in glyphs {
+    for glyph in glyphs {
         let path = lettering::path(glyph);
-        let _ = writeln!(out, "<path id=\"g{id}\" d=\"{path}\"/>");
+        let _ = writeln!(out, "<path id=\"g{glyph}\" d=\"{path}\"/>");
     }
     out.push_str("</defs>\n");
     layers(&mut out, &sheet.drawing, tolerance, true);
@@ -69,7 +69,7 @@ pub fn sheet(sheet: &Sheet, tolerance: Tolerance) -> String {
 fn outlined_words(out: &mut String, text: &Text, color: Color) {
     let natural = lettering::width(&text.words, text.height);
     let squeeze = text.width.map_or(1.0, |width| width / natural);
-    let unit = lettering::em(text.height) / 1024.0;
+    let unit = lettering::em(text.height) / lettering::UNITS;
     let [start, _] = text.baseline();
     let _ = write!(
         out,
@@ -86,10 +86,10 @@ fn outlined_words(out: &mut String, text: &Text, color: Color) {
     let mut x = 0.0;
     for letter in lettering::letters(&text.words) {
         if letter.is_inked() {
-            let (glyph, x) = (letter.glyph.0, number(x));
+            let (glyph, x) = (letter.glyph, number(x));
             let _ = write!(out, "<use xlink:href=\"#g{glyph}\" x=\"{x}\"/>");
         }
-        x += 1024.0 * letter.advance;
+        x += lettering::UNITS * letter.advance;
     }
     out.push_str("</g>\n");
 }

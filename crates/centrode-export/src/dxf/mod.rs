@@ -1,10 +1,12 @@
 //! DXF files for cutting machines and drawing programs.
 
-mod r12;
-mod r2010;
+mod entities;
+mod pairs;
+mod tables;
 
-use crate::drawing::{Anchor, Drawing, LineType, Shape, Text};
-use centrode_geometry::{Arc, Outline, Point, Segment, Tolerance};
+use crate::drawing::Drawing;
+use centrode_geometry::Tolerance;
+use pairs::Pairs;
 use thiserror::Error;
 
 /// Which DXF is written.
@@ -40,9 +42,6 @@ pub enum DxfError {
         /// The missing name.
         name: String,
     },
-    /// The DXF library refused.
-    #[error("cannot write DXF: {0}")]
-    Library(#[from] dxf::DxfError),
 }
 
 /// A drawing as DXF text in millimetres (`$INSUNITS` 4), each contour one closed entity within the
@@ -65,108 +64,35 @@ pub fn write(
             name: entity.layer.clone(),
         });
     }
-    match (version, curves) {
-        (Version::R12, Curves::Splines) => Err(DxfError::SplinesInR12),
-        (Version::R12, Curves::Arcs) => Ok(r12::write(drawing, tolerance)),
-        (Version::R2010, _) => r2010::write(drawing, curves, tolerance),
+    if (version, curves) == (Version::R12, Curves::Splines) {
+        return Err(DxfError::SplinesInR12);
     }
-}
-
-/// Points of a contour of lines and arcs, each with the bulge of what follows it.
-fn bulges(arcs: &Outline) -> impl Iterator<Item = (Point, f64)> {
-    arcs.segments().iter().map(|segment| match segment {
-        Segment::Arc(arc) => (arc.start, arc.bulge),
-        other => (other.start(), 0.0),
-    })
-}
-
-/// Start and end angle in degrees of an arc run through counter-clockwise, as DXF has them.
-fn angles(arc: &Arc) -> [f64; 2] {
-    let center = arc.center();
-    let angle = |p: &Point| {
-        (p.y - center.y)
-            .atan2(p.x - center.x)
-            .to_degrees()
-            .rem_euclid(360.0)
-    };
-    let ends = if arc.bulge > 0.0 {
-        [&arc.start, &arc.end]
-    } else {
-        [&arc.end, &arc.start]
-    };
-    ends.map(angle)
+    let bounds = drawing.bounds();
+    let mut body = Pairs::new(version);
+    let space = tables::tables(&mut body, drawing, &bounds);
+    entities::entities(&mut body, drawing, space, curves, tolerance);
+    if version == Version::R2010 {
+        tables::objects(&mut body);
+    }
+    body.word(0, "EOF");
+    let mut file = Pairs::new(version);
+    tables::header(&mut file, &bounds, body.seed());
+    if version == Version::R2010 {
+        file.section("CLASSES").word(0, "ENDSEC");
+    }
+    Ok(file.followed_by(&body))
 }
 
 /// Text style of fitted texts: the ISO 3098 shapes that drawing programs bring along.
 const STYLE: &str = "ISO3098";
 const STYLE_FONT: &str = "isocp.shx";
 
-/// How a text stands between its two points. A fitted text has the same length whatever font a program
-/// has at hand; of very short ones a program would stretch a single letter.
-fn justification(text: &Text) -> (u32, [Point; 2]) {
-    match (text.width, text.anchor) {
-        (Some(_), _) if text.words.chars().count() > 3 => (5, text.baseline()),
-        (_, Anchor::Left) => (0, [text.at; 2]),
-        (_, Anchor::Middle) => (1, [text.at; 2]),
-        (_, Anchor::Right) => (2, [text.at; 2]),
-    }
-}
-
-/// The line types a file lists: those every program knows, and what else the drawing has.
-fn line_types(drawing: &Drawing, continuous: bool) -> Vec<LineType> {
-    let used = |line_type| drawing.layers.iter().any(|l| l.line_type == line_type);
-    LineType::ALL
-        .into_iter()
-        .filter(|&line_type| match line_type {
-            LineType::Continuous => continuous,
-            LineType::Center | LineType::Hidden => true,
-            LineType::Phantom => used(line_type),
-        })
-        .collect()
-}
-
-fn has_fitted_text(drawing: &Drawing) -> bool {
-    let mut shapes = drawing.entities.iter().map(|entity| &entity.shape);
-    shapes.any(|shape| matches!(shape, Shape::Text(text) if text.width.is_some()))
-}
-
-fn line_type_name(line_type: LineType) -> &'static str {
-    match line_type {
-        LineType::Continuous => "CONTINUOUS",
-        LineType::Center => "CENTER",
-        LineType::Hidden => "HIDDEN",
-        LineType::Phantom => "PHANTOM",
-    }
-}
-
-fn description(line_type: LineType) -> &'static str {
-    match line_type {
-        LineType::Continuous => "Solid line",
-        LineType::Center => "Center ____ . ____ . ____",
-        LineType::Hidden => "Hidden __ __ __ __ __",
-        LineType::Phantom => "Phantom ____ . . ____ . . ____",
-    }
-}
-
-/// The color's number in the index every drawing program has.
-fn color_index(color: crate::drawing::Color) -> u8 {
-    use crate::drawing::Color;
-    match color {
-        Color::Red => 1,
-        Color::Green => 3,
-        Color::Cyan => 4,
-        Color::Blue => 5,
-        Color::Magenta => 6,
-        Color::Foreground => 7,
-        Color::Gray => 8,
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::drawing::Color;
-    use dxf::{Drawing as File, entities::EntityType, enums::Units};
+    use crate::drawing::{Anchor, Color, LineType, Shape, Text};
+    use centrode_geometry::{Arc, Outline, Point};
+    use std::collections::HashSet;
 
     fn sample() -> Drawing {
         let p = Point::new;
@@ -207,28 +133,93 @@ mod tests {
         Tolerance::new(1e-3).expect("positive")
     }
 
+    /// Pairs of code and value of a drawing of release 2010.
+    fn pairs(curves: Curves) -> Vec<(u16, String)> {
+        let bytes = write(&sample(), Version::R2010, curves, tolerance()).expect("written");
+        let text = String::from_utf8(bytes).expect("text");
+        let lines: Vec<&str> = text.lines().map(str::trim).collect();
+        lines
+            .chunks(2)
+            .map(|pair| (pair[0].parse().expect("a code"), pair[1].to_owned()))
+            .collect()
+    }
+
+    /// The pairs between the header of a section and its end.
+    fn section(name: &str, pairs: &[(u16, String)]) -> Vec<(u16, String)> {
+        pairs
+            .iter()
+            .skip_while(|(code, value)| (*code, value.as_str()) != (2, name))
+            .take_while(|(code, value)| (*code, value.as_str()) != (0, "ENDSEC"))
+            .cloned()
+            .collect()
+    }
+
+    /// Each entity as its pairs.
+    fn entities(pairs: &[(u16, String)]) -> Vec<Vec<(u16, String)>> {
+        let pairs = section("ENTITIES", pairs);
+        let entities = pairs[1..].chunk_by(|_, next| next.0 != 0);
+        entities.map(<[_]>::to_vec).collect()
+    }
+
+    /// The values of a code.
+    fn values(code: u16, pairs: &[(u16, String)]) -> Vec<&str> {
+        let of_code = pairs.iter().filter(|pair| pair.0 == code);
+        of_code.map(|(_, value)| value.as_str()).collect()
+    }
+
     #[test]
     fn a_contour_reads_back_as_one_closed_polyline() {
-        let bytes = write(&sample(), Version::R2010, Curves::Arcs, tolerance()).expect("written");
-        let file = File::load(&mut bytes.as_slice()).expect("readable");
-        assert_eq!(file.header.default_drawing_units, Units::Millimeters);
-        let mut contours = 0;
-        for entity in file.entities() {
-            if let EntityType::LwPolyline(polyline) = &entity.specific
-                && polyline.is_closed()
-            {
-                contours += 1;
-                assert_eq!(entity.common.layer, "PROFILE");
-                assert_eq!(polyline.vertices.len(), 2);
-                assert!(
-                    polyline
-                        .vertices
-                        .iter()
-                        .all(|v| (v.bulge - 1.0).abs() < 1e-12)
-                );
-            }
+        let pairs = pairs(Curves::Arcs);
+        let header = section("HEADER", &pairs);
+        for (name, value) in [("$INSUNITS", "4"), ("$MEASUREMENT", "1")] {
+            let at = header.iter().position(|pair| pair.1 == name);
+            assert_eq!(header[at.expect("stated") + 1].1, value, "{name}");
         }
-        assert_eq!((contours, file.entities().count()), (1, 7));
+        let entities = entities(&pairs);
+        let closed: Vec<_> = entities
+            .iter()
+            .filter(|e| e[0].1 == "LWPOLYLINE" && values(70, e) == ["1"])
+            .collect();
+        assert_eq!((closed.len(), entities.len()), (1, 7));
+        assert_eq!(values(8, closed[0]), ["PROFILE"]);
+        assert_eq!(values(90, closed[0]), ["2"]);
+        let bulges = values(42, closed[0]);
+        assert_eq!(bulges.len(), 2);
+        for bulge in bulges {
+            let bulge: f64 = bulge.parse().expect("a number");
+            assert!((bulge - 1.0).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn a_spline_has_as_many_knots_as_its_points_and_degree_ask_for() {
+        let entities = entities(&pairs(Curves::Splines));
+        let spline = entities.iter().find(|e| e[0].1 == "SPLINE");
+        let spline = spline.expect("the contour");
+        let points = values(10, spline);
+        let knots = values(40, spline);
+        assert_eq!(knots.len(), points.len() + 4);
+        assert_eq!(values(72, spline), [knots.len().to_string()]);
+        assert_eq!(values(73, spline), [points.len().to_string()]);
+        assert_eq!(points.first(), points.last());
+    }
+
+    #[test]
+    fn every_entry_has_a_handle_of_its_own_and_an_owner_in_the_file() {
+        let pairs = pairs(Curves::Arcs);
+        let body = pairs.iter().skip_while(|pair| pair.1 != "TABLES");
+        let body: Vec<_> = body.cloned().collect();
+        let given: Vec<&str> = [values(5, &body), values(105, &body)].concat();
+        let distinct: HashSet<&str> = given.iter().copied().collect();
+        assert_eq!(given.len(), distinct.len());
+        for owner in values(330, &body) {
+            assert!(owner == "0" || distinct.contains(owner), "{owner}");
+        }
+        let number = |text: &str| u32::from_str_radix(text, 16).expect("a handle");
+        let greatest = given.iter().map(|handle| number(handle)).max();
+        let at = pairs.iter().position(|pair| pair.1 == "$HANDSEED");
+        let seed = number(&pairs[at.expect("stated") + 1].1);
+        assert!(greatest < Some(seed));
     }
 
     #[test]

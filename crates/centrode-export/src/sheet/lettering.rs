@@ -1,30 +1,68 @@
 //! The words on a sheet: the lettering font, and how long and high a line of it is.
 
 use centrode_geometry::{Bounds, Point, Vector};
+use skrifa::{
+    FontRef, GlyphId, MetadataProvider,
+    instance::{LocationRef, Size},
+    outline::{DrawSettings, OutlinePen, pen::ControlBoundsPen},
+};
+use std::collections::BTreeMap;
 use std::sync::LazyLock;
-use ttf_parser::{Face, GlyphId, OutlineBuilder, Rect};
 
 /// A Leroy-style drafting font with strokes of a tenth of its height, as ISO 3098 type B.
 pub(crate) const FONT: &[u8] = include_bytes!("../../font/CentrodeLettering.ttf");
 
-static FACE: LazyLock<Option<Face<'static>>> = LazyLock::new(|| Face::parse(FONT, 0).ok());
+static FACE: LazyLock<Option<FontRef<'static>>> = LazyLock::new(|| FontRef::new(FONT).ok());
 
-/// The box around each glyph's ink. The font stores none that can be trusted: the outline is walked, once.
-static BOXES: LazyLock<Vec<Option<Rect>>> = LazyLock::new(|| {
-    let face = FACE.as_ref();
-    let of = |f: &Face<'_>| {
-        let glyphs = 0..f.number_of_glyphs();
-        glyphs.map(|id| f.glyph_bounding_box(GlyphId(id))).collect()
-    };
-    face.map_or_else(Vec::new, of)
-});
-
-fn ink_of(glyph: GlyphId) -> Option<Rect> {
-    BOXES.get(usize::from(glyph.0)).copied().flatten()
+/// What a line needs to know of a letter, in ems.
+#[derive(Clone, Copy)]
+struct Metrics {
+    glyph: GlyphId,
+    advance: f64,
+    ink: Option<Bounds>,
 }
 
+/// Metrics of every letter the font has, and of its empty box.
+static METRICS: LazyLock<(BTreeMap<u32, Metrics>, Metrics)> = LazyLock::new(|| {
+    let of = |glyph| {
+        let widths = FACE
+            .as_ref()
+            .map(|face| face.glyph_metrics(Size::unscaled(), LocationRef::default()));
+        let advance = widths.and_then(|w| w.advance_width(glyph));
+        // The font stores no box around the ink that can be trusted: the outline is walked.
+        let mut pen = ControlBoundsPen::new();
+        draw(glyph, &mut pen);
+        let corner = |x: f32, y: f32| Point::new(f64::from(x), f64::from(y)) / UNITS;
+        let ink = pen.bounding_box().map(|b| Bounds {
+            min: corner(b.x_min, b.y_min),
+            max: corner(b.x_max, b.y_max),
+        });
+        let advance = f64::from(advance.unwrap_or(0.0)) / UNITS;
+        Metrics {
+            glyph,
+            advance,
+            ink,
+        }
+    };
+    let mappings = FACE.iter().flat_map(|face| face.charmap().mappings());
+    let letters = mappings.map(|(letter, glyph)| (letter, of(glyph)));
+    (letters.collect(), of(GlyphId::NOTDEF))
+});
+
+fn draw(glyph: GlyphId, pen: &mut impl OutlinePen) {
+    let outline = FACE.as_ref().and_then(|f| f.outline_glyphs().get(glyph));
+    if let Some(outline) = outline {
+        let unscaled = DrawSettings::unhinted(Size::unscaled(), LocationRef::default());
+        // A glyph without a readable outline has no ink.
+        let _ = outline.draw(unscaled, pen);
+    }
+}
+
+/// Font units an em.
+pub(crate) const UNITS: f64 = 1024.0;
+
 /// Height of a capital, as a share of the em.
-const CAPITAL: f64 = 736.0 / 1024.0;
+const CAPITAL: f64 = 736.0 / UNITS;
 
 /// Size of the font, mm an em, at which capitals stand this high.
 #[must_use]
@@ -34,28 +72,29 @@ pub(crate) fn em(height: f64) -> f64 {
 
 /// A letter in a line: glyph, its bytes in the words, and advance in ems.
 pub(crate) struct Letter {
-    pub(crate) glyph: GlyphId,
+    pub(crate) glyph: u32,
     pub(crate) bytes: std::ops::Range<usize>,
     pub(crate) advance: f64,
+    ink: Option<Bounds>,
 }
 
 impl Letter {
     /// Whether there is anything to draw: a blank has none.
     pub(crate) fn is_inked(&self) -> bool {
-        ink_of(self.glyph).is_some()
+        self.ink.is_some()
     }
 }
 
 /// The letters of a line; one the font has not becomes its empty box.
 pub(crate) fn letters(words: &str) -> impl Iterator<Item = Letter> + '_ {
-    words.char_indices().map(|(at, c)| {
-        let face = FACE.as_ref();
-        let glyph = face.and_then(|f| f.glyph_index(c)).unwrap_or(GlyphId(0));
-        let advance = face.and_then(|f| f.glyph_hor_advance(glyph)).unwrap_or(0);
+    let (letters, missing) = &*METRICS;
+    words.char_indices().map(move |(at, c)| {
+        let metrics = letters.get(&u32::from(c)).unwrap_or(missing);
         Letter {
-            glyph,
+            glyph: metrics.glyph.to_u32(),
             bytes: at..at + c.len_utf8(),
-            advance: f64::from(advance) / 1024.0,
+            advance: metrics.advance,
+            ink: metrics.ink,
         }
     })
 }
@@ -72,13 +111,10 @@ pub(crate) fn ink(words: &str, height: f64) -> Bounds {
     let (mut bounds, mut x) = (Bounds::EMPTY, 0.0);
     let em = em(height);
     for letter in letters(words) {
-        if let Some(b) = ink_of(letter.glyph) {
-            let corner = |px: i16, py: i16| {
-                let at = Vector::new(f64::from(px), f64::from(py)) / 1024.0;
-                Point::new(x + at.x * em, at.y * em)
-            };
-            bounds = bounds.with(corner(b.x_min, b.y_min));
-            bounds = bounds.with(corner(b.x_max, b.y_max));
+        if let Some(ink) = letter.ink {
+            let along = Vector::new(x, 0.0);
+            bounds = bounds.with(ink.min * em + along);
+            bounds = bounds.with(ink.max * em + along);
         }
         x += letter.advance * em;
     }
@@ -86,11 +122,9 @@ pub(crate) fn ink(words: &str, height: f64) -> Bounds {
 }
 
 /// The outline of a glyph as an SVG path in font units, y downwards; empty for a blank.
-pub(crate) fn path(glyph: GlyphId) -> String {
+pub(crate) fn path(glyph: u32) -> String {
     let mut path = Path::default();
-    if let Some(face) = FACE.as_ref() {
-        face.outline_glyph(glyph, &mut path);
-    }
+    draw(GlyphId::new(glyph), &mut path);
     path.0
 }
 
@@ -107,7 +141,7 @@ impl Path {
     }
 }
 
-impl OutlineBuilder for Path {
+impl OutlinePen for Path {
     fn move_to(&mut self, x: f32, y: f32) {
         self.step('M', &[(x, y)]);
     }
@@ -138,7 +172,7 @@ mod tests {
         let needed = "Ø°±×√αβφπ∅ØÄÖÜäöüßéèçñ–·≤≥≈".replace('∅', "⌀");
         for c in needed.chars().chain('!'..='~') {
             let letter = letters(&c.to_string()).next().expect("one letter").glyph;
-            assert_ne!(letter, GlyphId(0), "{c} is missing");
+            assert_ne!(letter, 0, "{c} is missing");
         }
         let digit = width("0", 3.5);
         assert!(('0'..='9').all(|c| (width(&c.to_string(), 3.5) - digit).abs() < 1e-12));

@@ -1,0 +1,255 @@
+//! What a file says before its entities: units, line types, layers, lettering styles, blocks.
+
+use super::pairs::{Handle, Pairs};
+use super::{STYLE, STYLE_FONT};
+use crate::drawing::{Color, Drawing, LineType, Shape};
+use centrode_geometry::{Bounds, Point};
+
+/// The header, which names the first handle that is free.
+pub(super) fn header(file: &mut Pairs, bounds: &Bounds, seed: Handle) {
+    file.section("HEADER");
+    let newer = file.is_newer();
+    let version = if newer { "AC1024" } else { "AC1009" };
+    file.word(9, "$ACADVER").word(1, version);
+    if newer {
+        file.word(9, "$DWGCODEPAGE").word(3, "ANSI_1252");
+        file.word(9, "$HANDSEED").handle(5, seed);
+        // Metric, so that line types and hatches are taken from the metric files.
+        file.word(9, "$MEASUREMENT").whole(70, 1);
+    }
+    // Unknown to R12 itself, read by most programs since: millimetres.
+    file.word(9, "$INSUNITS").whole(70, 4);
+    file.word(9, "$LTSCALE").number(40, 1.0);
+    if bounds.diagonal().is_finite() {
+        file.word(9, "$EXTMIN").point(10, &bounds.min);
+        file.word(9, "$EXTMAX").point(10, &bounds.max);
+        // Some programs take these for the paper.
+        for (name, point) in [
+            ("$LIMMIN", &bounds.min),
+            ("$LIMMAX", &bounds.max),
+            ("$PLIMMIN", &bounds.min),
+            ("$PLIMMAX", &bounds.max),
+        ] {
+            file.word(9, name).flat(10, point);
+        }
+    }
+    file.word(0, "ENDSEC");
+}
+
+/// Line types, layers and lettering styles, and what else the newer version cannot be without; the handle
+/// is that of the model space, which owns the entities.
+pub(super) fn tables(file: &mut Pairs, drawing: &Drawing, bounds: &Bounds) -> Handle {
+    file.section("TABLES");
+    if file.is_newer() {
+        view(file, bounds);
+    }
+    line_types(file, drawing);
+    layers(file, drawing);
+    styles(file, drawing);
+    let spaces = file.is_newer().then(|| newer_tables(file));
+    file.word(0, "ENDSEC");
+    let Some(spaces) = spaces else {
+        return Handle::NONE;
+    };
+    file.section("BLOCKS");
+    for (name, space) in SPACES.into_iter().zip(spaces) {
+        file.entry("BLOCK", space);
+        file.class("AcDbEntity").word(8, "0");
+        file.class("AcDbBlockBegin").word(2, name).whole(70, 0);
+        file.point(10, &Point::origin()).word(3, name).word(1, "");
+        file.entry("ENDBLK", space);
+        file.class("AcDbEntity").word(8, "0").class("AcDbBlockEnd");
+    }
+    file.word(0, "ENDSEC");
+    spaces[0]
+}
+
+/// The objects of the newer version: the root of its dictionaries, and the one of groups it must have.
+pub(super) fn objects(file: &mut Pairs) {
+    file.section("OBJECTS");
+    let root = file.entry("DICTIONARY", Handle::NONE);
+    file.class("AcDbDictionary").whole(281, 1);
+    let groups = file.seed();
+    file.word(3, "ACAD_GROUP").handle(350, groups);
+    file.entry("DICTIONARY", root);
+    file.class("AcDbDictionary").whole(281, 1);
+    file.word(0, "ENDSEC");
+}
+
+/// Blocks every file of the newer version has: entities of the model, and of the paper.
+const SPACES: [&str; 2] = ["*Model_Space", "*Paper_Space"];
+
+/// Begins a table of so many records.
+fn table(file: &mut Pairs, name: &str, count: usize) -> Handle {
+    let handle = file
+        .word(0, "TABLE")
+        .word(2, name)
+        .identity(5, Handle::NONE);
+    file.class("AcDbSymbolTable").whole(70, count as u32);
+    handle
+}
+
+/// Begins a record of a table.
+fn record(file: &mut Pairs, table: Handle, kind: &str, class: &str, name: &str) -> Handle {
+    // The 5 of a dimension style is a block's name.
+    let code = if kind == "DIMSTYLE" { 105 } else { 5 };
+    let handle = file.word(0, kind).identity(code, table);
+    file.class("AcDbSymbolTableRecord").class(class);
+    file.word(2, name).whole(70, 0);
+    handle
+}
+
+/// The view a program opens with: all of the drawing.
+fn view(file: &mut Pairs, bounds: &Bounds) {
+    let owner = table(file, "VPORT", 1);
+    record(file, owner, "VPORT", "AcDbViewportTableRecord", "*Active");
+    file.flat(10, &Point::origin())
+        .flat(11, &Point::new(1.0, 1.0));
+    if bounds.diagonal().is_finite() {
+        let [width, height] = [bounds.max.x - bounds.min.x, bounds.max.y - bounds.min.y];
+        // A window is about four by three.
+        let seen = 1.1 * height.max(0.75 * width);
+        file.flat(12, &nalgebra::center(&bounds.min, &bounds.max));
+        file.number(40, seen).number(41, 4.0 / 3.0);
+    }
+    file.word(0, "ENDTAB");
+}
+
+fn line_types(file: &mut Pairs, drawing: &Drawing) {
+    const CLASS: &str = "AcDbLinetypeTableRecord";
+    let used = |line_type| drawing.layers.iter().any(|l| l.line_type == line_type);
+    let line_types: Vec<LineType> = LineType::ALL
+        .into_iter()
+        .filter(|&line_type| line_type != LineType::Phantom || used(line_type))
+        .collect();
+    let inherited: &[&str] = if file.is_newer() {
+        &["BYBLOCK", "BYLAYER"]
+    } else {
+        &[]
+    };
+    let owner = table(file, "LTYPE", inherited.len() + line_types.len());
+    for name in inherited {
+        record(file, owner, "LTYPE", CLASS, name);
+        file.word(3, "").whole(72, 65).whole(73, 0).number(40, 0.0);
+    }
+    for line_type in line_types {
+        let pattern = line_type.pattern();
+        record(file, owner, "LTYPE", CLASS, line_type_name(line_type));
+        file.word(3, description(line_type)).whole(72, 65);
+        file.whole(73, pattern.len() as u32);
+        file.number(40, pattern.iter().map(|d| d.abs()).sum());
+        for &dash in pattern {
+            file.number(49, dash);
+            if file.is_newer() {
+                file.whole(74, 0);
+            }
+        }
+    }
+    file.word(0, "ENDTAB");
+}
+
+fn layers(file: &mut Pairs, drawing: &Drawing) {
+    const CLASS: &str = "AcDbLayerTableRecord";
+    let owner = table(file, "LAYER", drawing.layers.len() + 1);
+    record(file, owner, "LAYER", CLASS, "0");
+    file.whole(62, 7)
+        .word(6, line_type_name(LineType::Continuous));
+    for layer in &drawing.layers {
+        record(file, owner, "LAYER", CLASS, &layer.name);
+        file.whole(62, u32::from(color_index(layer.color)));
+        file.word(6, line_type_name(layer.line_type));
+        if file.is_newer() {
+            file.whole(370, weight(layer.line_width));
+        }
+    }
+    file.word(0, "ENDTAB");
+}
+
+fn styles(file: &mut Pairs, drawing: &Drawing) {
+    let mut shapes = drawing.entities.iter().map(|entity| &entity.shape);
+    let fitted = shapes.any(|shape| matches!(shape, Shape::Text(text) if text.width.is_some()));
+    let styles = [("STANDARD", "txt"), (STYLE, STYLE_FONT)];
+    let styles = if fitted { &styles[..] } else { &styles[..1] };
+    let owner = table(file, "STYLE", styles.len());
+    for (name, font) in styles {
+        record(file, owner, "STYLE", "AcDbTextStyleTableRecord", name);
+        file.number(40, 0.0).number(41, 1.0).number(50, 0.0);
+        file.whole(71, 0).number(42, 2.5).word(3, font).word(4, "");
+    }
+    file.word(0, "ENDTAB");
+}
+
+/// Tables that only the newer version must have; the handles are those of its two spaces.
+fn newer_tables(file: &mut Pairs) -> [Handle; 2] {
+    for name in ["VIEW", "UCS"] {
+        table(file, name, 0);
+        file.word(0, "ENDTAB");
+    }
+    let owner = table(file, "APPID", 1);
+    record(file, owner, "APPID", "AcDbRegAppTableRecord", "ACAD");
+    file.word(0, "ENDTAB");
+    let owner = table(file, "DIMSTYLE", 1);
+    file.class("AcDbDimStyleTable");
+    record(
+        file,
+        owner,
+        "DIMSTYLE",
+        "AcDbDimStyleTableRecord",
+        "STANDARD",
+    );
+    file.word(0, "ENDTAB");
+    let owner = table(file, "BLOCK_RECORD", SPACES.len());
+    let spaces = SPACES.map(|name| {
+        let class = "AcDbBlockTableRecord";
+        record(file, owner, "BLOCK_RECORD", class, name)
+    });
+    file.word(0, "ENDTAB");
+    spaces
+}
+
+fn line_type_name(line_type: LineType) -> &'static str {
+    match line_type {
+        LineType::Continuous => "CONTINUOUS",
+        LineType::Center => "CENTER",
+        LineType::Hidden => "HIDDEN",
+        LineType::Phantom => "PHANTOM",
+    }
+}
+
+fn description(line_type: LineType) -> &'static str {
+    match line_type {
+        LineType::Continuous => "Solid line",
+        LineType::Center => "Center ____ . ____ . ____",
+        LineType::Hidden => "Hidden __ __ __ __ __",
+        LineType::Phantom => "Phantom ____ . . ____ . . ____",
+    }
+}
+
+/// The color's number in the index every drawing program has.
+fn color_index(color: Color) -> u8 {
+    match color {
+        Color::Red => 1,
+        Color::Green => 3,
+        Color::Cyan => 4,
+        Color::Blue => 5,
+        Color::Magenta => 6,
+        Color::Foreground => 7,
+        Color::Gray => 8,
+    }
+}
+
+/// The line weight nearest to a width, among those the format has, in hundredths of a millimetre.
+pub(super) fn weight(width: f64) -> u32 {
+    const WEIGHTS: [u32; 24] = [
+        0, 5, 9, 13, 15, 18, 20, 25, 30, 35, 40, 50, 53, 60, 70, 80, 90, 100, 106, 120, 140, 158,
+        200, 211,
+    ];
+    let wanted = 100.0 * width;
+    let mut best = WEIGHTS[0];
+    for candidate in WEIGHTS {
+        if (f64::from(candidate) - wanted).abs() < (f64::from(best) - wanted).abs() {
+            best = candidate;
+        }
+    }
+    best
+}
