@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use centrode_geometry::{Tolerance, Vector};
+use centrode_geometry::{Tolerance, Vector, checkpoint};
 use centrode_mechanism::gear::{GearPair, GearPairError, Member};
 use centrode_mechanism::three_arm::{Link, ThreeArm};
 
@@ -115,6 +115,7 @@ fn phase_error(mechanism: &ThreeArm, pair: &GearPair) -> (f64, f64) {
     let mut worst = (0.0, 0.0);
     for mesh in mechanism.meshes() {
         for i in 0..LOOKS {
+            checkpoint();
             let input = TAU * f64::from(i) / f64::from(LOOKS);
             let pose = mechanism.mesh_pose(mesh, input);
             let off = pose.driven - pair.driven_angle(pose.driver);

@@ -1,6 +1,6 @@
 use std::f64::consts::{PI, TAU};
 
-use centrode_geometry::{Outline, Point, Tolerance, Vector};
+use centrode_geometry::{Outline, Point, Tolerance, Vector, checkpoint};
 use centrode_mechanism::gear::IncompletePair;
 use centrode_mechanism::transmission::Transmission;
 use nalgebra::Isometry2;
@@ -45,6 +45,7 @@ impl IncompleteContact {
         }
         let mut out = Self::default();
         for i in 0..count {
+            checkpoint();
             let input = TAU * (f64::from(i) + 0.37) / f64::from(count);
             let turned = pair.law().at(input).position;
             // The driver's axes seen from the driven gear's.

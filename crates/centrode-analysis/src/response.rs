@@ -1,3 +1,4 @@
+use centrode_geometry::Cancel;
 use centrode_mechanism::design::{Design, DesignError};
 use centrode_mechanism::mechanism::{Mechanism, MechanismError};
 use rayon::prelude::{IntoParallelIterator, ParallelIterator};
@@ -52,7 +53,9 @@ impl Response {
         depth: Depth,
     ) -> Result<Self, DesignError> {
         let numbered = design.numbered(key)?;
+        let cancel = Cancel::current();
         let report = |&value: &f64| -> Option<Report> {
+            let _scope = cancel.enter();
             let design = numbered.with(value).ok()?;
             let found: Result<Mechanism, MechanismError> = Mechanism::resolve(&design);
             let check = match depth {

@@ -1,4 +1,4 @@
-use centrode_geometry::Vector;
+use centrode_geometry::{Vector, checkpoint};
 use centrode_mechanism::linkage::{FourBar, SixBar};
 use serde::{Deserialize, Serialize};
 
@@ -43,6 +43,7 @@ impl SwingSpread {
         let mut off = |t: f64| random.between(-t, t);
         let (mut swings, mut failed) = (Vec::new(), 0);
         for _ in 0..count {
+            checkpoint();
             let [a, b, c, d] = six_bar
                 .four_bar()
                 .lengths()

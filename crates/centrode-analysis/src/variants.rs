@@ -1,3 +1,4 @@
+use centrode_geometry::Cancel;
 use centrode_mechanism::three_arm::design::ThreeArmDesign;
 use centrode_mechanism::three_arm::{Parameter, Sweep, SweepError, UnknownParameter};
 use rayon::prelude::{IndexedParallelIterator, IntoParallelIterator, ParallelIterator};
@@ -89,11 +90,13 @@ impl Variants {
         count: usize,
         values: impl Fn(usize, &mut [f64]) + Sync,
     ) -> Vec<[f64; Self::FIGURES.len()]> {
+        let cancel = Cancel::current();
         let start = || {
             let values = vec![0.0; self.parameters.len()];
             (self.sweep.clone(), self.start.clone(), values)
         };
         let variant = |(sweep, design, row): &mut (Sweep, ThreeArmDesign, Vec<f64>), i: usize| {
+            let _scope = cancel.enter();
             values(i, row);
             for (parameter, &value) in self.parameters.iter().zip(&*row) {
                 let angle = parameter.is_angle();

@@ -92,6 +92,7 @@ pub fn write(columns: &[Column]) -> Result<Vec<u8>, TableError> {
     let mut text = headings.join(",");
     text.push('\n');
     for row in 0..rows {
+        centrode_geometry::checkpoint();
         for (i, column) in columns.iter().enumerate() {
             if i > 0 {
                 text.push(',');

@@ -1,6 +1,6 @@
 //! Binary STL meshes.
 
-use centrode_geometry::Mesh;
+use centrode_geometry::{Mesh, checkpoint};
 
 /// A mesh as binary STL, in the mesh's own units (mm).
 ///
@@ -29,6 +29,7 @@ pub fn write(mesh: &Mesh) -> Vec<u8> {
     bytes.extend_from_slice(&header);
     bytes.extend_from_slice(&(kept.len() as u32).to_le_bytes());
     for face in kept {
+        checkpoint();
         for x in normal(&mesh.triangle(face)) {
             bytes.extend_from_slice(&(x as f32 + 0.0).to_le_bytes());
         }

@@ -1,6 +1,6 @@
 //! 3MF packages: a closed mesh with its unit and name.
 
-use centrode_geometry::Mesh;
+use centrode_geometry::{Mesh, checkpoint};
 use std::{
     collections::HashMap,
     fmt::Write as _,
@@ -74,10 +74,12 @@ fn model(mesh: &Mesh, name: &str, title: &str) -> String {
     );
     // Writing to a string cannot fail.
     for [x, y, z] in vertices {
+        checkpoint();
         let _ = writeln!(xml, "<vertex x=\"{x}\" y=\"{y}\" z=\"{z}\"/>");
     }
     xml.push_str("</vertices>\n<triangles>\n");
     for [a, b, c] in faces {
+        checkpoint();
         let _ = writeln!(xml, "<triangle v1=\"{a}\" v2=\"{b}\" v3=\"{c}\"/>");
     }
     xml.push_str(

@@ -71,6 +71,7 @@ impl<'a> ArcChains<'a> {
         let mut closing: Option<(usize, usize, Biarc)> = None;
         let mut count = 0;
         loop {
+            crate::checkpoint();
             if let Some(&done) = front.iter().find(|&&link| self.links[link].node == last) {
                 self.trace(done, out);
                 return;

@@ -21,6 +21,7 @@ fn crossings(segment: &Segment, point: Point) -> usize {
     let mut count = 0;
     let mut stack = vec![(-1.0, 1.0, segment.start(), segment.end(), 0)];
     while let Some((u0, u1, start, end, depth)) = stack.pop() {
+        crate::checkpoint();
         let box_ = segment.enclosure(u0, u1);
         if box_.min.y > point.y || box_.max.y <= point.y || box_.max.x < point.x {
             continue;

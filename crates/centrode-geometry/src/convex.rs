@@ -27,6 +27,7 @@ pub fn convex_pieces(polygon: &[Point], tolerance: Tolerance) -> ConvexPieces {
     };
     let mut parts = vec![without_repeats(polygon)];
     while let Some(part) = parts.pop() {
+        crate::checkpoint();
         if area(&part) <= tolerance.mm() * tolerance.mm() {
             continue;
         }
@@ -143,6 +144,7 @@ fn across(polygon: &[Point], bottom: usize) -> Option<usize> {
 
 /// Whether the straight line between two corners meets no edge but those that end there.
 fn is_free(polygon: &[Point], from: usize, to: usize) -> bool {
+    crate::checkpoint();
     let n = polygon.len();
     let (a, b) = (polygon[from], polygon[to]);
     (0..n).all(|i| {

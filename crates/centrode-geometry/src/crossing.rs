@@ -107,6 +107,7 @@ impl Outline {
         order.sort_by(|&a, &b| boxes[a].min.x.total_cmp(&boxes[b].min.x).then(a.cmp(&b)));
         let mut active: Vec<usize> = Vec::new();
         for &i in &order {
+            crate::checkpoint();
             active.retain(|&j| boxes[j].max.x >= boxes[i].min.x);
             for &j in &active {
                 let apart = boxes[j].min.y > boxes[i].max.y || boxes[i].min.y > boxes[j].max.y;
@@ -172,6 +173,7 @@ impl Search<'_> {
     fn pair(&self, a: &Strand, b: &Strand) -> Option<Crossing> {
         let mut stack = vec![(*a, *b)];
         while let Some((a, b)) = stack.pop() {
+            crate::checkpoint();
             let slack = a.sagitta + b.sagitta;
             // Either proof, apart or touching, is found by halving: a bound shrinks with its part.
             if gap(&a, &b) > slack + self.touch {
@@ -198,6 +200,7 @@ impl Search<'_> {
         let (mut a, mut b) = (*a, *b);
         // A curve that turns by less than a half turn in all cannot meet itself.
         while a.piece.turning() + b.piece.turning() + jump >= PI {
+            crate::checkpoint();
             if a.piece.length + b.piece.length <= self.touch.max(f64::MIN_POSITIVE) {
                 // A cusp within the rounding of its own end is a doubled point, not an overlap, unless
                 // it folds back onto itself.

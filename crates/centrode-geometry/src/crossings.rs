@@ -178,6 +178,7 @@ pub fn self_crossings(
     let shortest = tolerance.mm().max(CUSP * whole.size());
     let mut pending = vec![whole];
     while let Some(part) = pending.pop() {
+        crate::checkpoint();
         // A curve whose tangents fit in half a turn cannot come back to itself.
         let straight = part.cone().is_some_and(|(_, half)| half < 1.5);
         if straight || part.is_shorter(shortest) {
@@ -201,6 +202,7 @@ fn search(
     let mut near = a.end;
     let mut pending = vec![(a, b)];
     for _ in 0..MOST_PAIRS {
+        crate::checkpoint();
         let Some((a, b)) = pending.pop() else {
             return Ok(());
         };

@@ -8,6 +8,7 @@ mod arc_plan;
 mod arcs;
 mod biarc;
 mod bounds;
+mod cancel;
 mod containment;
 mod convex;
 mod crossing;
@@ -37,6 +38,7 @@ mod spline;
 mod tolerance;
 
 pub use bounds::Bounds;
+pub use cancel::{Cancel, Cancelled, Scope, checkpoint};
 pub use convex::{ConvexPieces, convex_pieces};
 pub use crossing::Crossing;
 pub use crossings::{Unresolved, crossings, self_crossings};

@@ -207,6 +207,7 @@ impl Outline {
             }
             stack.push((Piece::new(segment, index, -1.0, 1.0), 0));
             while let Some((piece, depth)) = stack.pop() {
+                crate::checkpoint();
                 let matters = piece.sagitta() > tolerance.mm();
                 // A cusp's bound stays loose, and true: it is stepped over in chords no longer than the tolerance.
                 if depth < 40 && matters && piece.curvature > 1.4 * piece.middle {
@@ -238,6 +239,7 @@ impl Outline {
         let mut out = Vec::with_capacity(pieces.len());
         let (mut i, mut u) = (0, -1.0);
         while let Some(piece) = pieces.get(i) {
+            crate::checkpoint();
             out.push(Place {
                 segment: piece.segment,
                 u,

@@ -48,6 +48,7 @@ impl Primitive {
         let mut sum = 0.0;
         let mut lost = 0.0;
         while let Some((a, b, depth)) = pending.pop() {
+            crate::checkpoint();
             let (middle, half) = (0.5 * (a + b), 0.5 * (b - a));
             let values: [f64; NODES] = std::array::from_fn(|j| f(middle + half * tables.nodes[j]));
             let series: [f64; NODES] = std::array::from_fn(|k| {

@@ -13,6 +13,7 @@ pub fn bracketed_root(
     let (mut c, mut fc) = (a, fa);
     let (mut step, mut before) = (b - a, b - a);
     for _ in 0..200 {
+        crate::checkpoint();
         if fb == 0.0 {
             return b;
         }
@@ -81,6 +82,7 @@ pub fn bracketed_minimum(mut f: impl FnMut(f64) -> f64, low: f64, high: f64) -> 
     let (mut fw, mut fv) = (fx, fx);
     let (mut d, mut e) = (0.0_f64, 0.0_f64);
     for _ in 0..120 {
+        crate::checkpoint();
         let middle = 0.5 * (a + b);
         let limit = 1e-10 * (high - low).abs() + 2.0 * f64::EPSILON * x.abs();
         if (x - middle).abs() <= 2.0 * limit - 0.5 * (b - a) {

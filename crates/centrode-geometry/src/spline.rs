@@ -96,6 +96,7 @@ impl Spline {
         let mut out: Vec<(Self, f64, f64)> = Vec::new();
         let mut stack = vec![(t0, t1, 0_u32)];
         while let Some((a, b, depth)) = stack.pop() {
+            crate::checkpoint();
             let (mut spline, error) = Self::interpolate(&mut curve, a, b);
             // Below the rounding of the points no halving helps; nor does it at a jump.
             let rounding =

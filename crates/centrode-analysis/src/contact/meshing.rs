@@ -1,4 +1,4 @@
-use centrode_geometry::{Point, Vector};
+use centrode_geometry::{Point, Vector, checkpoint};
 use centrode_mechanism::gear::{GearPair, Role};
 
 use super::{
@@ -108,6 +108,7 @@ impl<'a> Meshing<'a> {
 
     /// Analyses one pose and adds its figures.
     pub(super) fn sample(&mut self, phi: f64, law: f64, out: &mut Contact) {
+        checkpoint();
         let a = self.pair.center_distance();
         let pose = Pose::new(phi, law, a);
         let limits = (self.near, self.close);
@@ -216,6 +217,7 @@ impl<'a> Meshing<'a> {
         let within = |touch: &Touch, near: f64| touch.gap < near && touch.gap > -0.5 * module;
         let limit = |kind: Kind| if kind == Kind::Flanks { close } else { near };
         for &i in &self.active.0 {
+            checkpoint();
             let a = &self.driver.parts[i];
             for placed in &self.active.1 {
                 let j = placed.index;

@@ -3,7 +3,7 @@
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
-use centrode_geometry::Point;
+use centrode_geometry::{Point, checkpoint};
 
 use super::body::{Body, Part};
 use super::{InterferenceError, Moving};
@@ -114,6 +114,7 @@ pub(super) fn deepest(
         place: None,
     };
     while let Some(piece) = open.pop() {
+        checkpoint();
         if piece.bound <= best.depth + tolerance {
             best.bound = best.bound.max(piece.bound);
             break;

@@ -8,7 +8,7 @@ use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 use std::rc::Rc;
 
-use centrode_geometry::{Point, Vector};
+use centrode_geometry::{Point, Vector, checkpoint};
 
 use super::body::{Body, Part};
 use super::motion::{Bend, Frame};
@@ -84,6 +84,7 @@ pub(super) fn approach(
         bound: f64::INFINITY,
     };
     while let Some(span) = open.pop() {
+        checkpoint();
         if span.bound >= found.least - tolerance {
             found.bound = found.bound.min(span.bound);
             break;
@@ -154,6 +155,7 @@ impl<'a> Look<'a> {
         };
         let mut open: Vec<[u32; 2]> = pairs.to_vec();
         while let Some(pair) = open.pop() {
+            checkpoint();
             let [p, q] = [0, 1].map(|i| self.bodies[i].node(pair[i]));
             let (bound, blur) = self.circles(pair);
             if bound >= found.least - tolerance {

@@ -1,6 +1,7 @@
 use std::fmt;
 use std::ops::ControlFlow;
 
+use centrode_geometry::Cancel;
 use rayon::prelude::{IntoParallelIterator, ParallelIterator};
 use serde::{Deserialize, Serialize};
 
@@ -290,7 +291,9 @@ impl GuidedSearch {
         self.evaluations += moves.len() as u64;
         let bounds = problem.bounds();
         let here = &self.point;
+        let cancel = Cancel::current();
         let trial = |moved: Vec<f64>| {
+            let _scope = cancel.enter();
             let place = |((x, share), &(low, high)): ((&f64, &f64), &(f64, f64))| {
                 (x + share * (high - low)).clamp(low, high)
             };

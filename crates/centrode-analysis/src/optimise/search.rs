@@ -1,5 +1,6 @@
 use std::ops::ControlFlow;
 
+use centrode_geometry::Cancel;
 use rayon::prelude::{IntoParallelIterator, ParallelIterator};
 use serde::{Deserialize, Serialize};
 
@@ -334,9 +335,13 @@ fn evaluated(
     bounds: &[(f64, f64)],
     points: Vec<Vec<f64>>,
 ) -> Vec<Candidate> {
-    let candidate = |point: Vec<f64>| Candidate {
-        evaluation: problem.evaluate(&inside(bounds, &point)),
-        point,
+    let cancel = Cancel::current();
+    let candidate = |point: Vec<f64>| {
+        let _scope = cancel.enter();
+        Candidate {
+            evaluation: problem.evaluate(&inside(bounds, &point)),
+            point,
+        }
     };
     if problem.is_costly() {
         points.into_par_iter().map(candidate).collect()

@@ -74,6 +74,7 @@ pub(super) struct Data {
 impl Data {
     /// Writes one entity and returns its name.
     pub(super) fn add(&mut self, entity: impl Display) -> Id {
+        centrode_geometry::checkpoint();
         self.count += 1;
         self.lines.push_str(&format!("#{}={entity};\n", self.count));
         Id(self.count)

@@ -1,6 +1,6 @@
 //! Addenda trimmed flank by flank to what the pitch curves let mesh.
 
-use centrode_geometry::bracketed_root;
+use centrode_geometry::{bracketed_root, checkpoint};
 
 use super::{
     flank::{Flank, Side},
@@ -68,6 +68,7 @@ impl Fitting<'_> {
             ]
         };
         for k in 0..meshes as usize {
+            checkpoint();
             let i = k % first;
             let one = crossings(&driver[i], (k / first) as f64 * lengths[0]);
             // The two driven teeth beside it mesh with it; those beyond can still be met where the
@@ -121,6 +122,7 @@ impl Fitting<'_> {
         let higher = |a: Tip, b: Tip| (a.0.max(b.0), a.1.max(b.1));
         let count = teeth.len();
         for k in 0..count {
+            checkpoint();
             let none = ((0.0, 0.0), (0.0, 0.0));
             let (before, after) = (k..meshes)
                 .step_by(count)

@@ -1,4 +1,4 @@
-use centrode_geometry::{Point, Vector, bracketed_root};
+use centrode_geometry::{Point, Vector, bracketed_root, checkpoint};
 
 use super::{
     rolling::{Frame, Member, Rolling},
@@ -86,6 +86,7 @@ impl Flank<'_> {
                 return Some(a);
             }
             for i in 1..=SAMPLES {
+                checkpoint();
                 let t = if i == SAMPLES {
                     inward
                 } else {

@@ -1,4 +1,4 @@
-use centrode_geometry::{Extreme, extremes};
+use centrode_geometry::{Extreme, checkpoint, extremes};
 
 use super::{
     design::GearPairDesign,
@@ -125,6 +125,7 @@ impl GearPair {
         let mut height = limit;
         for member in [Member::Driver, Member::Driven] {
             for tooth in self.gear(member).teeth() {
+                checkpoint();
                 let flank = |side, crossing| Flank {
                     rolling: self.rolling(),
                     member,

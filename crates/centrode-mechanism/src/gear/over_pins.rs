@@ -1,4 +1,4 @@
-use centrode_geometry::{Point, Segment, Vector, bracketed_minimum, bracketed_root};
+use centrode_geometry::{Point, Segment, Vector, bracketed_minimum, bracketed_root, checkpoint};
 
 use super::{
     pair::{Gear, GearPair},
@@ -118,6 +118,7 @@ impl Gear {
         let segments = self.outline().segments();
         let count = segments.len();
         for (k, sides) in flanks.iter_mut().enumerate() {
+            checkpoint();
             // The segments of one tooth stand together: from the first that does not follow one of its own.
             let own = |i: usize| self.owners()[i % count] as usize == k;
             let Some(first) = (0..count).find(|&i| own(i) && !own(i + count - 1)) else {

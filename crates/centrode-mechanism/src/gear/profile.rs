@@ -1,5 +1,6 @@
 use centrode_geometry::{
-    Kept, LoopError, OpenOutline, Outline, Point, Segment, Spline, Tolerance, without_loops,
+    Kept, LoopError, OpenOutline, Outline, Point, Segment, Spline, Tolerance, checkpoint,
+    without_loops,
 };
 
 use super::{
@@ -205,6 +206,7 @@ impl Cutter<'_> {
         let mut pieces: Vec<Piece> = Vec::with_capacity(plans.len() * 16);
         let mut teeth = Vec::with_capacity(plans.len());
         for (k, plan) in plans.iter().enumerate() {
+            checkpoint();
             let next = plans.get(k + 1).map_or_else(
                 || {
                     let mut first = plans[0].leading;
@@ -436,6 +438,7 @@ impl Cutter<'_> {
             .collect();
         let count = splines.len();
         for i in 0..count {
+            checkpoint();
             let end = splines[i].end();
             let next = (i + 1) % count;
             if splines[next].start() != end {

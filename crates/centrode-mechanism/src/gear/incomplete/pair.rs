@@ -1,7 +1,7 @@
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
-use centrode_geometry::{Outline, Point, Tolerance, Vector};
+use centrode_geometry::{Outline, Point, Tolerance, Vector, checkpoint};
 use nalgebra::{Isometry2, Rotation2};
 
 use super::radial::Radial;
@@ -309,6 +309,7 @@ impl IncompletePair {
                 };
                 let mut before = placed(0.0);
                 for &input in &inputs[1..] {
+                    checkpoint();
                     let now = placed(input);
                     blank.cut_moving(&before, &now, reach);
                     before = now;

@@ -1,6 +1,6 @@
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-use centrode_geometry::{Tolerance, bracketed_root};
+use centrode_geometry::{Tolerance, bracketed_root, checkpoint};
 
 use crate::shaft::{Groove, Wall};
 use crate::transmission::Transmission;
@@ -378,6 +378,7 @@ impl<'a> Plan<'a> {
     /// Height of an edge, if the groove were `half` wide to each side, at an angle round the shaft, and the shaft
     /// angle of the groove it belongs to, looked for from a near one.
     fn found(&self, edge: usize, half: f64, phi: f64, near: Option<f64>) -> (f64, f64) {
+        checkpoint();
         let Edge { turn, wall, .. } = self.edge(edge);
         let side = match wall {
             Wall::Left => half,

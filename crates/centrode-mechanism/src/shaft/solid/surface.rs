@@ -2,7 +2,7 @@ use std::collections::BTreeMap;
 
 use std::f64::consts::TAU;
 
-use centrode_geometry::{Mesh, Point};
+use centrode_geometry::{Mesh, Point, checkpoint};
 
 use super::plan::Plan;
 use crate::shaft::Wall;
@@ -94,6 +94,7 @@ impl<'a> Surface<'a> {
         self.find();
         let count = self.plan.lines.len();
         for cell in std::mem::take(&mut self.cells) {
+            checkpoint();
             let left = self.chain(cell.line, 0, &cell);
             let right = self.chain((cell.line + 1) % count, 1, &cell);
             self.zip(&left, &right);
@@ -105,6 +106,7 @@ impl<'a> Surface<'a> {
         let count = self.plan.lines.len();
         let mut here = self.plan.heights(0);
         for line in 0..count {
+            checkpoint();
             let next = self.plan.heights(line + 1);
             self.strip(line, &here, &next);
             here = next;

@@ -1,0 +1,200 @@
+use std::cell::RefCell;
+use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+thread_local! {
+    static CURRENT: RefCell<Option<Cancel>> = const { RefCell::new(None) };
+}
+
+/// Token that stops a long computation from another thread, by cooperative unwinding.
+///
+/// A computation under [`Cancel::run`] passes a [`checkpoint`] every few microseconds. Once the token is cancelled, the
+/// next checkpoint unwinds the stack to `run`: destructors run, no panic is reported, and every function on the way
+/// needs neither an argument nor an error for it. Tokens are shared by cloning; nothing else is shared.
+///
+/// A program built with `panic = "abort"` cannot unwind: there every computation runs to its end.
+///
+/// ```
+/// use centrode_geometry::{Cancel, Cancelled, checkpoint};
+///
+/// let cancel = Cancel::default();
+/// assert_eq!(cancel.run(|| 6 * 7), Ok(42));
+/// let endless = || loop {
+///     checkpoint();
+///     cancel.cancel();
+/// };
+/// assert_eq!(cancel.run(endless), Err::<(), _>(Cancelled));
+/// ```
+#[derive(Clone, Debug, Default)]
+pub struct Cancel(Arc<AtomicBool>);
+
+/// The computation was cancelled before its end.
+#[derive(Clone, Copy, Debug, Eq, PartialEq, thiserror::Error)]
+#[error("cancelled before the end")]
+pub struct Cancelled;
+
+/// Payload of the unwinding, with the token it is for.
+struct Unwinding(Cancel);
+
+/// Holds a thread under a token; dropped, the token before it holds again.
+#[derive(Debug)]
+pub struct Scope {
+    before: Option<Cancel>,
+}
+
+impl Cancel {
+    /// Stops whatever runs under this token, now and from now on.
+    pub fn cancel(&self) {
+        self.0.store(true, Ordering::Relaxed);
+    }
+
+    /// Whether [`Cancel::cancel`] has been called.
+    #[must_use]
+    pub fn is_cancelled(&self) -> bool {
+        self.0.load(Ordering::Relaxed)
+    }
+
+    /// Result of a job that stops at its next [`checkpoint`] once the token is cancelled.
+    ///
+    /// What the job was changing through references or locks stays as it was at that checkpoint. Where runs are nested
+    /// the innermost token alone is heeded. Panics pass through.
+    ///
+    /// # Errors
+    /// [`Cancelled`] where the job was stopped.
+    pub fn run<T>(&self, job: impl FnOnce() -> T) -> Result<T, Cancelled> {
+        let outcome = catch_unwind(AssertUnwindSafe(|| {
+            let _scope = self.enter();
+            job()
+        }));
+        outcome.map_err(|payload| match payload.downcast::<Unwinding>() {
+            Ok(unwinding) if Arc::ptr_eq(&unwinding.0.0, &self.0) => Cancelled,
+            Ok(of_another) => resume_unwind(of_another),
+            Err(panic) => resume_unwind(panic),
+        })
+    }
+
+    /// Token the calling thread is under, to be carried to threads that work for it; a new one where there is none.
+    #[must_use]
+    pub fn current() -> Self {
+        CURRENT.with_borrow(Clone::clone).unwrap_or_default()
+    }
+
+    /// Puts the calling thread, a worker of a computation under [`Cancel::run`], under its token too.
+    ///
+    /// Whoever waits for the worker must pass its unwinding on, as rayon does.
+    #[must_use]
+    pub fn enter(&self) -> Scope {
+        let before = CURRENT.replace(Some(self.clone()));
+        let scope = Scope { before };
+        checkpoint();
+        scope
+    }
+}
+
+impl Drop for Scope {
+    fn drop(&mut self) {
+        CURRENT.set(self.before.take());
+    }
+}
+
+/// Place at which a computation can be stopped by the token it runs under; costs about a nanosecond.
+///
+/// Stands in every loop that may take long, and not in code that must not be left half done.
+#[inline]
+pub fn checkpoint() {
+    let cancelled = |current: &Option<Cancel>| current.as_ref().is_some_and(Cancel::is_cancelled);
+    // While a thread ends its token has gone: nothing computes there.
+    if cfg!(panic = "unwind") && CURRENT.try_with(|c| cancelled(&c.borrow())) == Ok(true) {
+        stop();
+    }
+}
+
+#[cold]
+fn stop() {
+    // A destructor that runs while the stack unwinds must end normally.
+    if !std::thread::panicking() {
+        resume_unwind(Box::new(Unwinding(Cancel::current())));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::sync::mpsc::channel;
+    use std::time::{Duration, Instant};
+
+    fn endless() {
+        loop {
+            checkpoint();
+            std::thread::sleep(Duration::from_micros(50));
+        }
+    }
+
+    #[test]
+    fn a_job_stops_soon_after_its_token_is_cancelled_and_unwinds_what_it_held() {
+        struct Held<'a>(&'a AtomicBool);
+        impl Drop for Held<'_> {
+            fn drop(&mut self) {
+                // Not even here is the unwinding disturbed.
+                checkpoint();
+                self.0.store(true, Ordering::Relaxed);
+            }
+        }
+        let (cancel, dropped) = (Cancel::default(), AtomicBool::new(false));
+        let (begun, started) = channel();
+        let seconds = std::thread::scope(|scope| {
+            let job = scope.spawn(|| {
+                cancel.run(|| {
+                    let _held = Held(&dropped);
+                    begun.send(()).expect("heard");
+                    endless();
+                })
+            });
+            started.recv().expect("begun");
+            let asked = Instant::now();
+            cancel.cancel();
+            assert_eq!(job.join().expect("no panic"), Err(Cancelled));
+            asked.elapsed().as_secs_f64()
+        });
+        assert!(seconds < 0.1, "{seconds} s");
+        assert!(dropped.load(Ordering::Relaxed));
+        assert_eq!(cancel.run(|| 1), Err(Cancelled));
+        // The thread itself is free again.
+        checkpoint();
+    }
+
+    #[test]
+    fn only_its_own_token_stops_a_job() {
+        let (outer, inner) = (Cancel::default(), Cancel::default());
+        inner.cancel();
+        let nested = outer.run(|| (inner.run(endless), outer.run(|| checkpoint())));
+        assert_eq!(nested, Ok((Err(Cancelled), Ok(()))));
+        let other = Cancel::default();
+        // What unwinds for another token, or from a panic, is not this one's to catch.
+        let passed = outer.run(|| {
+            let worker = outer.clone();
+            worker.cancel();
+            other.run(|| worker.enter()).map(drop)
+        });
+        assert_eq!(passed, Err(Cancelled));
+        let panic = catch_unwind(|| Cancel::default().run(|| resume_unwind(Box::new("fault"))));
+        let payload = panic.expect_err("a panic").downcast::<&str>();
+        assert_eq!(*payload.expect("its own payload"), "fault");
+    }
+
+    #[test]
+    fn a_lock_held_by_a_cancelled_job_can_be_taken_again() {
+        let lock = std::sync::Mutex::new(1);
+        let cancel = Cancel::default();
+        let stopped = cancel.run(|| {
+            let mut held = lock.lock().expect("free");
+            *held = 2;
+            cancel.cancel();
+            checkpoint();
+        });
+        assert_eq!(stopped, Err(Cancelled));
+        let value = lock.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
+        assert_eq!(*value, 2);
+    }
+}
