@@ -129,6 +129,7 @@ mod tests {
                 assert!(mesh.is_watertight());
                 let n = mesh.vertices.len() / 2;
                 assert_eq!(mesh.faces.len(), 4 * n);
+                assert_eq!(mesh.faces.len(), solid.mesh_faces(tolerance(tol)));
                 let difference = (mesh.volume() - solid.volume()).abs();
                 assert!(
                     difference < tol * 10.0 * (outline.length() + 60.0),

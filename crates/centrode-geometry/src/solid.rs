@@ -1,15 +1,16 @@
-use crate::{AreaMoments, MassProperties, Mesh, Outline, Point, Tolerance};
+use crate::{AreaMoments, MassProperties, Mesh, Opening, Outline, Point, Tolerance};
 use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation};
 use thiserror::Error;
 
 /// A straight extrusion: the region inside an outline and outside its holes, from `bottom` to `top`
-/// along z.
+/// along z; it may have an [`Opening`] through a wall.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Solid {
     outline: Outline,
     holes: Vec<Outline>,
     bottom: f64,
     top: f64,
+    opening: Option<Opening>,
 }
 
 /// Why contours do not bound a solid.
@@ -46,6 +47,20 @@ pub enum SolidError {
         /// Index of the hole.
         hole: usize,
     },
+    /// An opening does not lie in a wall of the solid.
+    #[error(
+        "an opening from {from} to {to} mm does not go through a wall between the outline and a hole, from {bottom} to {top} mm"
+    )]
+    Opening {
+        /// Its lower end, mm.
+        from: f64,
+        /// Its upper end, mm.
+        to: f64,
+        /// Lower face of the solid, mm.
+        bottom: f64,
+        /// Upper face, mm.
+        top: f64,
+    },
 }
 
 impl Solid {
@@ -74,7 +89,34 @@ impl Solid {
             holes: holes.into_iter().map(forward).collect(),
             bottom,
             top,
+            opening: None,
         })
+    }
+
+    /// The solid with an opening through the wall between its outline and a hole.
+    ///
+    /// # Errors
+    /// [`SolidError::Opening`] unless it lies within the height, a side of the outline runs from its first outer
+    /// corner to the second, and a side of a hole, counter-clockwise, from its first inner corner to the second.
+    pub fn with_opening(mut self, opening: Opening) -> Result<Self, SolidError> {
+        let [from, to] = opening.span;
+        let (bottom, top) = (self.bottom, self.top);
+        if !(bottom < from && from < to && to < top) || opening.region(&self).is_none() {
+            return Err(SolidError::Opening {
+                from,
+                to,
+                bottom,
+                top,
+            });
+        }
+        self.opening = Some(opening);
+        Ok(self)
+    }
+
+    /// The opening through a wall, if it has one.
+    #[must_use]
+    pub fn opening(&self) -> Option<&Opening> {
+        self.opening.as_ref()
     }
 
     /// Outer contour, counter-clockwise.
@@ -101,7 +143,7 @@ impl Solid {
         self.top
     }
 
-    /// Area moments of the cross-section about the origin, exact to rounding.
+    /// Area moments of the cross-section about the origin, beside an opening, exact to rounding.
     #[must_use]
     pub fn section(&self) -> AreaMoments {
         self.holes.iter().fold(self.outline.moments(), |sum, hole| {
@@ -112,17 +154,43 @@ impl Solid {
     /// Volume, mm³, exact to rounding.
     #[must_use]
     pub fn volume(&self) -> f64 {
-        self.section().area * (self.top - self.bottom)
+        let opened = self
+            .opened()
+            .map_or(0.0, |(region, [from, to])| region.area() * (to - from));
+        self.section().area * (self.top - self.bottom) - opened
+    }
+
+    /// What the opening takes away: a section, and between which heights.
+    fn opened(&self) -> Option<(Outline, [f64; 2])> {
+        let opening = self.opening.as_ref()?;
+        Some((opening.region(self)?, opening.span))
     }
 
     /// Mass, center of mass and inertia of the exact solid at a uniform density in kg/m³.
     #[must_use]
     pub fn mass_properties(&self, density: f64) -> MassProperties {
-        MassProperties::of_extrusion(&self.section(), self.bottom, self.top, density)
+        let whole = MassProperties::of_extrusion(&self.section(), self.bottom, self.top, density);
+        let Some((region, [from, to])) = self.opened() else {
+            return whole;
+        };
+        let missing = MassProperties::of_extrusion(&region.moments(), from, to, -density);
+        MassProperties::together(&[whole, missing]).unwrap_or(whole)
+    }
+
+    /// Number of triangles that [`mesh`](Self::mesh) has at a tolerance.
+    #[must_use]
+    pub fn mesh_faces(&self, tolerance: Tolerance) -> usize {
+        let contours = std::iter::once(&self.outline).chain(&self.holes);
+        let points: usize = contours.map(|c| c.flatten(tolerance).len()).sum();
+        // A cap of n corners and h holes has n + 2 h - 2, the walls have 2 n; with an opening three times as many,
+        // and about as many round it as it takes away.
+        let walls = if self.opening.is_some() { 6 } else { 2 };
+        ((2 + walls) * points + 4 * self.holes.len()).saturating_sub(4)
     }
 
     /// A closed triangle mesh with outward normals whose side walls follow the contours within the
-    /// tolerance. Its vertices are shared: the bottom ones first, then the top ones in the same order.
+    /// tolerance. Its vertices are shared: the bottom ones first, then the top ones in the same order, with those of an
+    /// opening's ends between.
     ///
     /// # Errors
     /// [`SolidError`] where the flattened contours cross or touch, or a hole is not in the material.
@@ -132,6 +200,9 @@ impl Solid {
             let mut points = hole.flatten(tolerance);
             points.reverse();
             contours.push(points);
+        }
+        if let Some(opening) = &self.opening {
+            return opening.mesh(self, contours, tolerance);
         }
         let cap = triangulate(&contours, tolerance)?;
         let count: usize = contours.iter().map(Vec::len).sum();
@@ -152,7 +223,7 @@ impl Solid {
 }
 
 /// Edges of closed polygons whose points are numbered through.
-fn edges(contours: &[Vec<Point>]) -> Vec<[u32; 2]> {
+pub(crate) fn edges(contours: &[Vec<Point>]) -> Vec<[u32; 2]> {
     let mut out = Vec::new();
     let mut first = 0;
     for contour in contours {
@@ -167,7 +238,10 @@ fn edges(contours: &[Vec<Point>]) -> Vec<[u32; 2]> {
 ///
 /// A constrained Delaunay triangulation keeps every point and edge, also along a straight line, so the
 /// caps meet the walls without gaps.
-fn triangulate(contours: &[Vec<Point>], tolerance: Tolerance) -> Result<Vec<[u32; 3]>, SolidError> {
+pub(crate) fn triangulate(
+    contours: &[Vec<Point>],
+    tolerance: Tolerance,
+) -> Result<Vec<[u32; 3]>, SolidError> {
     let crossing = |p: &Point| SolidError::Crossing {
         x: p.x,
         y: p.y,

@@ -31,6 +31,12 @@ impl Tolerance {
         self.0
     }
 
+    /// The coarser of two tolerances.
+    #[must_use]
+    pub fn max(self, other: Self) -> Self {
+        Self(self.0.max(other.0))
+    }
+
     /// This tolerance times a positive factor.
     #[must_use]
     pub fn scaled(self, factor: f64) -> Self {

@@ -1,7 +1,7 @@
 //! The boundary of a straight extrusion: two flat caps and one wall a side of its contours.
 
 use super::{
-    StepError, contour,
+    StepError, contour, opened,
     part21::{Data, Id, List, Real},
 };
 use centrode_geometry::{Point, Segment, Solid, Spline, Vector};
@@ -12,6 +12,9 @@ pub(super) fn manifold(data: &mut Data, name: &str, solid: &Solid) -> Result<Id,
     let mut contours = vec![contour::sides(0, solid.outline())?];
     for (hole, outline) in solid.holes().iter().enumerate() {
         contours.push(contour::sides(hole + 1, &outline.reversed())?);
+    }
+    if let Some(opening) = solid.opening() {
+        return opened::manifold(data, name, solid, opening, &contours);
     }
     let mut shape = Shape::new(data, solid.bottom(), solid.top());
     let mut faces = Vec::new();
@@ -44,16 +47,16 @@ struct Side {
 }
 
 #[derive(Debug)]
-struct Shape<'a> {
-    data: &'a mut Data,
+pub(super) struct Shape<'a> {
+    pub(super) data: &'a mut Data,
     bottom: f64,
     top: f64,
     /// Direction of the extrusion.
-    up: Id,
+    pub(super) up: Id,
 }
 
 impl<'a> Shape<'a> {
-    fn new(data: &'a mut Data, bottom: f64, top: f64) -> Self {
+    pub(super) fn new(data: &'a mut Data, bottom: f64, top: f64) -> Self {
         let up = data.add("DIRECTION('',(0.0,0.0,1.0))");
         Self {
             data,
@@ -76,7 +79,7 @@ impl<'a> Shape<'a> {
     }
 
     /// An infinite straight line.
-    fn line(&mut self, from: Id, direction: Id) -> Id {
+    pub(super) fn line(&mut self, from: Id, direction: Id) -> Id {
         let vector = self
             .data
             .add(format_args!("VECTOR('',{direction},{})", Real(1.0)));
@@ -90,7 +93,7 @@ impl<'a> Shape<'a> {
         ))
     }
 
-    fn edge(&mut self, from: Id, to: Id, curve: Id) -> Id {
+    pub(super) fn edge(&mut self, from: Id, to: Id, curve: Id) -> Id {
         self.data
             .add(format_args!("EDGE_CURVE('',{from},{to},{curve},.T.)"))
     }
@@ -122,14 +125,14 @@ impl<'a> Shape<'a> {
     }
 
     /// A point and the vertex at it.
-    fn corner(&mut self, p: Point, z: f64) -> (Id, Id) {
+    pub(super) fn corner(&mut self, p: Point, z: f64) -> (Id, Id) {
         let point = self.point(p, z);
         let vertex = self.data.add(format_args!("VERTEX_POINT('',{point})"));
         (point, vertex)
     }
 
     /// The curve a side follows at a height, walked as the side is.
-    fn curve(&mut self, side: &Segment, start: Id, z: f64) -> Id {
+    pub(super) fn curve(&mut self, side: &Segment, start: Id, z: f64) -> Id {
         match side {
             Segment::Line(from, to) => {
                 let along = self.direction((to - from).normalize(), 0.0);
@@ -180,7 +183,7 @@ impl<'a> Shape<'a> {
     }
 
     /// The surface over a side, and whether its normal points outward.
-    fn surface(&mut self, side: &Segment) -> (Id, bool) {
+    pub(super) fn surface(&mut self, side: &Segment) -> (Id, bool) {
         let (bottom, up) = (self.bottom, self.up);
         let start = self.point(side.start(), bottom);
         match side {
@@ -213,14 +216,14 @@ impl<'a> Shape<'a> {
         }
     }
 
-    fn oriented(&mut self, edge: Id, forward: bool) -> Id {
+    pub(super) fn oriented(&mut self, edge: Id, forward: bool) -> Id {
         let forward = logical(forward);
         self.data
             .add(format_args!("ORIENTED_EDGE('',*,*,{edge},{forward})"))
     }
 
     /// A boundary of a face from oriented edges in order.
-    fn closed(&mut self, kind: &str, edges: &[Id]) -> Id {
+    pub(super) fn closed(&mut self, kind: &str, edges: &[Id]) -> Id {
         let ring = self.data.add(format_args!("EDGE_LOOP('',{})", List(edges)));
         self.data.add(format_args!("{kind}('',{ring},.T.)"))
     }
@@ -235,7 +238,7 @@ impl<'a> Shape<'a> {
     }
 
     /// A flat end whose outward normal is along z times `way`.
-    fn cap(&mut self, z: f64, way: f64, bounds: &[Id]) -> Id {
+    pub(super) fn cap(&mut self, z: f64, way: f64, bounds: &[Id]) -> Id {
         let origin = self.point(Point::origin(), z);
         let normal = self.direction(Vector::zeros(), way);
         let reference = self.direction(Vector::x(), 0.0);
@@ -244,7 +247,7 @@ impl<'a> Shape<'a> {
         self.face(bounds, plane, true)
     }
 
-    fn face(&mut self, bounds: &[Id], surface: Id, outward: bool) -> Id {
+    pub(super) fn face(&mut self, bounds: &[Id], surface: Id, outward: bool) -> Id {
         self.data.add(format_args!(
             "ADVANCED_FACE('',{},{surface},{})",
             List(bounds),

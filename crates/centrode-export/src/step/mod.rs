@@ -2,6 +2,7 @@
 
 mod brep;
 mod contour;
+mod opened;
 mod part21;
 mod shell;
 
