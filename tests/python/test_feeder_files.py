@@ -10,10 +10,13 @@ import ezdxf
 import mujoco
 import numpy as np
 import pytest
+import shapely
 import trimesh
 import yourdfpy
+from ezdxf.path import make_path
 from reading import rows
 from scipy.optimize import fsolve
+from shapely.geometry import Polygon
 
 DESIGNS = Path(__file__).resolve().parents[1] / "designs"
 LENGTHS = {
@@ -154,3 +157,27 @@ def test_drawings_are_sound_and_their_holes_are_where_the_joints_are(feeder):
     for part, index in (("crank", 0), ("coupler", 1), ("rocker", 2)):
         marks = [tuple(e.dxf.location)[:2] for e in ezdxf.readfile(folder / f"{part}.dxf").modelspace().query("POINT")]
         assert sorted(marks) == [(0.0, 0.0), (pytest.approx(LENGTHS[name][index]), 0.0)]
+
+
+def test_the_gears_are_drawn_with_few_arcs_on_their_contours(feeder):
+    _, folder = feeder
+    entities = 0
+    for part in ("gear-driver", "gear-driven", "gear-entry-cam", "gear-exit-cam"):
+        (profile,) = ezdxf.readfile(folder / f"{part}.dxf").modelspace().query('LWPOLYLINE[layer=="PROFILE"]')
+        points = profile.get_points("xyb")
+        entities += len(points)
+        assert np.count_nonzero([bulge for _, _, bulge in points]) > len(points) / 2, part
+        drawn = Polygon([(p.x, p.y) for p in make_path(profile).flattening(1e-5)])
+        assert drawn.is_valid, part
+        # The solid has the contour as a polygon within a ten-thousandth of the module.
+        mesh = trimesh.load_mesh(folder / f"{part}.stl")
+        (section,) = mesh.section(plane_origin=[0, 0, 1], plane_normal=[0, 0, 1]).to_2D()[0].polygons_full
+        turn = mesh.section(plane_origin=[0, 0, 1], plane_normal=[0, 0, 1]).to_2D()[1]
+        assert np.allclose(turn[:3, :3], np.eye(3))
+        whole = Polygon(np.array(section.exterior.coords) + turn[:2, 3])
+        # Arcs and chords bulge from the contour to either side.
+        assert whole.exterior.hausdorff_distance(drawn.exterior) < 1e-3 + 2 * 0.35e-3
+        vertices = shapely.points(whole.exterior.coords)
+        assert shapely.distance(drawn.exterior, vertices).max() < 1e-3
+    # As chords within that accuracy they would be 15132.
+    assert entities < 2500

@@ -13,7 +13,10 @@ const CAM: &str = "CAM";
 /// A part of the incomplete gear pair.
 pub(super) struct GearPart {
     pub(super) name: &'static str,
+    /// A polygon of short chords.
     outline: Outline,
+    /// The same of few lines and arcs, as drawings have it.
+    drawn: Outline,
     /// What is cut out of it.
     holes: Vec<Outline>,
     /// Pins that stand on it, for reference.
@@ -21,12 +24,13 @@ pub(super) struct GearPart {
     width: f64,
 }
 
-/// Driver, driven gear and, where there is an entry angle, the cams beside the driver; contours of lines and arcs.
+/// Driver, driven gear and, where there is an entry angle, the cams beside the driver; drawn with arcs within the tolerance.
 pub(super) fn parts(gears: &IncompletePair, tolerance: Tolerance) -> Vec<GearPart> {
     let pair = gears.pair();
     let part = |name, outline: &Outline, gear: &Gear, pins| GearPart {
         name,
-        outline: outline.arcs(tolerance),
+        outline: outline.clone(),
+        drawn: outline.arcs_of_chords(gears.accuracy(), tolerance),
         holes: gear.bore().into_iter().collect(),
         pins,
         width: gear.body().width,
@@ -71,7 +75,7 @@ impl GearPart {
             drawing.draw(BORE, Shape::Contour(hole.transformed(place)));
         }
         drawing.draw(CENTER, Shape::Mark(place * Point::origin()));
-        drawing.draw(layer, Shape::Contour(self.outline.transformed(place)));
+        drawing.draw(layer, Shape::Contour(self.drawn.transformed(place)));
     }
 }
 

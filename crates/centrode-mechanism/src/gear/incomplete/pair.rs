@@ -40,6 +40,7 @@ pub struct IncompletePair {
     cams: Vec<Cam>,
     teeth: u32,
     stops: u32,
+    accuracy: Tolerance,
 }
 
 /// A cam beside the driver's teeth, and the pins it holds the driven gear by while it starts or stops.
@@ -164,6 +165,7 @@ impl IncompletePair {
             cams: Vec::new(),
             teeth: 0,
             stops,
+            accuracy,
             pair,
         };
         let whole = Radial::of(&made.pair.driven().outline().flatten(accuracy));
@@ -394,6 +396,12 @@ impl IncompletePair {
     #[must_use]
     pub fn driven(&self) -> &Outline {
         &self.driven
+    }
+
+    /// Greatest distance of the contours' polygons from the curves they stand for.
+    #[must_use]
+    pub fn accuracy(&self) -> Tolerance {
+        self.accuracy
     }
 
     /// The cams of entry and exit, where there is an entry angle.
