@@ -72,7 +72,7 @@ impl Keyway {
 #[pymethods]
 impl Body {
     #[new]
-    #[pyo3(signature = (*, width=None, bore=None, keyway=None, density=None, material=None, bore_fit=None, keyway_fit=None, heat_treatment="", accuracy=""))]
+    #[pyo3(signature = (*, width=None, bore=None, keyway=None, density=None, material=None, bore_fit=None, keyway_fit=None, heat_treatment="", accuracy="", keyway_angle=0.0))]
     #[expect(clippy::too_many_arguments, reason = "keyword arguments")]
     fn new(
         width: Option<f64>,
@@ -84,6 +84,7 @@ impl Body {
         keyway_fit: Option<String>,
         heat_treatment: &str,
         accuracy: &str,
+        keyway_angle: f64,
     ) -> PyResult<Self> {
         let usual = spec::BodySpec::default();
         let body = spec::BodySpec {
@@ -96,6 +97,7 @@ impl Body {
             keyway_fit: keyway_fit.unwrap_or(usual.keyway_fit),
             heat_treatment: heat_treatment.into(),
             accuracy: accuracy.into(),
+            keyway_angle,
         };
         body.validate().map_err(|e| of_spec(&e))?;
         Ok(Self(body))
@@ -117,6 +119,12 @@ impl Body {
     #[getter]
     fn keyway(&self) -> Option<Keyway> {
         self.0.keyway.map(Keyway)
+    }
+
+    /// Direction of the keyway from the body's x axis, rad.
+    #[getter]
+    fn keyway_angle(&self) -> f64 {
+        self.0.keyway_angle
     }
 
     /// Density, kg/m^3.
@@ -165,13 +173,14 @@ impl Body {
             keyway_fit,
             heat_treatment,
             accuracy,
+            keyway_angle,
             ..
         } = &self.0;
         let keyway = self
             .keyway()
             .map_or_else(|| "None".into(), |k| k.__repr__());
         format!(
-            "Body(width={width:?}, bore={bore:?}, keyway={keyway}, density={density:?}, material={material:?}, bore_fit={bore_fit:?}, keyway_fit={keyway_fit:?}, heat_treatment={heat_treatment:?}, accuracy={accuracy:?})"
+            "Body(width={width:?}, bore={bore:?}, keyway={keyway}, density={density:?}, material={material:?}, bore_fit={bore_fit:?}, keyway_fit={keyway_fit:?}, heat_treatment={heat_treatment:?}, accuracy={accuracy:?}, keyway_angle={keyway_angle:?})"
         )
     }
 
@@ -189,6 +198,7 @@ impl Body {
         keywords.set_item("keyway_fit", &self.0.keyway_fit)?;
         keywords.set_item("heat_treatment", &self.0.heat_treatment)?;
         keywords.set_item("accuracy", &self.0.accuracy)?;
+        keywords.set_item("keyway_angle", self.0.keyway_angle)?;
         Ok((PyTuple::empty(py), keywords))
     }
 }

@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 
 use centrode_geometry::{Arc, Outline, Point, Segment};
+use nalgebra::Isometry2;
 
 use crate::gear::design::BodySpec;
 
@@ -49,7 +50,11 @@ pub(crate) fn outline(body: &BodySpec) -> Option<Outline> {
             ]
         }
     };
-    Outline::new(segments).ok()
+    let along_x = Outline::new(segments).ok()?;
+    Some(match body.keyway_angle {
+        0.0 => along_x,
+        angle => along_x.transformed(&Isometry2::rotation(angle)),
+    })
 }
 
 /// Greatest distance of bore and keyway from the axis, mm.

@@ -7,6 +7,7 @@ use crate::{
 };
 use centrode_geometry::{Bounds, Outline, Point, Vector};
 use centrode_mechanism::design::Projection;
+use nalgebra::Isometry2;
 
 /// Distance of the numbers of the spaces from the teeth, mm.
 const RING: f64 = 3.4;
@@ -157,7 +158,7 @@ fn numbers(part: &Part<'_>, k: f64, draft: &mut Draft) {
     }
 }
 
-/// The section through axis and keyway, seen from above; teeth are not cut, ISO 2203.
+/// The section through the axis along x, and the keyway where that lies there, seen from above; teeth are not cut, ISO 2203.
 fn section(part: &Part<'_>, scale: Scale) -> Draft {
     let k = scale.factor();
     let body = part.gear.body();
@@ -187,15 +188,21 @@ fn section(part: &Part<'_>, scale: Scale) -> Draft {
     upright(&mut draft, Pen::Axis, 0.0, 4.0);
     let mut solid = vec![rectangle(left_root, right_root)];
     if half > 0.0 {
-        let edge = body.keyway.map_or(half, |key| half + key.depth * k);
-        solid = vec![rectangle(left_root, -half), rectangle(edge, right_root)];
-        upright(&mut draft, Pen::Outline, -half, 0.0);
-        upright(&mut draft, Pen::Outline, edge, 0.0);
-        if let Some(key) = body.keyway {
+        let (across, along) = body.keyway_angle.sin_cos();
+        let cut = body.keyway.filter(|_| across.abs() < 1e-9);
+        let edge = |way: f64| {
+            let key = cut.filter(|_| way * along > 0.0);
+            way * key.map_or(half, |key| half + key.depth * k)
+        };
+        let [left, right] = [-1.0, 1.0].map(edge);
+        solid = vec![rectangle(left_root, left), rectangle(right, right_root)];
+        upright(&mut draft, Pen::Outline, left, 0.0);
+        upright(&mut draft, Pen::Outline, right, 0.0);
+        if let Some(key) = cut {
             // Where the wall of the keyway leaves the bore.
             let wide = 0.5 * key.width * k;
             let foot = (half * half - wide * wide).max(0.0).sqrt();
-            upright(&mut draft, Pen::Outline, foot, 0.0);
+            upright(&mut draft, Pen::Outline, foot.copysign(along), 0.0);
         }
     }
     for Bounds { min, max } in solid {
@@ -216,7 +223,9 @@ fn section(part: &Part<'_>, scale: Scale) -> Draft {
 pub(super) fn bore(part: &Part<'_>) -> Option<Draft> {
     let body = part.gear.body();
     let key = body.keyway?;
-    let outline = part.bore.as_ref()?;
+    // Drawn as if along x: the notes tell where it is.
+    let upright = Isometry2::rotation(-body.keyway_angle);
+    let outline = &part.bore.as_ref()?.transformed(&upright);
     let scale = Scale::largest(body.bore + key.depth, 45.0);
     let k = scale.factor();
     let half = 0.5 * body.bore * k;

@@ -272,12 +272,16 @@ fn notes(part: &Part<'_>) -> Vec<String> {
         ),
     ];
     lines.push(format!("Teeth and spaces are numbered {}.", part.sense()));
-    if part.gear.body().keyway.is_some() {
-        lines.push("Keyway on the x axis, at polar angle 0°.".to_owned());
+    let body = part.gear.body();
+    if body.keyway.is_some() {
+        lines.push(match body.keyway_angle {
+            0.0 => "Keyway on the x axis, at polar angle 0°.".to_owned(),
+            angle => format!("Keyway at polar angle {}°.", number(angle.to_degrees(), 4)),
+        });
     }
     if let Some(label) = part.label {
         lines.push(format!("{} of these a machine.", label.quantity));
-    } else if part.pair.congruent() {
+    } else if part.pair.congruent() && part.pair.driver().body() == part.pair.driven().body() {
         lines.push("Driver and driven gear are the same part.".to_owned());
     }
     lines

@@ -1,7 +1,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::rule::{Rule, SpecError, broken, line, not_negative, positive};
+use super::rule::{Rule, SpecError, between, broken, line, not_negative, positive};
+use crate::degrees;
 
 /// The body of a gear: what is not teeth.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
@@ -14,6 +15,11 @@ pub struct BodySpec {
     /// Keyway in the bore.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub keyway: Option<Keyway>,
+    /// Direction of the keyway from the body's x axis, rad (degrees in the file).
+    #[serde(rename = "keyway_angle_deg", with = "degrees")]
+    #[serde(skip_serializing_if = "is_along_x")]
+    #[schemars(with = "f64")]
+    pub keyway_angle: f64,
     /// Density, kg/m^3.
     pub density: f64,
     /// Material, for the drawing.
@@ -30,7 +36,7 @@ pub struct BodySpec {
     pub accuracy: String,
 }
 
-/// A keyway in the bore, along the body's x axis.
+/// A keyway in the bore, along the body's x axis unless its body says otherwise.
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Keyway {
@@ -40,12 +46,52 @@ pub struct Keyway {
     pub depth: f64,
 }
 
+/// Serde's own way of asking.
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "what serde calls")]
+fn is_along_x(angle: &f64) -> bool {
+    *angle == 0.0
+}
+
+impl Keyway {
+    /// The keyway of a hub whose parallel key lies in this one of a shaft: as wide, and as deep as DIN 6885-1 asks for
+    /// keys of its widths; for others, a square key with room above it.
+    #[must_use]
+    pub fn of_hub(self) -> Self {
+        // Width and height of the key, depth left to the hub beyond that of the shaft.
+        const KEYS: [(f64, f64, f64); 15] = [
+            (2.0, 2.0, 0.2),
+            (3.0, 3.0, 0.2),
+            (4.0, 4.0, 0.3),
+            (5.0, 5.0, 0.3),
+            (6.0, 6.0, 0.3),
+            (8.0, 7.0, 0.3),
+            (10.0, 8.0, 0.3),
+            (12.0, 8.0, 0.3),
+            (14.0, 9.0, 0.3),
+            (16.0, 10.0, 0.3),
+            (18.0, 11.0, 0.4),
+            (20.0, 12.0, 0.4),
+            (22.0, 14.0, 0.4),
+            (25.0, 14.0, 0.4),
+            (28.0, 16.0, 0.4),
+        ];
+        let Self { width, depth } = self;
+        let standard = KEYS.into_iter().find(|(b, ..)| *b == width);
+        let (_, height, room) = standard.unwrap_or((width, width, 0.06 * width));
+        Self {
+            width,
+            depth: (height - depth + room).max(room),
+        }
+    }
+}
+
 impl Default for BodySpec {
     fn default() -> Self {
         Self {
             width: 10.0,
             bore: 0.0,
             keyway: None,
+            keyway_angle: 0.0,
             density: 7850.0,
             material: "steel".into(),
             bore_fit: "H7".into(),
@@ -65,6 +111,8 @@ impl BodySpec {
         positive("width", self.width)?;
         not_negative("bore", self.bore)?;
         positive("density", self.density)?;
+        let angle = self.keyway_angle.to_degrees();
+        between("keyway_angle_deg", angle, [-360.0, 360.0], " deg")?;
         let words = [
             ("material", &self.material),
             ("bore_fit", &self.bore_fit),
