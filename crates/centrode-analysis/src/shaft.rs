@@ -3,7 +3,9 @@ mod tables;
 use std::f64::consts::{FRAC_PI_6, TAU};
 
 use centrode_geometry::extremes;
-use centrode_mechanism::shaft::{ClearOffset, Crossing, MovingBox, Pick, ShaftError, SpiralShaft};
+use centrode_mechanism::shaft::{
+    ClearOffset, Crossing, MovingBox, Pick, Schedule, ShaftError, SpiralShaft,
+};
 use centrode_mechanism::transmission::Transmission;
 
 use crate::{Finding, Place, Report, Severity};
@@ -21,9 +23,10 @@ const MET: f64 = 1e-6;
 #[must_use]
 pub fn check_shaft(shaft: &SpiralShaft) -> Report {
     let mut report = Report::default();
-    moved(shaft, shaft.moved_in_window(), &mut report);
+    let picks = shaft.schedule();
+    moved(shaft, shaft.moved_in_window(), &picks, &mut report);
     motion(shaft, &mut report);
-    schedule(shaft, &mut report);
+    schedule(shaft, &picks, &mut report);
     groove(shaft, &mut report);
     crossings(shaft, &mut report);
     slider(shaft, &mut report);
@@ -42,12 +45,13 @@ pub fn check_moving_box(machine: &MovingBox) -> Report {
     let forces = std::mem::take(&mut report.tables);
     report.tables = tables::schemes(machine);
     report.tables.extend(forces);
+    let (moves, picks) = (machine.moved_in_window(), machine.schedule());
+    moved(machine.shaft(), moves, &picks, &mut report);
     let Some(drive) = machine.drive() else {
-        moved(machine.shaft(), machine.moved_in_window(), &mut report);
         sort(&mut report);
         return report;
     };
-    moved(machine.shaft(), machine.moved_in_window(), &mut report);
+    seat(machine, &mut report);
     let values = &mut report.values;
     values.insert("gear_eccentricity", drive.eccentricity);
     let k = drive.eccentricity;
@@ -81,6 +85,32 @@ pub fn check_moving_box(machine: &MovingBox) -> Report {
     report
 }
 
+/// A finding where the gears have a bore of their own that is not the journal's they sit on.
+fn seat(machine: &MovingBox, report: &mut Report) {
+    let Some(gears) = &machine.design().gears else {
+        return;
+    };
+    let (bore, journal) = (gears.body.bore, machine.shaft().body().journal_diameter);
+    if bore == 0.0 || bore == journal {
+        return;
+    }
+    report.findings.push(Finding {
+        rule: "gear-seat",
+        severity: Severity::Error,
+        message: format!(
+            "the driven gear's bore of {bore} mm does not fit the shaft's journal of {journal} mm"
+        ),
+        measured: Some(bore),
+        required: Some(journal),
+        unit: "mm",
+        remedy: Some("leave gears.body.bore out, or change shaft.body.journal_diameter"),
+        place: Place {
+            part: Some("gears".into()),
+            ..Place::default()
+        },
+    });
+}
+
 fn sort(report: &mut Report) {
     report
         .findings
@@ -95,26 +125,30 @@ fn at(theta: f64) -> Place {
     }
 }
 
-/// What the box moves while a seedling is picked, against a sixth of the pot.
-fn moved(shaft: &SpiralShaft, moved: f64, report: &mut Report) {
+/// What the box moves while a seedling is picked, in full stroke and at the pick where it moves most, against a
+/// sixth of the pot.
+fn moved(shaft: &SpiralShaft, moved: f64, picks: &Schedule, report: &mut Report) {
     let design = shaft.design();
+    let widest = picks.widest().filter(|pick| pick.swept > moved + MET);
+    let (most, theta) = widest.map_or((moved, design.pick), |pick| (pick.swept, pick.theta));
     let limit = design.pot_width / 6.0;
     let plain = shaft.law().mean_speed() * design.window;
     report.values.insert("moved_distance", moved);
     report.values.insert("moved_distance_plain", plain);
     report.values.insert("moved_distance_limit", limit);
-    if moved > limit {
+    report.values.insert("moved_distance_of_cycle_max", most);
+    if most > limit {
         report.findings.push(Finding {
             rule: "moved-distance",
             severity: Severity::Error,
             message: format!(
-                "the box moves {moved:.4} mm while a seedling is picked, more than a sixth of the pot, {limit:.4} mm"
+                "the box moves {most:.4} mm while a seedling is picked, more than a sixth of the pot, {limit:.4} mm"
             ),
-            measured: Some(moved),
+            measured: Some(most),
             required: Some(limit),
             unit: "mm",
-            remedy: Some("a larger amplitude, or moved_distance to solve for it"),
-            place: at(design.pick),
+            remedy: Some("a larger amplitude, moved_distance to solve for it, or a slow place where the picks are"),
+            place: at(theta),
         });
     }
 }
@@ -143,13 +177,10 @@ fn motion(shaft: &SpiralShaft, report: &mut Report) {
     values.insert("deceleration_max_m_s2", braking);
 }
 
-fn schedule(shaft: &SpiralShaft, report: &mut Report) {
-    let schedule = shaft.schedule();
+fn schedule(shaft: &SpiralShaft, schedule: &Schedule, report: &mut Report) {
     let limit = shaft.design().pot_width / 6.0;
     let worst = schedule.worst().map_or(0.0, |p| p.misplacement.abs());
     report.values.insert("misplacement_max", worst);
-    let swept = schedule.picks.iter().map(|p| p.swept).fold(0.0, f64::max);
-    report.values.insert("moved_distance_of_cycle_max", swept);
     if let Some(Pick {
         turn,
         hole,

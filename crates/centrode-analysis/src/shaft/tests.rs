@@ -115,6 +115,47 @@ fn each_fault_is_found() {
 }
 
 #[test]
+fn picks_beside_the_slow_places_are_found_and_those_on_them_meet_every_hole() {
+    // Slow at 0 and picked at 60 deg: it moves more than the pot allows.
+    let mut design = published();
+    design.pick = PI / 3.0;
+    let beside = report(&design);
+    let found = beside.findings.iter().find(|f| f.rule == "moved-distance");
+    let found = found.expect("a finding");
+    assert!(found.measured > found.required && !beside.ok());
+    assert!(beside.values["misplacement_max"] < 1e-9);
+    design.law = SpeedLaw::Sine(centrode_mechanism::shaft::Sine {
+        phase: PI / 3.0,
+        ..Default::default()
+    });
+    let on = report(&design);
+    assert!(on.ok(), "{:?}", on.findings);
+    assert!(on.values["misplacement_max"] < 1e-9);
+    assert!(on.values["moved_distance_of_cycle_max"] < 2.05 + 1e-9);
+}
+
+#[test]
+fn gears_with_a_bore_of_their_own_must_fit_the_journal() {
+    let mut design = MovingBoxDesign {
+        scheme: Scheme::EllipticGear,
+        gears: Some(EllipticGears {
+            speed_ratio: Some(3.0),
+            ..EllipticGears::default()
+        }),
+        ..MovingBoxDesign::default()
+    };
+    let found = |design: &MovingBoxDesign| {
+        let machine = MovingBox::resolve(design).expect("resolves");
+        rules(&check_moving_box(&machine)).contains(&"gear-seat")
+    };
+    assert!(!found(&design));
+    for (bore, fits) in [(16.0, true), (12.0, false)] {
+        design.gears.as_mut().expect("gears").body.bore = bore;
+        assert_eq!(found(&design), !fits, "{bore}");
+    }
+}
+
+#[test]
 fn the_elliptic_scheme_has_its_published_figures() {
     let design = MovingBoxDesign {
         scheme: Scheme::EllipticGear,

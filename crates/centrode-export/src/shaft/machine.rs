@@ -1,6 +1,6 @@
 use super::ShaftFilesError;
 use centrode_mechanism::gear::GearPair;
-use centrode_mechanism::shaft::{EllipticDrive, MovingBox, SliderForce, SpiralShaft};
+use centrode_mechanism::shaft::{EllipticDrive, MovingBox, Schedule, SliderForce, SpiralShaft};
 use centrode_mechanism::transmission::{MotionJet, Transmission};
 use std::f64::consts::PI;
 
@@ -10,6 +10,7 @@ pub(super) struct Machine<'a> {
     pub(super) title: &'a str,
     pub(super) shaft: &'a SpiralShaft,
     pub(super) gears: Option<Gears<'a>>,
+    pub(super) schedule: Schedule,
 }
 
 /// The elliptic gears before a shaft.
@@ -26,6 +27,7 @@ impl<'a> Machine<'a> {
             title: shaft.title(),
             shaft,
             gears: None,
+            schedule: shaft.schedule(),
         }
     }
 
@@ -48,6 +50,7 @@ impl<'a> Machine<'a> {
             title: &design.title,
             shaft: machine.shaft(),
             gears,
+            schedule: machine.schedule(),
         })
     }
 

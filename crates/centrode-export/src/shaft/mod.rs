@@ -144,7 +144,7 @@ fn all(
             Ok(bundle.add(name, csv::write(columns)?)?)
         };
         table("lead-table.csv", &tables::lead(shaft))?;
-        table("schedule.csv", &tables::schedule(shaft))?;
+        table("schedule.csv", &tables::schedule(&machine.schedule))?;
         table(
             "tool-path.csv",
             &tables::tool_path(shaft, options.tolerance),

@@ -1,6 +1,6 @@
 use crate::csv::Column;
 use centrode_geometry::Tolerance;
-use centrode_mechanism::shaft::SpiralShaft;
+use centrode_mechanism::shaft::{Schedule, SpiralShaft};
 use centrode_mechanism::transmission::Transmission;
 use std::f64::consts::PI;
 
@@ -26,8 +26,8 @@ pub(super) fn lead(shaft: &SpiralShaft) -> Vec<Column> {
 }
 
 /// Which hole is picked at which turn.
-pub(super) fn schedule(shaft: &SpiralShaft) -> Vec<Column> {
-    let picks = shaft.schedule().picks;
+pub(super) fn schedule(schedule: &Schedule) -> Vec<Column> {
+    let picks = &schedule.picks;
     let over = |f: &dyn Fn(usize) -> f64| -> Vec<f64> { (0..picks.len()).map(f).collect() };
     vec![
         Column::numbers("turn", over(&|i| f64::from(picks[i].turn))),

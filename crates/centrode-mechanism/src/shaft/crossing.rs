@@ -58,16 +58,18 @@ impl Groove {
                 let back = out + later;
                 let angle = self.lead_angle(out) - self.lead_angle(back);
                 let slack = 1e-9 * period;
+                // The slider passes a crossing out before it does back, within one cycle from a near tip.
+                let [gone, come] = [out, back].map(|theta| theta - traverse.start());
                 Crossing {
                     out,
                     back,
                     position: place(out),
                     angle,
                     gap: self.width() / angle.sin(),
-                    of_strokes: out >= -slack
-                        && out <= stroke + slack
-                        && back >= stroke + traverse.reversal() - slack
-                        && back <= 2.0 * stroke + traverse.reversal() + slack,
+                    of_strokes: gone >= -slack
+                        && gone <= stroke + slack
+                        && come >= stroke + traverse.reversal() - slack
+                        && come <= 2.0 * stroke + traverse.reversal() + slack,
                 }
             })
             .collect();
@@ -97,7 +99,8 @@ impl Groove {
     ) -> Result<ClearOffset, ShaftError> {
         let ours = self.traverse();
         let needed = |offset: f64| -> Result<f64, ShaftError> {
-            let traverse = Traverse::new(ours.law().clone(), ours.holes(), reversal, offset)?;
+            let (start, law) = (ours.start(), ours.law().clone());
+            let traverse = Traverse::starting_at(start, law, ours.holes(), reversal, offset)?;
             let groove = Self::new(traverse, self.radius(), self.width(), self.depth())?;
             Ok(longest(&groove.crossings(), true))
         };

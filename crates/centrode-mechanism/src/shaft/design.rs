@@ -31,7 +31,7 @@ pub struct SpiralShaftDesign {
     #[serde(rename = "window_deg", with = "degrees")]
     #[schemars(with = "f64")]
     pub window: f64,
-    /// Shaft angle in the middle of the first picking, rad (degrees in the file).
+    /// Shaft angle in the middle of the first picking, where the stroke out begins, rad (degrees in the file).
     #[serde(rename = "pick_deg", with = "degrees")]
     #[schemars(with = "f64")]
     pub pick: f64,

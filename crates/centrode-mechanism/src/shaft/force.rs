@@ -156,11 +156,8 @@ impl Groove {
         let ends = self.ends();
         let stroke = self.traverse().stroke();
         let turn = self.traverse().reversal();
-        let part = |low: f64, high: f64| -> Vec<f64> {
-            let inside = ends.iter().copied();
-            inside.filter(|&t| t >= low && t <= high).collect()
-        };
-        let (out, back) = (part(0.0, stroke), part(stroke, stroke + turn));
+        let out = self.ends_between(0.0, stroke);
+        let back = self.ends_between(stroke, stroke + turn);
         let normal = |theta: f64| self.force(theta, load).normal;
         let torque = |theta: f64| self.force(theta, load).torque;
         let slowing = |theta: f64| {

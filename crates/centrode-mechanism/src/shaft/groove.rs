@@ -119,11 +119,28 @@ impl Groove {
     pub(crate) fn ends(&self) -> Vec<f64> {
         let period = self.traverse.period();
         let mut ends = self.traverse.breaks();
-        ends.extend(self.traverse.tips());
+        ends.extend(self.traverse.tips().map(|tip| tip.rem_euclid(period)));
         let quarters = 4 * self.traverse.turns();
         ends.extend((0..=quarters).map(|i| period * f64::from(i) / f64::from(quarters)));
         ends.sort_by(f64::total_cmp);
         ends.dedup_by(|b, a| *b - *a <= 1e-12 * period);
+        ends
+    }
+
+    /// The same between two shaft angles counted from the start of the forward stroke, both of them included, as
+    /// shaft angles from [`Traverse::start`] on.
+    pub(super) fn ends_between(&self, low: f64, high: f64) -> Vec<f64> {
+        let slack = 1e-12 * self.traverse.period();
+        let inside = self
+            .ends()
+            .into_iter()
+            .map(|theta| self.traverse.since_start(theta));
+        let mut ends: Vec<f64> = inside
+            .filter(|gone| *gone > low + slack && *gone < high - slack)
+            .chain([low, high])
+            .map(|gone| self.traverse.start() + gone)
+            .collect();
+        ends.sort_by(f64::total_cmp);
         ends
     }
 
@@ -193,9 +210,7 @@ impl Groove {
     /// Where the strokes, without the reversals, bend most, and the curvature's size there, 1/mm.
     #[must_use]
     pub fn tightest_of_stroke(&self) -> Extreme {
-        let stroke = self.traverse.stroke();
-        let mut ends = self.ends();
-        ends.retain(|&theta| theta <= stroke);
+        let ends = self.ends_between(0.0, self.traverse.stroke());
         greatest(|theta| self.curvature(theta).abs(), &ends)
     }
 
@@ -255,9 +270,7 @@ impl Groove {
     /// Least speed over the cycle's strokes, mm/rad, and where.
     #[must_use]
     pub fn slowest_of_stroke(&self) -> Extreme {
-        let stroke = self.traverse.stroke();
-        let mut ends = self.ends();
-        ends.retain(|&theta| theta <= stroke);
+        let ends = self.ends_between(0.0, self.traverse.stroke());
         least(|theta| self.traverse.at(theta).velocity, &ends)
     }
 }

@@ -1,13 +1,15 @@
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
 use centrode_geometry::pieces;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{EllipticDrive, Load, ShaftError, SliderForce, SpiralShaft, SpiralShaftDesign};
+use super::{
+    EllipticDrive, Load, Schedule, ShaftError, SliderForce, SpiralShaft, SpiralShaftDesign,
+};
 use crate::gear::design::rule::{Rule, between, broken, line, name, positive, within};
-use crate::gear::design::{BodySpec, GearPairDesign, SpecError, TeethSpec, ToolSpec};
+use crate::gear::design::{BodySpec, GearPairDesign, Keyway, SpecError, TeethSpec, ToolSpec};
 use crate::gear::pitch::{Ellipse, PitchSpec};
 use crate::transmission::{MotionJet, Transmission};
 
@@ -50,7 +52,7 @@ pub struct EllipticGears {
     pub tool: ToolSpec,
     /// Teeth of both gears.
     pub teeth: TeethSpec,
-    /// Body of both gears.
+    /// Body of both gears; without a bore of its own, with that and the keyway of the shaft's journal.
     pub body: BodySpec,
 }
 
@@ -177,6 +179,10 @@ impl MovingBoxDesign {
     }
 
     /// The gear pair of the scheme, the driver's far apex on the line of centres at the slow place.
+    ///
+    /// The driven gear sits on the shaft's near journal: unless its body has a bore, both have the journal's, and the
+    /// hub's keyway for the journal's key. The driven gear's lies where that key is when the shaft turns slowest at
+    /// the drive's phase: half a turn and the phase behind the gear's x axis.
     #[must_use]
     pub fn gear_pair(&self, drive: &EllipticDrive) -> Option<GearPairDesign> {
         let gears = self.gears.as_ref()?;
@@ -189,8 +195,16 @@ impl MovingBoxDesign {
         pair.name = format!("{}-gears", self.name);
         pair.tool = gears.tool.clone();
         pair.teeth = gears.teeth.clone();
-        pair.driver = gears.body.clone();
-        pair.driven = gears.body.clone();
+        let mut body = gears.body.clone();
+        if body.bore == 0.0 {
+            body.bore = self.shaft.body.journal_diameter;
+            body.keyway = body.keyway.or(self.shaft.body.keyway.map(Keyway::of_hub));
+        }
+        pair.driver = body.clone();
+        pair.driven = BodySpec {
+            keyway_angle: PI - (TAU - body.keyway_angle + drive.phase).rem_euclid(TAU),
+            ..body
+        };
         pair.drawing = self.shaft.drawing.clone();
         Some(pair)
     }
@@ -285,6 +299,14 @@ impl MovingBox {
         self.shaft
             .law()
             .moved(turn(middle - half), turn(middle + half))
+    }
+
+    /// Which hole is picked when, by the machine's input.
+    #[must_use]
+    pub fn schedule(&self) -> Schedule {
+        let design = self.shaft.design();
+        let turn = |input: f64| self.shaft_turn(input).position;
+        Schedule::driven(self.shaft.traverse(), design.pick, design.window, turn)
     }
 
     /// Motion of a stroke, as if it had no end, by the machine's input.

@@ -31,7 +31,7 @@ impl Way {
 pub struct Pick {
     /// Turn of the shaft in the cycle, from 0.
     pub turn: u32,
-    /// Shaft angle at the middle of the window, rad.
+    /// Angle of the shaft, or of the drive's input, at the middle of the window, rad.
     pub theta: f64,
     /// Way of the box.
     pub way: Way,
@@ -61,14 +61,25 @@ impl Schedule {
     /// they are half of it nearer, so that both ways miss them alike.
     #[must_use]
     pub fn of(traverse: &Traverse, pick: f64, window: f64) -> Self {
+        Self::driven(traverse, pick, window, |input| input)
+    }
+
+    /// The picks of a shaft that a drive turns: angles and windows are those of the drive's input, which has
+    /// turned the shaft to `shaft_turn(input)` and turns it once a turn.
+    pub(super) fn driven(
+        traverse: &Traverse,
+        pick: f64,
+        window: f64,
+        shaft_turn: impl Fn(f64) -> f64,
+    ) -> Self {
         let (stroke, turn) = (traverse.stroke(), traverse.reversal());
         let lead = traverse.law().lead();
-        let first = traverse.at(pick).position - 0.5 * traverse.return_offset();
+        let first = traverse.at(shaft_turn(pick)).position - 0.5 * traverse.return_offset();
         let last = traverse.holes() - 1;
         let mut visits = vec![0; traverse.holes() as usize];
         let picks = (0..traverse.turns()).map(|k| {
             let theta = pick + TAU * f64::from(k);
-            let inside = theta.rem_euclid(traverse.period());
+            let inside = traverse.since_start(shaft_turn(theta));
             // The joint itself still belongs to the stroke.
             let slack = 1e-9;
             let way = if inside <= stroke + slack {
@@ -80,7 +91,7 @@ impl Schedule {
             } else {
                 Way::Reversing
             };
-            let position = traverse.at(theta).position;
+            let position = traverse.at(shaft_turn(theta)).position;
             let hole = ((position - first) / lead)
                 .round()
                 .clamp(0.0, f64::from(last)) as u32;
@@ -92,13 +103,22 @@ impl Schedule {
                 position,
                 hole,
                 misplacement: position - first - lead * f64::from(hole),
-                swept: traverse.swept(theta - 0.5 * window, theta + 0.5 * window),
+                swept: traverse.swept(
+                    shaft_turn(theta - 0.5 * window),
+                    shaft_turn(theta + 0.5 * window),
+                ),
             }
         });
         Self {
             picks: picks.collect(),
             visits,
         }
+    }
+
+    /// The pick during which the box sweeps most.
+    #[must_use]
+    pub fn widest(&self) -> Option<&Pick> {
+        self.picks.iter().max_by(|a, b| a.swept.total_cmp(&b.swept))
     }
 
     /// The pick that misses its hole most.

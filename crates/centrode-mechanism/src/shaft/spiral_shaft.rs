@@ -25,7 +25,8 @@ impl SpiralShaft {
     pub fn resolve(design: &SpiralShaftDesign) -> Result<Self, ShaftError> {
         design.validate()?;
         let law = design.solved_law()?;
-        let traverse = Traverse::new(
+        let traverse = Traverse::starting_at(
+            design.pick,
             law.resolve(design.lead, design.radius)?,
             design.holes,
             &design.reversal,

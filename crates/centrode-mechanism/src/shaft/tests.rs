@@ -224,6 +224,124 @@ proptest! {
     }
 }
 
+/// A sine that is slow at the picks, picked first at an angle of the shaft.
+fn picked_at(pick: f64) -> SpiralShaft {
+    let design = SpiralShaftDesign {
+        moved_distance: Some(2.05),
+        pick,
+        holes: 5,
+        law: SpeedLaw::Sine(Sine {
+            phase: pick,
+            ..Sine::default()
+        }),
+        ..SpiralShaftDesign::default()
+    };
+    SpiralShaft::resolve(&design).expect("resolves")
+}
+
+#[test]
+fn wherever_a_shaft_is_first_picked_the_same_holes_are_met_out_and_back() {
+    let usual = picked_at(0.0);
+    for pick in [1.0, -0.4, 3.0, 40.0, -17.0] {
+        let shaft = picked_at(pick);
+        let schedule = shaft.schedule();
+        assert_eq!(schedule.visits, [2; 5], "{pick}");
+        for (here, there) in schedule.picks.iter().zip(usual.schedule().picks) {
+            assert!(here.misplacement.abs() < 1e-9, "{pick}: {here:?}");
+            assert!((here.swept - there.swept).abs() < 1e-9, "{pick}: {here:?}");
+            assert_eq!((here.way, here.hole), (there.way, there.hole));
+        }
+        // The same groove, turned on the shaft.
+        let (a, b) = (shaft.groove(), usual.groove());
+        for i in 0..200 {
+            let theta = 0.37 * f64::from(i);
+            let [here, there] = [(a, pick), (b, 0.0)].map(|(g, by)| g.traverse().at(theta + by));
+            assert!(
+                (here.position - there.position).abs() < 1e-9,
+                "{pick} {theta}"
+            );
+            assert!((here.velocity - there.velocity).abs() < 1e-9);
+        }
+        let [here, there] = [a, b].map(|g| (g.steepest().value, g.tightest_of_stroke().value));
+        assert!((here.0 - there.0).abs() < 1e-9 && (here.1 - there.1).abs() < 1e-9);
+        let gaps = |g: &Groove| -> Vec<f64> {
+            let all = g.crossings().into_iter();
+            all.filter(|c| c.of_strokes).map(|c| c.gap).collect()
+        };
+        assert_eq!(gaps(a).len(), gaps(b).len());
+        for (here, there) in gaps(a).iter().zip(gaps(b)) {
+            assert!((here - there).abs() < 1e-6, "{pick}: {here} {there}");
+        }
+        let breaks = shaft.traverse().breaks();
+        assert!(breaks.iter().all(|at| (0.0..shaft.cycle()).contains(at)));
+        let load = shaft.load();
+        let [here, there] = [a, b].map(|g| g.force_range(load));
+        assert!((here.normal[1].value - there.normal[1].value).abs() < 1e-9);
+        assert!((here.torque[0].value - there.torque[0].value).abs() < 1e-9);
+    }
+    let tolerance = centrode_geometry::Tolerance::new(0.05).expect("positive");
+    let mesh = picked_at(1.0).mesh(tolerance).expect("a shaft");
+    assert!(mesh.is_watertight());
+    let volume = usual.mesh(tolerance).expect("a shaft").volume();
+    assert!((mesh.volume() / volume - 1.0).abs() < 1e-3);
+    assert!(picked_at(1.0).shell().expect("a shaft").is_closed());
+}
+
+#[test]
+fn a_geared_box_is_picked_where_its_gears_are_slow() {
+    let mut design = MovingBoxDesign {
+        scheme: Scheme::EllipticGear,
+        gears: Some(EllipticGears {
+            speed_ratio: Some(3.0),
+            ..EllipticGears::default()
+        }),
+        ..MovingBoxDesign::default()
+    };
+    design.shaft.pick = 1.0;
+    let machine = MovingBox::resolve(&design).expect("resolves");
+    let schedule = machine.schedule();
+    assert!(schedule.visits.iter().all(|visits| *visits == 2));
+    for pick in &schedule.picks {
+        assert!(pick.misplacement.abs() < 1e-9, "{pick:?}");
+        assert!(pick.swept < machine.moved_in_window() + 1e-9, "{pick:?}");
+    }
+}
+
+#[test]
+fn gears_before_a_shaft_have_the_bore_of_its_journal_and_a_keyway_for_its_key() {
+    use crate::gear::design::Keyway;
+    let mut design: MovingBoxDesign = template(include_str!("../../design/moving_box.toml"));
+    design.shaft.pick = 0.4;
+    let pair = |design: &MovingBoxDesign| {
+        let machine = MovingBox::resolve(design).expect("resolves");
+        let pair = design.gear_pair(machine.drive().expect("has gears"));
+        crate::gear::GearPair::resolve(&pair.expect("has gears")).expect("resolves")
+    };
+    let gears = pair(&design);
+    for body in [gears.driver().body(), gears.driven().body()] {
+        assert_eq!(body.bore, 16.0);
+        // DIN 6885-1 for a key of 5 mm.
+        let key = body.keyway.expect("a keyway");
+        assert!(key.width == 5.0 && (key.depth - 2.3).abs() < 1e-12);
+    }
+    // Where the driven gear is slowest it has turned by half a turn, and the shaft by the pick: seen from the
+    // shaft, whose key lies at its angle 0, the gear is turned by both.
+    let turned = gears.driven_angle(PI) + design.shaft.pick;
+    let key = gears.driven().body().keyway_angle + turned;
+    assert!((key / TAU - (key / TAU).round()).abs() < 1e-12, "{key}");
+    let bore = gears.driven().bore().expect("a bore").centroid();
+    let shown = gears.driven().body().keyway_angle;
+    assert!((bore.y.atan2(bore.x) - shown).abs() < 1e-9);
+    let own = design.gears.as_mut().expect("gears");
+    own.body.bore = 12.0;
+    assert_eq!(pair(&design).driven().body().bore, 12.0);
+    assert_eq!(pair(&design).driven().body().keyway, None);
+    let hub = |width, depth| Keyway { width, depth }.of_hub().depth;
+    // Rows of DIN 6885-1, and a square key that is none of its.
+    assert!((hub(8.0, 4.0) - 3.3).abs() < 1e-12 && (hub(22.0, 9.0) - 5.4).abs() < 1e-12);
+    assert!((hub(7.0, 4.0) - 3.42).abs() < 1e-12);
+}
+
 #[test]
 fn the_elliptic_drive_is_the_integral_of_its_speed() {
     let drive = EllipticDrive {

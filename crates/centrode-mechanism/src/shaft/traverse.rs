@@ -12,8 +12,8 @@ const LOOKS: u32 = 512;
 
 /// The slider's whole way out and back: forward stroke, reversal, return stroke, reversal.
 ///
-/// The forward stroke runs from the shaft angle 0, where the slider is at 0, through `holes - 1` turns;
-/// the return stroke is its mirror image in time, shifted along the shaft by `-return_offset`. Position,
+/// The forward stroke runs from a start, the shaft angle 0 unless said otherwise, where the slider is at 0,
+/// through `holes - 1` turns; the return stroke is its mirror image in time, shifted along the shaft by `-return_offset`. Position,
 /// speed and acceleration are continuous; the motion repeats after [`period`](Transmission::period).
 #[derive(Clone, Debug)]
 pub struct Traverse {
@@ -21,13 +21,15 @@ pub struct Traverse {
     holes: u32,
     turnaround: Turnaround,
     return_offset: f64,
-    start: MotionJet,
+    /// Shaft angle at which the forward stroke starts, rad, and the law's motion there.
+    start: f64,
+    origin: MotionJet,
     /// Places where the slider stands, at the far end and at the near one, rad.
     tips: [f64; 2],
 }
 
 impl Traverse {
-    /// The cycle over `holes` places a lead apart.
+    /// The cycle over `holes` places a lead apart, from the shaft angle 0.
     ///
     /// # Errors
     /// [`ShaftError`] naming the violated rule and its numbers.
@@ -37,21 +39,40 @@ impl Traverse {
         reversal: &Reversal,
         return_offset: f64,
     ) -> Result<Self, ShaftError> {
+        Self::starting_at(0.0, law, holes, reversal, return_offset)
+    }
+
+    /// The cycle over `holes` places a lead apart, its forward stroke from the shaft angle `start` (rad).
+    ///
+    /// A shaft that picks at `start` and at every turn from there picks the first and the last hole where the
+    /// strokes begin and end, and with a reversal of whole turns the same holes on the way back.
+    ///
+    /// # Errors
+    /// [`ShaftError`] naming the violated rule and its numbers.
+    pub fn starting_at(
+        start: f64,
+        law: ShaftLaw,
+        holes: u32,
+        reversal: &Reversal,
+        return_offset: f64,
+    ) -> Result<Self, ShaftError> {
         within("holes", holes, 2, 1000)?;
+        finite("start", start)?;
         finite("return_offset", return_offset)?;
         let turnaround = reversal.resolve()?;
-        let start = law.at(0.0);
+        let origin = law.at(start);
         let mut traverse = Self {
             law,
             holes,
             turnaround,
             return_offset,
             start,
+            origin,
             tips: [0.0; 2],
         };
         traverse.tips = [
-            traverse.tip(traverse.stroke())?,
-            traverse.tip(2.0 * traverse.stroke() + traverse.reversal())?,
+            traverse.tip(start + traverse.stroke())?,
+            traverse.tip(start + 2.0 * traverse.stroke() + traverse.reversal())?,
         ];
         Ok(traverse)
     }
@@ -84,6 +105,12 @@ impl Traverse {
     #[must_use]
     pub fn holes(&self) -> u32 {
         self.holes
+    }
+
+    /// Shaft angle at which the forward stroke starts, rad.
+    #[must_use]
+    pub fn start(&self) -> f64 {
+        self.start
     }
 
     /// Shaft angle of one stroke, rad.
@@ -151,16 +178,22 @@ impl Traverse {
         greatest - least
     }
 
-    fn forward(&self, theta: f64) -> MotionJet {
-        let mut motion = self.law.at(theta);
-        motion.position -= self.start.position;
+    /// Shaft angle since the forward stroke last started, rad.
+    pub(super) fn since_start(&self, theta: f64) -> f64 {
+        (theta - self.start).rem_euclid(self.period())
+    }
+
+    /// Motion of the forward stroke, by the shaft angle since its start.
+    fn forward(&self, gone: f64) -> MotionJet {
+        let mut motion = self.law.at(self.start + gone);
+        motion.position -= self.origin.position;
         motion
     }
 
     fn ends(&self, way: f64) -> Ends {
         Ends {
-            speed: way * self.start.velocity,
-            acceleration: self.start.acceleration,
+            speed: way * self.origin.velocity,
+            acceleration: self.origin.acceleration,
             shift: -way * self.return_offset,
         }
     }
@@ -169,17 +202,17 @@ impl Traverse {
 impl Transmission for Traverse {
     fn at(&self, theta: f64) -> MotionJet {
         let (stroke, turn) = (self.stroke(), self.reversal());
-        let theta = theta.rem_euclid(self.period());
-        if theta < stroke {
-            return self.forward(theta);
+        let gone = self.since_start(theta);
+        if gone < stroke {
+            return self.forward(gone);
         }
-        if theta < stroke + turn {
-            let mut motion = self.turnaround.at((theta - stroke) / turn, self.ends(1.0));
+        if gone < stroke + turn {
+            let mut motion = self.turnaround.at((gone - stroke) / turn, self.ends(1.0));
             motion.position += self.law.lead() * f64::from(self.holes - 1);
             return motion;
         }
-        if theta < 2.0 * stroke + turn {
-            let out = self.forward(2.0 * stroke + turn - theta);
+        if gone < 2.0 * stroke + turn {
+            let out = self.forward(2.0 * stroke + turn - gone);
             return MotionJet {
                 position: out.position - self.return_offset,
                 velocity: -out.velocity,
@@ -187,7 +220,7 @@ impl Transmission for Traverse {
                 jerk: -out.jerk,
             };
         }
-        let share = (theta - 2.0 * stroke - turn) / turn;
+        let share = (gone - 2.0 * stroke - turn) / turn;
         let mut motion = self.turnaround.at(share, self.ends(-1.0));
         motion.position -= self.return_offset;
         motion
@@ -207,10 +240,13 @@ impl Transmission for Traverse {
         }
         for i in 0..self.holes - 1 {
             for at in &of_law {
-                let out = f64::from(i) * TAU + at;
+                let out = f64::from(i) * TAU + (at - self.start).rem_euclid(TAU);
                 breaks.push(out);
                 breaks.push(2.0 * stroke + turn - out);
             }
+        }
+        for at in &mut breaks {
+            *at = (self.start + *at).rem_euclid(self.period());
         }
         breaks.sort_by(f64::total_cmp);
         breaks.dedup_by(|b, a| *b - *a <= 1e-12 * self.period());

@@ -64,6 +64,7 @@ pub(super) fn data(shaft: &SpiralShaft) -> Table {
 pub(super) fn lead(shaft: &SpiralShaft) -> Table {
     let traverse = shaft.traverse();
     let (stroke, turn) = (traverse.stroke(), traverse.reversal());
+    let begin = traverse.start();
     let mut lead = table(
         "Lead table",
         &[
@@ -84,33 +85,40 @@ pub(super) fn lead(shaft: &SpiralShaft) -> Table {
         lead.rows.push(vec![
             format!("{}°", number(theta.to_degrees(), 0)),
             if within(TAU) {
-                number4(shaft.law().moved(0.0, theta))
+                number4(shaft.law().moved(begin, begin + theta))
             } else {
                 none()
             },
             if within(TAU) {
-                let angle = (shaft.law().at(theta).velocity / shaft.groove().radius()).atan();
+                let angle =
+                    (shaft.law().at(begin + theta).velocity / shaft.groove().radius()).atan();
                 format!("{:.4}°", angle.to_degrees())
             } else {
                 none()
             },
-            if within(turn) { place(stroke) } else { none() },
             if within(turn) {
-                place(2.0 * stroke + turn)
+                place(begin + stroke)
+            } else {
+                none()
+            },
+            if within(turn) {
+                place(begin + 2.0 * stroke + turn)
             } else {
                 none()
             },
         ]);
     }
     let turns = shaft.design().holes - 1;
-    let far = number(stroke.to_degrees(), 0);
-    let near = number((2.0 * stroke + turn).to_degrees(), 0);
+    let [out, far, near] =
+        [0.0, stroke, 2.0 * stroke + turn].map(|gone| number((begin + gone).to_degrees(), 3));
     lead.notes = vec![
         format!(
             "The stroke out runs through {turns} turns, each {} mm on; the stroke back is its mirror image.",
             number(shaft.law().lead(), 4)
         ),
-        format!("The far end begins at {far}°, the near end at {near}° of the whole cycle."),
+        format!(
+            "θ counts from {out}°, where the stroke out begins, from {far}° for the far end and {near}° for the near one."
+        ),
     ];
     lead
 }

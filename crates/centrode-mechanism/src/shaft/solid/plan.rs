@@ -444,12 +444,10 @@ fn rises(groove: &Groove) -> Vec<Option<f64>> {
     let aside = 0.5 * groove.width() / groove.radius();
     let back = stroke + reversal;
     let rise = |turn: u32| {
-        let (first, last) = (
-            TAU * (f64::from(turn) - 1.0) - aside,
-            TAU * (f64::from(turn) + 1.0) + aside,
-        );
+        let first = traverse.since_start(TAU * (f64::from(turn) - 1.0) - aside);
+        let last = first + 2.0 * (TAU + aside);
         let lead = traverse.law().lead();
-        if first >= 0.0 && last <= stroke {
+        if last <= stroke {
             Some(lead)
         } else if first >= back && last <= back + stroke {
             Some(-lead)
