@@ -1,6 +1,25 @@
 //! Models for simulators: links and joints.
 
-use centrode_geometry::{MassProperties, Mesh};
+use centrode_geometry::{MassProperties, Mesh, Tolerance};
+use nalgebra::{Rotation3, Unit, Vector3};
+
+/// Most triangles of a mesh that a model shows. `MuJoCo` reads no STL file of more than 200 000.
+pub const MOST_FACES: usize = 100_000;
+
+/// The tolerance of a mesh that a model shows: the one given, or as many times its double as brings the mesh down
+/// to [`MOST_FACES`]. `faces` counts the triangles of the mesh at a tolerance.
+pub(crate) fn shown_tolerance(
+    tolerance: Tolerance,
+    mut faces: impl FnMut(Tolerance) -> usize,
+) -> Tolerance {
+    // A mesh that coarser tolerances do not thin out stays as it is in the end.
+    const DOUBLINGS: i32 = 30;
+    let coarser = |times: i32| tolerance.scaled(2.0_f64.powi(times));
+    (0..DOUBLINGS)
+        .map(coarser)
+        .find(|&coarse| faces(coarse) <= MOST_FACES)
+        .unwrap_or(tolerance)
+}
 
 /// Rigid links joined by joints, as simulators want them; lengths in mm here, whatever a format uses.
 #[derive(Clone, Debug, PartialEq)]
@@ -58,6 +77,34 @@ pub struct Joint {
     pub mimic: Option<Mimic>,
 }
 
+impl Joint {
+    /// The joint with its zero where it stood at a value, rad or mm; what it carries stands there at rest.
+    #[must_use]
+    pub fn starting_at(mut self, value: f64) -> Self {
+        let [x, y, z] = self.turn;
+        let axis = Vector3::from(self.axis);
+        match &mut self.kind {
+            JointKind::Fixed => {}
+            JointKind::Continuous if [x, y] == [0.0; 2] && self.axis == [0.0, 0.0, 1.0] => {
+                self.turn[2] += value;
+            }
+            JointKind::Continuous => {
+                let own = Rotation3::from_axis_angle(&Unit::new_normalize(axis), value);
+                let turned = Rotation3::from_euler_angles(x, y, z) * own;
+                self.turn = turned.euler_angles().into();
+            }
+            JointKind::Sliding(range) => {
+                let way = Rotation3::from_euler_angles(x, y, z) * axis * value;
+                for (place, along) in self.origin.iter_mut().zip(way.iter()) {
+                    *place += along;
+                }
+                *range = range.map(|end| end - value);
+            }
+        }
+        self
+    }
+}
+
 /// How a joint may move.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum JointKind {
@@ -78,4 +125,46 @@ pub struct Mimic {
     pub multiplier: f64,
     /// Offset, rad.
     pub offset: f64,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_mesh_is_shown_at_its_own_tolerance_or_as_finely_as_the_budget_allows() {
+        let tolerance = Tolerance::new(1e-3).expect("positive");
+        let shown = |faces: f64| {
+            shown_tolerance(tolerance, |t| (faces * tolerance.mm() / t.mm()) as usize).mm()
+        };
+        assert_eq!(shown(100_000.0), 1e-3);
+        assert_eq!(shown(150_000.0), 2e-3);
+        assert_eq!(shown(900_000.0), 16e-3);
+    }
+
+    #[test]
+    fn a_joint_with_another_zero_carries_its_child_to_the_same_places() {
+        let turn = [0.3, -0.4, 0.5];
+        let axis = Unit::new_normalize(Vector3::new(0.2, -0.7, 0.6));
+        let joint = |kind| Joint {
+            name: "joint".into(),
+            kind,
+            parent: "one".into(),
+            child: "other".into(),
+            origin: [1.0, 2.0, 3.0],
+            turn,
+            axis: axis.into_inner().into(),
+            mimic: None,
+        };
+        let frame = |[x, y, z]: [f64; 3]| Rotation3::from_euler_angles(x, y, z);
+        let hinge = joint(JointKind::Continuous).starting_at(0.8);
+        let own = |angle| Rotation3::from_axis_angle(&axis, angle);
+        let off = frame(turn) * own(1.1) / (frame(hinge.turn) * own(1.1 - 0.8));
+        assert!(off.angle() < 1e-7 && hinge.origin == [1.0, 2.0, 3.0]);
+        let slide = joint(JointKind::Sliding([-5.0, 7.0])).starting_at(2.0);
+        let expected = Vector3::new(1.0, 2.0, 3.0) + frame(turn) * axis.into_inner() * 2.0;
+        assert!((Vector3::from(slide.origin) - expected).norm() < 1e-14);
+        assert_eq!(slide.kind, JointKind::Sliding([-7.0, 5.0]));
+        assert_eq!(slide.turn, turn);
+    }
 }

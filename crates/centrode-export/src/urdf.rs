@@ -126,7 +126,8 @@ fn link(link: &Link) -> urdf_rs::Link {
             .collision
             .iter()
             .map(|body| Collision {
-                name: Some(body.name.clone()),
+                // Several links may have one body, but a reader wants a name once.
+                name: Some(format!("{}/{}", link.name, body.name)),
                 geometry: geometry(collision_file(&body.name)),
                 ..Collision::default()
             })

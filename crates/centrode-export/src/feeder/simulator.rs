@@ -1,6 +1,6 @@
 use super::FeederFilesError;
 use crate::mjcf::Closure;
-use crate::model::{Joint, JointKind, Link, Model};
+use crate::model::{Joint, JointKind, Link, Model, shown_tolerance};
 use centrode_geometry::{Mesh, Solid, Tolerance, Vector};
 use centrode_mechanism::feeder::{Feeder, Part, Plate};
 use nalgebra::Isometry2;
@@ -39,8 +39,9 @@ pub(super) fn meshes(
     let mesh = |plate: &Plate| {
         let part = plate.part.name();
         let no_solid = |source| FeederFilesError::Solid { part, source };
-        let mesh = solid(feeder, plate)?.mesh(tolerance).map_err(no_solid)?;
-        Ok((part, mesh))
+        let solid = solid(feeder, plate)?;
+        let shown = shown_tolerance(tolerance, |t| solid.mesh_faces(t));
+        Ok((part, solid.mesh(shown).map_err(no_solid)?))
     };
     plates.iter().map(mesh).collect()
 }

@@ -15,10 +15,11 @@ class Law:
         self.cycle = about["continuation"]
         self.input = about["input"]
         self.joints = {j["name"]: (table[j["column"]], j["factor"], self.cycle[j["column"]]) for j in about["joints"]}
+        self.zero = {j["name"]: j.get("offset", 0.0) for j in about["joints"]}
         self.travel = table[self.input]
 
     def __call__(self, joint, travel):
         """Position of a joint, linear between rows and repeated beyond them."""
         angles, factor, per_cycle = self.joints[joint]
         whole, rest = np.divmod(travel, self.cycle[self.input])
-        return float(factor * (np.interp(rest, self.travel, angles) + whole * per_cycle))
+        return float(factor * (np.interp(rest, self.travel, angles) + whole * per_cycle) + self.zero[joint])

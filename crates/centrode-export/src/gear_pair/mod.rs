@@ -37,6 +37,7 @@ pub(crate) use play::whole as script;
 use sheet::Contours;
 pub use sheet_set::SheetSet;
 pub use sheets::{Label, Meshing, SheetOptions, Subject, sheets};
+pub(crate) use solid::add_shown;
 pub use solid::{mesh, solid, step_file, stl_file, threemf_file};
 use thiserror::Error;
 

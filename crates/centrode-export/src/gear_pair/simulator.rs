@@ -1,7 +1,20 @@
 use super::{GearPairFilesError, contact_body, motion, solid};
-use crate::model::{Joint, JointKind, Link, Mimic, Model};
+use crate::model::{Joint, JointKind, Link, Mimic, Model, shown_tolerance};
 use centrode_geometry::Tolerance;
 use centrode_mechanism::gear::{GearPair, Member};
+
+/// Name of the STL file, without its end, that shows a gear, and the tolerance of the mesh in it: the gear's own file,
+/// or another where that has too many triangles for simulators.
+pub(crate) fn shown(
+    pair: &GearPair,
+    member: Member,
+    tolerance: Tolerance,
+) -> Result<(String, Tolerance), GearPairFilesError> {
+    let solid = solid(pair, member)?;
+    let coarse = shown_tolerance(tolerance, |t| solid.mesh_faces(t));
+    let end = if coarse == tolerance { "" } else { "-body" };
+    Ok((format!("{}{end}", member.name()), coarse))
+}
 
 /// A frame with both gears turning about z, the driver at its origin.
 ///
@@ -39,7 +52,7 @@ pub(crate) fn model(pair: &GearPair, tolerance: Tolerance) -> Result<Model, Gear
         links.push(Link {
             name: member.name().into(),
             mass: Some(solid(pair, member)?.mass_properties(density)),
-            mesh: Some(format!("{}.stl", member.name())),
+            mesh: Some(format!("{}.stl", shown(pair, member, tolerance)?.0)),
             collision: touching.bodies,
         });
         let is_driven = member == Member::Driven;

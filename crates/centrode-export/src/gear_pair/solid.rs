@@ -1,4 +1,4 @@
-use super::{Format, GearPairFilesError, Options};
+use super::{Format, GearPairFilesError, Options, simulator};
 use crate::{Bundle, step, stl, threemf};
 use centrode_geometry::{Mesh, Solid, Tolerance};
 use centrode_mechanism::gear::{GearPair, Member};
@@ -82,19 +82,13 @@ pub(super) fn add(
     options: &Options,
     bundle: &mut Bundle,
 ) -> Result<(), GearPairFilesError> {
-    let stl = wanted(Format::Stl) || wanted(Format::Urdf) || wanted(Format::Mjcf);
-    // A model shows both gears, whichever parts are asked for.
-    let shown = wanted(Format::Urdf) || wanted(Format::Mjcf);
     for member in [Member::Driver, Member::Driven] {
         let own = options.members().any(|m| m == member);
-        if !own && !shown {
-            continue;
-        }
         let name = member.name();
         if own && wanted(Format::Step) {
             bundle.add(&format!("{name}.step"), step_file(pair, member)?)?;
         }
-        let packaged = own && wanted(Format::ThreeMf);
+        let (stl, packaged) = (own && wanted(Format::Stl), own && wanted(Format::ThreeMf));
         if stl || packaged {
             let mesh = mesh(pair, member, options.tolerance)?;
             if stl {
@@ -104,6 +98,26 @@ pub(super) fn add(
                 bundle.add(&format!("{name}.3mf"), package(pair, member, &mesh)?)?;
             }
         }
+        // A model shows both gears, whichever parts are asked for.
+        if wanted(Format::Urdf) || wanted(Format::Mjcf) {
+            add_shown(pair, member, "", options.tolerance, bundle)?;
+        }
+    }
+    Ok(())
+}
+
+/// Adds the STL file a model shows a gear by, with a prefix to its name, unless it is there.
+pub(crate) fn add_shown(
+    pair: &GearPair,
+    member: Member,
+    prefix: &str,
+    tolerance: Tolerance,
+    bundle: &mut Bundle,
+) -> Result<(), GearPairFilesError> {
+    let (name, coarse) = simulator::shown(pair, member, tolerance)?;
+    let file = format!("{prefix}{name}.stl");
+    if !bundle.files().any(|(known, _)| known == file) {
+        bundle.add(&file, stl_file(pair, member, coarse)?)?;
     }
     Ok(())
 }

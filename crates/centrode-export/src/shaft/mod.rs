@@ -23,7 +23,7 @@ use crate::{
     urdf::{self, UrdfError},
 };
 use centrode_geometry::SolidError;
-use centrode_mechanism::gear::GearPairError;
+use centrode_mechanism::gear::{GearPairError, Member};
 use centrode_mechanism::shaft::{MovingBox, ShaftError, SpiralShaft};
 pub use drawings::{developed, side_view, slider};
 pub use gcode::program;
@@ -156,7 +156,14 @@ fn all(
         bundle.add("motion.json", motion::sidecar(machine))?;
     }
     if simulated {
-        let model = simulator::model(machine, options.tolerance)?;
+        let simulator::Simulated { model, meshes } =
+            simulator::simulated(machine, options.tolerance)?;
+        for (name, mesh) in &meshes {
+            // The shop's own may be there already.
+            if !bundle.files().any(|(known, _)| known == name) {
+                bundle.add(name, stl::write(mesh))?;
+            }
+        }
         if wanted(Format::Urdf) {
             bundle.add("machine.urdf", urdf::write(&model)?)?;
             for body in model.links.iter().flat_map(|link| &link.collision) {
@@ -185,14 +192,17 @@ fn gears(
     let models = [Format::Urdf, Format::Mjcf];
     let mut parts: Vec<Format> = formats.to_vec();
     parts.retain(|format| !models.contains(format));
-    // The machine's model shows them.
-    if parts.len() < formats.len() && !parts.contains(&Format::Stl) {
-        parts.push(Format::Stl);
-    }
-    let files = gear_pair::files(&gears.pair, &parts, options)
-        .map_err(|e| ShaftFilesError::GearFiles(Box::new(e)))?;
+    let failed = |e| ShaftFilesError::GearFiles(Box::new(e));
+    let files = gear_pair::files(&gears.pair, &parts, options).map_err(failed)?;
     for (name, bytes) in files.files() {
         bundle.add(&format!("{}{name}", simulator::GEARS), bytes.to_vec())?;
+    }
+    // The machine's model shows them.
+    if parts.len() < formats.len() {
+        for member in [Member::Driver, Member::Driven] {
+            let (prefix, tolerance) = (simulator::GEARS, options.tolerance);
+            gear_pair::add_shown(&gears.pair, member, prefix, tolerance, bundle).map_err(failed)?;
+        }
     }
     Ok(())
 }
@@ -242,9 +252,7 @@ fn solids(
         let file = step::write(&block, "slider", &format!("{named}: slider"))?;
         bundle.add("slider.step", file)?;
     }
-    // The simulators' models show the STL files.
-    let stl = [Format::Stl, Format::Urdf, Format::Mjcf].map(wanted);
-    if stl == [false; 3] && !wanted(Format::ThreeMf) {
+    if !wanted(Format::Stl) && !wanted(Format::ThreeMf) {
         return Ok(());
     }
     let meshes = [
@@ -252,7 +260,7 @@ fn solids(
         ("slider", block.mesh(options.tolerance)?),
     ];
     for (name, mesh) in &meshes {
-        if stl != [false; 3] {
+        if wanted(Format::Stl) {
             bundle.add(&format!("{name}.stl"), stl::write(mesh))?;
         }
         if wanted(Format::ThreeMf) {

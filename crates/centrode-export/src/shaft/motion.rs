@@ -49,31 +49,42 @@ pub(super) fn columns(machine: &Machine<'_>) -> Vec<Column> {
     ]
 }
 
+/// Where a joint of the model stands as the law begins, rad or mm: its zero; nothing for one that stands still.
+pub(super) fn start(machine: &Machine<'_>, joint: &str) -> f64 {
+    match joint {
+        "shaft_joint" => -machine.turn(0.0).position,
+        "box_joint" => machine.motion(0.0).position,
+        "slider_joint" => machine.swivel(0.0).position,
+        "driver_joint" => machine
+            .gears
+            .as_ref()
+            .map_or(0.0, |gears| gears.turns(0.0)[0]),
+        _ => 0.0,
+    }
+}
+
 /// What the table means, as JSON for programs: joints, how to read between rows and beyond them.
 pub(super) fn sidecar(machine: &Machine<'_>) -> Vec<u8> {
     let shaft = machine.shaft;
     let load = shaft.load();
+    let joint = |link: &str, column: &str, speed: &str, factor: f64| {
+        let name = format!("{link}_joint");
+        let zero = start(machine, &name);
+        // In metres and radians, as the model counts.
+        let offset = if link == "box" { -1e-3 * zero } else { -zero } + 0.0;
+        format!(
+            r#"    {{"name": "{name}", "column": "{column}", "speed": "{speed}", "factor": {factor:?}, "offset": {offset:?}}}"#
+        )
+    };
+    let lead_speed = "lead_angle_speed_rad_per_s";
     let mut joints = vec![
-        joint(
-            "shaft",
-            "shaft_angle_rad",
-            "shaft_speed_rad_per_s",
-            -1.0,
-            0.0,
-        ),
-        joint("box", "position_mm", "velocity_mm_per_s", 1e-3, 0.0),
-        joint(
-            "slider",
-            "lead_angle_rad",
-            "lead_angle_speed_rad_per_s",
-            1.0,
-            0.0,
-        ),
+        joint("shaft", "shaft_angle_rad", "shaft_speed_rad_per_s", -1.0),
+        joint("box", "position_mm", "velocity_mm_per_s", 1e-3),
+        joint("slider", "lead_angle_rad", lead_speed, 1.0),
     ];
-    if let Some(gears) = &machine.gears {
-        let offset = -gears.drive.phase - gears.slowest();
+    if machine.gears.is_some() {
         joints.push(format!(
-            r#"    {{"name": "driver_joint", "column": "input_angle_rad", "speed": {speed:?}, "factor": 1.0, "offset": {offset:?}}}"#,
+            r#"    {{"name": "driver_joint", "column": "input_angle_rad", "speed": {speed:?}, "factor": 1.0, "offset": 0.0}}"#,
             speed = load.speed(),
         ));
     }
@@ -101,11 +112,4 @@ pub(super) fn sidecar(machine: &Machine<'_>) -> Vec<u8> {
         time = shaft.cycle() / load.speed(),
     )
     .into_bytes()
-}
-
-/// One joint: `factor * column + offset`, in metres and radians.
-fn joint(link: &str, column: &str, speed: &str, factor: f64, offset: f64) -> String {
-    format!(
-        r#"    {{"name": "{link}_joint", "column": "{column}", "speed": "{speed}", "factor": {factor:?}, "offset": {offset:?}}}"#
-    )
 }

@@ -51,9 +51,8 @@ class Law:
 
     def at_shaft(self, column, turned):
         """A column at a shaft angle, linear between rows."""
-        return np.interp(
-            turned % self.about["continuation"]["shaft_angle_rad"], self.table["shaft_angle_rad"], self.table[column]
-        )
+        period = self.about["continuation"]["shaft_angle_rad"]
+        return np.interp(turned, self.table["shaft_angle_rad"], self.table[column], period=period)
 
 
 class Machine:
@@ -97,16 +96,21 @@ class Machine:
         elif self.mode == "drive":
             self.drive(step)
         else:
-            turned = -self.data.qpos[self.joints["shaft_joint"].qposadr[0]]
+            turned = self.turned()
             # The shaft turns backwards: its load pulls forwards.
             load = 1e-3 * self.law.at_shaft("shaft_torque_Nmm", turned)
             self.data.qfrc_applied[self.joints["shaft_joint"].dofadr] = load
             mujoco.mj_step(self.model, self.data)
-            turned = -self.data.qpos[self.joints["shaft_joint"].qposadr[0]]
-            self.data.qpos[self.joints["box_joint"].qposadr] = 1e-3 * self.law.at_shaft("position_mm", turned)
-            self.data.qpos[self.joints["slider_joint"].qposadr] = self.law.at_shaft("lead_angle_rad", turned)
             for name in ("box_joint", "slider_joint"):
+                joint = self.law.joints[name]
+                place = joint["factor"] * self.law.at_shaft(joint["column"], self.turned()) + joint["offset"]
+                self.data.qpos[self.joints[name].qposadr] = place
                 self.data.qvel[self.joints[name].dofadr] = 0.0
+
+    def turned(self):
+        """Angle of the shaft by its own law, rad."""
+        joint = self.law.joints["shaft_joint"]
+        return (self.data.qpos[self.joints["shaft_joint"].qposadr[0]] - joint["offset"]) / joint["factor"]
 
     def drive(self, step):
         """One step by the forces that bring every joint to where the law has it at its end."""

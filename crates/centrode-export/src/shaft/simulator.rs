@@ -1,8 +1,8 @@
 use super::machine::{Gears, Machine};
 use super::{ShaftFilesError, motion};
 use crate::gear_pair::simulator as pair_model;
-use crate::model::{Joint, JointKind, Link, Model};
-use centrode_geometry::{MassProperties, Tolerance};
+use crate::model::{Joint, JointKind, Link, MOST_FACES, Model, shown_tolerance};
+use centrode_geometry::{MassProperties, Mesh, Tolerance};
 use centrode_mechanism::gear::Member;
 use centrode_mechanism::shaft::ShaftSolid;
 use nalgebra::{Matrix3, Point3};
@@ -16,12 +16,37 @@ const CUBE: f64 = 100.0;
 /// Prefix of the gears' files in a moving box's bundle.
 pub(super) const GEARS: &str = "gears-";
 
+/// The model of the machine, and the meshes of shaft and slider that it shows by file name.
+pub(super) struct Simulated {
+    pub(super) model: Model,
+    pub(super) meshes: Vec<(String, Mesh)>,
+}
+
 /// The shaft lying along x of the world, the slider on top of it; the box slides, the slider swivels on its
 /// pin, and elliptic gears, if any, stand at the near end.
-pub(super) fn model(machine: &Machine<'_>, tolerance: Tolerance) -> Result<Model, ShaftFilesError> {
+pub(super) fn simulated(
+    machine: &Machine<'_>,
+    tolerance: Tolerance,
+) -> Result<Simulated, ShaftFilesError> {
     let shaft = machine.shaft;
     let (groove, slider) = (shaft.groove(), shaft.slider());
-    let block = shaft.slider_solid()?.mass_properties(slider.density);
+    let slider_solid = shaft.slider_solid()?;
+    let block = slider_solid.mass_properties(slider.density);
+    let fine = shaft.mesh(tolerance)?;
+    let coarse = shown_tolerance(tolerance, |t| {
+        // The finest mesh is at hand.
+        let mesh = (t != tolerance).then(|| shaft.mesh(t));
+        mesh.map_or(fine.faces.len(), |made| {
+            made.map_or(0, |mesh| mesh.faces.len())
+        })
+    });
+    let [end, _] = ShaftSolid::new(groove, shaft.body())?.whole();
+    let solid = shaft.mass_properties()?;
+    let (file, mesh) = if coarse == tolerance {
+        ("shaft.stl", fine)
+    } else {
+        ("shaft-body.stl", shaft.mesh(coarse)?)
+    };
     let (low, high) = shaft.traverse().reach();
     let body = |name: &str, mass: Option<MassProperties>, mesh: Option<&str>| Link {
         name: name.into(),
@@ -29,11 +54,10 @@ pub(super) fn model(machine: &Machine<'_>, tolerance: Tolerance) -> Result<Model
         mesh: mesh.map(Into::into),
         collision: Vec::new(),
     };
-    let solid = shaft.mass_properties()?;
     let mut links = vec![
         body("base", None, None),
         body("frame", None, None),
-        body("shaft", Some(solid), Some("shaft.stl")),
+        body("shaft", Some(solid), Some(file)),
         body("box", Some(carried(shaft.load().mass - block.mass)), None),
         body("slider", Some(block), Some("slider.stl")),
     ];
@@ -67,13 +91,22 @@ pub(super) fn model(machine: &Machine<'_>, tolerance: Tolerance) -> Result<Model
         },
     ];
     if let Some(gears) = &machine.gears {
-        hang(machine, gears, tolerance, &mut links, &mut joints)?;
+        hang(gears, (end, tolerance), &mut links, &mut joints)?;
     }
-    Ok(Model {
+    let joints = joints.into_iter().map(|joint| {
+        let start = motion::start(machine, &joint.name);
+        joint.starting_at(start)
+    });
+    let model = Model {
         name: machine.name.to_owned(),
-        note: note(machine),
+        note: note(machine, coarse),
         links,
-        joints,
+        joints: joints.collect(),
+    };
+    let block = slider_solid.mesh(tolerance)?;
+    Ok(Simulated {
+        model,
+        meshes: vec![(file.to_owned(), mesh), ("slider.stl".to_owned(), block)],
     })
 }
 
@@ -88,17 +121,15 @@ fn carried(mass: f64) -> MassProperties {
     }
 }
 
-/// Adds the driver on the frame and its mate on the shaft.
+/// Adds the driver on the frame and its mate on the shaft, whose near end is at the height `end`.
 fn hang(
-    machine: &Machine<'_>,
     gears: &Gears<'_>,
-    tolerance: Tolerance,
+    (end, tolerance): (f64, Tolerance),
     links: &mut Vec<Link>,
     joints: &mut Vec<Joint>,
 ) -> Result<(), ShaftFilesError> {
     let of_pair = pair_model::model(&gears.pair, tolerance)
         .map_err(|e| ShaftFilesError::GearFiles(Box::new(e)))?;
-    let [end, _] = ShaftSolid::new(machine.shaft.groove(), machine.shaft.body())?.whole();
     let place = |member: Member| {
         let bottom = crate::gear_pair::solid(&gears.pair, member).map(|solid| solid.bottom());
         bottom.map_err(|e| ShaftFilesError::GearFiles(Box::new(e)))
@@ -134,11 +165,13 @@ fn rest(gears: &Gears<'_>) -> f64 {
     gears.pair.driven_angle(gears.slowest()) + gears.drive.phase
 }
 
-fn note(machine: &Machine<'_>) -> String {
+fn note(machine: &Machine<'_>, shown: Tolerance) -> String {
     let mut note = format!(
-        "The law of motion is in {}, as motion.json describes it; no joint follows another by itself. The box has the mass \
-         moved and the inertia of a cube of {CUBE} mm, and no friction.",
-        motion::TABLE
+        "The law of motion is in {}, as motion.json describes it; no joint follows another by itself. Every joint is zero \
+         where the law begins. The box has the mass moved and the inertia of a cube of {CUBE} mm, and no friction. The shaft is \
+         shown within {:?} mm, as finely as {MOST_FACES} triangles allow.",
+        motion::TABLE,
+        shown.mm(),
     );
     if machine.gears.is_some() {
         note += " The teeth of the gears touch as convex bodies; slider and groove do not touch.";

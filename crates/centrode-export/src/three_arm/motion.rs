@@ -186,7 +186,8 @@ pub(super) fn sidecar(machine: &Machine<'_>, tolerance: Tolerance) -> Vec<u8> {
         let comma = if i == 0 { "" } else { ",\n" };
         let _ = write!(
             joints,
-            "{comma}    {{\"name\": \"{joint}\", \"column\": \"{column}\", \"factor\": {factor:?}}}"
+            "{comma}    {{\"name\": \"{joint}\", \"column\": \"{column}\", \"factor\": {factor:?}, \"offset\": {:?}}}",
+            -factor * law.at(machine, 0.0) + 0.0
         );
         let _ = write!(cycle, ", \"{column}\": {:?}", law.advance(machine));
     }

@@ -7,10 +7,11 @@ use nalgebra::Isometry2;
 
 use super::ThreeArmFilesError;
 use super::machine::Machine;
+use super::motion;
 use super::plate::Plate;
 use super::surroundings;
 use crate::gear_pair::contact_bodies;
-use crate::model::{Convex, Joint, JointKind, Link, Model};
+use crate::model::{Convex, Joint, JointKind, Link, Model, shown_tolerance};
 
 /// Length by which a rod and the ground may slide, as shares of a stroke and of a cycle's travel.
 const SLIDE: f64 = 1.0;
@@ -30,32 +31,6 @@ pub(super) fn cam_on_carrier(machine: &Machine<'_>, chain: u32) -> Isometry2<f64
     Isometry2::new(at.coords, machine.pusher.cam_angle() + later)
 }
 
-/// A body of several solids of their densities.
-struct Body {
-    mesh: Mesh,
-    mass: Option<MassProperties>,
-}
-
-impl Body {
-    fn of(plates: &[(Plate, [f64; 2])], tolerance: Tolerance) -> Result<Self, ThreeArmFilesError> {
-        let mut meshes = Vec::new();
-        let mut masses = Vec::new();
-        for (plate, span) in plates {
-            let named = |source| ThreeArmFilesError::Solid {
-                part: plate.part,
-                source,
-            };
-            let solid: Solid = plate.placed(*span).map_err(named)?;
-            meshes.push(solid.mesh(tolerance).map_err(named)?);
-            masses.push(plate.mass(*span).map_err(named)?);
-        }
-        Ok(Self {
-            mesh: Mesh::joined(&meshes),
-            mass: MassProperties::together(&masses),
-        })
-    }
-}
-
 /// The machine as links and joints.
 pub(super) struct Builder<'a> {
     machine: &'a Machine<'a>,
@@ -64,6 +39,8 @@ pub(super) struct Builder<'a> {
     joints: Vec<Joint>,
     meshes: Vec<(String, Mesh)>,
     excess: f64,
+    /// Tolerance of the coarsest mesh to be seen.
+    seen: Tolerance,
 }
 
 /// The model of a machine: sun, ground and tray fixed to the base or sliding on it, the carrier on the
@@ -81,20 +58,34 @@ pub(super) fn simulated(
         joints: Vec::new(),
         meshes: Vec::new(),
         excess: 0.0,
+        seen: tolerance,
     };
     builder.link("base", None, None, Vec::new());
     builder.surroundings();
     builder.gears()?;
     builder.arms()?;
+    let laws = motion::laws(machine);
+    let start = |joint: &Joint| {
+        let law = laws.iter().find(|law| law.joint == joint.name);
+        law.map_or(0.0, |law| law.at(machine, 0.0))
+    };
+    let joints = std::mem::take(&mut builder.joints)
+        .into_iter()
+        .map(|joint| {
+            let value = start(&joint);
+            joint.starting_at(value)
+        });
     let mechanism = machine.mechanism;
     let note = format!(
         "The laws of motion are not linear: mimic joints are affine and cannot hold them, so none is written. They are in motion.csv, \
-         as motion.json describes: every joint over one turn of the carrier, repeated beyond it. Gears touch as convex bodies, of \
+         as motion.json describes: every joint over one turn of the carrier, repeated beyond it. Every joint is zero where that turn \
+         begins: there the gears mesh as they should. Gears touch as convex bodies, of \
          flanks and tip without fillets, over a hub without bore; these stand out of the gears by at most {:.1e} mm. \
          Arms touch as convex bodies of housing and clamp, within {:.1e} mm. \
-         Cams, forks and rods, ground, tray and seedlings are there to be seen. {} arms.",
+         Cams, forks and rods, ground, tray and seedlings are there to be seen. Meshes to be seen are within {:.1e} mm. {} arms.",
         builder.excess,
         builder.coarse().mm(),
+        builder.seen.mm(),
         mechanism.arms(),
     );
     Ok(Simulated {
@@ -102,7 +93,7 @@ pub(super) fn simulated(
             name: mechanism.design().name.clone(),
             note,
             links: builder.links,
-            joints: builder.joints,
+            joints: joints.collect(),
         },
         meshes: builder.meshes,
     })
@@ -152,6 +143,35 @@ impl Builder<'_> {
         self.meshes.push((format!("{file}.stl"), mesh));
     }
 
+    /// Shows several solids as one mesh of a name; their mass together.
+    fn body(
+        &mut self,
+        file: &str,
+        plates: &[(Plate, [f64; 2])],
+    ) -> Result<Option<MassProperties>, ThreeArmFilesError> {
+        let mut solids: Vec<(super::Part, Solid)> = Vec::new();
+        let mut masses = Vec::new();
+        for (plate, span) in plates {
+            let part = plate.part;
+            let named = |source| ThreeArmFilesError::Solid { part, source };
+            solids.push((part, plate.placed(*span).map_err(named)?));
+            masses.push(plate.mass(*span).map_err(named)?);
+        }
+        let tolerance = shown_tolerance(self.tolerance, |t| {
+            solids.iter().map(|(_, solid)| solid.mesh_faces(t)).sum()
+        });
+        let meshes = solids.iter().map(|(part, solid)| {
+            let part = *part;
+            solid
+                .mesh(tolerance)
+                .map_err(|source| ThreeArmFilesError::Solid { part, source })
+        });
+        let meshes: Vec<Mesh> = meshes.collect::<Result<_, _>>()?;
+        self.shown(file, Mesh::joined(&meshes));
+        self.seen = self.seen.max(tolerance);
+        Ok(MassProperties::together(&masses))
+    }
+
     fn surroundings(&mut self) {
         let mechanism = self.machine.mechanism;
         let origin = (Point::origin(), 0.0);
@@ -177,9 +197,8 @@ impl Builder<'_> {
             .plate_of(super::Part::Carrier)
             .ok_or(ThreeArmFilesError::Gearbox)?;
         let [rear, front] = machine.gearbox.spans;
-        let carrier = Body::of(&[(plate.clone(), rear), (plate, front)], self.tolerance)?;
-        self.shown("carrier-body", carrier.mesh);
-        self.link("carrier", carrier.mass, Some("carrier-body"), Vec::new());
+        let carrier = self.body("carrier-body", &[(plate.clone(), rear), (plate, front)])?;
+        self.link("carrier", carrier, Some("carrier-body"), Vec::new());
         let origin = (Point::origin(), 0.0);
         self.joint(("base", "carrier"), JointKind::Continuous, origin, 0.0);
         self.gear(super::Part::Sun, "sun")?;
@@ -204,26 +223,32 @@ impl Builder<'_> {
             return Ok(());
         };
         let solid = crate::gear_pair::solid(pair, member)?;
-        let file = part.name();
+        let tolerance = shown_tolerance(self.tolerance, |t| solid.mesh_faces(t));
+        let file = if tolerance == self.tolerance {
+            part.name().to_owned()
+        } else {
+            format!("{}-body", part.name())
+        };
         if !self
             .meshes
             .iter()
             .any(|(known, _)| *known == format!("{file}.stl"))
         {
             let named = |source| ThreeArmFilesError::Solid { part, source };
-            let mesh = solid.mesh(self.tolerance).map_err(named)?;
-            self.shown(file, mesh);
+            let mesh = solid.mesh(tolerance).map_err(named)?;
+            self.shown(&file, mesh);
+            self.seen = self.seen.max(tolerance);
         }
         // A planet has the teeth of the sun.
         let prefix = match member {
             Member::Driver if same_width(self.machine) => "sun",
-            _ => file,
+            _ => part.name(),
         };
         let (bodies, excess) = contact_bodies(pair.gear(member), prefix, self.tolerance);
         self.excess = self.excess.max(excess);
         let density = pair.gear(member).body().density;
         let mass = solid.mass_properties(density);
-        self.link(name, Some(mass), Some(file), bodies);
+        self.link(name, Some(mass), Some(&file), bodies);
         Ok(())
     }
 
@@ -274,50 +299,42 @@ impl Builder<'_> {
             let span = machine.of_arm(name).map_or([0.0, 1.0], |p| p.span);
             arm.push((plate(part)?, span));
         }
-        let arm = Body::of(&arm, self.tolerance)?;
-        self.shown("arm-body", arm.mesh);
-        let cam = Body::of(
-            &[(plate(super::Part::Cam)?, machine.pusher.cam_span())],
-            self.tolerance,
-        )?;
-        self.shown("cam-body", cam.mesh);
+        let arm = self.body("arm-body", &arm)?;
+        let cam = [(plate(super::Part::Cam)?, machine.pusher.cam_span())];
+        let cam = self.body("cam-body", &cam)?;
         let roller_at = Vector::new(machine.pusher.fork_spec().arm_length, 0.0);
         let mut roller = plate(super::Part::Roller)?;
         let place = Isometry2::new(roller_at, 0.0);
         for outline in roller.holes.iter_mut().chain([&mut roller.outline]) {
             *outline = outline.transformed(&place);
         }
-        let fork = Body::of(
-            &[
-                (plate(super::Part::Fork)?, machine.pusher.fork_span()),
-                (roller, machine.pusher.cam_span()),
-            ],
-            self.tolerance,
-        )?;
-        self.shown("fork-body", fork.mesh);
+        let fork = [
+            (plate(super::Part::Fork)?, machine.pusher.fork_span()),
+            (roller, machine.pusher.cam_span()),
+        ];
+        let fork = self.body("fork-body", &fork)?;
         let rod_span = machine.of_arm("push-rod").map_or([0.0, 1.0], |p| p.span);
-        let rod = Body::of(&[(plate(super::Part::PushRod)?, rod_span)], self.tolerance)?;
-        self.shown("push-rod-body", rod.mesh);
+        let rod = self.body("push-rod-body", &[(plate(super::Part::PushRod)?, rod_span)])?;
         let touching = self.arm_bodies();
         let on_planet = mechanism.train().arm_on_planet() + mechanism.clamp_mounting();
         for k in 0..mechanism.arms() {
             let name = format!("cam_{k}");
-            self.link(&name, cam.mass, Some("cam-body"), Vec::new());
+            self.link(&name, cam, Some("cam-body"), Vec::new());
             let place = cam_on_carrier(machine, k);
             let at = Point::from(place.translation.vector);
             let turn = place.rotation.angle();
             self.joint(("carrier", &name), JointKind::Fixed, (at, level), turn);
             let own = format!("arm_{k}");
-            self.link(&own, arm.mass, Some("arm-body"), touching.clone());
+            self.link(&own, arm, Some("arm-body"), touching.clone());
             let planet = format!("planet_{k}");
             let origin = (Point::origin(), level);
             self.joint((&planet, &own), JointKind::Fixed, origin, on_planet);
             let name = format!("fork_{k}");
-            self.link(&name, fork.mass, Some("fork-body"), Vec::new());
+            self.link(&name, fork, Some("fork-body"), Vec::new());
             let pivot = (machine.pusher.pivot(), 0.0);
             self.joint((&own, &name), JointKind::Continuous, pivot, 0.0);
             let name = format!("push_rod_{k}");
-            self.link(&name, rod.mass, Some("push-rod-body"), Vec::new());
+            self.link(&name, rod, Some("push-rod-body"), Vec::new());
             let slide = JointKind::Sliding([-SLIDE * machine.pusher.stroke(), 0.0]);
             self.joint((&own, &name), slide, (Point::origin(), 0.0), 0.0);
         }
