@@ -21,7 +21,8 @@ pub(crate) fn check_pusher(mechanism: &ThreeArm, report: &mut Report) {
         Err(error) => {
             report.findings.push(Finding {
                 rule: "pusher",
-                severity: Severity::Warning,
+                // Without it there is no machine, and no file of one.
+                severity: Severity::Error,
                 message: format!("nothing moves the push rods: {}: {error}", error.key()),
                 measured: None,
                 required: None,
@@ -103,7 +104,7 @@ mod tests {
         assert!(pressure(&hasty) > 1.3 * pressure(&usual));
         let steep = pressure(&hasty) > PRESSURE_ANGLE;
         assert_eq!(rules.contains(&"cam-pressure-angle"), steep);
-        let none = checked(|d| d.arm.pusher_offset = 10.0);
+        let none = checked(|d| d.arm.pusher_offset = 0.0);
         assert_eq!(none.findings[0].rule, "pusher");
     }
 }

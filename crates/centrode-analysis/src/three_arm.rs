@@ -57,6 +57,7 @@ pub(crate) fn check_arms(mechanism: &ThreeArm) -> Report {
     crowded(arms.as_ref(), &mut report);
     report.tables.push(working_points(mechanism));
     unmet(mechanism, arms.as_ref(), &mut report);
+    unchecked(mechanism, &mut report);
     if let Some(teeth) = teeth {
         tooth_findings(&teeth, &mut report);
     }
@@ -127,8 +128,8 @@ fn check_teeth(
 fn arm_clearance(mechanism: &ThreeArm) -> Result<Option<ArmClearance>, Box<Finding>> {
     let body = mechanism.arm_body().map_err(|error| Finding {
         rule: "arm-body",
-        severity: Severity::Warning,
-        message: format!("there is no such arm, so its clearance is not told: {error}"),
+        severity: Severity::Error,
+        message: format!("there is no such arm: {error}"),
         measured: None,
         required: None,
         unit: "",
@@ -136,7 +137,7 @@ fn arm_clearance(mechanism: &ThreeArm) -> Result<Option<ArmClearance>, Box<Findi
             part: Some("arm.body".into()),
             ..Place::default()
         },
-        remedy: None,
+        remedy: Some("a shorter arm.clamp_length, a longer arm.tip_distance, or sizes of your own in arm.body"),
     })?;
     Ok(arm_tolerance(mechanism).and_then(|t| ArmClearance::of(mechanism, &body, t).ok()))
 }
@@ -375,6 +376,35 @@ fn unmet(mechanism: &ThreeArm, arms: Option<&ArmClearance>, report: &mut Report)
             path.planting,
         );
     }
+}
+
+/// A finding for every goal that could not be checked: none passes by not being looked at.
+fn unchecked(mechanism: &ThreeArm, report: &mut Report) {
+    let reason = |goal: &Goal| match goal.name {
+        "arm-clearance" if mechanism.arms() == 1 => (Severity::Note, "there is no other arm"),
+        "arm-clearance" => (Severity::Error, "there is no arm to hold against another"),
+        _ if mechanism.design().gear_tooth_count().is_none() => {
+            (Severity::Warning, "the design has no tooth_count")
+        }
+        _ => (Severity::Error, "no teeth can be laid out"),
+    };
+    let open = report.goals.iter().filter(|goal| goal.met().is_none());
+    let findings: Vec<Finding> = open
+        .map(|goal| {
+            let (severity, why) = reason(goal);
+            Finding {
+                rule: "goal-not-checked",
+                severity,
+                message: format!("goal {} is not checked, {}: {why}", goal.number, goal.title),
+                measured: None,
+                required: goal.wanted[0].or(goal.wanted[1]),
+                unit: goal.unit,
+                remedy: None,
+                place: Place::default(),
+            }
+        })
+        .collect();
+    report.findings.extend(findings);
 }
 
 fn tooth_findings(teeth: &[Soundness; 2], report: &mut Report) {

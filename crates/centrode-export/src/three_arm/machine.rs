@@ -84,6 +84,13 @@ impl<'a> Machine<'a> {
         )
     }
 
+    fn bore_in_words(&self) -> String {
+        let bore = self.mechanism.arm_sizes().rod_bore();
+        format!(
+            "Square bore {bore:.2} through the front for the push rod, on the pusher's axis and in the middle of the thickness."
+        )
+    }
+
     fn plate(
         &self,
         part: Part,
@@ -97,6 +104,7 @@ impl<'a> Machine<'a> {
             quantity: part.quantity(self.mechanism.arms()),
             outline,
             holes,
+            opening: None,
             thickness: top - bottom,
             material: material.into(),
             density,
@@ -110,7 +118,11 @@ impl<'a> Machine<'a> {
         let light = |name: &str| {
             let found = self.of_arm(name)?;
             let (outline, holes) = (found.outline.clone(), found.holes.clone());
-            Some(self.plate(part, outline, holes, found.span, LIGHT))
+            let plate = self.plate(part, outline, holes, found.span, LIGHT);
+            Some(Plate {
+                opening: found.opening.clone(),
+                ..plate
+            })
         };
         let in_arm = "Drawn in the arm's frame: the planet's axis is the origin,";
         let along = "x points along the pusher's axis, the way the clamp does.";
@@ -137,7 +149,7 @@ impl<'a> Machine<'a> {
                 light("housing")?
                     .noted(in_arm)
                     .noted(along)
-                    .noted("Bore for the push rod through the front, on the pusher's axis."),
+                    .noted(&self.bore_in_words()),
             ),
             Part::CoverRear => Some(light("cover-rear")?.noted(in_arm).noted(along)),
             Part::CoverFront => Some(light("cover-front")?.noted(in_arm).noted(along)),

@@ -1,7 +1,8 @@
 use std::f64::consts::PI;
 
 use centrode_geometry::{
-    Bounds, MassProperties, Mesh, Outline, Point, Segment, Solid, SolidError, Tolerance, Vector,
+    Bounds, MassProperties, Mesh, Opening, Outline, Point, Segment, Solid, SolidError, Tolerance,
+    Vector,
 };
 use centrode_mechanism::design::{DrawingSpec, Projection, SheetSize};
 
@@ -23,6 +24,8 @@ pub(super) struct Plate {
     pub(super) quantity: u32,
     pub(super) outline: Outline,
     pub(super) holes: Vec<Outline>,
+    /// What goes through a wall of it, its height from the middle of the thickness.
+    pub(super) opening: Option<Opening>,
     /// mm.
     pub(super) thickness: f64,
     pub(super) material: String,
@@ -42,12 +45,7 @@ impl Plate {
 
     /// From z = 0 to its thickness.
     pub(super) fn solid(&self) -> Result<Solid, SolidError> {
-        Solid::new(
-            self.outline.clone(),
-            self.holes.clone(),
-            0.0,
-            self.thickness,
-        )
+        self.placed([0.0, self.thickness])
     }
 
     pub(super) fn mesh(&self, tolerance: Tolerance) -> Result<Mesh, SolidError> {
@@ -56,7 +54,15 @@ impl Plate {
 
     /// The same between other heights.
     pub(super) fn placed(&self, [bottom, top]: [f64; 2]) -> Result<Solid, SolidError> {
-        Solid::new(self.outline.clone(), self.holes.clone(), bottom, top)
+        let solid = Solid::new(self.outline.clone(), self.holes.clone(), bottom, top)?;
+        let Some(opening) = &self.opening else {
+            return Ok(solid);
+        };
+        let middle = 0.5 * (bottom + top);
+        solid.with_opening(Opening {
+            span: opening.span.map(|z| middle + z),
+            ..opening.clone()
+        })
     }
 
     pub(super) fn mass(&self, span: [f64; 2]) -> Result<MassProperties, SolidError> {
@@ -142,8 +148,7 @@ impl Plate {
     }
 
     fn mass_in_words(&self) -> String {
-        let holes: f64 = self.holes.iter().map(Outline::area).sum();
-        let volume = (self.outline.area() - holes) * self.thickness;
+        let volume = self.solid().map_or(0.0, |solid| solid.volume());
         let grams = volume * self.density * 1e-6;
         if grams >= 1000.0 {
             format!("{:.3} kg", grams / 1000.0)

@@ -184,7 +184,7 @@ fn the_model_has_every_link_once_and_every_law_a_joint() {
 
 #[test]
 fn what_cannot_be_made_is_refused_by_name() {
-    let none = mechanism(|d| d.arm.pusher_offset = 10.0);
+    let none = mechanism(|d| d.arm.pusher_offset = 0.0);
     let error = files(&none, &[Format::Dxf], &options(), &Part::ALL).expect_err("no fork");
     assert!(
         error.to_string().starts_with("fork.pivot_distance"),

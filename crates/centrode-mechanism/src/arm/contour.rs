@@ -29,17 +29,49 @@ impl Contour {
         self.belt(0.0)
     }
 
-    /// The room inside walls of a thickness.
-    pub(super) fn cavity(&self, wall: f64) -> Option<Outline> {
-        self.belt(wall)
-    }
-
     fn belt(&self, inset: f64) -> Option<Outline> {
         Outline::hull(&[
             (Point::origin(), self.drum_radius - inset),
             (self.on_axis(self.rear), self.tube_radius - inset),
             (self.on_axis(self.front), self.tube_radius - inset),
         ])
+    }
+
+    /// A belt with its round front split where a bar of a half height along the pusher's axis leaves it, and the two
+    /// corners, the lower one first; `None` where the bar does not leave through the front.
+    pub(super) fn split(&self, inset: f64, half: f64) -> Option<(Outline, [Point; 2])> {
+        let radius = self.tube_radius - inset;
+        let front = self.on_axis(self.front);
+        let leaves = (half < radius).then(|| (half / radius).asin())?;
+        let at = |angle: f64| front + Vector::new(angle.cos(), angle.sin()) * radius;
+        let corners = [at(-leaves), at(leaves)];
+        let way = |p: Point| (p.y - front.y).atan2(p.x - front.x);
+        let mut segments = Vec::new();
+        let mut split = false;
+        for segment in self.belt(inset)?.segments() {
+            let Segment::Arc(arc) = segment else {
+                segments.push(*segment);
+                continue;
+            };
+            let of_front = (arc.center() - front).norm() < 1e-9 * radius;
+            let (from, to) = (way(arc.start), way(arc.end));
+            if !of_front || from >= -leaves || to <= leaves {
+                segments.push(*segment);
+                continue;
+            }
+            split = true;
+            let round = |start, end, turn: f64| {
+                let bulge = (0.25 * turn).tan();
+                Segment::Arc(Arc { start, end, bulge })
+            };
+            segments.extend([
+                round(arc.start, corners[0], -leaves - from),
+                round(corners[0], corners[1], 2.0 * leaves),
+                round(corners[1], arc.end, to - leaves),
+            ]);
+        }
+        let outline = split.then(|| Outline::new(segments).ok())??;
+        Some((outline, corners))
     }
 
     /// A flake of the clamp seen from the side: rounded at both ends, tapered.

@@ -1,4 +1,4 @@
-use centrode_geometry::{Crossing, Outline, Point};
+use centrode_geometry::{Crossing, Opening, Outline, Point};
 
 use super::contour::{Contour, mirrored};
 use super::spec::ArmBodySpec;
@@ -16,6 +16,8 @@ pub struct ArmPart {
     pub holes: Vec<Outline>,
     /// From where to where along the planet's axis, mm, from the middle of the housing.
     pub span: [f64; 2],
+    /// What goes through a wall of it, square to the planet's axis.
+    pub opening: Option<Opening>,
 }
 
 /// A transplanting arm as a body: one outline to keep clear of, and its parts.
@@ -67,6 +69,16 @@ pub enum ArmError {
         /// Height at the tip, mm.
         tip_height: f64,
     },
+    /// The push rod's bore does not go through the round front of the tube.
+    #[error(
+        "the push rod's bore, {bore} mm wide, does not leave the housing through the round front of its tube, {tube_radius} mm in radius: enlarge housing.tube_radius or shrink push_rod.diameter"
+    )]
+    NoBore {
+        /// Width of the bore, mm.
+        bore: f64,
+        /// Outer radius of the tube, mm.
+        tube_radius: f64,
+    },
     /// Something inside is larger than what is to hold it.
     #[error("{inner} is {inner_size} mm, but {outer} leaves {outer_size} mm")]
     TooLarge {
@@ -91,10 +103,10 @@ pub enum ArmError {
 
 /// Where an arm's clamp is: the arm's own three figures.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Reach {
-    tip_distance: f64,
-    pusher_offset: f64,
-    clamp_length: f64,
+pub(super) struct Reach {
+    pub(super) tip_distance: f64,
+    pub(super) pusher_offset: f64,
+    pub(super) clamp_length: f64,
 }
 
 impl ArmBody {
@@ -139,9 +151,26 @@ impl ArmBody {
                 outline
             }
         };
-        let mut parts = parts(spec, &contour);
+        let no_bore = ArmError::NoBore {
+            bore: spec.rod_bore(),
+            tube_radius: spec.housing.tube_radius,
+        };
+        let mut parts = parts(spec, &contour).ok_or(no_bore)?;
         for part in &mut parts {
             part.outline = turned(part.outline.clone());
+            if other_side {
+                for hole in &mut part.holes {
+                    *hole = turned(hole.clone());
+                }
+                // The mirror swaps lower and upper corners.
+                for ends in part
+                    .opening
+                    .iter_mut()
+                    .flat_map(|o| [&mut o.outer, &mut o.inner])
+                {
+                    *ends = [1, 0].map(|i: usize| Point::new(ends[i].x, -ends[i].y));
+                }
+            }
         }
         Ok(Self {
             outline: turned(whole),
@@ -170,7 +199,7 @@ impl ArmBody {
 }
 
 impl Reach {
-    fn contour(&self, spec: &ArmBodySpec) -> Result<Contour, ArmError> {
+    pub(super) fn contour(&self, spec: &ArmBodySpec) -> Result<Contour, ArmError> {
         let Self {
             tip_distance,
             pusher_offset,
@@ -288,7 +317,8 @@ fn fits(spec: &ArmBodySpec, tube_length: f64) -> Result<(), ArmError> {
     Ok(())
 }
 
-fn parts(spec: &ArmBodySpec, contour: &Contour) -> Vec<ArmPart> {
+/// The parts of an arm; `None` where the push rod finds no way out of the housing.
+fn parts(spec: &ArmBodySpec, contour: &Contour) -> Option<Vec<ArmPart>> {
     let (clamp, rod, spring) = (&spec.clamp, &spec.push_rod, &spec.spring);
     let half = |size: f64| [-0.5 * size, 0.5 * size];
     let mut parts = Vec::new();
@@ -298,6 +328,7 @@ fn parts(spec: &ArmBodySpec, contour: &Contour) -> Vec<ArmPart> {
             outline,
             holes,
             span,
+            opening: None,
         }));
     };
     let bore = |diameter: f64| -> Vec<Outline> {
@@ -306,11 +337,13 @@ fn parts(spec: &ArmBodySpec, contour: &Contour) -> Vec<ArmPart> {
     };
     let [rear, front] = half(spec.housing.width);
     let wall = spec.housing.wall;
-    let cavity = contour.cavity(wall).into_iter().collect();
+    let half_bore = 0.5 * spec.rod_bore();
+    let (outside, on_outside) = contour.split(0.0, half_bore)?;
+    let (cavity, on_cavity) = contour.split(wall, half_bore)?;
     add(
         "housing",
-        contour.housing(),
-        cavity,
+        Some(outside),
+        vec![cavity],
         [rear + wall, front - wall],
     );
     let covers = [
@@ -342,5 +375,12 @@ fn parts(spec: &ArmBodySpec, contour: &Contour) -> Vec<ArmPart> {
         Vec::new(),
         half(spring.outer_diameter),
     );
-    parts
+    for housing in parts.iter_mut().filter(|part| part.name == "housing") {
+        housing.opening = Some(Opening {
+            outer: on_outside,
+            inner: on_cavity,
+            span: half(spec.rod_bore()),
+        });
+    }
+    Some(parts)
 }

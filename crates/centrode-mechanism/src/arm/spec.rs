@@ -171,17 +171,17 @@ impl ArmBodySpec {
         Ok(())
     }
 
+    /// Width and height of the bore for the push rod in the housing's front, mm: a tenth more than the rod's.
+    #[must_use]
+    pub fn rod_bore(&self) -> f64 {
+        1.1 * self.push_rod.diameter
+    }
+
     /// Where the push rod begins along the pusher's axis when it is thrown out, mm: drawn back, it ends just
     /// inside the tube's rounded rear wall.
     pub(crate) fn rod_end(&self) -> f64 {
         let housing = &self.housing;
         self.push_rod.stroke - housing.tube_back - 0.9 * (housing.tube_radius - housing.wall)
-    }
-
-    /// The default sizes, made for a tip 145 mm from the planet's axis, in proportion to another distance.
-    #[must_use]
-    pub fn in_proportion(tip_distance: f64) -> Self {
-        Self::default().scaled(tip_distance / 145.0)
     }
 
     /// Every length enlarged `k` times; forces with it, stiffness as it is.

@@ -139,11 +139,11 @@ impl PusherError {
 }
 
 impl ThreeArm {
-    /// Sizes of the arms: those written, or the usual ones in proportion to the tip's distance.
+    /// Sizes of the arms: those written, or the usual ones, as [`UsualArm`](crate::arm::UsualArm) has them.
     #[must_use]
     pub fn arm_sizes(&self) -> ArmBodySpec {
         let arm = &self.design().arm;
-        let usual = || ArmBodySpec::in_proportion(arm.tip_distance);
+        let usual = || arm.usual().body;
         arm.body.clone().unwrap_or_else(usual)
     }
 
@@ -163,10 +163,10 @@ impl ThreeArm {
     /// [`PusherError`] naming the rule broken and its numbers.
     pub fn pusher(&self) -> Result<Pusher, PusherError> {
         let design = self.design();
-        let reach = design.arm.tip_distance;
-        let usual_cam = || PusherCamSpec::in_proportion(reach);
+        let scale = design.arm.usual().scale;
+        let usual_cam = || PusherCamSpec::usual(scale);
         let cam = design.cam.clone().unwrap_or_else(usual_cam);
-        let usual_fork = || ForkSpec::in_proportion(reach);
+        let usual_fork = || ForkSpec::usual(scale);
         let fork = design.fork.clone().unwrap_or_else(usual_fork);
         let sizes = self.arm_sizes();
         sizes.validate()?;

@@ -66,6 +66,36 @@ fn a_new_three_arm_mechanism_checks() {
 }
 
 #[test]
+fn every_goal_of_a_three_arm_mechanism_is_checked_or_found_open() {
+    let new = text(&centrode(&["new", "three-arm"]).stdout);
+    let check = |tip: &str, offset: &str| {
+        let design = new
+            .replace("tip_distance = 145", &format!("tip_distance = {tip}"))
+            .replace("pusher_offset = 65", &format!("pusher_offset = {offset}"));
+        let done = fed(&["check", "-"], design.as_bytes());
+        (done.status.code(), text(&done.stdout), design)
+    };
+    // An arm of its own size follows from both.
+    let (_, report, design) = check("112", "70");
+    assert!(!report.contains("not checked"), "{report}");
+    let folder = tempfile::tempdir().expect("a place to write");
+    let to = folder.path().display().to_string();
+    let done = fed(
+        &["export", "-", "--to", &to, "--format", "csv"],
+        design.as_bytes(),
+    );
+    assert!(
+        folder.path().join("motion.csv").exists(),
+        "{}",
+        text(&done.stderr)
+    );
+    // No arm at all.
+    let (code, report, _) = check("80", "75");
+    assert_eq!(code, Some(1), "{report}");
+    assert!(report.contains("goal 1 is not checked"), "{report}");
+}
+
+#[test]
 fn new_shafts_and_boxes_check_and_export() {
     for (family, line) in [
         (

@@ -2,7 +2,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::angle;
-use crate::arm::ArmBodySpec;
+use crate::arm::{ArmBodySpec, UsualArm};
 use crate::degrees;
 use crate::gear::design::SpecError;
 use crate::gear::design::rule::{between, not_negative, positive};
@@ -23,7 +23,8 @@ pub struct ArmSpec {
     /// Length of the clamp back from the tip along the pusher's axis, mm: what passes between seedlings.
     #[serde(default = "default_clamp_length")]
     pub clamp_length: f64,
-    /// Housing, clamp, push rod and spring; left out, the usual sizes in proportion to `tip_distance`.
+    /// Housing, clamp, push rod and spring; left out, the usual sizes in proportion to `tip_distance`, or smaller
+    /// where clamp and pusher's axis leave less room.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub body: Option<ArmBodySpec>,
 }
@@ -43,6 +44,12 @@ impl ArmSpec {
             clamp_length: default_clamp_length(),
             body: None,
         }
+    }
+
+    /// The usual sizes that fit this arm.
+    #[must_use]
+    pub fn usual(&self) -> UsualArm {
+        UsualArm::new(self.tip_distance, self.pusher_offset, self.clamp_length)
     }
 
     /// Ranges, and a pusher's axis that reaches the tip.

@@ -74,10 +74,10 @@ pub struct ThreeArmDesign {
     /// The arms.
     pub arm: ArmSpec,
     /// The cams on the carrier that move the push rods; left out, the usual one in proportion to
-    /// `arm.tip_distance`.
+    /// the usual arm.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub cam: Option<PusherCamSpec>,
-    /// The forks between cams and push rods; left out, the usual one in proportion to `arm.tip_distance`.
+    /// The forks between cams and push rods; left out, the usual one in proportion to the usual arm.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fork: Option<ForkSpec>,
     /// The gearbox around the gears.

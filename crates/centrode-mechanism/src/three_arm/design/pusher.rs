@@ -6,9 +6,6 @@ use crate::degrees;
 use crate::gear::design::rule::{between, positive};
 use crate::gear::design::{BodySpec, SpecError};
 
-/// Distance of the tip from the planet's axis, mm, for which the usual sizes are made.
-const USUAL_TIP_DISTANCE: f64 = 145.0;
-
 /// The cam, fixed to the carrier about a planet's axis, that draws the push rod back and lets it go.
 ///
 /// The clamp closes at picking, when the rod has been drawn back, and opens from planting on, when the
@@ -71,11 +68,10 @@ impl PusherCamSpec {
         self.body.validate().map_err(|e| e.inside("body"))
     }
 
-    /// The usual cam in proportion to the distance of the tip from the planet's axis, mm.
+    /// The usual cam with every length enlarged `k` times.
     #[must_use]
-    pub fn in_proportion(tip_distance: f64) -> Self {
+    pub fn usual(k: f64) -> Self {
         let usual = Self::default();
-        let k = tip_distance / USUAL_TIP_DISTANCE;
         Self {
             base_radius: k * usual.base_radius,
             body: BodySpec {
@@ -154,10 +150,9 @@ impl ForkSpec {
         )
     }
 
-    /// The usual fork in proportion to the distance of the tip from the planet's axis, mm.
+    /// The usual fork with every length enlarged `k` times.
     #[must_use]
-    pub fn in_proportion(tip_distance: f64) -> Self {
-        let k = tip_distance / USUAL_TIP_DISTANCE;
+    pub fn usual(k: f64) -> Self {
         let usual = Self::default();
         Self {
             pivot_distance: k * usual.pivot_distance,

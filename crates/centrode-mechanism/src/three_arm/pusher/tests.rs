@@ -136,7 +136,10 @@ fn the_rod_is_back_from_picking_to_planting_and_out_after() {
 #[test]
 fn what_cannot_be_is_refused_by_name() {
     let error = |change: fn(&mut ThreeArmDesign)| with(change).pusher().expect_err("refused");
-    let short = error(|d| d.arm.pusher_offset = 20.0);
+    let short = error(|d| {
+        d.arm.pusher_offset = 20.0;
+        d.fork = Some(ForkSpec::default());
+    });
     assert!(matches!(short, PusherError::Pivot { .. }), "{short}");
     assert_eq!(short.key(), "fork.pivot_distance");
     let long = error(|d| {
@@ -212,4 +215,44 @@ fn the_gearbox_encloses_the_gears_and_turns_within_its_radius() {
     for hole in &body.holes {
         assert!(body.outline.contains(hole.centroid()));
     }
+}
+
+#[test]
+fn the_usual_arm_fits_every_tip_and_offset_that_leave_a_clamp_its_room() {
+    let mut made = 0;
+    for tip in [70.0, 112.0, 180.0, 240.0] {
+        for share in [0.1, 0.3, 0.625, 0.85] {
+            for side in [-1.0, 1.0] {
+                let offset: f64 = side * share * tip;
+                let along = f64::sqrt(tip * tip - offset * offset);
+                // The clamp leaves the housing beside the pusher's axis, not under the planet's.
+                if along - 60.0 < 0.2 * offset.abs() {
+                    continue;
+                }
+                let mechanism = with(|d| {
+                    d.arm.tip_distance = tip;
+                    d.arm.pusher_offset = offset;
+                });
+                let (arm, pusher) = (mechanism.arm_body(), mechanism.pusher());
+                let arm = arm.unwrap_or_else(|e| panic!("{tip} {offset}: {e}"));
+                let pusher = pusher.unwrap_or_else(|e| panic!("{tip} {offset}: {e}"));
+                // What the spring pushes is not where the fork's pin goes.
+                let part = |name: &str| arm.parts().iter().find(|p| p.name == name);
+                let spring = part("spring").expect("a spring").outline.bounds();
+                assert!(spring.min.x > 0.5 * pusher.stroke(), "{tip} {offset}");
+                made += 1;
+            }
+        }
+    }
+    assert!(made > 20, "{made}");
+    // Behind a clamp as long as the way to the tip there is no arm, and it says so.
+    let none = with(|d| {
+        d.arm.tip_distance = 80.0;
+        d.arm.pusher_offset = 75.0;
+    });
+    let error = none.arm_body().expect_err("no arm");
+    assert!(
+        error.to_string().contains("shorten the clamp (60 mm)"),
+        "{error}"
+    );
 }
