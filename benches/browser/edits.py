@@ -2,7 +2,7 @@
 
     python benches/browser/edits.py [design.toml ...] [--edits 50]
 
-Needs a release build of the program (or CENTRODE_BIN), Chromium and playwright.
+Needs the program (cargo build --profile dist -p centrode, or CENTRODE_BIN), Chromium and playwright.
 """
 
 import argparse
@@ -16,7 +16,7 @@ from pathlib import Path
 from playwright.sync_api import sync_playwright
 
 ROOT = Path(__file__).resolve().parents[2]
-BINARY = os.environ.get("CENTRODE_BIN", ROOT / "target" / "release" / "centrode")
+BINARY = os.environ.get("CENTRODE_BIN", ROOT / "target" / "dist" / "centrode")
 FLAGS = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking"]
 FIELDS = {
     "three-arm": "arm.tip_distance",
