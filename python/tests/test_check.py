@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
-BINARY = Path(os.environ.get("CENTRODE_BIN", ROOT / "target" / "release" / "centrode"))
+BINARY = Path(os.environ.get("CENTRODE_BIN", ROOT / "target" / "debug" / "centrode"))
 
 
 def test_the_published_pair_is_good(pair):
@@ -62,7 +62,7 @@ def test_samples_a_pitch_have_a_range(pair, per_pitch):
         pair.contact(per_pitch)
 
 
-@pytest.mark.skipif(not BINARY.exists(), reason="the command line is not built")
+@pytest.mark.skipif(not BINARY.exists(), reason="the command line is not built: cargo build -p centrode")
 def test_the_command_line_gives_the_same_numbers(design):
     done = subprocess.run([BINARY, "check", design, "--json"], capture_output=True, text=True, check=False)
     told = json.loads(done.stdout)["values"]

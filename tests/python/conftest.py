@@ -5,12 +5,13 @@ import math
 import os
 import subprocess
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
-BINARY = Path(os.environ.get("CENTRODE_BIN", ROOT / "target" / "release" / "centrode"))
+BINARY = Path(os.environ.get("CENTRODE_BIN", ROOT / "target" / "debug" / "centrode"))
 ECCENTRICITY = 1 / (2 + math.sqrt(3))
 
 DESIGNS = {
@@ -78,32 +79,51 @@ def run():
     return centrode
 
 
+@pytest.fixture(scope="session")
+def exports(tmp_path_factory):
+    """Exports a design where it was not yet; pytest itself keeps one value of a fixture with parameters at a time."""
+
+    @cache
+    def export(name):
+        folder = tmp_path_factory.mktemp(name)
+        design = folder / "pair.toml"
+        design.write_text(DESIGNS[name])
+        centrode("export", design, "--to", folder / "out", "--tolerance", "0.001")
+        return Export(name, design, folder / "out")
+
+    return export
+
+
 @pytest.fixture(scope="session", params=DESIGNS)
-def exported(request, tmp_path_factory):
-    folder = tmp_path_factory.mktemp(request.param)
-    design = folder / "pair.toml"
-    design.write_text(DESIGNS[request.param])
-    out = folder / "out"
-    centrode("export", design, "--to", out, "--tolerance", "0.001")
-    return Export(request.param, design, out)
+def exported(request, exports):
+    return exports(request.param)
 
 
 @pytest.fixture(scope="session")
-def fine(exported, tmp_path_factory):
+def fine_meshes(tmp_path_factory):
+    @cache
+    def export(design):
+        folder = tmp_path_factory.mktemp("fine")
+        centrode("export", design, "--to", folder, "--format", "urdf", "--tolerance", "3e-6")
+        return folder
+
+    return export
+
+
+@pytest.fixture(scope="session")
+def fine(exported, fine_meshes):
     """The URDF of a design beside meshes so fine that their volumes are those of the curves."""
-    folder = tmp_path_factory.mktemp("fine")
-    centrode("export", exported.design, "--to", folder, "--format", "urdf", "--tolerance", "3e-6")
-    return folder
+    return fine_meshes(exported.design)
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="session")
 def browser():
     """A Chromium without a window."""
     from page import CHROMIUM, FLAGS
     from playwright.sync_api import sync_playwright
 
     if CHROMIUM is None:
-        pytest.skip("no chromium on this machine: the page is not tested (apt-get install chromium)")
+        pytest.skip("the page needs a browser: apt-get install chromium")
     with sync_playwright() as playwright:
         running = playwright.chromium.launch(executable_path=CHROMIUM, args=FLAGS)
         yield running

@@ -13,9 +13,9 @@ import resvg_py
 from ezdxf import units
 from ezdxf.addons.drawing import Frontend, RenderContext
 from ezdxf.addons.drawing.config import BackgroundPolicy, ColorPolicy, Configuration, LineweightPolicy
-from ezdxf.addons.drawing.matplotlib import MatplotlibBackend
-from matplotlib.backends.backend_agg import FigureCanvasAgg
-from matplotlib.figure import Figure
+from ezdxf.addons.drawing.layout import Margins, Page, Settings, Units
+from ezdxf.addons.drawing.svg import SVGBackend
+from ezdxf.math import BoundingBox2d
 from PIL import Image
 from reading import rows
 from scipy import ndimage
@@ -131,28 +131,24 @@ def shrunk(image):
 
 
 def dxf_picture(file, width, height):
-    figure = Figure(figsize=(width / 25.4, height / 25.4), dpi=25.4 * DPMM)
-    FigureCanvasAgg(figure)
-    axes = figure.add_axes((0, 0, 1, 1))
     document = ezdxf.readfile(file)
     configuration = Configuration(
         background_policy=BackgroundPolicy.WHITE,
         color_policy=ColorPolicy.BLACK,
         lineweight_policy=LineweightPolicy.ABSOLUTE,
     )
-    backend = MatplotlibBackend(axes, adjust_figure=False)
+    backend = SVGBackend()
     Frontend(RenderContext(document), backend, config=configuration).draw_layout(document.modelspace())
-    axes.set_xlim(0, width)
-    axes.set_ylim(0, height)
-    axes.set_aspect("equal")
-    axes.margins(0)
-    buffer = io.BytesIO()
-    figure.savefig(buffer, format="png", dpi=25.4 * DPMM)
-    return shrunk(Image.open(buffer))
+    drawn = backend.get_string(
+        Page(width, height, Units.mm, Margins.all(0)),
+        settings=Settings(fit_page=False),
+        render_box=BoundingBox2d([(0, 0), (width, height)]),
+    )
+    return svg_picture(drawn)
 
 
-def svg_picture(file):
-    png = resvg_py.svg_to_bytes(svg_string=file.read_text(), dpi=25.4 * DPMM)
+def svg_picture(drawn):
+    png = resvg_py.svg_to_bytes(svg_string=drawn, dpi=25.4 * DPMM)
     return shrunk(Image.open(io.BytesIO(bytes(png))))
 
 
@@ -177,7 +173,7 @@ def test_dxf_svg_and_pdf_show_the_same(exported, subject):
         pdf = pdf_picture(exported / f"{subject}.pdf", page)
         assert pdf.shape == pytest.approx((height * DPMM, width * DPMM), abs=2)
         assert 0.01 < pdf.mean() < 0.15
-        picture = svg_picture(svg)
+        picture = svg_picture(svg.read_text())
         for a, b in [(pdf, picture), (picture, pdf)]:
             assert share_near(a, b, 0.5) > 0.995
         # The reader has another font at hand: letters differ within their line, lines do not.

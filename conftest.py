@@ -1,0 +1,29 @@
+"""What a test does without: on a person's machine a line at the end says what to install, in CI the test fails."""
+
+import os
+from collections import Counter
+
+import pytest
+
+INSTALL = "pip install -r python/requirements-test.txt"
+
+
+def advice(report):
+    """The reason of a skip, and how to have the test run."""
+    reason = report.longrepr[2] if isinstance(report.longrepr, tuple) else str(report.longrepr)
+    reason = reason.removeprefix("Skipped: ")
+    return f"{reason}: {INSTALL}" if reason.startswith("could not import") else reason
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_makereport(item, call):
+    report = yield
+    if report.skipped and not hasattr(report, "wasxfail") and os.environ.get("CI"):
+        report.outcome = "failed"
+        report.longrepr = f"skipped, which CI does not allow: {advice(report)}"
+    return report
+
+
+def pytest_terminal_summary(terminalreporter):
+    for reason, count in Counter(map(advice, terminalreporter.stats.get("skipped", []))).items():
+        terminalreporter.write_line(f"skipped: {count} test{'s' * (count > 1)}: {reason}", yellow=True)
