@@ -138,7 +138,7 @@ def test_yourdfpy_reads_the_machine(arms, folder):
     about = json.loads((folder / "motion.json").read_text())
     tip = np.array([*about["tip_in_arm_mm"], 0, 1e3]) * 1e-3
     for row in table[:: len(table) // 7]:
-        robot.update_cfg({j["name"]: row[j["column"]] * j["factor"] for j in about["joints"]})
+        robot.update_cfg({j["name"]: row[j["column"]] * j["factor"] + j["offset"] for j in about["joints"]})
         for arm in range(3):
             at = robot.get_transform(f"arm_{arm}", "base") @ tip
             ours = arms.tip(row["carrier_turn_rad"], arm) * 1e-3
