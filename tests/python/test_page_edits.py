@@ -317,3 +317,67 @@ def test_a_heavy_design_is_drawn_with_its_teeth_before_it_is_checked(browser, tm
         expect(page.locator("#verdict")).to_have_class(re.compile("stale"))
         settled(page)
         assert depths == ["picture", "detail", "checks"]
+
+
+def slowly(page):
+    """Gives a number that takes minutes to solve."""
+    field(page, "pitch.tooth_count").fill("10000")
+    field(page, "pitch.tooth_count").press("Enter")
+
+
+def test_a_slow_number_shows_that_it_works_and_can_be_cancelled(browser, tmp_path):
+    with opened(browser, tmp_path, CIRCLE) as (page, design):
+        expect(page.locator("#working")).to_be_hidden()
+        slowly(page)
+        expect(page.locator("#working [role=status]")).to_contain_text("working", timeout=5_000)
+        expect(page.locator("#working-time")).to_have_text("2 s", timeout=10_000)
+        page.get_by_role("button", name="Cancel").click()
+        expect(page.locator("#working")).to_be_hidden(timeout=2_000)
+        expect(page.locator("#findings")).to_contain_text("cancelled")
+        # The number stands, can be saved as it is, and is changed as any other.
+        expect(field(page, "pitch.tooth_count")).to_have_value("10000")
+        page.keyboard.press("Control+s")
+        expect(page.locator("#save")).to_be_disabled()
+        assert "tooth_count = 10000" in design.read_text()
+        field(page, "pitch.tooth_count").fill("24")
+        field(page, "pitch.tooth_count").press("Enter")
+        settled(page)
+        expect(page.locator("#findings")).not_to_contain_text("cancelled")
+
+
+def test_a_later_change_does_not_wait_for_a_slow_one(browser, tmp_path):
+    with opened(browser, tmp_path, CIRCLE) as (page, _):
+        slowly(page)
+        page.wait_for_timeout(500)
+        field(page, "teeth.backlash").fill("0.03")
+        field(page, "teeth.backlash").press("Enter")
+        page.wait_for_timeout(500)
+        page.locator("#stage").focus()
+        for _ in range(2):
+            page.keyboard.press("Control+z")
+        expect(field(page, "pitch.tooth_count")).to_have_value("24")
+        expect(field(page, "teeth.backlash")).to_have_value("0.05")
+        settled(page)
+        expect(page.locator("#undo")).to_be_disabled()
+        slowly(page)
+        page.wait_for_timeout(300)
+        field(page, "pitch.tooth_count").fill("26")
+        field(page, "pitch.tooth_count").press("Enter")
+        told = page.locator('#figures td[data-key="driver_tooth_count"]')
+        expect(told).to_have_attribute("data-exact", "26", timeout=30_000)
+        expect(field(page, "pitch.tooth_count")).to_have_value("26")
+
+
+def test_a_page_whose_file_is_slow_can_be_worked_on(browser, tmp_path):
+    slow = tmp_path / "slow.toml"
+    slow.write_text(re.sub(r"tooth_count = \d+", "tooth_count = 10000", CIRCLE.read_text()))
+    with studio(slow) as running:
+        context = browser.new_context(viewport={"width": 1440, "height": 900})
+        page = context.new_page()
+        page.goto(running.url)
+        page.get_by_role("button", name="Cancel").click(timeout=10_000)
+        field(page, "pitch.tooth_count").fill("24")
+        field(page, "pitch.tooth_count").press("Enter")
+        settled(page)
+        expect(page.locator("#findings")).not_to_contain_text("cancelled")
+        context.close()

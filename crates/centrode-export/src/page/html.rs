@@ -21,7 +21,7 @@ macro_rules! assets {
 const STYLES: [Asset; 2] = assets!("text/css; charset=utf-8": "uplot.css", "page.css");
 
 /// The scripts; `main.js` is the one to start.
-const SCRIPTS: [Asset; 20] = assets!(
+const SCRIPTS: [Asset; 21] = assets!(
     "text/javascript; charset=utf-8":
     "uplot.js",
     "axes.js",
@@ -43,6 +43,7 @@ const SCRIPTS: [Asset; 20] = assets!(
     "theme.js",
     "transport.js",
     "verdict.js",
+    "work.js",
 );
 
 /// The file of the page with a name.

@@ -32,6 +32,7 @@ pub(crate) struct Snapshot {
 #[derive(Clone, Debug, Serialize)]
 pub(crate) struct Fault {
     key: String,
+    /// From one; zero where no place in the file is to blame.
     line: usize,
     column: usize,
     message: String,
@@ -90,6 +91,19 @@ impl Snapshot {
     pub(crate) fn with_error(mut self, error: &DesignError) -> Self {
         self.error = Some(error.into());
         self
+    }
+
+    /// A design whose solving was cancelled: its numbers, so that they can be changed.
+    pub(crate) fn cancelled(text: String) -> Self {
+        Self {
+            error: Some(Fault {
+                key: String::new(),
+                line: 0,
+                column: 0,
+                message: "cancelled; the next change solves it anew".into(),
+            }),
+            ..Self::of_text(text)
+        }
     }
 
     /// Title, or name where there is none.

@@ -28,7 +28,7 @@ use watch::Watch;
 /// What every request works on.
 pub(crate) struct Desk {
     document: Document,
-    solver: Solver,
+    solver: Arc<Solver>,
     searching: Searching,
     watch: Watch,
 }
@@ -56,7 +56,7 @@ pub(crate) fn run(command: &Studio, out: &mut impl Write) -> Result<ExitCode, Fa
         let desk = Arc::new(Desk {
             watch: Watch::default(),
             searching: Searching::default(),
-            solver: Solver::start().map_err(Failure::Serve)?,
+            solver: Arc::default(),
             document,
         });
         let page = routes::router(Arc::clone(&desk), guard);

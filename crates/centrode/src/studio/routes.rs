@@ -9,6 +9,7 @@ use axum::routing::{get, post};
 use axum::{Json, Router};
 use centrode::analysis::optimise::{NotSearched, Strategy, problem_of};
 use centrode::export::page;
+use centrode::geometry::Cancel;
 use centrode::mechanism::design::DesignFile;
 use clap::{Parser as _, ValueEnum as _};
 use serde::Deserialize;
@@ -19,7 +20,7 @@ use tower_http::timeout::RequestBodyTimeoutLayer;
 use super::Desk;
 use super::document::SaveError;
 use super::guard::{self, Guard};
-use super::solver::{Depth, Overtaken};
+use super::solver::{Depth, Unsolved};
 use super::{response, search};
 use crate::args::{Arguments, Command, Export, File};
 use crate::export;
@@ -138,6 +139,9 @@ fn formats() -> Vec<[String; 2]> {
 
 #[derive(Deserialize)]
 struct Solve {
+    /// Which of the pages that are open asks: its next request takes the place of this one.
+    #[serde(default)]
+    page: String,
     text: String,
     #[serde(default)]
     edits: Vec<Edit>,
@@ -152,12 +156,12 @@ async fn solve(State(desk): Shared, Json(ask): Json<Solve>) -> Result<Response, 
         let made = apart(move || edited(&ask.text, &ask.edits)).await?;
         made.map_err(|error| Refused::because(StatusCode::UNPROCESSABLE_ENTITY, error))?
     };
-    let solved = desk.solver.solve(text, ask.depth).await;
-    // To be overtaken is no failure: browsers would log it as one.
-    Ok(solved.map_or_else(
-        |Overtaken| Json(json!({ "overtaken": true })).into_response(),
-        as_json,
-    ))
+    match desk.solver.solve(&ask.page, text, ask.depth).await {
+        Ok(snapshot) => Ok(as_json(snapshot)),
+        // To be overtaken is no failure: browsers would log it as one.
+        Err(Unsolved::Overtaken) => Ok(Json(json!({ "overtaken": true })).into_response()),
+        Err(fault) => Err(Refused::because(StatusCode::INTERNAL_SERVER_ERROR, fault)),
+    }
 }
 
 #[derive(Deserialize)]
@@ -231,9 +235,28 @@ async fn apart<T: Send + 'static>(job: impl FnOnce() -> T + Send + 'static) -> R
     done.map_err(|error| Refused::because(StatusCode::INTERNAL_SERVER_ERROR, error))
 }
 
+/// Cancels when it is dropped: nobody waits for the answer any more.
+struct Wait(Cancel);
+
+impl Drop for Wait {
+    fn drop(&mut self) {
+        self.0.cancel();
+    }
+}
+
+/// Computes without holding up other requests, for as long as somebody waits for it.
+async fn computed<T: Send + 'static>(
+    job: impl FnOnce() -> T + Send + 'static,
+) -> Result<T, Refused> {
+    let wait = Wait(Cancel::default());
+    let cancel = wait.0.clone();
+    let done = apart(move || cancel.run(job)).await?;
+    done.map_err(|cancelled| Refused::because(StatusCode::INTERNAL_SERVER_ERROR, cancelled))
+}
+
 /// Starts a search for a better design.
 async fn searching(State(desk): Shared, Json(ask): Json<search::Ask>) -> Result<Response, Refused> {
-    let started = apart(move || desk.searching.start(ask)).await?;
+    let started = computed(move || desk.searching.start(ask)).await?;
     started.map_err(|reason| Refused::because(StatusCode::UNPROCESSABLE_ENTITY, reason))?;
     Ok(Json(json!({})).into_response())
 }
@@ -250,7 +273,7 @@ async fn unsearched(State(desk): Shared) -> Response {
 
 /// How the goals answer one number.
 async fn respond(Json(ask): Json<response::Ask>) -> Result<Response, Refused> {
-    let answers = apart(move || response::answers(&ask)).await?;
+    let answers = computed(move || response::answers(&ask)).await?;
     let answers =
         answers.map_err(|reason| Refused::because(StatusCode::UNPROCESSABLE_ENTITY, reason))?;
     Ok(Json(answers).into_response())
@@ -293,7 +316,7 @@ impl Files {
 async fn bundle(Json(ask): Json<Files>) -> Result<Response, Refused> {
     let unusable = |reason: String| Refused::because(StatusCode::UNPROCESSABLE_ENTITY, reason);
     let command = ask.command().map_err(unusable)?;
-    let zip = apart(move || export::zip(&ask.text, &command)).await?;
+    let zip = computed(move || export::zip(&ask.text, &command)).await?;
     let zip = zip.map_err(|failure| unusable(failure.to_string()))?;
     Ok((
         [(header::CONTENT_TYPE, "application/zip")],

@@ -1,48 +1,28 @@
-use std::io;
-use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::sync::atomic::{AtomicU64, Ordering};
-use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::collections::HashMap;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
+use centrode::geometry::Cancel;
 use serde::Deserialize;
-use tokio::sync::oneshot;
 
 use crate::page::{Snapshot, Subject};
 
-/// Solves designs, the latest asked for first; those it overtakes are dropped.
+/// Solves the designs of the pages that are open, for each page the latest asked for.
 ///
-/// Pictures and checks have a thread each: a picture never waits until an old design has been checked.
-pub(crate) struct Solver {
-    pictures: Arc<Queue>,
-    checks: Arc<Queue>,
-    shared: Arc<Shared>,
-}
-
-/// What both threads know.
+/// A solve ends early once its page asks for another, or nobody waits for its answer any more.
 #[derive(Default)]
-struct Shared {
-    /// Number of the latest job.
-    latest: AtomicU64,
+pub(crate) struct Solver {
+    /// What is being solved for each page.
+    under_way: Mutex<HashMap<String, Cancel>>,
     /// The last design solved: after its picture its checks are asked for.
     last: Mutex<Option<Arc<Subject>>>,
-}
-
-#[derive(Default)]
-struct Queue {
-    waiting: Mutex<Option<Job>>,
-    arrived: Condvar,
-}
-
-struct Job {
-    number: u64,
-    text: String,
-    depth: Depth,
-    reply: oneshot::Sender<String>,
 }
 
 /// How much of a design is asked for.
 #[derive(Clone, Copy, Debug, Deserialize, Eq, PartialEq)]
 #[serde(rename_all = "lowercase")]
 pub(crate) enum Depth {
+    /// Its numbers alone: solving it was cancelled.
+    Numbers,
     /// What is drawn at once.
     Picture,
     /// The picture with what takes longer to make.
@@ -51,46 +31,86 @@ pub(crate) enum Depth {
     Checks,
 }
 
-/// A later design has been asked for, or solving has failed in a way it never should.
+/// Why a design has no answer.
 #[derive(Debug, thiserror::Error)]
-#[error("a later change has taken the place of this one")]
-pub(crate) struct Overtaken;
+pub(crate) enum Unsolved {
+    #[error("a later change has taken the place of this one")]
+    Overtaken,
+    #[error("solving this design has failed: {0}")]
+    Fault(String),
+}
+
+/// A solve that somebody waits for; dropped, it is cancelled.
+struct Wait<'a> {
+    solver: &'a Solver,
+    page: &'a str,
+    cancel: Cancel,
+}
+
+impl<'a> Wait<'a> {
+    /// Takes the place of what is being solved for the page.
+    fn begin(solver: &'a Solver, page: &'a str) -> Self {
+        let cancel = Cancel::default();
+        let before = held(&solver.under_way).insert(page.to_owned(), cancel.clone());
+        if let Some(before) = before {
+            before.cancel();
+        }
+        Self {
+            solver,
+            page,
+            cancel,
+        }
+    }
+}
+
+impl Drop for Wait<'_> {
+    fn drop(&mut self) {
+        let mut under_way = held(&self.solver.under_way);
+        // A cancelled one has been replaced by the next of its page.
+        if !self.cancel.is_cancelled() {
+            under_way.remove(self.page);
+        }
+        self.cancel.cancel();
+    }
+}
 
 impl Solver {
-    /// Starts the threads.
-    pub(crate) fn start() -> io::Result<Self> {
-        let shared = Arc::new(Shared::default());
-        let start = |name: &str| {
-            let queue = Arc::new(Queue::default());
-            let (own, shared) = (Arc::clone(&queue), Arc::clone(&shared));
-            std::thread::Builder::new()
-                .name(name.into())
-                .spawn(move || work(&own, &shared))?;
-            io::Result::Ok(queue)
-        };
-        Ok(Self {
-            pictures: start("pictures")?,
-            checks: start("checks")?,
-            shared,
-        })
+    /// The snapshot of a design as JSON. Dropped before its end, the solve is cancelled.
+    pub(crate) async fn solve(
+        self: &Arc<Self>,
+        page: &str,
+        text: String,
+        depth: Depth,
+    ) -> Result<String, Unsolved> {
+        let wait = Wait::begin(self, page);
+        let (solver, cancel) = (Arc::clone(self), wait.cancel.clone());
+        let job = move || cancel.run(|| solver.snapshot(text, depth));
+        match tokio::task::spawn_blocking(job).await {
+            Ok(Ok(json)) => json.map_err(|error| Unsolved::Fault(error.to_string())),
+            Ok(Err(_)) => Err(Unsolved::Overtaken),
+            Err(fault) => Err(Unsolved::Fault(fault.to_string())),
+        }
     }
 
-    /// The snapshot of a design as JSON.
-    pub(crate) async fn solve(&self, text: String, depth: Depth) -> Result<String, Overtaken> {
-        let (reply, answer) = oneshot::channel();
-        let number = self.shared.latest.fetch_add(1, Ordering::Relaxed) + 1;
-        let queue = match depth {
-            Depth::Picture => &self.pictures,
-            Depth::Detail | Depth::Checks => &self.checks,
+    fn snapshot(&self, text: String, depth: Depth) -> serde_json::Result<String> {
+        if depth == Depth::Numbers {
+            return Snapshot::cancelled(text).json();
+        }
+        let last = held(&self.last).clone();
+        let subject = match last.filter(|subject| subject.is_of(&text)) {
+            Some(subject) => subject,
+            None => match Subject::of(text) {
+                Ok(subject) => Arc::new(subject),
+                Err(snapshot) => return snapshot.json(),
+            },
         };
-        *held(&queue.waiting) = Some(Job {
-            number,
-            text,
-            depth,
-            reply,
-        });
-        queue.arrived.notify_one();
-        answer.await.map_err(|_| Overtaken)
+        *held(&self.last) = Some(Arc::clone(&subject));
+        let snapshot = match depth {
+            Depth::Numbers | Depth::Picture => subject.drawn(),
+            Depth::Detail => subject.detailed(),
+            Depth::Checks => subject.checked(),
+        };
+        snapshot.json()
     }
 }
 
@@ -98,64 +118,71 @@ fn held<T>(what: &Mutex<T>) -> MutexGuard<'_, T> {
     what.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-impl Queue {
-    fn next(&self) -> Job {
-        let mut waiting = held(&self.waiting);
-        loop {
-            if let Some(job) = waiting.take() {
-                return job;
-            }
-            waiting = self
-                .arrived
-                .wait(waiting)
-                .unwrap_or_else(PoisonError::into_inner);
-        }
-    }
-}
-
-impl Shared {
-    fn answer(&self, job: &Job) -> Option<String> {
-        let stale = || job.reply.is_closed() || self.latest.load(Ordering::Relaxed) != job.number;
-        if stale() {
-            return None;
-        }
-        let last = held(&self.last).clone();
-        let subject = match last.filter(|subject| subject.is_of(&job.text)) {
-            Some(subject) => subject,
-            None => match Subject::of(job.text.clone()) {
-                Ok(subject) => Arc::new(subject),
-                Err(snapshot) => return snapshot.json().ok(),
-            },
-        };
-        *held(&self.last) = Some(Arc::clone(&subject));
-        if stale() {
-            return None;
-        }
-        let snapshot: Snapshot = match job.depth {
-            Depth::Picture => subject.drawn(),
-            Depth::Detail => subject.detailed(),
-            Depth::Checks => subject.checked(),
-        };
-        snapshot.json().ok()
-    }
-}
-
-fn work(queue: &Queue, shared: &Shared) {
-    loop {
-        let job = queue.next();
-        // A fault of one design must not end the work on the next.
-        let json = catch_unwind(AssertUnwindSafe(|| shared.answer(&job)));
-        if let Ok(Some(json)) = json {
-            // Nobody waits for what has been overtaken.
-            let _ = job.reply.send(json);
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use centrode::mechanism::design::Design;
+    use std::time::{Duration, Instant};
+
+    const PAGE: &str = "one";
+
+    /// A design that takes minutes to solve.
+    const SLOW: &str = r#"
+        family = "gear-pair"
+        [pitch]
+        kind = "circle"
+        module = 1
+        tooth_count = 2000
+    "#;
+
+    fn block_on<T>(task: impl Future<Output = T>) -> T {
+        let runtime = tokio::runtime::Builder::new_current_thread()
+            .enable_time()
+            .build()
+            .expect("a runtime");
+        let done = runtime.block_on(task);
+        // A thread that still computes would be waited for here.
+        let ended = Instant::now();
+        drop(runtime);
+        assert!(ended.elapsed() < Duration::from_millis(100));
+        done
+    }
+
+    #[test]
+    fn a_later_change_or_nobody_waiting_stops_a_slow_solve_at_once() {
+        block_on(async {
+            let solver = Arc::new(Solver::default());
+            let slow = |page: &'static str| {
+                let solver = Arc::clone(&solver);
+                tokio::spawn(async move { solver.solve(page, SLOW.into(), Depth::Picture).await })
+            };
+            let (ours, others, left) = (slow(PAGE), slow("another"), slow("closed"));
+            tokio::time::sleep(Duration::from_millis(300)).await;
+            assert!(!ours.is_finished() && !others.is_finished());
+            let asked = Instant::now();
+            let quick = solver
+                .solve(PAGE, "family = 1".into(), Depth::Picture)
+                .await;
+            assert!(quick.expect("the latest").contains("family"));
+            let overtaken = ours.await.expect("no panic");
+            assert!(matches!(overtaken, Err(Unsolved::Overtaken)));
+            assert!(asked.elapsed() < Duration::from_millis(100));
+            // What another page waits for goes on.
+            assert!(!others.is_finished());
+            others.abort();
+            left.abort();
+        });
+    }
+
+    #[test]
+    fn a_cancelled_design_shows_its_numbers() {
+        block_on(async {
+            let solver = Arc::new(Solver::default());
+            let answer = solver.solve(PAGE, SLOW.into(), Depth::Numbers).await;
+            let answer = answer.expect("at once");
+            assert!(answer.contains("cancelled") && answer.contains("pitch.tooth_count"));
+        });
+    }
 
     #[test]
     fn the_latest_design_is_answered_and_no_queue_builds_up() {
@@ -163,14 +190,14 @@ mod tests {
             .build()
             .expect("a runtime");
         runtime.block_on(async {
-            let solver = Arc::new(Solver::start().expect("a thread"));
+            let solver = Arc::new(Solver::default());
             let template = Design::template("gear-pair").expect("a template");
             let mut asked = Vec::new();
             for z in 20..60 {
                 let text = template.replace("tooth_count = 23", &format!("tooth_count = {z}"));
                 let solver = Arc::clone(&solver);
                 asked.push(tokio::spawn(async move {
-                    solver.solve(text, Depth::Checks).await
+                    solver.solve(PAGE, text, Depth::Checks).await
                 }));
                 tokio::task::yield_now().await;
             }
@@ -194,17 +221,19 @@ mod tests {
             .build()
             .expect("a runtime");
         runtime.block_on(async {
-            let solver = Arc::new(Solver::start().expect("a thread"));
+            let solver = Arc::new(Solver::default());
             // Its checks take some seconds in a debug build.
             let slow = Design::template("three-arm").expect("a template");
             let quick = Design::template("gear-pair").expect("a template");
-            let first = solver.solve(slow.to_owned(), Depth::Picture).await;
+            let first = solver.solve(PAGE, slow.to_owned(), Depth::Picture).await;
             assert!(first.expect("nothing overtakes it").contains("\"picture\""));
             let checker = Arc::clone(&solver);
             let checks =
-                tokio::spawn(async move { checker.solve(slow.to_owned(), Depth::Checks).await });
+                tokio::spawn(
+                    async move { checker.solve(PAGE, slow.to_owned(), Depth::Checks).await },
+                );
             tokio::task::yield_now().await;
-            let picture = solver.solve(quick.to_owned(), Depth::Picture).await;
+            let picture = solver.solve(PAGE, quick.to_owned(), Depth::Picture).await;
             assert!(picture.expect("the latest").contains("tooth_count"));
             // The checks are still under way, or were dropped before they began; had the picture waited, they would be done.
             let waited = checks.is_finished() && checks.await.expect("no panic").is_ok();

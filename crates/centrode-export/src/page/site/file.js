@@ -3,6 +3,7 @@
 import * as dialogs from "./dialogs.js";
 import { element } from "./elements.js";
 import * as server from "./server.js";
+import { work } from "./work.js";
 
 /** Work is put beside the file when no change has come for so long, ms. */
 const REST = 200;
@@ -91,13 +92,14 @@ export class DesignFile {
       return;
     }
     dialogs.withdraw("export");
+    const stop = new AbortController();
     try {
-      const blob = await server.files({ text: this.history.text, ...options });
+      const blob = await work((signal) => server.files({ text: this.history.text, ...options }, signal), stop);
       const link = Object.assign(document.createElement("a"), { href: URL.createObjectURL(blob), download: `${name || "design"}.zip` });
       link.click();
       setTimeout(() => URL.revokeObjectURL(link.href), 60000);
     } catch (error) {
-      this.page.complain("export", error);
+      if (!stop.signal.aborted) this.page.complain("export", error);
     }
   }
 }

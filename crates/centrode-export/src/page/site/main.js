@@ -15,11 +15,14 @@ import { Stage } from "./stage.js";
 import * as theme from "./theme.js";
 import { Transport } from "./transport.js";
 import * as verdict from "./verdict.js";
+import { CANCELLED, work } from "./work.js";
 
 /** Checks slower than this come after the picture, ms. */
 const SLOW = 40;
 /** Whoever waits longer is told so, ms. */
 const PATIENCE = 300;
+/** A picture that takes longer is not waited for while a drag goes on, ms. */
+const STALE = 2000;
 
 const embedded = byId("snapshot");
 const state = {
@@ -32,6 +35,11 @@ const state = {
   draft: new Map(),
   pending: null,
   solving: false,
+  /** Aborts the solve under way, and whether it is out of date for every change since. */
+  stop: null,
+  stale: false,
+  /** What aborts the last checks. */
+  checking: null,
   /** Resolves when nothing is left to solve. */
   work: null,
   /** Goals of the best design so far, while a search shows it. */
@@ -147,35 +155,46 @@ function request(job) {
   const { text, final, fresh } = state.pending ?? {};
   state.pending = { text: job.text ?? text, final: job.final || Boolean(final), fresh: job.fresh || (job.text === undefined && Boolean(fresh)), wanted: job.wanted };
   if (!state.solving) state.work = solve();
+  else if (job.final || state.stale) state.stop.abort();
 }
 
 async function solve() {
   state.solving = true;
-  while (state.pending) {
-    const job = state.pending;
-    state.pending = null;
-    const sent = new Map(state.draft);
+  // A change whose solve was stopped: it is made all the same, unsolved.
+  let unsolved = null;
+  while (unsolved || state.pending) {
+    const job = unsolved ?? state.pending;
+    if (unsolved) unsolved = null;
+    else state.pending = null;
+    const sent = job.sent ?? new Map(state.draft);
     const asked = form.clock;
     const text = job.text ?? state.history.text;
     const edits = [...sent].map(([key, value]) => ({ key, value }));
     const slow = state.took > SLOW;
+    const stop = new AbortController();
+    [state.stop, state.stale] = [stop, false];
     const waiting = setTimeout(() => document.body.classList.add("busy"), PATIENCE);
+    const staling = setTimeout(() => {
+      state.stale = true;
+      if (state.pending) stop.abort();
+    }, STALE);
     try {
       const start = performance.now();
-      const snapshot = await server.solve({ text, edits, depth: slow ? "picture" : "checks" });
-      if (snapshot.overtaken) {
-        // Another window of this page has asked; then it is our turn again.
-        state.pending ??= job;
-        await new Promise((resume) => setTimeout(resume, 100));
-        continue;
-      }
+      const depth = job.sent ? "numbers" : slow ? "picture" : "checks";
+      const snapshot = await work((signal) => server.solve({ text, edits, depth }, signal), job.sent ? undefined : stop);
       if (job.wanted && !job.wanted()) continue;
       if (job.final) settle(snapshot.text, sent, edits.length > 0 || job.fresh);
+      if (job.sent && state.pending) continue;
       show(snapshot, asked);
       if (!slow) state.took = performance.now() - start;
       else if (!state.pending && !snapshot.error) check(snapshot);
       dialogs.withdraw("server");
     } catch (error) {
+      if (stop.signal.aborted && !job.sent) {
+        if (job.final || !state.pending) unsolved = { ...job, sent };
+        state.took = Infinity;
+        continue;
+      }
       // What was typed is due when the program answers again.
       const away = error instanceof server.Away;
       if (job.final && !away) forgetDraft(sent);
@@ -183,6 +202,7 @@ async function solve() {
       complain("server", error);
     } finally {
       clearTimeout(waiting);
+      clearTimeout(staling);
       document.body.classList.remove("busy");
     }
   }
@@ -196,7 +216,9 @@ async function settled() {
 
 /** Has the design that is shown drawn in full and checked, while changes to it go on being drawn. */
 async function check({ text, coarse }) {
-  const wanted = () => !state.solving && state.snapshot.text === text;
+  const stop = new AbortController();
+  state.checking = stop;
+  const wanted = () => state.checking === stop && !state.solving && state.snapshot.text === text;
   // The screen first: the checks take the computer's time.
   await state.shown;
   try {
@@ -204,18 +226,14 @@ async function check({ text, coarse }) {
       if (!wanted()) return;
       const start = performance.now();
       const asked = form.clock;
-      let snapshot = await server.solve({ text, edits: [], depth });
-      while (snapshot.overtaken && wanted()) {
-        // Another window of this page has asked; then it is our turn again.
-        await new Promise((resume) => setTimeout(resume, 100));
-        snapshot = await server.solve({ text, edits: [], depth });
-      }
+      const snapshot = await work((signal) => server.solve({ text, edits: [], depth }, signal), stop);
       if (snapshot.overtaken || !wanted()) return;
       if (depth === "checks") state.took = performance.now() - start;
       show(snapshot, asked);
     }
   } catch (error) {
-    complain("server", error);
+    if (stop.signal.aborted) dialogs.notice("server", "the checks were cancelled", [["Check", () => check({ text, coarse })]]);
+    else complain("server", error);
   }
 }
 
@@ -240,7 +258,12 @@ function complain(key, error) {
 
 /** One step back or forth, after the changes that are on their way. */
 async function step(way) {
-  if (state.draft.size) await settled();
+  if (state.draft.size) {
+    // A change that takes long to solve is stepped over unsolved.
+    const hurry = setInterval(() => state.stop.abort(CANCELLED), SLOW);
+    await settled();
+    clearInterval(hurry);
+  }
   const text = state.history[way]();
   request({ text, final: true, fresh: false });
   file.keep();

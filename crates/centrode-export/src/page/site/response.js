@@ -58,10 +58,11 @@ export async function ask(snapshot, text) {
       show();
     });
   }
-  let asked = 0;
+  let stop = new AbortController();
   const show = async () => {
-    asked += 1;
-    const own = asked;
+    stop.abort();
+    stop = new AbortController();
+    const { signal } = stop;
     place.replaceChildren();
     if (from.value.trim() === "" || to.value.trim() === "" || !(number(from) < number(to))) {
       words.textContent = `the values must rise, but go from ${from.value} to ${to.value}`;
@@ -70,16 +71,16 @@ export async function ask(snapshot, text) {
     words.textContent = "checking…";
     try {
       const name = key.value;
-      const answers = await server.response({ text, key: name, from: number(from), to: number(to) });
+      const answers = await server.response({ text, key: name, from: number(from), to: number(to) }, signal);
       // Another has been asked for since.
-      if (own !== asked) return;
+      if (signal.aborted) return;
       const gaps = answers.charts.some((chart) => chart.figures.includes(null));
       words.textContent = answers.charts.length === 0
         ? "no value between these makes a mechanism, or none changes a figure"
         : `Across: ${name}${units.get(name) && `, ${units.get(name)}`}. Blue: the design as it is. Dashed: the range that is wanted.${gaps ? " No point: no mechanism, or no such figure." : ""}`;
       for (const chart of answers.charts) draw(place, answers.values, chart, known.get(name));
     } catch (error) {
-      if (own === asked) words.replaceChildren(element("span", { class: "error" }, error.message));
+      if (!signal.aborted) words.replaceChildren(element("span", { class: "error" }, error.message));
     }
   };
   await dialogs.ask("Response", [
@@ -89,6 +90,7 @@ export async function ask(snapshot, text) {
       element("button", { type: "button", class: "main", onclick: show }, "Show")),
     words, place,
   ], [["", "Close"]]);
+  stop.abort();
 }
 
 function draw(place, values, chart, now) {

@@ -4,6 +4,7 @@ import uPlot from "./uplot.js";
 import { axes, line } from "./axes.js";
 import { byId, element } from "./elements.js";
 import * as server from "./server.js";
+import { work } from "./work.js";
 
 /** Time between two looks at a search, ms. */
 const EVERY = 400;
@@ -67,14 +68,16 @@ export class Search {
   }
 
   async begin() {
+    const stop = new AbortController();
     try {
       const [seed, evaluations] = [whole(this.seed), whole(this.evaluations)];
       if (evaluations === 0) throw new Error("a search needs at least 1 evaluation; evaluations is 0");
-      await server.search({ text: this.design.text(), method: this.method.value, seed, evaluations });
+      const options = { text: this.design.text(), method: this.method.value, seed, evaluations };
+      await work((signal) => server.search(options, signal), stop);
       this.best = null;
       await this.follow();
     } catch (error) {
-      this.fail(error);
+      if (!stop.signal.aborted) this.fail(error);
     }
   }
 

@@ -16,13 +16,18 @@ export class Away extends Error {
   }
 }
 
-async function ask(path, method, body) {
+/** This page among those that are open. */
+const page = String(Math.random());
+
+/** The program stops what it does for an answer once `signal` aborts. */
+async function ask(path, method, body, signal) {
   let answer;
   try {
     answer = await fetch(path, {
       method,
       headers: body === undefined ? {} : { "Content-Type": "application/json" },
       body: body === undefined ? undefined : JSON.stringify(body),
+      signal,
     });
   } catch {
     throw new Away();
@@ -48,12 +53,12 @@ export const keep = (text) => json(ask("keep", "POST", { text }));
 export const forget = (file) => json(ask("keep", "DELETE", { file }));
 export const reread = () => json(ask("reread", "POST", {}));
 export const fault = (text) => json(ask("fault", "POST", { text }));
-export const search = (options) => json(ask("search", "POST", options));
+export const search = (options, signal) => json(ask("search", "POST", options, signal));
 export const searched = () => json(ask("search", "GET"));
 export const stopSearch = () => json(ask("search", "DELETE"));
-export const response = (options) => json(ask("response", "POST", options));
-export const files = async (options) => (await ask("export", "POST", options)).blob();
-export const solve = (request) => json(ask("solve", "POST", request));
+export const response = (options, signal) => json(ask("response", "POST", options, signal));
+export const files = async (options, signal) => (await ask("export", "POST", options, signal)).blob();
+export const solve = (request, signal) => json(ask("solve", "POST", { page, ...request }, signal));
 
 /** Calls `disk` with the file's text, or with what is missing, whenever that changes; `lost` and `found` as the program goes and comes. */
 export function watch({ disk, lost, found }) {

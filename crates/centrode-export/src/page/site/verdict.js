@@ -22,10 +22,10 @@ export function show(snapshot, pinned, go) {
   if (snapshot.error) {
     const { key, line, column, message } = snapshot.error;
     place.replaceChildren(
-      title("No mechanism", "error no-mechanism"),
+      title(line ? "No mechanism" : "Not solved", "error no-mechanism"),
       element("ul", { class: "findings" }, element("li", { class: "error" },
         element("p", {}, element("b", {}, `${SIGN.error} error `), message),
-        element("p", { class: "detail" }, key ? `${key}, line ${line}, column ${column}` : `line ${line}, column ${column}`))),
+        line ? element("p", { class: "detail" }, key ? `${key}, line ${line}, column ${column}` : `line ${line}, column ${column}`) : null)),
     );
     return;
   }
