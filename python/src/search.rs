@@ -3,8 +3,7 @@
 use std::ops::ControlFlow;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::mpsc::{RecvTimeoutError, channel};
-use std::time::Duration;
+use std::sync::mpsc::Sender;
 
 use centrode_analysis::optimise::{
     DesignSearch, Ended, GuidedStep, Progress, Settings, Strategy, problem_of,
@@ -17,10 +16,7 @@ use pyo3::types::PyDict;
 
 use crate::error::{no_search, of_design, unknown_word};
 use crate::record;
-use crate::wait::wait;
-
-/// How often a waiting call looks whether the user has had enough.
-const PATIENCE: Duration = Duration::from_millis(50);
+use crate::wait::{attend, wait};
 
 /// What a search has come to.
 pub(crate) struct Found {
@@ -31,11 +27,6 @@ pub(crate) struct Found {
     pub(crate) remark: Option<String>,
     pub(crate) progress: Option<Progress>,
     pub(crate) ended: Ended,
-}
-
-enum Mail {
-    Progress(Progress),
-    Done(Box<Result<Found, String>>),
 }
 
 /// Searches around a design; `best` makes an object of the best mechanism, if it is of the design's family.
@@ -63,8 +54,8 @@ fn strategy(name: &str) -> PyResult<Strategy> {
     })
 }
 
-/// Searches until the end, Ctrl-C, or a callback that returns False or raises. After either of the first two kinds of
-/// stop but Ctrl-C and an exception the best so far is the answer.
+/// Searches until the end, Ctrl-C, or a callback that returns False or raises. After the end, and where the callback
+/// returns False, the best so far is the answer.
 fn search(
     py: Python<'_>,
     design: Design,
@@ -72,52 +63,34 @@ fn search(
     settings: Settings,
     callback: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Result<Found, String>> {
-    let (sender, mut mailbox) = channel();
     let stop = Arc::new(AtomicBool::new(false));
     let stopped = Arc::clone(&stop);
-    std::thread::Builder::new().spawn(move || {
-        let told = sender.clone();
-        let found = searched(&design, strategy, settings, &mut |progress| {
+    let job = move |told: &Sender<Progress>| {
+        searched(&design, strategy, settings, &mut |progress| {
             // Whoever asked may have gone.
-            let gone = told.send(Mail::Progress(*progress)).is_err();
+            let gone = told.send(*progress).is_err();
             if gone || stopped.load(Ordering::Relaxed) {
                 ControlFlow::Break(())
             } else {
                 ControlFlow::Continue(())
             }
-        });
-        let _ = sender.send(Mail::Done(Box::new(found)));
-    })?;
-    loop {
-        let (back, mail) = py.detach(move || {
-            let mail = mailbox.recv_timeout(PATIENCE);
-            (mailbox, mail)
-        });
-        mailbox = back;
-        match mail {
-            Ok(Mail::Done(found)) => return Ok(*found),
-            Ok(Mail::Progress(progress)) => {
-                if let Some(callback) = callback {
-                    let Progress {
-                        evaluations,
-                        violation,
-                        objective,
-                        ..
-                    } = progress;
-                    let answer = callback.call1((evaluations, violation, objective))?;
-                    if answer.extract::<bool>().is_ok_and(|go_on| !go_on) {
-                        stop.store(true, Ordering::Relaxed);
-                    }
-                }
-            }
-            Err(RecvTimeoutError::Timeout) => {}
-            Err(RecvTimeoutError::Disconnected) => {
-                return Ok(Err("the search gave no answer".into()));
+        })
+    };
+    attend(py, job, |progress| {
+        if let Some(callback) = callback {
+            let Progress {
+                evaluations,
+                violation,
+                objective,
+                ..
+            } = progress;
+            let answer = callback.call1((evaluations, violation, objective))?;
+            if answer.extract::<bool>().is_ok_and(|go_on| !go_on) {
+                stop.store(true, Ordering::Relaxed);
             }
         }
-        // An error drops the mailbox, which ends the search.
-        py.check_signals()?;
-    }
+        Ok(())
+    })
 }
 
 fn searched(
