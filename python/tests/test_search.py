@@ -195,3 +195,10 @@ def test_a_sweep_runs_on_dask() -> None:
         spread = ct.sweep(texts[0], over=over, executor=pool, chunk=100)
         for name, values in ct.sweep(texts[0], over=over).items():
             assert np.array_equal(spread[name], values, equal_nan=True), name
+
+
+@pytest.mark.parametrize("method", ["guided", "de", "ga", "cma-es"])
+def test_a_population_too_small_is_refused_by_name(method):
+    for made in (ct.Feeder.from_toml(ct.template("feeder")), ct.ThreeArm.from_toml(ct.template("three-arm"))):
+        with pytest.raises(ct.Error, match="population is 0, but it must be at least 5"):
+            made.optimise(method, population=0)

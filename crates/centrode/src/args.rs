@@ -223,12 +223,12 @@ fn tolerance(word: &str) -> Result<Tolerance, String> {
 pub(crate) struct Optimise {
     /// Design file, or - for standard input
     pub(crate) design: PathBuf,
-    /// How to search
-    #[arg(long, default_value = "guided", value_parser = PossibleValuesParser::new(Strategy::NAMES.map(|(name, _)| name)))]
-    pub(crate) method: String,
-    /// Same seed, same answer, on any number of cores
-    #[arg(long, default_value_t = 1)]
-    pub(crate) seed: u64,
+    /// How to search; left out, guided, or as the search gone on with began
+    #[arg(long, value_parser = PossibleValuesParser::new(Strategy::NAMES.map(|(name, _)| name)))]
+    pub(crate) method: Option<String>,
+    /// Same seed, same answer, on any number of cores; left out, 1, or that of the search gone on with
+    #[arg(long)]
+    pub(crate) seed: Option<u64>,
     /// Most evaluations, the generation under way is finished; left out, 20000, or what the search gone on with had
     #[arg(long, value_parser = clap::value_parser!(u64).range(1..))]
     pub(crate) evaluations: Option<u64>,
@@ -247,6 +247,13 @@ pub(crate) struct Optimise {
     /// Print the outcome as JSON
     #[arg(long)]
     pub(crate) json: bool,
+}
+
+impl Optimise {
+    /// Name of the method of a new search.
+    pub(crate) fn method(&self) -> &str {
+        self.method.as_deref().unwrap_or("guided")
+    }
 }
 
 #[derive(Debug, Args)]

@@ -6,6 +6,7 @@ mod completions;
 mod export;
 mod failure;
 mod input;
+mod interrupt;
 mod man;
 mod new;
 mod optimise;

@@ -1,4 +1,3 @@
-mod interrupt;
 mod outcome;
 mod stored;
 mod widen;
@@ -9,15 +8,15 @@ use std::process::ExitCode;
 use std::time::{Duration, Instant};
 
 use centrode::analysis::optimise::{
-    DesignProblem, DesignSearch, Ended, Settings, Strategy, problem_of,
+    DesignProblem, DesignSearch, Ended, SearchError, Settings, Strategy, problem_of,
 };
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use crate::args::Optimise;
 use crate::failure::Failure;
 use crate::input::Source;
+use crate::interrupt::Interrupt;
 use crate::page::{Edit, edited};
-use interrupt::Interrupt;
 use outcome::Outcome;
 use stored::Stored;
 
@@ -37,13 +36,14 @@ pub(crate) fn run(command: &Optimise, out: &mut impl Write) -> Result<ExitCode, 
     let problem = problem.as_ref();
     let stored = Stored::beside(&command.output);
     let mut search = if command.resume {
-        let mut search = stored.read()?;
+        let mut search = stored.read(problem)?;
         if !search.is_of(problem) {
             let name = stored.name();
             let other =
                 format!("{name} is the search of another design: parameters or bounds differ");
             return Err(Failure::Usage(other));
         }
+        same(command, &search, &stored.name())?;
         if let Some(evaluations) = command.evaluations {
             search.allow(evaluations);
         }
@@ -51,35 +51,59 @@ pub(crate) fn run(command: &Optimise, out: &mut impl Write) -> Result<ExitCode, 
     } else {
         let strategy = Strategy::NAMES
             .iter()
-            .find(|(name, _)| *name == command.method);
+            .find(|(name, _)| *name == command.method());
         let Some(&(_, strategy)) = strategy else {
             return Err(Failure::Usage(format!(
                 "unknown method {:?}",
-                command.method
+                command.method()
             )));
         };
         let usual = Settings::default();
         let settings = Settings {
-            seed: command.seed,
+            seed: command.seed.unwrap_or(usual.seed),
             population: command.population,
             evaluations: command.evaluations.unwrap_or(usual.evaluations),
             ..usual
         };
-        DesignSearch::new(problem, strategy, settings).map_err(|e| Failure::Usage(e.to_string()))?
+        DesignSearch::new(problem, strategy, settings).map_err(|error| {
+            let flag = match error {
+                SearchError::Population { .. } => "--population: ",
+                _ => "",
+            };
+            Failure::Usage(format!("{flag}{error}"))
+        })?
     };
     let text = source.text()?;
     let (ended, seconds) = watched(problem, &mut search, &stored)?;
     let best = search.best();
     stored.write_design(&better(&text, problem, &best)?)?;
-    stored.write(&search)?;
+    stored.write(problem, &search)?;
     let outcome = Outcome::of(problem, &search, &best, ended, seconds);
     if command.json {
         outcome.json(out)?;
     } else {
-        outcome.write(&command.method, out)?;
+        outcome.write(search.strategy().name(), out)?;
         writeln!(out, "\n{}", command.output.display())?;
     }
     Ok(ExitCode::from(u8::from(!outcome.reached())))
+}
+
+/// A search goes on as it began: what the command line says of method and seed must be what is stored.
+fn same(command: &Optimise, search: &DesignSearch, name: &str) -> Result<(), Failure> {
+    let differs = |flag: &str, asked: &str, stored: &str| {
+        let message = format!("--{flag} {asked}: {name} is a search with the {flag} {stored}");
+        Err(Failure::Usage(message))
+    };
+    match (&command.method, search.strategy().name()) {
+        (Some(method), stored) if method != stored => return differs("method", method, stored),
+        _ => {}
+    }
+    match (command.seed, search.seed()) {
+        (Some(seed), Some(stored)) if seed != stored => {
+            differs("seed", &seed.to_string(), &stored.to_string())
+        }
+        _ => Ok(()),
+    }
 }
 
 /// Runs the search with a bar on the terminal; Ctrl-C ends it.
@@ -99,7 +123,7 @@ fn watched(
     let mut store = false;
     let ended = loop {
         if store {
-            stored.write(search)?;
+            stored.write(problem, search)?;
             due = Instant::now() + STORE;
             store = false;
         }

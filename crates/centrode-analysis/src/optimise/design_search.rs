@@ -24,6 +24,13 @@ impl Strategy {
         ("de", Self::Global(Method::DifferentialEvolution)),
         ("ga", Self::Global(Method::Genetic)),
     ];
+
+    /// Its name.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        let named = Self::NAMES.into_iter().find(|(_, one)| *one == self);
+        named.map_or("", |(name, _)| name)
+    }
 }
 
 /// A search for a better design under way: keep it, store it, go on with it.
@@ -57,6 +64,7 @@ impl DesignSearch {
         strategy: Strategy,
         settings: Settings,
     ) -> Result<Self, SearchError> {
+        settings.validate()?;
         let state = match strategy {
             Strategy::Guided if problem.variables().is_empty() => {
                 return Err(SearchError::NoVariable);
@@ -86,6 +94,24 @@ impl DesignSearch {
     #[must_use]
     pub fn is_of(&self, problem: &dyn DesignProblem) -> bool {
         self.variables == variables(problem)
+    }
+
+    /// How it searches.
+    #[must_use]
+    pub fn strategy(&self) -> Strategy {
+        match &self.state {
+            State::Guided(_) => Strategy::Guided,
+            State::Global(search) => Strategy::Global(search.settings().method),
+        }
+    }
+
+    /// Its seed; none of a guided search, which has no chance in it.
+    #[must_use]
+    pub fn seed(&self) -> Option<u64> {
+        match &self.state {
+            State::Guided(_) => None,
+            State::Global(search) => Some(search.settings().seed),
+        }
     }
 
     /// Most evaluations in all.

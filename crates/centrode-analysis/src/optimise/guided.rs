@@ -301,7 +301,11 @@ impl GuidedSearch {
             let seen = Seen::at(problem, &point)?;
             Some(Trial { point, moved, seen })
         };
-        moves.into_par_iter().filter_map(trial).collect()
+        moves
+            .into_par_iter()
+            .panic_fuse()
+            .filter_map(trial)
+            .collect()
     }
 
     fn record(

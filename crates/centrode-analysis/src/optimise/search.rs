@@ -50,6 +50,20 @@ pub struct Settings {
     pub target: Option<f64>,
 }
 
+impl Settings {
+    /// Refuses a population too small for any method.
+    ///
+    /// # Errors
+    /// [`SearchError::Population`].
+    pub fn validate(&self) -> Result<(), SearchError> {
+        let least = LEAST_POPULATION;
+        match self.population {
+            Some(count) if count < least => Err(SearchError::Population { count, least }),
+            _ => Ok(()),
+        }
+    }
+}
+
 impl Default for Settings {
     fn default() -> Self {
         Self {
@@ -109,7 +123,7 @@ pub enum SearchError {
         high: f64,
     },
     /// Too few points for a generation.
-    #[error("a population of {count} is too small; it must be at least {least}")]
+    #[error("population is {count}, but it must be at least {least}")]
     Population {
         /// As given.
         count: usize,
@@ -167,11 +181,8 @@ impl Search {
             Method::Genetic => (20 * n).clamp(60, 400),
             Method::DifferentialEvolution => (10 * n).clamp(20, 200),
         };
+        settings.validate()?;
         let count = settings.population.unwrap_or(usual);
-        if count < LEAST_POPULATION {
-            let least = LEAST_POPULATION;
-            return Err(SearchError::Population { count, least });
-        }
         let mut random = Random::new(settings.seed, 0);
         let (state, points) = match settings.method {
             Method::CmaEs => {
@@ -287,6 +298,12 @@ impl Search {
     #[must_use]
     pub fn history(&self) -> &[Progress] {
         &self.history
+    }
+
+    /// How it searches.
+    #[must_use]
+    pub fn settings(&self) -> &Settings {
+        &self.settings
     }
 
     /// Evaluations done.

@@ -110,6 +110,89 @@ fn a_stored_search_goes_on_as_if_never_stopped() {
 }
 
 #[test]
+fn an_altered_search_is_not_gone_on_with() {
+    let folder = tempfile::tempdir().expect("a place to write");
+    let file = |name: &str| folder.path().join(name).display().to_string();
+    let (from, to, stored) = (file("a.toml"), file("b.toml"), file("b.search.json"));
+    let design = fs::read_to_string(shipped("feeder-2022.toml")).expect("shipped");
+    fs::write(&from, &design).expect("written");
+    let run = |more: &[&str]| {
+        let mut words = vec!["optimise", &from, "-o", &to];
+        words.extend(more);
+        centrode(&words)
+    };
+    run(&["--method", "de", "--population", "8", "--evaluations", "40"]);
+    let sound = fs::read_to_string(&stored).expect("stored");
+    let resumed = run(&["--resume", "--evaluations", "48"]);
+    assert_ne!(resumed.status.code(), Some(2), "{}", text(&resumed.stderr));
+    let refused = |more: &[&str], why: &str| {
+        let mut words = vec!["--resume"];
+        words.extend(more);
+        let done = run(&words);
+        assert_eq!(done.status.code(), Some(2), "{why}: {}", text(&done.stdout));
+        assert!(text(&done.stderr).contains(why), "{}", text(&done.stderr));
+    };
+    let number = sound.find("\"objective\":").expect("a number") + 12;
+    let digit = number
+        + sound[number..]
+            .find(|c: char| c.is_ascii_digit())
+            .expect("one");
+    let mut edited = sound.clone();
+    let other = if &sound[digit..=digit] == "7" {
+        "8"
+    } else {
+        "7"
+    };
+    edited.replace_range(digit..=digit, other);
+    let unsealed = sound.replacen("\"seal\":", "\"sail\":", 1);
+    for altered in [
+        &edited,
+        &sound.replacen("\"seed\":1", "\"seed\":2", 1),
+        &sound.replacen("\"evaluations\":40", "\"evaluations\":39", 1),
+        &unsealed,
+        &sound[..sound.len() - 20],
+        "",
+    ] {
+        assert_ne!(altered, sound);
+        fs::write(&stored, altered).expect("written");
+        refused(&[], "b.search.json is no stored search");
+    }
+    fs::write(&stored, &sound).expect("written");
+    refused(
+        &["--seed", "2"],
+        "--seed 2: b.search.json is a search with the seed 1",
+    );
+    refused(
+        &["--method", "ga"],
+        "--method ga: b.search.json is a search with the method de",
+    );
+    // A number that the search does not move.
+    let line = design
+        .lines()
+        .find(|line| line.starts_with("effector_length"));
+    let other = design.replace(line.expect("there"), "effector_length = 201");
+    fs::write(&from, other).expect("written");
+    refused(&[], "stored for a design that has since been changed");
+}
+
+#[test]
+fn a_population_too_small_is_refused_by_its_flag() {
+    let folder = tempfile::tempdir().expect("a place to write");
+    let to = folder.path().join("a.toml").display().to_string();
+    for method in ["guided", "de", "ga", "cma-es"] {
+        for count in ["0", "4"] {
+            let design = shipped("feeder-2022.toml");
+            let words = ["--method", method, "--population", count, "-o", &to];
+            let done = centrode(&[&["optimise", &design], &words[..]].concat());
+            assert_eq!(done.status.code(), Some(2));
+            let told = format!("--population: population is {count}, but it must be at least 5");
+            assert!(text(&done.stderr).contains(&told), "{}", text(&done.stderr));
+        }
+    }
+    assert_eq!(fs::read_dir(folder.path()).expect("there").count(), 0);
+}
+
+#[test]
 fn a_response_is_told_as_table_and_written_as_csv() {
     let folder = tempfile::tempdir().expect("a place to write");
     let csv = folder.path().join("r1.csv");
