@@ -2,6 +2,7 @@ import json
 import resource
 import signal
 import subprocess
+import time
 
 import pytest
 from conftest import BINARY, ROOT
@@ -47,24 +48,95 @@ def limited(size, action):
     return limit
 
 
-@pytest.mark.parametrize(
-    ("action", "code"), [(signal.SIG_IGN, 2), (signal.SIG_DFL, -signal.SIGXFSZ)], ids=["full disk", "killed by it"]
-)
-def test_an_export_cut_short_leaves_the_old_files(exported, tmp_path, action, code):
+def everything(folder):
+    """Contents of every file in a folder, hidden ones among them, by path."""
+    return {path.relative_to(folder): path.read_bytes() for path in folder.rglob("*") if path.is_file()}
+
+
+@pytest.mark.parametrize("action", [signal.SIG_IGN, signal.SIG_DFL], ids=["full disk", "killed by it"])
+def test_an_export_cut_short_leaves_the_old_files(exported, tmp_path, action):
     old = {path.name: path.read_bytes() for path in exported.folder.iterdir() if path.is_file()}
     for name, contents in old.items():
         (tmp_path / name).write_bytes(contents)
     command = [BINARY, "export", exported.design, "--to", tmp_path, "--tolerance", "0.01"]
     # The first files fit, the solids do not.
     done = subprocess.run(command, capture_output=True, text=True, timeout=60, preexec_fn=limited(100_000, action))
-    assert done.returncode == code
+    assert done.returncode == 2
     assert done.stdout == ""
-    left = {path.name: path.read_bytes() for path in tmp_path.iterdir() if path.is_file()}
-    parts = [name for name in left if name.endswith(".part")]
-    if code == 2:
-        assert "cannot write" in done.stderr
-        assert not parts
-    assert {name: left[name] for name in left if name not in parts} == old
+    assert "cannot write" in done.stderr
+    assert "File too large" in done.stderr
+    assert {str(path): contents for path, contents in everything(tmp_path).items()} == old
     # With room, the same command goes through and differs: the old files were not its own.
     subprocess.run(command, check=True, capture_output=True, timeout=60)
     assert (tmp_path / "driver.stl").read_bytes() != old["driver.stl"]
+
+
+def writing(folder):
+    """Waits until an export has begun to write into a folder."""
+    begun = time.monotonic()
+    while not list(folder.glob(".*")):
+        assert time.monotonic() < begun + 60
+        time.sleep(1e-4)
+
+
+def test_what_a_killed_export_left_is_cleared_by_the_next(exported, tmp_path):
+    command = [BINARY, "export", exported.design, "--to", tmp_path, "--tolerance", "0.01"]
+    subprocess.run(command, check=True, capture_output=True, timeout=60)
+    whole = everything(tmp_path)
+    (tmp_path / ".notes.part").write_text("mine")
+    for _ in range(20):
+        process = subprocess.Popen(command, stdout=subprocess.DEVNULL)
+        writing_seen = time.monotonic()
+        while process.poll() is None and len(list(tmp_path.glob(".*"))) < 2:
+            assert time.monotonic() < writing_seen + 60
+        process.kill()
+        process.wait(timeout=10)
+        if len(list(tmp_path.glob(".*"))) > 1:
+            break
+    else:
+        pytest.fail("none was killed while it wrote")
+    # What is there under its own name is whole; an export beside a live one clears only what is dead.
+    visible = {path: contents for path, contents in everything(tmp_path).items() if path.parts[0][0] != "."}
+    assert visible == whole
+    both = [subprocess.Popen(command, stdout=subprocess.DEVNULL) for _ in range(2)]
+    assert [process.wait(timeout=60) for process in both] == [0, 0]
+    (tmp_path / ".notes.part").unlink()
+    assert everything(tmp_path) == whole
+    assert not list(tmp_path.glob(".*"))
+
+
+def test_ctrl_c_while_files_are_written_leaves_nothing_half_written(exported, tmp_path):
+    command = [BINARY, "export", exported.design, "--to", tmp_path, "--tolerance", "0.01"]
+    subprocess.run(command, check=True, capture_output=True, timeout=60)
+    whole = everything(tmp_path)
+    codes = set()
+    for _ in range(20):
+        process = subprocess.Popen(command, stdout=subprocess.DEVNULL, preexec_fn=heard)
+        writing(tmp_path)
+        process.send_signal(signal.SIGINT)
+        codes.add(process.wait(timeout=10))
+        assert everything(tmp_path) == whole
+        if 130 in codes:
+            break
+    assert 130 in codes, f"never in time: {codes}"
+
+
+def heard():
+    """A job started in the background ignores the signal unless asked not to."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+
+
+@pytest.mark.parametrize("words", [["check"], ["export", "--to", "out"]], ids=["check", "export"])
+def test_ctrl_c_ends_a_slow_command_at_once(tmp_path, words):
+    (tmp_path / "slow.toml").write_text(
+        'family = "gear-pair"\n[pitch]\nkind = "circle"\nmodule = 1\ntooth_count = 10000\n'
+    )
+    command = [BINARY, words[0], "slow.toml", *words[1:]]
+    process = subprocess.Popen(command, cwd=tmp_path, stdout=subprocess.DEVNULL, preexec_fn=heard)
+    time.sleep(0.5)
+    assert process.poll() is None
+    asked = time.monotonic()
+    process.send_signal(signal.SIGINT)
+    assert process.wait(timeout=10) == -signal.SIGINT
+    assert time.monotonic() - asked < 0.1
+    assert [path.name for path in tmp_path.iterdir()] == ["slow.toml"]

@@ -1,3 +1,4 @@
+use centrode_geometry::checkpoint;
 use std::{
     ffi::OsStr,
     fs::{self, File},
@@ -6,6 +7,8 @@ use std::{
 };
 use thiserror::Error;
 use zip::{CompressionMethod, DateTime, ZipWriter, write::SimpleFileOptions};
+
+use crate::stage::Stage;
 
 /// Files ready to be written: names and contents, in order.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -98,39 +101,42 @@ impl Bundle {
     /// Writes every file into a directory, which is made if it is missing, as are folders in it.
     /// Returns the paths.
     ///
-    /// All contents are first written and flushed under temporary names, then renamed: a file is there
-    /// whole or, after an error, as it was before; no temporary is left behind. A file written over keeps
-    /// its permissions.
+    /// All contents are first written and flushed in hidden folders, then renamed: a file is there whole or, after an
+    /// error, as it was before; nothing else is left behind. What a killed program left is cleared by the next one that
+    /// writes there; several may write at the same time. A file written over keeps its permissions. Cancelled by
+    /// [`Cancel`](centrode_geometry::Cancel) it leaves no new file.
     ///
     /// # Errors
     /// [`BundleError::Disk`] with the path and the system's reason.
     pub fn write_to(&self, directory: &Path) -> Result<Vec<PathBuf>, BundleError> {
         fs::create_dir_all(directory).map_err(failed("create the directory", directory))?;
-        let mut staged = Staged::default();
+        let mut stages: Vec<(&str, Stage)> = Vec::new();
+        let mut staged = Vec::with_capacity(self.files.len());
         for (name, bytes) in &self.files {
+            checkpoint();
             let target = directory.join(name);
             if target.is_dir() {
                 let source = io::Error::from(io::ErrorKind::IsADirectory);
                 return Err(failed("write", &target)(source));
             }
             let (folder, file) = name.rsplit_once('/').unwrap_or(("", name));
-            let folder = directory.join(folder);
-            fs::create_dir_all(&folder).map_err(failed("create the directory", &folder))?;
-            let temporary = folder.join(format!(".{file}.{}.part", std::process::id()));
-            let before = fs::metadata(&target).ok();
-            staged.paths.push((temporary.clone(), target));
-            let mut file = File::create(&temporary).map_err(failed("create", &temporary))?;
-            if let Some(before) = before {
-                fs::set_permissions(&temporary, before.permissions())
-                    .map_err(failed("set the permissions of", &temporary))?;
+            if !stages.iter().any(|(of, _)| *of == folder) {
+                let path = directory.join(folder);
+                fs::create_dir_all(&path).map_err(failed("create the directory", &path))?;
+                let stage = Stage::open(&path).map_err(failed("create a file in", &path))?;
+                stages.push((folder, stage));
             }
-            file.write_all(bytes).map_err(failed("write", &temporary))?;
-            file.sync_all().map_err(failed("flush", &temporary))?;
+            let Some((_, stage)) = stages.iter().find(|(of, _)| *of == folder) else {
+                continue;
+            };
+            let place = stage.place(file);
+            put(bytes, &place, &target).map_err(failed("write", &target))?;
+            staged.push((place, target));
         }
         let mut written = Vec::with_capacity(self.files.len());
-        for (temporary, target) in &staged.paths {
-            fs::rename(temporary, target).map_err(failed("write", target))?;
-            written.push(target.clone());
+        for (place, target) in staged {
+            fs::rename(place, &target).map_err(failed("write", &target))?;
+            written.push(target);
         }
         Ok(written)
     }
@@ -169,19 +175,14 @@ fn failed(action: &'static str, path: &Path) -> impl FnOnce(io::Error) -> Bundle
     }
 }
 
-/// Temporary and final paths; what is left of the temporaries is removed in the end.
-#[derive(Default)]
-struct Staged {
-    paths: Vec<(PathBuf, PathBuf)>,
-}
-
-impl Drop for Staged {
-    fn drop(&mut self) {
-        for (temporary, _) in &self.paths {
-            // Renamed files are gone already; nothing more can be done about others.
-            let _ = fs::remove_file(temporary);
-        }
+/// Writes and flushes a new file that is to take the place of another, with its permissions.
+fn put(bytes: &[u8], place: &Path, target: &Path) -> io::Result<()> {
+    let mut file = File::create_new(place)?;
+    if let Ok(before) = fs::metadata(target) {
+        fs::set_permissions(place, before.permissions())?;
     }
+    file.write_all(bytes)?;
+    file.sync_all()
 }
 
 #[cfg(test)]
@@ -267,6 +268,48 @@ mod tests {
             assert!(write_file(&root.path().join(bad), vec![]).is_err(), "{bad}");
         }
         assert_eq!(names(path.parent().expect("a folder")), ["gear.step"]);
+    }
+
+    #[test]
+    fn many_threads_write_the_same_files_into_one_folder() {
+        let root = tempfile::tempdir().expect("a place to write");
+        let bundle = |letter: u8| {
+            let mut bundle = Bundle::default();
+            for name in ["one.txt", "two.txt", "deep/three.txt"] {
+                bundle.add(name, vec![letter; 20_000]).expect("plain");
+            }
+            bundle
+        };
+        std::thread::scope(|scope| {
+            for thread in 0..8 {
+                let (root, bundle) = (root.path(), bundle(b'a' + thread));
+                scope.spawn(move || {
+                    for _ in 0..12 {
+                        bundle.write_to(root).expect("written");
+                        let read = fs::read(root.join("deep/three.txt")).expect("there");
+                        assert_eq!(read, vec![read[0]; 20_000]);
+                    }
+                });
+            }
+        });
+        assert_eq!(names(root.path()), ["deep", "one.txt", "two.txt"]);
+        assert_eq!(names(&root.path().join("deep")), ["three.txt"]);
+    }
+
+    #[test]
+    fn a_cancelled_write_leaves_what_was_there() {
+        let root = tempfile::tempdir().expect("a place to write");
+        fs::write(root.path().join("one.txt"), b"old").expect("written");
+        let mut bundle = Bundle::default();
+        bundle.add("one.txt", b"new".to_vec()).expect("plain");
+        let cancel = centrode_geometry::Cancel::default();
+        cancel.cancel();
+        assert!(cancel.run(|| bundle.write_to(root.path())).is_err());
+        assert_eq!(names(root.path()), ["one.txt"]);
+        assert_eq!(
+            fs::read(root.path().join("one.txt")).expect("there"),
+            b"old"
+        );
     }
 
     #[test]

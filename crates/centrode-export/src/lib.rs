@@ -15,6 +15,7 @@ pub mod page;
 pub mod pdf;
 pub mod shaft;
 pub mod sheet;
+mod stage;
 pub mod step;
 pub mod stl;
 pub mod svg;

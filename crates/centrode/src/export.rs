@@ -11,6 +11,7 @@ use clap::ValueEnum as _;
 use crate::args::{Dxf, Export, File, Method, Part, Size};
 use crate::failure::Failure;
 use crate::input::Source;
+use crate::output;
 use crate::progress::Progress;
 use crate::report;
 
@@ -27,7 +28,7 @@ pub(crate) fn run(command: &Export, out: &mut impl Write) -> Result<ExitCode, Fa
     progress.step("drawing");
     let bundle = bundle(&mechanism, &found, command)?;
     progress.step("writing");
-    let written = bundle.write_to(&command.to)?;
+    let written = output::write(&bundle, &command.to)?;
     drop(progress);
     for path in &written {
         writeln!(out, "{}", path.display())?;

@@ -31,6 +31,8 @@ pub(crate) enum Failure {
     Serve(io::Error),
     /// The files of the design cannot be made or written.
     Files(Box<dyn std::error::Error + Send + Sync>),
+    /// Ctrl-C.
+    Interrupted,
     /// A word on the command line that means nothing.
     Usage(String),
 }
@@ -91,6 +93,7 @@ impl std::fmt::Display for Failure {
             Self::Output(error) => write!(out, "cannot write the output: {error}"),
             Self::Serve(error) => write!(out, "cannot serve the page: {error}"),
             Self::Files(error) => write!(out, "{error}"),
+            Self::Interrupted => write!(out, "interrupted"),
             Self::Usage(message) => write!(out, "{message}"),
         }
     }

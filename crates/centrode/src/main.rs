@@ -10,6 +10,7 @@ mod interrupt;
 mod man;
 mod new;
 mod optimise;
+mod output;
 mod page;
 mod progress;
 mod report;
@@ -35,6 +36,9 @@ fn main() -> ExitCode {
             return ExitCode::from(if error.use_stderr() { 2 } else { 0 });
         }
     };
+    #[cfg(unix)]
+    // Without it such a write ends the program: no reason not to begin.
+    let _ = output::heed_file_limit();
     let mut out = std::io::BufWriter::new(anstream::stdout());
     let result = match &arguments.command {
         Command::New(command) => new::run(command, &mut out),
@@ -56,6 +60,7 @@ fn main() -> ExitCode {
         Err(Failure::Output(error)) if error.kind() == std::io::ErrorKind::BrokenPipe => {
             ExitCode::SUCCESS
         }
+        Err(Failure::Interrupted) => ExitCode::from(130),
         Err(failure) => {
             let _ = failure.write(&mut anstream::stderr());
             ExitCode::from(2)

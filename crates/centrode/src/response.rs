@@ -9,6 +9,7 @@ use centrode::export::Bundle;
 use crate::args::Response;
 use crate::failure::Failure;
 use crate::input::Source;
+use crate::output;
 use crate::progress::Progress;
 
 /// Tells how the figures of a design answer one of its numbers.
@@ -144,6 +145,6 @@ fn write_csv(path: &Path, response: &Found, answers: &[Answer]) -> Result<(), Fa
         .map(|name| name.to_string_lossy().into_owned());
     let mut bundle = Bundle::default();
     bundle.add(&name.unwrap_or_default(), text.into_bytes())?;
-    bundle.write_to(folder.unwrap_or(Path::new(".")))?;
+    output::write(&bundle, folder.unwrap_or(Path::new(".")))?;
     Ok(())
 }

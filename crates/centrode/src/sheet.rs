@@ -7,6 +7,7 @@ use centrode::export::{Bundle, page};
 use crate::args::Report;
 use crate::failure::Failure;
 use crate::input::Source;
+use crate::output;
 use crate::page::Subject;
 use crate::progress::Progress;
 
@@ -45,7 +46,7 @@ pub(crate) fn run(command: &Report, out: &mut impl Write) -> Result<ExitCode, Fa
         .unwrap_or_default();
     let mut bundle = Bundle::default();
     bundle.add(name, html.into_bytes())?;
-    for path in bundle.write_to(folder)? {
+    for path in output::write(&bundle, folder)? {
         writeln!(out, "{}", path.display())?;
     }
     Ok(ExitCode::from(u8::from(!snapshot.ok())))

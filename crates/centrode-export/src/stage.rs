@@ -1,0 +1,125 @@
+use std::fs::{self, File, TryLockError};
+use std::hash::{BuildHasher as _, Hasher as _, RandomState};
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// Name of a stage, about a number of its own.
+const NAME: [&str; 2] = [".centrode-", ".part"];
+
+/// File of a stage that is locked as long as its writer lives.
+const LOCK: &str = "lock";
+
+/// Hidden folder in which files are written whole before they are renamed into the folder around it.
+///
+/// Each has a name of its own and a lock, which the system lifts when the writer ends, however it ends. So a stage
+/// that can be locked by others is dead, and the next one in the same folder clears it away.
+#[derive(Debug)]
+pub(crate) struct Stage {
+    path: PathBuf,
+    /// Locked until the stage is gone.
+    _lock: File,
+}
+
+impl Stage {
+    /// A new stage in a folder, which is cleared of dead ones.
+    pub(crate) fn open(folder: &Path) -> io::Result<Self> {
+        clear(folder);
+        loop {
+            let number = RandomState::new().build_hasher().finish();
+            let path = folder.join(format!("{}{number:016x}{}", NAME[0], NAME[1]));
+            match fs::create_dir(&path) {
+                Err(taken) if taken.kind() == io::ErrorKind::AlreadyExists => continue,
+                made => made?,
+            }
+            // Until it is locked it looks dead: where another writer clears it away, the next name is tried.
+            let lock = match lock_of(&path) {
+                Err(cleared) if cleared.kind() == io::ErrorKind::NotFound => continue,
+                lock => lock?,
+            };
+            // Where nothing can be locked no stage is ever taken for dead either.
+            if !matches!(lock.try_lock(), Err(TryLockError::WouldBlock)) && path.join(LOCK).exists()
+            {
+                return Ok(Self { path, _lock: lock });
+            }
+        }
+    }
+
+    /// Place of a file of that name while it is written.
+    pub(crate) fn place(&self, name: &str) -> PathBuf {
+        // With its own name a file could be taken for the lock.
+        self.path.join(format!("{name}.part"))
+    }
+}
+
+impl Drop for Stage {
+    fn drop(&mut self) {
+        // What cannot be removed now is cleared by the next stage.
+        let _ = fs::remove_dir_all(&self.path);
+    }
+}
+
+/// File by which a stage is locked; made where it is missing.
+fn lock_of(stage: &Path) -> io::Result<File> {
+    let mut options = File::options();
+    options.create(true).truncate(false).write(true);
+    options.open(stage.join(LOCK))
+}
+
+/// Removes the stages in a folder whose writers have ended without doing so.
+fn clear(folder: &Path) {
+    for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
+        let name = entry.file_name();
+        let number = name
+            .to_str()
+            .and_then(|name| name.strip_prefix(NAME[0])?.strip_suffix(NAME[1]));
+        let ours = number.is_some_and(|n| n.len() == 16 && u64::from_str_radix(n, 16).is_ok());
+        if ours
+            && let Ok(lock) = lock_of(&entry.path())
+            && lock.try_lock().is_ok()
+        {
+            let _ = fs::remove_dir_all(entry.path());
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn names(directory: &Path) -> Vec<String> {
+        let entries = fs::read_dir(directory).expect("readable").flatten();
+        let mut names: Vec<String> = entries
+            .map(|entry| entry.file_name().to_string_lossy().into_owned())
+            .collect();
+        names.sort();
+        names
+    }
+
+    #[test]
+    fn what_a_dead_writer_left_is_cleared_and_nothing_else() {
+        let root = tempfile::tempdir().expect("a place to write");
+        let dead = std::mem::ManuallyDrop::new(Stage::open(root.path()).expect("a stage"));
+        let alive = Stage::open(root.path()).expect("a stage");
+        for stage in [&*dead, &alive] {
+            fs::write(stage.place("one.txt"), b"half").expect("written");
+        }
+        let others = [
+            ".centrode-0123456789abcdef",
+            ".centrode-notes.part",
+            ".one.txt.1.part",
+        ];
+        for other in others {
+            fs::create_dir(root.path().join(other)).expect("a folder");
+        }
+        drop(Stage::open(root.path()).expect("a stage"));
+        assert_eq!(names(root.path()).len(), 5, "both are alive");
+        // As the system does for a program that is killed.
+        dead._lock.unlock().expect("unlocked");
+        drop(Stage::open(root.path()).expect("a stage"));
+        assert!(alive.place("one.txt").exists() && !dead.path.exists());
+        // One that was killed before it had a lock.
+        fs::create_dir(root.path().join(".centrode-0123456789abcdef.part")).expect("a folder");
+        drop((Stage::open(root.path()).expect("a stage"), alive));
+        assert_eq!(names(root.path()), others);
+    }
+}

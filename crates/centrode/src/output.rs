@@ -1,0 +1,27 @@
+use std::path::{Path, PathBuf};
+
+use centrode::export::Bundle;
+
+use crate::failure::Failure;
+use crate::interrupt::Interrupt;
+
+/// Writes files into a folder, each whole or not at all; Ctrl-C before the last is written leaves no new one.
+pub(crate) fn write(bundle: &Bundle, folder: &Path) -> Result<Vec<PathBuf>, Failure> {
+    let interrupt = Interrupt::watch().map_err(Failure::Serve)?;
+    let written = interrupt.cancel.run(|| bundle.write_to(folder));
+    Ok(written.map_err(|_| Failure::Interrupted)??)
+}
+
+/// Has a write beyond the limit of a file's size fail with a reason: the signal of it, not caught, ends the program.
+#[cfg(unix)]
+pub(crate) fn heed_file_limit() -> std::io::Result<()> {
+    use tokio::signal::unix::{SignalKind, signal};
+
+    /// Number of the signal on Linux, macOS and the BSDs.
+    const SIGXFSZ: i32 = 25;
+    let runtime = tokio::runtime::Builder::new_current_thread()
+        .enable_io()
+        .build()?;
+    let _inside = runtime.enter();
+    signal(SignalKind::from_raw(SIGXFSZ)).map(drop)
+}
