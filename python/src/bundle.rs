@@ -1,10 +1,11 @@
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-use centrode_export::Bundle;
+use centrode_export::{Bundle, write_file};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 
 use crate::error;
+use crate::wait::wait;
 
 /// The files, name to contents.
 pub(crate) fn contents<'py>(py: Python<'py>, bundle: &Bundle) -> PyResult<Bound<'py, PyDict>> {
@@ -16,8 +17,17 @@ pub(crate) fn contents<'py>(py: Python<'py>, bundle: &Bundle) -> PyResult<Bound<
 }
 
 /// Writes the files into a directory; gives their paths.
-pub(crate) fn written(py: Python<'_>, bundle: &Bundle, directory: &Path) -> PyResult<Vec<PathBuf>> {
-    // Not left behind to run out unheard: it changes the disk.
-    py.detach(|| bundle.write_to(directory))
-        .map_err(|e| error::of_bundle(py, &e))
+pub(crate) fn written(
+    py: Python<'_>,
+    bundle: Bundle,
+    directory: PathBuf,
+) -> PyResult<Vec<PathBuf>> {
+    wait(py, move || bundle.write_to(&directory))?.map_err(|e| error::of_bundle(py, &e))
+}
+
+/// Writes one file whole or not at all; gives its path.
+pub(crate) fn written_file(py: Python<'_>, path: PathBuf, bytes: Vec<u8>) -> PyResult<PathBuf> {
+    let to = path.clone();
+    wait(py, move || write_file(&to, bytes))?.map_err(|e| error::of_bundle(py, &e))?;
+    Ok(path)
 }

@@ -10,9 +10,7 @@ use centrode_mechanism::design::Design;
 use centrode_mechanism::feeder as mechanism;
 use centrode_mechanism::mechanism::Mechanism;
 use pyo3::IntoPyObjectExt;
-use pyo3::prelude::{
-    Bound, Py, PyAny, PyAnyMethods, PyModule, PyResult, Python, pyclass, pymethods,
-};
+use pyo3::prelude::{Bound, Py, PyAny, PyResult, Python, pyclass, pymethods};
 use pyo3::types::PyDict;
 
 use crate::array::{Values, each, each_array, together, together_array};
@@ -20,6 +18,7 @@ use crate::bundle;
 use crate::design::Loaded;
 use crate::error::{no_search, of_design, of_feeder_files, of_plates, plain_tolerance};
 use crate::format;
+use crate::made::{Reduced, by_design};
 use crate::record;
 use crate::search;
 use crate::six_bar::SixBar;
@@ -369,7 +368,7 @@ impl Feeder {
         dxf_curves: &str,
     ) -> PyResult<Vec<PathBuf>> {
         let bundle = self.bundle(py, formats, tolerance, dxf_version, dxf_curves)?;
-        bundle::written(py, &bundle, &directory)
+        bundle::written(py, bundle, directory)
     }
 
     fn __repr__(&self) -> String {
@@ -380,9 +379,7 @@ impl Feeder {
         )
     }
 
-    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, (Vec<u8>,))> {
-        let text = self.to_toml()?;
-        let module = PyModule::import(py, "centrode._centrode")?;
-        Ok((module.getattr("_load")?, (text.into_bytes(),)))
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
+        by_design(py, &self.design())
     }
 }

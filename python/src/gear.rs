@@ -2,7 +2,6 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use centrode_export::gear_pair::{self as files, GearPairFilesError};
-use centrode_export::write_file;
 use centrode_geometry::Solid;
 use centrode_mechanism::gear as mechanism;
 use centrode_mechanism::gear::Member;
@@ -12,7 +11,9 @@ use pyo3::types::{PyDict, PyTuple};
 
 use crate::array::{points, rows};
 use crate::body::Body;
-use crate::error::{of_bundle, of_files, of_solid, positive, tolerance as within};
+use crate::bundle::written_file;
+use crate::error::{of_files, of_solid, positive, tolerance as within};
+use crate::made::{Made, Reduced};
 use crate::record;
 use crate::sheet::{Drawing, Sheets, layout};
 use crate::wait::wait;
@@ -23,6 +24,7 @@ use crate::wait::wait;
 pub(crate) struct Gear {
     pub(crate) pair: Arc<mechanism::GearPair>,
     pub(crate) member: Member,
+    pub(crate) made: Made,
 }
 
 impl Gear {
@@ -41,10 +43,7 @@ impl Gear {
     ) -> PyResult<PathBuf> {
         let (pair, member) = (Arc::clone(&self.pair), self.member);
         let bytes = wait(py, move || make(&pair, member))?.map_err(|e| of_files(&e))?;
-        // Not left behind to run out unheard: it changes the disk.
-        py.detach(|| write_file(&path, bytes))
-            .map_err(|e| of_bundle(py, &e))?;
-        Ok(path)
+        written_file(py, path, bytes)
     }
 }
 
@@ -315,5 +314,8 @@ impl Gear {
             gear.tooth_count(),
             gear.pitch_length()
         )
+    }
+    fn __reduce__<'py>(&self, py: Python<'py>) -> Reduced<'py> {
+        self.made.reduced(py)
     }
 }

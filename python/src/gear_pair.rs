@@ -11,9 +11,7 @@ use centrode_mechanism::gear as mechanism;
 use centrode_mechanism::gear::Member;
 use centrode_mechanism::gear::design::{Addendum, BodySpec, GearPairDesign, TeethSpec};
 use centrode_mechanism::gear::pitch::{Conjugate, PitchSpec};
-use pyo3::prelude::{
-    Bound, Py, PyAny, PyAnyMethods, PyModule, PyRef, PyResult, Python, pyclass, pymethods,
-};
+use pyo3::prelude::{Bound, Py, PyAny, PyRef, PyResult, Python, pyclass, pymethods};
 use pyo3::types::PyDict;
 
 use crate::array::{Numbers, Values, each};
@@ -25,6 +23,7 @@ use crate::drawing::DrawingSpec;
 use crate::error::{of_design, of_files, of_pair, tolerance as within};
 use crate::format::options;
 use crate::gear::Gear;
+use crate::made::{Made, Reduced, by_design};
 use crate::pitch::Pitch;
 use crate::place::{Place, addendum};
 use crate::record;
@@ -84,11 +83,16 @@ impl PartialEq for GearPair {
 }
 
 impl GearPair {
-    fn gear(&self, member: Member) -> Gear {
-        Gear {
-            pair: Arc::clone(&self.pair),
+    fn design(&self) -> Design {
+        Design::GearPair(Box::new(GearPairDesign::clone(&self.design)))
+    }
+
+    fn gear(slf: &Bound<'_, Self>, member: Member) -> PyResult<Gear> {
+        Ok(Gear {
+            pair: Arc::clone(&slf.get().pair),
             member,
-        }
+            made: Made::part_of(slf.clone().into_any(), member.name())?,
+        })
     }
 
     fn bundle(
@@ -191,8 +195,7 @@ impl GearPair {
     /// family = "gear-pair"
     /// <BLANKLINE>
     fn to_toml(&self) -> PyResult<String> {
-        let design = Design::GearPair(Box::new(GearPairDesign::clone(&self.design)));
-        design.to_toml().map_err(|e| of_design(&e))
+        self.design().to_toml().map_err(|e| of_design(&e))
     }
 
     /// Name, as written in the design.
@@ -278,14 +281,14 @@ impl GearPair {
 
     /// The gear that is turned, at the origin.
     #[getter]
-    fn driver(&self) -> Gear {
-        self.gear(Member::Driver)
+    fn driver(slf: &Bound<'_, Self>) -> PyResult<Gear> {
+        Self::gear(slf, Member::Driver)
     }
 
     /// The gear that is driven, at (center_distance, 0).
     #[getter]
-    fn driven(&self) -> Gear {
-        self.gear(Member::Driven)
+    fn driven(slf: &Bound<'_, Self>) -> PyResult<Gear> {
+        Self::gear(slf, Member::Driven)
     }
 
     /// Driven angle at a driver angle, rad; of an array, an array of the same shape.
@@ -476,7 +479,7 @@ impl GearPair {
         dxf_curves: &str,
     ) -> PyResult<Vec<PathBuf>> {
         let bundle = self.bundle(py, formats, tolerance, dxf_version, dxf_curves)?;
-        bundle::written(py, &bundle, &directory)
+        bundle::written(py, bundle, directory)
     }
 
     fn __repr__(&self) -> String {
@@ -500,9 +503,7 @@ impl GearPair {
         slf
     }
 
-    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, (Vec<u8>,))> {
-        let text = self.to_toml()?;
-        let module = PyModule::import(py, "centrode._centrode")?;
-        Ok((module.getattr("_load")?, (text.into_bytes(),)))
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
+        by_design(py, &self.design())
     }
 }

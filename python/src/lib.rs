@@ -14,6 +14,7 @@ mod feeder;
 mod format;
 mod gear;
 mod gear_pair;
+mod made;
 mod moving_box;
 mod pitch;
 mod place;
@@ -59,7 +60,7 @@ mod _centrode {
     #[pymodule_export]
     use crate::pitch::{_pitch_from_toml, Pitch};
     #[pymodule_export]
-    use crate::sheet::{Drawing, Sheets};
+    use crate::sheet::{_drawing, _sheets, Drawing, Sheets};
     #[pymodule_export]
     use crate::six_bar::SixBar;
     #[pymodule_export]

@@ -20,6 +20,7 @@ use crate::error::{
 };
 use crate::format;
 use crate::gear_pair::GearPair;
+use crate::made::{Reduced, by_design};
 use crate::record;
 use crate::spiral_shaft::SpiralShaft;
 use crate::wait::wait;
@@ -70,6 +71,10 @@ impl PartialEq for MovingBox {
 }
 
 impl MovingBox {
+    fn design(&self) -> Design {
+        Design::MovingBox(Box::new(self.machine.design().clone()))
+    }
+
     fn over<'py>(
         &self,
         py: Python<'py>,
@@ -166,8 +171,7 @@ impl MovingBox {
 
     /// The design file of the moving box; `from_toml` reads it back.
     fn to_toml(&self) -> PyResult<String> {
-        let design = Design::MovingBox(Box::new(self.machine.design().clone()));
-        design.to_toml().map_err(|e| of_design(&e))
+        self.design().to_toml().map_err(|e| of_design(&e))
     }
 
     /// Name, as written in the design.
@@ -359,7 +363,7 @@ impl MovingBox {
         dxf_curves: &str,
     ) -> PyResult<Vec<PathBuf>> {
         let bundle = self.bundle(py, formats, tolerance, dxf_version, dxf_curves)?;
-        bundle::written(py, &bundle, &directory)
+        bundle::written(py, bundle, directory)
     }
 
     fn __repr__(&self) -> String {
@@ -368,5 +372,8 @@ impl MovingBox {
             self.machine.design().name,
             self.scheme()
         )
+    }
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
+        by_design(py, &self.design())
     }
 }

@@ -46,14 +46,14 @@ fn tuple<'py>(
 }
 
 /// Named values as the keywords of a class.
-struct Keywords<'py>(Bound<'py, PyDict>);
+pub(crate) struct Keywords<'py>(pub(crate) Bound<'py, PyDict>);
 
 impl<'py> Keywords<'py> {
-    fn new(py: Python<'py>) -> Self {
+    pub(crate) fn new(py: Python<'py>) -> Self {
         Self(PyDict::new(py))
     }
 
-    fn with(self, name: &str, value: impl IntoPyObject<'py>) -> PyResult<Self> {
+    pub(crate) fn with(self, name: &str, value: impl IntoPyObject<'py>) -> PyResult<Self> {
         self.0.set_item(name, value)?;
         Ok(self)
     }

@@ -5,14 +5,17 @@ use centrode_analysis::check;
 use centrode_export::gear_pair::{
     GearPairFilesError, Options, SheetOptions, SheetSet, Subject, gear_drawing,
 };
-use centrode_export::{dxf, svg, write_file};
+use centrode_export::{dxf, svg};
 use centrode_geometry::Tolerance;
 use centrode_mechanism::gear::{GearPair, Member};
-use pyo3::prelude::{Bound, PyResult, Python, pyclass, pymethods};
+use pyo3::prelude::{Bound, PyResult, Python, pyclass, pyfunction, pymethods};
 use pyo3::types::{PyBytes, PyTuple};
 
+use crate::bundle::written_file;
 use crate::drawing::{projection, size};
-use crate::error::{of_bundle, unknown_word};
+use crate::error::unknown_word;
+use crate::made::{Reduced, by};
+use crate::record::Keywords;
 
 /// The drawing sheets of a gear, or of both in place, as `Gear.sheet` and `GearPair.sheet` lay them out.
 ///
@@ -25,8 +28,9 @@ use crate::error::{of_bundle, unknown_word};
 #[pyclass(frozen, module = "centrode")]
 #[derive(Debug)]
 pub(crate) struct Sheets {
-    set: SheetSet,
+    size: String,
     dxf: Vec<Vec<u8>>,
+    svg: Vec<Vec<u8>>,
     pdf: Vec<u8>,
 }
 
@@ -57,9 +61,12 @@ impl Sheets {
             ..sheet
         };
         let set = SheetSet::new(pair, subject, &options)?;
-        let dxf = set.dxf(dxf::Version::default())?;
-        let pdf = set.pdf()?;
-        Ok(Self { set, dxf, pdf })
+        Ok(Self {
+            size: set.sheets().first().map_or("", |s| s.size.name()).into(),
+            dxf: set.dxf(dxf::Version::default())?,
+            svg: set.svg().into_iter().map(String::into_bytes).collect(),
+            pdf: set.pdf()?,
+        })
     }
 }
 
@@ -102,9 +109,7 @@ fn ending<'a>(path: &Path, known: &[&'a str]) -> PyResult<&'a str> {
 fn write(py: Python<'_>, files: Vec<(PathBuf, Vec<u8>)>) -> PyResult<Vec<PathBuf>> {
     let mut written = Vec::with_capacity(files.len());
     for (path, bytes) in files {
-        py.detach(|| write_file(&path, bytes))
-            .map_err(|e| of_bundle(py, &e))?;
-        written.push(path);
+        written.push(written_file(py, path, bytes)?);
     }
     Ok(written)
 }
@@ -113,8 +118,8 @@ fn write(py: Python<'_>, files: Vec<(PathBuf, Vec<u8>)>) -> PyResult<Vec<PathBuf
 impl Sheets {
     /// Size of the sheets: "A4" to "A0".
     #[getter]
-    fn size(&self) -> &'static str {
-        self.set.sheets().first().map_or("", |s| s.size.name())
+    fn size(&self) -> &str {
+        &self.size
     }
 
     /// A DXF file a sheet, R2010, in paper millimetres.
@@ -126,13 +131,7 @@ impl Sheets {
     /// An SVG picture a sheet.
     #[getter]
     fn svg<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
-        let pictures = self.set.svg();
-        PyTuple::new(
-            py,
-            pictures
-                .iter()
-                .map(|text| PyBytes::new(py, text.as_bytes())),
-        )
+        PyTuple::new(py, self.svg.iter().map(|bytes| PyBytes::new(py, bytes)))
     }
 
     /// One PDF, a page a sheet.
@@ -148,7 +147,7 @@ impl Sheets {
         let pages = match ending(&path, &["pdf", "dxf", "svg"])? {
             "pdf" => vec![self.pdf.clone()],
             "dxf" => self.dxf.clone(),
-            _ => self.set.svg().into_iter().map(String::into_bytes).collect(),
+            _ => self.svg.clone(),
         };
         let several = pages.len() > 1;
         let named = pages.into_iter().enumerate().map(|(index, bytes)| {
@@ -164,11 +163,20 @@ impl Sheets {
     }
 
     fn __len__(&self) -> usize {
-        self.set.sheets().len()
+        self.dxf.len()
     }
 
     fn __repr__(&self) -> String {
         format!("Sheets({} of {})", self.__len__(), self.size())
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
+        let keywords = Keywords::new(py)
+            .with("size", &self.size)?
+            .with("dxf", self.dxf(py)?)?
+            .with("svg", self.svg(py)?)?
+            .with("pdf", self.pdf(py))?;
+        by("_sheets", keywords)
     }
 }
 
@@ -199,4 +207,28 @@ impl Drawing {
     fn __repr__(&self) -> String {
         format!("Drawing({} bytes of DXF)", self.dxf.len())
     }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
+        let keywords = Keywords::new(py)
+            .with("dxf", self.dxf(py))?
+            .with("svg", self.svg(py))?;
+        by("_drawing", keywords)
+    }
+}
+
+/// Sheets of their files: how they are unpickled.
+#[pyfunction]
+pub(crate) fn _sheets(size: String, dxf: Vec<Vec<u8>>, svg: Vec<Vec<u8>>, pdf: Vec<u8>) -> Sheets {
+    Sheets {
+        size,
+        dxf,
+        svg,
+        pdf,
+    }
+}
+
+/// A drawing of its files: how it is unpickled.
+#[pyfunction]
+pub(crate) fn _drawing(dxf: Vec<u8>, svg: Vec<u8>) -> Drawing {
+    Drawing { dxf, svg }
 }

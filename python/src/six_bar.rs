@@ -8,7 +8,8 @@ use pyo3::prelude::{Bound, Py, PyAny, PyResult, Python, pyclass, pymethods};
 
 use crate::array::{Values, each, points, together, together_array};
 use crate::error::{of_four_bar, of_six_bar, unknown_word};
-use crate::record;
+use crate::made::{Reduced, by};
+use crate::record::{self, Keywords};
 
 /// A crank-rocker that swings an end effector through a slider: the picking mechanism of 2022.
 ///
@@ -36,6 +37,15 @@ use crate::record;
 #[pyclass(frozen, eq, module = "centrode")]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct SixBar(pub(crate) linkage::SixBar);
+
+impl SixBar {
+    fn branch(&self) -> &'static str {
+        match self.0.four_bar().branch() {
+            Branch::Upper => "upper",
+            Branch::Lower => "lower",
+        }
+    }
+}
 
 #[pymethods]
 impl SixBar {
@@ -218,5 +228,27 @@ impl SixBar {
     ) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let places = linkage::SixBar::pivots(self.0.four_bar(), swing, count);
         points(py, &places)
+    }
+    fn __repr__(&self) -> String {
+        let [crank, coupler, rocker, frame] = self.lengths();
+        format!(
+            "SixBar(crank={crank:?}, coupler={coupler:?}, rocker={rocker:?}, frame={frame:?}, pivot={:?}, effector_length={:?}, branch={:?})",
+            self.pivot(),
+            self.effector_length(),
+            self.branch(),
+        )
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
+        let [crank, coupler, rocker, frame] = self.lengths();
+        let keywords = Keywords::new(py)
+            .with("crank", crank)?
+            .with("coupler", coupler)?
+            .with("rocker", rocker)?
+            .with("frame", frame)?
+            .with("pivot", self.pivot())?
+            .with("effector_length", self.effector_length())?
+            .with("branch", self.branch())?;
+        by("SixBar", keywords)
     }
 }

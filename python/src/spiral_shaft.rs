@@ -22,6 +22,7 @@ use crate::count::Count;
 use crate::design::Loaded;
 use crate::error::{finite, of_design, of_shaft, of_shaft_files, plain_tolerance, unknown_word};
 use crate::format;
+use crate::made::{Reduced, by_design};
 use crate::record;
 use crate::wait::wait;
 
@@ -78,6 +79,10 @@ impl PartialEq for SpiralShaft {
 }
 
 impl SpiralShaft {
+    fn design(&self) -> Design {
+        Design::SpiralShaft(Box::new(self.shaft.design().clone()))
+    }
+
     fn resolve(py: Python<'_>, design: SpiralShaftDesign) -> PyResult<Self> {
         let shaft = wait(py, move || mechanism::SpiralShaft::resolve(&design))?;
         let shaft = Arc::new(shaft.map_err(|e| of_shaft(&e))?);
@@ -310,8 +315,7 @@ impl SpiralShaft {
 
     /// The design file of the shaft; `from_toml` reads it back.
     fn to_toml(&self) -> PyResult<String> {
-        let design = Design::SpiralShaft(Box::new(self.shaft.design().clone()));
-        design.to_toml().map_err(|e| of_design(&e))
+        self.design().to_toml().map_err(|e| of_design(&e))
     }
 
     /// Name, as written in the design.
@@ -558,7 +562,7 @@ impl SpiralShaft {
         dxf_curves: &str,
     ) -> PyResult<Vec<PathBuf>> {
         let bundle = self.bundle(py, formats, tolerance, dxf_version, dxf_curves)?;
-        bundle::written(py, &bundle, &directory)
+        bundle::written(py, bundle, directory)
     }
 
     fn __repr__(&self) -> String {
@@ -567,5 +571,8 @@ impl SpiralShaft {
             "SpiralShaft({:?}, lead={:?}, holes={}, radius={:?})",
             design.name, design.lead, design.holes, design.radius
         )
+    }
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
+        by_design(py, &self.design())
     }
 }

@@ -17,10 +17,7 @@ use centrode_mechanism::three_arm::{Link, PointMotion};
 use numpy::PyArray2;
 use pyo3::IntoPyObjectExt;
 use pyo3::exceptions::PyIndexError;
-use pyo3::prelude::{
-    Bound, PyAny, PyAnyMethods, PyDictMethods, PyModule, PyRef, PyResult, Python, pyclass,
-    pymethods,
-};
+use pyo3::prelude::{Bound, PyAny, PyDictMethods, PyRef, PyResult, Python, pyclass, pymethods};
 use pyo3::types::{PyDict, PyTuple};
 
 use crate::array::{Values, each, each_row, points};
@@ -35,6 +32,7 @@ use crate::error::{
 };
 use crate::format;
 use crate::gear_pair::GearPair;
+use crate::made::{Made, Reduced, by_design};
 use crate::pitch::Pitch;
 use crate::place::addendum as addendum_of;
 use crate::record;
@@ -110,6 +108,10 @@ impl PartialEq for ThreeArm {
 }
 
 impl ThreeArm {
+    fn design(&self) -> Design {
+        Design::ThreeArm(Box::new(self.0.design().clone()))
+    }
+
     /// An arm that is there.
     fn arm(&self, arm: u32) -> PyResult<u32> {
         let arms = self.0.arms();
@@ -291,8 +293,7 @@ impl ThreeArm {
 
     /// The design file of the mechanism; `from_toml` reads it back.
     fn to_toml(&self) -> PyResult<String> {
-        let design = Design::ThreeArm(Box::new(self.0.design().clone()));
-        design.to_toml().map_err(|e| of_design(&e))
+        self.design().to_toml().map_err(|e| of_design(&e))
     }
 
     /// Name, as written in the design.
@@ -459,9 +460,10 @@ impl ThreeArm {
     /// Raises:
     ///     MechanismError: Cam and fork cannot be.
     #[getter]
-    fn cam(&self) -> PyResult<DiscCam> {
-        let pusher = self.0.pusher().map_err(|e| of_pusher(&e))?;
-        Ok(DiscCam(Arc::new(pusher.cam().clone())))
+    fn cam(slf: &Bound<'_, Self>) -> PyResult<DiscCam> {
+        let pusher = slf.get().0.pusher().map_err(|e| of_pusher(&e))?;
+        let made = Made::part_of(slf.clone().into_any(), "cam")?;
+        Ok(DiscCam::new(pusher.cam().clone(), made))
     }
 
     /// The fork of each arm, between cam and push rod.
@@ -716,7 +718,7 @@ impl ThreeArm {
     ) -> PyResult<Vec<PathBuf>> {
         let written = (dxf_version, dxf_curves);
         let bundle = self.bundle(py, formats, parts, tolerance, written)?;
-        bundle::written(py, &bundle, &directory)
+        bundle::written(py, bundle, directory)
     }
 
     fn __repr__(&self) -> String {
@@ -737,9 +739,7 @@ impl ThreeArm {
         slf
     }
 
-    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, (Vec<u8>,))> {
-        let text = self.to_toml()?;
-        let module = PyModule::import(py, "centrode._centrode")?;
-        Ok((module.getattr("_load")?, (text.into_bytes(),)))
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
+        by_design(py, &self.design())
     }
 }

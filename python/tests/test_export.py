@@ -2,6 +2,9 @@
 
 import errno
 import os
+import subprocess
+import sys
+import threading
 
 import centrode as ct
 import pytest
@@ -91,3 +94,67 @@ def test_a_part_that_cannot_be_written_leaves_what_was_there(pair, tmp_path):
     with pytest.raises(ct.DesignError, match="tolerance"):
         pair.driver.stl(tmp_path / "gear.stl", tolerance=0)
     assert os.listdir(tmp_path) == ["old"]
+
+
+def test_threads_export_into_one_folder_without_harm(pair, tmp_path):
+    files = pair.files(formats=["csv", "dxf"], tolerance=0.01)
+    wrong = []
+
+    def work():
+        for _ in range(8):
+            try:
+                for path in pair.export(tmp_path, formats=["csv", "dxf"], tolerance=0.01):
+                    if path.read_bytes() != files[path.name]:
+                        wrong.append(path)
+                pair.driver.stl(tmp_path / "gear.stl", tolerance=0.1)
+            except ct.ExportError as error:
+                wrong.append(error)
+
+    threads = [threading.Thread(target=work) for _ in range(8)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert wrong == []
+    assert sorted(os.listdir(tmp_path)) == sorted([*files, "gear.stl"])
+
+
+def test_a_killed_process_leaves_nothing_that_the_next_does_not_clear(pair, tmp_path):
+    script = f"""
+import centrode as ct
+pair = ct.GearPair(ct.pitch.circle(module=2, tooth_count=20))
+while True: pair.export({str(tmp_path)!r}, formats=["csv", "dxf", "svg"], tolerance=0.01)
+"""
+    for _ in range(20):
+        process = subprocess.Popen([sys.executable, "-c", script])
+        try:
+            while not any(name.startswith(".") for name in os.listdir(tmp_path)):
+                assert process.poll() is None
+        finally:
+            process.kill()
+            process.wait(timeout=10)
+        if any(name.startswith(".") for name in os.listdir(tmp_path)):
+            break
+    else:
+        pytest.fail("none was killed while it wrote")
+    written = pair.export(tmp_path, formats=["csv", "dxf", "svg"], tolerance=0.01)
+    assert sorted(os.listdir(tmp_path)) == sorted(path.name for path in written)
+
+
+def test_a_write_beyond_the_file_size_limit_is_told_and_leaves_nothing(tmp_path):
+    script = f"""
+import resource
+import centrode as ct
+resource.setrlimit(resource.RLIMIT_FSIZE, (30_000, 30_000))
+pair = ct.GearPair(ct.pitch.circle(module=2, tooth_count=20))
+for write in (lambda: pair.export({str(tmp_path)!r}), lambda: pair.driver.step({str(tmp_path / "a.step")!r})):
+    try:
+        write()
+    except ct.ExportError as error:
+        print(error.__cause__.errno, error)
+"""
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=120, check=True)
+    told = done.stdout.splitlines()
+    assert len(told) == 2
+    assert all(line.startswith(f"{errno.EFBIG} cannot write") for line in told)
+    assert os.listdir(tmp_path) == []

@@ -15,6 +15,8 @@ use crate::array::{Numbers, points, rows};
 use crate::body::Body;
 use crate::bundle;
 use crate::error::{design_error, of_cam, of_cam_files, unknown_word};
+use crate::made::{Made, Reduced, native};
+use crate::record::Keywords;
 use crate::wait::wait;
 
 /// An extreme as the pair of cam angle and value.
@@ -45,11 +47,19 @@ type Peak = (f64, f64);
 /// 0.166
 #[pyclass(frozen, module = "centrode")]
 #[derive(Debug)]
-pub(crate) struct DiscCam(pub(crate) Arc<Cam>);
+pub(crate) struct DiscCam {
+    cam: Arc<Cam>,
+    made: Made,
+}
 
 impl DiscCam {
+    pub(crate) fn new(cam: Cam, made: Made) -> Self {
+        let cam = Arc::new(cam);
+        Self { cam, made }
+    }
+
     fn contacts(&self, theta: Numbers) -> impl ExactSizeIterator<Item = Contact> {
-        let cam = self.0.clone();
+        let cam = self.cam.clone();
         theta
             .into_vec()
             .into_iter()
@@ -81,17 +91,27 @@ impl DiscCam {
     #[pyo3(signature = (follower, segments, *, base_radius, rotation="counter-clockwise", start=0.0, body=None,
         name="cam", title=""))]
     #[expect(clippy::too_many_arguments, reason = "the keywords of the design file")]
-    fn new(
-        py: Python<'_>,
-        follower: PyRef<'_, Follower>,
-        segments: Vec<PyRef<'_, Segment>>,
+    fn make<'py>(
+        py: Python<'py>,
+        follower: PyRef<'py, Follower>,
+        segments: Vec<PyRef<'py, Segment>>,
         base_radius: f64,
         rotation: &str,
         start: f64,
-        body: Option<PyRef<'_, Body>>,
+        body: Option<PyRef<'py, Body>>,
         name: &str,
         title: &str,
     ) -> PyResult<Self> {
+        let again = Keywords::new(py)
+            .with("follower", &follower)?
+            .with("segments", &segments)?
+            .with("base_radius", base_radius)?
+            .with("rotation", rotation)?
+            .with("start", start)?
+            .with("body", body.as_ref())?
+            .with("name", name)?
+            .with("title", title)?;
+        let made = Made::call(native(py, "DiscCam")?, Vec::new(), again)?;
         let motion = spec::MotionSpec {
             start,
             segments: segments.iter().map(|segment| segment.0.clone()).collect(),
@@ -104,31 +124,31 @@ impl DiscCam {
             design.body = body.0.clone();
         }
         let cam = wait(py, move || Cam::resolve(&design))?.map_err(|e| of_cam(&e))?;
-        Ok(Self(Arc::new(cam)))
+        Ok(Self::new(cam, made))
     }
 
     /// Name, as given.
     #[getter]
     fn name(&self) -> &str {
-        self.0.name()
+        self.cam.name()
     }
 
     /// Radius of the base circle, mm.
     #[getter]
     fn base_radius(&self) -> f64 {
-        self.0.disc().base_radius()
+        self.cam.disc().base_radius()
     }
 
     /// Angle of a swinging arm to the line of centres on the base circle, rad; zero for a slide.
     #[getter]
     fn start_angle(&self) -> f64 {
-        self.0.disc().start_angle()
+        self.cam.disc().start_angle()
     }
 
     /// Least and greatest distance of the profile from the axis, mm.
     #[getter]
     fn radii(&self) -> (f64, f64) {
-        self.0.radii()
+        self.cam.radii()
     }
 
     /// The follower's position, velocity, acceleration and jerk at cam angles, (N, 4): mm or rad, and
@@ -175,7 +195,7 @@ impl DiscCam {
     #[pyo3(signature = (tolerance=1e-3))]
     fn profile<'py>(&self, py: Python<'py>, tolerance: f64) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let tolerance = self::tolerance(tolerance)?;
-        points(py, &self.0.profile().outline().flatten(tolerance))
+        points(py, &self.cam.profile().outline().flatten(tolerance))
     }
 
     /// The same of the path of the roller's centre; None for a flat face.
@@ -187,7 +207,7 @@ impl DiscCam {
     ) -> PyResult<Option<Bound<'py, PyArray2<f64>>>> {
         let tolerance = self::tolerance(tolerance)?;
         let exact = tolerance.scaled(1e-3);
-        let path = self.0.disc().pitch_curve(exact).map_err(|e| of_cam(&e))?;
+        let path = self.cam.disc().pitch_curve(exact).map_err(|e| of_cam(&e))?;
         path.map(|path| points(py, &path.flatten(tolerance)))
             .transpose()
     }
@@ -195,13 +215,13 @@ impl DiscCam {
     /// Ranges of the cam angle whose contact is cut off by undercut, rad; none for a sound cam.
     #[getter]
     fn undercut(&self) -> Vec<(f64, f64)> {
-        self.0.profile().undercut().to_vec()
+        self.cam.profile().undercut().to_vec()
     }
 
     /// Greatest "lift", "velocity", "acceleration" and "jerk" of the follower, each with its cam angle.
     #[getter]
     fn peaks(&self) -> BTreeMap<&'static str, Peak> {
-        let peaks = self.0.disc().peaks();
+        let peaks = self.cam.disc().peaks();
         BTreeMap::from([
             ("lift", peak(peaks.lift)),
             ("velocity", peak(peaks.velocity)),
@@ -215,7 +235,7 @@ impl DiscCam {
     /// is undercut, "largest_wheel" that can grind it (mm), and "regularity", above zero for a sound cam.
     #[getter]
     fn limits(&self) -> BTreeMap<&'static str, Peak> {
-        let limits = self.0.disc().limits();
+        let limits = self.cam.disc().limits();
         let mut named = BTreeMap::from([
             ("rise_pressure_angle", peak(limits.rise_pressure_angle)),
             ("return_pressure_angle", peak(limits.return_pressure_angle)),
@@ -236,7 +256,7 @@ impl DiscCam {
         rise: f64,
         fall: Option<f64>,
     ) -> PyResult<Option<f64>> {
-        let cam = self.0.clone();
+        let cam = self.cam.clone();
         let fall = fall.unwrap_or(std::f64::consts::FRAC_PI_2);
         wait(py, move || cam.disc().least_base_radius(rise, fall))
     }
@@ -268,16 +288,20 @@ impl DiscCam {
                 .collect::<PyResult<_>>()?,
         };
         let options = Options::new(self::tolerance(tolerance)?);
-        let cam = self.0.clone();
+        let cam = self.cam.clone();
         let bundle = wait(py, move || export::files(&cam, &formats, &options))?;
         bundle::contents(py, &bundle.map_err(|e| of_cam_files(&e))?)
     }
 
+    fn __reduce__<'py>(&self, py: Python<'py>) -> Reduced<'py> {
+        self.made.reduced(py)
+    }
+
     fn __repr__(&self) -> String {
-        let disc = self.0.disc();
+        let disc = self.cam.disc();
         format!(
             "DiscCam({}, base_radius={:?})",
-            self.0.name(),
+            self.cam.name(),
             disc.base_radius()
         )
     }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use centrode_mechanism::cam::design::MotionSpec;
 use centrode_mechanism::cam::{Cam, CamError, Fork as Mechanism, Lever, Motion, RodJoint};
 use centrode_mechanism::transmission::MotionJet;
-use pyo3::prelude::{Bound, PyAny, PyRef, PyResult, Python, pyclass, pymethods};
+use pyo3::prelude::{Bound, PyAny, PyAnyMethods, PyRef, PyResult, Python, pyclass, pymethods};
 
 use super::disc::DiscCam;
 use super::parts::Segment;
@@ -13,6 +13,8 @@ use super::{turn, word};
 use crate::array::{Values, each};
 use crate::body::Body;
 use crate::error::{design_error, of_cam, of_spec, unknown_word};
+use crate::made::{Made, Reduced, by};
+use crate::record::Keywords;
 use crate::wait::wait;
 
 const JOINTS: [&str; 2] = ["pin-on-rod", "pin-on-fork"];
@@ -170,16 +172,24 @@ impl Fork {
     /// 9.0
     #[pyo3(signature = (segments, *, base_radius, rotation="counter-clockwise", start=0.0, body=None, name="cam"))]
     #[expect(clippy::too_many_arguments, reason = "keyword arguments")]
-    fn cam(
-        &self,
-        py: Python<'_>,
-        segments: Vec<PyRef<'_, Segment>>,
+    fn cam<'py>(
+        slf: &Bound<'py, Self>,
+        py: Python<'py>,
+        segments: Vec<PyRef<'py, Segment>>,
         base_radius: f64,
         rotation: &str,
         start: f64,
-        body: Option<PyRef<'_, Body>>,
+        body: Option<PyRef<'py, Body>>,
         name: &str,
     ) -> PyResult<DiscCam> {
+        let again = Keywords::new(py)
+            .with("segments", &segments)?
+            .with("base_radius", base_radius)?
+            .with("rotation", rotation)?
+            .with("start", start)?
+            .with("body", body.as_ref())?
+            .with("name", name)?;
+        let made = Made::call(slf.getattr("cam")?, Vec::new(), again)?;
         let motion = MotionSpec {
             start,
             segments: segments.iter().map(|segment| segment.0.clone()).collect(),
@@ -187,14 +197,26 @@ impl Fork {
         if motion.swings() == Some(true) {
             return Err(design_error("segments", "must have lifts: a rod slides"));
         }
-        let (fork, rotation) = (self.0.clone(), turn("rotation", rotation)?);
+        let (fork, rotation) = (slf.get().0.clone(), turn("rotation", rotation)?);
         let body = body.map(|body| body.0.clone()).unwrap_or_default();
         let name = name.to_owned();
         let cam = wait(py, move || -> Result<Cam, CamError> {
             let motion = Arc::new(Motion::resolve(&motion)?);
             Cam::new(fork.cam(motion, base_radius, rotation)?, &name, body)
         })?;
-        Ok(DiscCam(Arc::new(cam.map_err(|e| of_cam(&e))?)))
+        Ok(DiscCam::new(cam.map_err(|e| of_cam(&e))?, made))
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
+        let keywords = Keywords::new(py)
+            .with("roller_radius", self.roller_radius())?
+            .with("center_distance", self.center_distance())?
+            .with("arm_length", self.arm_length())?
+            .with("lever_length", self.lever_length())?
+            .with("lever_start", self.lever_start())?
+            .with("lifts", self.lifts())?
+            .with("joint", self.joint())?;
+        by("Fork", keywords)
     }
 
     fn __repr__(&self) -> String {

@@ -3,10 +3,13 @@ use std::collections::BTreeMap;
 use centrode_mechanism::cam::law as mechanism;
 use numpy::PyArray2;
 use pyo3::prelude::{Bound, PyResult, Python, pyclass, pyfunction, pymethods};
+use pyo3::types::PyTuple;
 
 use super::row;
 use crate::array::{Numbers, list, rows};
 use crate::error::{of_spec, unknown_word};
+use crate::made::{Reduced, by, native};
+use crate::record::Keywords;
 
 /// A normalised motion law: from 0 to 1 while its input goes from 0 to 1.
 ///
@@ -29,7 +32,7 @@ impl PartialEq for Law {
 }
 
 impl Law {
-    fn resolve(spec: mechanism::LawSpec) -> PyResult<Self> {
+    pub(super) fn resolve(spec: mechanism::LawSpec) -> PyResult<Self> {
         let law = spec.resolve().map_err(|e| of_spec(&e))?;
         Ok(Self { spec, law })
     }
@@ -93,6 +96,16 @@ impl Law {
             ("jerk", values.jerk),
             ("torque", values.torque),
         ])
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
+        match &self.spec {
+            mechanism::LawSpec::Polynomial(p) => {
+                let ends = Keywords::new(py).with("start", &p.start)?;
+                by("polynomial", ends.with("end", &p.end)?)
+            }
+            _ => Ok((native(py, "law")?, PyTuple::new(py, [self.name()])?)),
+        }
     }
 
     fn __repr__(&self) -> String {

@@ -2,13 +2,16 @@
 
 use centrode_mechanism::cam::design as spec;
 use centrode_mechanism::cam::law::LawSpec;
+use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::{
-    Borrowed, FromPyObject, PyAny, PyErr, PyRef, PyResult, pyclass, pyfunction, pymethods,
+    Borrowed, FromPyObject, PyAny, PyErr, PyRef, PyResult, Python, pyclass, pyfunction, pymethods,
 };
 
 use super::laws::{Law, law as named};
-use super::turn;
+use super::{turn, word};
 use crate::error::of_spec;
+use crate::made::{Reduced, by};
+use crate::record::Keywords;
 
 /// One part of a follower's motion; made by the functions of ``centrode.cam``.
 #[pyclass(frozen, eq, module = "centrode.cam")]
@@ -50,6 +53,36 @@ impl Segment {
         self.0.change()
     }
 
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
+        let travel = |name: &str, travel: &spec::Travel| {
+            let keywords = Keywords::new(py)
+                .with("span", travel.span)?
+                .with("lift", travel.lift)?
+                .with("swing", travel.swing)?
+                .with("law", Law::resolve(travel.law.clone())?)?;
+            by(name, keywords)
+        };
+        match &self.0 {
+            spec::SegmentSpec::Rise(rise) => travel("rise", rise),
+            spec::SegmentSpec::Return(back) => travel("return_", back),
+            spec::SegmentSpec::Dwell(dwell) => {
+                by("dwell", Keywords::new(py).with("span", dwell.span)?)
+            }
+            spec::SegmentSpec::Transition(between) => {
+                let keywords = Keywords::new(py)
+                    .with("span", between.span)?
+                    .with("lift", between.lift)?
+                    .with("swing", between.swing)?
+                    .with("start_velocity", between.start_velocity)?
+                    .with("start_acceleration", between.start_acceleration)?
+                    .with("end_velocity", between.end_velocity)?
+                    .with("end_acceleration", between.end_acceleration)?;
+                by("transition", keywords)
+            }
+            other => Err(unpickled(other)),
+        }
+    }
+
     fn __repr__(&self) -> String {
         let kind = match self.0 {
             spec::SegmentSpec::Rise(_) => "rise",
@@ -79,9 +112,43 @@ impl Follower {
         self.0.roller_radius()
     }
 
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
+        let keywords = Keywords::new(py);
+        match &self.0 {
+            spec::Follower::TranslatingRoller(roller) => {
+                let keywords = keywords
+                    .with("roller_radius", roller.roller_radius)?
+                    .with("offset", roller.offset)?;
+                by("translating_roller", keywords)
+            }
+            spec::Follower::TranslatingFlat(_) => by("translating_flat", keywords),
+            spec::Follower::SwingingRoller(roller) => {
+                let keywords = keywords
+                    .with("roller_radius", roller.roller_radius)?
+                    .with("center_distance", roller.center_distance)?
+                    .with("arm_length", roller.arm_length)?
+                    .with("lifts", word(roller.lifts))?;
+                by("swinging_roller", keywords)
+            }
+            spec::Follower::SwingingFlat(face) => {
+                let keywords = keywords
+                    .with("center_distance", face.center_distance)?
+                    .with("face_offset", face.face_offset)?
+                    .with("lifts", word(face.lifts))?;
+                by("swinging_flat", keywords)
+            }
+            other => Err(unpickled(other)),
+        }
+    }
+
     fn __repr__(&self) -> String {
         format!("Follower({:?})", self.0)
     }
+}
+
+/// A kind that this module cannot make.
+fn unpickled(of: &dyn std::fmt::Debug) -> PyErr {
+    PyTypeError::new_err(format!("cannot pickle {of:?}"))
 }
 
 fn travel(span: f64, lift: Option<f64>, swing: Option<f64>, law: Option<AnyLaw>) -> spec::Travel {
