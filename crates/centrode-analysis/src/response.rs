@@ -67,7 +67,7 @@ impl Response {
         Ok(Self {
             key: key.to_owned(),
             values: values.to_vec(),
-            reports: values.into_par_iter().map(report).collect(),
+            reports: values.into_par_iter().panic_fuse().map(report).collect(),
         })
     }
 

@@ -104,7 +104,7 @@ impl Variants {
             }
             look(sweep, design).unwrap_or([f64::NAN; Self::FIGURES.len()])
         };
-        let all = (0..count).into_par_iter().with_min_len(64);
+        let all = (0..count).into_par_iter().with_min_len(64).panic_fuse();
         all.map_init(start, variant).collect()
     }
 }

@@ -82,7 +82,7 @@ impl Cancel {
 
     /// Puts the calling thread, a worker of a computation under [`Cancel::run`], under its token too.
     ///
-    /// Whoever waits for the worker must pass its unwinding on, as rayon does.
+    /// Whoever waits for the worker must pass its unwinding on, as rayon does; with its `panic_fuse` no further item begins.
     #[must_use]
     pub fn enter(&self) -> Scope {
         let before = CURRENT.replace(Some(self.clone()));

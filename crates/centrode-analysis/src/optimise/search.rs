@@ -361,7 +361,7 @@ fn evaluated(
         }
     };
     if problem.is_costly() {
-        points.into_par_iter().map(candidate).collect()
+        points.into_par_iter().panic_fuse().map(candidate).collect()
     } else {
         points.into_iter().map(candidate).collect()
     }
