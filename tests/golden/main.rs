@@ -130,6 +130,11 @@ fn differences(place: &str, golden: &Value, now: &Value, found: &mut Vec<String>
                 differences(&format!("{place}.{key}"), &side(a), &side(b), found);
             }
         }
+        (Value::Array(a), Value::Array(b)) if a.len() == b.len() => {
+            for (index, (golden, now)) in a.iter().zip(b).enumerate() {
+                differences(&format!("{place}[{index}]"), golden, now, found);
+            }
+        }
         _ if golden == now => {}
         _ => found.push(format!("{place}: {golden} was golden, now {now}")),
     }
@@ -180,4 +185,11 @@ fn a_difference_is_found_and_rounding_is_not() {
         json!({"values": {"a": 50.000_001, "b": 1.0}, "files": {"x.dxf": {"LINE": 3}, "y": {}}});
     differences("pair", &golden, &other, &mut found);
     assert_eq!(found.len(), 4, "{found:?}");
+    let mut found = Vec::new();
+    let rows = |last: f64| json!({"table": [["crank", [1.5, last]]]});
+    differences("pair", &rows(0.1), &rows(0.1_f64.next_up()), &mut found);
+    assert!(found.is_empty(), "{found:?}");
+    differences("pair", &rows(0.1), &rows(0.100_001), &mut found);
+    differences("pair", &rows(0.1), &json!({"table": []}), &mut found);
+    assert_eq!(found.len(), 2, "{found:?}");
 }
