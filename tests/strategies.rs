@@ -2,12 +2,13 @@
 
 use std::f64::consts::TAU;
 
-use centrode_mechanism::gear::GearPair;
-use centrode_mechanism::gear::design::{GearPairDesign, Phase, Rack, ToolSpec};
+use centrode_geometry::Crossing;
+use centrode_mechanism::gear::design::{Addendum, GearPairDesign, Phase, Rack, ToolSpec};
 use centrode_mechanism::gear::pitch::{
     Bspline, Circle, EccentricCircle, Ellipse, Limacon, LobedEllipse, PitchSpec, Plane, Polar,
     Transmission,
 };
+use centrode_mechanism::gear::{GearPair, Member};
 use proptest::prelude::{Just, Strategy, any, prop_oneof};
 
 /// A pair whose pitch curves bear full-depth teeth: as many teeth as it takes.
@@ -134,7 +135,89 @@ fn shape() -> impl Strategy<Value = PitchSpec> {
     ]
 }
 
-/// A B-spline through or towards unevenly spaced points round the shaft.
+/// How the points of a closed B-spline lie round the shaft.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+pub enum Points {
+    /// As a person writes them: from angle zero on, evenly or nearly so, radii within a tenth of their mean.
+    Gentle,
+    /// Radii that differ threefold, unevenly spaced.
+    Wild,
+}
+
+/// A closed B-spline of a degree, through points or towards them.
+fn bspline(points: Points, degree: u32, interpolate: bool) -> impl Strategy<Value = Bspline> {
+    let (spread, uneven, count) = match points {
+        Points::Gentle => (0.1, 0.15, 6..14_usize),
+        Points::Wild => (0.5, 0.25, 6..14),
+    };
+    let point = (-1.0..1.0_f64, -1.0..1.0_f64);
+    let place = (
+        10.0..40.0_f64,
+        prop_oneof![Just(0.0), Just(uneven)],
+        prop_oneof![3 => Just(0.0), 1 => 0.0..0.1_f64],
+        prop_oneof![Just(Plane::Polar), Just(Plane::Cartesian)],
+    );
+    (proptest::collection::vec(point, count), place).prop_map(
+        move |(points, (mean, uneven, first, plane))| {
+            let steps: Vec<f64> = points.iter().map(|p| 1.0 + uneven * p.1).collect();
+            let whole: f64 = steps.iter().sum();
+            // A file holds angles to the thousandth of a degree.
+            let written = |turns: f64| (turns * 360e3).round() / 360e3 * TAU;
+            let mut turned = first;
+            let mut angle = Vec::with_capacity(points.len());
+            for step in &steps {
+                angle.push(written(turned));
+                turned += step / whole * (1.0 - first);
+            }
+            let radius: Vec<f64> = points.iter().map(|p| mean * (1.0 + spread * p.0)).collect();
+            let along = |f: fn(f64) -> f64| {
+                let places = radius.iter().zip(&angle);
+                places.map(|(r, a)| r * f(*a)).collect()
+            };
+            let base = Bspline {
+                plane,
+                degree,
+                interpolate,
+                ..Bspline::default()
+            };
+            match plane {
+                Plane::Cartesian => Bspline {
+                    x: along(f64::cos),
+                    y: along(f64::sin),
+                    ..base
+                },
+                Plane::Polar => Bspline {
+                    radius,
+                    angle,
+                    ..base
+                },
+            }
+        },
+    )
+}
+
+/// A pair on a closed B-spline with teeth of any number from 12 to 60.
+pub fn bspline_pair(
+    points: Points,
+    degree: u32,
+    interpolate: bool,
+) -> impl Strategy<Value = GearPairDesign> {
+    let teeth = (
+        12..=60_u32,
+        any::<bool>(),
+        prop_oneof![Just(0.0), Just(0.02)],
+    );
+    (bspline(points, degree, interpolate), teeth).prop_map(|(curve, (z, fitted, backlash))| {
+        let mut design = GearPairDesign::new(sized(PitchSpec::Bspline(curve), 1.0, z));
+        design.teeth.backlash = backlash;
+        if fitted {
+            design.teeth.addendum = Addendum::Fitted;
+        }
+        design
+    })
+}
+
+/// A B-spline towards unevenly spaced points round the shaft, which it does not overshoot.
 fn polar_spline() -> impl Strategy<Value = PitchSpec> {
     let point = (10.0..30.0_f64, 0.6..1.0_f64);
     (proptest::collection::vec(point, 6..14), 2..=5_u32).prop_map(|(points, degree)| {
@@ -154,6 +237,18 @@ fn polar_spline() -> impl Strategy<Value = PitchSpec> {
             angle,
             ..Bspline::default()
         })
+    })
+}
+
+/// Where a contour of a pair crosses itself; a loop at a joint, smaller than `speck` modules, is let pass.
+pub fn crossing(pair: &GearPair, speck: f64) -> Option<(Member, Crossing)> {
+    [pair.driver(), pair.driven()].into_iter().find_map(|gear| {
+        let segments = gear.outline().segments();
+        let found = gear.outline().crossing()?;
+        let [one, other] = found.segments;
+        let off = (segments[one].end() - found.point).norm();
+        let is_speck = one + 1 == other && off < speck * pair.module();
+        (!is_speck).then_some((gear.member(), found))
     })
 }
 
