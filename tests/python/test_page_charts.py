@@ -1,10 +1,10 @@
 """The charts of the design page: what is written at their axes, and how their lines run."""
 
+from itertools import pairwise
+
 import pytest
 from conftest import ROOT
-from page import ARMS, BOX, FEEDER, POINTS, opened, settled, shown
-from playwright.sync_api import expect
-from studio import studio
+from page import ARMS, BOX, FEEDER, POINTS, opened
 
 CIRCLE = ROOT / "tests" / "designs" / "circular-pair.toml"
 
@@ -96,7 +96,7 @@ def test_a_count_is_told_in_whole_numbers_and_drawn_in_steps(browser, tmp_path, 
         assert all("." not in word["words"] for word in words if word["side"] == "right")
         chart = page.locator("figure", has_text="Contacts at once")
         assert chart.locator("output").inner_text().isdigit()
-        runs = [(a, b) for line in lines for a, b in zip(line, line[1:], strict=False)]
+        runs = [(a, b) for line in lines for a, b in pairwise(line)]
         assert len(runs) > 50
         assert all(a[0] == b[0] or a[1] == b[1] for a, b in runs)
 
@@ -108,19 +108,3 @@ def test_a_line_does_not_keep_to_whole_pixels(browser, tmp_path):
             if name != "Contacts at once":
                 heights = {y for line in lines for _, y in line}
                 assert any(y % 1 for y in heights) or len(heights) == 1, name
-
-
-def test_the_first_checks_are_announced(browser, tmp_path):
-    copy = tmp_path / ARMS.name
-    copy.write_text(ARMS.read_text())
-    with studio(copy) as running:
-        context = browser.new_context(viewport={"width": 1440, "height": 900})
-        page = context.new_page()
-        # Even before the page's own script has run.
-        page.route("**/main.js", lambda route: route.abort())
-        page.goto(running.url)
-        expect(page.locator("#verdict")).to_contain_text("Checking …")
-        context.close()
-        with shown(browser, running.url) as page:
-            settled(page)
-            expect(page.locator("#verdict")).not_to_contain_text("Checking")

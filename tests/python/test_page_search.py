@@ -1,4 +1,4 @@
-"""Searches on the design page, and what is left of them."""
+"""Slow answers and searches on the design page: what they may change, and what they leave behind."""
 
 from page import ARMS, POINTS, SLOW, field, opened, settled, shown
 from playwright.sync_api import expect
@@ -17,6 +17,22 @@ def searched(page, before):
     page.locator("#search-evaluations").fill("100000000")
     page.locator("#search-evaluations").press("Enter")
     expect(page.locator(".goal b").nth(6)).not_to_have_text(before[6], timeout=60_000)
+
+
+def test_the_first_checks_are_announced(browser, tmp_path):
+    copy = tmp_path / ARMS.name
+    copy.write_text(ARMS.read_text())
+    with studio(copy) as running:
+        context = browser.new_context(viewport={"width": 1440, "height": 900})
+        page = context.new_page()
+        # Even before the page's own script has run.
+        page.route("**/main.js", lambda route: route.abort())
+        page.goto(running.url)
+        expect(page.locator("#verdict")).to_contain_text("Checking …")
+        context.close()
+        with shown(browser, running.url) as page:
+            settled(page)
+            expect(page.locator("#verdict")).not_to_contain_text("Checking")
 
 
 def test_goals_of_a_dropped_search_go_with_it(arms):

@@ -164,7 +164,7 @@ def test_an_error_stands_at_its_key_in_the_words_of_check(served, tmp_path):
     [
         (DESIGN, None),
         (DESIGN + "= nothing", {"key": "", "line": DESIGN.count("\n") + 1, "column": 1}),
-        (DESIGN.replace("bore", "bores"), {"key": "driver.bores", "line": 11, "column": 1}),
+        (DESIGN.replace("bore", "bores", 1), {"key": "driver.bores", "line": 11, "column": 1}),
     ],
     ids=["a design", "no TOML", "an unknown key"],
 )

@@ -41,14 +41,14 @@ impl Measures {
         for name in path.iter().take(path.len().saturating_sub(1)) {
             around.extend(around.last().and_then(|table| table.get(name)));
         }
-        let ratios = around.iter().map(|table| ratio_in(table).unwrap_or([1, 1]));
+        let mut ratios = around.iter().map(|table| ratio_in(table).unwrap_or([1, 1]));
         let repeats = ratios.clone().map(|[_, driven]| driven).product();
         let number = |table: &Value, key: &str| table.get(key).and_then(Value::as_f64);
         let sized = old.get("module").is_some() && old.get("tooth_count").is_some();
         Self {
             radius: mean_radius(old).unwrap_or(40.0),
             sized,
-            ratio: ratios.last().unwrap_or([1, 1]),
+            ratio: ratios.next_back().unwrap_or([1, 1]),
             repeats,
             lead: around
                 .last()

@@ -72,9 +72,6 @@ function show(snapshot, asked = snapshot.asked) {
   if (!snapshot.picture && before?.picture) {
     // No mechanism: the last one stays in sight, faded.
     snapshot = { ...before, asked, text: snapshot.text, tables: snapshot.tables, error: snapshot.error };
-  } else if (!snapshot.verdict && !snapshot.error && snapshot.text === state.checked?.text) {
-    const { verdict, curves } = state.checked;
-    snapshot = { ...snapshot, verdict, curves };
   } else if (!snapshot.verdict && before) {
     snapshot = { ...snapshot, curves: merged(snapshot.curves, before.curves), stale: true };
   }
@@ -362,7 +359,11 @@ async function start() {
       verdict.clear();
     },
     take: replace,
-    drop: () => request({ text: state.history.text, final: false }),
+    drop: () => {
+      const text = state.history.text;
+      if (state.checked?.text === text) show(state.checked);
+      request({ text, final: false });
+    },
     changed: buttons,
     complain,
   });
