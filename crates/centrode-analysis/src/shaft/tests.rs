@@ -116,16 +116,16 @@ fn each_fault_is_found() {
 
 #[test]
 fn picks_beside_the_slow_places_are_found_and_those_on_them_meet_every_hole() {
-    // Slow at 0 and picked at 60 deg: it moves more than the pot allows.
+    // Slow at 0 and picked at 120 deg: it moves more than the pot allows.
     let mut design = published();
-    design.pick = PI / 3.0;
+    design.pick = 2.0 * PI / 3.0;
     let beside = report(&design);
     let found = beside.findings.iter().find(|f| f.rule == "moved-distance");
     let found = found.expect("a finding");
     assert!(found.measured > found.required && !beside.ok());
     assert!(beside.values["misplacement_max"] < 1e-9);
     design.law = SpeedLaw::Sine(centrode_mechanism::shaft::Sine {
-        phase: PI / 3.0,
+        phase: design.pick,
         ..Default::default()
     });
     let on = report(&design);

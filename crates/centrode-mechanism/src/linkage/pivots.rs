@@ -8,8 +8,11 @@ use super::slider_arc::SliderArc;
 
 /// Points between which a curve is measured for each that is asked for, and the least number of them.
 const MEASURED: (usize, usize) = (4, 256);
-/// Times that these points are moved to equal lengths.
-const PASSES: usize = 3;
+/// Greatest step between them over the mean one where they are even.
+const EVEN: f64 = 1.002;
+/// Times at most that these points are moved to equal lengths; near half a turn, where a ray hardly turns along most of
+/// the curve, it takes a dozen.
+const PASSES: usize = 60;
 
 impl SixBar {
     /// `count` places of the effector's pivot that all give this swing (rad), in order along a curve and evenly spaced
@@ -72,16 +75,21 @@ fn even_knots(whole: f64, count: usize, place: impl Fn(f64) -> Option<Point>) ->
             Some((turn, place(turn)?))
         });
         let points: Vec<(f64, Point)> = even.collect();
-        let mut length = 0.0;
+        let (mut length, mut longest) = (0.0, 0.0_f64);
         let mut measured: Vec<(f64, f64)> = points.iter().take(1).map(|p| (0.0, p.0)).collect();
         for pair in points.windows(2) {
-            length += (pair[1].1 - pair[0].1).norm();
+            let step = (pair[1].1 - pair[0].1).norm();
+            (length, longest) = (length + step, longest.max(step));
             measured.push((length, pair[1].0));
         }
+        let even = longest * (points.len().saturating_sub(1)) as f64 <= EVEN * length;
         knots = measured
             .into_iter()
             .map(|(reached, turn)| (reached / length, turn))
             .collect();
+        if even {
+            break;
+        }
     }
     knots
 }
