@@ -128,10 +128,10 @@ proptest! {
 fn resolved_in_time(design: &GearPairDesign) -> Result<GearPair, GearPairError> {
     let (sender, receiver) = mpsc::channel();
     let own = design.clone();
-    thread::spawn(move || sender.send(GearPair::resolve(&own)));
+    thread::spawn(move || sender.send(Box::new(GearPair::resolve(&own))));
     // A hundred times what the slowest takes on a busy machine.
     let found = receiver.recv_timeout(Duration::from_secs(60));
-    found.unwrap_or_else(|_| panic!("no pair and no error after a minute: {design:?}"))
+    *found.unwrap_or_else(|_| panic!("no pair and no error after a minute: {design:?}"))
 }
 
 /// A B-spline through points from angle zero on, evenly spaced.
