@@ -20,7 +20,9 @@ def documented():
                 continue
             yield f"{module.__name__}.{name}", thing
             if inspect.isclass(thing):
-                for member, value in vars(thing).items():
+                # A class of the module lists its members in another order in every process.
+                for member in sorted(vars(thing)):
+                    value = vars(thing)[member]
                     if not member.startswith("_") and getattr(value, "__doc__", None):
                         yield f"{module.__name__}.{name}.{member}", value
 
