@@ -171,9 +171,8 @@ impl<'a> Surface<'a> {
         let above = pair.map(|edge| edge - 2 * self.plan.turns);
         let mut crest = Rim::new([0.0; 2], level);
         let mut found = false;
-        for side in 0..2 {
-            let [[low, high], [met, other]] =
-                [pair, above].map(|p| p.map(|edge| heights[side][edge]));
+        for (side, heights) in heights.into_iter().enumerate() {
+            let [[low, high], [met, other]] = [pair, above].map(|p| p.map(|edge| heights[edge]));
             // Where the edges of a level meet the crest ends on them.
             (crest.heights[side], crest.levels[side]) = if low == high {
                 (low, level)
