@@ -31,7 +31,8 @@ def test_a_number_gives_a_number_and_an_array_its_own_shape(pair):
         np.testing.assert_array_equal(method(grid), method(grid.astype(float).tolist()))
         np.testing.assert_array_equal(method(grid[::2, ::-3]), method(grid)[::2, ::-3])
         assert method([]).shape == (0,)
-    assert np.isnan(pair.ratio(math.nan))
+    with pytest.raises(ct.DesignError, match="must be a finite number, not NaN"):
+        pair.ratio(math.nan)
 
 
 def test_the_ratio_and_its_slope_are_derivatives(pair):

@@ -90,7 +90,9 @@ def test_no_number_makes_anything_answer_with_nan(machines, value):
                     found = method(**{**needed, parameter.name: value})
                 except (ValueError, TypeError, OverflowError):
                     continue
-                assert not any(math.isnan(number) for number in answers(found)), (title, name, parameter.name)
+                # Where a pin finds no rest a sentence stands instead of numbers.
+                told = all(getattr(found, "faults", [None]))
+                assert told or not any(math.isnan(number) for number in answers(found)), (title, name, parameter.name)
     assert len(tried) > 60
 
 

@@ -104,7 +104,7 @@ def fine_meshes(tmp_path_factory):
     @cache
     def export(design):
         folder = tmp_path_factory.mktemp("fine")
-        centrode("export", design, "--to", folder, "--format", "urdf", "--tolerance", "3e-6")
+        centrode("export", design, "--to", folder, "--format", "urdf,stl", "--tolerance", "3e-6")
         return folder
 
     return export

@@ -364,7 +364,7 @@ def test_a_later_change_does_not_wait_for_a_slow_one(browser, tmp_path):
         field(page, "pitch.tooth_count").fill("26")
         field(page, "pitch.tooth_count").press("Enter")
         told = page.locator('#figures td[data-key="driver_tooth_count"]')
-        expect(told).to_have_attribute("data-exact", "26", timeout=30_000)
+        expect(told).to_have_attribute("data-exact", "26.0", timeout=30_000)
         expect(field(page, "pitch.tooth_count")).to_have_value("26")
 
 

@@ -14,10 +14,9 @@ pub(super) fn header(file: &mut Pairs, bounds: &Bounds, seed: Handle) {
     if newer {
         file.word(9, "$DWGCODEPAGE").word(3, "ANSI_1252");
         file.word(9, "$HANDSEED").handle(5, seed);
-        // Metric, so that line types and hatches are taken from the metric files.
-        file.word(9, "$MEASUREMENT").whole(70, 1);
     }
-    // Unknown to R12 itself, read by most programs since: millimetres.
+    // Both unknown to R12 itself, read by most programs since: line types and hatches from the metric files, millimetres.
+    file.word(9, "$MEASUREMENT").whole(70, 1);
     file.word(9, "$INSUNITS").whole(70, 4);
     file.word(9, "$LTSCALE").number(40, 1.0);
     if bounds.diagonal().is_finite() {
