@@ -74,4 +74,3 @@ def test_the_machine_is_assembled_at_rest_and_moves(folder):
         assert np.isfinite(data.qpos).all()
         assert np.isfinite(data.qvel).all()
         assert not any(warning.number for warning in data.warning)
-
