@@ -51,8 +51,10 @@ class Law:
 
     def at_shaft(self, column, turned):
         """A column at a shaft angle, linear between rows."""
-        period = self.about["continuation"]["shaft_angle_rad"]
-        return np.interp(turned, self.table["shaft_angle_rad"], self.table[column], period=period)
+        angles = self.table["shaft_angle_rad"]
+        # A whole cycle from the first row on; numpy's own period sorts the table at every call.
+        turned = angles[0] + (turned - angles[0]) % self.about["continuation"]["shaft_angle_rad"]
+        return np.interp(turned, angles, self.table[column])
 
 
 class Machine:
