@@ -168,7 +168,7 @@ mod tests {
     fn only_its_own_token_stops_a_job() {
         let (outer, inner) = (Cancel::default(), Cancel::default());
         inner.cancel();
-        let nested = outer.run(|| (inner.run(endless), outer.run(|| checkpoint())));
+        let nested = outer.run(|| (inner.run(endless), outer.run(checkpoint)));
         assert_eq!(nested, Ok((Err(Cancelled), Ok(()))));
         let other = Cancel::default();
         // What unwinds for another token, or from a panic, is not this one's to catch.
