@@ -47,7 +47,6 @@ pub struct Keyway {
 }
 
 /// Serde's own way of asking.
-#[expect(clippy::trivially_copy_pass_by_ref, reason = "what serde calls")]
 fn is_along_x(angle: &f64) -> bool {
     *angle == 0.0
 }
