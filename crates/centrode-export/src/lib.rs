@@ -9,6 +9,7 @@ pub mod drawing;
 pub mod dxf;
 pub mod feeder;
 pub mod gear_pair;
+pub mod machine;
 pub mod mjcf;
 pub mod model;
 pub mod page;

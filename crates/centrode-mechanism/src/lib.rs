@@ -9,6 +9,7 @@ pub mod feeder;
 mod formula;
 pub mod gear;
 pub mod linkage;
+pub mod machine;
 pub mod mechanism;
 pub mod shaft;
 pub mod three_arm;

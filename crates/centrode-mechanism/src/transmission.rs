@@ -38,6 +38,17 @@ impl MotionJet {
         }
     }
 
+    /// The sum of this jet and `factor` times another.
+    #[must_use]
+    pub fn plus(&self, factor: f64, other: &Self) -> Self {
+        Self {
+            position: self.position + factor * other.position,
+            velocity: self.velocity + factor * other.velocity,
+            acceleration: self.acceleration + factor * other.acceleration,
+            jerk: self.jerk + factor * other.jerk,
+        }
+    }
+
     /// The jet of the inverse function at `self.position`, whose value there is `input`.
     ///
     /// Not finite where the velocity is zero.

@@ -1,26 +1,23 @@
 //! The files of a feeder: its links as plates, a simulator model, its motion.
 
 mod gears;
-mod motion;
+mod links;
 mod picture;
 mod plates;
-mod play;
 mod sheets;
-mod simulator;
 
 use crate::{
     Bundle, BundleError,
-    csv::{self, TableError},
+    csv::TableError,
     drawing::Drawing,
     dxf::{self, DxfError},
     gear_pair::{Format, Options},
-    mjcf::{self, MjcfError},
+    machine::MachineFilesError,
     pdf::{self, PdfError},
     sheet::SheetError,
     step::{self, StepError},
     stl, svg,
     threemf::{self, PackageError},
-    urdf::{self, UrdfError},
 };
 use centrode_geometry::{Solid, SolidError};
 use centrode_mechanism::feeder::{Feeder, FeederError, Part, Plate};
@@ -67,12 +64,9 @@ pub enum FeederFilesError {
     /// A table could not be written.
     #[error(transparent)]
     Table(#[from] TableError),
-    /// The simulator model could not be written.
+    /// Its motion or a simulator model could not be written.
     #[error(transparent)]
-    Urdf(#[from] UrdfError),
-    /// The `MuJoCo` model could not be written.
-    #[error(transparent)]
-    Mjcf(#[from] MjcfError),
+    Machine(#[from] MachineFilesError),
     /// The files do not go together.
     #[error(transparent)]
     Bundle(#[from] BundleError),
@@ -104,25 +98,10 @@ pub fn files(
     }
     solids(feeder, &plates, &wanted, options, &mut bundle)?;
     gear_files(feeder, &wanted, options, &mut bundle)?;
-    let simulated = wanted(Format::Urdf) || wanted(Format::Mjcf);
-    if wanted(Format::Csv) || simulated {
-        bundle.add("motion.csv", csv::write(&motion::columns(feeder))?)?;
-        bundle.add("motion.json", motion::sidecar(feeder))?;
-    }
-    if simulated {
-        for (name, mesh) in simulator::meshes(feeder, &plates, options.tolerance)? {
-            bundle.add(&simulator::mesh_file(name), stl::write(&mesh))?;
-        }
-    }
-    if wanted(Format::Urdf) {
-        let model = simulator::model(feeder, &plates, simulator::OPEN)?;
-        bundle.add("feeder.urdf", urdf::write(&model)?)?;
-    }
-    if wanted(Format::Mjcf) {
-        let model = simulator::model(feeder, &plates, simulator::CLOSED)?;
-        let closures = simulator::closures(feeder);
-        bundle.add("feeder.xml", mjcf::write_closed(&model, &closures)?)?;
-        bundle.add("play_mujoco.py", play::mujoco())?;
+    let models = [Format::Urdf, Format::Mjcf].map(wanted);
+    if wanted(Format::Csv) || models.contains(&true) {
+        let machine = links::machine(feeder, &plates)?;
+        crate::machine::add(&machine, models, options.tolerance, &mut bundle)?;
     }
     Ok(bundle)
 }

@@ -1,17 +1,14 @@
 //! The files of a gear pair.
 
-mod contact_body;
 mod format;
-mod motion;
+mod links;
 mod outline;
 mod part;
 mod picture;
 mod pins;
-mod play;
 mod sheet;
 mod sheet_set;
 mod sheets;
-pub(crate) mod simulator;
 mod solid;
 
 use crate::{
@@ -19,25 +16,24 @@ use crate::{
     csv::{self, TableError},
     drawing::Drawing,
     dxf::{self, DxfError},
-    mjcf::{self, MjcfError},
+    machine::MachineFilesError,
     pdf::PdfError,
     sheet::SheetError,
     step::StepError,
-    stl, svg,
+    svg,
     threemf::PackageError,
-    urdf::{self, UrdfError},
 };
 use centrode_geometry::{SolidError, Tolerance};
 use centrode_mechanism::gear::{GearPair, Member};
 pub use format::{Format, UnknownFormat};
-pub(crate) use part::{add_part, contact_bodies};
+pub use links::machine;
+pub(crate) use links::{gear, teeth};
+pub(crate) use part::add_part;
 pub(crate) use picture::drawn_gear;
 pub use picture::{curves, picture};
-pub(crate) use play::whole as script;
 use sheet::Contours;
 pub use sheet_set::SheetSet;
 pub use sheets::{Label, Meshing, SheetOptions, Subject, sheets};
-pub(crate) use solid::add_shown;
 pub use solid::{mesh, solid, step_file, stl_file, threemf_file};
 use thiserror::Error;
 
@@ -129,12 +125,9 @@ pub enum GearPairFilesError {
     /// A table could not be written.
     #[error(transparent)]
     Table(#[from] TableError),
-    /// The simulator model could not be written.
+    /// Its motion or a simulator model could not be written.
     #[error(transparent)]
-    Urdf(#[from] UrdfError),
-    /// The `MuJoCo` model could not be written.
-    #[error(transparent)]
-    Mjcf(#[from] MjcfError),
+    Machine(#[from] MachineFilesError),
     /// The files do not go together.
     #[error(transparent)]
     Bundle(#[from] BundleError),
@@ -179,23 +172,8 @@ pub fn files(
         }
     }
     if wanted(Format::Csv) || simulated {
-        let table = motion::columns(pair, options.tolerance);
-        bundle.add("motion.csv", csv::write(&table)?)?;
-        bundle.add("motion.json", motion::sidecar(pair, options.tolerance))?;
-    }
-    if simulated {
-        let model = simulator::model(pair, options.tolerance)?;
-        if wanted(Format::Urdf) {
-            bundle.add("pair.urdf", urdf::write(&model)?)?;
-            for body in model.links.iter().flat_map(|link| &link.collision) {
-                bundle.add(&urdf::collision_file(&body.name), stl::write(&body.mesh))?;
-            }
-            bundle.add("play_pybullet.py", play::pybullet())?;
-        }
-        if wanted(Format::Mjcf) {
-            bundle.add("pair.xml", mjcf::write(&model)?)?;
-            bundle.add("play_mujoco.py", play::mujoco())?;
-        }
+        let models = [Format::Urdf, Format::Mjcf].map(wanted);
+        crate::machine::add(&machine(pair)?, models, options.tolerance, &mut bundle)?;
     }
     Ok(bundle)
 }

@@ -1,7 +1,6 @@
-use super::{Format, GearPairFilesError, Label, Options, SheetSet, contact_body, outline, pins};
-use crate::{Bundle, csv, dxf, model::Convex, step, stl, svg, threemf};
-use centrode_geometry::Tolerance;
-use centrode_mechanism::gear::{Gear, GearPair, Member};
+use super::{Format, GearPairFilesError, Label, Options, SheetSet, outline, pins};
+use crate::{Bundle, csv, dxf, step, stl, svg, threemf};
+use centrode_mechanism::gear::{GearPair, Member};
 
 /// Adds the files of one gear as a part of a larger machine, under its label.
 pub(crate) fn add_part(
@@ -62,14 +61,4 @@ pub(crate) fn add_part(
         bundle.add(&format!("{name}-pins.csv"), csv::write(&table)?)?;
     }
     Ok(())
-}
-
-/// What a gear touches others with, and how far that stands out of it at most, mm.
-pub(crate) fn contact_bodies(
-    gear: &Gear,
-    prefix: &str,
-    tolerance: Tolerance,
-) -> (Vec<Convex>, f64) {
-    let found = contact_body::all(gear, prefix, tolerance);
-    (found.bodies, found.excess)
 }

@@ -1,17 +1,20 @@
-use super::motion;
 use crate::page::{Curve, Link, Motion, Path, Picture, Role, short};
 use centrode_geometry::{Bounds, Point, Tolerance};
 use centrode_mechanism::gear::{Gear, GearPair, Member};
+use std::f64::consts::TAU;
 
 /// Samples of one driver turn for the curves of the cycle.
 const SAMPLES: u32 = 360;
+
+/// Fewest steps of one driver turn: half degrees.
+const STEPS: f64 = 720.0;
 
 /// The pair as a picture that moves; every line and pose is within the tolerance of the exact one.
 #[must_use]
 pub fn picture(pair: &GearPair, tolerance: Tolerance) -> Picture {
     let members = [Member::Driven, Member::Driver];
     let links = members.map(|member| drawn_gear(pair.gear(member), tolerance));
-    let input = motion::angles(pair, tolerance);
+    let input = angles(pair, tolerance);
     let a = pair.center_distance();
     // Angles rounded to a hundredth of what the tolerance is seen under.
     let unit = 0.01 * tolerance.mm() / a;
@@ -129,4 +132,24 @@ pub fn curves(pair: &GearPair) -> Vec<Curve> {
             points.iter().map(|p| p.driven_curvature).collect(),
         ),
     ]
+}
+
+/// Driver angles of the poses: between them the driven angle is linear to within the tolerance at the centre distance.
+fn angles(pair: &GearPair, tolerance: Tolerance) -> Vec<f64> {
+    let least = STEPS * pair.cycle() / TAU;
+    // A chord of the law over a step h is off by at most h² / 8 times the greatest slope.
+    let slope = greatest_slope(pair);
+    let angle = tolerance.mm() / pair.center_distance();
+    let steps = (pair.cycle() * (slope / (8.0 * angle)).sqrt()).clamp(least, 1e6);
+    let steps = steps.ceil() as u32;
+    (0..=steps)
+        .map(|i| pair.cycle() * f64::from(i) / f64::from(steps))
+        .collect()
+}
+
+/// Greatest slope of the ratio, 1/rad, of 2880 over a turn.
+fn greatest_slope(pair: &GearPair) -> f64 {
+    (0..=2880)
+        .map(|i| pair.ratio_slope(TAU * f64::from(i) / 2880.0).abs())
+        .fold(0.0, f64::max)
 }

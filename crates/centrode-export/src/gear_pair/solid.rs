@@ -1,4 +1,4 @@
-use super::{Format, GearPairFilesError, Options, simulator};
+use super::{Format, GearPairFilesError, Options};
 use crate::{Bundle, step, stl, threemf};
 use centrode_geometry::{Mesh, Solid, Tolerance};
 use centrode_mechanism::gear::{GearPair, Member};
@@ -75,7 +75,7 @@ fn title(pair: &GearPair, member: Member) -> String {
     format!("{design}: {} gear", member.name())
 }
 
-/// Adds the files of both solids; the simulator models show the STL ones.
+/// Adds the files of both solids.
 pub(super) fn add(
     pair: &GearPair,
     wanted: &impl Fn(Format) -> bool,
@@ -98,26 +98,6 @@ pub(super) fn add(
                 bundle.add(&format!("{name}.3mf"), package(pair, member, &mesh)?)?;
             }
         }
-        // A model shows both gears, whichever parts are asked for.
-        if wanted(Format::Urdf) || wanted(Format::Mjcf) {
-            add_shown(pair, member, "", options.tolerance, bundle)?;
-        }
-    }
-    Ok(())
-}
-
-/// Adds the STL file a model shows a gear by, with a prefix to its name, unless it is there.
-pub(crate) fn add_shown(
-    pair: &GearPair,
-    member: Member,
-    prefix: &str,
-    tolerance: Tolerance,
-    bundle: &mut Bundle,
-) -> Result<(), GearPairFilesError> {
-    let (name, coarse) = simulator::shown(pair, member, tolerance)?;
-    let file = format!("{prefix}{name}.stl");
-    if !bundle.files().any(|(known, _)| known == file) {
-        bundle.add(&file, stl_file(pair, member, coarse)?)?;
     }
     Ok(())
 }

@@ -115,6 +115,12 @@ impl Gears<'_> {
         }
     }
 
+    /// Turn of the driven gear on the shaft, rad: it has turned by its own angle at the slow place when the shaft, by
+    /// `-pick`, stands there.
+    pub(super) fn rest(&self) -> f64 {
+        self.pair.driven_angle(self.slowest()) + self.drive.phase
+    }
+
     /// Turns of driver and driven gear in their own frames by the input, rad, counter-clockwise: the driver
     /// turns with the input and drives its mate backwards.
     pub(super) fn turns(&self, input: f64) -> [f64; 2] {

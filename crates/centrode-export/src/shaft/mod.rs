@@ -2,11 +2,10 @@
 
 mod drawings;
 mod gcode;
+mod links;
 mod machine;
-mod motion;
 mod picture;
 mod sheets;
-mod simulator;
 mod tables;
 
 use crate::{
@@ -14,16 +13,15 @@ use crate::{
     csv::{self, TableError},
     dxf::{self, DxfError},
     gear_pair::{self, Format, GearPairFilesError, Options},
-    mjcf::{self, MjcfError},
+    machine::MachineFilesError,
     pdf::PdfError,
     sheet::SheetError,
     step::{self, StepError},
     stl, svg,
     threemf::{self, PackageError},
-    urdf::{self, UrdfError},
 };
 use centrode_geometry::SolidError;
-use centrode_mechanism::gear::{GearPairError, Member};
+use centrode_mechanism::gear::GearPairError;
 use centrode_mechanism::shaft::{MovingBox, ShaftError, SpiralShaft};
 pub use drawings::{developed, side_view, slider};
 pub use gcode::program;
@@ -31,9 +29,6 @@ use machine::Machine;
 pub use picture::{box_curves, box_picture, shaft_curves, shaft_picture};
 pub use sheets::{shaft_sheets, slider_sheets};
 use thiserror::Error;
-
-/// Plays the model by its law, by forces, or through the teeth of its gears.
-const PLAY: &str = include_str!("play_mujoco.py");
 
 /// Why a spiral shaft's files could not be made.
 #[derive(Debug, Error)]
@@ -67,12 +62,9 @@ pub enum ShaftFilesError {
     /// The drawing sheets could not be written as PDF.
     #[error(transparent)]
     Pdf(#[from] PdfError),
-    /// The simulator model could not be written.
+    /// Its motion or a simulator model could not be written.
     #[error(transparent)]
-    Urdf(#[from] UrdfError),
-    /// The `MuJoCo` model could not be written.
-    #[error(transparent)]
-    Mjcf(#[from] MjcfError),
+    Machine(#[from] MachineFilesError),
     /// A 3MF package could not be made.
     #[error(transparent)]
     Package(#[from] PackageError),
@@ -134,7 +126,6 @@ fn all(
         });
     }
     let wanted = |format: Format| formats.contains(&format);
-    let simulated = wanted(Format::Urdf) || wanted(Format::Mjcf);
     let mut bundle = Bundle::default();
     draw(shaft, formats, options, &mut bundle)?;
     sheets::add(shaft, formats, options, &mut bundle)?;
@@ -151,31 +142,12 @@ fn all(
         )?;
         bundle.add("groove.ngc", program(shaft, options.tolerance).into_bytes())?;
     }
-    if wanted(Format::Csv) || simulated {
-        bundle.add(motion::TABLE, csv::write(&motion::columns(machine))?)?;
-        bundle.add("motion.json", motion::sidecar(machine))?;
-    }
-    if simulated {
-        let simulator::Simulated { model, meshes } =
-            simulator::simulated(machine, options.tolerance)?;
-        for (name, mesh) in &meshes {
-            // The shop's own may be there already.
-            if !bundle.files().any(|(known, _)| known == name) {
-                bundle.add(name, stl::write(mesh))?;
-            }
-        }
-        if wanted(Format::Urdf) {
-            bundle.add("machine.urdf", urdf::write(&model)?)?;
-            for body in model.links.iter().flat_map(|link| &link.collision) {
-                bundle.add(&urdf::collision_file(&body.name), stl::write(&body.mesh))?;
-            }
-        }
-        if wanted(Format::Mjcf) {
-            bundle.add("machine.xml", mjcf::write(&model)?)?;
-            bundle.add("play_mujoco.py", PLAY.into())?;
-        }
-    }
     gears(machine, formats, options, &mut bundle)?;
+    let models = [Format::Urdf, Format::Mjcf].map(wanted);
+    if wanted(Format::Csv) || models.contains(&true) {
+        let machine = links::machine(machine)?;
+        crate::machine::add(&machine, models, options.tolerance, &mut bundle)?;
+    }
     Ok(bundle)
 }
 
@@ -195,14 +167,7 @@ fn gears(
     let failed = |e| ShaftFilesError::GearFiles(Box::new(e));
     let files = gear_pair::files(&gears.pair, &parts, options).map_err(failed)?;
     for (name, bytes) in files.files() {
-        bundle.add(&format!("{}{name}", simulator::GEARS), bytes.to_vec())?;
-    }
-    // The machine's model shows them.
-    if parts.len() < formats.len() {
-        for member in [Member::Driver, Member::Driven] {
-            let (prefix, tolerance) = (simulator::GEARS, options.tolerance);
-            gear_pair::add_shown(&gears.pair, member, prefix, tolerance, bundle).map_err(failed)?;
-        }
+        bundle.add(&format!("{}{name}", links::GEARS), bytes.to_vec())?;
     }
     Ok(())
 }

@@ -70,7 +70,7 @@ pub(super) fn contours(
             let by = Isometry2::translation(if moves { -back } else { 0.0 }, 0.0);
             draw("ARMS", &part.outline, &(arm * by));
         }
-        let cam = carrier * super::simulator::cam_on_carrier(machine, k);
+        let cam = carrier * super::links::cam_on_carrier(machine, k);
         draw("CAMS", pusher.cam().profile().outline(), &cam);
         if let Some((fork, _)) = pusher.fork_outline() {
             let back = pusher.retraction(mechanism.own_input(input, k));

@@ -2,12 +2,11 @@
 
 mod arrangement;
 mod assembly;
+mod links;
 mod machine;
-mod motion;
 mod part;
 mod picture;
 mod plate;
-mod simulator;
 mod surroundings;
 mod turn;
 
@@ -19,9 +18,9 @@ use thiserror::Error;
 
 use crate::gear_pair::{self, Format, GearPairFilesError, Label, Options};
 use crate::{
-    Bundle, BundleError, cam, csv, csv::TableError, dxf, dxf::DxfError, mjcf, mjcf::MjcfError, pdf,
+    Bundle, BundleError, cam, csv, csv::TableError, dxf, dxf::DxfError, machine::MachineFilesError, pdf,
     pdf::PdfError, sheet::Sheet, sheet::SheetError, step, step::StepError, stl, svg, threemf,
-    threemf::PackageError, urdf, urdf::UrdfError,
+    threemf::PackageError,
 };
 use machine::Machine;
 pub use part::{Part, UnknownPart};
@@ -95,12 +94,9 @@ pub enum ThreeArmFilesError {
     /// A table could not be written.
     #[error(transparent)]
     Table(#[from] TableError),
-    /// The simulator model could not be written.
+    /// Its motion or a simulator model could not be written.
     #[error(transparent)]
-    Urdf(#[from] UrdfError),
-    /// The `MuJoCo` model could not be written.
-    #[error(transparent)]
-    Mjcf(#[from] MjcfError),
+    Files(#[from] MachineFilesError),
     /// The files do not go together.
     #[error(transparent)]
     Bundle(#[from] BundleError),
@@ -280,45 +276,10 @@ impl Writer<'_> {
 
     /// Laws of motion and simulator models.
     fn motion(&self, bundle: &mut Bundle) -> Result<(), ThreeArmFilesError> {
-        let tolerance = self.options.tolerance;
-        let simulated = self.wants(Format::Urdf) || self.wants(Format::Mjcf);
-        if !simulated && !self.wants(Format::Csv) {
-            return Ok(());
-        }
-        let table = motion::columns(self.machine, tolerance);
-        bundle.add("motion.csv", csv::write(&table)?)?;
-        bundle.add("motion.json", motion::sidecar(self.machine, tolerance))?;
-        if !simulated {
-            return Ok(());
-        }
-        let simulated = simulator::simulated(self.machine, tolerance)?;
-        for (name, mesh) in &simulated.meshes {
-            // A gear's may be there as a part already.
-            if !bundle.files().any(|(known, _)| known == name) {
-                bundle.add(name, stl::write(mesh))?;
-            }
-        }
-        if self.wants(Format::Urdf) {
-            bundle.add("machine.urdf", urdf::write(&simulated.model)?)?;
-            for body in simulated
-                .model
-                .links
-                .iter()
-                .flat_map(|link| &link.collision)
-            {
-                let name = urdf::collision_file(&body.name);
-                // Planets and arms are alike, and so are their bodies.
-                if !bundle.files().any(|(known, _)| known == name) {
-                    bundle.add(&name, stl::write(&body.mesh))?;
-                }
-            }
-            let script = include_str!("play_pybullet.py");
-            bundle.add("play_pybullet.py", gear_pair::script(script))?;
-        }
-        if self.wants(Format::Mjcf) {
-            bundle.add("machine.xml", mjcf::write(&simulated.model)?)?;
-            let script = include_str!("play_mujoco.py");
-            bundle.add("play_mujoco.py", gear_pair::script(script))?;
+        let models = [Format::Urdf, Format::Mjcf].map(|format| self.wants(format));
+        if models.contains(&true) || self.wants(Format::Csv) {
+            let machine = links::machine(self.machine)?;
+            crate::machine::add(&machine, models, self.options.tolerance, bundle)?;
         }
         Ok(())
     }

@@ -228,6 +228,27 @@ impl FourBar {
         }
     }
 
+    /// The coupler's angle, from the direction A to D to the direction B to C, without jumps.
+    ///
+    /// # Errors
+    /// [`FourBarError::DoesNotClose`].
+    pub fn coupler_angle(&self, input: f64) -> Result<MotionJet, FourBarError> {
+        let (b, c) = joints(
+            self.lengths(),
+            self.branch,
+            PointSeries::<4>::turning(input),
+        );
+        if c.room > 0.0 {
+            let mut jet = MotionJet::of(&c.at.minus(b).angle());
+            // The angle at C stays within (0, pi), so this angle has no jumps either.
+            jet.position = self.unwrapped_rocker(input)
+                - self.branch.sign() * self.transmission_angle(input);
+            Ok(jet)
+        } else {
+            Err(self.limit(input))
+        }
+    }
+
     /// The rocker's angle without jumps: the direction D to B, unwrapped in closed form, less or plus
     /// the angle at D in the triangle BDC, which stays within (0, pi).
     pub(super) fn unwrapped_rocker(&self, input: f64) -> f64 {

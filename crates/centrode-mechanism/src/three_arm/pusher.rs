@@ -273,6 +273,12 @@ impl Pusher {
         self.motion.at(input)
     }
 
+    /// Inputs in one turn where a derivative of the first arm's rod may jump, ascending.
+    #[must_use]
+    pub fn breaks(&self) -> Vec<f64> {
+        Transmission::breaks(self.motion.as_ref())
+    }
+
     /// Turn of the cam's frame from the carrier's, for the first arm, rad.
     #[must_use]
     pub fn cam_angle(&self) -> f64 {

@@ -50,15 +50,6 @@ pub(super) fn moved(jet: MotionJet, by: f64) -> MotionJet {
     }
 }
 
-fn sum(a: &MotionJet, b: &MotionJet, factor: f64) -> MotionJet {
-    MotionJet {
-        position: a.position + factor * b.position,
-        velocity: a.velocity + factor * b.velocity,
-        acceleration: a.acceleration + factor * b.acceleration,
-        jerk: a.jerk + factor * b.jerk,
-    }
-}
-
 impl Train {
     pub(super) fn new(design: &ThreeArmDesign, rolling: Arc<Rolling>) -> Self {
         let sign = design.direction.sign();
@@ -140,9 +131,9 @@ impl Train {
         let leg = moved(carrier, self.bend);
         TrainJet {
             carrier,
-            intermediate: sum(&carrier, &turned, 1.0),
-            planet: moved(sum(&leg, &chi, -1.0), PI),
-            arm: moved(sum(&leg, &chi, -1.0), self.chi - self.reference),
+            intermediate: carrier.plus(1.0, &turned),
+            planet: moved(leg.plus(-1.0, &chi), PI),
+            arm: moved(leg.plus(-1.0, &chi), self.chi - self.reference),
         }
     }
 
@@ -179,7 +170,7 @@ pub struct ArmOnCarrier {
 impl Transmission for ArmOnCarrier {
     fn at(&self, input: f64) -> MotionJet {
         let TrainJet { carrier, arm, .. } = self.train.at(input);
-        sum(&arm, &carrier, -1.0)
+        arm.plus(-1.0, &carrier)
     }
 
     fn advance(&self) -> f64 {

@@ -1,58 +1,78 @@
 use crate::model::Convex;
 use centrode_geometry::{ConvexPieces, Mesh, Point, Tolerance, Vector, convex_pieces};
-use centrode_mechanism::gear::{Gear, Role};
+use centrode_mechanism::machine::Surface;
 use std::collections::BTreeMap;
 
-/// What a gear touches others with.
+/// Convex bodies that stand for a surface.
 pub(super) struct ContactBodies {
-    /// Teeth in order, each one convex body or several, then the hub.
+    /// Of a gear the teeth in order, each one body or several, then the hub.
     pub(super) bodies: Vec<Convex>,
-    /// How far a body stands out of the gear at most, mm.
+    /// How far a body stands out of the surface at most, mm.
     pub(super) excess: f64,
+}
+
+/// A surface as convex bodies between its heights that stand off it by no more than the tolerance, as often as the surface
+/// allows.
+pub(super) fn all(surface: &Surface, tolerance: Tolerance) -> ContactBodies {
+    let tolerance = tolerance.scaled(surface.coarseness);
+    if surface.teeth.is_empty() {
+        plate(surface, tolerance)
+    } else {
+        gear(surface, tolerance)
+    }
+}
+
+/// A plate, its pieces numbered.
+fn plate(surface: &Surface, tolerance: Tolerance) -> ContactBodies {
+    let half = tolerance.scaled(0.5);
+    let [bottom, top] = surface.span;
+    let cut = convex_pieces(&surface.outline.flatten(half), half);
+    let pieces = cut.pieces.iter().enumerate();
+    ContactBodies {
+        bodies: pieces
+            .map(|(i, piece)| Convex {
+                name: format!("{}_{i}", surface.name),
+                mesh: Mesh::prism(piece, bottom, top),
+            })
+            .collect(),
+        excess: cut.excess + half.mm(),
+    }
 }
 
 /// The teeth of a gear as convex bodies over its width: flanks and tip of each down to where the flanks
 /// end, cut into as many pieces as it takes to stand out of it by no more than the tolerance. Under them
 /// the hub, from the bottom of one space to that of the next, its bore filled.
 ///
-/// Every body's name begins with `prefix`.
-///
 /// Fillets are left out: mates do not touch there, and each would take a dozen bodies.
-pub(super) fn all(gear: &Gear, prefix: &str, tolerance: Tolerance) -> ContactBodies {
-    // Half for the chords of a hollow flank, half for what bridges them.
+fn gear(surface: &Surface, tolerance: Tolerance) -> ContactBodies {
+    // Half for the chords of a concave flank, half for what bridges them.
     let half = tolerance.scaled(0.5);
-    let samples = gear.outline().samples(half);
+    let samples = surface.outline.samples(half);
     let contour: Vec<Point> = samples.iter().map(|sample| sample.point).collect();
-    let owners = samples.iter().map(|sample| {
-        let touches = matches!(
-            gear.roles().get(sample.segment),
-            Some(Role::Flank | Role::Tip)
-        );
-        gear.owners()
-            .get(sample.segment)
-            .copied()
-            .filter(|_| touches)
-    });
+    let owners = samples
+        .iter()
+        .map(|sample| surface.teeth.get(sample.segment).copied().flatten());
     let Sections { teeth, hub, excess } =
         Sections::new(&contour, &owners.collect::<Vec<_>>(), half);
     let mut found = ContactBodies {
         bodies: Vec::new(),
         excess,
     };
+    let (prefix, span) = (&surface.name, surface.span);
     for (tooth, contours) in teeth {
         let name = format!("{prefix}_tooth_{tooth}");
         let cut = contours.iter().map(|contour| convex_pieces(contour, half));
-        found.add(&name, cut.collect(), gear.body().width);
+        found.add(&name, cut.collect(), span);
     }
     let hub = convex_pieces(&hub, half);
-    found.add(&format!("{prefix}_hub"), vec![hub], gear.body().width);
+    found.add(&format!("{prefix}_hub"), vec![hub], span);
     found.excess += half.mm();
     found
 }
 
 impl ContactBodies {
     /// Adds the pieces of a part over the width, numbered where there are several.
-    fn add(&mut self, name: &str, cut: Vec<ConvexPieces>, width: f64) {
+    fn add(&mut self, name: &str, cut: Vec<ConvexPieces>, [bottom, top]: [f64; 2]) {
         self.excess = cut.iter().map(|c| c.excess).fold(self.excess, f64::max);
         let pieces: Vec<Vec<Point>> = cut.into_iter().flat_map(|c| c.pieces).collect();
         let several = pieces.len() > 1;
@@ -63,7 +83,7 @@ impl ContactBodies {
                 } else {
                     name.to_owned()
                 },
-                mesh: Mesh::prism(&piece, 0.0, width),
+                mesh: Mesh::prism(&piece, bottom, top),
             });
         }
     }

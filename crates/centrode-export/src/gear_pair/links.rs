@@ -1,0 +1,114 @@
+use std::sync::Arc;
+
+use centrode_mechanism::gear::{Gear, GearPair, Member, Role};
+use centrode_mechanism::machine::{
+    Form, GearMesh, Input, Joint, Linear, Link, Machine, Quantity, Shape, Surface,
+};
+use centrode_mechanism::transmission::Transmission;
+
+use super::{GearPairFilesError, solid};
+
+/// A frame with both gears turning about z, the driver at its origin.
+///
+/// # Errors
+/// [`GearPairFilesError`] where a gear is no solid.
+pub fn machine(pair: &GearPair) -> Result<Machine, GearPairFilesError> {
+    let mut machine = Machine {
+        name: pair.name().into(),
+        title: pair.title().into(),
+        input: Input {
+            name: Member::Driver.name().into(),
+            period: pair.cycle(),
+            speed: 1.0,
+        },
+        ..Machine::default()
+    };
+    let base = machine.link(Link {
+        name: "base".into(),
+        ..Link::default()
+    });
+    // At the driver's polar angle phi the driver has turned by -phi, the driven gear by its driven angle.
+    let driver = gear(&mut machine, pair, Member::Driver, "")?;
+    let law = Linear {
+        start: 0.0,
+        slope: -1.0,
+    };
+    let driving = machine.joint(Joint::turning(base, driver, Arc::new(law)));
+    let driven = gear(&mut machine, pair, Member::Driven, "")?;
+    let law: Arc<dyn Transmission> = Arc::new(pair.rolling().clone());
+    let at = [pair.center_distance(), 0.0, 0.0];
+    let joint = machine.joint(Joint::turning(base, driven, law).at(at));
+    machine.meshes.push(GearMesh {
+        links: [driver, driven],
+        joint,
+        copy: 0,
+    });
+    let column = |joint, order, factor| Quantity::Joint {
+        joint,
+        order,
+        factor,
+    };
+    machine.column(
+        "driver_angle_rad",
+        "rad",
+        "polar angle of the driver's pitch point; the driver has turned by minus this",
+        column(driving, 0, -1.0),
+    );
+    machine.column(
+        "driven_angle_rad",
+        "rad",
+        "angle the driven gear has turned by, counter-clockwise",
+        column(joint, 0, 1.0),
+    );
+    machine.column(
+        "ratio",
+        "1",
+        "d driven_angle / d driver_angle",
+        column(joint, 1, 1.0),
+    );
+    machine.column(
+        "ratio_slope_per_rad",
+        "1/rad",
+        "d ratio / d driver_angle",
+        column(joint, 2, 1.0),
+    );
+    Ok(machine)
+}
+
+/// Adds the link of a gear; the prefix begins the names of its files.
+pub(crate) fn gear(
+    machine: &mut Machine,
+    pair: &GearPair,
+    member: Member,
+    prefix: &str,
+) -> Result<usize, GearPairFilesError> {
+    let solid = solid(pair, member)?;
+    let gear = pair.gear(member);
+    let name = member.name();
+    let surface = machine.surface(teeth(gear, name));
+    let shape = machine.shape(Shape {
+        name: format!("{prefix}{name}-body"),
+        part: format!("{prefix}{name}"),
+        form: Form::Solids(vec![solid.clone()]),
+    });
+    Ok(machine.link(Link {
+        name: name.into(),
+        mass: Some(solid.mass_properties(gear.body().density)),
+        shape: Some(shape),
+        surfaces: vec![surface],
+    }))
+}
+
+/// The teeth of a gear: flanks and tips touch, fillets do not.
+pub(crate) fn teeth(gear: &Gear, name: &str) -> Surface {
+    let touches = |(role, owner): (&Role, &u32)| {
+        matches!(role, Role::Flank | Role::Tip).then_some(*owner)
+    };
+    Surface {
+        name: name.into(),
+        outline: gear.outline().clone(),
+        span: [0.0, gear.body().width],
+        teeth: gear.roles().iter().zip(gear.owners()).map(touches).collect(),
+        coarseness: 1.0,
+    }
+}

@@ -1,0 +1,77 @@
+"""Joints by the laws of motion; written into each script, so that one file is enough to run it."""
+
+import json
+
+import numpy as np
+
+
+class Law:
+    """Positions and rates of joints over the travel of the input, as motion.json describes motion.csv."""
+
+    def __init__(self, folder):
+        """Reads both files."""
+        self.about = json.loads((folder / "motion.json").read_text())
+        self.table = np.genfromtxt(folder / self.about["table"], delimiter=",", names=True)
+        self.period = self.about["input"]["period_rad"]
+        self.speed = self.about["input"]["speed_rad_per_s"]
+        self.step = self.period / (self.about["rows"] - 1)
+        self.joints = {joint["name"]: joint for joint in self.about["joints"]}
+        self.advance = {column["name"]: column["advance"] for column in self.about["columns"]}
+
+    def row(self, travel):
+        """Whole periods behind a travel, the row before it, and the share of the step after that."""
+        whole, rest = divmod(travel, self.period)
+        row = min(int(rest / self.step), self.about["rows"] - 2)
+        return whole, row, rest / self.step - row
+
+    def read(self, joint, travel):
+        """Position and rate of a joint by cubic Hermite; rad or m, by rad of the input."""
+        about, advance = self.joints[joint], self.advance[self.joints[joint]["column"]]
+        whole, row, x = self.row(travel)
+        a, b = self.table[about["column"]][row : row + 2] * about["factor"]
+        if about["rate"] is None:
+            va = vb = about["factor"] * advance / self.period
+        else:
+            va, vb = self.table[about["rate"]][row : row + 2] * about["rate_factor"]
+        h = self.step
+        place = (1 + 2 * x) * (1 - x) ** 2 * a + x * x * (3 - 2 * x) * b + h * x * (1 - x) * ((1 - x) * va - x * vb)
+        rate = 6 * x * (1 - x) * (b - a) / h + (1 - x) * (1 - 3 * x) * va + x * (3 * x - 2) * vb
+        return place + whole * about["factor"] * advance + about["offset"], rate
+
+    def __call__(self, joint, travel):
+        """Position of a joint, rad or m."""
+        return float(self.read(joint, travel)[0])
+
+    def rate(self, joint, travel):
+        """Rate of a joint by the input, rad/rad or m/rad."""
+        return float(self.read(joint, travel)[1])
+
+    def value(self, column, travel):
+        """A column, by straight lines between rows."""
+        whole, row, x = self.row(travel)
+        a, b = self.table[column][row : row + 2]
+        return float(a + (b - a) * x + whole * self.advance[column])
+
+    def travel(self, joint, position, near):
+        """Travel, nearest to one, at which a joint that never turns back has a position; by its cubics."""
+        period = self.advance[self.joints[joint]["column"]] * self.joints[joint]["factor"]
+        low, high = near - 0.1 * abs(self.period), near + 0.1 * abs(self.period)
+        sign = np.sign(period)
+        for _ in range(60):
+            off = self(joint, near) - position
+            low, high = (low, near) if off * sign > 0 else (near, high)
+            step = off / self.rate(joint, near)
+            if abs(step) < 1e-14:
+                break
+            near = near - step if low < near - step < high else 0.5 * (low + high)
+        return near
+
+    def check(self, place):
+        """Greatest distance, m, of the points from their columns, by a function from a point to its place in a pose."""
+        off = 0.0
+        for point in self.about["points"]:
+            columns = [self.table[column] for column in point["columns"]]
+            for travel, *path in zip(self.table[self.about["input"]["column"]], *columns, strict=True):
+                found = place(point, travel)[: len(path)]
+                off = max(off, float(np.linalg.norm(found - 1e-3 * np.array(path))))
+        return off

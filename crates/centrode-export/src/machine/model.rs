@@ -1,0 +1,183 @@
+use centrode_geometry::{Mesh, SolidError, Tolerance};
+use centrode_mechanism::machine::{Form, JointKind, Machine, Shape};
+
+use super::{bodies, motion};
+use crate::mjcf::Closure;
+use crate::model::{self, Convex, Joint, Link, MOST_FACES, Mimic, Model, shown_tolerance};
+
+/// A machine as simulators want it.
+pub(super) struct Simulated {
+    pub(super) model: Model,
+    /// Loops that the tree of joints leaves open.
+    pub(super) closures: Vec<Closure>,
+    /// The meshes that it shows, by file name.
+    pub(super) meshes: Vec<(String, Mesh)>,
+}
+
+/// A mesh to be seen, the name of its file, and how far it may lie off the body, mm.
+struct Seen {
+    file: String,
+    mesh: Mesh,
+    off: f64,
+}
+
+/// The tree of links with every joint zero where the cycle begins.
+pub(super) fn simulated(machine: &Machine, tolerance: Tolerance) -> Result<Simulated, SolidError> {
+    let seen: Vec<Seen> = machine
+        .shapes
+        .iter()
+        .map(|shape| show(shape, tolerance))
+        .collect::<Result<_, _>>()?;
+    let touching: Vec<bodies::ContactBodies> = machine
+        .surfaces
+        .iter()
+        .map(|surface| bodies::all(surface, tolerance))
+        .collect();
+    let link = |link: &centrode_mechanism::machine::Link| Link {
+        name: link.name.clone(),
+        mass: link.mass,
+        mesh: link.shape.map(|shape| seen[shape].file.clone()),
+        collision: link
+            .surfaces
+            .iter()
+            .flat_map(|&surface| touching[surface].bodies.iter().cloned())
+            .collect::<Vec<Convex>>(),
+    };
+    let driving = motion::driving(machine);
+    let joints = (0..machine.joints.len()).map(|index| joint(machine, index, driving));
+    let model = Model {
+        name: machine.name.clone(),
+        note: note(machine, &touching, &seen),
+        links: machine.links.iter().map(link).collect(),
+        joints: joints.collect(),
+    };
+    let closures = machine.closures.iter().map(|closure| {
+        let [first, second] = closure.links.map(|link| machine.links[link].name.clone());
+        Closure {
+            name: format!("{first}_on_{second}"),
+            first,
+            second,
+            at: closure.at,
+        }
+    });
+    Ok(Simulated {
+        closures: closures.collect(),
+        meshes: seen.into_iter().map(|seen| (seen.file, seen.mesh)).collect(),
+        model,
+    })
+}
+
+/// The finest mesh of a shape within the tolerance that simulators take; under the name of its part where both are the
+/// same.
+fn show(shape: &Shape, tolerance: Tolerance) -> Result<Seen, SolidError> {
+    let mut made = None;
+    let (mesh, off) = match &shape.form {
+        Form::Mesh(mesh, off) => (mesh.clone(), *off),
+        Form::Solids(solids) => {
+            let faces = |t| solids.iter().map(|solid| solid.mesh_faces(t)).sum();
+            let coarse = shown_tolerance(tolerance, faces);
+            let meshes: Vec<Mesh> = solids
+                .iter()
+                .map(|solid| solid.mesh(coarse))
+                .collect::<Result<_, _>>()?;
+            (Mesh::joined(&meshes), coarse.mm())
+        }
+        Form::Body(body) => {
+            let coarse = shown_tolerance(tolerance, |t| match body.mesh(t) {
+                Ok(mesh) => made.insert(mesh).faces.len(),
+                Err(_) => 0,
+            });
+            let mesh = made.take().map_or_else(|| body.mesh(coarse), Ok)?;
+            (mesh, coarse.mm())
+        }
+    };
+    let name = if off <= tolerance.mm() && !shape.part.is_empty() {
+        &shape.part
+    } else {
+        &shape.name
+    };
+    Ok(Seen {
+        file: format!("{name}.stl"),
+        mesh,
+        off,
+    })
+}
+
+fn joint(machine: &Machine, index: usize, driving: Option<usize>) -> Joint {
+    let about = &machine.joints[index];
+    let law = about.law.as_ref();
+    let start = law.at(0.0).position;
+    let name = |link: usize| machine.links[link].name.clone();
+    // A joint follows another one by itself where both laws are straight lines.
+    let mimic = driving.filter(|&driver| driver != index && about.kind == JointKind::Turning);
+    let mimic = mimic.and_then(|driver| {
+        let [slope, _, off] = motion::line(machine, law);
+        let [input, _, even] = motion::line(machine, machine.joints[driver].law.as_ref());
+        (off.max(even) <= motion::LINEAR).then(|| Mimic {
+            joint: machine.joint_name(driver),
+            multiplier: slope / input,
+            offset: 0.0,
+        })
+    });
+    let joint = Joint {
+        name: machine.joint_name(index),
+        kind: match about.kind {
+            JointKind::Fixed => model::JointKind::Fixed,
+            JointKind::Turning => model::JointKind::Continuous,
+            JointKind::Sliding(range) => model::JointKind::Sliding(range),
+        },
+        parent: name(about.parent),
+        child: name(about.child),
+        origin: about.origin,
+        turn: about.turn,
+        axis: about.axis,
+        mimic,
+    };
+    joint.starting_at(start)
+}
+
+/// What a reader of the model should know.
+fn note(machine: &Machine, touching: &[bodies::ContactBodies], seen: &[Seen]) -> String {
+    let table = motion::TABLE;
+    let mut note = format!(
+        "The laws of motion are in {table}, as motion.json describes. Every joint is zero where the cycle begins. "
+    );
+    let even = machine.joints.iter().all(|joint| {
+        joint.kind == JointKind::Fixed || motion::line(machine, joint.law.as_ref())[2] <= motion::LINEAR
+    });
+    note += if even {
+        "They are linear and written as mimic joints."
+    } else {
+        "Those that are not linear are in no mimic joint, which is affine."
+    };
+    if !machine.closures.is_empty() {
+        note += " The loops of the linkage are closed by equality constraints in MJCF. URDF has no loops: there they are open, \
+                 and close where all joints are set from the table.";
+    }
+    let of = |gears: bool| {
+        let which = machine.surfaces.iter().zip(touching);
+        which
+            .filter(|(surface, _)| surface.teeth.is_empty() != gears)
+            .map(|(_, bodies)| bodies.excess)
+            .reduce(f64::max)
+    };
+    if let Some(excess) = of(true) {
+        note += &format!(
+            " Teeth touch as convex bodies, of flanks and tip without fillets, over a hub without bore; these stand out of the \
+             gears by at most {excess:.1e} mm."
+        );
+    }
+    if let Some(excess) = of(false) {
+        note += &format!(" Other bodies that touch are convex and stand off by at most {excess:.1e} mm.");
+    }
+    if let Some(off) = seen.iter().map(|seen| seen.off).reduce(f64::max) {
+        note += &format!(
+            " Meshes to be seen are within {off:.1e} mm, as finely as {MOST_FACES} triangles each allow."
+        );
+    }
+    if !machine.note.is_empty() {
+        note += " ";
+        note += &machine.note;
+    }
+    note
+}

@@ -1,0 +1,401 @@
+use centrode_geometry::{Tolerance, extremes, greatest, pieces};
+use centrode_mechanism::machine::{Form, JointKind, Machine, Quantity};
+use centrode_mechanism::transmission::Transmission;
+use schemars::JsonSchema;
+use serde::Serialize;
+use std::f64::consts::TAU;
+
+use super::MODEL;
+use crate::csv::Column;
+
+/// Name of the table.
+pub(super) const TABLE: &str = "motion.csv";
+/// Fewest rows of a turn of the input: half degrees.
+const FEWEST: f64 = 720.0;
+/// Most rows of a cycle, unless the fewest of its turns are more.
+const MOST: f64 = 2e4;
+/// Metres to the millimetre.
+const METRE: f64 = 1e-3;
+/// Distance, rad or mm, below which a law counts as a straight line: rounding over a whole cycle.
+pub(super) const LINEAR: f64 = 1e-9;
+
+/// The contents of `motion.json`: how `motion.csv` and the simulator models are read.
+#[derive(Clone, Debug, JsonSchema, Serialize)]
+pub struct MotionFile {
+    /// `centrode-motion`.
+    pub format: &'static str,
+    /// Version of this description: 1.
+    pub version: u32,
+    /// Name of the table.
+    pub table: &'static str,
+    /// Names of the simulator models, where they are exported.
+    pub models: [String; 2],
+    /// The turning shaft that drives the machine.
+    pub input: InputWords,
+    /// Columns of the table, in order.
+    pub columns: Vec<ColumnWords>,
+    /// Number of rows: equal steps of the input over one period, its end among them.
+    pub rows: usize,
+    /// How to read between rows: by cubics through values and rates, or by straight lines.
+    pub interpolation: Interpolation,
+    /// Joints of the models that move.
+    pub joints: Vec<JointWords>,
+    /// Points whose places are in the table.
+    pub points: Vec<PointWords>,
+    /// Links that touch by their teeth.
+    pub meshes: Vec<MeshWords>,
+    /// Loops that are open in URDF and closed by constraints in MJCF.
+    pub closures: Vec<ClosureWords>,
+}
+
+/// The input as `motion.json` has it.
+#[derive(Clone, Debug, JsonSchema, Serialize)]
+pub struct InputWords {
+    /// The link or shaft that turns.
+    pub name: String,
+    /// Its column.
+    pub column: String,
+    /// Angle after which the table repeats, rad.
+    pub period_rad: f64,
+    /// Speed of the design, rad/s; 1 where it says nothing.
+    pub speed_rad_per_s: f64,
+    /// The joint that drives all others.
+    pub joint: Option<String>,
+}
+
+/// A column as `motion.json` has it.
+#[derive(Clone, Debug, JsonSchema, Serialize)]
+pub struct ColumnWords {
+    /// Heading.
+    pub name: String,
+    /// Unit.
+    pub unit: String,
+    /// Meaning.
+    pub meaning: String,
+    /// Growth over one period.
+    pub advance: f64,
+}
+
+/// How `motion.csv` is read between rows.
+#[derive(Clone, Debug, JsonSchema, Serialize)]
+pub struct Interpolation {
+    /// `cubic Hermite`: by the values and rates of two rows.
+    pub kind: &'static str,
+    /// Greatest way of a link off its own by straight lines between rows instead, mm.
+    pub linear_error_max_mm: f64,
+}
+
+/// A joint as `motion.json` has it: position = factor x column + offset, in rad or m, as the models count.
+#[derive(Clone, Debug, JsonSchema, Serialize)]
+pub struct JointWords {
+    /// Name in the models.
+    pub name: String,
+    /// Column of its position.
+    pub column: String,
+    /// Factor from the column to the joint.
+    pub factor: f64,
+    /// Offset: the joint is zero where the cycle begins.
+    pub offset: f64,
+    /// Column of its rate; none for a joint that moves evenly.
+    pub rate: Option<String>,
+    /// Factor from that column to the joint's rate by the input, rad/rad or m/rad.
+    pub rate_factor: f64,
+    /// The straight line nearest to its law.
+    pub linear: LinearWords,
+    /// The joint whose position settles this one's through a cam or groove.
+    pub leader: Option<String>,
+    /// Column of the torque against it, N mm.
+    pub load: Option<String>,
+}
+
+/// The straight line nearest to a joint's law: multiplier x input + offset.
+#[derive(Clone, Copy, Debug, JsonSchema, PartialEq, Serialize)]
+pub struct LinearWords {
+    /// Slope by the input, rad/rad or m/rad.
+    pub multiplier: f64,
+    /// Offset, rad or m.
+    pub offset: f64,
+    /// Greatest distance of the law from it, rad or m.
+    pub error_max: f64,
+}
+
+/// A point as `motion.json` has it.
+#[derive(Clone, Debug, JsonSchema, Serialize)]
+pub struct PointWords {
+    /// Name.
+    pub name: String,
+    /// The link it is fixed to.
+    pub link: String,
+    /// Place in the link's frame, mm.
+    pub at_mm: [f64; 3],
+    /// Columns of its place in the frame of the first link, x and y or x, y and z.
+    pub columns: Vec<String>,
+}
+
+/// A mesh of gears as `motion.json` has it.
+#[derive(Clone, Debug, JsonSchema, Serialize)]
+pub struct MeshWords {
+    /// Driving and driven link.
+    pub links: [String; 2],
+    /// The joint that the teeth move.
+    pub joint: String,
+    /// Number of the copy of a chain that it belongs to.
+    pub copy: usize,
+}
+
+/// A loop's closure as `motion.json` has it.
+#[derive(Clone, Debug, JsonSchema, Serialize)]
+pub struct ClosureWords {
+    /// The two links that are pinned to each other.
+    pub links: [String; 2],
+    /// Place of the pin in the first one's frame, mm.
+    pub at_mm: [f64; 3],
+}
+
+/// Number of equal steps of the input in a cycle, and how far straight lines between them are off, mm: within the
+/// tolerance, if that takes no more than [`MOST`].
+pub(super) fn steps(machine: &Machine, tolerance: Tolerance) -> (u32, f64) {
+    let (period, bend) = (machine.input.period, bend(machine));
+    let least = FEWEST * period / TAU;
+    let steps = period * (bend / (8.0 * tolerance.mm())).sqrt();
+    let steps = steps.max(least).min(MOST.max(least)).ceil();
+    (steps as u32, bend * (period / steps).powi(2) / 8.0)
+}
+
+/// Greatest acceleration by the input of any place on a link that its own joint causes, mm/rad^2: a chord over a step h
+/// is off by at most h^2/8 of it.
+fn bend(machine: &Machine) -> f64 {
+    let of = machine.joints.iter().map(|joint| {
+        let size = match joint.kind {
+            JointKind::Fixed => return 0.0,
+            JointKind::Turning => reach(machine, joint.child),
+            JointKind::Sliding(_) => 1.0,
+        };
+        let law = &joint.law;
+        let ends = pieces(0.0, machine.input.period, 1, &within(law.as_ref(), machine));
+        size * greatest(|input| law.at(input).acceleration.abs(), &ends).value
+    });
+    of.fold(0.0, f64::max)
+}
+
+/// Breaks of a law in a period of the machine.
+fn within(law: &dyn Transmission, machine: &Machine) -> Vec<f64> {
+    let (own, period) = (law.period(), machine.input.period);
+    let turns = (period / own).round().max(1.0) as u32;
+    let breaks = law.breaks();
+    (0..turns)
+        .flat_map(|turn| breaks.iter().map(move |b| b + own * f64::from(turn)))
+        .collect()
+}
+
+/// Greatest distance from a link's origin of what it carries, mm.
+fn reach(machine: &Machine, link: usize) -> f64 {
+    let norm = |at: &[f64; 3]| at.iter().map(|x| x * x).sum::<f64>().sqrt();
+    let far = |outline: &centrode_geometry::Outline| {
+        let bounds = outline.bounds();
+        let corner = |x: f64, y: f64| x.hypot(y);
+        corner(bounds.min.x, bounds.min.y).max(corner(bounds.max.x, bounds.max.y))
+    };
+    let own = &machine.links[link];
+    let mut most: f64 = 0.0;
+    for &surface in &own.surfaces {
+        most = most.max(far(&machine.surfaces[surface].outline));
+    }
+    match own.shape.map(|shape| &machine.shapes[shape].form) {
+        Some(Form::Solids(solids)) => {
+            most = solids.iter().map(|s| far(s.outline())).fold(most, f64::max);
+        }
+        Some(Form::Mesh(mesh, _)) => most = mesh.vertices.iter().map(norm).fold(most, f64::max),
+        Some(Form::Body(_)) | None => {}
+    }
+    let points = machine.points.iter().filter(|point| point.link == link);
+    most = points.map(|point| norm(&point.at)).fold(most, f64::max);
+    let carried = machine.joints.iter().filter(|joint| joint.parent == link);
+    carried
+        .map(|joint| norm(&joint.origin) + reach(machine, joint.child))
+        .fold(most, f64::max)
+}
+
+/// The straight line nearest to a law over a period: slope, offset and greatest distance.
+pub(super) fn line(machine: &Machine, law: &dyn Transmission) -> [f64; 3] {
+    let slope = law.advance() / law.period();
+    let ends = pieces(0.0, machine.input.period, 4, &within(law, machine));
+    let [low, high] = extremes(|input| law.at(input).position - slope * input, &ends);
+    let half = 0.5 * (high.value - low.value);
+    [slope, 0.5 * (low.value + high.value), half]
+}
+
+/// The machine with a column for the rate of every joint that does not move evenly.
+pub(super) fn with_rates(machine: &Machine) -> Machine {
+    let mut machine = machine.clone();
+    for joint in 0..machine.joints.len() {
+        let law = &machine.joints[joint].law;
+        let moves = machine.joints[joint].kind != JointKind::Fixed;
+        if !moves || position(&machine, joint).is_none() || rate(&machine, joint).is_some() {
+            continue;
+        }
+        let [.., off] = line(&machine, law.as_ref());
+        if off <= LINEAR {
+            continue;
+        }
+        if let Some((column, factor)) = position(&machine, joint) {
+            let about = &machine.columns[column];
+            let (name, unit) = (format!("{}_per_rad", about.name), format!("{}/rad", about.unit));
+            let meaning = format!("rate of {} by the input", about.name);
+            let order = 1;
+            let quantity = Quantity::Joint {
+                joint,
+                order,
+                factor,
+            };
+            machine.column(&name, &unit, &meaning, quantity);
+        }
+    }
+    machine
+}
+
+/// The column that holds a derivative of a joint, and the factor in it.
+fn derivative(machine: &Machine, of: usize, wanted: u8) -> Option<(usize, f64)> {
+    let columns = machine.columns.iter().enumerate();
+    columns
+        .filter_map(|(column, about)| match about.quantity {
+            Quantity::Joint {
+                joint,
+                order,
+                factor,
+            } if joint == of && order == wanted => Some((column, factor)),
+            _ => None,
+        })
+        .next()
+}
+
+fn position(machine: &Machine, joint: usize) -> Option<(usize, f64)> {
+    derivative(machine, joint, 0)
+}
+
+fn rate(machine: &Machine, joint: usize) -> Option<(usize, f64)> {
+    derivative(machine, joint, 1)
+}
+
+/// The joint that drives all others: the first that turns as the input does.
+pub(super) fn driving(machine: &Machine) -> Option<usize> {
+    let turns = |&joint: &usize| {
+        let joint = &machine.joints[joint];
+        let jet = joint.law.at(0.0);
+        joint.kind == JointKind::Turning
+            && jet.velocity.abs() == 1.0
+            && line(machine, joint.law.as_ref())[2] <= LINEAR
+    };
+    let all = 0..machine.joints.len();
+    let first = || all.clone().find(|&j| machine.joints[j].kind == JointKind::Turning);
+    all.clone().find(turns).or_else(first)
+}
+
+/// The table of motion: so many equal steps of the input over one period.
+pub(super) fn columns(machine: &Machine, steps: u32) -> Vec<Column> {
+    let at = |i: u32| machine.input.period * f64::from(i) / f64::from(steps);
+    let inputs: Vec<f64> = (0..=steps).map(at).collect();
+    let column = |about: &centrode_mechanism::machine::Column| {
+        let values = inputs
+            .iter()
+            .map(|&input| machine.value(&about.quantity, input));
+        Column::numbers(&about.name, values)
+    };
+    machine.columns.iter().map(column).collect()
+}
+
+/// The description of the table and of the models for programs.
+pub(super) fn description(machine: &Machine, steps: u32, linear_error_max_mm: f64) -> MotionFile {
+    let link = |index: usize| machine.links[index].name.clone();
+    let column = |index: usize| machine.columns[index].name.clone();
+    let joint = |index: usize| {
+        let about = &machine.joints[index];
+        let (place, factor) = position(machine, index)?;
+        let unit = match about.kind {
+            JointKind::Fixed => return None,
+            JointKind::Turning => 1.0,
+            JointKind::Sliding(_) => METRE,
+        };
+        let rate = rate(machine, index);
+        let [multiplier, offset, error_max] = line(machine, about.law.as_ref());
+        let start = about.law.at(0.0).position;
+        Some(JointWords {
+            name: machine.joint_name(index),
+            column: column(place),
+            factor: unit / factor,
+            offset: -unit * start + 0.0,
+            rate: rate.map(|(index, _)| column(index)),
+            rate_factor: rate.map_or(0.0, |(_, factor)| unit / factor),
+            linear: LinearWords {
+                multiplier: unit * multiplier,
+                offset: unit * (offset - start),
+                error_max: unit * error_max,
+            },
+            leader: about.leader.map(|leader| machine.joint_name(leader)),
+            load: about.load.map(column),
+        })
+    };
+    let place_of = |of: usize| {
+        let named = machine.columns.iter().filter(move |column| {
+            matches!(column.quantity, Quantity::Point { point, .. } if point == of)
+        });
+        named.map(|column| column.name.clone()).collect()
+    };
+    MotionFile {
+        format: "centrode-motion",
+        version: 1,
+        table: TABLE,
+        models: ["urdf", "xml"].map(|end| format!("{MODEL}.{end}")),
+        input: InputWords {
+            name: machine.input.name.clone(),
+            column: machine.columns.first().map_or(String::new(), |c| c.name.clone()),
+            period_rad: machine.input.period,
+            speed_rad_per_s: machine.input.speed,
+            joint: driving(machine).map(|joint| machine.joint_name(joint)),
+        },
+        columns: machine
+            .columns
+            .iter()
+            .map(|column| ColumnWords {
+                name: column.name.clone(),
+                unit: column.unit.clone(),
+                meaning: column.meaning.clone(),
+                advance: machine.advance(&column.quantity),
+            })
+            .collect(),
+        rows: steps as usize + 1,
+        interpolation: Interpolation {
+            kind: "cubic Hermite",
+            linear_error_max_mm,
+        },
+        joints: (0..machine.joints.len()).filter_map(joint).collect(),
+        points: machine
+            .points
+            .iter()
+            .enumerate()
+            .map(|(index, point)| PointWords {
+                name: point.name.clone(),
+                link: link(point.link),
+                at_mm: point.at,
+                columns: place_of(index),
+            })
+            .collect(),
+        meshes: machine
+            .meshes
+            .iter()
+            .map(|mesh| MeshWords {
+                links: mesh.links.map(link),
+                joint: machine.joint_name(mesh.joint),
+                copy: mesh.copy,
+            })
+            .collect(),
+        closures: machine
+            .closures
+            .iter()
+            .map(|closure| ClosureWords {
+                links: closure.links.map(link),
+                at_mm: closure.at,
+            })
+            .collect(),
+    }
+}

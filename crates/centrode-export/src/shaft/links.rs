@@ -1,0 +1,245 @@
+use std::f64::consts::{FRAC_PI_2, PI};
+use std::sync::Arc;
+
+use centrode_geometry::{MassProperties, Mesh, SolidError, Tolerance};
+use centrode_mechanism::gear::Member;
+use centrode_mechanism::machine::{
+    self, Body, Form, GearMesh, Input, Joint, Linear, Link, Piecewise, Quantity, Shape,
+};
+use centrode_mechanism::shaft::{ShaftSolid, SliderForce, SpiralShaft};
+use centrode_mechanism::transmission::{FromFn, MotionJet, Transmission};
+use nalgebra::{Matrix3, Point3};
+
+use super::ShaftFilesError;
+use super::machine::{Gears, Machine};
+use crate::gear_pair;
+
+/// How far beyond the slider's way the box's joint lets it slide, mm.
+const ROOM: f64 = 1.0;
+/// Edge of the cube whose inertia the box has, mm.
+const CUBE: f64 = 100.0;
+
+/// Prefix of the gears' files in a moving box's bundle.
+pub(super) const GEARS: &str = "gears-";
+
+/// The shaft lying along x of the world, the slider on top of it; the box slides, the slider swivels on its pin, and
+/// elliptic gears, if any, stand at the near end.
+pub(super) fn machine(parts: &Machine<'_>) -> Result<machine::Machine, ShaftFilesError> {
+    let shaft = parts.shaft;
+    let (groove, slider) = (shaft.groove(), shaft.slider());
+    let block = shaft.slider_solid()?;
+    let mut machine = machine::Machine {
+        name: parts.name.into(),
+        title: parts.title.into(),
+        input: Input {
+            name: if parts.gears.is_some() { "driver" } else { "shaft" }.into(),
+            period: shaft.cycle(),
+            speed: shaft.load().speed(),
+        },
+        note: format!(
+            "The box has the mass moved and the inertia of a cube of {CUBE} mm, and no friction. Slider and groove do not touch."
+        ),
+        ..machine::Machine::default()
+    };
+    let seen = machine.shape(Shape {
+        name: "shaft-body".into(),
+        part: "shaft".into(),
+        form: Form::Body(Arc::new(Grooved(shaft.clone()))),
+    });
+    let cut = machine.shape(Shape {
+        name: "slider-body".into(),
+        part: "slider".into(),
+        form: Form::Solids(vec![block.clone()]),
+    });
+    let block = block.mass_properties(slider.density);
+    let carried = carried(shaft.load().mass - block.mass);
+    let links = [
+        ("base", None, None),
+        ("frame", None, None),
+        ("shaft", Some(shaft.mass_properties()?), Some(seen)),
+        ("box", Some(carried), None),
+        ("slider", Some(block), Some(cut)),
+    ];
+    let [base, frame, turned, carriage, slid] = links.map(|(name, mass, shape)| {
+        machine.link(Link {
+            name: name.into(),
+            mass,
+            shape,
+            surfaces: Vec::new(),
+        })
+    });
+    // The frame's z, along the shaft, on the world's x; its x, where the slider is, upwards.
+    machine.joint(Joint::fixed(base, frame).turned([PI, -FRAC_PI_2, 0.0]));
+    let (turn, stroke) = (turn(parts), stroke(parts));
+    let against = turn.clone();
+    let back = FromFn::new(
+        against.period(),
+        -against.advance(),
+        against.breaks(),
+        move |input| MotionJet::default().plus(-1.0, &against.at(input)),
+    );
+    let turning = machine.joint(Joint::turning(frame, turned, Arc::new(back)));
+    let (low, high) = shaft.traverse().reach();
+    let way = ([0.0, 0.0, 1.0], [low - ROOM, high + ROOM]);
+    let swivel = swivel(&turn, &stroke, groove.radius());
+    let boxed = Joint::sliding(frame, carriage, way, stroke).led_by(turning);
+    let boxed = machine.joint(boxed);
+    let swivelling = Joint::turning(carriage, slid, Arc::new(swivel))
+        .at([groove.radius() - slider.reach, 0.0, 0.0])
+        // The slider's length on y, its width on z, its pin on x.
+        .turned([FRAC_PI_2, 0.0, FRAC_PI_2])
+        .led_by(turning);
+    let swivelling = machine.joint(swivelling);
+    columns(&mut machine, parts, [turning, boxed, swivelling], &turn);
+    if let Some(gears) = &parts.gears {
+        let [end, _] = ShaftSolid::new(groove, shaft.body())?.whole();
+        hang(gears, end, [frame, turned], turning, &mut machine)?;
+    }
+    Ok(machine)
+}
+
+/// The grooved shaft as a body.
+#[derive(Debug)]
+struct Grooved(SpiralShaft);
+
+impl Body for Grooved {
+    fn mesh(&self, tolerance: Tolerance) -> Result<Mesh, SolidError> {
+        // Shaft and groove were found sound when the machine was made.
+        Ok(self.0.mesh(tolerance).unwrap_or_default())
+    }
+}
+
+/// Turn of the shaft by the input, rad.
+fn turn(parts: &Machine<'_>) -> Arc<dyn Transmission> {
+    match &parts.gears {
+        Some(gears) => Arc::new(*gears.drive),
+        None => Arc::new(Linear {
+            start: 0.0,
+            slope: 1.0,
+        }),
+    }
+}
+
+/// Way of the box by the input, mm.
+fn stroke(parts: &Machine<'_>) -> Arc<dyn Transmission> {
+    let traverse = parts.shaft.traverse().clone();
+    let Some(gears) = &parts.gears else {
+        return Arc::new(traverse);
+    };
+    let (drive, period) = (*gears.drive, traverse.period());
+    let mut breaks: Vec<f64> = traverse.breaks();
+    for at in &mut breaks {
+        *at = drive.input_at(*at).rem_euclid(period);
+    }
+    breaks.sort_by(f64::total_cmp);
+    Arc::new(FromFn::new(period, 0.0, breaks, move |input| {
+        let turn = drive.at(input);
+        traverse.at(turn.position).after(&turn)
+    }))
+}
+
+/// Lead angle under the slider by the input, rad: how far the slider has swivelled.
+fn swivel(turn: &Arc<dyn Transmission>, stroke: &Arc<dyn Transmission>, radius: f64) -> Piecewise {
+    let (turn, stroke) = (turn.clone(), stroke.clone());
+    let (period, breaks) = (stroke.period(), stroke.breaks());
+    Piecewise::fit(&FromFn::new(period, 0.0, breaks, move |input| MotionJet {
+        position: (stroke.at(input).velocity / turn.at(input).velocity / radius).atan(),
+        ..MotionJet::default()
+    }))
+}
+
+/// The table: shaft, box and slider with their speeds at the design's speed of the input, forces.
+fn columns(
+    machine: &mut machine::Machine,
+    parts: &Machine<'_>,
+    [shaft, carriage, slider]: [usize; 3],
+    turn: &Arc<dyn Transmission>,
+) {
+    let omega = parts.shaft.load().speed();
+    let joint = |joint, order: u8, sign: f64| Quantity::Joint {
+        joint,
+        order,
+        factor: sign * omega.powi(i32::from(order)),
+    };
+    let places = [
+        ("input_angle_rad", "rad", "angle of the input", Quantity::Input(1.0)),
+        ("time_s", "s", "time at the design's speed", Quantity::Input(1.0 / omega)),
+        ("shaft_angle_rad", "rad", "turn of the shaft", joint(shaft, 0, -1.0)),
+        ("shaft_speed_rad_per_s", "rad/s", "speed of the shaft", joint(shaft, 1, -1.0)),
+        ("position_mm", "mm", "place of the box along the shaft", joint(carriage, 0, 1.0)),
+        ("velocity_mm_per_s", "mm/s", "speed of the box", joint(carriage, 1, 1.0)),
+        ("acceleration_mm_per_s2", "mm/s²", "acceleration of the box", joint(carriage, 2, 1.0)),
+        ("jerk_mm_per_s3", "mm/s³", "jerk of the box", joint(carriage, 3, 1.0)),
+        ("lead_angle_rad", "rad", "lead angle, by which the slider swivels", joint(slider, 0, 1.0)),
+        ("lead_angle_speed_rad_per_s", "rad/s", "speed of the swivel", joint(slider, 1, 1.0)),
+    ];
+    for (name, unit, meaning, quantity) in places {
+        machine.column(name, unit, meaning, quantity);
+    }
+    let law = machine.joints[carriage].law.clone();
+    let (load, groove) = (*parts.shaft.load(), parts.shaft.groove().clone());
+    let force = Arc::new(move |turn: &dyn Transmission, input: f64| {
+        let lead = groove.lead_angle(turn.at(input).position);
+        load.force(law.at(input), lead, groove.radius())
+    });
+    let (period, breaks) = (parts.shaft.cycle(), machine.joints[carriage].law.breaks());
+    let mut add = |name: &str, unit: &str, meaning: &str, of: fn(&SliderForce, f64) -> f64| {
+        let (turn, force) = (turn.clone(), force.clone());
+        let law = FromFn::new(period, 0.0, breaks.clone(), move |input| MotionJet {
+            position: of(&force(turn.as_ref(), input), turn.at(input).velocity),
+            ..MotionJet::default()
+        });
+        machine.column(name, unit, meaning, Quantity::Law(Arc::new(law)))
+    };
+    add("push_N", "N", "force that moves the box", |f, _| f.push);
+    add("normal_force_N", "N", "force on the groove's wall", |f, _| f.normal);
+    add("transverse_force_N", "N", "force across the shaft", |f, _| f.transverse);
+    let torque = add("shaft_torque_Nmm", "N mm", "torque on the shaft", |f, _| f.torque);
+    add("input_torque_Nmm", "N mm", "torque on the input", |f, rate| f.torque * rate);
+    machine.joints[shaft].load = Some(torque);
+}
+
+/// The box, of which no more is known than what it weighs.
+fn carried(mass: f64) -> MassProperties {
+    // A slider heavier than all that is moved leaves something to slide all the same.
+    let mass = mass.max(1e-3);
+    MassProperties {
+        mass,
+        center: Point3::origin(),
+        inertia: Matrix3::identity() * (mass * CUBE * CUBE / 6.0),
+    }
+}
+
+/// Adds the driver on the frame and its mate on the shaft, whose near end is at the height `end`.
+fn hang(
+    gears: &Gears<'_>,
+    end: f64,
+    [frame, shaft]: [usize; 2],
+    turning: usize,
+    machine: &mut machine::Machine,
+) -> Result<(), ShaftFilesError> {
+    let failed = |e| ShaftFilesError::GearFiles(Box::new(e));
+    let mut links = [0; 2];
+    for (member, link) in [Member::Driver, Member::Driven].into_iter().zip(&mut links) {
+        let solid = gear_pair::solid(&gears.pair, member).map_err(failed)?;
+        let bottom = end - solid.bottom();
+        *link = gear_pair::gear(machine, &gears.pair, member, GEARS).map_err(failed)?;
+        if member == Member::Driver {
+            let law = Linear {
+                start: -gears.drive.phase - gears.slowest(),
+                slope: 1.0,
+            };
+            let at = [-gears.pair.center_distance(), 0.0, bottom];
+            machine.joint(Joint::turning(frame, *link, Arc::new(law)).at(at));
+        } else {
+            let fixed = Joint::fixed(shaft, *link).at([0.0, 0.0, bottom]);
+            machine.joint(fixed.turned([0.0, 0.0, gears.rest()]));
+        }
+    }
+    machine.meshes.push(GearMesh {
+        links,
+        joint: turning,
+        copy: 0,
+    });
+    Ok(())
+}

@@ -1,0 +1,178 @@
+use std::f64::consts::PI;
+
+use serde::{Deserialize, Serialize};
+
+use crate::transmission::{MotionJet, Transmission};
+
+/// A joint that stays at one position.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Constant(pub f64);
+
+impl Transmission for Constant {
+    fn at(&self, _input: f64) -> MotionJet {
+        MotionJet {
+            position: self.0,
+            ..MotionJet::default()
+        }
+    }
+}
+
+/// A position proportional to the input: belts, chains, ordinary gears.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Linear {
+    /// Position at input zero.
+    pub start: f64,
+    /// Position by input.
+    pub slope: f64,
+}
+
+impl Transmission for Linear {
+    fn at(&self, input: f64) -> MotionJet {
+        MotionJet {
+            position: self.start + self.slope * input,
+            velocity: self.slope,
+            ..MotionJet::default()
+        }
+    }
+
+    fn advance(&self) -> f64 {
+        self.slope * self.period()
+    }
+}
+
+/// Coefficients of a piece.
+const COUNT: usize = 16;
+/// Share of a law's size by which a piece may miss it: the law's own rounding.
+const ROUNDING: f64 = 4e-15;
+/// Shortest piece, as a share of the period: below it a jump lies inside.
+const SHORTEST: f64 = 1e-9;
+
+/// A transmission as a straight line and Chebyshev pieces of what is left of it, within rounding of what it stands for.
+///
+/// Source: Trefethen, Approximation Theory and Approximation Practice, 2013, chapters 3 and 4.
+#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
+pub struct Piecewise {
+    /// Input after which it repeats, rad.
+    period: f64,
+    /// Growth over a period.
+    advance: f64,
+    /// Inputs at which a derivative may jump.
+    breaks: Vec<f64>,
+    /// Ends of the pieces, from 0 to the period.
+    ends: Vec<f64>,
+    /// Chebyshev coefficients of each piece of the law less its mean growth.
+    pieces: Vec<Vec<f64>>,
+}
+
+impl Piecewise {
+    /// The pieces of a transmission: cut at its breaks, then halved until the series have decayed to rounding.
+    #[must_use]
+    pub fn fit(law: &dyn Transmission) -> Self {
+        let period = law.period();
+        let breaks = law.breaks();
+        let cuts = centrode_geometry::pieces(0.0, period, 1, &breaks);
+        let slope = law.advance() / period;
+        let rest = |input: f64| law.at(input).position - slope * input;
+        let size = cuts.iter().map(|&cut| rest(cut).abs());
+        let size = size.fold(0.0, f64::max);
+        let mut open: Vec<[f64; 2]> = cuts.windows(2).rev().map(|w| [w[0], w[1]]).collect();
+        let (mut ends, mut pieces) = (vec![0.0], Vec::new());
+        while let Some([from, to]) = open.pop() {
+            centrode_geometry::checkpoint();
+            let piece = interpolated(rest, from, to);
+            let scale = piece.iter().fold(size, |m, c| m.max(c.abs()));
+            let tail: f64 = piece[COUNT - 3..].iter().map(|c| c.abs()).sum();
+            if tail > ROUNDING * scale && to - from > SHORTEST * period {
+                let middle = 0.5 * (from + to);
+                open.extend([[middle, to], [from, middle]]);
+                continue;
+            }
+            let kept = piece.iter().rposition(|&c| c != 0.0).map_or(1, |i| i + 1);
+            pieces.push(piece[..kept].to_vec());
+            ends.push(to);
+        }
+        Self {
+            period,
+            advance: law.advance(),
+            breaks,
+            ends,
+            pieces,
+        }
+    }
+
+    /// Whether it can be evaluated: a period, ends that ascend from 0 to it, a piece between any two.
+    #[must_use]
+    pub fn is_sound(&self) -> bool {
+        let ascends = self.ends.windows(2).all(|w| w[0] < w[1]);
+        let ends = [self.ends.first(), self.ends.last()] == [Some(&0.0), Some(&self.period)];
+        let finite = |list: &Vec<f64>| !list.is_empty() && list.iter().all(|c| c.is_finite());
+        ascends
+            && ends
+            && self.period > 0.0
+            && self.advance.is_finite()
+            && self.pieces.len() + 1 == self.ends.len()
+            && finite(&self.ends)
+            && self.breaks.iter().all(|b| b.is_finite())
+            && self.pieces.iter().all(finite)
+    }
+}
+
+/// Chebyshev coefficients of the polynomial through a function's values at the roots of the Chebyshev polynomial.
+fn interpolated(f: impl Fn(f64) -> f64, from: f64, to: f64) -> [f64; COUNT] {
+    let angle = |j: usize| PI * (j as f64 + 0.5) / COUNT as f64;
+    let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
+    let values: [f64; COUNT] = std::array::from_fn(|j| f(middle + half * angle(j).cos()));
+    std::array::from_fn(|k| {
+        let scale = if k == 0 { 1.0 } else { 2.0 } / COUNT as f64;
+        let terms = (0..COUNT).map(|j| values[j] * (k as f64 * angle(j)).cos());
+        scale * terms.sum::<f64>()
+    })
+}
+
+/// Value and first three derivatives of a Chebyshev series by Clenshaw's recurrence, differentiated.
+fn clenshaw(series: &[f64], u: f64) -> [f64; 4] {
+    let (mut now, mut after) = ([0.0; 4], [0.0; 4]);
+    for &c in series[1..].iter().rev() {
+        let next = std::array::from_fn(|k| {
+            let lower = if k == 0 { c } else { 2.0 * k as f64 * now[k - 1] };
+            2.0 * u * now[k] - after[k] + lower
+        });
+        (now, after) = (next, now);
+    }
+    std::array::from_fn(|k| {
+        let lower = if k == 0 { series[0] } else { k as f64 * now[k - 1] };
+        u * now[k] - after[k] + lower
+    })
+}
+
+impl Transmission for Piecewise {
+    fn at(&self, input: f64) -> MotionJet {
+        let turns = (input / self.period).floor();
+        let within = (input - turns * self.period).clamp(0.0, self.period);
+        let after = self.ends.partition_point(|&end| end <= within);
+        let index = after.clamp(1, self.pieces.len()) - 1;
+        let (from, to) = (self.ends[index], self.ends[index + 1]);
+        let u = ((within - from) - (to - within)) / (to - from);
+        let [p, v, a, j] = clenshaw(&self.pieces[index], u);
+        let rate = 2.0 / (to - from);
+        let slope = self.advance / self.period;
+        MotionJet {
+            position: p + slope * input,
+            velocity: v * rate + slope,
+            acceleration: a * rate * rate,
+            jerk: j * rate * rate * rate,
+        }
+    }
+
+    fn period(&self) -> f64 {
+        self.period
+    }
+
+    fn advance(&self) -> f64 {
+        self.advance
+    }
+
+    fn breaks(&self) -> Vec<f64> {
+        self.breaks.clone()
+    }
+}

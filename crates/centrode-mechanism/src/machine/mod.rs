@@ -1,0 +1,363 @@
+//! The machine: rigid links in a tree of joints, each of which follows a transmission of the one input.
+//!
+//! Posing, motion tables, simulator models, pictures and interference read a [`Machine`] and nothing else. Loops are
+//! closed when it is made: the joints' laws already hold them, and the closures stay known to simulators.
+
+mod jet;
+mod law;
+mod pose;
+
+use std::fmt;
+use std::sync::Arc;
+
+use centrode_geometry::{MassProperties, Mesh, Outline, Solid, SolidError, Tolerance};
+
+use crate::transmission::Transmission;
+
+pub use jet::{FrameJet, PointJet};
+pub use law::{Constant, Linear, Piecewise};
+
+/// Rigid links, and how each of them moves with the one input.
+#[derive(Clone, Debug, Default)]
+pub struct Machine {
+    /// Name, as in the design.
+    pub name: String,
+    /// Title, as in the design; may be empty.
+    pub title: String,
+    /// The turning shaft that drives it.
+    pub input: Input,
+    /// The links; the first stands still.
+    pub links: Vec<Link>,
+    /// The joints: each link but the first is carried by one.
+    pub joints: Vec<Joint>,
+    /// Where loops close that the tree leaves open.
+    pub closures: Vec<Closure>,
+    /// Links that touch by their teeth.
+    pub meshes: Vec<GearMesh>,
+    /// Points worth following.
+    pub points: Vec<LinkPoint>,
+    /// Columns of the table of motion; the first is the input.
+    pub columns: Vec<Column>,
+    /// Bodies of the links, each once.
+    pub shapes: Vec<Shape>,
+    /// Surfaces that links touch with, each once.
+    pub surfaces: Vec<Surface>,
+    /// What a reader of the machine's files should know beside what they hold.
+    pub note: String,
+}
+
+/// The shaft that drives a machine.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Input {
+    /// What turns: a link or a shaft.
+    pub name: String,
+    /// Angle after which every joint repeats, up to its advance, rad.
+    pub period: f64,
+    /// Speed at which the design runs it, rad/s; 1 where it says nothing.
+    pub speed: f64,
+}
+
+/// A rigid body.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Link {
+    /// Name.
+    pub name: String,
+    /// Mass and inertia in the link's frame; none for a link without a body.
+    pub mass: Option<MassProperties>,
+    /// Index of the shape it is seen as.
+    pub shape: Option<usize>,
+    /// Indices of the surfaces it touches other links with.
+    pub surfaces: Vec<usize>,
+}
+
+/// What carries a link, and how the link moves on it.
+#[derive(Clone, Debug)]
+pub struct Joint {
+    /// Index of the link that carries.
+    pub parent: usize,
+    /// Index of the link carried.
+    pub child: usize,
+    /// How it moves.
+    pub kind: JointKind,
+    /// Place of the child's origin in the parent's frame where the coordinate is zero, mm.
+    pub origin: [f64; 3],
+    /// Turn of the child's frame there about the parent's x, then y, then z, rad.
+    pub turn: [f64; 3],
+    /// Unit vector of the axis in the child's frame.
+    pub axis: [f64; 3],
+    /// The coordinate by the input: rad about the axis, or mm along it.
+    pub law: Arc<dyn Transmission>,
+    /// Index of the joint whose position settles this one's, through a cam or a groove; none where the input does.
+    pub leader: Option<usize>,
+    /// Column that holds the torque (N mm) against the joint.
+    pub load: Option<usize>,
+}
+
+/// How a joint moves.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum JointKind {
+    /// Not at all.
+    #[default]
+    Fixed,
+    /// Turning without end.
+    Turning,
+    /// Sliding between two values of its coordinate, mm.
+    Sliding([f64; 2]),
+}
+
+/// A pin through two links beside the tree of joints.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Closure {
+    /// Indices of the two links.
+    pub links: [usize; 2],
+    /// Place of the pin in the frame of the first, mm.
+    pub at: [f64; 3],
+}
+
+/// Two links that touch by their teeth.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GearMesh {
+    /// Indices of the driving and the driven link.
+    pub links: [usize; 2],
+    /// Index of the joint that the teeth move.
+    pub joint: usize,
+    /// Number of the copy of a chain it belongs to.
+    pub copy: usize,
+}
+
+/// A point of a link.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LinkPoint {
+    /// Name.
+    pub name: String,
+    /// Index of the link.
+    pub link: usize,
+    /// Place in the link's frame, mm.
+    pub at: [f64; 3],
+}
+
+/// A column of the table of motion.
+#[derive(Clone, Debug)]
+pub struct Column {
+    /// Heading, its unit at the end: `driven_angle_rad`.
+    pub name: String,
+    /// Unit.
+    pub unit: String,
+    /// Meaning, in words.
+    pub meaning: String,
+    /// The quantity in it.
+    pub quantity: Quantity,
+}
+
+/// A quantity along the cycle.
+#[derive(Clone, Debug)]
+pub enum Quantity {
+    /// The input times a factor.
+    Input(f64),
+    /// A joint's coordinate, or its first to third derivative by the input, times a factor.
+    Joint {
+        /// Index of the joint.
+        joint: usize,
+        /// Order of the derivative.
+        order: u8,
+        /// The factor.
+        factor: f64,
+    },
+    /// A coordinate of a point, in the frame of the first link, mm.
+    Point {
+        /// Index of the point.
+        point: usize,
+        /// 0, 1, 2: x, y, z.
+        axis: usize,
+    },
+    /// Size of a point's velocity by the input, times a factor.
+    PointSpeed {
+        /// Index of the point.
+        point: usize,
+        /// The factor.
+        factor: f64,
+    },
+    /// Any other function of the input.
+    Law(Arc<dyn Transmission>),
+}
+
+/// A body as it is seen.
+#[derive(Clone, Debug)]
+pub struct Shape {
+    /// Name of its file.
+    pub name: String,
+    /// Name of the file of its own part, the same body at whatever tolerance is asked for; empty where no part is it.
+    pub part: String,
+    /// The body.
+    pub form: Form,
+}
+
+/// A body in space.
+#[derive(Clone, Debug)]
+pub enum Form {
+    /// Extrusions along z.
+    Solids(Vec<Solid>),
+    /// A triangle mesh and how far it may lie off the body, mm; zero for a body of plane faces.
+    Mesh(Mesh, f64),
+    /// A body of another kind.
+    Body(Arc<dyn Body>),
+}
+
+/// A body that can be meshed.
+pub trait Body: fmt::Debug + Send + Sync {
+    /// A closed triangle mesh within the tolerance.
+    ///
+    /// # Errors
+    /// [`SolidError`] where the tolerance leaves no solid.
+    fn mesh(&self, tolerance: Tolerance) -> Result<Mesh, SolidError>;
+}
+
+/// What a link touches others with: contours over a range of heights.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Surface {
+    /// Name with which those of its bodies begin.
+    pub name: String,
+    /// The contour.
+    pub outline: Outline,
+    /// Lower and upper end along z, mm.
+    pub span: [f64; 2],
+    /// For a gear the tooth each segment of the contour belongs to, none for one that does not touch; empty for a plate.
+    pub teeth: Vec<Option<u32>>,
+    /// How many times the tolerance its bodies may stand off the contour.
+    pub coarseness: f64,
+}
+
+impl Machine {
+    /// Adds a link.
+    pub fn link(&mut self, link: Link) -> usize {
+        self.links.push(link);
+        self.links.len() - 1
+    }
+
+    /// Adds a joint.
+    pub fn joint(&mut self, joint: Joint) -> usize {
+        self.joints.push(joint);
+        self.joints.len() - 1
+    }
+
+    /// Adds a shape, or finds the one of that name.
+    pub fn shape(&mut self, shape: Shape) -> usize {
+        let known = self.shapes.iter().position(|s| s.name == shape.name);
+        known.unwrap_or_else(|| {
+            self.shapes.push(shape);
+            self.shapes.len() - 1
+        })
+    }
+
+    /// Adds a surface, or finds the one of that name.
+    pub fn surface(&mut self, surface: Surface) -> usize {
+        let known = self.surfaces.iter().position(|s| s.name == surface.name);
+        known.unwrap_or_else(|| {
+            self.surfaces.push(surface);
+            self.surfaces.len() - 1
+        })
+    }
+
+    /// Adds a column of the table.
+    pub fn column(&mut self, name: &str, unit: &str, meaning: &str, quantity: Quantity) -> usize {
+        self.columns.push(Column {
+            name: name.into(),
+            unit: unit.into(),
+            meaning: meaning.into(),
+            quantity,
+        });
+        self.columns.len() - 1
+    }
+
+    /// Name of a joint: that of the link it carries.
+    #[must_use]
+    pub fn joint_name(&self, joint: usize) -> String {
+        let child = self.joints.get(joint).map(|j| j.child);
+        let link = child.and_then(|child| self.links.get(child));
+        format!("{}_joint", link.map_or("", |link| link.name.as_str()))
+    }
+
+    /// Index of a link by its name.
+    #[must_use]
+    pub fn link_named(&self, name: &str) -> Option<usize> {
+        self.links.iter().position(|link| link.name == name)
+    }
+
+    /// Title, or name where there is none.
+    #[must_use]
+    pub fn heading(&self) -> &str {
+        if self.title.is_empty() {
+            &self.name
+        } else {
+            &self.title
+        }
+    }
+}
+
+impl Joint {
+    /// A joint that carries a link with its frame on the parent's, and does not move.
+    #[must_use]
+    pub fn fixed(parent: usize, child: usize) -> Self {
+        Self {
+            parent,
+            child,
+            kind: JointKind::Fixed,
+            origin: [0.0; 3],
+            turn: [0.0; 3],
+            axis: [0.0, 0.0, 1.0],
+            law: Arc::new(Constant(0.0)),
+            leader: None,
+            load: None,
+        }
+    }
+
+    /// A pin along z.
+    #[must_use]
+    pub fn turning(parent: usize, child: usize, law: Arc<dyn Transmission>) -> Self {
+        Self {
+            kind: JointKind::Turning,
+            law,
+            ..Self::fixed(parent, child)
+        }
+    }
+
+    /// A slide along an axis of the child, between two values of its coordinate, mm.
+    #[must_use]
+    pub fn sliding(
+        parent: usize,
+        child: usize,
+        (axis, range): ([f64; 3], [f64; 2]),
+        law: Arc<dyn Transmission>,
+    ) -> Self {
+        Self {
+            kind: JointKind::Sliding(range),
+            axis,
+            law,
+            ..Self::fixed(parent, child)
+        }
+    }
+
+    /// The joint with the child's origin at a place of the parent, mm.
+    #[must_use]
+    pub fn at(self, origin: [f64; 3]) -> Self {
+        Self { origin, ..self }
+    }
+
+    /// The joint with the child's frame turned about the parent's x, then y, then z, rad.
+    #[must_use]
+    pub fn turned(self, turn: [f64; 3]) -> Self {
+        Self { turn, ..self }
+    }
+
+    /// The joint that follows another one through a cam or a groove.
+    #[must_use]
+    pub fn led_by(self, leader: usize) -> Self {
+        Self {
+            leader: Some(leader),
+            ..self
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,109 @@
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
+use super::*;
+use crate::transmission::{FromFn, MotionJet};
+
+/// 0.4 sin(t + 0.3) + k t, with its derivatives.
+fn wavy(k: f64) -> Arc<dyn Transmission> {
+    Arc::new(FromFn::new(TAU, k * TAU, vec![1.0], move |t: f64| {
+        let (sin, cos) = (t + 0.3).sin_cos();
+        MotionJet {
+            position: 0.4 * sin + k * t,
+            velocity: 0.4 * cos + k,
+            acceleration: -0.4 * sin,
+            jerk: -0.4 * cos,
+        }
+    }))
+}
+
+fn link(name: &str) -> Link {
+    Link {
+        name: name.into(),
+        ..Link::default()
+    }
+}
+
+/// An arm on a turning carrier with a rod that slides askew in it.
+fn machine() -> Machine {
+    let mut machine = Machine::default();
+    let links = ["base", "carrier", "arm", "rod"].map(|name| machine.link(link(name)));
+    machine.joint(
+        Joint::turning(links[1], links[2], wavy(-2.0))
+            .at([30.0, 5.0, 2.0])
+            .turned([0.1, -0.2, 0.7]),
+    );
+    let axis = [0.6, 0.0, 0.8];
+    machine.joint(Joint::sliding(links[2], links[3], (axis, [-1.0, 1.0]), wavy(0.0)).at([7.0; 3]));
+    machine.joint(Joint::turning(links[0], links[1], wavy(1.0)));
+    machine.points.push(LinkPoint {
+        name: "tip".into(),
+        link: links[3],
+        at: [12.0, -3.0, 1.0],
+    });
+    machine
+}
+
+#[test]
+fn a_points_derivatives_are_those_of_its_place() {
+    let machine = machine();
+    let h = 1e-3;
+    for i in 0..40 {
+        let t = 0.37 * f64::from(i) + 0.01;
+        let at = |k: i32| machine.point(0, t + f64::from(k) * h);
+        let jet = at(0);
+        // Central differences of the next lower derivative, to fourth order.
+        let slope = |of: fn(&PointJet) -> nalgebra::Vector3<f64>| {
+            let [a, b, c, d] = [-2, -1, 1, 2].map(|k| of(&at(k)));
+            (a - d + (c - b) * 8.0) / (12.0 * h)
+        };
+        let pairs = [
+            (slope(|p| p.position.coords), jet.velocity),
+            (slope(|p| p.velocity), jet.acceleration),
+            (slope(|p| p.acceleration), jet.jerk),
+        ];
+        for (found, exact) in pairs {
+            assert!((found - exact).norm() < 1e-7 * (1.0 + exact.norm()), "{found} {exact}");
+        }
+    }
+}
+
+#[test]
+fn one_links_frame_is_that_of_the_whole_pose() {
+    let machine = machine();
+    for input in [0.0, 2.5, -7.0] {
+        let pose = machine.pose(input);
+        for (index, frame) in pose.iter().enumerate() {
+            assert_eq!(*frame, machine.link_frame(index, input));
+        }
+    }
+}
+
+#[test]
+fn pieces_are_a_law_within_rounding() {
+    for law in [wavy(3.0), wavy(0.0)] {
+        let pieces = Piecewise::fit(law.as_ref());
+        assert!(pieces.is_sound());
+        for i in -50..=50 {
+            let t = 0.31 * f64::from(i);
+            let (found, exact) = (pieces.at(t), law.at(t));
+            let off = (found.position - exact.position).abs();
+            assert!(off < 4e-15 * (1.0 + exact.position.abs()), "{t}: {off}");
+            assert!((found.velocity - exact.velocity).abs() < 1e-11);
+            assert!((found.acceleration - exact.acceleration).abs() < 1e-8);
+        }
+        assert_eq!(pieces.advance(), law.advance());
+    }
+}
+
+#[test]
+fn a_law_that_jumps_is_cut_where_it_jumps() {
+    let step = FromFn::new(TAU, 0.0, vec![], |t: f64| MotionJet {
+        position: if t.rem_euclid(TAU) < 2.0 { 1.0 } else { 5.0 },
+        ..MotionJet::default()
+    });
+    let pieces = Piecewise::fit(&step);
+    assert!(pieces.is_sound());
+    assert!((pieces.at(1.999).position - 1.0).abs() < 1e-12);
+    assert!((pieces.at(2.001).position - 5.0).abs() < 1e-12);
+}
