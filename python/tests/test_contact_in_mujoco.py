@@ -23,12 +23,13 @@ def turned(folder, sense):
     spec = importlib.util.spec_from_file_location("play_mujoco", folder / "play_mujoco.py")
     script = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(script)
-    played = script.Pair(SimpleNamespace(contact=True, backward=sense < 0, speed=2.0, load=0.01))
+    how = SimpleNamespace(contact=True, drive=False, backward=sense < 0, speed=2.0, load=0.01)
+    played = script.Machine(how)
     travel, off = [], []
     while abs(played.data.time) < 1.05 * np.pi:
         played.advance()
-        travel.append(-played.data.qpos[played.driver.qposadr[0]])
-        off.append(played.off())
+        travel.append(played.travelled)
+        off.append(played.off()["driven_joint"])
     before = len(travel) // 20
     return np.array(travel[before::4]), np.array(off[before::4])
 

@@ -69,7 +69,7 @@ def test_check_and_files(feeder, tmp_path):
     assert report.ok
     assert report.values["gear_overlap_max"] < 3e-3
     paths = feeder.export(tmp_path, formats=["csv", "mjcf"])
-    assert {"feeder.xml", "motion.csv"} <= {path.name for path in paths}
+    assert {"machine.xml", "motion.csv"} <= {path.name for path in paths}
 
 
 def test_pictures_are_drawn(feeder):

@@ -75,7 +75,7 @@ def test_mujoco_follows_our_tips(arms, folder):
     pytest.importorskip("mujoco")
     run = [sys.executable, str(folder / "play_mujoco.py"), "--check"]
     found = json.loads(subprocess.run(run, check=True, capture_output=True, text=True).stdout)
-    assert found["tip_off_max_m"] < 1e-6
+    assert found["point_off_max_m"] < 1e-6
     # The table itself is ours, and between rows straight lines are as near as it says.
     table = np.genfromtxt(folder / "motion.csv", delimiter=",", names=True)
     about = json.loads((folder / "motion.json").read_text())
@@ -89,7 +89,7 @@ def test_mujoco_follows_our_tips(arms, folder):
         between = np.interp(middle, theta, planet)
         pose = arms.pose(middle)
         exact = pose[f"planet-{arm}"][:, 2] - pose["carrier"][:, 2]
-        assert 145 * np.abs(between - exact).max() < 1.01 * about["interpolation"]["error_max_mm"]
+        assert 145 * np.abs(between - exact).max() < 1.01 * about["interpolation"]["linear_error_max_mm"]
         rod = np.interp(middle, theta, table[f"push_rod_{arm}_mm"])
         assert np.abs(rod + arms.push_rod(middle, arm)).max() < 1.01e-3
 
@@ -100,7 +100,7 @@ def test_pybullet_follows_our_tips(folder):
     done = subprocess.run(run, check=True, capture_output=True, text=True, cwd="/")
     found = json.loads(done.stdout.splitlines()[-1])
     assert found["rows"] > 500
-    assert found["tip_off_max_m"] < 1e-6
+    assert found["point_off_max_m"] < 1e-6
     client = pybullet.connect(pybullet.DIRECT)
     body = pybullet.loadURDF(str(folder / "machine.urdf"), useFixedBase=True)
     links = {pybullet.getJointInfo(body, i)[12].decode(): i for i in range(pybullet.getNumJoints(body))}
@@ -133,14 +133,14 @@ def test_yourdfpy_reads_the_machine(arms, folder):
     yourdfpy = pytest.importorskip("yourdfpy")
     robot = yourdfpy.URDF.load(str(folder / "machine.urdf"))
     assert len(robot.link_map) == 5 + 6 * 3
-    assert "mimic joints are affine" in (folder / "machine.urdf").read_text()
+    assert "no mimic joint, which is affine" in (folder / "machine.urdf").read_text()
     table = np.genfromtxt(folder / "motion.csv", delimiter=",", names=True)
     about = json.loads((folder / "motion.json").read_text())
-    tip = np.array([*about["tip_in_arm_mm"], 0, 1e3]) * 1e-3
+    tips = {point["link"]: np.array([*point["at_mm"], 1e3]) * 1e-3 for point in about["points"]}
     for row in table[:: len(table) // 7]:
         robot.update_cfg({j["name"]: row[j["column"]] * j["factor"] + j["offset"] for j in about["joints"]})
         for arm in range(3):
-            at = robot.get_transform(f"arm_{arm}", "base") @ tip
+            at = robot.get_transform(f"arm_{arm}", "base") @ tips[f"arm_{arm}"]
             ours = arms.tip(row["carrier_turn_rad"], arm) * 1e-3
             assert np.abs(at[:2] - ours).max() < 1e-9
 
@@ -155,22 +155,27 @@ def test_teeth_alone_carry_a_chain_of_the_design_that_meets_all_goals(tmp_path):
     run = [sys.executable, str(tmp_path / "play_mujoco.py"), "--check", "--contact", "--speed", "2"]
     run += ["--save", str(tmp_path / "found.csv"), "--plot", str(tmp_path / "found.png")]
     found = json.loads(subprocess.run(run, check=True, capture_output=True, text=True).stdout)
-    assert found["off_law_max_deg"] < 0.05
+    planet = found["joints"]["planet_0_joint"]
+    assert np.degrees(planet["off_max"]) < 0.05
     assert found["overlap_max_mm"] < 0.01
     rows = np.genfromtxt(tmp_path / "found.csv", delimiter=",", names=True)
-    assert np.ptp(rows["carrier_turn_rad"]) > 6.2
+    assert np.ptp(rows["travel_rad"]) > 6.2
     # The planet's speed wavers a little about its law, as teeth come and go.
-    theta, step = rows["carrier_turn_rad"], 1e-4
+    theta, step = rows["travel_rad"], 1e-4
 
     def turned(theta):
         pose = machine.pose(theta)
         return pose["planet-0"][:, 2] - pose["carrier"][:, 2]
 
     law = (turned(theta + step) - turned(theta - step)) / (2 * step)
-    off = rows["planet_speed_rad_per_s"] / 2 - law
-    assert 0 < np.sqrt(np.mean(off**2)) < 0.02
-    # The script's own figure takes the law from the table.
-    assert found["speed_off_rms_per_carrier"] == pytest.approx(np.sqrt(np.mean(off**2)), rel=0.05)
+    # The script takes the law's rate from the table.
+    about = json.loads((tmp_path / "motion.json").read_text())
+    table = np.genfromtxt(tmp_path / "motion.csv", delimiter=",", names=True)
+    rate = {joint["name"]: joint["rate"] for joint in about["joints"]}["planet_0_joint"]
+    np.testing.assert_allclose(np.interp(theta % (2 * np.pi), table["carrier_turn_rad"], table[rate]), law, atol=1e-4)
+    off = rows["planet_0_joint_rate_off"]
+    assert 0 < planet["rate_off_rms"] == pytest.approx(np.sqrt(np.mean(off**2)), rel=1e-6)
+    assert planet["rate_off_rms"] < 0.02
     image = pytest.importorskip("matplotlib.image")
     grey = image.imread(tmp_path / "found.png")[..., :3].mean(axis=2)
     assert 0.001 < (grey < 0.8).mean() < 0.3

@@ -5,10 +5,12 @@ import subprocess
 import sys
 import xml.etree.ElementTree as ElementTree
 
+import jsonschema
 import mujoco
 import numpy as np
 import pytest
 import trimesh
+from conftest import centrode
 from reading import GEARS, outline, rows
 from shapely.geometry import MultiPoint
 
@@ -17,7 +19,7 @@ TEETH = {"elliptic": (23, 23), "two-to-one": (24, 48), "circle": (20, 20)}
 
 @pytest.fixture
 def model(exported):
-    return mujoco.MjModel.from_xml_path(str(exported / "pair.xml"))
+    return mujoco.MjModel.from_xml_path(str(exported / "machine.xml"))
 
 
 def play(folder, *arguments, script="play_mujoco.py"):
@@ -57,7 +59,7 @@ def test_a_gear_touches_with_its_teeth_and_its_hub(exported, model):
 
 
 def test_the_bodies_to_touch_with_are_in_the_gear(exported):
-    root = ElementTree.parse(exported / "pair.xml").getroot()
+    root = ElementTree.parse(exported / "machine.xml").getroot()
     for gear in GEARS:
         whole = outline(exported, gear)
         bodies = {
@@ -104,37 +106,47 @@ def test_the_sidecar_describes_the_table(exported):
     assert [column["name"] for column in about["columns"]] == list(table)
     assert about["rows"] == len(table["ratio"])
     driver, driven = table["driver_angle_rad"], table["driven_angle_rad"]
-    assert about["continuation"]["driver_angle_rad"] == pytest.approx(driver[-1], rel=1e-12)
-    assert about["continuation"]["driven_angle_rad"] == pytest.approx(driven[-1], rel=1e-9)
-    line = about["linear_stand_in"]
-    off = np.abs(driven + line["multiplier"] * driver - line["offset_rad"]).max()
-    assert line["error_max_rad"] == pytest.approx(off, rel=1e-3, abs=1e-9)
-    assert line["is_the_law"] == (exported.name == "circle")
+    advance = {column["name"]: column["advance"] for column in about["columns"]}
+    assert advance["driver_angle_rad"] == pytest.approx(driver[-1], rel=1e-12)
+    assert advance["driven_angle_rad"] == pytest.approx(driven[-1], rel=1e-9)
+    line = {joint["name"]: joint["linear"] for joint in about["joints"]}["driven_joint"]
+    off = np.abs(driven - line["multiplier"] * driver - line["offset"]).max()
+    assert line["error_max"] == pytest.approx(off, rel=1e-3, abs=1e-9)
+    assert (line["error_max"] < 1e-9) == (exported.name == "circle")
     # The bound between rows holds on every second row, taken over twice the step: four times the error.
     between = np.abs(driven[1:-1] - (driven[:-2] + driven[2:]) / 2).max()
-    assert between <= 4.01 * about["interpolation"]["error_max_rad"] + 1e-12
+    reach = np.hypot(*np.array(outline(exported, "driven").exterior.coords).T).max()
+    assert reach * between <= 4.01 * about["interpolation"]["linear_error_max_mm"] + 1e-12
+
+
+def test_the_sidecar_keeps_to_its_schema(exported):
+    schema = json.loads(centrode("schema", "motion").stdout)
+    about = json.loads((exported / "motion.json").read_text())
+    jsonschema.Draft202012Validator(schema).validate(about)
+    assert (about["format"], about["version"]) == ("centrode-motion", 1)
 
 
 def test_the_script_plays_the_law(exported, tmp_path):
     result = play(exported.folder)
     assert result["mode"] == "law"
-    assert result["off_law_max_deg"] < 1e-9
+    assert result["joints"]["driven_joint"]["off_max"] < 1e-11
     assert result["overlap_max_mm"] < 2e-3
 
 
 @pytest.mark.parametrize("way", [(), ("--backward",)])
 def test_teeth_alone_carry_the_driven_gear_by_the_law(exported, way):
-    result = play(exported.folder, "--contact", *way)
-    assert abs(result["turns"]) == 2
-    assert result["off_law_range_deg"] < 0.02
+    result = play(exported.folder, "--contact", "--speed", "2", "--cycles", "2", *way)
+    assert result["cycles"] == (-2 if way else 2)
+    found = {name: math.degrees(off) for name, off in result["joints"]["driven_joint"].items()}
+    assert found["off_range"] < 0.02
     # The rest is half the backlash: 0.025 mm along the normal, on the driven gear of some 36 mm radius.
-    assert result["off_law_max_deg"] < (0.06 if exported.name == "two-to-one" else 0.02)
+    assert found["off_max"] < (0.06 if exported.name == "two-to-one" else 0.02)
 
 
 def test_without_teeth_the_driven_gear_does_not_follow(exported, tmp_path):
     shutil.copytree(exported.folder, tmp_path, dirs_exist_ok=True)
-    model = tmp_path / "pair.xml"
+    model = tmp_path / "machine.xml"
     bare = model.read_text().replace('<geom type="mesh" condim="1"', '<geom type="mesh" contype="0" conaffinity="0"')
     assert bare != model.read_text()
     model.write_text(bare)
-    assert play(tmp_path, "--contact")["off_law_range_deg"] > 10
+    assert math.degrees(play(tmp_path, "--contact", "--speed", "2")["joints"]["driven_joint"]["off_range"]) > 10

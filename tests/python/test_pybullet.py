@@ -22,11 +22,11 @@ def bullet():
 
 @pytest.mark.usefixtures("bullet")
 def test_the_script_plays_the_law(exported):
-    assert play(exported.folder, script="play_pybullet.py")["off_law_max_deg"] < 1e-9
+    assert play(exported.folder, script="play_pybullet.py")["joint_off_max"] < 1e-11
 
 
 def test_its_teeth_touch_by_the_law_and_overlap_off_it(exported, bullet):
-    pair = bullet.loadURDF(str(exported / "pair.urdf"), useFixedBase=True)
+    pair = bullet.loadURDF(str(exported / "machine.urdf"), useFixedBase=True)
     joints = {bullet.getJointInfo(pair, i)[12].decode(): i for i in range(bullet.getNumJoints(pair))}
     for gear, teeth in zip(GEARS, TEETH[exported.name], strict=True):
         assert len(bullet.getCollisionShapeData(pair, joints[gear])) == teeth + 1

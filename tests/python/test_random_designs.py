@@ -83,9 +83,9 @@ def read_back(folder):
         assert step.TransferRoots() == 1
         assert step.OneShape().ShapeType() == TopAbs_SOLID
         assert BRepCheck_Analyzer(step.OneShape()).IsValid()
-    for model in ("pair.xml", "pair.urdf"):
+    for model in ("machine.xml", "machine.urdf"):
         assert mujoco.MjModel.from_xml_path(str(folder / model)).njnt == 2
-    assert yourdfpy.URDF.load(str(folder / "pair.urdf"), load_collision_meshes=True).validate()
+    assert yourdfpy.URDF.load(str(folder / "machine.urdf"), load_collision_meshes=True).validate()
 
 
 @settings(

@@ -217,17 +217,17 @@ def played(folder, *options):
 @pytest.mark.parametrize("name", MACHINES)
 def test_driven_by_forces_the_box_is_where_the_table_has_it(machines, name):
     result = played(machines / name, "--drive")
-    assert result["off_law_max_mm"] < 1e-3
+    assert 1e3 * result["joints"]["box_joint"]["off_max"] < 1e-3
     assert result["seconds"] == pytest.approx(28 * 60 / 200, rel=1e-3)
     # The push without the rails' friction is mass times acceleration.
     rows = table(machines / name / "motion.csv")
-    for found, of in [("push_max_N", max), ("push_min_N", min)]:
-        assert result[found] == pytest.approx(10.0 * of(rows["acceleration_mm_per_s2"]) * 1e-3, rel=2e-3)
+    for found, of in zip(result["joints"]["box_joint"]["force_range"], [min, max], strict=True):
+        assert found == pytest.approx(10.0 * of(rows["acceleration_mm_per_s2"]) * 1e-3, rel=2e-3)
 
 
 def test_turned_by_the_teeth_alone_the_box_follows(machines):
     result = played(machines / "moving-box", "--contact")
-    assert result["off_law_max_mm"] < 0.1
+    assert 1e3 * result["joints"]["box_joint"]["off_max"] < 0.1
 
 
 def test_forces_in_the_table_balance(machines):

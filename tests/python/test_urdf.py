@@ -14,7 +14,7 @@ DENSITY = 7850.0
 
 @pytest.fixture
 def robot(exported):
-    return ElementTree.parse(exported / "pair.urdf").getroot()
+    return ElementTree.parse(exported / "machine.urdf").getroot()
 
 
 def gear_links(robot):
@@ -23,7 +23,7 @@ def gear_links(robot):
 
 def test_yourdfpy_loads_the_pair_with_its_meshes(exported):
     model = yourdfpy.URDF.load(
-        str(exported / "pair.urdf"),
+        str(exported / "machine.urdf"),
         load_meshes=True,
         load_collision_meshes=True,
         build_collision_scene_graph=True,
@@ -48,7 +48,7 @@ def test_every_body_to_touch_with_is_convex(exported):
 
 
 def test_mujoco_loads_the_pair_and_its_teeth_mesh(exported):
-    model = mujoco.MjModel.from_xml_path(str(exported / "pair.urdf"))
+    model = mujoco.MjModel.from_xml_path(str(exported / "machine.urdf"))
     assert model.njnt == 2
     assert model.ngeom == sum(TEETH[exported.name]) + 2
     data = mujoco.MjData(model)
@@ -66,7 +66,7 @@ def test_mujoco_loads_the_pair_and_its_teeth_mesh(exported):
 
 
 def test_inertias_are_those_of_the_solid(fine):
-    for gear, link in gear_links(ElementTree.parse(fine / "pair.urdf").getroot()).items():
+    for gear, link in gear_links(ElementTree.parse(fine / "machine.urdf").getroot()).items():
         mesh = trimesh.load_mesh(fine / f"{gear}.stl")
         mesh.apply_scale(1e-3)
         mesh.density = DENSITY

@@ -37,7 +37,7 @@ pub(crate) enum Command {
     Studio(Studio),
     /// Write a design's figures, curves and moving picture as one HTML file
     Report(Report),
-    /// Print the JSON schema of the design file
+    /// Print the JSON schema of the design file, or of a file that is exported
     Schema(Schema),
     /// Print a completion script for a shell
     Completions(Completions),
@@ -291,8 +291,8 @@ pub(crate) struct Response {
 
 #[derive(Debug, Args)]
 pub(crate) struct Schema {
-    /// Family of mechanism; left out, all
-    #[arg(value_parser = PossibleValuesParser::new(Design::FAMILIES))]
+    /// Family of mechanism, or a file that is exported; left out, the design file of all families
+    #[arg(value_parser = PossibleValuesParser::new(Design::FAMILIES.into_iter().chain(crate::schema::FILES)))]
     pub(crate) family: Option<String>,
 }
 

@@ -6,9 +6,16 @@ use centrode::mechanism::design::Design;
 use crate::args::Schema;
 use crate::failure::Failure;
 
-/// Prints the JSON schema of the design file.
+/// Files beside the design file that have a schema.
+pub(crate) const FILES: [&str; 1] = ["motion"];
+
+/// Prints the JSON schema of the design file, or of a file that is exported.
 pub(crate) fn run(command: &Schema, out: &mut impl Write) -> Result<ExitCode, Failure> {
     let family = command.family.as_deref();
+    if family == Some("motion") {
+        writeln!(out, "{:#}", centrode::export::machine::motion_schema())?;
+        return Ok(ExitCode::SUCCESS);
+    }
     let schema = family.map_or_else(|| Some(Design::json_schema()), Design::json_schema_of);
     let Some(schema) = schema else {
         let family = family.unwrap_or_default();

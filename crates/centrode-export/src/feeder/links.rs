@@ -24,7 +24,8 @@ pub(super) fn machine(feeder: &Feeder, plates: &[Plate]) -> Result<Machine, Feed
         },
         ..Machine::default()
     };
-    let meaning = "angle the incomplete gear has turned by since the effector left its place of rest";
+    let meaning =
+        "angle the incomplete gear has turned by since the effector left its place of rest";
     machine.column("input_angle_rad", "rad", meaning, Quantity::Input(1.0));
     let time = Quantity::Input(1.0 / feeder.speed());
     machine.column("time_s", "s", "time at the design's speed", time);

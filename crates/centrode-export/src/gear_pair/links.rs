@@ -101,14 +101,18 @@ pub(crate) fn gear(
 
 /// The teeth of a gear: flanks and tips touch, fillets do not.
 pub(crate) fn teeth(gear: &Gear, name: &str) -> Surface {
-    let touches = |(role, owner): (&Role, &u32)| {
-        matches!(role, Role::Flank | Role::Tip).then_some(*owner)
-    };
+    let touches =
+        |(role, owner): (&Role, &u32)| matches!(role, Role::Flank | Role::Tip).then_some(*owner);
     Surface {
         name: name.into(),
         outline: gear.outline().clone(),
         span: [0.0, gear.body().width],
-        teeth: gear.roles().iter().zip(gear.owners()).map(touches).collect(),
+        teeth: gear
+            .roles()
+            .iter()
+            .zip(gear.owners())
+            .map(touches)
+            .collect(),
         coarseness: 1.0,
     }
 }

@@ -346,9 +346,9 @@ mod tests {
             "driven-pins.csv",
             "motion.csv",
             "motion.json",
-            "pair.urdf",
+            "machine.urdf",
             "play_pybullet.py",
-            "pair.xml",
+            "machine.xml",
             "play_mujoco.py",
         ];
         assert_eq!(names, expected);
@@ -360,11 +360,11 @@ mod tests {
         assert_eq!(
             beside(&model),
             [
-                "driver.stl",
-                "driven.stl",
                 "motion.csv",
                 "motion.json",
-                "pair.urdf",
+                "driver.stl",
+                "driven.stl",
+                "machine.urdf",
                 "play_pybullet.py",
             ]
         );
@@ -395,15 +395,15 @@ mod tests {
     fn only_a_linear_law_is_written_as_a_mimic_joint() {
         let curved = text(
             &files(&elliptic(), &[Format::Urdf], &options()).expect("made"),
-            "pair.urdf",
+            "machine.urdf",
         );
         assert!(
-            !curved.contains("<mimic") && curved.contains("off by 0.5"),
+            !curved.contains("<mimic") && curved.contains("no mimic joint"),
             "{curved}"
         );
         let linear = text(
             &files(&circular(), &[Format::Urdf], &options()).expect("made"),
-            "pair.urdf",
+            "machine.urdf",
         );
         assert!(
             linear.contains("<mimic") && linear.contains("multiplier=\"-1\""),
@@ -431,7 +431,9 @@ mod tests {
     fn teeth_are_one_convex_body_each_or_several_where_they_are_hollow() {
         let (plain, hollow) = (elliptic(), pair_of_lobes());
         for pair in [&plain, &hollow] {
-            let model = simulator::model(pair, options().tolerance).expect("made");
+            let machine = machine(pair).expect("linked");
+            let simulated = crate::machine::simulated(&machine, options().tolerance);
+            let model = simulated.expect("made").model;
             assert!(model.note.contains("by at most"), "{}", model.note);
             for (link, gear) in model.links[1..].iter().zip([pair.driver(), pair.driven()]) {
                 let width = gear.body().width;

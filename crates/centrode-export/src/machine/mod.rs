@@ -6,6 +6,8 @@ mod motion;
 
 use centrode_geometry::{SolidError, Tolerance};
 use centrode_mechanism::machine::Machine;
+#[cfg(test)]
+pub(crate) use model::simulated;
 use thiserror::Error;
 
 use crate::csv::{self, TableError};
@@ -57,7 +59,10 @@ pub fn add(
 ) -> Result<(), MachineFilesError> {
     let machine = motion::with_rates(machine);
     let (steps, off) = motion::steps(&machine, tolerance);
-    bundle.add(motion::TABLE, csv::write(&motion::columns(&machine, steps))?)?;
+    bundle.add(
+        motion::TABLE,
+        csv::write(&motion::columns(&machine, steps))?,
+    )?;
     let about = motion::description(&machine, steps, off);
     let mut json = serde_json::to_string_pretty(&about)?;
     json.push('\n');
@@ -89,6 +94,12 @@ pub fn add(
         bundle.add("play_mujoco.py", script(include_str!("play_mujoco.py")))?;
     }
     Ok(())
+}
+
+/// The JSON schema of `motion.json`.
+#[must_use]
+pub fn motion_schema() -> serde_json::Value {
+    schemars::schema_for!(MotionFile).to_value()
 }
 
 /// Reads the table of motion; both scripts hold it.

@@ -6,12 +6,12 @@ use crate::mjcf::Closure;
 use crate::model::{self, Convex, Joint, Link, MOST_FACES, Mimic, Model, shown_tolerance};
 
 /// A machine as simulators want it.
-pub(super) struct Simulated {
-    pub(super) model: Model,
+pub(crate) struct Simulated {
+    pub(crate) model: Model,
     /// Loops that the tree of joints leaves open.
-    pub(super) closures: Vec<Closure>,
+    pub(crate) closures: Vec<Closure>,
     /// The meshes that it shows, by file name.
-    pub(super) meshes: Vec<(String, Mesh)>,
+    pub(crate) meshes: Vec<(String, Mesh)>,
 }
 
 /// A mesh to be seen, the name of its file, and how far it may lie off the body, mm.
@@ -22,7 +22,7 @@ struct Seen {
 }
 
 /// The tree of links with every joint zero where the cycle begins.
-pub(super) fn simulated(machine: &Machine, tolerance: Tolerance) -> Result<Simulated, SolidError> {
+pub(crate) fn simulated(machine: &Machine, tolerance: Tolerance) -> Result<Simulated, SolidError> {
     let seen: Vec<Seen> = machine
         .shapes
         .iter()
@@ -62,7 +62,10 @@ pub(super) fn simulated(machine: &Machine, tolerance: Tolerance) -> Result<Simul
     });
     Ok(Simulated {
         closures: closures.collect(),
-        meshes: seen.into_iter().map(|seen| (seen.file, seen.mesh)).collect(),
+        meshes: seen
+            .into_iter()
+            .map(|seen| (seen.file, seen.mesh))
+            .collect(),
         model,
     })
 }
@@ -143,7 +146,8 @@ fn note(machine: &Machine, touching: &[bodies::ContactBodies], seen: &[Seen]) ->
         "The laws of motion are in {table}, as motion.json describes. Every joint is zero where the cycle begins. "
     );
     let even = machine.joints.iter().all(|joint| {
-        joint.kind == JointKind::Fixed || motion::line(machine, joint.law.as_ref())[2] <= motion::LINEAR
+        joint.kind == JointKind::Fixed
+            || motion::line(machine, joint.law.as_ref())[2] <= motion::LINEAR
     });
     note += if even {
         "They are linear and written as mimic joints."
@@ -168,7 +172,9 @@ fn note(machine: &Machine, touching: &[bodies::ContactBodies], seen: &[Seen]) ->
         );
     }
     if let Some(excess) = of(false) {
-        note += &format!(" Other bodies that touch are convex and stand off by at most {excess:.1e} mm.");
+        note += &format!(
+            " Other bodies that touch are convex and stand off by at most {excess:.1e} mm."
+        );
     }
     if let Some(off) = seen.iter().map(|seen| seen.off).reduce(f64::max) {
         note += &format!(

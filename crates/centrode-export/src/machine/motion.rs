@@ -240,7 +240,10 @@ pub(super) fn with_rates(machine: &Machine) -> Machine {
         }
         if let Some((column, factor)) = position(&machine, joint) {
             let about = &machine.columns[column];
-            let (name, unit) = (format!("{}_per_rad", about.name), format!("{}/rad", about.unit));
+            let (name, unit) = (
+                format!("{}_per_rad", about.name),
+                format!("{}/rad", about.unit),
+            );
             let meaning = format!("rate of {} by the input", about.name);
             let order = 1;
             let quantity = Quantity::Joint {
@@ -287,7 +290,10 @@ pub(super) fn driving(machine: &Machine) -> Option<usize> {
             && line(machine, joint.law.as_ref())[2] <= LINEAR
     };
     let all = 0..machine.joints.len();
-    let first = || all.clone().find(|&j| machine.joints[j].kind == JointKind::Turning);
+    let first = || {
+        all.clone()
+            .find(|&j| machine.joints[j].kind == JointKind::Turning)
+    };
     all.clone().find(turns).or_else(first)
 }
 
@@ -336,9 +342,9 @@ pub(super) fn description(machine: &Machine, steps: u32, linear_error_max_mm: f6
         })
     };
     let place_of = |of: usize| {
-        let named = machine.columns.iter().filter(move |column| {
-            matches!(column.quantity, Quantity::Point { point, .. } if point == of)
-        });
+        let named = machine.columns.iter().filter(
+            move |column| matches!(column.quantity, Quantity::Point { point, .. } if point == of),
+        );
         named.map(|column| column.name.clone()).collect()
     };
     MotionFile {
@@ -348,7 +354,10 @@ pub(super) fn description(machine: &Machine, steps: u32, linear_error_max_mm: f6
         models: ["urdf", "xml"].map(|end| format!("{MODEL}.{end}")),
         input: InputWords {
             name: machine.input.name.clone(),
-            column: machine.columns.first().map_or(String::new(), |c| c.name.clone()),
+            column: machine
+                .columns
+                .first()
+                .map_or(String::new(), |c| c.name.clone()),
             period_rad: machine.input.period,
             speed_rad_per_s: machine.input.speed,
             joint: driving(machine).map(|joint| machine.joint_name(joint)),

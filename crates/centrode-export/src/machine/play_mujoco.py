@@ -37,33 +37,34 @@ class Machine:
         self.input = self.law.about["input"]["joint"]
         self.travelled = 0.0
         self.forces = dict.fromkeys(self.joints, 0.0)
-        self.free, self.load = [], {}
+        self.free, self.load, self.reached = [], {}, {}
+        # Of several chains that are alike the first tells.
+        self.meshes = [mesh for mesh in self.law.about["meshes"] if mesh["copy"] == 0]
+        self.touch({link for mesh in self.meshes for link in mesh["links"]})
         if self.mode == "contact":
             self.release(options)
-        else:
+        elif self.mode == "drive":
             # Bodies that are moved by their laws need not touch.
             self.model.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_CONTACT
-        if self.mode == "law":
+        else:
             self.model.opt.timestep = max(self.model.opt.timestep, self.law.step / abs(self.speed))
         self.place(0.0)
-        for name in self.joints:
-            self.data.qvel[self.joints[name].dofadr] = self.speed * self.law.rate(name, 0.0)
-        self.teeth = [i for i in range(self.model.ngeom) if self.model.geom_contype[i]]
+
+    def touch(self, links):
+        """Lets some links alone touch one another."""
+        for body in range(self.model.nbody):
+            if self.model.body(body).name not in links:
+                of_body = self.model.geom_bodyid == body
+                self.model.geom_contype[of_body] = 0
+                self.model.geom_conaffinity[of_body] = 0
 
     def release(self, options):
-        """Leaves free what teeth and closed loops carry, with a load, and a first chain of several."""
-        about, model = self.law.about, self.model
-        meshes = [mesh for mesh in about["meshes"] if mesh["copy"] == 0]
+        """Leaves free what teeth and closed loops carry, with a load at the end of a chain of gears."""
+        about, model, meshes = self.law.about, self.model, self.meshes
         carried = [mesh["joint"] for mesh in meshes]
         self.free = [name for name in self.joints if name != self.input] if about["closures"] else carried
         if not self.free:
             raise SystemExit("--contact is for machines with gears or closed loops")
-        touching = {link for mesh in meshes for link in mesh["links"]}
-        for body in range(model.nbody):
-            if model.body(body).name not in touching:
-                of_body = model.geom_bodyid == body
-                model.geom_contype[of_body] = 0
-                model.geom_conaffinity[of_body] = 0
         # Only teeth and closures may tie the links: no joint follows another by an equation.
         for equality in range(model.neq):
             if model.eq_type[equality] == mujoco.mjtEq.mjEQ_JOINT:
@@ -79,11 +80,12 @@ class Machine:
         if meshes and any(self.law.joints[name]["load"] for name in carried):
             model.opt.timestep = min(model.opt.timestep, 5e-5)
 
-    def place(self, travel, names=None):
-        """Puts joints where their laws have them."""
+    def place(self, travel):
+        """Puts every joint where its law has it, at the rate that it has there."""
         self.travelled = travel
-        for name in names or self.joints:
-            self.data.qpos[self.joints[name].qposadr] = self.law(name, travel)
+        for name, joint in self.joints.items():
+            place, rate = self.law.read(name, travel)
+            self.data.qpos[joint.qposadr], self.data.qvel[joint.dofadr] = place, self.speed * rate
         mujoco.mj_forward(self.model, self.data)
 
     def advance(self):
@@ -115,21 +117,21 @@ class Machine:
         joint = self.joints[self.input]
         now, then = self.law(self.input, self.travelled), self.law(self.input, ahead)
         self.data.qpos[joint.qposadr], self.data.qvel[joint.dofadr] = now, (then - now) / step
-        for name in self.free:
-            own, about = self.joints[name], self.law.joints[name]
-            load = self.load.get(name, 0.0)
-            if about["load"]:
-                travel = self.law.travel(name, self.data.qpos[own.qposadr[0]], self.travelled)
+        for name, load in self.load.items():
+            column = self.law.joints[name]["load"]
+            if column:
                 # The torque that the law asks for at the joint is what it must overcome.
-                load = 1e-3 * self.law.value(about["load"], travel)
-            self.data.qfrc_applied[own.dofadr] = -np.sign(self.speed * self.law.rate(name, self.travelled)) * load
+                load = 1e-3 * self.law.value(column, self.reached.get(name, self.travelled))
+            sense = np.sign(self.speed * self.law.rate(name, self.travelled))
+            self.data.qfrc_applied[self.joints[name].dofadr] = -sense * load
         mujoco.mj_step(self.model, self.data)
         self.travelled = ahead
+        for name in {about["leader"] for about in self.law.joints.values()} & set(self.free):
+            place = self.data.qpos[self.joints[name].qposadr[0]]
+            self.reached[name] = self.law.travel(name, place, self.reached.get(name, 0.0) + self.speed * step)
         for name, about in self.law.joints.items():
-            if about["leader"] in self.free:
-                leader = self.joints[about["leader"]]
-                travel = self.law.travel(about["leader"], self.data.qpos[leader.qposadr[0]], ahead)
-                self.data.qpos[self.joints[name].qposadr] = self.law(name, travel)
+            if about["leader"] in self.reached:
+                self.data.qpos[self.joints[name].qposadr] = self.law(name, self.reached[about["leader"]])
                 self.data.qvel[self.joints[name].dofadr] = 0.0
 
     def off(self):
@@ -177,11 +179,13 @@ def check(machine, options):
     steps = round(law.period * cycles / abs(machine.speed) / machine.model.opt.timestep)
     # With contact, the load first takes up the backlash: the teeth are judged after a twentieth of a cycle.
     before = round(steps / cycles / 20) if machine.load else 0
+    # Rows enough to see every tooth.
+    stride = max(1, steps // 20000)
     names = list(machine.off())
     rows, overlap, pushes = [], 0.0, {name: [0.0, 0.0] for name in machine.joints}
     for step in range(before + steps):
         machine.advance()
-        if step < before:
+        if step < before or step % stride:
             continue
         overlap = max(overlap, machine.overlap())
         off, row = machine.off(), [machine.travelled]

@@ -32,7 +32,12 @@ pub(super) fn machine(parts: &Machine<'_>) -> Result<machine::Machine, ShaftFile
         name: parts.name.into(),
         title: parts.title.into(),
         input: Input {
-            name: if parts.gears.is_some() { "driver" } else { "shaft" }.into(),
+            name: if parts.gears.is_some() {
+                "driver"
+            } else {
+                "shaft"
+            }
+            .into(),
             period: shaft.cycle(),
             speed: shaft.load().speed(),
         },
@@ -162,16 +167,66 @@ fn columns(
         factor: sign * omega.powi(i32::from(order)),
     };
     let places = [
-        ("input_angle_rad", "rad", "angle of the input", Quantity::Input(1.0)),
-        ("time_s", "s", "time at the design's speed", Quantity::Input(1.0 / omega)),
-        ("shaft_angle_rad", "rad", "turn of the shaft", joint(shaft, 0, -1.0)),
-        ("shaft_speed_rad_per_s", "rad/s", "speed of the shaft", joint(shaft, 1, -1.0)),
-        ("position_mm", "mm", "place of the box along the shaft", joint(carriage, 0, 1.0)),
-        ("velocity_mm_per_s", "mm/s", "speed of the box", joint(carriage, 1, 1.0)),
-        ("acceleration_mm_per_s2", "mm/s²", "acceleration of the box", joint(carriage, 2, 1.0)),
-        ("jerk_mm_per_s3", "mm/s³", "jerk of the box", joint(carriage, 3, 1.0)),
-        ("lead_angle_rad", "rad", "lead angle, by which the slider swivels", joint(slider, 0, 1.0)),
-        ("lead_angle_speed_rad_per_s", "rad/s", "speed of the swivel", joint(slider, 1, 1.0)),
+        (
+            "input_angle_rad",
+            "rad",
+            "angle of the input",
+            Quantity::Input(1.0),
+        ),
+        (
+            "time_s",
+            "s",
+            "time at the design's speed",
+            Quantity::Input(1.0 / omega),
+        ),
+        (
+            "shaft_angle_rad",
+            "rad",
+            "turn of the shaft",
+            joint(shaft, 0, -1.0),
+        ),
+        (
+            "shaft_speed_rad_per_s",
+            "rad/s",
+            "speed of the shaft",
+            joint(shaft, 1, -1.0),
+        ),
+        (
+            "position_mm",
+            "mm",
+            "place of the box along the shaft",
+            joint(carriage, 0, 1.0),
+        ),
+        (
+            "velocity_mm_per_s",
+            "mm/s",
+            "speed of the box",
+            joint(carriage, 1, 1.0),
+        ),
+        (
+            "acceleration_mm_per_s2",
+            "mm/s²",
+            "acceleration of the box",
+            joint(carriage, 2, 1.0),
+        ),
+        (
+            "jerk_mm_per_s3",
+            "mm/s³",
+            "jerk of the box",
+            joint(carriage, 3, 1.0),
+        ),
+        (
+            "lead_angle_rad",
+            "rad",
+            "lead angle, by which the slider swivels",
+            joint(slider, 0, 1.0),
+        ),
+        (
+            "lead_angle_speed_rad_per_s",
+            "rad/s",
+            "speed of the swivel",
+            joint(slider, 1, 1.0),
+        ),
     ];
     for (name, unit, meaning, quantity) in places {
         machine.column(name, unit, meaning, quantity);
@@ -192,10 +247,27 @@ fn columns(
         machine.column(name, unit, meaning, Quantity::Law(Arc::new(law)))
     };
     add("push_N", "N", "force that moves the box", |f, _| f.push);
-    add("normal_force_N", "N", "force on the groove's wall", |f, _| f.normal);
-    add("transverse_force_N", "N", "force across the shaft", |f, _| f.transverse);
-    let torque = add("shaft_torque_Nmm", "N mm", "torque on the shaft", |f, _| f.torque);
-    add("input_torque_Nmm", "N mm", "torque on the input", |f, rate| f.torque * rate);
+    add(
+        "normal_force_N",
+        "N",
+        "force on the groove's wall",
+        |f, _| f.normal,
+    );
+    add(
+        "transverse_force_N",
+        "N",
+        "force across the shaft",
+        |f, _| f.transverse,
+    );
+    let torque = add("shaft_torque_Nmm", "N mm", "torque on the shaft", |f, _| {
+        f.torque
+    });
+    add(
+        "input_torque_Nmm",
+        "N mm",
+        "torque on the input",
+        |f, rate| f.torque * rate,
+    );
     machine.joints[shaft].load = Some(torque);
 }
 
@@ -230,7 +302,14 @@ fn hang(
                 slope: 1.0,
             };
             let at = [-gears.pair.center_distance(), 0.0, bottom];
-            machine.joint(Joint::turning(frame, *link, Arc::new(law)).at(at));
+            let joint = machine.joint(Joint::turning(frame, *link, Arc::new(law)).at(at));
+            let quantity = Quantity::Joint {
+                joint,
+                order: 0,
+                factor: 1.0,
+            };
+            let meaning = "turn of the gear that drives, from its zero";
+            machine.column("driver_angle_rad", "rad", meaning, quantity);
         } else {
             let fixed = Joint::fixed(shaft, *link).at([0.0, 0.0, bottom]);
             machine.joint(fixed.turned([0.0, 0.0, gears.rest()]));

@@ -53,6 +53,7 @@ fn every_file_is_there_and_the_same_twice() {
         "motion.csv",
         "motion.json",
         "machine.urdf",
+        "play_pybullet.py",
         "machine.xml",
         "play_mujoco.py",
     ];

@@ -330,9 +330,8 @@ impl Builder<'_> {
     }
 
     fn ground_column(&mut self) {
-        let slides = |joint: &Joint| {
-            joint.parent == 0 && matches!(joint.kind, JointKind::Sliding(_))
-        };
+        let slides =
+            |joint: &Joint| joint.parent == 0 && matches!(joint.kind, JointKind::Sliding(_));
         if let Some(joint) = self.machine.joints.iter().position(slides) {
             let meaning = "ground along the x axis, as the machine travels over it";
             self.column(joint, "ground", "mm", meaning);
@@ -348,12 +347,15 @@ impl Builder<'_> {
             };
             let name = format!("tip_{k}");
             let point = self.machine.points.len();
-            let columns = ["x", "y"].into_iter().enumerate().map(|(axis, letter)| Column {
-                name: format!("{name}_{letter}_mm"),
-                unit: "mm".into(),
-                meaning: format!("tip of arm {k} in the machine's frame"),
-                quantity: Quantity::Point { point, axis },
-            });
+            let columns = ["x", "y"]
+                .into_iter()
+                .enumerate()
+                .map(|(axis, letter)| Column {
+                    name: format!("{name}_{letter}_mm"),
+                    unit: "mm".into(),
+                    meaning: format!("tip of arm {k} in the machine's frame"),
+                    quantity: Quantity::Point { point, axis },
+                });
             self.machine.columns.extend(columns);
             self.machine.points.push(LinkPoint {
                 name,

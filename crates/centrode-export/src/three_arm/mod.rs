@@ -18,8 +18,8 @@ use thiserror::Error;
 
 use crate::gear_pair::{self, Format, GearPairFilesError, Label, Options};
 use crate::{
-    Bundle, BundleError, cam, csv, csv::TableError, dxf, dxf::DxfError, machine::MachineFilesError, pdf,
-    pdf::PdfError, sheet::Sheet, sheet::SheetError, step, step::StepError, stl, svg, threemf,
+    Bundle, BundleError, cam, csv, csv::TableError, dxf, dxf::DxfError, machine::MachineFilesError,
+    pdf, pdf::PdfError, sheet::Sheet, sheet::SheetError, step, step::StepError, stl, svg, threemf,
     threemf::PackageError,
 };
 use machine::Machine;

@@ -1,7 +1,8 @@
 use std::collections::BTreeSet;
 
-use centrode_geometry::Tolerance;
+use centrode_geometry::{Solid, Tolerance};
 use centrode_mechanism::design::Design;
+use centrode_mechanism::machine::{Column, Form, JointKind, Quantity};
 use centrode_mechanism::three_arm::design::ThreeArmDesign;
 
 use super::*;
@@ -155,9 +156,22 @@ fn meshes_are_closed_and_as_large_as_their_solids() {
             plate.part
         );
     }
-    let simulated = simulator::simulated(&machine, tolerance).expect("a model");
-    for (name, mesh) in &simulated.meshes {
-        assert!(mesh.is_watertight() && mesh.volume() > 0.0, "{name}");
+    for shape in links::machine(&machine).expect("linked").shapes {
+        let meshes = match &shape.form {
+            Form::Mesh(mesh, _) => vec![mesh.clone()],
+            Form::Solids(solids) => {
+                let mesh = |solid: &Solid| solid.mesh(tolerance).expect("apart");
+                solids.iter().map(mesh).collect()
+            }
+            Form::Body(_) => panic!("no such body in an arm"),
+        };
+        for mesh in meshes {
+            assert!(
+                mesh.is_watertight() && mesh.volume() > 0.0,
+                "{}",
+                shape.name
+            );
+        }
     }
 }
 
@@ -166,19 +180,18 @@ fn the_model_has_every_link_once_and_every_law_a_joint() {
     for arms in [1, 3, 4] {
         let machine = mechanism(|d| d.arms = arms);
         let machine = Machine::new(&machine).expect("resolved");
-        let simulated = simulator::simulated(&machine, options().tolerance).expect("a model");
-        let model = simulated.model;
+        let linked = links::machine(&machine).expect("linked");
         // Base, tray, ground, carrier, sun; gears, cam, arm, fork and rod of each chain.
-        assert_eq!(model.links.len() as u32, 5 + 6 * arms);
-        assert_eq!(model.joints.len() + 1, model.links.len());
-        for law in motion::laws(&machine) {
-            assert!(
-                model.joints.iter().any(|j| j.name == law.joint),
-                "{}",
-                law.joint
-            );
+        assert_eq!(linked.links.len() as u32, 5 + 6 * arms);
+        assert_eq!(linked.joints.len() + 1, linked.links.len());
+        for (joint, about) in linked.joints.iter().enumerate() {
+            let moves = about.kind != JointKind::Fixed;
+            let told = |column: &Column| matches!(column.quantity, Quantity::Joint { joint: j, .. } if j == joint);
+            assert_eq!(linked.columns.iter().any(told), moves);
         }
-        assert!(mjcf::write(&model).is_ok() && urdf::write(&model).is_ok());
+        let mut bundle = Bundle::default();
+        let added = crate::machine::add(&linked, [true; 2], options().tolerance, &mut bundle);
+        assert!(added.is_ok(), "{added:?}");
     }
 }
 

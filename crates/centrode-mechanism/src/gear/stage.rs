@@ -65,7 +65,8 @@ impl Transmission for Rolling {
     }
 
     fn advance(&self) -> f64 {
-        self.driven_angle(std::f64::consts::TAU) - self.driven_angle(0.0)
+        let (driver, driven) = self.mean_ratio();
+        std::f64::consts::TAU * f64::from(driven) / f64::from(driver)
     }
 
     fn breaks(&self) -> Vec<f64> {

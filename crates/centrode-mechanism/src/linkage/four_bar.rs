@@ -241,8 +241,8 @@ impl FourBar {
         if c.room > 0.0 {
             let mut jet = MotionJet::of(&c.at.minus(b).angle());
             // The angle at C stays within (0, pi), so this angle has no jumps either.
-            jet.position = self.unwrapped_rocker(input)
-                - self.branch.sign() * self.transmission_angle(input);
+            jet.position =
+                self.unwrapped_rocker(input) - self.branch.sign() * self.transmission_angle(input);
             Ok(jet)
         } else {
             Err(self.limit(input))

@@ -79,9 +79,7 @@ impl FrameJet {
         out[0] = Matrix4::identity();
         let ways = [by.position, by.velocity, by.acceleration, by.jerk];
         for (frame, way) in out.iter_mut().zip(ways) {
-            frame
-                .fixed_view_mut::<3, 1>(0, 3)
-                .copy_from(&(axis * way));
+            frame.fixed_view_mut::<3, 1>(0, 3).copy_from(&(axis * way));
         }
         Self(out)
     }

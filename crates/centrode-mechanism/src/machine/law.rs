@@ -134,13 +134,21 @@ fn clenshaw(series: &[f64], u: f64) -> [f64; 4] {
     let (mut now, mut after) = ([0.0; 4], [0.0; 4]);
     for &c in series[1..].iter().rev() {
         let next = std::array::from_fn(|k| {
-            let lower = if k == 0 { c } else { 2.0 * k as f64 * now[k - 1] };
+            let lower = if k == 0 {
+                c
+            } else {
+                2.0 * k as f64 * now[k - 1]
+            };
             2.0 * u * now[k] - after[k] + lower
         });
         (now, after) = (next, now);
     }
     std::array::from_fn(|k| {
-        let lower = if k == 0 { series[0] } else { k as f64 * now[k - 1] };
+        let lower = if k == 0 {
+            series[0]
+        } else {
+            k as f64 * now[k - 1]
+        };
         u * now[k] - after[k] + lower
     })
 }

@@ -63,7 +63,10 @@ fn a_points_derivatives_are_those_of_its_place() {
             (slope(|p| p.acceleration), jet.jerk),
         ];
         for (found, exact) in pairs {
-            assert!((found - exact).norm() < 1e-7 * (1.0 + exact.norm()), "{found} {exact}");
+            assert!(
+                (found - exact).norm() < 1e-7 * (1.0 + exact.norm()),
+                "{found} {exact}"
+            );
         }
     }
 }

@@ -150,8 +150,8 @@ fn a_new_feeder_is_good_and_the_published_one_is_infeasible() {
     let export = fed(&export, &new.stdout);
     assert_eq!(export.status.code(), Some(0), "{}", text(&export.stderr));
     let read = |name: &str| std::fs::read_to_string(out.join(name)).expect("was written");
-    assert_eq!(read("feeder.xml").matches("<connect ").count(), 2);
-    assert!(read("feeder.urdf").contains("URDF has no loops"));
+    assert_eq!(read("machine.xml").matches("<connect ").count(), 2);
+    assert!(read("machine.urdf").contains("URDF has no loops"));
     for name in [
         "crank.dxf",
         "gears.dxf",
