@@ -122,6 +122,16 @@ impl Spline {
         (0..count).map(|i| (point(i + 1) - point(i)).norm()).sum()
     }
 
+    /// The segment between two points with monomial coefficients in `u` on `[-1, 1]`, constant first.
+    #[must_use]
+    pub fn new(start: Point, end: Point, coefficients: [Vector; NODES]) -> Self {
+        Self {
+            start,
+            end,
+            coefficients,
+        }
+    }
+
     /// Start point, `u = -1`.
     #[must_use]
     pub fn start(&self) -> Point {

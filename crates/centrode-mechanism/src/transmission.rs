@@ -6,6 +6,7 @@ use std::sync::Arc;
 use centrode_geometry::bracketed_root;
 
 use crate::formula::{Number, Taylor};
+use crate::machine::Piecewise;
 
 /// A position and its first three derivatives with respect to the input.
 ///
@@ -112,6 +113,11 @@ pub trait Transmission: fmt::Debug + Send + Sync {
     /// Inputs in `[0, period)` where a derivative may jump, ascending.
     fn breaks(&self) -> Vec<f64> {
         Vec::new()
+    }
+
+    /// The same function in pieces, within rounding.
+    fn pieces(&self) -> Piecewise {
+        Piecewise::fit(self)
     }
 }
 

@@ -1,6 +1,7 @@
 //! The files of a machine: its table of motion, simulator models, and scripts that play them.
 
 mod bodies;
+mod file;
 mod model;
 mod motion;
 
@@ -14,6 +15,7 @@ use crate::csv::{self, TableError};
 use crate::mjcf::{self, MjcfError};
 use crate::urdf::{self, UrdfError};
 use crate::{Bundle, BundleError, stl};
+pub use file::{MachineFileError, plain, read, schema, write};
 pub use motion::{
     ClosureWords, ColumnWords, InputWords, Interpolation, JointWords, LinearWords, MeshWords,
     MotionFile, PointWords,
@@ -57,7 +59,7 @@ pub fn add(
     tolerance: Tolerance,
     bundle: &mut Bundle,
 ) -> Result<(), MachineFilesError> {
-    let machine = motion::with_rates(machine);
+    let machine = motion::with_rates(&plain(machine, tolerance)?);
     let (steps, off) = motion::steps(&machine, tolerance);
     bundle.add(
         motion::TABLE,

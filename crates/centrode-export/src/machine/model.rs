@@ -70,30 +70,9 @@ pub(crate) fn simulated(machine: &Machine, tolerance: Tolerance) -> Result<Simul
     })
 }
 
-/// The finest mesh of a shape within the tolerance that simulators take; under the name of its part where both are the
-/// same.
+/// A shape's mesh to be seen; under the name of its part where both are the same.
 fn show(shape: &Shape, tolerance: Tolerance) -> Result<Seen, SolidError> {
-    let mut made = None;
-    let (mesh, off) = match &shape.form {
-        Form::Mesh(mesh, off) => (mesh.clone(), *off),
-        Form::Solids(solids) => {
-            let faces = |t| solids.iter().map(|solid| solid.mesh_faces(t)).sum();
-            let coarse = shown_tolerance(tolerance, faces);
-            let meshes: Vec<Mesh> = solids
-                .iter()
-                .map(|solid| solid.mesh(coarse))
-                .collect::<Result<_, _>>()?;
-            (Mesh::joined(&meshes), coarse.mm())
-        }
-        Form::Body(body) => {
-            let coarse = shown_tolerance(tolerance, |t| match body.mesh(t) {
-                Ok(mesh) => made.insert(mesh).faces.len(),
-                Err(_) => 0,
-            });
-            let mesh = made.take().map_or_else(|| body.mesh(coarse), Ok)?;
-            (mesh, coarse.mm())
-        }
-    };
+    let (mesh, off) = meshed(&shape.form, tolerance)?;
     let name = if off <= tolerance.mm() && !shape.part.is_empty() {
         &shape.part
     } else {
@@ -104,6 +83,29 @@ fn show(shape: &Shape, tolerance: Tolerance) -> Result<Seen, SolidError> {
         mesh,
         off,
     })
+}
+
+/// The finest mesh of a body within the tolerance that simulators take, and how far it may lie off the body, mm.
+pub(super) fn meshed(form: &Form, tolerance: Tolerance) -> Result<(Mesh, f64), SolidError> {
+    match form {
+        Form::Mesh(mesh, off) => Ok((mesh.clone(), *off)),
+        Form::Solids(solids) => {
+            let faces = |t| solids.iter().map(|solid| solid.mesh_faces(t)).sum();
+            let coarse = shown_tolerance(tolerance, faces);
+            let meshes = solids.iter().map(|solid| solid.mesh(coarse));
+            let meshes: Vec<Mesh> = meshes.collect::<Result<_, _>>()?;
+            Ok((Mesh::joined(&meshes), coarse.mm()))
+        }
+        Form::Body(body) => {
+            let mut made = None;
+            let coarse = shown_tolerance(tolerance, |t| match body.mesh(t) {
+                Ok(mesh) => made.insert(mesh).faces.len(),
+                Err(_) => 0,
+            });
+            let mesh = made.take().map_or_else(|| body.mesh(coarse), Ok)?;
+            Ok((mesh, coarse.mm()))
+        }
+    }
 }
 
 fn joint(machine: &Machine, index: usize, driving: Option<usize>) -> Joint {

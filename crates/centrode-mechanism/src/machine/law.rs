@@ -1,5 +1,6 @@
 use std::f64::consts::PI;
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::transmission::{MotionJet, Transmission};
@@ -50,7 +51,8 @@ const SHORTEST: f64 = 1e-9;
 /// A transmission as a straight line and Chebyshev pieces of what is left of it, within rounding of what it stands for.
 ///
 /// Source: Trefethen, Approximation Theory and Approximation Practice, 2013, chapters 3 and 4.
-#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
+#[serde(deny_unknown_fields)]
 pub struct Piecewise {
     /// Input after which it repeats, rad.
     period: f64,
@@ -67,7 +69,7 @@ pub struct Piecewise {
 impl Piecewise {
     /// The pieces of a transmission: cut at its breaks, then halved until the series have decayed to rounding.
     #[must_use]
-    pub fn fit(law: &dyn Transmission) -> Self {
+    pub fn fit<T: Transmission + ?Sized>(law: &T) -> Self {
         let period = law.period();
         let breaks = law.breaks();
         let cuts = centrode_geometry::pieces(0.0, period, 1, &breaks);
@@ -182,5 +184,9 @@ impl Transmission for Piecewise {
 
     fn breaks(&self) -> Vec<f64> {
         self.breaks.clone()
+    }
+
+    fn pieces(&self) -> Self {
+        self.clone()
     }
 }

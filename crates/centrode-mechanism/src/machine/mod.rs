@@ -5,20 +5,26 @@
 
 mod jet;
 mod law;
+mod plain;
 mod pose;
+mod sound;
 
 use std::fmt;
 use std::sync::Arc;
 
 use centrode_geometry::{MassProperties, Mesh, Outline, Solid, SolidError, Tolerance};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 use crate::transmission::Transmission;
 
 pub use jet::{FrameJet, PointJet};
 pub use law::{Constant, Linear, Piecewise};
+pub use sound::MachineError;
 
 /// Rigid links, and how each of them moves with the one input.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema, Serialize)]
+#[serde(deny_unknown_fields)]
 pub struct Machine {
     /// Name, as in the design.
     pub name: String,
@@ -47,7 +53,8 @@ pub struct Machine {
 }
 
 /// The shaft that drives a machine.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
+#[serde(deny_unknown_fields)]
 pub struct Input {
     /// What turns: a link or a shaft.
     pub name: String,
@@ -58,11 +65,14 @@ pub struct Input {
 }
 
 /// A rigid body.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
+#[serde(deny_unknown_fields)]
 pub struct Link {
     /// Name.
     pub name: String,
     /// Mass and inertia in the link's frame; none for a link without a body.
+    #[serde(with = "plain::masses")]
+    #[schemars(with = "plain::masses::File")]
     pub mass: Option<MassProperties>,
     /// Index of the shape it is seen as.
     pub shape: Option<usize>,
@@ -71,7 +81,8 @@ pub struct Link {
 }
 
 /// What carries a link, and how the link moves on it.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
+#[serde(deny_unknown_fields)]
 pub struct Joint {
     /// Index of the link that carries.
     pub parent: usize,
@@ -86,6 +97,8 @@ pub struct Joint {
     /// Unit vector of the axis in the child's frame.
     pub axis: [f64; 3],
     /// The coordinate by the input: rad about the axis, or mm along it.
+    #[serde(with = "plain::laws")]
+    #[schemars(with = "plain::laws::File")]
     pub law: Arc<dyn Transmission>,
     /// Index of the joint whose position settles this one's, through a cam or a groove; none where the input does.
     pub leader: Option<usize>,
@@ -94,7 +107,8 @@ pub struct Joint {
 }
 
 /// How a joint moves.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum JointKind {
     /// Not at all.
     #[default]
@@ -106,7 +120,8 @@ pub enum JointKind {
 }
 
 /// A pin through two links beside the tree of joints.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
+#[serde(deny_unknown_fields)]
 pub struct Closure {
     /// Indices of the two links.
     pub links: [usize; 2],
@@ -115,7 +130,8 @@ pub struct Closure {
 }
 
 /// Two links that touch by their teeth.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
+#[serde(deny_unknown_fields)]
 pub struct GearMesh {
     /// Indices of the driving and the driven link.
     pub links: [usize; 2],
@@ -126,7 +142,8 @@ pub struct GearMesh {
 }
 
 /// A point of a link.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
+#[serde(deny_unknown_fields)]
 pub struct LinkPoint {
     /// Name.
     pub name: String,
@@ -137,7 +154,8 @@ pub struct LinkPoint {
 }
 
 /// A column of the table of motion.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
+#[serde(deny_unknown_fields)]
 pub struct Column {
     /// Heading, its unit at the end: `driven_angle_rad`.
     pub name: String,
@@ -150,7 +168,8 @@ pub struct Column {
 }
 
 /// A quantity along the cycle.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Quantity {
     /// The input times a factor.
     Input(f64),
@@ -178,17 +197,23 @@ pub enum Quantity {
         factor: f64,
     },
     /// Any other function of the input.
-    Law(Arc<dyn Transmission>),
+    Law(
+        #[serde(with = "plain::laws")]
+        #[schemars(with = "plain::laws::File")]
+        Arc<dyn Transmission>,
+    ),
 }
 
 /// A body as it is seen.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
+#[serde(deny_unknown_fields)]
 pub struct Shape {
     /// Name of its file.
     pub name: String,
     /// Name of the file of its own part, the same body at whatever tolerance is asked for; empty where no part is it.
     pub part: String,
     /// The body.
+    #[schemars(with = "plain::FormFile")]
     pub form: Form,
 }
 
@@ -213,11 +238,14 @@ pub trait Body: fmt::Debug + Send + Sync {
 }
 
 /// What a link touches others with: contours over a range of heights.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
+#[serde(deny_unknown_fields)]
 pub struct Surface {
     /// Name with which those of its bodies begin.
     pub name: String,
     /// The contour.
+    #[serde(with = "plain::contours")]
+    #[schemars(with = "plain::contours::File")]
     pub outline: Outline,
     /// Lower and upper end along z, mm.
     pub span: [f64; 2],

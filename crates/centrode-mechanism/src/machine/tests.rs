@@ -110,3 +110,47 @@ fn a_law_that_jumps_is_cut_where_it_jumps() {
     assert!((pieces.at(1.999).position - 1.0).abs() < 1e-12);
     assert!((pieces.at(2.001).position - 5.0).abs() < 1e-12);
 }
+
+#[test]
+fn what_does_not_hang_together_is_refused_by_name() {
+    let sound = || Machine {
+        input: Input {
+            period: TAU,
+            speed: 1.0,
+            ..Input::default()
+        },
+        ..machine()
+    };
+    assert_eq!(sound().validate(), Ok(()));
+    let refused = |change: fn(&mut Machine)| {
+        let mut machine = sound();
+        change(&mut machine);
+        machine.validate().expect_err("refused").to_string()
+    };
+    let cases: [(fn(&mut Machine), &str); 5] = [
+        (
+            |m| m.points[0].link = 9,
+            "point \"tip\" names link 9, of which there are 4",
+        ),
+        (
+            |m| m.joints[0].parent = 2,
+            "\"arm\" hangs from the first link by 0 chains",
+        ),
+        (
+            |m| m.joints[1].child = 1,
+            "hangs from the first link by 2 chains",
+        ),
+        (
+            |m| m.input.period = f64::NAN,
+            "the period of the input is NaN",
+        ),
+        (
+            |m| m.joints[0].turn[1] = f64::INFINITY,
+            "a number of the joint of \"arm\" is inf",
+        ),
+    ];
+    for (change, expected) in cases {
+        let message = refused(change);
+        assert!(message.contains(expected), "{message}");
+    }
+}

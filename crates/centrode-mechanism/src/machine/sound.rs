@@ -1,0 +1,144 @@
+use super::{JointKind, Machine, Quantity};
+
+/// A machine that does not hang together.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum MachineError {
+    /// Something names what is not there.
+    #[error("{from} names {kind} {index}, of which there are {count}")]
+    Missing {
+        /// Who names it.
+        from: String,
+        /// Kind of thing named.
+        kind: &'static str,
+        /// Its index.
+        index: usize,
+        /// Number of such things.
+        count: usize,
+    },
+    /// The joints do not hang every link from the first one, once.
+    #[error("link {link:?} hangs from the first link by {ways} chains of joints, not by one")]
+    Tree {
+        /// The link.
+        link: String,
+        /// Number of chains; 0 may mean a ring.
+        ways: usize,
+    },
+    /// A number that cannot be.
+    #[error("{what} is {value}")]
+    Number {
+        /// The number.
+        what: String,
+        /// Its value.
+        value: f64,
+    },
+}
+
+impl Machine {
+    /// Checks that everything named is there, that the joints make the links a tree, and that numbers are finite.
+    ///
+    /// # Errors
+    /// [`MachineError`] with what is wrong first.
+    pub fn validate(&self) -> Result<(), MachineError> {
+        for (what, value) in [("period", self.input.period), ("speed", self.input.speed)] {
+            if !(value > 0.0 && value.is_finite()) {
+                let what = format!("the {what} of the input");
+                return Err(MachineError::Number { what, value });
+            }
+        }
+        for (from, kind, index) in self.named() {
+            let count = match kind {
+                "link" => self.links.len(),
+                "joint" => self.joints.len(),
+                "shape" => self.shapes.len(),
+                "surface" => self.surfaces.len(),
+                "point" => self.points.len(),
+                _ => self.columns.len(),
+            };
+            if index >= count {
+                return Err(MachineError::Missing {
+                    from,
+                    kind,
+                    index,
+                    count,
+                });
+            }
+        }
+        for joint in &self.joints {
+            let range = match joint.kind {
+                JointKind::Sliding(range) => range,
+                JointKind::Fixed | JointKind::Turning => [0.0; 2],
+            };
+            let [origin, turn, axis] = [joint.origin, joint.turn, joint.axis];
+            let numbers = [origin, turn, axis].concat().into_iter().chain(range);
+            if let Some(value) = numbers.into_iter().find(|number| !number.is_finite()) {
+                let what = format!(
+                    "a number of the joint of {:?}",
+                    self.links[joint.child].name
+                );
+                return Err(MachineError::Number { what, value });
+            }
+        }
+        self.is_tree()
+    }
+
+    /// Every name by index: who names, what kind, which one.
+    fn named(&self) -> Vec<(String, &'static str, usize)> {
+        let mut all = Vec::new();
+        for link in &self.links {
+            let from = || format!("link {:?}", link.name);
+            all.extend(link.shape.map(|shape| (from(), "shape", shape)));
+            all.extend(link.surfaces.iter().map(|&s| (from(), "surface", s)));
+        }
+        for (index, joint) in self.joints.iter().enumerate() {
+            let from = || format!("joint {index}");
+            all.extend([joint.parent, joint.child].map(|link| (from(), "link", link)));
+            all.extend(joint.leader.map(|leader| (from(), "joint", leader)));
+            all.extend(joint.load.map(|load| (from(), "column", load)));
+        }
+        for closure in &self.closures {
+            all.extend(closure.links.map(|link| ("a closure".into(), "link", link)));
+        }
+        for mesh in &self.meshes {
+            all.extend(mesh.links.map(|link| ("a mesh".into(), "link", link)));
+            all.push(("a mesh".into(), "joint", mesh.joint));
+        }
+        for point in &self.points {
+            all.push((format!("point {:?}", point.name), "link", point.link));
+        }
+        for column in &self.columns {
+            let from = || format!("column {:?}", column.name);
+            match column.quantity {
+                Quantity::Joint { joint, .. } => all.push((from(), "joint", joint)),
+                Quantity::Point { point, .. } | Quantity::PointSpeed { point, .. } => {
+                    all.push((from(), "point", point));
+                }
+                Quantity::Input(_) | Quantity::Law(_) => {}
+            }
+        }
+        all
+    }
+
+    fn is_tree(&self) -> Result<(), MachineError> {
+        for (index, link) in self.links.iter().enumerate() {
+            let wrong = |ways| MachineError::Tree {
+                link: link.name.clone(),
+                ways,
+            };
+            let carriers = self.joints.iter().filter(|j| j.child == index).count();
+            let ways = carriers + usize::from(index == 0);
+            if ways != 1 {
+                return Err(wrong(ways));
+            }
+            // Carried once each, links that never come to the first make a ring.
+            let (mut at, mut steps) = (index, 0);
+            while let Some(joint) = self.joints.iter().find(|j| j.child == at) {
+                (at, steps) = (joint.parent, steps + 1);
+                if steps > self.joints.len() {
+                    return Err(wrong(0));
+                }
+            }
+        }
+        Ok(())
+    }
+}
