@@ -1,4 +1,4 @@
-use super::FeederFilesError;
+use crate::ExportError;
 use crate::mjcf::Closure;
 use crate::model::{Joint, JointKind, Link, Model, shown_tolerance};
 use centrode_geometry::{Mesh, Solid, Tolerance, Vector};
@@ -19,15 +19,12 @@ pub(super) fn mesh_file(part: &str) -> String {
 }
 
 /// A plate in the axes of the model's link: parallel to the world's where the effector rests.
-fn solid(feeder: &Feeder, plate: &Plate) -> Result<Solid, FeederFilesError> {
+fn solid(feeder: &Feeder, plate: &Plate) -> Result<Solid, ExportError> {
     let place = feeder.place(plate.part, feeder.start());
     let turned = Isometry2::new(Vector::zeros(), place.rotation.angle());
     plate
         .solid_at(&turned, plate.bottom)
-        .map_err(|source| FeederFilesError::Solid {
-            part: plate.part.name(),
-            source,
-        })
+        .map_err(ExportError::no_solid(plate.part.name()))
 }
 
 /// The solids the models show.
@@ -35,10 +32,10 @@ pub(super) fn meshes(
     feeder: &Feeder,
     plates: &[Plate],
     tolerance: Tolerance,
-) -> Result<Vec<(&'static str, Mesh)>, FeederFilesError> {
+) -> Result<Vec<(&'static str, Mesh)>, ExportError> {
     let mesh = |plate: &Plate| {
         let part = plate.part.name();
-        let no_solid = |source| FeederFilesError::Solid { part, source };
+        let no_solid = ExportError::no_solid(part);
         let solid = solid(feeder, plate)?;
         let shown = shown_tolerance(tolerance, |t| solid.mesh_faces(t));
         Ok((part, solid.mesh(shown).map_err(no_solid)?))
@@ -57,11 +54,7 @@ fn carrier(part: Part) -> Option<Part> {
 }
 
 /// The links as a tree, every joint zero where the effector rests.
-pub(super) fn model(
-    feeder: &Feeder,
-    plates: &[Plate],
-    note: &str,
-) -> Result<Model, FeederFilesError> {
+pub(super) fn model(feeder: &Feeder, plates: &[Plate], note: &str) -> Result<Model, ExportError> {
     let density = feeder.design().plates.density;
     let rest = |part: Part| feeder.place(part, feeder.start()).translation.vector;
     let (mut links, mut joints) = (Vec::new(), Vec::new());

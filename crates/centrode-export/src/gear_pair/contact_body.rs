@@ -11,6 +11,16 @@ pub(super) struct ContactBodies {
     pub(super) excess: f64,
 }
 
+/// Bodies with which a gear touches others, and how far they stand out of it at most, mm.
+pub(crate) fn contact_bodies(
+    gear: &Gear,
+    prefix: &str,
+    tolerance: Tolerance,
+) -> (Vec<Convex>, f64) {
+    let found = all(gear, prefix, tolerance);
+    (found.bodies, found.excess)
+}
+
 /// The teeth of a gear as convex bodies over its width: flanks and tip of each down to where the flanks
 /// end, cut into as many pieces as it takes to stand out of it by no more than the tolerance. Under them
 /// the hub, from the bottom of one space to that of the next, its bore filled.

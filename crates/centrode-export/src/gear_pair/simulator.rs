@@ -1,4 +1,5 @@
-use super::{GearPairFilesError, contact_body, motion, solid};
+use super::{contact_body, motion, solid};
+use crate::ExportError;
 use crate::model::{Joint, JointKind, Link, Mimic, Model, shown_tolerance};
 use centrode_geometry::Tolerance;
 use centrode_mechanism::gear::{GearPair, Member};
@@ -9,7 +10,7 @@ pub(crate) fn shown(
     pair: &GearPair,
     member: Member,
     tolerance: Tolerance,
-) -> Result<(String, Tolerance), GearPairFilesError> {
+) -> Result<(String, Tolerance), ExportError> {
     let solid = solid(pair, member)?;
     let coarse = shown_tolerance(tolerance, |t| solid.mesh_faces(t));
     let end = if coarse == tolerance { "" } else { "-body" };
@@ -19,7 +20,7 @@ pub(crate) fn shown(
 /// A frame with both gears turning about z, the driver at its origin.
 ///
 /// Its note tells the law of motion and how truly the convex bodies stand for the teeth.
-pub(crate) fn model(pair: &GearPair, tolerance: Tolerance) -> Result<Model, GearPairFilesError> {
+pub(crate) fn model(pair: &GearPair, tolerance: Tolerance) -> Result<Model, ExportError> {
     let (slope, offset, error) = motion::line(pair);
     // At the driver polar angle phi the driver has turned by -phi, the driven gear by its driven angle.
     let mimic = (error <= motion::LINEAR).then(|| Mimic {

@@ -1,5 +1,6 @@
 use super::machine::{Gears, Machine};
-use super::{ShaftFilesError, motion};
+use super::{motion, slider_solid};
+use crate::ExportError;
 use crate::gear_pair::simulator as pair_model;
 use crate::model::{Joint, JointKind, Link, MOST_FACES, Model, shown_tolerance};
 use centrode_geometry::{MassProperties, Mesh, Tolerance};
@@ -27,10 +28,10 @@ pub(super) struct Simulated {
 pub(super) fn simulated(
     machine: &Machine<'_>,
     tolerance: Tolerance,
-) -> Result<Simulated, ShaftFilesError> {
+) -> Result<Simulated, ExportError> {
     let shaft = machine.shaft;
     let (groove, slider) = (shaft.groove(), shaft.slider());
-    let slider_solid = shaft.slider_solid()?;
+    let slider_solid = slider_solid(shaft)?;
     let block = slider_solid.mass_properties(slider.density);
     let fine = shaft.mesh(tolerance)?;
     let coarse = shown_tolerance(tolerance, |t| {
@@ -103,7 +104,8 @@ pub(super) fn simulated(
         links,
         joints: joints.collect(),
     };
-    let block = slider_solid.mesh(tolerance)?;
+    let block = slider_solid.mesh(tolerance);
+    let block = block.map_err(ExportError::no_solid("slider"))?;
     Ok(Simulated {
         model,
         meshes: vec![(file.to_owned(), mesh), ("slider.stl".to_owned(), block)],
@@ -127,13 +129,10 @@ fn hang(
     (end, tolerance): (f64, Tolerance),
     links: &mut Vec<Link>,
     joints: &mut Vec<Joint>,
-) -> Result<(), ShaftFilesError> {
-    let of_pair = pair_model::model(&gears.pair, tolerance)
-        .map_err(|e| ShaftFilesError::GearFiles(Box::new(e)))?;
-    let place = |member: Member| {
-        let bottom = crate::gear_pair::solid(&gears.pair, member).map(|solid| solid.bottom());
-        bottom.map_err(|e| ShaftFilesError::GearFiles(Box::new(e)))
-    };
+) -> Result<(), ExportError> {
+    let of_pair = pair_model::model(&gears.pair, tolerance)?;
+    let place =
+        |member: Member| crate::gear_pair::solid(&gears.pair, member).map(|solid| solid.bottom());
     for link in of_pair.links.into_iter().skip(1) {
         links.push(Link {
             mesh: link.mesh.map(|file| format!("{GEARS}{file}")),

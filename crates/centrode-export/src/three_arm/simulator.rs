@@ -5,11 +5,11 @@ use centrode_mechanism::gear::Member;
 use centrode_mechanism::three_arm::Link as Part;
 use nalgebra::Isometry2;
 
-use super::ThreeArmFilesError;
-use super::machine::Machine;
+use super::machine::{Machine, no_fork, no_gearbox};
 use super::motion;
 use super::plate::Plate;
 use super::surroundings;
+use crate::ExportError;
 use crate::gear_pair::contact_bodies;
 use crate::model::{Convex, Joint, JointKind, Link, Model, shown_tolerance};
 
@@ -50,7 +50,7 @@ pub(super) struct Builder<'a> {
 pub(super) fn simulated(
     machine: &Machine<'_>,
     tolerance: Tolerance,
-) -> Result<Simulated, ThreeArmFilesError> {
+) -> Result<Simulated, ExportError> {
     let mut builder = Builder {
         machine,
         tolerance,
@@ -148,23 +148,21 @@ impl Builder<'_> {
         &mut self,
         file: &str,
         plates: &[(Plate, [f64; 2])],
-    ) -> Result<Option<MassProperties>, ThreeArmFilesError> {
+    ) -> Result<Option<MassProperties>, ExportError> {
         let mut solids: Vec<(super::Part, Solid)> = Vec::new();
         let mut masses = Vec::new();
         for (plate, span) in plates {
             let part = plate.part;
-            let named = |source| ThreeArmFilesError::Solid { part, source };
-            solids.push((part, plate.placed(*span).map_err(named)?));
-            masses.push(plate.mass(*span).map_err(named)?);
+            let named = || ExportError::no_solid(part.name());
+            solids.push((part, plate.placed(*span).map_err(named())?));
+            masses.push(plate.mass(*span).map_err(named())?);
         }
         let tolerance = shown_tolerance(self.tolerance, |t| {
             solids.iter().map(|(_, solid)| solid.mesh_faces(t)).sum()
         });
         let meshes = solids.iter().map(|(part, solid)| {
-            let part = *part;
-            solid
-                .mesh(tolerance)
-                .map_err(|source| ThreeArmFilesError::Solid { part, source })
+            let mesh = solid.mesh(tolerance);
+            mesh.map_err(ExportError::no_solid(part.name()))
         });
         let meshes: Vec<Mesh> = meshes.collect::<Result<_, _>>()?;
         self.shown(file, Mesh::joined(&meshes));
@@ -190,12 +188,12 @@ impl Builder<'_> {
         self.joint(("base", "ground"), slide, origin, 0.0);
     }
 
-    fn gears(&mut self) -> Result<(), ThreeArmFilesError> {
+    fn gears(&mut self) -> Result<(), ExportError> {
         let machine = self.machine;
         let mechanism = machine.mechanism;
         let plate = machine
             .plate_of(super::Part::Carrier)
-            .ok_or(ThreeArmFilesError::Gearbox)?;
+            .ok_or_else(no_gearbox)?;
         let [rear, front] = machine.gearbox.spans;
         let carrier = self.body("carrier-body", &[(plate.clone(), rear), (plate, front)])?;
         self.link("carrier", carrier, Some("carrier-body"), Vec::new());
@@ -218,7 +216,7 @@ impl Builder<'_> {
     }
 
     /// A gear's link; its mesh is written once.
-    fn gear(&mut self, part: super::Part, name: &str) -> Result<(), ThreeArmFilesError> {
+    fn gear(&mut self, part: super::Part, name: &str) -> Result<(), ExportError> {
         let Some((pair, member)) = self.machine.gear(part) else {
             return Ok(());
         };
@@ -234,7 +232,7 @@ impl Builder<'_> {
             .iter()
             .any(|(known, _)| *known == format!("{file}.stl"))
         {
-            let named = |source| ThreeArmFilesError::Solid { part, source };
+            let named = ExportError::no_solid(part.name());
             let mesh = solid.mesh(tolerance).map_err(named)?;
             self.shown(&file, mesh);
             self.seen = self.seen.max(tolerance);
@@ -283,11 +281,11 @@ impl Builder<'_> {
         bodies
     }
 
-    fn arms(&mut self) -> Result<(), ThreeArmFilesError> {
+    fn arms(&mut self) -> Result<(), ExportError> {
         let machine = self.machine;
         let mechanism = machine.mechanism;
         let level = mechanism.arm_level();
-        let plate = |part: super::Part| machine.plate_of(part).ok_or(ThreeArmFilesError::Fork);
+        let plate = |part: super::Part| machine.plate_of(part).ok_or_else(no_fork);
         let mut arm = Vec::new();
         for (part, name) in [
             (super::Part::Housing, "housing"),
