@@ -1,11 +1,6 @@
 use std::error::Error;
 
-use centrode_export::BundleError;
-use centrode_export::cam::CamFilesError;
-use centrode_export::feeder::FeederFilesError;
-use centrode_export::gear_pair::GearPairFilesError;
-use centrode_export::shaft::ShaftFilesError;
-use centrode_export::three_arm::ThreeArmFilesError;
+use centrode_export::{BundleError, ExportError};
 use centrode_geometry::{SolidError, Tolerance};
 use centrode_mechanism::cam;
 use centrode_mechanism::design::{self, DesignFault};
@@ -82,29 +77,9 @@ pub(crate) fn of_cam(error: &cam::CamError) -> PyErr {
     }
 }
 
-/// The exception of a cam's files that cannot be made.
-pub(crate) fn of_cam_files(error: &CamFilesError) -> PyErr {
-    class::ExportError::new_err(error.to_string())
-}
-
 /// The exception of a spiral shaft's error.
 pub(crate) fn of_shaft(error: &ShaftError) -> PyErr {
     class::DesignError::new_err((error.to_string(), error.key()))
-}
-
-/// The exception of a spiral shaft's files that cannot be made.
-pub(crate) fn of_shaft_files(error: &ShaftFilesError) -> PyErr {
-    class::ExportError::new_err(error.to_string())
-}
-
-/// The exception of a three-arm mechanism's files that cannot be made.
-pub(crate) fn of_three_arm_files(error: &ThreeArmFilesError) -> PyErr {
-    class::ExportError::new_err(error.to_string())
-}
-
-/// The exception of a feeder's files that cannot be made.
-pub(crate) fn of_feeder_files(error: &FeederFilesError) -> PyErr {
-    class::ExportError::new_err(error.to_string())
 }
 
 /// A number, if it is finite.
@@ -140,7 +115,7 @@ pub(crate) fn plain_tolerance(mm: f64) -> PyResult<Tolerance> {
 }
 
 /// The exception of files that cannot be made.
-pub(crate) fn of_files(error: &GearPairFilesError) -> PyErr {
+pub(crate) fn of_files(error: &ExportError) -> PyErr {
     class::ExportError::new_err(error.to_string())
 }
 

@@ -16,7 +16,7 @@ use pyo3::types::PyDict;
 use crate::array::{Values, each, each_array, together, together_array};
 use crate::bundle;
 use crate::design::Loaded;
-use crate::error::{no_search, of_design, of_feeder_files, of_plates, plain_tolerance};
+use crate::error::{no_search, of_design, of_files, of_plates, plain_tolerance};
 use crate::format;
 use crate::made::{Reduced, by_design};
 use crate::record;
@@ -75,8 +75,7 @@ impl Feeder {
         let tolerance = plain_tolerance(tolerance)?;
         let (formats, options) = format::within(tolerance, formats, dxf_version, dxf_curves)?;
         let feeder = Arc::clone(&self.feeder);
-        wait(py, move || files::files(&feeder, &formats, &options))?
-            .map_err(|e| of_feeder_files(&e))
+        wait(py, move || files::files(&feeder, &formats, &options))?.map_err(|e| of_files(&e))
     }
 }
 

@@ -1,5 +1,5 @@
 use centrode_export::dxf::{Curves, Version};
-use centrode_export::gear_pair::{Format, Options};
+use centrode_export::{Format, Options};
 use centrode_geometry::Tolerance;
 use centrode_mechanism::gear::GearPair;
 use pyo3::prelude::PyResult;

@@ -1,7 +1,8 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use centrode_export::gear_pair::{self as files, GearPairFilesError};
+use centrode_export::gear_pair::subject_files;
+use centrode_export::{Format, Options};
 use centrode_geometry::Solid;
 use centrode_mechanism::gear as mechanism;
 use centrode_mechanism::gear::Member;
@@ -32,17 +33,21 @@ impl Gear {
         self.pair.gear(self.member)
     }
 
-    /// Makes a file and writes it whole or not at all.
+    /// Makes the gear's file of a format and writes it whole or not at all.
     fn write(
         &self,
         py: Python<'_>,
         path: PathBuf,
-        make: impl FnOnce(&mechanism::GearPair, Member) -> Result<Vec<u8>, GearPairFilesError>
-        + Send
-        + 'static,
+        format: Format,
+        tolerance: f64,
     ) -> PyResult<PathBuf> {
         let (pair, member) = (Arc::clone(&self.pair), self.member);
-        let bytes = wait(py, move || make(&pair, member))?.map_err(|e| of_files(&e))?;
+        let options = Options::new(within(tolerance, &self.pair)?);
+        let made = wait(py, move || {
+            subject_files(&pair, member.into(), &[format], &options)
+        })?;
+        let files = made.map_err(|e| of_files(&e))?.into_files();
+        let bytes = files.map(|(_, bytes)| bytes).next().unwrap_or_default();
         written_file(py, path, bytes)
     }
 }
@@ -245,7 +250,8 @@ impl Gear {
     /// ...     gear.step(pathlib.Path(directory, "pinion.step")).read_text()[:13]
     /// 'ISO-10303-21;'
     fn step(&self, py: Python<'_>, path: PathBuf) -> PyResult<PathBuf> {
-        self.write(py, path, files::step_file)
+        // An exact solid is the same at every tolerance.
+        self.write(py, path, Format::Step, self.pair.accuracy())
     }
 
     /// Writes the gear as a binary STL mesh, mm; gives the path.
@@ -253,19 +259,13 @@ impl Gear {
     /// Written whole or not at all. The mesh is nowhere farther than `tolerance` (mm) from the exact solid.
     #[pyo3(signature = (path, tolerance=1e-3))]
     fn stl(&self, py: Python<'_>, path: PathBuf, tolerance: f64) -> PyResult<PathBuf> {
-        let tolerance = within(tolerance, &self.pair)?;
-        self.write(py, path, move |pair, member| {
-            files::stl_file(pair, member, tolerance)
-        })
+        self.write(py, path, Format::Stl, tolerance)
     }
 
     /// Writes the gear as a 3MF package, the mesh of `stl` with its unit and name; gives the path.
     #[pyo3(signature = (path, tolerance=1e-3))]
     fn threemf(&self, py: Python<'_>, path: PathBuf, tolerance: f64) -> PyResult<PathBuf> {
-        let tolerance = within(tolerance, &self.pair)?;
-        self.write(py, path, move |pair, member| {
-            files::threemf_file(pair, member, tolerance)
-        })
+        self.write(py, path, Format::ThreeMf, tolerance)
     }
 
     /// The cutting drawing of the gear, in its own frame.

@@ -3,9 +3,9 @@ use std::sync::Arc;
 
 use centrode::meshing;
 use centrode_analysis::{Contact, check};
-use centrode_export::Bundle;
 use centrode_export::gear_pair as files;
-use centrode_export::gear_pair::{Format, Subject};
+use centrode_export::gear_pair::Subject;
+use centrode_export::{Bundle, Format};
 use centrode_mechanism::design::Design;
 use centrode_mechanism::gear as mechanism;
 use centrode_mechanism::gear::Member;

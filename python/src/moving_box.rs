@@ -15,9 +15,7 @@ use crate::array::{Values, each};
 use crate::bundle;
 use crate::count::Count;
 use crate::design::Loaded;
-use crate::error::{
-    finite, of_design, of_pair, of_shaft, of_shaft_files, plain_tolerance, unknown_word,
-};
+use crate::error::{finite, of_design, of_files, of_pair, of_shaft, plain_tolerance, unknown_word};
 use crate::format;
 use crate::gear_pair::GearPair;
 use crate::made::{Reduced, by_design};
@@ -99,7 +97,7 @@ impl MovingBox {
         let made = wait(py, move || {
             files::moving_box_files(&machine, &formats, &options)
         })?;
-        made.map_err(|e| of_shaft_files(&e))
+        made.map_err(|e| of_files(&e))
     }
 }
 

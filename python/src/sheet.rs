@@ -2,10 +2,8 @@ use std::path::{Path, PathBuf};
 
 use centrode::meshing;
 use centrode_analysis::check;
-use centrode_export::gear_pair::{
-    GearPairFilesError, Options, SheetOptions, SheetSet, Subject, gear_drawing,
-};
-use centrode_export::{dxf, svg};
+use centrode_export::gear_pair::{Subject, sheets, subject_files};
+use centrode_export::{Bundle, ExportError, Format, Options, Package, SheetOptions};
 use centrode_geometry::Tolerance;
 use centrode_mechanism::gear::{GearPair, Member};
 use pyo3::prelude::{Bound, PyResult, Python, pyclass, pyfunction, pymethods};
@@ -54,18 +52,23 @@ impl Sheets {
         subject: Subject,
         sheet: SheetOptions,
         tolerance: Tolerance,
-    ) -> Result<Self, GearPairFilesError> {
-        let mut options = Options::new(tolerance);
-        options.sheet = SheetOptions {
+    ) -> Result<Self, ExportError> {
+        let sheet = SheetOptions {
             meshing: meshing(&check(pair)),
             ..sheet
         };
-        let set = SheetSet::new(pair, subject, &options)?;
+        let pages = sheets(pair, subject, &sheet, tolerance)?;
+        let size = pages.first().map_or("", |page| page.size.name()).into();
+        let (named, options) = ([pair.name(), pair.title()], Options::new(tolerance));
+        let formats = [Format::Sheet, Format::Pdf];
+        let mut package = Package::new("a gear pair", named, &formats, &options);
+        package.sheets(subject.name(), || Ok(pages))?;
+        let [dxf, svg, pdf] = by_ending(package.finish()?, ["dxf", "svg", "pdf"]);
         Ok(Self {
-            size: set.sheets().first().map_or("", |s| s.size.name()).into(),
-            dxf: set.dxf(dxf::Version::default())?,
-            svg: set.svg().into_iter().map(String::into_bytes).collect(),
-            pdf: set.pdf()?,
+            size,
+            dxf,
+            svg,
+            pdf: pdf.concat(),
         })
     }
 }
@@ -75,14 +78,27 @@ impl Drawing {
         pair: &GearPair,
         member: Member,
         tolerance: Tolerance,
-    ) -> Result<Self, GearPairFilesError> {
-        let drawing = gear_drawing(pair, member, tolerance);
-        let (version, curves) = (dxf::Version::default(), dxf::Curves::default());
+    ) -> Result<Self, ExportError> {
+        let (formats, options) = ([Format::Dxf, Format::Svg], Options::new(tolerance));
+        let files = subject_files(pair, member.into(), &formats, &options)?;
+        let [dxf, svg] = by_ending(files, ["dxf", "svg"]);
         Ok(Self {
-            dxf: dxf::write(&drawing, version, curves, tolerance)?,
-            svg: svg::write(&drawing, tolerance).into_bytes(),
+            dxf: dxf.concat(),
+            svg: svg.concat(),
         })
     }
+}
+
+/// Contents of the files with each ending.
+fn by_ending<const N: usize>(files: Bundle, endings: [&str; N]) -> [Vec<Vec<u8>>; N] {
+    let mut found = [(); N].map(|()| Vec::new());
+    for (name, bytes) in files.into_files() {
+        let ending = endings.iter().position(|ending| name.ends_with(ending));
+        if let Some(index) = ending {
+            found[index].push(bytes);
+        }
+    }
+    found
 }
 
 /// Size and projection by their names.

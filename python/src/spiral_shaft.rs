@@ -20,7 +20,7 @@ use crate::array::{Numbers, Values, each, points, rows};
 use crate::bundle;
 use crate::count::Count;
 use crate::design::Loaded;
-use crate::error::{finite, of_design, of_shaft, of_shaft_files, plain_tolerance, unknown_word};
+use crate::error::{finite, of_design, of_files, of_shaft, plain_tolerance, unknown_word};
 use crate::format;
 use crate::made::{Reduced, by_design};
 use crate::record;
@@ -111,7 +111,7 @@ impl SpiralShaft {
         let tolerance = plain_tolerance(tolerance)?;
         let (formats, options) = format::within(tolerance, formats, dxf_version, dxf_curves)?;
         let shaft = Arc::clone(&self.shaft);
-        wait(py, move || files::files(&shaft, &formats, &options))?.map_err(|e| of_shaft_files(&e))
+        wait(py, move || files::files(&shaft, &formats, &options))?.map_err(|e| of_files(&e))
     }
 }
 

@@ -27,8 +27,7 @@ use crate::cam::{DiscCam, Fork};
 use crate::count::{Count, optional};
 use crate::design::{Loaded, path_loaded};
 use crate::error::{
-    of_arm, of_design, of_pair, of_pusher, of_three_arm, of_three_arm_files, plain_tolerance,
-    unknown_word,
+    of_arm, of_design, of_files, of_pair, of_pusher, of_three_arm, plain_tolerance, unknown_word,
 };
 use crate::format;
 use crate::gear_pair::GearPair;
@@ -133,21 +132,18 @@ impl ThreeArm {
         (dxf_version, dxf_curves): (&str, &str),
     ) -> PyResult<Bundle> {
         let tolerance = plain_tolerance(tolerance)?;
-        let (formats, options) = format::within(tolerance, formats, dxf_version, dxf_curves)?;
-        let all = files::Part::ALL;
-        let parts = match parts {
-            None => all.to_vec(),
-            Some(words) => words
-                .iter()
-                .map(|word| {
-                    word.parse()
-                        .map_err(|_| unknown_word("parts", word, &all.map(files::Part::name)))
-                })
-                .collect::<PyResult<_>>()?,
-        };
+        let (formats, mut options) = format::within(tolerance, formats, dxf_version, dxf_curves)?;
+        let known = files::Part::ALL.map(files::Part::name);
+        if let Some(word) = parts
+            .iter()
+            .flatten()
+            .find(|word| !known.contains(&word.as_str()))
+        {
+            return Err(unknown_word("parts", word, &known));
+        }
+        options.parts = parts;
         let arms = Arc::clone(&self.0);
-        wait(py, move || files::files(&arms, &formats, &options, &parts))?
-            .map_err(|e| of_three_arm_files(&e))
+        wait(py, move || files::files(&arms, &formats, &options))?.map_err(|e| of_files(&e))
     }
 
     fn of_tip<'py>(

@@ -8,8 +8,8 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use centrode_export::gear_pair::{Format, Options, files};
-use centrode_export::{Bundle, feeder, shaft, three_arm};
+use centrode_export::gear_pair::files;
+use centrode_export::{Bundle, Format, Options, feeder, shaft, three_arm};
 use centrode_geometry::Tolerance;
 use centrode_mechanism::design::DesignFile;
 use centrode_mechanism::mechanism::Mechanism;
@@ -82,8 +82,8 @@ fn written(mechanism: &Mechanism) -> BTreeMap<String, Value> {
             Err(error) => BTreeMap::from([("refused".to_owned(), json!(error.to_string()))]),
         },
         Mechanism::ThreeArm(mechanism) => {
-            let bundle = three_arm::files(mechanism, &Format::ALL, &options, &three_arm::Part::ALL);
-            counted(&bundle.expect("written"))
+            let bundle = three_arm::files(mechanism, &Format::ALL, &options).expect("written");
+            counted(&bundle)
         }
         Mechanism::SpiralShaft(part) => {
             let bundle = shaft::files(part, &Format::ALL, &coarse()).expect("written");

@@ -1,7 +1,8 @@
 use std::fs;
 use std::path::Path;
 
-use centrode_export::gear_pair::{Options, SheetOptions, SheetSet, Subject};
+use centrode_export::SheetOptions;
+use centrode_export::gear_pair::{Subject, sheets};
 use centrode_export::sheet::overlaps;
 use centrode_geometry::Tolerance;
 use centrode_mechanism::design::{DesignFile, Projection, SheetSize};
@@ -15,13 +16,12 @@ const PROJECTIONS: [Projection; 2] = [Projection::FirstAngle, Projection::ThirdA
 
 /// Words on a pair's sheets that touch anything, by subject and page; or why there is no sheet.
 fn unreadable(pair: &GearPair, sheet: SheetOptions) -> Vec<String> {
-    let mut options = Options::new(Tolerance::new(1e-3 * pair.module()).expect("positive"));
-    options.sheet = sheet;
+    let tolerance = Tolerance::new(1e-3 * pair.module()).expect("positive");
     let mut found = Vec::new();
     for subject in Subject::ALL {
-        match SheetSet::new(pair, subject, &options) {
-            Ok(set) => {
-                for (page, sheet) in set.sheets().iter().enumerate() {
+        match sheets(pair, subject, &sheet, tolerance) {
+            Ok(pages) => {
+                for (page, sheet) in pages.iter().enumerate() {
                     let faults = overlaps(sheet);
                     let told = faults.iter().map(|f| format!("{subject:?} {page}: {f:?}"));
                     found.extend(told);

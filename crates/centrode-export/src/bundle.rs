@@ -72,11 +72,27 @@ impl Bundle {
         Ok(())
     }
 
+    /// Adds the files of another bundle.
+    ///
+    /// # Errors
+    /// [`BundleError::Twice`] if a file of one of these names is there already.
+    pub fn append(&mut self, other: Self) -> Result<(), BundleError> {
+        for (name, bytes) in other.into_files() {
+            self.add(&name, bytes)?;
+        }
+        Ok(())
+    }
+
     /// Names and contents, in order.
     pub fn files(&self) -> impl Iterator<Item = (&str, &[u8])> {
         self.files
             .iter()
             .map(|(name, bytes)| (name.as_str(), bytes.as_slice()))
+    }
+
+    /// Names and contents, in order, no longer in a bundle.
+    pub fn into_files(self) -> impl Iterator<Item = (String, Vec<u8>)> {
+        self.files.into_iter()
     }
 
     /// Every file in one zip archive; the same files give the same bytes.

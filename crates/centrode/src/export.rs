@@ -2,8 +2,8 @@ use std::io::Write;
 use std::process::ExitCode;
 
 use centrode::analysis::Report;
-use centrode::export::gear_pair::{self, Format, Options, SheetOptions, Subject};
-use centrode::export::{Bundle, dxf, feeder, shaft, three_arm};
+use centrode::export::{Bundle, Format, Options, SheetOptions};
+use centrode::export::{dxf, feeder, gear_pair, shaft, three_arm};
 use centrode::mechanism::design::{Projection, SheetSize};
 use centrode::mechanism::mechanism::Mechanism;
 use clap::ValueEnum as _;
@@ -59,75 +59,14 @@ fn bundle(mechanism: &Mechanism, found: &Report, command: &Export) -> Result<Bun
 
 /// The files of a mechanism in the formats asked for.
 fn files(mechanism: &Mechanism, command: &Export, found: &Report) -> Result<Bundle, Failure> {
-    match mechanism {
-        Mechanism::GearPair(pair) => {
-            parts_of(command, "a gear pair", |p| pair_part(p).is_some())?;
-            Ok(gear_pair::files(
-                pair,
-                &formats(command),
-                &options(command, found),
-            )?)
-        }
-        Mechanism::ThreeArm(mechanism) => {
-            parts_of(command, "a three-arm mechanism", |p| {
-                machine_part(p).is_some()
-            })?;
-            let parts = match command.part.as_slice() {
-                [] => three_arm::Part::ALL.to_vec(),
-                some => three_arm::Part::ALL
-                    .into_iter()
-                    .filter(|part| some.iter().any(|p| machine_part(*p) == Some(*part)))
-                    .collect(),
-            };
-            let (formats, options) = (formats(command), options(command, found));
-            Ok(three_arm::files(mechanism, &formats, &options, &parts)?)
-        }
-        Mechanism::SpiralShaft(part) => {
-            parts_of(command, "a spiral shaft", |_| false)?;
-            Ok(shaft::files(
-                part,
-                &formats(command),
-                &options(command, found),
-            )?)
-        }
-        Mechanism::MovingBox(machine) => {
-            parts_of(command, "a moving box", |_| false)?;
-            let (formats, options) = (formats(command), options(command, found));
-            Ok(shaft::moving_box_files(machine, &formats, &options)?)
-        }
-        Mechanism::Feeder(machine) => {
-            parts_of(command, "a feeder", |_| false)?;
-            let (formats, options) = (formats(command), options(command, found));
-            Ok(feeder::files(machine, &formats, &options)?)
-        }
-    }
-}
-
-/// Refuses parts that a machine has not.
-fn parts_of(command: &Export, machine: &str, has: impl Fn(Part) -> bool) -> Result<(), Failure> {
-    let Some(lost) = command.part.iter().find(|part| !has(**part)) else {
-        return Ok(());
-    };
-    let name = lost.to_possible_value();
-    let name = name.as_ref().map_or("", |value| value.get_name());
-    Err(Failure::Usage(format!(
-        "{machine} has no part named {name}"
-    )))
-}
-
-/// What a part is of a gear pair.
-fn pair_part(part: Part) -> Option<Subject> {
-    match part {
-        Part::Driver => Some(Subject::Driver),
-        Part::Driven => Some(Subject::Driven),
-        Part::Assembly => Some(Subject::Assembly),
-        _ => None,
-    }
-}
-
-/// What a part is of a three-arm mechanism.
-fn machine_part(part: Part) -> Option<three_arm::Part> {
-    part.to_possible_value()?.get_name().parse().ok()
+    let (formats, options) = (formats(command), options(command, found));
+    Ok(match mechanism {
+        Mechanism::GearPair(pair) => gear_pair::files(pair, &formats, &options),
+        Mechanism::ThreeArm(machine) => three_arm::files(machine, &formats, &options),
+        Mechanism::SpiralShaft(part) => shaft::files(part, &formats, &options),
+        Mechanism::MovingBox(machine) => shaft::moving_box_files(machine, &formats, &options),
+        Mechanism::Feeder(machine) => feeder::files(machine, &formats, &options),
+    }?)
 }
 
 /// A line on standard error: what was found, and that the files are there all the same.
@@ -199,11 +138,8 @@ fn options(command: &Export, found: &Report) -> Options {
         Dxf::Spline => options.dxf_curves = dxf::Curves::Splines,
     }
     if !command.part.is_empty() {
-        let wanted = |subject: &Subject| {
-            let mut asked = command.part.iter().filter_map(|part| pair_part(*part));
-            asked.any(|part| part == *subject)
-        };
-        options.subjects = Subject::ALL.into_iter().filter(wanted).collect();
+        let values = command.part.iter().filter_map(Part::to_possible_value);
+        options.parts = Some(values.map(|value| value.get_name().to_owned()).collect());
     }
     options.sheet = SheetOptions {
         size: command.sheet.map(|size| match size {
@@ -218,7 +154,6 @@ fn options(command: &Export, found: &Report) -> Options {
             Method::ThirdAngle => Projection::ThirdAngle,
         }),
         meshing: centrode::meshing(found),
-        label: None,
     };
     options
 }

@@ -1,11 +1,7 @@
 use std::io::{self, Write};
 
 use anstyle::{AnsiColor, Style};
-use centrode::export::BundleError;
-use centrode::export::feeder::FeederFilesError;
-use centrode::export::gear_pair::GearPairFilesError;
-use centrode::export::shaft::ShaftFilesError;
-use centrode::export::three_arm::ThreeArmFilesError;
+use centrode::export::{BundleError, ExportError};
 use centrode::mechanism::design::DesignError;
 
 /// Longest part of a line shown below an error, in characters.
@@ -43,26 +39,8 @@ impl From<io::Error> for Failure {
     }
 }
 
-impl From<GearPairFilesError> for Failure {
-    fn from(error: GearPairFilesError) -> Self {
-        Self::Files(Box::new(error))
-    }
-}
-
-impl From<FeederFilesError> for Failure {
-    fn from(error: FeederFilesError) -> Self {
-        Self::Files(Box::new(error))
-    }
-}
-
-impl From<ShaftFilesError> for Failure {
-    fn from(error: ShaftFilesError) -> Self {
-        Self::Files(Box::new(error))
-    }
-}
-
-impl From<ThreeArmFilesError> for Failure {
-    fn from(error: ThreeArmFilesError) -> Self {
+impl From<ExportError> for Failure {
+    fn from(error: ExportError) -> Self {
         Self::Files(Box::new(error))
     }
 }

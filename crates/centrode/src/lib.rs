@@ -7,7 +7,7 @@ pub use centrode_export as export;
 pub use centrode_geometry as geometry;
 pub use centrode_mechanism as mechanism;
 
-use export::gear_pair::Meshing;
+use export::Meshing;
 
 /// What drawing sheets tell of a report: the pairs of teeth in contact, and the play along the common
 /// normal, mm. `None` for gears that do not hold each other.

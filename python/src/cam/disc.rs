@@ -2,7 +2,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use centrode_export::cam as export;
-use centrode_export::gear_pair::{Format, Options};
+use centrode_export::{Format, Options};
 use centrode_geometry::{Point, Tolerance};
 use centrode_mechanism::cam::{Cam, Contact, Extreme, design as spec};
 use numpy::{IntoPyArray, PyArray1, PyArray2};
@@ -14,7 +14,7 @@ use super::{row, turn};
 use crate::array::{Numbers, points, rows};
 use crate::body::Body;
 use crate::bundle;
-use crate::error::{design_error, of_cam, of_cam_files, unknown_word};
+use crate::error::{design_error, of_cam, of_files, unknown_word};
 use crate::made::{Made, Reduced, native};
 use crate::record::Keywords;
 use crate::wait::wait;
@@ -290,7 +290,7 @@ impl DiscCam {
         let options = Options::new(self::tolerance(tolerance)?);
         let cam = self.cam.clone();
         let bundle = wait(py, move || export::files(&cam, &formats, &options))?;
-        bundle::contents(py, &bundle.map_err(|e| of_cam_files(&e))?)
+        bundle::contents(py, &bundle.map_err(|e| of_files(&e))?)
     }
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> Reduced<'py> {

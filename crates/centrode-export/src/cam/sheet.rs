@@ -1,4 +1,5 @@
 use crate::drawing::{Anchor, Color, Drawing, LineType, Shape, Text};
+use crate::package::title_or_name;
 use centrode_geometry::{Bounds, Outline, Point, Tolerance, Vector};
 use centrode_mechanism::cam::design::{Follower, Turn};
 use centrode_mechanism::cam::{Cam, CamError};
@@ -77,11 +78,7 @@ pub(super) fn assembly(part: &Cam, contours: &Contours) -> Drawing {
         let at = Point::new(0.5 * (min.x + max.x), min.y - (1.2 + 1.7 * row) * height);
         Shape::Text(Text::new(at, height, words, Anchor::Middle))
     };
-    let title = if part.title().is_empty() {
-        part.name()
-    } else {
-        part.title()
-    };
+    let title = title_or_name(part.title(), part.name());
     drawing.draw(TEXT, line(0.0, title.to_owned()));
     drawing.draw(TEXT, line(1.0, figures(part)));
     drawing

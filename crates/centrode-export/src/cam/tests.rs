@@ -1,8 +1,8 @@
-use super::{CamFilesError, FORMATS, drawing, files, mesh, solid};
+use super::{FORMATS, drawing, files, mesh, solid};
 use crate::csv::Values;
 use crate::drawing::Shape;
 use crate::dxf;
-use crate::gear_pair::{Format, Options};
+use crate::{ExportError, Format, Options};
 use centrode_geometry::{Point, Tolerance};
 use centrode_mechanism::cam::design::{
     CamSpec, Dwell, Follower, MotionSpec, SegmentSpec, SwingingRoller, TranslatingFlat, Travel,
@@ -71,7 +71,7 @@ fn a_cam_has_a_file_of_every_format_of_parts_the_same_each_time() {
         }
     }
     let refused = files(&flat(), &[Format::Urdf], &Options::new(tolerance()));
-    assert!(matches!(refused, Err(CamFilesError::NoModel(Format::Urdf))));
+    assert!(matches!(refused, Err(ExportError::NoModel(Format::Urdf))));
 }
 
 #[test]

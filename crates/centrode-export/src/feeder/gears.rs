@@ -1,6 +1,6 @@
-use super::FeederFilesError;
+use crate::ExportError;
 use crate::drawing::{Color, Drawing, LineType, Shape};
-use centrode_geometry::{Outline, Point, Solid, Tolerance};
+use centrode_geometry::{Mesh, Outline, Point, Solid, Tolerance};
 use centrode_mechanism::gear::{Gear, IncompletePair};
 use nalgebra::Isometry2;
 
@@ -51,13 +51,10 @@ pub(super) fn parts(gears: &IncompletePair, tolerance: Tolerance) -> Vec<GearPar
 }
 
 impl GearPart {
-    pub(super) fn solid(&self) -> Result<Solid, FeederFilesError> {
-        Solid::new(self.outline.clone(), self.holes.clone(), 0.0, self.width).map_err(|source| {
-            FeederFilesError::Solid {
-                part: self.name,
-                source,
-            }
-        })
+    pub(super) fn mesh(&self, tolerance: Tolerance) -> Result<Mesh, ExportError> {
+        Solid::new(self.outline.clone(), self.holes.clone(), 0.0, self.width)
+            .and_then(|solid| solid.mesh(tolerance))
+            .map_err(ExportError::no_solid(self.name))
     }
 
     pub(super) fn drawing(&self) -> Drawing {

@@ -9,10 +9,10 @@ use centrode_mechanism::machine::{
 use centrode_mechanism::transmission::{FromFn, MotionJet, Transmission};
 use nalgebra::Isometry2;
 
-use super::FeederFilesError;
+use crate::ExportError;
 
 /// The links as a tree, every joint zero where the effector rests; the loops close at C.
-pub(super) fn machine(feeder: &Feeder, plates: &[Plate]) -> Result<Machine, FeederFilesError> {
+pub(super) fn machine(feeder: &Feeder, plates: &[Plate]) -> Result<Machine, ExportError> {
     let design = feeder.design();
     let mut machine = Machine {
         name: design.name.clone(),
@@ -80,15 +80,12 @@ pub(super) fn machine(feeder: &Feeder, plates: &[Plate]) -> Result<Machine, Feed
 }
 
 /// A plate in the axes of the model's link: parallel to the world's where the effector rests.
-fn solid(feeder: &Feeder, plate: &Plate) -> Result<Solid, FeederFilesError> {
+fn solid(feeder: &Feeder, plate: &Plate) -> Result<Solid, ExportError> {
     let place = feeder.place(plate.part, feeder.start());
     let turned = Isometry2::new(Vector::zeros(), place.rotation.angle());
     plate
         .solid_at(&turned, plate.bottom)
-        .map_err(|source| FeederFilesError::Solid {
-            part: plate.part.name(),
-            source,
-        })
+        .map_err(ExportError::no_solid(plate.part.name()))
 }
 
 /// The part another one is mounted on.

@@ -1,10 +1,9 @@
 //! The drawing sheets of a feeder: each plate with its dimensions, and the six-bar in place.
 
-use super::FeederFilesError;
 use crate::{
+    ExportError, SheetOptions,
     drawing::{Anchor, Shape},
-    gear_pair::SheetOptions,
-    sheet::{Corner, Draft, Pen, Piece, Scale, Sheet, Table, TitleBlock, compose},
+    sheet::{Draft, Pen, Piece, Scale, Sheet, Table, TitleBlock, compose, view_letters},
 };
 use centrode_geometry::{Bounds, Outline, Point, Vector};
 use centrode_mechanism::design::SheetSize;
@@ -18,50 +17,24 @@ const NEXT: f64 = 9.0;
 /// Corners of a path.
 const POINTS: u32 = 360;
 
-/// The sheets of every plate and of the assembly, by the name of their files.
-///
-/// # Errors
-/// [`FeederFilesError::Sheet`] if the size asked for is too small.
-pub fn sheets(
-    feeder: &Feeder,
-    plates: &[Plate],
-    options: &SheetOptions,
-) -> Result<Vec<(&'static str, Vec<Sheet>)>, FeederFilesError> {
-    let mut all = Vec::new();
-    for plate in plates {
-        let subject = plate.part.name();
-        let sheets = part(feeder, plate, options)
-            .map_err(|source| FeederFilesError::Sheet { subject, source })?;
-        all.push((subject, sheets));
-    }
-    let subject = "assembly";
-    let sheets = assembly(feeder, plates, options)
-        .map_err(|source| FeederFilesError::Sheet { subject, source })?;
-    all.push((subject, sheets));
-    Ok(all)
-}
-
 fn block(feeder: &Feeder, name: &str, options: &SheetOptions) -> TitleBlock {
-    let spec = &feeder.design().drawing;
-    let mut block = TitleBlock::of(spec);
-    if !spec.number.is_empty() {
-        block.number = format!("{}-{name}", spec.number);
-    }
-    block.projection = options.projection.unwrap_or(spec.projection);
     let mut title = name.to_owned();
     if let Some(first) = title.get_mut(..1) {
         first.make_ascii_uppercase();
     }
-    block.title = title;
-    block.supplement = super::named(feeder).to_owned();
-    block
+    TitleBlock {
+        title,
+        supplement: super::named(feeder).to_owned(),
+        ..TitleBlock::new(&feeder.design().drawing, name, options)
+    }
 }
 
-fn part(
+/// The sheets of a plate.
+pub(super) fn part(
     feeder: &Feeder,
     plate: &Plate,
     options: &SheetOptions,
-) -> Result<Vec<Sheet>, crate::sheet::SheetError> {
+) -> Result<Vec<Sheet>, ExportError> {
     let spec = &feeder.design().plates;
     let mut block = block(feeder, plate.part.name(), options);
     block.document = "Part drawing".into();
@@ -79,21 +52,18 @@ fn part(
     ];
     let pieces = |scale: Scale, size: SheetSize| {
         let making = &feeder.design().making;
-        let draft = view(plate, (spec.pin_diameter, making), scale, letters(size));
-        vec![
-            notes(&lines),
-            Piece {
-                name: "view",
-                draft,
-                corner: Corner::UpperLeft,
-                floats: true,
-                leads: true,
-            },
-        ]
+        let draft = view(
+            plate,
+            (spec.pin_diameter, making),
+            scale,
+            view_letters(size),
+        );
+        vec![Piece::notes(&lines), Piece::view("view", draft)]
     };
     let bounds = plate.outline.bounds();
     let size = options.size.or(feeder.design().drawing.sheet);
     compose(size, &block, (bounds.max - bounds.min).amax(), &pieces, &[])
+        .map_err(ExportError::no_sheet(plate.part.name()))
 }
 
 /// A length and how far it may be off either way, where that is given.
@@ -221,11 +191,12 @@ fn plate_end(plate: &Plate) -> f64 {
     bounds.max.x - 0.5 * (bounds.max.y - bounds.min.y)
 }
 
-fn assembly(
+/// The sheets of the six-bar in place.
+pub(super) fn assembly(
     feeder: &Feeder,
     plates: &[Plate],
     options: &SheetOptions,
-) -> Result<Vec<Sheet>, crate::sheet::SheetError> {
+) -> Result<Vec<Sheet>, ExportError> {
     let mut block = block(feeder, "assembly", options);
     block.document = "Assembly drawing".into();
     let parts = Table {
@@ -241,31 +212,22 @@ fn assembly(
         "Heights z of the lower faces, mm; a second frame plate above.".to_owned(),
         "Dash-dotted: paths of B, C and of the tip E.".to_owned(),
     ];
-    let table = |name, table: &Table| Piece {
-        name,
-        draft: table.whole(),
-        corner: Corner::UpperRight,
-        floats: false,
-        leads: false,
-    };
     let pieces = |scale: Scale, size: SheetSize| {
         vec![
-            table("parts list", &parts),
-            table("figures", &figures),
-            notes(&lines),
-            Piece {
-                name: "six-bar",
-                draft: six_bar(feeder, plates, scale, letters(size)),
-                corner: Corner::UpperLeft,
-                floats: true,
-                leads: true,
-            },
+            Piece::table("parts list", &parts),
+            Piece::table("figures", &figures),
+            Piece::notes(&lines),
+            Piece::view(
+                "six-bar",
+                six_bar(feeder, plates, scale, view_letters(size)),
+            ),
         ]
     };
     let tips = feeder.path(2, POINTS);
     let bounds = tips.iter().fold(Bounds::EMPTY, |b, p| b.with(*p));
     let size = options.size.or(feeder.design().drawing.sheet);
     compose(size, &block, (bounds.max - bounds.min).amax(), &pieces, &[])
+        .map_err(ExportError::no_sheet("assembly"))
 }
 
 fn row(plate: &Plate) -> Vec<String> {
@@ -366,29 +328,6 @@ fn six_bar(feeder: &Feeder, plates: &[Plate], scale: Scale, letters: f64) -> Dra
         &number(pivot.y),
     );
     draft
-}
-
-/// Height of the letters of the views, mm: smaller on the smallest sheet.
-fn letters(size: SheetSize) -> f64 {
-    match size {
-        SheetSize::A4 => 2.5,
-        _ => 3.5,
-    }
-}
-
-fn notes(lines: &[String]) -> Piece {
-    let mut draft = Draft::default();
-    for (row, line) in lines.iter().enumerate() {
-        let at = Point::new(0.0, -4.6 * row as f64);
-        draft.text(at, 2.5, line, Anchor::Left);
-    }
-    Piece {
-        name: "notes",
-        draft,
-        corner: Corner::UpperRight,
-        floats: false,
-        leads: false,
-    }
 }
 
 /// A number to four places, without trailing zeros.

@@ -6,13 +6,14 @@ use centrode_mechanism::machine::{
 };
 use centrode_mechanism::transmission::Transmission;
 
-use super::{GearPairFilesError, solid};
+use super::solid;
+use crate::ExportError;
 
 /// A frame with both gears turning about z, the driver at its origin.
 ///
 /// # Errors
-/// [`GearPairFilesError`] where a gear is no solid.
-pub fn machine(pair: &GearPair) -> Result<Machine, GearPairFilesError> {
+/// [`ExportError`] where a gear is no solid.
+pub fn machine(pair: &GearPair) -> Result<Machine, ExportError> {
     let mut machine = Machine {
         name: pair.name().into(),
         title: pair.title().into(),
@@ -81,7 +82,7 @@ pub(crate) fn gear(
     pair: &GearPair,
     member: Member,
     prefix: &str,
-) -> Result<usize, GearPairFilesError> {
+) -> Result<usize, ExportError> {
     let solid = solid(pair, member)?;
     let gear = pair.gear(member);
     let name = member.name();

@@ -1,249 +1,122 @@
 //! The files of a gear pair.
 
-mod format;
+mod drawn;
 mod links;
 mod outline;
-mod part;
 mod picture;
 mod pins;
 mod sheet;
-mod sheet_set;
 mod sheets;
 mod solid;
 
-use crate::{
-    Bundle, BundleError,
-    csv::{self, TableError},
-    drawing::Drawing,
-    dxf::{self, DxfError},
-    machine::MachineFilesError,
-    pdf::PdfError,
-    sheet::SheetError,
-    step::StepError,
-    svg,
-    threemf::PackageError,
-};
-use centrode_geometry::{SolidError, Tolerance};
-use centrode_mechanism::gear::{GearPair, Member};
-pub use format::{Format, UnknownFormat};
+use crate::{Bundle, ExportError, Format, Options, Package};
+use centrode_mechanism::gear::{GearPair, GearPairError, Member};
+use drawn::Drawn;
 pub use links::machine;
 pub(crate) use links::{gear, teeth};
-pub(crate) use part::add_part;
 pub(crate) use picture::drawn_gear;
 pub use picture::{curves, picture};
-use sheet::Contours;
-pub use sheet_set::SheetSet;
-pub use sheets::{Label, Meshing, SheetOptions, Subject, sheets};
-pub use solid::{mesh, solid, step_file, stl_file, threemf_file};
-use thiserror::Error;
+pub(crate) use sheets::Label;
+pub use sheets::{Subject, sheets};
+pub use solid::{mesh, solid};
 
-/// How the files are written.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Options {
-    /// Greatest distance of every arc, point sequence and mesh from the exact curve.
-    pub tolerance: Tolerance,
-    /// Which DXF.
-    pub dxf_version: dxf::Version,
-    /// Arcs or splines in the DXF.
-    pub dxf_curves: dxf::Curves,
-    /// How the drawing sheets are laid out.
-    pub sheet: SheetOptions,
-    /// What drawings, sheets, solids and tables are of; models and motion are of the pair.
-    pub subjects: Vec<Subject>,
-}
-
-impl Options {
-    /// DXF R2010 with arcs, of everything.
-    #[must_use]
-    pub fn new(tolerance: Tolerance) -> Self {
-        Self {
-            tolerance,
-            dxf_version: dxf::Version::default(),
-            dxf_curves: dxf::Curves::default(),
-            sheet: SheetOptions::default(),
-            subjects: Subject::ALL.to_vec(),
-        }
+impl From<GearPairError> for ExportError {
+    fn from(error: GearPairError) -> Self {
+        Self::missing(error)
     }
-}
-
-impl Options {
-    /// The gears asked for.
-    fn members(&self) -> impl Iterator<Item = Member> + '_ {
-        [Member::Driver, Member::Driven]
-            .into_iter()
-            .filter(|&member| self.subjects.contains(&member.into()))
-    }
-}
-
-/// Why a gear pair's files could not be made.
-#[derive(Debug, Error)]
-#[non_exhaustive]
-pub enum GearPairFilesError {
-    /// A gear is no solid at this tolerance.
-    #[error("the {} gear is no solid: {source}", .member.name())]
-    Solid {
-        /// Which gear.
-        member: Member,
-        /// Why.
-        source: SolidError,
-    },
-    /// The tolerance is so coarse that no tooth would be left.
-    #[error(
-        "a tolerance of {tolerance} mm is too coarse: at most a tenth of the module, {largest:.4} mm"
-    )]
-    Tolerance {
-        /// The tolerance, mm.
-        tolerance: f64,
-        /// The coarsest one possible, mm.
-        largest: f64,
-    },
-    /// The drawing could not be written.
-    #[error(transparent)]
-    Dxf(#[from] DxfError),
-    /// The drawing sheets cannot be laid out.
-    #[error("{} drawing: {source}", .subject.name())]
-    Sheet {
-        /// What the sheets are of.
-        subject: Subject,
-        /// Why.
-        source: SheetError,
-    },
-    /// The drawing sheets could not be written as PDF.
-    #[error(transparent)]
-    Pdf(#[from] PdfError),
-    /// A gear cannot be written as STEP.
-    #[error("the {} gear cannot be written as STEP: {source}", .member.name())]
-    Step {
-        /// Which gear.
-        member: Member,
-        /// Why.
-        source: StepError,
-    },
-    /// A 3MF package could not be made.
-    #[error(transparent)]
-    Package(#[from] PackageError),
-    /// A table could not be written.
-    #[error(transparent)]
-    Table(#[from] TableError),
-    /// Its motion or a simulator model could not be written.
-    #[error(transparent)]
-    Machine(#[from] MachineFilesError),
-    /// The files do not go together.
-    #[error(transparent)]
-    Bundle(#[from] BundleError),
 }
 
 /// The files of a pair in the formats asked for, not yet on disk. URDF and MJCF bring the STL files they
 /// name (URDF a folder of them to touch with), the law of motion and a script that plays them.
 ///
 /// # Errors
-/// [`GearPairFilesError`], for instance if the tolerance is too coarse for the bore to clear the teeth.
+/// [`ExportError`], for instance if the tolerance is too coarse for the bore to clear the teeth.
 pub fn files(
     pair: &GearPair,
     formats: &[Format],
     options: &Options,
-) -> Result<Bundle, GearPairFilesError> {
-    let largest = 0.1 * pair.module();
-    if options.tolerance.mm() > largest {
-        return Err(GearPairFilesError::Tolerance {
-            tolerance: options.tolerance.mm(),
-            largest,
-        });
-    }
-    let wanted = |format: Format| formats.contains(&format);
-    let simulated = wanted(Format::Urdf) || wanted(Format::Mjcf);
-    let mut bundle = Bundle::default();
-    if wanted(Format::Dxf) || wanted(Format::Svg) {
-        draw(pair, &wanted, options, &mut bundle)?;
-    }
-    if wanted(Format::Sheet) || wanted(Format::Pdf) {
-        for &subject in &options.subjects {
-            let set = SheetSet::new(pair, subject, options)?;
-            set.add(&wanted, options, &mut bundle)?;
-        }
-    }
-    solid::add(pair, &wanted, options, &mut bundle)?;
-    if wanted(Format::Csv) {
-        for member in options.members() {
-            let table = outline::columns(pair.gear(member), options.tolerance);
-            bundle.add(&format!("{}.csv", member.name()), csv::write(&table)?)?;
-            let table = pins::columns(pair, member);
-            bundle.add(&format!("{}-pins.csv", member.name()), csv::write(&table)?)?;
-        }
-    }
-    if wanted(Format::Csv) || simulated {
-        let models = [Format::Urdf, Format::Mjcf].map(wanted);
-        crate::machine::add(&machine(pair)?, models, options.tolerance, &mut bundle)?;
-    }
-    Ok(bundle)
+) -> Result<Bundle, ExportError> {
+    let mut package = package(pair, formats, options);
+    fill(&mut package, pair)?;
+    package.finish()
 }
 
-fn draw(
+/// The files of one gear, or of both in place, in the formats asked for and at any tolerance: drawing and sheets, of
+/// a gear solid and tables, too.
+///
+/// # Errors
+/// [`ExportError`] where the gear is no solid, or a size asked for is too small.
+pub fn subject_files(
     pair: &GearPair,
-    wanted: &impl Fn(Format) -> bool,
+    subject: Subject,
+    formats: &[Format],
     options: &Options,
-    bundle: &mut Bundle,
-) -> Result<(), GearPairFilesError> {
-    let tolerance = options.tolerance;
-    let exact = contours(pair, tolerance);
-    // Arcs are fitted once: fitting what is arcs already leaves it as it is.
-    let fitted = exact.clone().map(|c| c.with_arcs(tolerance));
-    if wanted(Format::Dxf) {
-        let source = match options.dxf_curves {
-            dxf::Curves::Arcs => &fitted,
-            dxf::Curves::Splines => &exact,
-        };
-        for (name, drawing) in drawings(pair, source, options) {
-            let bytes = dxf::write(&drawing, options.dxf_version, options.dxf_curves, tolerance)?;
-            bundle.add(&format!("{name}.dxf"), bytes)?;
-        }
-    }
-    if wanted(Format::Svg) {
-        for (name, drawing) in drawings(pair, &fitted, options) {
-            let picture = svg::write(&drawing, tolerance);
-            bundle.add(&format!("{name}.svg"), picture.into_bytes())?;
-        }
-    }
-    Ok(())
+) -> Result<Bundle, ExportError> {
+    let mut package = package(pair, formats, options);
+    let drawn = Drawn::new(pair, options.tolerance);
+    add(&mut package, &drawn, subject, None)?;
+    package.finish()
 }
 
-fn contours(pair: &GearPair, tolerance: Tolerance) -> [Contours; 2] {
-    [Member::Driver, Member::Driven].map(|member| Contours::new(pair, member, tolerance))
+fn package<'a>(pair: &'a GearPair, formats: &[Format], options: &'a Options) -> Package<'a> {
+    let named = [pair.name(), pair.title()];
+    Package::new("a gear pair", named, formats, options)
 }
 
-fn drawings(
+/// Offers everything of a pair.
+pub(crate) fn fill(package: &mut Package<'_>, pair: &GearPair) -> Result<(), ExportError> {
+    let tolerance = package.tolerance();
+    package.finer_than(pair.module(), "module")?;
+    let drawn = Drawn::new(pair, tolerance);
+    for subject in Subject::ALL {
+        add(package, &drawn, subject, None)?;
+    }
+    package.machine(|| machine(pair))
+}
+
+/// Offers one gear as a part of a larger machine, under its label.
+pub(crate) fn add_gear(
+    package: &mut Package<'_>,
     pair: &GearPair,
-    [driver, driven]: &[Contours; 2],
-    options: &Options,
-) -> Vec<(&'static str, Drawing)> {
-    let draw = |&subject: &Subject| {
-        let drawing = match subject {
-            Subject::Driver => sheet::gear(driver),
-            Subject::Driven => sheet::gear(driven),
-            Subject::Assembly => sheet::assembly(pair, [driver, driven]),
-        };
-        (subject.name(), drawing)
+    member: Member,
+    label: Label,
+) -> Result<(), ExportError> {
+    let drawn = Drawn::new(pair, package.tolerance());
+    add(package, &drawn, member.into(), Some(label))
+}
+
+fn add(
+    package: &mut Package<'_>,
+    drawn: &Drawn<'_>,
+    subject: Subject,
+    label: Option<Label>,
+) -> Result<(), ExportError> {
+    let (pair, tolerance, sheet) = (drawn.pair, package.tolerance(), package.options().sheet);
+    let name = label.map_or(subject.name(), |label| label.name);
+    package.drawing(name, |curves| Ok(drawn.drawing(subject, curves)))?;
+    package.sheets(name, || {
+        sheets::labelled(pair, subject, label, &sheet, tolerance)
+    })?;
+    let Some(member) = subject.member() else {
+        return Ok(());
     };
-    options.subjects.iter().map(draw).collect()
-}
-
-/// The drawing of one gear, with exact contours.
-#[must_use]
-pub fn gear_drawing(pair: &GearPair, member: Member, tolerance: Tolerance) -> Drawing {
-    sheet::gear(&Contours::new(pair, member, tolerance))
-}
-
-/// The drawing of both gears in place at phi = 0, with exact contours.
-#[must_use]
-pub fn assembly_drawing(pair: &GearPair, tolerance: Tolerance) -> Drawing {
-    let [driver, driven] = &contours(pair, tolerance);
-    sheet::assembly(pair, [driver, driven])
+    let title = match label {
+        None => package.titled(&format!("{name} gear")),
+        Some(_) => package.titled(name),
+    };
+    package.solid(name, &title, || solid(pair, member))?;
+    package.table(name, name, || {
+        outline::columns(pair.gear(member), tolerance)
+    })?;
+    package.table(name, &format!("{name}-pins"), || {
+        pins::columns(pair, member)
+    })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use centrode_geometry::{Outline, Point, Vector};
+    use centrode_geometry::{Outline, Point, Tolerance, Vector};
     use centrode_mechanism::gear::{
         Gear,
         design::{GearPairDesign, Keyway},
@@ -316,34 +189,34 @@ mod tests {
         let names = beside(&bundle);
         let expected = [
             "driver.dxf",
-            "driven.dxf",
-            "assembly.dxf",
             "driver.svg",
-            "driven.svg",
-            "assembly.svg",
             "driver-sheet-1.dxf",
             "driver-sheet-1.svg",
             "driver-sheet-2.dxf",
             "driver-sheet-2.svg",
             "driver.pdf",
+            "driver.step",
+            "driver.stl",
+            "driver.3mf",
+            "driver.csv",
+            "driver-pins.csv",
+            "driven.dxf",
+            "driven.svg",
             "driven-sheet-1.dxf",
             "driven-sheet-1.svg",
             "driven-sheet-2.dxf",
             "driven-sheet-2.svg",
             "driven.pdf",
-            "assembly-sheet.dxf",
-            "assembly-sheet.svg",
-            "assembly.pdf",
-            "driver.step",
-            "driver.stl",
-            "driver.3mf",
             "driven.step",
             "driven.stl",
             "driven.3mf",
-            "driver.csv",
-            "driver-pins.csv",
             "driven.csv",
             "driven-pins.csv",
+            "assembly.dxf",
+            "assembly.svg",
+            "assembly-sheet.dxf",
+            "assembly-sheet.svg",
+            "assembly.pdf",
             "motion.csv",
             "motion.json",
             "machine.urdf",
@@ -360,10 +233,10 @@ mod tests {
         assert_eq!(
             beside(&model),
             [
-                "motion.csv",
-                "motion.json",
                 "driver.stl",
                 "driven.stl",
+                "motion.csv",
+                "motion.json",
                 "machine.urdf",
                 "play_pybullet.py",
             ]

@@ -5,16 +5,11 @@ mod file;
 mod model;
 mod motion;
 
-use centrode_geometry::{SolidError, Tolerance};
 use centrode_mechanism::machine::Machine;
+
+use crate::{ExportError, Format, Package, csv, mjcf, urdf};
 #[cfg(test)]
 pub(crate) use model::simulated;
-use thiserror::Error;
-
-use crate::csv::{self, TableError};
-use crate::mjcf::{self, MjcfError};
-use crate::urdf::{self, UrdfError};
-use crate::{Bundle, BundleError, stl};
 pub use file::{MachineFileError, plain, read, schema, write};
 pub use motion::{
     ClosureWords, ColumnWords, InputWords, Interpolation, JointWords, LinearWords, MeshWords,
@@ -24,76 +19,40 @@ pub use motion::{
 /// Name of the simulator models, without its end.
 const MODEL: &str = "machine";
 
-/// Why a machine's files could not be made.
-#[derive(Debug, Error)]
-#[non_exhaustive]
-pub enum MachineFilesError {
-    /// A link is no solid.
-    #[error("a link is no solid: {0}")]
-    Solid(#[from] SolidError),
-    /// The table could not be written.
-    #[error(transparent)]
-    Table(#[from] TableError),
-    /// The URDF could not be written.
-    #[error(transparent)]
-    Urdf(#[from] UrdfError),
-    /// The MJCF could not be written.
-    #[error(transparent)]
-    Mjcf(#[from] MjcfError),
-    /// The description of the table could not be written.
-    #[error(transparent)]
-    Json(#[from] serde_json::Error),
-    /// The files do not go together.
-    #[error(transparent)]
-    Bundle(#[from] BundleError),
-}
-
 /// Adds the table of motion with its description and, as asked for, URDF and MJCF with the STL files they show and scripts
 /// that play them.
-///
-/// # Errors
-/// [`MachineFilesError`], for instance where a tolerance leaves no solid.
-pub fn add(
-    machine: &Machine,
-    [urdf, mjcf]: [bool; 2],
-    tolerance: Tolerance,
-    bundle: &mut Bundle,
-) -> Result<(), MachineFilesError> {
-    let machine = motion::with_rates(&plain(machine, tolerance)?);
+pub(crate) fn add(machine: &Machine, package: &mut Package<'_>) -> Result<(), ExportError> {
+    let tolerance = package.tolerance();
+    let no_solid = |source| ExportError::no_solid("link")(source);
+    let machine = motion::with_rates(&plain(machine, tolerance).map_err(no_solid)?);
     let (steps, off) = motion::steps(&machine, tolerance);
-    bundle.add(
-        motion::TABLE,
-        csv::write(&motion::columns(&machine, steps))?,
-    )?;
+    let table = csv::write(&motion::columns(&machine, steps))?;
+    package.file(motion::TABLE, table)?;
     let about = motion::description(&machine, steps, off);
     let mut json = serde_json::to_string_pretty(&about)?;
     json.push('\n');
-    bundle.add("motion.json", json.into_bytes())?;
+    package.file("motion.json", json.into_bytes())?;
+    let [urdf, mjcf] = [Format::Urdf, Format::Mjcf].map(|format| package.wants(&[format]));
     if !urdf && !mjcf {
         return Ok(());
     }
-    let simulated = model::simulated(&machine, tolerance)?;
-    for (name, mesh) in &simulated.meshes {
-        // A part's own may be there already.
-        if !bundle.files().any(|(known, _)| known == name) {
-            bundle.add(name, stl::write(mesh))?;
-        }
+    let simulated = model::simulated(&machine, tolerance).map_err(no_solid)?;
+    for (name, mesh) in simulated.meshes {
+        package.shown(&name, || Ok(mesh))?;
     }
     if urdf {
-        bundle.add(&format!("{MODEL}.urdf"), urdf::write(&simulated.model)?)?;
+        package.file(&format!("{MODEL}.urdf"), urdf::write(&simulated.model)?)?;
         for body in simulated.model.links.iter().flat_map(|l| &l.collision) {
-            let name = urdf::collision_file(&body.name);
             // Links that are alike have the same bodies.
-            if !bundle.files().any(|(known, _)| known == name) {
-                bundle.add(&name, stl::write(&body.mesh))?;
-            }
+            let name = urdf::collision_file(&body.name);
+            package.shown(&name, || Ok(body.mesh.clone()))?;
         }
-        bundle.add("play_pybullet.py", script(include_str!("play_pybullet.py")))?;
+        package.file("play_pybullet.py", script(include_str!("play_pybullet.py")))?;
     }
     if mjcf {
         let model = mjcf::write_closed(&simulated.model, &simulated.closures)?;
-        bundle.add(&format!("{MODEL}.xml"), model)?;
-        bundle.add("play_mujoco.py", script(include_str!("play_mujoco.py")))?;
+        package.file(&format!("{MODEL}.xml"), model)?;
+        package.file("play_mujoco.py", script(include_str!("play_mujoco.py")))?;
     }
     Ok(())
 }

@@ -10,9 +10,9 @@ use centrode_mechanism::shaft::{ShaftSolid, SliderForce, SpiralShaft};
 use centrode_mechanism::transmission::{FromFn, MotionJet, Transmission};
 use nalgebra::{Matrix3, Point3};
 
-use super::ShaftFilesError;
 use super::machine::{Gears, Machine};
-use crate::gear_pair;
+use super::slider_solid;
+use crate::{ExportError, gear_pair};
 
 /// How far beyond the slider's way the box's joint lets it slide, mm.
 const ROOM: f64 = 1.0;
@@ -24,10 +24,10 @@ pub(super) const GEARS: &str = "gears-";
 
 /// The shaft lying along x of the world, the slider on top of it; the box slides, the slider swivels on its pin, and
 /// elliptic gears, if any, stand at the near end.
-pub(super) fn machine(parts: &Machine<'_>) -> Result<machine::Machine, ShaftFilesError> {
+pub(super) fn machine(parts: &Machine<'_>) -> Result<machine::Machine, ExportError> {
     let shaft = parts.shaft;
     let (groove, slider) = (shaft.groove(), shaft.slider());
-    let block = shaft.slider_solid()?;
+    let block = slider_solid(shaft)?;
     let mut machine = machine::Machine {
         name: parts.name.into(),
         title: parts.title.into(),
@@ -289,13 +289,12 @@ fn hang(
     [frame, shaft]: [usize; 2],
     turning: usize,
     machine: &mut machine::Machine,
-) -> Result<(), ShaftFilesError> {
-    let failed = |e| ShaftFilesError::GearFiles(Box::new(e));
+) -> Result<(), ExportError> {
     let mut links = [0; 2];
     for (member, link) in [Member::Driver, Member::Driven].into_iter().zip(&mut links) {
-        let solid = gear_pair::solid(&gears.pair, member).map_err(failed)?;
+        let solid = gear_pair::solid(&gears.pair, member)?;
         let bottom = end - solid.bottom();
-        *link = gear_pair::gear(machine, &gears.pair, member, GEARS).map_err(failed)?;
+        *link = gear_pair::gear(machine, &gears.pair, member, GEARS)?;
         if member == Member::Driver {
             let law = Linear {
                 start: -gears.drive.phase - gears.slowest(),

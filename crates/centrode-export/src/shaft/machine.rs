@@ -1,4 +1,4 @@
-use super::ShaftFilesError;
+use crate::ExportError;
 use centrode_mechanism::gear::GearPair;
 use centrode_mechanism::shaft::{EllipticDrive, MovingBox, Schedule, SliderForce, SpiralShaft};
 use centrode_mechanism::transmission::{MotionJet, Transmission};
@@ -32,15 +32,14 @@ impl<'a> Machine<'a> {
     }
 
     /// A shaft with the gears of its scheme.
-    pub(super) fn of_box(machine: &'a MovingBox) -> Result<Self, ShaftFilesError> {
+    pub(super) fn of_box(machine: &'a MovingBox) -> Result<Self, ExportError> {
         let design = machine.design();
         let gears = match machine.drive() {
             None => None,
             Some(drive) => match design.gear_pair(drive) {
                 None => None,
                 Some(pair) => {
-                    let pair = GearPair::resolve(&pair);
-                    let pair = pair.map_err(|e| ShaftFilesError::Gears(Box::new(e)))?;
+                    let pair = GearPair::resolve(&pair)?;
                     Some(Gears { drive, pair })
                 }
             },
@@ -52,14 +51,6 @@ impl<'a> Machine<'a> {
             gears,
             schedule: machine.schedule(),
         })
-    }
-
-    /// What its files are called in words: the title, or the name where there is none.
-    pub(super) fn named(&self) -> &str {
-        match self.title {
-            "" => self.name,
-            title => title,
-        }
     }
 
     /// Turn of the shaft by the input, rad.

@@ -1,5 +1,5 @@
-use super::ShaftFilesError;
 use super::machine::{Gears, Machine};
+use crate::ExportError;
 use crate::gear_pair::drawn_gear;
 use crate::page::{Curve, Link, Motion, Path, Picture, Role, short};
 use centrode_geometry::{Bounds, Outline, Point, Tolerance};
@@ -20,19 +20,16 @@ const JUMP: f64 = 1e-6;
 /// turned surface.
 ///
 /// # Errors
-/// [`ShaftFilesError`] where body and groove make no solid.
-pub fn shaft_picture(
-    shaft: &SpiralShaft,
-    tolerance: Tolerance,
-) -> Result<Picture, ShaftFilesError> {
+/// [`ExportError`] where body and groove make no solid.
+pub fn shaft_picture(shaft: &SpiralShaft, tolerance: Tolerance) -> Result<Picture, ExportError> {
     picture(&Machine::of_shaft(shaft), tolerance)
 }
 
 /// The same of a moving box, by its own input.
 ///
 /// # Errors
-/// [`ShaftFilesError`] where body and groove make no solid, or the elliptic gears no pair.
-pub fn box_picture(machine: &MovingBox, tolerance: Tolerance) -> Result<Picture, ShaftFilesError> {
+/// [`ExportError`] where body and groove make no solid, or the elliptic gears no pair.
+pub fn box_picture(machine: &MovingBox, tolerance: Tolerance) -> Result<Picture, ExportError> {
     picture(&Machine::of_box(machine)?, tolerance)
 }
 
@@ -45,8 +42,8 @@ pub fn shaft_curves(shaft: &SpiralShaft) -> Vec<Curve> {
 /// The same of a moving box, by its own input.
 ///
 /// # Errors
-/// [`ShaftFilesError`] where the elliptic gears make no pair.
-pub fn box_curves(machine: &MovingBox) -> Result<Vec<Curve>, ShaftFilesError> {
+/// [`ExportError`] where the elliptic gears make no pair.
+pub fn box_curves(machine: &MovingBox) -> Result<Vec<Curve>, ExportError> {
     Ok(curves(&Machine::of_box(machine)?))
 }
 
@@ -60,7 +57,7 @@ fn rectangle(low: Point, high: Point) -> Outline {
     Outline::polygon(&[low, p(high.x, low.y), high, p(low.x, high.y)])
 }
 
-fn picture(machine: &Machine<'_>, tolerance: Tolerance) -> Result<Picture, ShaftFilesError> {
+fn picture(machine: &Machine<'_>, tolerance: Tolerance) -> Result<Picture, ExportError> {
     let shaft = machine.shaft;
     let groove = shaft.groove();
     let around = TAU * groove.radius();

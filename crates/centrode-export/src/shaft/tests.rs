@@ -41,9 +41,9 @@ fn every_file_is_there_and_the_same_twice() {
         "slider-sheet.svg",
         "slider.pdf",
         "shaft.step",
-        "slider.step",
         "shaft.stl",
         "shaft.3mf",
+        "slider.step",
         "slider.stl",
         "slider.3mf",
         "lead-table.csv",
@@ -66,7 +66,7 @@ fn every_file_is_there_and_the_same_twice() {
 fn a_tolerance_that_leaves_no_groove_is_refused() {
     let coarse = Options::new(Tolerance::new(1.0).expect("positive"));
     let refused = files(&shaft(4), &[Format::Stl], &coarse);
-    assert!(matches!(refused, Err(ShaftFilesError::Tolerance { .. })));
+    assert!(matches!(refused, Err(ExportError::Tolerance { .. })));
 }
 
 #[test]

@@ -10,6 +10,7 @@ pub(crate) mod lettering;
 mod number;
 mod overlap;
 mod pen;
+mod piece;
 mod projection;
 mod scale;
 mod table;
@@ -21,9 +22,11 @@ use centrode_mechanism::design::SheetSize;
 pub use draft::Draft;
 pub use layout::Corner;
 use layout::Page;
-pub(crate) use number::number;
+pub(crate) use number::{mass, number};
 pub use overlap::{Overlap, overlaps};
 pub use pen::Pen;
+pub use piece::Piece;
+pub(crate) use piece::view_letters;
 pub use scale::Scale;
 pub use table::Table;
 use thiserror::Error;
@@ -39,21 +42,6 @@ pub struct Sheet {
     pub size: SheetSize,
     /// Everything on it, on the layers of the [`Pen`]s.
     pub drawing: Drawing,
-}
-
-/// A piece of the first page.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Piece {
-    /// What it is, for errors.
-    pub name: &'static str,
-    /// What is drawn.
-    pub draft: Draft,
-    /// The corner of the sheet it is to be near.
-    pub corner: Corner,
-    /// Whether it stands in the middle of the room it has, as views do.
-    pub floats: bool,
-    /// Whether it must stand on the first page; others move on to the next where there is no room.
-    pub leads: bool,
 }
 
 /// Why there is no sheet.

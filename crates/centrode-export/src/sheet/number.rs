@@ -8,6 +8,15 @@ pub(crate) fn number(x: f64, places: usize) -> String {
     if text == "-0" { "0" } else { text }.to_owned()
 }
 
+/// A mass in grams with its unit, from a kilogram on in kilograms.
+pub(crate) fn mass(grams: f64) -> String {
+    if grams >= 1000.0 {
+        format!("{} kg", number(grams / 1000.0, 3))
+    } else {
+        format!("{} g", number(grams, 1))
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::number;

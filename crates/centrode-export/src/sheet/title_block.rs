@@ -1,4 +1,5 @@
 use super::{Draft, Pen, projection};
+use crate::SheetOptions;
 use crate::drawing::Anchor;
 use centrode_geometry::{Bounds, Point};
 use centrode_mechanism::design::{DrawingSpec, Projection};
@@ -52,12 +53,16 @@ pub struct TitleBlock {
 }
 
 impl TitleBlock {
-    /// The fields a design's file gives.
+    /// The fields a design's file gives for a part, whose name ends the drawing number.
     #[must_use]
-    pub fn of(spec: &DrawingSpec) -> Self {
+    pub fn new(spec: &DrawingSpec, part: &str, options: &SheetOptions) -> Self {
+        let number = match spec.number.as_str() {
+            "" => String::new(),
+            number => format!("{number}-{part}"),
+        };
         Self {
             owner: spec.owner.clone(),
-            number: spec.number.clone(),
+            number,
             revision: spec.revision.clone(),
             date: spec.date.clone(),
             drawn_by: spec.drawn_by.clone(),
@@ -65,7 +70,7 @@ impl TitleBlock {
             general_tolerance: spec.general_tolerance.clone(),
             edges: spec.edges.clone(),
             surface: spec.surface.clone(),
-            projection: spec.projection,
+            projection: options.projection.unwrap_or(spec.projection),
             ..Self::default()
         }
     }

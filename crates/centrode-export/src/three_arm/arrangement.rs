@@ -6,13 +6,10 @@ use centrode_mechanism::gear::Member;
 use centrode_mechanism::three_arm::Link;
 
 use super::machine::Machine;
-use super::plate::notes;
 use super::{Part, assembly};
+use crate::SheetOptions;
 use crate::drawing::{Anchor, Shape};
-use crate::gear_pair::SheetOptions;
-use crate::sheet::{
-    Corner, Draft, Pen, Piece, Scale, Sheet, SheetError, Table, TitleBlock, compose,
-};
+use crate::sheet::{Draft, Pen, Piece, Scale, Sheet, SheetError, Table, TitleBlock, compose};
 
 /// Sheet of a machine half a metre high.
 const USUAL: SheetSize = SheetSize::A2;
@@ -30,11 +27,7 @@ pub(super) fn sheets(
     tolerance: Tolerance,
 ) -> Result<Vec<Sheet>, SheetError> {
     let spec = &machine.mechanism.design().drawing;
-    let mut block = TitleBlock::of(spec);
-    if !spec.number.is_empty() {
-        block.number = format!("{}-{}", spec.number, Part::Assembly.name());
-    }
-    block.projection = options.projection.unwrap_or(spec.projection);
+    let mut block = TitleBlock::new(spec, Part::Assembly.name(), options);
     block.title = Part::Assembly.title().into();
     block.supplement = supplement.into();
     block.document = "General arrangement".into();
@@ -46,31 +39,12 @@ pub(super) fn sheets(
         "Dash-dotted: pitch curves, path of the tips.".to_owned(),
         "Spring, bearings, shafts, screws: bought, not listed.".to_owned(),
     ];
-    let table = |name, table: &Table| Piece {
-        name,
-        draft: table.whole(),
-        corner: Corner::UpperRight,
-        floats: false,
-        leads: false,
-    };
     let pieces = |scale: Scale, size: SheetSize| {
         vec![
-            table("parts list", &parts),
-            table("figures", &figures),
-            Piece {
-                name: "notes",
-                draft: notes(&lines),
-                corner: Corner::UpperRight,
-                floats: false,
-                leads: false,
-            },
-            Piece {
-                name: "machine",
-                draft: view.draft(scale, size),
-                corner: Corner::UpperLeft,
-                floats: true,
-                leads: true,
-            },
+            Piece::table("parts list", &parts),
+            Piece::table("figures", &figures),
+            Piece::notes(&lines),
+            Piece::view("machine", view.draft(scale, size)),
         ]
     };
     let extent = (view.whole.max - view.whole.min).amax();

@@ -12,9 +12,10 @@ use centrode_mechanism::transmission::{FromFn, MotionJet, Transmission};
 use nalgebra::Isometry2;
 
 use super::machine::Machine;
+use super::machine::{no_fork, no_gearbox};
 use super::plate::Plate;
-use super::{Part, ThreeArmFilesError, surroundings};
-use crate::gear_pair;
+use super::{Part, surroundings};
+use crate::{ExportError, gear_pair};
 
 /// Times the tolerance by which the bodies of an arm may stand off it: arms touch nothing as closely as teeth do.
 const COARSE: f64 = 20.0;
@@ -30,7 +31,7 @@ pub(super) fn cam_on_carrier(machine: &Machine<'_>, chain: u32) -> Isometry2<f64
 
 /// Sun and tray fixed to the base, ground sliding on it, the carrier on the base, gears and cams on the carrier, arms on
 /// planets, forks and rods on arms.
-pub(super) fn machine(parts: &Machine<'_>) -> Result<machine::Machine, ThreeArmFilesError> {
+pub(super) fn machine(parts: &Machine<'_>) -> Result<machine::Machine, ExportError> {
     let mechanism = parts.mechanism;
     let design = mechanism.design();
     let mut builder = Builder {
@@ -145,17 +146,13 @@ impl Builder<'_> {
     }
 
     /// Several solids as one body; their mass together.
-    fn body(
-        &mut self,
-        name: &str,
-        plates: &[(Plate, [f64; 2])],
-    ) -> Result<Seen, ThreeArmFilesError> {
+    fn body(&mut self, name: &str, plates: &[(Plate, [f64; 2])]) -> Result<Seen, ExportError> {
         let (mut solids, mut masses): (Vec<Solid>, Vec<_>) = (Vec::new(), Vec::new());
         for (plate, span) in plates {
             let part = plate.part;
-            let named = |source| ThreeArmFilesError::Solid { part, source };
-            solids.push(plate.placed(*span).map_err(named)?);
-            masses.push(plate.mass(*span).map_err(named)?);
+            let named = || ExportError::no_solid(part.name());
+            solids.push(plate.placed(*span).map_err(named())?);
+            masses.push(plate.mass(*span).map_err(named())?);
         }
         let shape = self.machine.shape(Shape {
             name: name.into(),
@@ -194,9 +191,9 @@ impl Builder<'_> {
         self.machine.joint(slide);
     }
 
-    fn carrier(&mut self, base: usize) -> Result<usize, ThreeArmFilesError> {
+    fn carrier(&mut self, base: usize) -> Result<usize, ExportError> {
         let plate = self.parts.plate_of(Part::Carrier);
-        let plate = plate.ok_or(ThreeArmFilesError::Gearbox)?;
+        let plate = plate.ok_or_else(no_gearbox)?;
         let [rear, front] = self.parts.gearbox.spans;
         let (shape, mass) = self.body("carrier-body", &[(plate.clone(), rear), (plate, front)])?;
         let carrier = self.link("carrier", mass, Some(shape), Vec::new());
@@ -212,7 +209,7 @@ impl Builder<'_> {
         Ok(carrier)
     }
 
-    fn sun(&mut self, base: usize) -> Result<usize, ThreeArmFilesError> {
+    fn sun(&mut self, base: usize) -> Result<usize, ExportError> {
         let sun = self.gear(Part::Sun, "sun")?;
         let start = self.parts.mechanism.link(Link::Sun, 0.0).angle.position;
         let joint = Joint::fixed(base, sun).turned([0.0, 0.0, start]);
@@ -221,8 +218,8 @@ impl Builder<'_> {
     }
 
     /// A gear's link.
-    fn gear(&mut self, part: Part, name: &str) -> Result<usize, ThreeArmFilesError> {
-        let (pair, member) = self.parts.gear(part).ok_or(ThreeArmFilesError::Gearbox)?;
+    fn gear(&mut self, part: Part, name: &str) -> Result<usize, ExportError> {
+        let (pair, member) = self.parts.gear(part).ok_or_else(no_gearbox)?;
         let solid = gear_pair::solid(pair, member)?;
         let gear = pair.gear(member);
         // A planet has the teeth of the sun.
@@ -246,7 +243,7 @@ impl Builder<'_> {
         k: u32,
         (carrier, sun): (usize, usize),
         limbs: &Limbs,
-    ) -> Result<(), ThreeArmFilesError> {
+    ) -> Result<(), ExportError> {
         let parts = self.parts;
         let mechanism = parts.mechanism;
         let on_carrier = |link: Link| {
@@ -367,9 +364,9 @@ impl Builder<'_> {
 }
 
 impl Limbs {
-    fn of(builder: &mut Builder<'_>) -> Result<Self, ThreeArmFilesError> {
+    fn of(builder: &mut Builder<'_>) -> Result<Self, ExportError> {
         let parts = builder.parts;
-        let plate = |part: Part| parts.plate_of(part).ok_or(ThreeArmFilesError::Fork);
+        let plate = |part: Part| parts.plate_of(part).ok_or_else(no_fork);
         let span = |name: &str| parts.of_arm(name).map_or([0.0, 1.0], |p| p.span);
         let arm = [
             (Part::Housing, "housing"),
@@ -379,7 +376,7 @@ impl Limbs {
             (Part::Clamp, "flake-right"),
         ];
         let arm = arm.map(|(part, name)| Ok((plate(part)?, span(name))));
-        let arm: Vec<_> = arm.into_iter().collect::<Result<_, ThreeArmFilesError>>()?;
+        let arm: Vec<_> = arm.into_iter().collect::<Result<_, ExportError>>()?;
         let pusher = &parts.pusher;
         let place = Vector::new(pusher.fork_spec().arm_length, 0.0);
         let place = Isometry2::new(place, 0.0);

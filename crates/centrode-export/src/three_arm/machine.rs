@@ -3,8 +3,9 @@ use centrode_mechanism::arm::{ArmBody, ArmPart};
 use centrode_mechanism::gear::{GearPair, Member};
 use centrode_mechanism::three_arm::{GearboxBody, Pusher, ThreeArm};
 
+use super::Part;
 use super::plate::Plate;
-use super::{Part, ThreeArmFilesError};
+use crate::ExportError;
 use crate::drawing::Anchor;
 use crate::sheet::Table;
 
@@ -27,10 +28,10 @@ pub(super) struct Machine<'a> {
 }
 
 impl<'a> Machine<'a> {
-    pub(super) fn new(mechanism: &'a ThreeArm) -> Result<Self, ThreeArmFilesError> {
+    pub(super) fn new(mechanism: &'a ThreeArm) -> Result<Self, ExportError> {
         let pusher = mechanism.pusher()?;
-        let gearbox = mechanism.gearbox().ok_or(ThreeArmFilesError::Gearbox)?;
-        let fork = pusher.fork_outline().ok_or(ThreeArmFilesError::Fork)?;
+        let gearbox = mechanism.gearbox().ok_or_else(no_gearbox)?;
+        let fork = pusher.fork_outline().ok_or_else(no_fork)?;
         Ok(Self {
             mechanism,
             pairs: mechanism.pairs()?,
@@ -188,6 +189,16 @@ impl<'a> Machine<'a> {
         plate.tables = vec![profile(&self.pusher)];
         plate
     }
+}
+
+/// The carrier has no contour.
+pub(super) fn no_gearbox() -> ExportError {
+    ExportError::missing_at("gearbox", "the axes of the gears enclose nothing")
+}
+
+/// The fork has no contour.
+pub(super) fn no_fork() -> ExportError {
+    ExportError::missing_at("fork", "pivot, roller and slot enclose nothing")
 }
 
 /// The cam's profile by cam angle.

@@ -1,17 +1,16 @@
 use std::f64::consts::PI;
 
 use centrode_geometry::{
-    Bounds, MassProperties, Mesh, Opening, Outline, Point, Segment, Solid, SolidError, Tolerance,
-    Vector,
+    Bounds, MassProperties, Opening, Outline, Point, Segment, Solid, SolidError, Tolerance, Vector,
 };
 use centrode_mechanism::design::{DrawingSpec, Projection, SheetSize};
 
 use super::Part;
 use crate::drawing::{Anchor, Color, Drawing, LineType, Shape};
-use crate::gear_pair::SheetOptions;
 use crate::sheet::{
-    Corner, Draft, Pen, Piece, Scale, Sheet, SheetError, Table, TitleBlock, compose,
+    Draft, Pen, Piece, Scale, Sheet, SheetError, Table, TitleBlock, compose, view_letters,
 };
+use crate::{ExportError, Package, SheetOptions};
 
 const PROFILE: &str = "PROFILE";
 const BORE: &str = "BORE";
@@ -48,8 +47,23 @@ impl Plate {
         self.placed([0.0, self.thickness])
     }
 
-    pub(super) fn mesh(&self, tolerance: Tolerance) -> Result<Mesh, SolidError> {
-        self.solid()?.mesh(tolerance)
+    /// Offers drawing, sheets and solid.
+    pub(super) fn add(
+        &self,
+        package: &mut Package<'_>,
+        spec: &DrawingSpec,
+    ) -> Result<(), ExportError> {
+        let (name, options) = (self.part.name(), package.options());
+        let spec = (spec, package.design());
+        package.drawing(name, |_| Ok(self.drawing()))?;
+        package.sheets(name, || {
+            self.sheets(spec, &options.sheet, options.tolerance)
+                .map_err(ExportError::no_sheet(name))
+        })?;
+        let title = package.titled(name);
+        package.solid(name, &title, || {
+            self.solid().map_err(ExportError::no_solid(name))
+        })
     }
 
     /// The same between other heights.
@@ -100,11 +114,7 @@ impl Plate {
         options: &SheetOptions,
         tolerance: Tolerance,
     ) -> Result<Vec<Sheet>, SheetError> {
-        let mut block = TitleBlock::of(spec);
-        if !spec.number.is_empty() {
-            block.number = format!("{}-{}", spec.number, self.part.name());
-        }
-        block.projection = options.projection.unwrap_or(spec.projection);
+        let mut block = TitleBlock::new(spec, self.part.name(), options);
         block.title = self.part.title().into();
         block.supplement = supplement.into();
         block.document = "Part drawing".into();
@@ -118,20 +128,8 @@ impl Plate {
         let lines = self.lines();
         let pieces = |scale: Scale, size: SheetSize| {
             vec![
-                Piece {
-                    name: "notes",
-                    draft: notes(&lines),
-                    corner: Corner::UpperRight,
-                    floats: false,
-                    leads: false,
-                },
-                Piece {
-                    name: "face and edge",
-                    draft: plain.views(scale, size, projection),
-                    corner: Corner::UpperLeft,
-                    floats: true,
-                    leads: true,
-                },
+                Piece::notes(&lines),
+                Piece::view("face and edge", plain.views(scale, size, projection)),
             ]
         };
         let bounds = plain.outline.bounds();
@@ -170,11 +168,7 @@ impl Plate {
     /// Face, and edge seen from the left.
     fn views(&self, scale: Scale, size: SheetSize, projection: Projection) -> Draft {
         let k = scale.factor();
-        let letters = match size {
-            SheetSize::A4 => 2.5,
-            _ => 3.5,
-        };
-        let mut draft = Draft::lettered(letters);
+        let mut draft = Draft::lettered(view_letters(size));
         draft.draw(Pen::Outline, Shape::Contour(self.outline.scaled(k)));
         for hole in &self.holes {
             draft.draw(Pen::Outline, Shape::Contour(hole.scaled(k)));
@@ -317,13 +311,4 @@ fn short(x: f64) -> String {
     } else {
         words.into()
     }
-}
-
-pub(super) fn notes(lines: &[String]) -> Draft {
-    let mut draft = Draft::default();
-    for (row, line) in lines.iter().enumerate() {
-        let at = Point::new(0.0, -4.6 * row as f64);
-        draft.text(at, 2.5, line, Anchor::Left);
-    }
-    draft
 }

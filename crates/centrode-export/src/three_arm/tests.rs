@@ -6,7 +6,6 @@ use centrode_mechanism::machine::{Column, Form, JointKind, Quantity};
 use centrode_mechanism::three_arm::design::ThreeArmDesign;
 
 use super::*;
-use crate::gear_pair::Format;
 use crate::sheet::overlaps;
 
 fn mechanism(change: impl Fn(&mut ThreeArmDesign)) -> ThreeArm {
@@ -29,7 +28,7 @@ fn names(bundle: &Bundle) -> BTreeSet<String> {
 #[test]
 fn every_part_has_a_file_of_every_format_the_same_each_time() {
     let machine = mechanism(|_| {});
-    let bundle = files(&machine, &Format::ALL, &options(), &Part::ALL).expect("written");
+    let bundle = files(&machine, &Format::ALL, &options()).expect("written");
     let names = names(&bundle);
     for part in Part::ALL {
         let endings: &[&str] = match part {
@@ -75,20 +74,16 @@ fn every_part_has_a_file_of_every_format_the_same_each_time() {
             .iter()
             .any(|name| name.starts_with("collision/planet"))
     );
-    let again = files(&machine, &Format::ALL, &options(), &Part::ALL).expect("written");
+    let again = files(&machine, &Format::ALL, &options()).expect("written");
     assert!(bundle.files().eq(again.files()));
 }
 
 #[test]
 fn parts_and_formats_asked_for_are_all_that_is_written() {
     let machine = mechanism(|_| {});
-    let some = files(
-        &machine,
-        &[Format::Dxf],
-        &options(),
-        &[Part::Cam, Part::Planet],
-    );
-    let some = some.expect("written");
+    let mut options = options();
+    options.parts = Some(["cam", "planet"].map(String::from).to_vec());
+    let some = files(&machine, &[Format::Dxf], &options).expect("written");
     let expected = ["cam.dxf", "planet.dxf"].map(String::from);
     assert_eq!(names(&some), BTreeSet::from(expected));
     for part in Part::ALL {
@@ -96,6 +91,13 @@ fn parts_and_formats_asked_for_are_all_that_is_written() {
     }
     let error = "arm".parse::<Part>().expect_err("no such part");
     assert!(error.to_string().contains("push-rod"), "{error}");
+    options.parts = Some(vec!["arm".into()]);
+    let error = files(&machine, &[Format::Dxf], &options).expect_err("no such part");
+    let error = error.to_string();
+    assert!(
+        error.starts_with("a three-arm mechanism has no part named arm; there are sun,"),
+        "{error}"
+    );
 }
 
 #[test]
@@ -147,8 +149,8 @@ fn meshes_are_closed_and_as_large_as_their_solids() {
     let machine = Machine::new(&machine).expect("resolved");
     let tolerance = options().tolerance;
     for plate in Part::ALL.into_iter().filter_map(|p| machine.plate_of(p)) {
-        let (solid, mesh) = (plate.solid(), plate.mesh(tolerance).expect("apart"));
-        let volume = solid.expect("a solid").volume();
+        let solid = plate.solid().expect("a solid");
+        let (mesh, volume) = (solid.mesh(tolerance).expect("apart"), solid.volume());
         assert!(mesh.is_watertight(), "{}", plate.part);
         assert!(
             (mesh.volume() / volume - 1.0).abs() < 5e-3,
@@ -189,8 +191,10 @@ fn the_model_has_every_link_once_and_every_law_a_joint() {
             let told = |column: &Column| matches!(column.quantity, Quantity::Joint { joint: j, .. } if j == joint);
             assert_eq!(linked.columns.iter().any(told), moves);
         }
-        let mut bundle = Bundle::default();
-        let added = crate::machine::add(&linked, [true; 2], options().tolerance, &mut bundle);
+        let options = options();
+        let formats = [Format::Urdf, Format::Mjcf];
+        let mut package = Package::new("a three-arm mechanism", ["", ""], &formats, &options);
+        let added = package.machine(|| Ok(linked));
         assert!(added.is_ok(), "{added:?}");
     }
 }
@@ -198,22 +202,22 @@ fn the_model_has_every_link_once_and_every_law_a_joint() {
 #[test]
 fn what_cannot_be_made_is_refused_by_name() {
     let none = mechanism(|d| d.arm.pusher_offset = 0.0);
-    let error = files(&none, &[Format::Dxf], &options(), &Part::ALL).expect_err("no fork");
+    let error = files(&none, &[Format::Dxf], &options()).expect_err("no fork");
     assert!(
         error.to_string().starts_with("fork.pivot_distance"),
         "{error}"
     );
     let coarse = Options::new(Tolerance::new(1.0).expect("positive"));
-    let error = files(&mechanism(|_| {}), &[Format::Dxf], &coarse, &Part::ALL);
-    assert!(matches!(error, Err(ThreeArmFilesError::Tolerance { .. })));
+    let error = files(&mechanism(|_| {}), &[Format::Dxf], &coarse);
+    assert!(matches!(error, Err(ExportError::Tolerance { .. })));
     let without = mechanism(|d| d.tooth_count = None);
-    let error = files(&without, &[Format::Dxf], &options(), &Part::ALL).expect_err("no teeth");
+    let error = files(&without, &[Format::Dxf], &options()).expect_err("no teeth");
     assert!(error.to_string().contains("tooth_count"), "{error}");
     let thin = mechanism(|d| {
         let mut body = centrode_mechanism::arm::ArmBodySpec::default();
         body.clamp.root_height = 22.0;
         d.arm.body = Some(body);
     });
-    let error = files(&thin, &[Format::Dxf], &options(), &Part::ALL).expect_err("no arm");
+    let error = files(&thin, &[Format::Dxf], &options()).expect_err("no arm");
     assert!(error.to_string().contains("arm.body"), "{error}");
 }

@@ -1,10 +1,8 @@
 //! The tables of a gear's sheets.
 
-use super::{
-    Meshing,
-    part::{Part, degrees},
-};
+use super::part::{Part, degrees};
 use crate::{
+    Meshing,
     drawing::Anchor,
     sheet::{Table, number},
 };

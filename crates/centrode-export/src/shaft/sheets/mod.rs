@@ -5,15 +5,12 @@ mod side;
 mod slider;
 mod tables;
 
-use super::ShaftFilesError;
+use super::slider_solid;
 use crate::{
-    Bundle,
+    ExportError, Options,
     drawing::{Anchor, Shape},
-    dxf,
-    gear_pair::{Format, Options},
-    pdf,
-    sheet::{Corner, Draft, Piece, Scale, Sheet, Table, TitleBlock, compose, number},
-    svg,
+    package::title_or_name,
+    sheet::{Corner, Draft, Piece, Scale, Sheet, Table, TitleBlock, compose, mass, view_letters},
 };
 use centrode_geometry::Point;
 use centrode_mechanism::design::SheetSize;
@@ -22,8 +19,8 @@ use centrode_mechanism::shaft::{ShaftSolid, SpiralShaft};
 /// The sheets of a spiral shaft: side view and development with dimensions, sections, data and lead table.
 ///
 /// # Errors
-/// [`ShaftFilesError`] if the size asked for is too small.
-pub fn shaft_sheets(shaft: &SpiralShaft, options: &Options) -> Result<Vec<Sheet>, ShaftFilesError> {
+/// [`ExportError`] if the size asked for is too small.
+pub fn shaft_sheets(shaft: &SpiralShaft, options: &Options) -> Result<Vec<Sheet>, ExportError> {
     let tolerance = options.tolerance;
     let mut block = block(shaft, "shaft", "Spiral shaft", options);
     block.material = shaft.body().material.clone();
@@ -34,135 +31,46 @@ pub fn shaft_sheets(shaft: &SpiralShaft, options: &Options) -> Result<Vec<Sheet>
     let journal = section::journal(shaft, tolerance);
     let groove = section::groove(shaft, tolerance);
     let pieces = |scale: Scale, size: SheetSize| {
-        let view = |name, draft, corner, leads| Piece {
-            name,
-            draft,
-            corner,
-            floats: true,
-            leads,
-        };
-        let both = views.draft(scale, letters(size));
+        let both = views.draft(scale, view_letters(size));
+        let lower = |name, draft: &Draft| Piece::detail(name, draft.clone(), Corner::LowerLeft);
         vec![
-            fixed("shaft data table", data.whole()),
-            fixed("notes", written(&lines)),
-            view("side view with development", both, Corner::UpperLeft, true),
-            view("section", journal.clone(), Corner::LowerLeft, false),
-            view("groove section", groove.clone(), Corner::LowerLeft, false),
+            Piece::table("shaft data table", &data),
+            Piece::notes(&lines),
+            Piece::view("side view with development", both),
+            lower("section", &journal),
+            lower("groove section", &groove),
         ]
     };
     let [low, high] = ShaftSolid::new(shaft.groove(), shaft.body())?.whole();
     let size = options.sheet.size.or(shaft.drawing().sheet);
     let flowing = [tables::lead(shaft)];
-    Ok(compose(size, &block, high - low, &pieces, &flowing)?)
+    compose(size, &block, high - low, &pieces, &flowing).map_err(ExportError::no_sheet("shaft"))
 }
 
 /// The sheet of the slider.
 ///
 /// # Errors
-/// [`ShaftFilesError`] if the size asked for is too small.
-pub fn slider_sheets(
-    shaft: &SpiralShaft,
-    options: &Options,
-) -> Result<Vec<Sheet>, ShaftFilesError> {
+/// [`ExportError`] if the size asked for is too small.
+pub fn slider_sheets(shaft: &SpiralShaft, options: &Options) -> Result<Vec<Sheet>, ExportError> {
     let mut block = block(shaft, "slider", "Slider", options);
     let spec = shaft.slider();
-    block.mass = mass(shaft.slider_solid()?.mass_properties(spec.density).mass * 1e3);
+    let properties = slider_solid(shaft)?.mass_properties(spec.density);
+    block.mass = mass(properties.mass * 1e3);
     let pieces = |scale: Scale, size: SheetSize| {
-        vec![Piece {
-            name: "slider with section",
-            draft: slider::views(shaft, scale, letters(size), block.projection),
-            corner: Corner::UpperLeft,
-            floats: true,
-            leads: true,
-        }]
+        let draft = slider::views(shaft, scale, view_letters(size), block.projection);
+        vec![Piece::view("slider with section", draft)]
     };
     let size = options.sheet.size.or(shaft.drawing().sheet);
-    Ok(compose(size, &block, spec.length, &pieces, &[])?)
-}
-
-/// Adds the sheets in the formats asked for.
-pub(super) fn add(
-    shaft: &SpiralShaft,
-    formats: &[Format],
-    options: &Options,
-    bundle: &mut Bundle,
-) -> Result<(), ShaftFilesError> {
-    let wanted = |format: Format| formats.contains(&format);
-    if !wanted(Format::Sheet) && !wanted(Format::Pdf) {
-        return Ok(());
-    }
-    let sets = [
-        ("shaft", shaft_sheets(shaft, options)?),
-        ("slider", slider_sheets(shaft, options)?),
-    ];
-    for (name, sheets) in &sets {
-        if wanted(Format::Sheet) {
-            for (index, sheet) in sheets.iter().enumerate() {
-                let file = match sheets.len() {
-                    1 => format!("{name}-sheet"),
-                    _ => format!("{name}-sheet-{}", index + 1),
-                };
-                let (version, curves) = (options.dxf_version, dxf::Curves::Arcs);
-                let bytes = dxf::write(&sheet.drawing, version, curves, options.tolerance)?;
-                bundle.add(&format!("{file}.dxf"), bytes)?;
-                let picture = svg::sheet(sheet, options.tolerance);
-                bundle.add(&format!("{file}.svg"), picture.into_bytes())?;
-            }
-        }
-        if wanted(Format::Pdf) {
-            let title = format!("{}: {name}", named(shaft));
-            let bytes = pdf::write(sheets, &title, options.tolerance)?;
-            bundle.add(&format!("{name}.pdf"), bytes)?;
-        }
-    }
-    Ok(())
-}
-
-fn named(shaft: &SpiralShaft) -> &str {
-    match shaft.title() {
-        "" => shaft.name(),
-        title => title,
-    }
+    compose(size, &block, spec.length, &pieces, &[]).map_err(ExportError::no_sheet("slider"))
 }
 
 fn block(shaft: &SpiralShaft, part: &str, title: &str, options: &Options) -> TitleBlock {
-    let spec = shaft.drawing();
-    let mut block = TitleBlock::of(spec);
-    if !spec.number.is_empty() {
-        block.number = format!("{}-{part}", spec.number);
+    TitleBlock {
+        title: title.to_owned(),
+        supplement: title_or_name(shaft.title(), shaft.name()).to_owned(),
+        document: "Part drawing".into(),
+        ..TitleBlock::new(shaft.drawing(), part, &options.sheet)
     }
-    block.projection = options.sheet.projection.unwrap_or(spec.projection);
-    block.title = title.to_owned();
-    block.supplement = named(shaft).to_owned();
-    block.document = "Part drawing".into();
-    block
-}
-
-/// Height of the letters of the views, mm: smaller on the smallest sheet.
-fn letters(size: SheetSize) -> f64 {
-    match size {
-        SheetSize::A4 => 2.5,
-        _ => 3.5,
-    }
-}
-
-fn fixed(name: &'static str, draft: Draft) -> Piece {
-    Piece {
-        name,
-        draft,
-        corner: Corner::UpperRight,
-        floats: false,
-        leads: false,
-    }
-}
-
-fn written(lines: &[String]) -> Draft {
-    let mut draft = Draft::default();
-    for (row, line) in lines.iter().enumerate() {
-        let at = Point::new(0.0, -4.6 * row as f64);
-        draft.text(at, 2.5, line, Anchor::Left);
-    }
-    draft
 }
 
 fn notes(shaft: &SpiralShaft) -> Vec<String> {
@@ -178,14 +86,6 @@ fn notes(shaft: &SpiralShaft) -> Vec<String> {
         lines.push("Keyway at θ = 0.".to_owned());
     }
     lines
-}
-
-fn mass(grams: f64) -> String {
-    if grams >= 1000.0 {
-        format!("{} kg", number(grams / 1000.0, 3))
-    } else {
-        format!("{} g", number(grams, 1))
-    }
 }
 
 /// A shape of a drawing at a scale, with every point put where `place` says; `None` for words and heads.

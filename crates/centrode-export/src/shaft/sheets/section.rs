@@ -1,6 +1,6 @@
 //! Sections of the shaft: its journal with the keyway, and the groove.
 
-use super::number;
+use crate::sheet::number;
 use crate::{
     drawing::{Anchor, Shape},
     sheet::{Draft, Pen, Scale},

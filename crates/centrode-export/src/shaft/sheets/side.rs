@@ -1,9 +1,11 @@
 //! The shaft from the side, and its surface unrolled below.
 
-use super::{number, scaled};
+use super::scaled;
+use crate::sheet::number;
 use crate::{
+    ExportError,
     drawing::{Anchor, Drawing},
-    shaft::{ShaftFilesError, developed, side_view},
+    shaft::{developed, side_view},
     sheet::{Draft, Pen, Scale},
 };
 use centrode_geometry::{Point, Tolerance, Vector};
@@ -23,10 +25,7 @@ pub(super) struct Views<'a> {
 }
 
 impl<'a> Views<'a> {
-    pub(super) fn new(
-        shaft: &'a SpiralShaft,
-        tolerance: Tolerance,
-    ) -> Result<Self, ShaftFilesError> {
+    pub(super) fn new(shaft: &'a SpiralShaft, tolerance: Tolerance) -> Result<Self, ExportError> {
         let solid = ShaftSolid::new(shaft.groove(), shaft.body())?;
         Ok(Self {
             shaft,

@@ -1,6 +1,6 @@
 //! The slider along its pin, and a section through it.
 
-use super::number;
+use crate::sheet::number;
 use crate::{
     drawing::Shape,
     sheet::{Draft, Pen, Scale},

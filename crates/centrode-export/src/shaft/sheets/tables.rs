@@ -1,6 +1,7 @@
 //! The tables of a shaft's sheets.
 
-use super::{number, table};
+use super::table;
+use crate::sheet::number;
 use crate::{drawing::Anchor, sheet::Table};
 use centrode_mechanism::shaft::SpiralShaft;
 use centrode_mechanism::transmission::Transmission;

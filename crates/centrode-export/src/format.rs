@@ -1,17 +1,17 @@
 use std::{fmt, str::FromStr};
 use thiserror::Error;
 
-/// A kind of file a gear pair can be written as.
+/// A kind of file an export writes.
 #[derive(Clone, Copy, Debug, Eq, Hash, Ord, PartialEq, PartialOrd)]
 #[non_exhaustive]
 pub enum Format {
-    /// Cutting files: each gear, and both in place.
+    /// Cutting files: each part, and all in place.
     Dxf,
-    /// Pictures of the same.
+    /// Pictures of the cutting files.
     Svg,
     /// Drawing sheets with views, dimensions and tables, as DXF and as pictures.
     Sheet,
-    /// The same sheets as PDF.
+    /// Drawing sheets as PDF.
     Pdf,
     /// Solids.
     Stl,
@@ -19,11 +19,11 @@ pub enum Format {
     Step,
     /// Solids with their unit, for printing.
     ThreeMf,
-    /// Points of the outlines, and the motion.
+    /// Tables: points of the outlines, motion, forces.
     Csv,
     /// Simulator model, with the solids it shows.
     Urdf,
-    /// `MuJoCo` model, each tooth a convex body, with the solids it shows.
+    /// `MuJoCo` model, with the solids it shows.
     Mjcf,
 }
 

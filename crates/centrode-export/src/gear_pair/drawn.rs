@@ -1,0 +1,47 @@
+use super::Subject;
+use super::sheet::{self, Contours};
+use crate::{drawing::Drawing, dxf::Curves};
+use centrode_geometry::Tolerance;
+use centrode_mechanism::gear::{GearPair, Member};
+use std::cell::OnceCell;
+
+/// The cutting drawings of a pair, whose contours are made once.
+pub(super) struct Drawn<'a> {
+    pub(super) pair: &'a GearPair,
+    tolerance: Tolerance,
+    exact: [OnceCell<Contours>; 2],
+    fitted: [OnceCell<Contours>; 2],
+}
+
+impl<'a> Drawn<'a> {
+    pub(super) fn new(pair: &'a GearPair, tolerance: Tolerance) -> Self {
+        Self {
+            pair,
+            tolerance,
+            exact: Default::default(),
+            fitted: Default::default(),
+        }
+    }
+
+    /// A gear, or both in place at phi = 0.
+    pub(super) fn drawing(&self, subject: Subject, curves: Curves) -> Drawing {
+        if let Some(member) = subject.member() {
+            return sheet::gear(self.contours(member, curves));
+        }
+        let both = [Member::Driver, Member::Driven];
+        sheet::assembly(self.pair, both.map(|member| self.contours(member, curves)))
+    }
+
+    fn contours(&self, member: Member, curves: Curves) -> &Contours {
+        let index = usize::from(member == Member::Driven);
+        let exact = || Contours::new(self.pair, member, self.tolerance);
+        let exact = || self.exact[index].get_or_init(exact);
+        match curves {
+            Curves::Splines => exact(),
+            // Fitting what is arcs already leaves it as it is.
+            Curves::Arcs => {
+                self.fitted[index].get_or_init(|| exact().clone().with_arcs(self.tolerance))
+            }
+        }
+    }
+}

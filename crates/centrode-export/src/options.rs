@@ -1,0 +1,60 @@
+use centrode_geometry::Tolerance;
+use centrode_mechanism::design::{Projection, SheetSize};
+
+use crate::dxf;
+
+/// How files are written.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Options {
+    /// Greatest distance of every arc, point sequence and mesh from the exact curve.
+    pub tolerance: Tolerance,
+    /// Which DXF.
+    pub dxf_version: dxf::Version,
+    /// Arcs or splines in the DXF.
+    pub dxf_curves: dxf::Curves,
+    /// How the drawing sheets are laid out.
+    pub sheet: SheetOptions,
+    /// Parts that drawings, sheets, solids and tables are of, by the names of their files; left out, all.
+    /// Models and motion are of the whole machine.
+    pub parts: Option<Vec<String>>,
+}
+
+impl Options {
+    /// DXF R2010 with arcs, of everything.
+    #[must_use]
+    pub fn new(tolerance: Tolerance) -> Self {
+        Self {
+            tolerance,
+            dxf_version: dxf::Version::default(),
+            dxf_curves: dxf::Curves::default(),
+            sheet: SheetOptions::default(),
+            parts: None,
+        }
+    }
+
+    /// Whether a part is to be written.
+    pub(crate) fn wants(&self, part: &str) -> bool {
+        let named = self.parts.as_ref();
+        named.is_none_or(|parts| parts.iter().any(|name| name == part))
+    }
+}
+
+/// How sheets are laid out where it is not to be as the design says.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SheetOptions {
+    /// Size; left out, the design's, and without one there the smallest that takes the part.
+    pub size: Option<SheetSize>,
+    /// How views lie to each other; left out, as the design says.
+    pub projection: Option<Projection>,
+    /// Findings of the contact analysis; left out, the sheets of gears do not tell them.
+    pub meshing: Option<Meshing>,
+}
+
+/// Findings of the contact analysis, for the tables of the sheets.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Meshing {
+    /// Least and greatest number of tooth pairs in contact.
+    pub contact_ratio: [f64; 2],
+    /// Least and greatest play along the common normal, mm.
+    pub backlash: [f64; 2],
+}

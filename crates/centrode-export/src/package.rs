@@ -1,0 +1,321 @@
+use centrode_geometry::{Mesh, Shell, Solid, Tolerance};
+use centrode_mechanism::machine::Machine;
+
+use crate::{
+    Bundle, ExportError, Format, Options,
+    csv::{self, Column},
+    drawing::Drawing,
+    dxf::{self, Curves},
+    machine, pdf,
+    sheet::Sheet,
+    step::{self, StepError},
+    stl, svg, threemf,
+};
+
+/// The title of a design, or its name where it has none.
+pub(crate) fn title_or_name<'a>(title: &'a str, name: &'a str) -> &'a str {
+    if title.is_empty() { name } else { title }
+}
+
+/// Everything one export writes: a family offers drawings, sheets, solids, tables and models by name, each as a
+/// function that is called only where a format and a part asked for need it.
+#[derive(Debug)]
+pub struct Package<'a> {
+    /// Kind of machine, with its article.
+    machine: &'static str,
+    /// The design's title, or its name.
+    design: &'a str,
+    /// Begins the names of parts and files.
+    prefix: &'static str,
+    formats: Vec<Format>,
+    options: &'a Options,
+    bundle: Bundle,
+    /// Names of the parts offered.
+    known: Vec<String>,
+}
+
+impl<'a> Package<'a> {
+    /// A package without files of a kind of machine (with its article) and the design's name and title.
+    #[must_use]
+    pub fn new(
+        machine: &'static str,
+        [name, title]: [&'a str; 2],
+        formats: &[Format],
+        options: &'a Options,
+    ) -> Self {
+        Self {
+            machine,
+            design: title_or_name(title, name),
+            prefix: "",
+            formats: formats.to_vec(),
+            options,
+            bundle: Bundle::default(),
+            known: Vec::new(),
+        }
+    }
+
+    /// How files are written.
+    pub(crate) fn options(&self) -> &'a Options {
+        self.options
+    }
+
+    /// The design's title, or its name.
+    pub(crate) fn design(&self) -> &'a str {
+        self.design
+    }
+
+    /// Greatest distance of every arc, point sequence and mesh from the exact curve.
+    pub(crate) fn tolerance(&self) -> Tolerance {
+        self.options.tolerance
+    }
+
+    /// Whether any of these formats is asked for.
+    pub(crate) fn wants(&self, formats: &[Format]) -> bool {
+        formats.iter().any(|format| self.formats.contains(format))
+    }
+
+    /// The design and one of its parts in words.
+    pub(crate) fn titled(&self, part: &str) -> String {
+        format!("{}: {part}", self.design)
+    }
+
+    /// Whether a part is asked for, and in one of these formats.
+    fn takes(&mut self, part: &str, formats: &[Format]) -> bool {
+        let part = format!("{}{part}", self.prefix);
+        let wanted = self.options.wants(&part) && self.wants(formats);
+        if !self.known.contains(&part) {
+            self.known.push(part);
+        }
+        wanted
+    }
+
+    /// Adds a file.
+    pub(crate) fn file(&mut self, name: &str, bytes: Vec<u8>) -> Result<(), ExportError> {
+        Ok(self.bundle.add(&format!("{}{name}", self.prefix), bytes)?)
+    }
+
+    /// Adds the STL file of a mesh unless a file of its name is there already.
+    pub(crate) fn shown(
+        &mut self,
+        name: &str,
+        make: impl FnOnce() -> Result<Mesh, ExportError>,
+    ) -> Result<(), ExportError> {
+        let file = format!("{}{name}", self.prefix);
+        if self.bundle.files().any(|(known, _)| known == file) {
+            return Ok(());
+        }
+        self.file(name, stl::write(&make()?))
+    }
+
+    /// Refuses a tolerance of more than a tenth of a size of the machine, mm.
+    pub(crate) fn finer_than(&self, size: f64, of: &'static str) -> Result<(), ExportError> {
+        let (tolerance, largest) = (self.tolerance().mm(), 0.1 * size);
+        if tolerance > largest {
+            return Err(ExportError::Tolerance {
+                tolerance,
+                largest,
+                of,
+            });
+        }
+        Ok(())
+    }
+
+    /// Offers the drawing of a part, made for the kind of curves it is written with.
+    pub(crate) fn drawing(
+        &mut self,
+        part: &str,
+        make: impl Fn(Curves) -> Result<Drawing, ExportError>,
+    ) -> Result<(), ExportError> {
+        if !self.takes(part, &[Format::Dxf, Format::Svg]) {
+            return Ok(());
+        }
+        let Options {
+            tolerance,
+            dxf_version,
+            dxf_curves,
+            ..
+        } = *self.options;
+        let mut drawn = None;
+        if self.wants(&[Format::Dxf]) {
+            let drawing = make(dxf_curves)?;
+            let bytes = dxf::write(&drawing, dxf_version, dxf_curves, tolerance)?;
+            self.file(&format!("{part}.dxf"), bytes)?;
+            drawn = Some(drawing).filter(|_| dxf_curves == Curves::Arcs);
+        }
+        if self.wants(&[Format::Svg]) {
+            let drawing = drawn.map_or_else(|| make(Curves::Arcs), Ok)?;
+            let picture = svg::write(&drawing, tolerance);
+            self.file(&format!("{part}.svg"), picture.into_bytes())?;
+        }
+        Ok(())
+    }
+
+    /// Offers the drawing sheets of a part.
+    ///
+    /// # Errors
+    /// [`ExportError`] where they cannot be laid out or written.
+    pub fn sheets(
+        &mut self,
+        part: &str,
+        make: impl FnOnce() -> Result<Vec<Sheet>, ExportError>,
+    ) -> Result<(), ExportError> {
+        if !self.takes(part, &[Format::Sheet, Format::Pdf]) {
+            return Ok(());
+        }
+        let (sheets, tolerance) = (make()?, self.tolerance());
+        if self.wants(&[Format::Sheet]) {
+            for (index, sheet) in sheets.iter().enumerate() {
+                let name = match sheets.len() {
+                    1 => format!("{part}-sheet"),
+                    _ => format!("{part}-sheet-{}", index + 1),
+                };
+                let version = self.options.dxf_version;
+                let bytes = dxf::write(&sheet.drawing, version, Curves::Arcs, tolerance)?;
+                self.file(&format!("{name}.dxf"), bytes)?;
+                let picture = svg::sheet(sheet, tolerance);
+                self.file(&format!("{name}.svg"), picture.into_bytes())?;
+            }
+        }
+        if self.wants(&[Format::Pdf]) {
+            let bytes = pdf::write(&sheets, &self.titled(part), tolerance)?;
+            self.file(&format!("{part}.pdf"), bytes)?;
+        }
+        Ok(())
+    }
+
+    /// Offers a part as a solid, which its files call by a title.
+    pub(crate) fn solid(
+        &mut self,
+        part: &str,
+        title: &str,
+        make: impl FnOnce() -> Result<Solid, ExportError>,
+    ) -> Result<(), ExportError> {
+        if !self.takes(part, &[Format::Step, Format::Stl, Format::ThreeMf]) {
+            return Ok(());
+        }
+        let solid = make()?;
+        self.exact(part, || Ok(step::write(&solid, part, title)))?;
+        self.mesh(part, title, |tolerance| {
+            solid.mesh(tolerance).map_err(ExportError::no_solid(part))
+        })
+    }
+
+    /// Offers a part as an exact shell.
+    pub(crate) fn shell(
+        &mut self,
+        part: &str,
+        make: impl FnOnce() -> Result<Shell, ExportError>,
+    ) -> Result<(), ExportError> {
+        let title = self.titled(part);
+        self.exact(part, || Ok(step::write_shell(&make()?, part, &title)))
+    }
+
+    fn exact(
+        &mut self,
+        part: &str,
+        write: impl FnOnce() -> Result<Result<Vec<u8>, StepError>, ExportError>,
+    ) -> Result<(), ExportError> {
+        if !self.takes(part, &[Format::Step]) {
+            return Ok(());
+        }
+        let bytes = write()?.map_err(|source| ExportError::Step {
+            part: part.to_owned(),
+            source,
+        })?;
+        self.file(&format!("{part}.step"), bytes)
+    }
+
+    /// Offers a part as triangles within a tolerance, which its files call by a title.
+    pub(crate) fn mesh(
+        &mut self,
+        part: &str,
+        title: &str,
+        make: impl FnOnce(Tolerance) -> Result<Mesh, ExportError>,
+    ) -> Result<(), ExportError> {
+        if !self.takes(part, &[Format::Stl, Format::ThreeMf]) {
+            return Ok(());
+        }
+        let mesh = make(self.tolerance())?;
+        if self.wants(&[Format::Stl]) {
+            self.file(&format!("{part}.stl"), stl::write(&mesh))?;
+        }
+        if self.wants(&[Format::ThreeMf]) {
+            let bytes = threemf::write(&mesh, part, title)?;
+            self.file(&format!("{part}.3mf"), bytes)?;
+        }
+        Ok(())
+    }
+
+    /// Offers a table of a part under a name of its own.
+    pub(crate) fn table(
+        &mut self,
+        part: &str,
+        name: &str,
+        columns: impl FnOnce() -> Vec<Column>,
+    ) -> Result<(), ExportError> {
+        if !self.takes(part, &[Format::Csv]) {
+            return Ok(());
+        }
+        self.file(&format!("{name}.csv"), csv::write(&columns())?)
+    }
+
+    /// Offers a text that goes with the tables of a part.
+    pub(crate) fn text(
+        &mut self,
+        part: &str,
+        file: &str,
+        make: impl FnOnce() -> String,
+    ) -> Result<(), ExportError> {
+        if !self.takes(part, &[Format::Csv]) {
+            return Ok(());
+        }
+        self.file(file, make().into_bytes())
+    }
+
+    /// Offers the machine: its table of motion, simulator models with the meshes they show, scripts that play them.
+    pub(crate) fn machine(
+        &mut self,
+        make: impl FnOnce() -> Result<Machine, ExportError>,
+    ) -> Result<(), ExportError> {
+        // A smaller machine within this one is in its models.
+        let own = self.prefix.is_empty();
+        if own && self.wants(&[Format::Csv, Format::Urdf, Format::Mjcf]) {
+            machine::add(&make()?, self)?;
+        }
+        Ok(())
+    }
+
+    /// Adds the files of a smaller machine within this one, models aside, with a prefix to their names.
+    pub(crate) fn within(
+        &mut self,
+        prefix: &'static str,
+        [name, title]: [&str; 2],
+        fill: impl FnOnce(&mut Package<'_>) -> Result<(), ExportError>,
+    ) -> Result<(), ExportError> {
+        let mut inner = Package::new(self.machine, [name, title], &self.formats, self.options);
+        inner.prefix = prefix;
+        inner
+            .formats
+            .retain(|format| !matches!(format, Format::Urdf | Format::Mjcf));
+        fill(&mut inner)?;
+        inner.known.retain(|part| !self.known.contains(part));
+        self.known.append(&mut inner.known);
+        Ok(self.bundle.append(inner.bundle)?)
+    }
+
+    /// The files, not yet on disk.
+    ///
+    /// # Errors
+    /// [`ExportError::UnknownPart`] where a part asked for was never offered.
+    pub fn finish(self) -> Result<Bundle, ExportError> {
+        let wanted = self.options.parts.iter().flatten();
+        match wanted.into_iter().find(|part| !self.known.contains(part)) {
+            None => Ok(self.bundle),
+            Some(part) => Err(ExportError::UnknownPart {
+                machine: self.machine,
+                part: part.clone(),
+                known: self.known,
+            }),
+        }
+    }
+}

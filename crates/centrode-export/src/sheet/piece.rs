@@ -1,0 +1,69 @@
+use super::{Corner, Draft, Table};
+use crate::drawing::Anchor;
+use centrode_geometry::Point;
+use centrode_mechanism::design::SheetSize;
+
+/// A piece of the first page.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Piece {
+    /// What it is, for errors.
+    pub name: &'static str,
+    /// What is drawn.
+    pub draft: Draft,
+    /// The corner of the sheet it is to be near.
+    pub corner: Corner,
+    /// Whether it stands in the middle of the room it has, as views do.
+    pub floats: bool,
+    /// Whether it must stand on the first page; others move on to the next where there is no room.
+    pub leads: bool,
+}
+
+impl Piece {
+    /// Main view, at the upper left of the first page.
+    pub(crate) fn view(name: &'static str, draft: Draft) -> Self {
+        Self {
+            leads: true,
+            ..Self::detail(name, draft, Corner::UpperLeft)
+        }
+    }
+
+    /// Section or detail.
+    pub(crate) fn detail(name: &'static str, draft: Draft, corner: Corner) -> Self {
+        Self {
+            name,
+            draft,
+            corner,
+            floats: true,
+            leads: false,
+        }
+    }
+
+    /// Table of one block, at the upper right.
+    pub(crate) fn table(name: &'static str, table: &Table) -> Self {
+        Self {
+            floats: false,
+            ..Self::detail(name, table.whole(), Corner::UpperRight)
+        }
+    }
+
+    /// Lines of words, at the upper right.
+    pub(crate) fn notes(lines: &[String]) -> Self {
+        let mut draft = Draft::default();
+        for (row, line) in lines.iter().enumerate() {
+            let at = Point::new(0.0, -4.6 * row as f64);
+            draft.text(at, 2.5, line, Anchor::Left);
+        }
+        Self {
+            floats: false,
+            ..Self::detail("notes", draft, Corner::UpperRight)
+        }
+    }
+}
+
+/// Height of the letters of views, mm: smaller on the smallest sheet.
+pub(crate) fn view_letters(size: SheetSize) -> f64 {
+    match size {
+        SheetSize::A4 => 2.5,
+        _ => 3.5,
+    }
+}
