@@ -9,7 +9,6 @@ pub mod feeder;
 mod formula;
 pub mod gear;
 pub mod linkage;
-pub mod mechanism;
 pub mod shaft;
 pub mod three_arm;
 pub mod transmission;

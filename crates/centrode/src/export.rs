@@ -2,13 +2,12 @@ use std::io::Write;
 use std::process::ExitCode;
 
 use centrode::analysis::Report;
-use centrode::export::gear_pair::{self, Format, Options, SheetOptions, Subject};
-use centrode::export::{Bundle, dxf, feeder, shaft, three_arm};
+use centrode::export::gear_pair::{Format, Options, SheetOptions};
+use centrode::export::{Bundle, dxf};
+use centrode::family::{Family, Mechanism, PartName};
 use centrode::mechanism::design::{Projection, SheetSize};
-use centrode::mechanism::mechanism::Mechanism;
-use clap::ValueEnum as _;
 
-use crate::args::{Dxf, Export, File, Method, Part, Size};
+use crate::args::{Dxf, Export, File, Method, Size};
 use crate::failure::Failure;
 use crate::input::Source;
 use crate::output;
@@ -24,9 +23,9 @@ pub(crate) fn run(command: &Export, out: &mut impl Write) -> Result<ExitCode, Fa
     progress.step("resolving the design");
     let mechanism = design.mechanism().map_err(|error| source.blame(error))?;
     progress.step("checking");
-    let found = centrode::analysis::check_mechanism(&mechanism);
+    let found = mechanism.check();
     progress.step("drawing");
-    let bundle = bundle(&mechanism, &found, command)?;
+    let bundle = bundle(design.family(), mechanism.as_ref(), &found, command)?;
     progress.step("writing");
     let written = output::write(&bundle, &command.to)?;
     drop(progress);
@@ -44,90 +43,30 @@ pub(crate) fn zip(text: &str, command: &Export) -> Result<Vec<u8>, Failure> {
     let source = Source::of_text(text);
     let design = source.design()?;
     let mechanism = design.mechanism().map_err(|error| source.blame(error))?;
-    let found = centrode::analysis::check_mechanism(&mechanism);
-    Ok(bundle(&mechanism, &found, command)?.zip()?)
+    let found = mechanism.check();
+    Ok(bundle(design.family(), mechanism.as_ref(), &found, command)?.zip()?)
 }
 
 /// The files of a mechanism and its report.
-fn bundle(mechanism: &Mechanism, found: &Report, command: &Export) -> Result<Bundle, Failure> {
-    let mut bundle = files(mechanism, command, found)?;
+fn bundle(
+    family: &Family,
+    mechanism: &dyn Mechanism,
+    found: &Report,
+    command: &Export,
+) -> Result<Bundle, Failure> {
+    let parts: Vec<&str> = command.part.iter().map(String::as_str).collect();
+    let named = |part: &str| family.parts.iter().any(|known| known.name == part);
+    if let Some(lost) = parts.iter().find(|part| !named(part)) {
+        let message = format!("{} has no part named {lost}", family.noun);
+        return Err(Failure::Usage(message));
+    }
+    let (formats, options) = (formats(command), options(command, found));
+    let files = mechanism.files(&formats, &options, &parts);
+    let mut bundle = files.map_err(Failure::Files)?;
     if command.wants(File::Json) {
         bundle.add("report.json", report::json(found)?.into_bytes())?;
     }
     Ok(bundle)
-}
-
-/// The files of a mechanism in the formats asked for.
-fn files(mechanism: &Mechanism, command: &Export, found: &Report) -> Result<Bundle, Failure> {
-    match mechanism {
-        Mechanism::GearPair(pair) => {
-            parts_of(command, "a gear pair", |p| pair_part(p).is_some())?;
-            Ok(gear_pair::files(
-                pair,
-                &formats(command),
-                &options(command, found),
-            )?)
-        }
-        Mechanism::ThreeArm(mechanism) => {
-            parts_of(command, "a three-arm mechanism", |p| {
-                machine_part(p).is_some()
-            })?;
-            let parts = match command.part.as_slice() {
-                [] => three_arm::Part::ALL.to_vec(),
-                some => three_arm::Part::ALL
-                    .into_iter()
-                    .filter(|part| some.iter().any(|p| machine_part(*p) == Some(*part)))
-                    .collect(),
-            };
-            let (formats, options) = (formats(command), options(command, found));
-            Ok(three_arm::files(mechanism, &formats, &options, &parts)?)
-        }
-        Mechanism::SpiralShaft(part) => {
-            parts_of(command, "a spiral shaft", |_| false)?;
-            Ok(shaft::files(
-                part,
-                &formats(command),
-                &options(command, found),
-            )?)
-        }
-        Mechanism::MovingBox(machine) => {
-            parts_of(command, "a moving box", |_| false)?;
-            let (formats, options) = (formats(command), options(command, found));
-            Ok(shaft::moving_box_files(machine, &formats, &options)?)
-        }
-        Mechanism::Feeder(machine) => {
-            parts_of(command, "a feeder", |_| false)?;
-            let (formats, options) = (formats(command), options(command, found));
-            Ok(feeder::files(machine, &formats, &options)?)
-        }
-    }
-}
-
-/// Refuses parts that a machine has not.
-fn parts_of(command: &Export, machine: &str, has: impl Fn(Part) -> bool) -> Result<(), Failure> {
-    let Some(lost) = command.part.iter().find(|part| !has(**part)) else {
-        return Ok(());
-    };
-    let name = lost.to_possible_value();
-    let name = name.as_ref().map_or("", |value| value.get_name());
-    Err(Failure::Usage(format!(
-        "{machine} has no part named {name}"
-    )))
-}
-
-/// What a part is of a gear pair.
-fn pair_part(part: Part) -> Option<Subject> {
-    match part {
-        Part::Driver => Some(Subject::Driver),
-        Part::Driven => Some(Subject::Driven),
-        Part::Assembly => Some(Subject::Assembly),
-        _ => None,
-    }
-}
-
-/// What a part is of a three-arm mechanism.
-fn machine_part(part: Part) -> Option<three_arm::Part> {
-    part.to_possible_value()?.get_name().parse().ok()
 }
 
 /// A line on standard error: what was found, and that the files are there all the same.
@@ -182,7 +121,7 @@ fn refuse_useless(command: &Export) -> Result<(), Failure> {
     if command.part.is_empty() || any(&drawn) {
         return Ok(());
     }
-    if command.part == [Part::Assembly] {
+    if command.part == [PartName::ASSEMBLY.name] {
         return refused("--part assembly", "drawings: dxf, svg, sheet and pdf");
     }
     if !any(&solid) {
@@ -197,13 +136,6 @@ fn options(command: &Export, found: &Report) -> Options {
         Dxf::R2010 => {}
         Dxf::R12 => options.dxf_version = dxf::Version::R12,
         Dxf::Spline => options.dxf_curves = dxf::Curves::Splines,
-    }
-    if !command.part.is_empty() {
-        let wanted = |subject: &Subject| {
-            let mut asked = command.part.iter().filter_map(|part| pair_part(*part));
-            asked.any(|part| part == *subject)
-        };
-        options.subjects = Subject::ALL.into_iter().filter(wanted).collect();
     }
     options.sheet = SheetOptions {
         size: command.sheet.map(|size| match size {

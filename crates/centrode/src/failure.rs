@@ -2,10 +2,6 @@ use std::io::{self, Write};
 
 use anstyle::{AnsiColor, Style};
 use centrode::export::BundleError;
-use centrode::export::feeder::FeederFilesError;
-use centrode::export::gear_pair::GearPairFilesError;
-use centrode::export::shaft::ShaftFilesError;
-use centrode::export::three_arm::ThreeArmFilesError;
 use centrode::mechanism::design::DesignError;
 
 /// Longest part of a line shown below an error, in characters.
@@ -40,30 +36,6 @@ pub(crate) enum Failure {
 impl From<io::Error> for Failure {
     fn from(error: io::Error) -> Self {
         Self::Output(error)
-    }
-}
-
-impl From<GearPairFilesError> for Failure {
-    fn from(error: GearPairFilesError) -> Self {
-        Self::Files(Box::new(error))
-    }
-}
-
-impl From<FeederFilesError> for Failure {
-    fn from(error: FeederFilesError) -> Self {
-        Self::Files(Box::new(error))
-    }
-}
-
-impl From<ShaftFilesError> for Failure {
-    fn from(error: ShaftFilesError) -> Self {
-        Self::Files(Box::new(error))
-    }
-}
-
-impl From<ThreeArmFilesError> for Failure {
-    fn from(error: ThreeArmFilesError) -> Self {
-        Self::Files(Box::new(error))
     }
 }
 
@@ -154,10 +126,10 @@ fn printable(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use centrode::mechanism::design::DesignFile;
+    use centrode::FAMILIES;
 
     fn shown(text: &str) -> String {
-        let error = DesignFile::read(text.as_bytes()).expect_err("a bad design");
+        let error = FAMILIES.read(text.as_bytes()).expect_err("a bad design");
         let failure = Failure::Design {
             name: "pair.toml".into(),
             text: text.into(),

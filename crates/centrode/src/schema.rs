@@ -1,18 +1,19 @@
 use std::io::Write;
 use std::process::ExitCode;
 
-use centrode::mechanism::design::Design;
+use centrode::FAMILIES;
 
 use crate::args::Schema;
 use crate::failure::Failure;
 
 /// Prints the JSON schema of the design file.
 pub(crate) fn run(command: &Schema, out: &mut impl Write) -> Result<ExitCode, Failure> {
-    let family = command.family.as_deref();
-    let schema = family.map_or_else(|| Some(Design::json_schema()), Design::json_schema_of);
-    let Some(schema) = schema else {
-        let family = family.unwrap_or_default();
-        return Err(Failure::Usage(format!("unknown family {family:?}")));
+    let schema = match &command.family {
+        None => FAMILIES.json_schema(),
+        Some(word) => match FAMILIES.named(word) {
+            Some(family) => family.design.json_schema(),
+            None => return Err(Failure::Usage(format!("unknown family {word:?}"))),
+        },
     };
     writeln!(out, "{schema:#}")?;
     Ok(ExitCode::SUCCESS)
