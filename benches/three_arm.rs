@@ -4,18 +4,14 @@ use std::hint::black_box;
 
 use centrode_analysis::optimise::Problem;
 use centrode_analysis::optimise::three_arm::ThreeArmProblem;
-use centrode_mechanism::design::Design;
+use centrode_mechanism::design::DesignSpec as _;
 use centrode_mechanism::gear::pitch::PitchSpec;
 use centrode_mechanism::three_arm::design::ThreeArmDesign;
 use centrode_mechanism::three_arm::{Sweep, ThreeArm};
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 
 fn template() -> ThreeArmDesign {
-    let text = Design::template("three-arm").expect("a family");
-    let Ok(Design::ThreeArm(design)) = Design::from_toml(text) else {
-        unreachable!("the template is a three-arm mechanism")
-    };
-    *design
+    ThreeArmDesign::from_toml(ThreeArmDesign::TEMPLATE).expect("a good design")
 }
 
 /// A hundred designs around the published one, so that no answer can be remembered.
@@ -91,9 +87,7 @@ fn evaluate(c: &mut Criterion) {
         });
     });
     let text = include_str!("../tests/designs/three-arm-all-goals.toml");
-    let Ok(Design::ThreeArm(good)) = Design::from_toml(text) else {
-        unreachable!("the design is a three-arm mechanism")
-    };
+    let good = ThreeArmDesign::from_toml(text).expect("a three-arm mechanism");
     let problem = ThreeArmProblem::new(&good).expect("of the kind");
     let start = problem.start().expect("a start");
     group.throughput(Throughput::Elements(1));

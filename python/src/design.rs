@@ -1,10 +1,13 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use centrode_mechanism::design::{Design, DesignFile};
-use centrode_mechanism::mechanism::Mechanism;
+use centrode::FAMILIES;
+use centrode::family::{Family, Mechanism, Resolved};
+use centrode_mechanism::design::DesignFile;
 use pyo3::IntoPyObjectExt;
-use pyo3::prelude::{Bound, PyAny, PyAnyMethods, PyModule, PyResult, Python, pyfunction};
+use pyo3::prelude::{
+    Bound, IntoPyObject, PyAny, PyAnyMethods, PyModule, PyResult, Python, pyfunction,
+};
 
 use crate::error::{not_in_python, not_of_family, of_design, unknown_word};
 use crate::feeder::Feeder;
@@ -17,118 +20,63 @@ use crate::wait::wait;
 /// A design file is read no farther than this, bytes.
 pub(crate) const LARGEST: usize = DesignFile::LARGEST + 1;
 
-/// A mechanism and the design it was made from.
-pub(crate) enum Loaded {
-    /// A gear pair.
-    GearPair(GearPair),
-    /// A three-arm mechanism.
-    ThreeArm(ThreeArm),
-    /// A spiral shaft.
-    SpiralShaft(SpiralShaft),
-    /// A moving box.
-    MovingBox(MovingBox),
-    /// A feeder.
-    Feeder(Feeder),
+/// The class of one family's mechanisms.
+pub(crate) trait Class: for<'py> IntoPyObject<'py> {
+    /// A mechanism of the family.
+    type Mechanism: Resolved;
+
+    fn of(mechanism: Arc<Self::Mechanism>) -> Self;
+
+    /// The mechanism of a design file's text, if it is of this family.
+    fn read(py: Python<'_>, text: &str) -> PyResult<Self> {
+        let mechanism = read(py, text.as_bytes())?.downcast().map(Self::of);
+        mechanism.ok_or_else(not_of_family::<Self>)
+    }
+
+    /// Its family.
+    fn family() -> Family {
+        Family::of::<Self::Mechanism>()
+    }
 }
 
-impl Loaded {
-    /// The mechanism of a design file.
-    pub(crate) fn read(py: Python<'_>, bytes: &[u8]) -> PyResult<Self> {
-        let file = DesignFile::read(bytes).map_err(|e| of_design(&e))?;
-        let design = file.design().clone();
-        let mechanism = wait(py, move || file.mechanism())?.map_err(|e| of_design(&e))?;
-        Ok(match (design, mechanism) {
-            (Design::GearPair(design), Mechanism::GearPair(pair)) => Self::GearPair(GearPair {
-                design: Arc::new(*design),
-                pair: Arc::from(pair),
-            }),
-            (_, Mechanism::ThreeArm(mechanism)) => Self::ThreeArm(ThreeArm(Arc::from(mechanism))),
-            (_, Mechanism::SpiralShaft(shaft)) => Self::SpiralShaft(SpiralShaft {
-                shaft: Arc::from(shaft),
-            }),
-            (_, Mechanism::MovingBox(machine)) => Self::MovingBox(MovingBox {
-                machine: Arc::from(machine),
-            }),
-            (_, Mechanism::Feeder(feeder)) => Self::Feeder(Feeder {
-                feeder: Arc::from(feeder),
-            }),
-            (_, other) => return Err(not_in_python(other.family())),
-        })
-    }
+/// Makes an object of a mechanism, if that is of its family.
+type Make = for<'py> fn(Python<'py>, &Arc<dyn Mechanism>) -> Option<PyResult<Bound<'py, PyAny>>>;
 
-    pub(crate) fn gear_pair(self) -> PyResult<GearPair> {
-        match self {
-            Self::GearPair(pair) => Ok(pair),
-            _ => Err(not_of_family("gear-pair")),
-        }
-    }
+/// The classes of all families.
+const CLASSES: [Make; 5] = [
+    made::<GearPair>,
+    made::<ThreeArm>,
+    made::<SpiralShaft>,
+    made::<MovingBox>,
+    made::<Feeder>,
+];
 
-    pub(crate) fn three_arm(self) -> PyResult<ThreeArm> {
-        match self {
-            Self::ThreeArm(mechanism) => Ok(mechanism),
-            _ => Err(not_of_family("three-arm")),
-        }
-    }
+/// The object of a mechanism, if that is of the class.
+pub(crate) fn made<'py, C: Class>(
+    py: Python<'py>,
+    mechanism: &Arc<dyn Mechanism>,
+) -> Option<PyResult<Bound<'py, PyAny>>> {
+    let mechanism = Arc::clone(mechanism).downcast()?;
+    Some(C::of(mechanism).into_bound_py_any(py))
+}
 
-    pub(crate) fn feeder(self) -> PyResult<Feeder> {
-        match self {
-            Self::Feeder(feeder) => Ok(feeder),
-            _ => Err(not_of_family("feeder")),
-        }
-    }
-
-    pub(crate) fn spiral_shaft(self) -> PyResult<SpiralShaft> {
-        match self {
-            Self::SpiralShaft(shaft) => Ok(shaft),
-            _ => Err(not_of_family("spiral-shaft")),
-        }
-    }
-
-    pub(crate) fn moving_box(self) -> PyResult<MovingBox> {
-        match self {
-            Self::MovingBox(machine) => Ok(machine),
-            _ => Err(not_of_family("moving-box")),
-        }
-    }
+fn read(py: Python<'_>, bytes: &[u8]) -> PyResult<Arc<dyn Mechanism>> {
+    let file = FAMILIES.read(bytes).map_err(|e| of_design(&e))?;
+    wait(py, move || file.mechanism())?.map_err(|e| of_design(&e))
 }
 
 /// The mechanism of a design file's bytes.
 #[pyfunction]
 pub(crate) fn _load<'py>(py: Python<'py>, contents: &[u8]) -> PyResult<Bound<'py, PyAny>> {
-    match Loaded::read(py, contents)? {
-        Loaded::GearPair(pair) => pair.into_bound_py_any(py),
-        Loaded::ThreeArm(mechanism) => mechanism.into_bound_py_any(py),
-        Loaded::SpiralShaft(shaft) => shaft.into_bound_py_any(py),
-        Loaded::MovingBox(machine) => machine.into_bound_py_any(py),
-        Loaded::Feeder(feeder) => feeder.into_bound_py_any(py),
-    }
+    let mechanism = read(py, contents)?;
+    let made = CLASSES.iter().find_map(|make| make(py, &mechanism));
+    made.ok_or_else(|| not_in_python(mechanism.design().family().word))?
 }
 
-/// What the Python part of the package loads from a path: it names the path in its errors.
-pub(crate) fn path_loaded(py: Python<'_>, path: PathBuf) -> PyResult<Loaded> {
+/// The object that the Python part of the package loads from a path: it names the path in its errors.
+pub(crate) fn path_loaded(py: Python<'_>, path: PathBuf) -> PyResult<Bound<'_, PyAny>> {
     let load = PyModule::import(py, "centrode._design")?.getattr("load")?;
-    let loaded = load.call1((path,))?;
-    if let Ok(pair) = loaded.cast::<GearPair>() {
-        let GearPair { design, pair } = pair.get();
-        return Ok(Loaded::GearPair(GearPair {
-            design: Arc::clone(design),
-            pair: Arc::clone(pair),
-        }));
-    }
-    if let Ok(shaft) = loaded.cast::<SpiralShaft>() {
-        let shaft = Arc::clone(&shaft.get().shaft);
-        return Ok(Loaded::SpiralShaft(SpiralShaft { shaft }));
-    }
-    if let Ok(machine) = loaded.cast::<MovingBox>() {
-        let machine = Arc::clone(&machine.get().machine);
-        return Ok(Loaded::MovingBox(MovingBox { machine }));
-    }
-    if let Ok(feeder) = loaded.cast::<Feeder>() {
-        let feeder = Arc::clone(&feeder.get().feeder);
-        return Ok(Loaded::Feeder(Feeder { feeder }));
-    }
-    let arms = loaded.cast::<ThreeArm>()?;
-    Ok(Loaded::ThreeArm(ThreeArm(Arc::clone(&arms.get().0))))
+    load.call1((path,))
 }
 
 /// A commented design file to start from, itself a good design.
@@ -139,17 +87,18 @@ pub(crate) fn path_loaded(py: Python<'_>, path: PathBuf) -> PyResult<Loaded> {
 #[pyfunction]
 #[pyo3(signature = (family="gear-pair"))]
 pub(crate) fn template(family: &str) -> PyResult<&'static str> {
-    Design::template(family).ok_or_else(|| unknown_word("family", family, &Design::FAMILIES))
+    let template = FAMILIES.template(family);
+    template.ok_or_else(|| unknown_word("family", family, &FAMILIES.words()))
 }
 
 /// The JSON schema of the design files of a family, or of all, as text.
 #[pyfunction]
 #[pyo3(signature = (family=None))]
 pub(crate) fn _schema(family: Option<&str>) -> PyResult<String> {
-    let Some(family) = family else {
-        return Ok(Design::json_schema().to_string());
+    let Some(word) = family else {
+        return Ok(FAMILIES.json_schema().to_string());
     };
-    let schema = Design::json_schema_of(family);
-    let schema = schema.ok_or_else(|| unknown_word("family", family, &Design::FAMILIES))?;
-    Ok(schema.to_string())
+    let family = FAMILIES.named(word);
+    let family = family.ok_or_else(|| unknown_word("family", word, &FAMILIES.words()))?;
+    Ok(family.design.json_schema().to_string())
 }

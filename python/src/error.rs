@@ -12,6 +12,8 @@ use centrode_mechanism::three_arm::{PusherError, ThreeArmError};
 use pyo3::exceptions::PyOSError;
 use pyo3::prelude::{PyErr, PyResult, Python};
 
+use crate::design::Class;
+
 /// The exceptions, as the Python part of the package defines them.
 mod class {
     pyo3::import_exception!(centrode._error, DesignError);
@@ -61,9 +63,13 @@ pub(crate) fn of_design(error: &design::DesignError) -> PyErr {
         error.line,
         error.column,
     );
-    match error.fault {
-        DesignFault::Pitch(_) => class::PitchError::new_err(arguments),
-        DesignFault::GearPair(_) => class::GearPairError::new_err(arguments),
+    match &error.fault {
+        DesignFault::Mechanism(e) if e.is::<pitch::PitchError>() => {
+            class::PitchError::new_err(arguments)
+        }
+        DesignFault::Mechanism(e) if e.is::<gear::GearPairError>() => {
+            class::GearPairError::new_err(arguments)
+        }
         DesignFault::Mechanism(_) => class::MechanismError::new_err(arguments),
         _ => class::DesignError::new_err(arguments),
     }
@@ -154,7 +160,8 @@ pub(crate) fn not_in_python(family: &str) -> PyErr {
 }
 
 /// A design of another family where one of this is wanted.
-pub(crate) fn not_of_family(family: &str) -> PyErr {
+pub(crate) fn not_of_family<C: Class>() -> PyErr {
+    let family = C::family().design.word;
     class::DesignError::new_err((format!("family must be {family:?}"), "family"))
 }
 

@@ -6,16 +6,14 @@ use centrode_analysis::optimise::feeder::Widened;
 use centrode_analysis::{FeederForces, Forces, check_feeder};
 use centrode_export::Bundle;
 use centrode_export::feeder as files;
-use centrode_mechanism::design::Design;
+use centrode_mechanism::design::Design as _;
 use centrode_mechanism::feeder as mechanism;
-use centrode_mechanism::mechanism::Mechanism;
-use pyo3::IntoPyObjectExt;
 use pyo3::prelude::{Bound, Py, PyAny, PyResult, Python, pyclass, pymethods};
 use pyo3::types::PyDict;
 
 use crate::array::{Values, each, each_array, together, together_array};
 use crate::bundle;
-use crate::design::Loaded;
+use crate::design::Class;
 use crate::error::{no_search, of_design, of_files, of_plates, plain_tolerance};
 use crate::format;
 use crate::made::{Reduced, by_design};
@@ -53,6 +51,14 @@ pub(crate) struct Feeder {
     pub(crate) feeder: Arc<mechanism::Feeder>,
 }
 
+impl Class for Feeder {
+    type Mechanism = mechanism::Feeder;
+
+    fn of(feeder: Arc<mechanism::Feeder>) -> Self {
+        Self { feeder }
+    }
+}
+
 impl PartialEq for Feeder {
     fn eq(&self, other: &Self) -> bool {
         self.feeder.design() == other.feeder.design()
@@ -60,10 +66,6 @@ impl PartialEq for Feeder {
 }
 
 impl Feeder {
-    fn design(&self) -> Design {
-        Design::Feeder(Box::new(self.feeder.design().clone()))
-    }
-
     fn bundle(
         &self,
         py: Python<'_>,
@@ -84,12 +86,12 @@ impl Feeder {
     /// The feeder of a design file's text.
     #[staticmethod]
     fn from_toml(py: Python<'_>, text: &str) -> PyResult<Self> {
-        Loaded::read(py, text.as_bytes())?.feeder()
+        Class::read(py, text)
     }
 
     /// The design file of the feeder; `from_toml` reads it back.
     fn to_toml(&self) -> PyResult<String> {
-        self.design().to_toml().map_err(|e| of_design(&e))
+        self.feeder.design().to_toml().map_err(|e| of_design(&e))
     }
 
     /// Name, as written in the design.
@@ -283,14 +285,8 @@ impl Feeder {
             evaluations,
             ..Settings::default()
         };
-        let best = |mechanism: &Mechanism| match mechanism {
-            Mechanism::Feeder(feeder) => {
-                let feeder = Arc::new(feeder.as_ref().clone());
-                Some(Self { feeder }.into_bound_py_any(py))
-            }
-            _ => None,
-        };
-        search::optimised(py, self.design(), method, settings, progress.as_ref(), best)
+        let design = self.feeder.design();
+        search::optimised::<Self>(py, design, method, settings, progress.as_ref())
     }
 
     /// This feeder with its bounds widened by as little as lets all its goals be reached, its lengths there, and its
@@ -324,7 +320,7 @@ impl Feeder {
         parameter: &str,
         values: Vec<f64>,
     ) -> PyResult<Bound<'py, PyDict>> {
-        search::response(py, self.design(), parameter, values, true)
+        search::response::<Self>(py, self.feeder.design(), parameter, values, true)
     }
 
     /// The files of the feeder, name to contents, without writing them; `export` writes them.
@@ -379,6 +375,6 @@ impl Feeder {
     }
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
-        by_design(py, &self.design())
+        by_design(py, self.feeder.design())
     }
 }

@@ -6,7 +6,7 @@ use centrode_analysis::{Contact, check};
 use centrode_export::gear_pair as files;
 use centrode_export::gear_pair::Subject;
 use centrode_export::{Bundle, Format};
-use centrode_mechanism::design::Design;
+use centrode_mechanism::design::Design as _;
 use centrode_mechanism::gear as mechanism;
 use centrode_mechanism::gear::Member;
 use centrode_mechanism::gear::design::{Addendum, BodySpec, GearPairDesign, TeethSpec};
@@ -18,7 +18,7 @@ use crate::array::{Numbers, Values, each};
 use crate::body::Body;
 use crate::bundle;
 use crate::count::{Count, optional};
-use crate::design::Loaded;
+use crate::design::Class;
 use crate::drawing::DrawingSpec;
 use crate::error::{of_design, of_files, of_pair, tolerance as within};
 use crate::format::options;
@@ -72,21 +72,24 @@ const MOST_PER_PITCH: u32 = 10_000;
 #[pyclass(frozen, eq, module = "centrode")]
 #[derive(Debug)]
 pub(crate) struct GearPair {
-    pub(crate) design: Arc<GearPairDesign>,
     pub(crate) pair: Arc<mechanism::GearPair>,
+}
+
+impl Class for GearPair {
+    type Mechanism = mechanism::GearPair;
+
+    fn of(pair: Arc<mechanism::GearPair>) -> Self {
+        Self { pair }
+    }
 }
 
 impl PartialEq for GearPair {
     fn eq(&self, other: &Self) -> bool {
-        self.design == other.design
+        self.pair.design() == other.pair.design()
     }
 }
 
 impl GearPair {
-    fn design(&self) -> Design {
-        Design::GearPair(Box::new(GearPairDesign::clone(&self.design)))
-    }
-
     fn gear(slf: &Bound<'_, Self>, member: Member) -> PyResult<Gear> {
         Ok(Gear {
             pair: Arc::clone(&slf.get().pair),
@@ -170,11 +173,9 @@ impl GearPair {
             driven: body(driven),
             drawing: drawing.map(|d| d.0.clone()).unwrap_or_default(),
         };
-        let design = Arc::new(design);
-        let ours = Arc::clone(&design);
-        let pair = wait(py, move || mechanism::GearPair::resolve(&ours))?;
+        let pair = wait(py, move || mechanism::GearPair::resolve(&design))?;
         let pair = Arc::new(pair.map_err(|e| of_pair(&e))?);
-        Ok(Self { design, pair })
+        Ok(Self { pair })
     }
 
     /// The pair of a design file's text.
@@ -184,7 +185,7 @@ impl GearPair {
     /// 23
     #[staticmethod]
     fn from_toml(py: Python<'_>, text: &str) -> PyResult<Self> {
-        Loaded::read(py, text.as_bytes())?.gear_pair()
+        Class::read(py, text)
     }
 
     /// The design file of the pair; `from_toml` reads it back.
@@ -195,7 +196,7 @@ impl GearPair {
     /// family = "gear-pair"
     /// <BLANKLINE>
     fn to_toml(&self) -> PyResult<String> {
-        self.design().to_toml().map_err(|e| of_design(&e))
+        self.pair.design().to_toml().map_err(|e| of_design(&e))
     }
 
     /// Name, as written in the design.
@@ -213,19 +214,19 @@ impl GearPair {
     /// Pitch curve of the driver.
     #[getter]
     fn pitch(&self) -> PyResult<Pitch> {
-        Pitch::resolve(self.design.pitch.clone())
+        Pitch::resolve(self.pair.design().pitch.clone())
     }
 
     /// What cuts both gears.
     #[getter]
     fn tool(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
-        tool::object(py, &self.design.tool)
+        tool::object(py, &self.pair.design().tool)
     }
 
     /// "full" or "fitted".
     #[getter]
     fn addendum(&self) -> &'static str {
-        match self.design.teeth.addendum {
+        match self.pair.design().teeth.addendum {
             Addendum::Full => "full",
             Addendum::Fitted => "fitted",
         }
@@ -362,10 +363,10 @@ impl GearPair {
     /// 20
     fn conjugate(&self) -> PyResult<Pitch> {
         Pitch::resolve(PitchSpec::Conjugate(Conjugate {
-            mean_ratio: self.design.mean_ratio,
+            mean_ratio: self.pair.design().mean_ratio,
             module: None,
             tooth_count: Some(self.pair.driven().tooth_count()),
-            of: Box::new(self.design.pitch.clone()),
+            of: Box::new(self.pair.design().pitch.clone()),
         }))
     }
 
@@ -504,6 +505,6 @@ impl GearPair {
     }
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
-        by_design(py, &self.design())
+        by_design(py, self.pair.design())
     }
 }

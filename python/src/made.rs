@@ -52,7 +52,7 @@ pub(crate) fn by<'py>(name: &str, keywords: Keywords<'py>) -> PyResult<Reduced<'
 }
 
 /// Reduces to the file of a design.
-pub(crate) fn by_design<'py>(py: Python<'py>, design: &Design) -> PyResult<Reduced<'py>> {
+pub(crate) fn by_design<'py>(py: Python<'py>, design: &dyn Design) -> PyResult<Reduced<'py>> {
     let text = design.to_toml().map_err(|e| of_design(&e))?;
     let bytes = PyBytes::new(py, text.as_bytes());
     Ok((native(py, "_load")?, PyTuple::new(py, [bytes])?))

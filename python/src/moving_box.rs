@@ -4,7 +4,7 @@ use std::sync::Arc;
 use centrode_analysis::check_moving_box;
 use centrode_export::Bundle;
 use centrode_export::shaft as files;
-use centrode_mechanism::design::Design;
+use centrode_mechanism::design::Design as _;
 use centrode_mechanism::gear::GearPair as Gears;
 use centrode_mechanism::shaft as mechanism;
 use centrode_mechanism::shaft::{EllipticGears, Load, MovingBoxDesign, Scheme, SliderForce};
@@ -14,7 +14,7 @@ use pyo3::types::PyDict;
 use crate::array::{Values, each};
 use crate::bundle;
 use crate::count::Count;
-use crate::design::Loaded;
+use crate::design::Class;
 use crate::error::{finite, of_design, of_files, of_pair, of_shaft, plain_tolerance, unknown_word};
 use crate::format;
 use crate::gear_pair::GearPair;
@@ -62,6 +62,14 @@ pub(crate) struct MovingBox {
     pub(crate) machine: Arc<mechanism::MovingBox>,
 }
 
+impl Class for MovingBox {
+    type Mechanism = mechanism::MovingBox;
+
+    fn of(machine: Arc<mechanism::MovingBox>) -> Self {
+        Self { machine }
+    }
+}
+
 impl PartialEq for MovingBox {
     fn eq(&self, other: &Self) -> bool {
         self.machine.design() == other.machine.design()
@@ -69,10 +77,6 @@ impl PartialEq for MovingBox {
 }
 
 impl MovingBox {
-    fn design(&self) -> Design {
-        Design::MovingBox(Box::new(self.machine.design().clone()))
-    }
-
     fn over<'py>(
         &self,
         py: Python<'py>,
@@ -164,12 +168,12 @@ impl MovingBox {
     /// 'elliptic-gear'
     #[staticmethod]
     fn from_toml(py: Python<'_>, text: &str) -> PyResult<Self> {
-        Loaded::read(py, text.as_bytes())?.moving_box()
+        Class::read(py, text)
     }
 
     /// The design file of the moving box; `from_toml` reads it back.
     fn to_toml(&self) -> PyResult<String> {
-        self.design().to_toml().map_err(|e| of_design(&e))
+        self.machine.design().to_toml().map_err(|e| of_design(&e))
     }
 
     /// Name, as written in the design.
@@ -217,13 +221,9 @@ impl MovingBox {
         let Some(design) = drive.and_then(|drive| machine.design().gear_pair(drive)) else {
             return Ok(None);
         };
-        let design = Arc::new(design);
-        let of = Arc::clone(&design);
-        let pair = wait(py, move || Gears::resolve(&of))?.map_err(|e| of_pair(&e))?;
-        Ok(Some(GearPair {
-            design,
-            pair: Arc::new(pair),
-        }))
+        let pair = wait(py, move || Gears::resolve(&design))?.map_err(|e| of_pair(&e))?;
+        let pair = Arc::new(pair);
+        Ok(Some(GearPair { pair }))
     }
 
     /// Input turn of the whole way out and back, rad.
@@ -372,6 +372,6 @@ impl MovingBox {
         )
     }
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
-        by_design(py, &self.design())
+        by_design(py, self.machine.design())
     }
 }

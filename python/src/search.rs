@@ -5,22 +5,24 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::Sender;
 
-use centrode_analysis::optimise::{
-    DesignSearch, Ended, GuidedStep, Progress, Settings, Strategy, problem_of,
-};
-use centrode_analysis::{Depth, Goal, Response};
-use centrode_mechanism::design::Design;
-use centrode_mechanism::mechanism::{Mechanism, MechanismError};
+use centrode::family::{Depth, Family, Mechanism, Resolved};
+use centrode_analysis::Goal;
+use centrode_analysis::optimise::{DesignSearch, Ended, GuidedStep, Progress, Settings, Strategy};
+use centrode_mechanism::design::{Design, MechanismError};
 use pyo3::prelude::{Bound, PyAny, PyAnyMethods, PyResult, Python};
 use pyo3::types::PyDict;
 
+use crate::design::{Class, made};
 use crate::error::{no_search, of_design, unknown_word};
 use crate::record;
 use crate::wait::{attend, wait};
 
+/// The design of a class's family.
+type DesignOf<C> = <<C as Class>::Mechanism as Resolved>::Design;
+
 /// What a search has come to.
 pub(crate) struct Found {
-    pub(crate) mechanism: Result<Mechanism, MechanismError>,
+    pub(crate) mechanism: Result<Arc<dyn Mechanism>, MechanismError>,
     pub(crate) goals: Vec<Goal>,
     pub(crate) steps: Vec<GuidedStep>,
     pub(crate) history: Vec<Progress>,
@@ -29,18 +31,20 @@ pub(crate) struct Found {
     pub(crate) ended: Ended,
 }
 
-/// Searches around a design; `best` makes an object of the best mechanism, if it is of the design's family.
-pub(crate) fn optimised<'py>(
+/// Searches around a design of a class's family.
+pub(crate) fn optimised<'py, C: Class>(
     py: Python<'py>,
-    design: Design,
+    design: &DesignOf<C>,
     method: &str,
     settings: Settings,
     callback: Option<&Bound<'py, PyAny>>,
-    best: impl FnOnce(&Mechanism) -> Option<PyResult<Bound<'py, PyAny>>>,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let found = search(py, design, strategy(method)?, settings, callback)?;
+    let design = Arc::new(design.clone());
+    let strategy = strategy(method)?;
+    let found = search(py, C::family(), design, strategy, settings, callback)?;
     let found = found.map_err(|reason| no_search(&reason))?;
-    let best = found.mechanism.as_ref().ok().and_then(best);
+    let best = found.mechanism.as_ref().ok();
+    let best = best.and_then(|mechanism| made::<C>(py, mechanism));
     let best = best.ok_or_else(|| no_search("the best point is no mechanism"))??;
     record::optimised(py, best, &found)
 }
@@ -58,7 +62,8 @@ fn strategy(name: &str) -> PyResult<Strategy> {
 /// returns False, the best so far is the answer.
 fn search(
     py: Python<'_>,
-    design: Design,
+    family: Family,
+    design: Arc<dyn Design>,
     strategy: Strategy,
     settings: Settings,
     callback: Option<&Bound<'_, PyAny>>,
@@ -66,15 +71,21 @@ fn search(
     let stop = Arc::new(AtomicBool::new(false));
     let stopped = Arc::clone(&stop);
     let job = move |told: &Sender<Progress>| {
-        searched(&design, strategy, settings, &mut |progress| {
-            // Whoever asked may have gone.
-            let gone = told.send(*progress).is_err();
-            if gone || stopped.load(Ordering::Relaxed) {
-                ControlFlow::Break(())
-            } else {
-                ControlFlow::Continue(())
-            }
-        })
+        searched(
+            &family,
+            design.as_ref(),
+            strategy,
+            settings,
+            &mut |progress| {
+                // Whoever asked may have gone.
+                let gone = told.send(*progress).is_err();
+                if gone || stopped.load(Ordering::Relaxed) {
+                    ControlFlow::Break(())
+                } else {
+                    ControlFlow::Continue(())
+                }
+            },
+        )
     };
     attend(py, job, |progress| {
         if let Some(callback) = callback {
@@ -94,19 +105,20 @@ fn search(
 }
 
 fn searched(
-    design: &Design,
+    family: &Family,
+    design: &dyn Design,
     strategy: Strategy,
     settings: Settings,
     observe: &mut dyn FnMut(&Progress) -> ControlFlow<()>,
 ) -> Result<Found, String> {
-    let problem = problem_of(design).map_err(|error| error.to_string())?;
+    let problem = family.problem(design).map_err(|error| error.to_string())?;
     let problem = problem.as_ref();
     let search = DesignSearch::new(problem, strategy, settings);
     let mut search = search.map_err(|error| error.to_string())?;
     let ended = search.run(problem, observe);
     let best = search.best();
     Ok(Found {
-        mechanism: Mechanism::resolve(&problem.design(&best)),
+        mechanism: family.resolve(problem.design(&best).as_ref()),
         goals: problem.goals(&best).unwrap_or_default(),
         steps: search.log().to_vec(),
         history: search.history().to_vec(),
@@ -117,16 +129,18 @@ fn searched(
 }
 
 /// Figures by name at values of a number of a design; NaN where there is none.
-pub(crate) fn response<'py>(
+pub(crate) fn response<'py, C: Class>(
     py: Python<'py>,
-    design: Design,
+    design: &DesignOf<C>,
     parameter: &str,
     values: Vec<f64>,
     whole: bool,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let key = design.key_of(parameter);
+    let (design, key) = (design.clone(), Design::key_of(design, parameter));
     let depth = if whole { Depth::Whole } else { Depth::Motion };
-    let found = wait(py, move || Response::of(&design, &key, &values, depth))?;
+    let found = wait(py, move || {
+        C::family().response(&design, &key, &values, depth)
+    })?;
     let found = found.map_err(|error| of_design(&error))?;
     let named = PyDict::new(py);
     for answer in found.answers() {

@@ -5,7 +5,7 @@ use centrode_analysis::check_shaft;
 use centrode_export::Bundle;
 use centrode_export::shaft as files;
 use centrode_mechanism::cam::law::LawSpec;
-use centrode_mechanism::design::Design;
+use centrode_mechanism::design::Design as _;
 use centrode_mechanism::shaft as mechanism;
 use centrode_mechanism::shaft::{
     GrooveSpec, Load, RotatedSine, Sine, SpeedFormula, SpeedLaw, SpeedTable, SpiralShaftDesign,
@@ -19,7 +19,7 @@ use pyo3::types::PyDict;
 use crate::array::{Numbers, Values, each, points, rows};
 use crate::bundle;
 use crate::count::Count;
-use crate::design::Loaded;
+use crate::design::Class;
 use crate::error::{finite, of_design, of_files, of_shaft, plain_tolerance, unknown_word};
 use crate::format;
 use crate::made::{Reduced, by_design};
@@ -72,6 +72,14 @@ pub(crate) struct SpiralShaft {
     pub(crate) shaft: Arc<mechanism::SpiralShaft>,
 }
 
+impl Class for SpiralShaft {
+    type Mechanism = mechanism::SpiralShaft;
+
+    fn of(shaft: Arc<mechanism::SpiralShaft>) -> Self {
+        Self { shaft }
+    }
+}
+
 impl PartialEq for SpiralShaft {
     fn eq(&self, other: &Self) -> bool {
         self.shaft.design() == other.shaft.design()
@@ -79,10 +87,6 @@ impl PartialEq for SpiralShaft {
 }
 
 impl SpiralShaft {
-    fn design(&self) -> Design {
-        Design::SpiralShaft(Box::new(self.shaft.design().clone()))
-    }
-
     fn resolve(py: Python<'_>, design: SpiralShaftDesign) -> PyResult<Self> {
         let shaft = wait(py, move || mechanism::SpiralShaft::resolve(&design))?;
         let shaft = Arc::new(shaft.map_err(|e| of_shaft(&e))?);
@@ -310,12 +314,12 @@ impl SpiralShaft {
     /// True
     #[staticmethod]
     fn from_toml(py: Python<'_>, text: &str) -> PyResult<Self> {
-        Loaded::read(py, text.as_bytes())?.spiral_shaft()
+        Class::read(py, text)
     }
 
     /// The design file of the shaft; `from_toml` reads it back.
     fn to_toml(&self) -> PyResult<String> {
-        self.design().to_toml().map_err(|e| of_design(&e))
+        self.shaft.design().to_toml().map_err(|e| of_design(&e))
     }
 
     /// Name, as written in the design.
@@ -573,6 +577,6 @@ impl SpiralShaft {
         )
     }
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
-        by_design(py, &self.design())
+        by_design(py, self.shaft.design())
     }
 }

@@ -6,16 +6,14 @@ use centrode_analysis::optimise::Settings;
 use centrode_analysis::{between_arms, check_three_arm};
 use centrode_export::Bundle;
 use centrode_export::three_arm as files;
-use centrode_mechanism::design::Design;
+use centrode_mechanism::design::Design as _;
 use centrode_mechanism::gear::design::{BodySpec, TeethSpec};
-use centrode_mechanism::mechanism::Mechanism;
 use centrode_mechanism::three_arm as mechanism;
 use centrode_mechanism::three_arm::design::{
     ArmSpec, Direction, GearboxSpec, SeedlingSpec, ThreeArmDesign, TraySpec, WorkSpec,
 };
 use centrode_mechanism::three_arm::{Link, PointMotion};
 use numpy::PyArray2;
-use pyo3::IntoPyObjectExt;
 use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::{Bound, PyAny, PyDictMethods, PyRef, PyResult, Python, pyclass, pymethods};
 use pyo3::types::{PyDict, PyTuple};
@@ -25,9 +23,10 @@ use crate::body::Body;
 use crate::bundle;
 use crate::cam::{DiscCam, Fork};
 use crate::count::{Count, optional};
-use crate::design::{Loaded, path_loaded};
+use crate::design::{Class, path_loaded};
 use crate::error::{
-    of_arm, of_design, of_files, of_pair, of_pusher, of_three_arm, plain_tolerance, unknown_word,
+    not_of_family, of_arm, of_design, of_files, of_pair, of_pusher, of_three_arm, plain_tolerance,
+    unknown_word,
 };
 use crate::format;
 use crate::gear_pair::GearPair;
@@ -100,6 +99,14 @@ use crate::wait::wait;
 #[derive(Debug)]
 pub(crate) struct ThreeArm(pub(crate) Arc<mechanism::ThreeArm>);
 
+impl Class for ThreeArm {
+    type Mechanism = mechanism::ThreeArm;
+
+    fn of(arms: Arc<mechanism::ThreeArm>) -> Self {
+        Self(arms)
+    }
+}
+
 impl PartialEq for ThreeArm {
     fn eq(&self, other: &Self) -> bool {
         self.0.design() == other.0.design()
@@ -107,10 +114,6 @@ impl PartialEq for ThreeArm {
 }
 
 impl ThreeArm {
-    fn design(&self) -> Design {
-        Design::ThreeArm(Box::new(self.0.design().clone()))
-    }
-
     /// An arm that is there.
     fn arm(&self, arm: u32) -> PyResult<u32> {
         let arms = self.0.arms();
@@ -274,7 +277,10 @@ impl ThreeArm {
     ///     OSError: The file cannot be read.
     #[staticmethod]
     fn load(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
-        path_loaded(py, path)?.three_arm()
+        let loaded = path_loaded(py, path)?;
+        let arms = loaded.cast::<Self>();
+        let arms = arms.map_err(|_| not_of_family::<Self>())?;
+        Ok(Self(Arc::clone(&arms.get().0)))
     }
 
     /// The mechanism of a design file's text.
@@ -284,12 +290,12 @@ impl ThreeArm {
     /// 3
     #[staticmethod]
     fn from_toml(py: Python<'_>, text: &str) -> PyResult<Self> {
-        Loaded::read(py, text.as_bytes())?.three_arm()
+        Class::read(py, text)
     }
 
     /// The design file of the mechanism; `from_toml` reads it back.
     fn to_toml(&self) -> PyResult<String> {
-        self.design().to_toml().map_err(|e| of_design(&e))
+        self.0.design().to_toml().map_err(|e| of_design(&e))
     }
 
     /// Name, as written in the design.
@@ -562,14 +568,8 @@ impl ThreeArm {
             evaluations,
             ..Settings::default()
         };
-        let design = Design::ThreeArm(Box::new(self.0.design().clone()));
-        let best = |mechanism: &Mechanism| match mechanism {
-            Mechanism::ThreeArm(arms) => {
-                Some(Self(Arc::new(arms.as_ref().clone())).into_bound_py_any(py))
-            }
-            _ => None,
-        };
-        search::optimised(py, design, method, settings, progress.as_ref(), best)
+        let design = self.0.design();
+        search::optimised::<Self>(py, design, method, settings, progress.as_ref())
     }
 
     /// How goals and figures answer one number of the design: by name, a figure at each value, NaN where there is no
@@ -592,8 +592,7 @@ impl ThreeArm {
         values: Vec<f64>,
         whole: bool,
     ) -> PyResult<Bound<'py, PyDict>> {
-        let design = Design::ThreeArm(Box::new(self.0.design().clone()));
-        search::response(py, design, parameter, values, whole)
+        search::response::<Self>(py, self.0.design(), parameter, values, whole)
     }
 
     /// Figures of many variants of this mechanism, about twenty microseconds each: goals 2 to 4 and 6 to 8, centre distance and
@@ -635,7 +634,6 @@ impl ThreeArm {
         let arms = Arc::clone(&self.0);
         let pair = wait(py, move || arms.pair())?.map_err(|e| of_pair(&e))?;
         Ok(GearPair {
-            design: Arc::new(self.0.design().pair()),
             pair: Arc::new(pair),
         })
     }
@@ -736,6 +734,6 @@ impl ThreeArm {
     }
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
-        by_design(py, &self.design())
+        by_design(py, self.0.design())
     }
 }

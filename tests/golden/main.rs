@@ -8,11 +8,10 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use centrode_export::gear_pair::files;
-use centrode_export::{Bundle, Format, Options, feeder, shaft, three_arm};
+use centrode::FAMILIES;
+use centrode::family::Mechanism;
+use centrode_export::{Format, Options};
 use centrode_geometry::Tolerance;
-use centrode_mechanism::design::DesignFile;
-use centrode_mechanism::mechanism::Mechanism;
 use serde_json::{Value, json};
 
 /// Greatest difference of a figure, of its size or of 1 mm or 1 rad, whichever is more.
@@ -42,17 +41,18 @@ fn stems(folder: &Path, extension: &str) -> Vec<String> {
 /// What a golden holds: figures, findings without their words, files and what is in them.
 fn outcome(name: &str) -> Value {
     let path = folder("designs").join(format!("{name}.toml"));
-    let design = DesignFile::read(&fs::read(path).expect("readable")).expect("a design");
+    let design = FAMILIES
+        .read(&fs::read(path).expect("readable"))
+        .expect("a design");
     let mechanism = design.mechanism().expect("a mechanism");
-    let report = centrode_analysis::check_mechanism(&mechanism);
+    let report = mechanism.check();
     let findings: Vec<Value> = report
         .findings
         .iter()
         .map(|f| json!({"rule": f.rule, "severity": f.severity, "part": f.place.part, "teeth": f.place.teeth}))
         .collect();
     let figures = json!(report);
-    let mut outcome =
-        json!({"values": figures["values"], "findings": findings, "files": written(&mechanism)});
+    let mut outcome = json!({"values": figures["values"], "findings": findings, "files": written(mechanism.as_ref())});
     for (i, goal) in report.goals.iter().enumerate() {
         let value = &figures["goals"][i]["value"];
         outcome["goals"][goal.name] = json!({"value": value, "met": goal.met()});
@@ -64,53 +64,30 @@ fn outcome(name: &str) -> Value {
 }
 
 /// The files of a mechanism and what is in them.
-fn written(mechanism: &Mechanism) -> BTreeMap<String, Value> {
-    let options = Options::new(Tolerance::new(1e-3).expect("positive"));
-    match mechanism {
-        Mechanism::GearPair(pair) => match files(pair, &Format::ALL, &options) {
-            Ok(bundle) => {
-                // How many bodies there are to touch with is enough.
-                let (bodies, others): (Vec<_>, Vec<_>) = bundle
-                    .files()
-                    .partition(|(name, _)| name.starts_with("collision/"));
-                others
-                    .into_iter()
-                    .map(|(name, bytes)| (name.to_owned(), json!(entities::count(name, bytes))))
-                    .chain([("collision".to_owned(), json!(bodies.len()))])
-                    .collect()
-            }
-            Err(error) => BTreeMap::from([("refused".to_owned(), json!(error.to_string()))]),
-        },
-        Mechanism::ThreeArm(mechanism) => {
-            let bundle = three_arm::files(mechanism, &Format::ALL, &options).expect("written");
-            counted(&bundle)
-        }
-        Mechanism::SpiralShaft(part) => {
-            let bundle = shaft::files(part, &Format::ALL, &coarse()).expect("written");
-            counted(&bundle)
-        }
-        Mechanism::MovingBox(machine) => {
-            let bundle = shaft::moving_box_files(machine, &Format::ALL, &coarse());
-            counted(&bundle.expect("written"))
-        }
-        Mechanism::Feeder(machine) => {
-            let bundle = feeder::files(machine, &Format::ALL, &options).expect("written");
-            counted(&bundle)
-        }
-    }
-}
-
-/// A shaft at the gears' tolerance would be millions of digits.
-fn coarse() -> Options {
-    Options::new(Tolerance::new(2e-2).expect("positive"))
-}
-
-/// What is in each file of a bundle.
-fn counted(bundle: &Bundle) -> BTreeMap<String, Value> {
-    let files = bundle.files();
-    files
+fn written(mechanism: &dyn Mechanism) -> BTreeMap<String, Value> {
+    let family = mechanism.design().family().word;
+    // A shaft at the gears' tolerance would be millions of digits.
+    let tolerance = match family {
+        "spiral-shaft" | "moving-box" => 2e-2,
+        _ => 1e-3,
+    };
+    let options = Options::new(Tolerance::new(tolerance).expect("positive"));
+    let bundle = match mechanism.files(&Format::ALL, &options) {
+        Ok(bundle) => bundle,
+        Err(error) => return BTreeMap::from([("refused".to_owned(), json!(error.to_string()))]),
+    };
+    // Of a pair, how many bodies there are to touch with is enough.
+    let (bodies, others): (Vec<_>, Vec<_>) = bundle
+        .files()
+        .partition(|(name, _)| family == "gear-pair" && name.starts_with("collision/"));
+    let mut counts: BTreeMap<String, Value> = others
+        .into_iter()
         .map(|(name, bytes)| (name.to_owned(), json!(entities::count(name, bytes))))
-        .collect()
+        .collect();
+    if family == "gear-pair" {
+        counts.insert("collision".to_owned(), json!(bodies.len()));
+    }
+    counts
 }
 
 /// Every place where two values differ, numbers within [`DIFFERENCE`] aside.

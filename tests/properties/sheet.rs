@@ -1,14 +1,14 @@
 use std::fs;
 use std::path::Path;
 
+use centrode::FAMILIES;
 use centrode_export::SheetOptions;
 use centrode_export::gear_pair::{Subject, sheets};
 use centrode_export::sheet::overlaps;
 use centrode_geometry::Tolerance;
-use centrode_mechanism::design::{DesignFile, Projection, SheetSize};
+use centrode_mechanism::design::{Projection, SheetSize};
 use centrode_mechanism::gear::GearPair;
 use centrode_mechanism::gear::design::Keyway;
-use centrode_mechanism::mechanism::Mechanism;
 use centrode_tests::sound_pair;
 use proptest::prelude::{ProptestConfig, any, prop_assert, proptest};
 
@@ -39,9 +39,15 @@ fn words_touch_nothing_on_the_sheets_of_every_design_at_every_size() {
     let mut count = 0;
     for entry in fs::read_dir(folder).expect("the designs") {
         let path = entry.expect("an entry").path();
-        let file = DesignFile::read(&fs::read(&path).expect("readable")).expect("a design");
+        let file = FAMILIES
+            .read(&fs::read(&path).expect("readable"))
+            .expect("a design");
         // Folders hold designs of other families too.
-        let Mechanism::GearPair(pair) = file.mechanism().expect("a mechanism") else {
+        let Some(pair) = file
+            .mechanism()
+            .expect("a mechanism")
+            .downcast::<GearPair>()
+        else {
             continue;
         };
         let sizes = SheetSize::ALL.map(Some).into_iter().chain([None]);

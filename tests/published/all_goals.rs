@@ -4,18 +4,15 @@ use std::collections::BTreeSet;
 use std::fmt::Write as _;
 
 use centrode_analysis::{Report, Severity, check, check_three_arm};
-use centrode_mechanism::design::{Design, DesignFile};
+use centrode_mechanism::design::DesignSpec as _;
 use centrode_mechanism::three_arm::design::ThreeArmDesign;
 use centrode_mechanism::three_arm::{Parameter, ThreeArm};
 
 use crate::data::{documented, file};
 
 fn design(name: &str) -> ThreeArmDesign {
-    let text = std::fs::read(file(&format!("designs/{name}.toml"))).expect("shipped");
-    match DesignFile::read(&text).expect("a design").into_design() {
-        Design::ThreeArm(design) => *design,
-        other => panic!("{other:?}"),
-    }
+    let text = std::fs::read_to_string(file(&format!("designs/{name}.toml"))).expect("shipped");
+    ThreeArmDesign::from_toml(&text).expect("a design")
 }
 
 fn machine(name: &str) -> (ThreeArm, Report) {

@@ -1,7 +1,7 @@
 use std::fmt::Write as _;
 
 use centrode_analysis::{Goal, check_three_arm};
-use centrode_mechanism::design::{Design, DesignFile};
+use centrode_mechanism::design::DesignSpec as _;
 use centrode_mechanism::gear::design::Phase;
 use centrode_mechanism::gear::pitch::{PitchSpec, Plane};
 use centrode_mechanism::gear::{Member, Soundness};
@@ -12,11 +12,8 @@ use crate::data::{ThreeArmReading, UndercutAtPhase, cases, documented, file};
 
 /// The shipped design of the published set.
 fn published() -> ThreeArmDesign {
-    let text = std::fs::read(file("designs/three-arm-2021.toml")).expect("shipped");
-    match DesignFile::read(&text).expect("a design").into_design() {
-        Design::ThreeArm(design) => *design,
-        other => panic!("{other:?}"),
-    }
+    let text = std::fs::read_to_string(file("designs/three-arm-2021.toml")).expect("shipped");
+    ThreeArmDesign::from_toml(&text).expect("a design")
 }
 
 /// The same with its twelve points read otherwise, and as many teeth as leave a module above 2.5 mm.

@@ -39,8 +39,9 @@ pub fn check_feeder(feeder: &Feeder) -> Report {
     report
 }
 
-/// The same without the contact analysis of the incomplete gears.
-pub(crate) fn check_strokes(feeder: &Feeder) -> Report {
+/// Checks a feeder without the contact analysis of its incomplete gears, some ten times sooner than [`check_feeder`].
+#[must_use]
+pub fn check_strokes(feeder: &Feeder) -> Report {
     let mut report = Report {
         goals: goals(feeder),
         ..Report::default()

@@ -71,14 +71,11 @@ pub(crate) fn check_pusher(mechanism: &ThreeArm, report: &mut Report) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use centrode_mechanism::design::Design;
+    use centrode_mechanism::design::DesignSpec as _;
     use centrode_mechanism::three_arm::design::{PusherCamSpec, ThreeArmDesign};
 
     fn checked(change: impl Fn(&mut ThreeArmDesign)) -> Report {
-        let text = Design::template("three-arm").expect("a template");
-        let Design::ThreeArm(mut design) = Design::from_toml(text).expect("sound") else {
-            panic!("a three-arm mechanism")
-        };
+        let mut design = ThreeArmDesign::from_toml(ThreeArmDesign::TEMPLATE).expect("sound");
         change(&mut design);
         let mechanism = ThreeArm::resolve(&design).expect("a mechanism");
         let mut report = Report::default();

@@ -121,7 +121,10 @@ impl<'a> Package<'a> {
     }
 
     /// Offers the drawing of a part, made for the kind of curves it is written with.
-    pub(crate) fn drawing(
+    ///
+    /// # Errors
+    /// [`ExportError`] where it cannot be made or written.
+    pub fn drawing(
         &mut self,
         part: &str,
         make: impl Fn(Curves) -> Result<Drawing, ExportError>,
@@ -184,7 +187,10 @@ impl<'a> Package<'a> {
     }
 
     /// Offers a part as a solid, which its files call by a title.
-    pub(crate) fn solid(
+    ///
+    /// # Errors
+    /// [`ExportError`] where it cannot be made or written.
+    pub fn solid(
         &mut self,
         part: &str,
         title: &str,
@@ -247,7 +253,10 @@ impl<'a> Package<'a> {
     }
 
     /// Offers a table of a part under a name of its own.
-    pub(crate) fn table(
+    ///
+    /// # Errors
+    /// [`ExportError`] where it cannot be made or written.
+    pub fn table(
         &mut self,
         part: &str,
         name: &str,
@@ -273,7 +282,10 @@ impl<'a> Package<'a> {
     }
 
     /// Offers the machine: its table of motion, simulator models with the meshes they show, scripts that play them.
-    pub(crate) fn machine(
+    ///
+    /// # Errors
+    /// [`ExportError`] where it cannot be made or written.
+    pub fn machine(
         &mut self,
         make: impl FnOnce() -> Result<Machine, ExportError>,
     ) -> Result<(), ExportError> {

@@ -10,7 +10,6 @@ mod formula;
 pub mod gear;
 pub mod linkage;
 pub mod machine;
-pub mod mechanism;
 pub mod shaft;
 pub mod three_arm;
 pub mod transmission;

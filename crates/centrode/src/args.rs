@@ -1,9 +1,9 @@
 use std::path::PathBuf;
 
 use centrode::analysis::optimise::Strategy;
+use centrode::family::{FAMILIES, PartName};
 use centrode::geometry::Tolerance;
-use centrode::mechanism::design::Design;
-use clap::builder::PossibleValuesParser;
+use clap::builder::{PossibleValue, PossibleValuesParser};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
 /// Finest tolerance that can be asked for, mm: below it lie the rounding errors of the outlines.
@@ -49,7 +49,7 @@ pub(crate) enum Command {
 #[command(after_help = "Example: centrode new gear-pair > pair.toml")]
 pub(crate) struct New {
     /// Family of mechanism
-    #[arg(value_parser = PossibleValuesParser::new(Design::FAMILIES))]
+    #[arg(value_parser = PossibleValuesParser::new(FAMILIES.words()))]
     pub(crate) family: String,
 }
 
@@ -85,8 +85,8 @@ pub(crate) struct Export {
     #[arg(long, value_enum, default_value_t = Dxf::R2010)]
     pub(crate) dxf: Dxf,
     /// Parts to write files of, separated by commas; left out, all
-    #[arg(long, value_enum, value_delimiter = ',', value_name = "PARTS")]
-    pub(crate) part: Vec<Part>,
+    #[arg(long, value_parser = parts(), value_delimiter = ',', value_name = "PARTS")]
+    pub(crate) part: Vec<String>,
     /// Size of the drawing sheets; left out, the design's, or the smallest that takes the part
     #[arg(long, value_enum, ignore_case = true, value_name = "SIZE")]
     pub(crate) sheet: Option<Size>,
@@ -130,39 +130,16 @@ pub(crate) enum File {
     Json,
 }
 
-/// A part of a machine, or all in place.
-#[derive(Clone, Copy, Debug, Eq, PartialEq, ValueEnum)]
-pub(crate) enum Part {
-    /// The driver of a pair
-    Driver,
-    /// The driven gear of a pair
-    Driven,
-    /// Three arms: the fixed gear
-    Sun,
-    /// Three arms: the gear between sun and planet
-    Intermediate,
-    /// Three arms: the gear that carries an arm
-    Planet,
-    /// Three arms: what moves the push rod
-    Cam,
-    /// Three arms: between cam and push rod
-    Fork,
-    /// Three arms: on the fork
-    Roller,
-    /// Three arms: the plate on either side of the gears
-    Carrier,
-    /// Three arms: the wall of an arm's housing
-    Housing,
-    /// Three arms: its cover towards the gearbox
-    CoverRear,
-    /// Three arms: its cover away from the gearbox
-    CoverFront,
-    /// Three arms: a flake of the clamp
-    Clamp,
-    /// Three arms: with its pusher
-    PushRod,
-    /// Everything in place
-    Assembly,
+/// The parts of every family, those of several families once and last.
+fn parts() -> PossibleValuesParser {
+    let parts = FAMILIES.0.iter().flat_map(|family| family.parts);
+    let mut all: Vec<PartName> = Vec::new();
+    for part in parts {
+        all.retain(|other| other.name != part.name);
+        all.push(*part);
+    }
+    let values = all.into_iter();
+    PossibleValuesParser::new(values.map(|part| PossibleValue::new(part.name).help(part.about)))
 }
 
 /// A size of sheet, ISO 5457.
@@ -241,7 +218,7 @@ pub(crate) struct Optimise {
     /// Go on with the search that is stored beside the output
     #[arg(long)]
     pub(crate) resume: bool,
-    /// Instead of a search, widen the bounds of a feeder by as little as lets all its goals be reached
+    /// Instead of a search, widen the bounds by as little as lets all goals be reached, where the family can
     #[arg(long, conflicts_with_all = ["method", "seed", "evaluations", "population", "resume"])]
     pub(crate) widen: bool,
     /// Print the outcome as JSON
@@ -292,7 +269,7 @@ pub(crate) struct Response {
 #[derive(Debug, Args)]
 pub(crate) struct Schema {
     /// Family of mechanism, or a file that is exported; left out, the design file of all families
-    #[arg(value_parser = PossibleValuesParser::new(Design::FAMILIES.into_iter().chain(crate::schema::FILES)))]
+    #[arg(value_parser = PossibleValuesParser::new(FAMILIES.words().into_iter().chain(crate::schema::FILES)))]
     pub(crate) family: Option<String>,
 }
 

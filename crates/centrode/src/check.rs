@@ -15,12 +15,12 @@ pub(crate) fn run(command: &Check, out: &mut impl Write) -> Result<ExitCode, Fai
     progress.step("resolving the design");
     let mechanism = design.mechanism().map_err(|error| source.blame(error))?;
     progress.step("checking");
-    let report = centrode::analysis::check_mechanism(&mechanism);
+    let report = mechanism.check();
     drop(progress);
     if command.json {
         out.write_all(report::json(&report)?.as_bytes())?;
     } else {
-        report::write(&mechanism, &report, out)?;
+        report::write(mechanism.as_ref(), &report, out)?;
     }
     Ok(ExitCode::from(u8::from(!report.ok())))
 }

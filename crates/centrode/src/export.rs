@@ -2,13 +2,11 @@ use std::io::Write;
 use std::process::ExitCode;
 
 use centrode::analysis::Report;
-use centrode::export::{Bundle, Format, Options, SheetOptions};
-use centrode::export::{dxf, feeder, gear_pair, shaft, three_arm};
+use centrode::export::{Bundle, Format, Options, SheetOptions, dxf};
+use centrode::family::{Family, Mechanism, PartName};
 use centrode::mechanism::design::{Projection, SheetSize};
-use centrode::mechanism::mechanism::Mechanism;
-use clap::ValueEnum as _;
 
-use crate::args::{Dxf, Export, File, Method, Part, Size};
+use crate::args::{Dxf, Export, File, Method, Size};
 use crate::failure::Failure;
 use crate::input::Source;
 use crate::output;
@@ -24,9 +22,9 @@ pub(crate) fn run(command: &Export, out: &mut impl Write) -> Result<ExitCode, Fa
     progress.step("resolving the design");
     let mechanism = design.mechanism().map_err(|error| source.blame(error))?;
     progress.step("checking");
-    let found = centrode::analysis::check_mechanism(&mechanism);
+    let found = mechanism.check();
     progress.step("drawing");
-    let bundle = bundle(&mechanism, &found, command)?;
+    let bundle = bundle(design.family(), mechanism.as_ref(), &found, command)?;
     progress.step("writing");
     let written = output::write(&bundle, &command.to)?;
     drop(progress);
@@ -44,29 +42,28 @@ pub(crate) fn zip(text: &str, command: &Export) -> Result<Vec<u8>, Failure> {
     let source = Source::of_text(text);
     let design = source.design()?;
     let mechanism = design.mechanism().map_err(|error| source.blame(error))?;
-    let found = centrode::analysis::check_mechanism(&mechanism);
-    Ok(bundle(&mechanism, &found, command)?.zip()?)
+    let found = mechanism.check();
+    Ok(bundle(design.family(), mechanism.as_ref(), &found, command)?.zip()?)
 }
 
 /// The files of a mechanism and its report.
-fn bundle(mechanism: &Mechanism, found: &Report, command: &Export) -> Result<Bundle, Failure> {
-    let mut bundle = files(mechanism, command, found)?;
+fn bundle(
+    family: &Family,
+    mechanism: &dyn Mechanism,
+    found: &Report,
+    command: &Export,
+) -> Result<Bundle, Failure> {
+    let named = |part: &String| family.parts.iter().any(|known| known.name == part);
+    if let Some(lost) = command.part.iter().find(|part| !named(part)) {
+        let message = format!("{} has no part named {lost}", family.noun);
+        return Err(Failure::Usage(message));
+    }
+    let (formats, options) = (formats(command), options(command, found));
+    let mut bundle = mechanism.files(&formats, &options)?;
     if command.wants(File::Json) {
         bundle.add("report.json", report::json(found)?.into_bytes())?;
     }
     Ok(bundle)
-}
-
-/// The files of a mechanism in the formats asked for.
-fn files(mechanism: &Mechanism, command: &Export, found: &Report) -> Result<Bundle, Failure> {
-    let (formats, options) = (formats(command), options(command, found));
-    Ok(match mechanism {
-        Mechanism::GearPair(pair) => gear_pair::files(pair, &formats, &options),
-        Mechanism::ThreeArm(machine) => three_arm::files(machine, &formats, &options),
-        Mechanism::SpiralShaft(part) => shaft::files(part, &formats, &options),
-        Mechanism::MovingBox(machine) => shaft::moving_box_files(machine, &formats, &options),
-        Mechanism::Feeder(machine) => feeder::files(machine, &formats, &options),
-    }?)
 }
 
 /// A line on standard error: what was found, and that the files are there all the same.
@@ -121,7 +118,7 @@ fn refuse_useless(command: &Export) -> Result<(), Failure> {
     if command.part.is_empty() || any(&drawn) {
         return Ok(());
     }
-    if command.part == [Part::Assembly] {
+    if command.part == [PartName::ASSEMBLY.name] {
         return refused("--part assembly", "drawings: dxf, svg, sheet and pdf");
     }
     if !any(&solid) {
@@ -138,8 +135,7 @@ fn options(command: &Export, found: &Report) -> Options {
         Dxf::Spline => options.dxf_curves = dxf::Curves::Splines,
     }
     if !command.part.is_empty() {
-        let values = command.part.iter().filter_map(Part::to_possible_value);
-        options.parts = Some(values.map(|value| value.get_name().to_owned()).collect());
+        options.parts = Some(command.part.clone());
     }
     options.sheet = SheetOptions {
         size: command.sheet.map(|size| match size {

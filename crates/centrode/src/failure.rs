@@ -132,10 +132,10 @@ fn printable(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use centrode::mechanism::design::DesignFile;
+    use centrode::FAMILIES;
 
     fn shown(text: &str) -> String {
-        let error = DesignFile::read(text.as_bytes()).expect_err("a bad design");
+        let error = FAMILIES.read(text.as_bytes()).expect_err("a bad design");
         let failure = Failure::Design {
             name: "pair.toml".into(),
             text: text.into(),

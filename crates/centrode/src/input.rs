@@ -2,6 +2,7 @@ use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
 
+use centrode::family::{FAMILIES, OpenDesign};
 use centrode::mechanism::design::{DesignError, DesignFile};
 
 use crate::failure::Failure;
@@ -54,8 +55,10 @@ impl Source {
     }
 
     /// The design of the file.
-    pub(crate) fn design(&self) -> Result<DesignFile, Failure> {
-        DesignFile::read(&self.bytes).map_err(|error| self.blame(error))
+    pub(crate) fn design(&self) -> Result<OpenDesign, Failure> {
+        FAMILIES
+            .read(&self.bytes)
+            .map_err(|error| self.blame(error))
     }
 
     /// The error, shown at its line of this file.

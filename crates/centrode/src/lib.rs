@@ -7,6 +7,10 @@ pub use centrode_export as export;
 pub use centrode_geometry as geometry;
 pub use centrode_mechanism as mechanism;
 
+pub mod family;
+
+pub use family::FAMILIES;
+
 use export::Meshing;
 
 /// What drawing sheets tell of a report: the pairs of teeth in contact, and the play along the common

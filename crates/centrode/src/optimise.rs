@@ -8,7 +8,7 @@ use std::process::ExitCode;
 use std::time::{Duration, Instant};
 
 use centrode::analysis::optimise::{
-    DesignProblem, DesignSearch, Ended, SearchError, Settings, Strategy, problem_of,
+    DesignProblem, DesignSearch, Ended, SearchError, Settings, Strategy,
 };
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
@@ -30,9 +30,10 @@ pub(crate) fn run(command: &Optimise, out: &mut impl Write) -> Result<ExitCode, 
     // A design that gives no mechanism is told as by a check.
     file.mechanism().map_err(|error| source.blame(error))?;
     if command.widen {
-        return widen::run(command, file.design(), &source.text()?, out);
+        return widen::run(command, &file, &source.text()?, out);
     }
-    let problem = problem_of(file.design()).map_err(|e| Failure::Usage(e.to_string()))?;
+    let problem = file.family().problem(file.design());
+    let problem = problem.map_err(|e| Failure::Usage(e.to_string()))?;
     let problem = problem.as_ref();
     let stored = Stored::beside(&command.output);
     let mut search = if command.resume {

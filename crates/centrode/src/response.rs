@@ -3,8 +3,9 @@ use std::io::Write;
 use std::path::Path;
 use std::process::ExitCode;
 
-use centrode::analysis::{Answer, Depth, Response as Found};
+use centrode::analysis::{Answer, Response as Found};
 use centrode::export::Bundle;
+use centrode::family::Depth;
 
 use crate::args::Response;
 use crate::failure::Failure;
@@ -24,7 +25,7 @@ pub(crate) fn run(command: &Response, out: &mut impl Write) -> Result<ExitCode, 
     let progress = Progress::new(1);
     progress.step("checking at every value");
     let find = |depth| {
-        let response = Found::of(file.design(), &key, &values, depth);
+        let response = file.family().response(file.design(), &key, &values, depth);
         let response = response.map_err(|error| Failure::Usage(error.message()))?;
         let answers = response.answers();
         Ok::<_, Failure>((response, answers))

@@ -1,7 +1,7 @@
 use std::io::Write;
 use std::process::ExitCode;
 
-use centrode::mechanism::design::Design;
+use centrode::FAMILIES;
 
 use crate::args::Schema;
 use crate::failure::Failure;
@@ -11,20 +11,14 @@ pub(crate) const FILES: [&str; 2] = ["machine-model", "motion"];
 
 /// Prints the JSON schema of the design file, or of a file that is exported.
 pub(crate) fn run(command: &Schema, out: &mut impl Write) -> Result<ExitCode, Failure> {
-    let family = command.family.as_deref();
-    let file = match family {
-        Some("machine-model") => Some(centrode::export::machine::schema()),
-        Some("motion") => Some(centrode::export::machine::motion_schema()),
-        _ => None,
-    };
-    if let Some(schema) = file {
-        writeln!(out, "{schema:#}")?;
-        return Ok(ExitCode::SUCCESS);
-    }
-    let schema = family.map_or_else(|| Some(Design::json_schema()), Design::json_schema_of);
-    let Some(schema) = schema else {
-        let family = family.unwrap_or_default();
-        return Err(Failure::Usage(format!("unknown family {family:?}")));
+    let schema = match command.family.as_deref() {
+        None => FAMILIES.json_schema(),
+        Some("machine-model") => centrode::export::machine::schema(),
+        Some("motion") => centrode::export::machine::motion_schema(),
+        Some(word) => match FAMILIES.named(word) {
+            Some(family) => family.design.json_schema(),
+            None => return Err(Failure::Usage(format!("unknown family {word:?}"))),
+        },
     };
     writeln!(out, "{schema:#}")?;
     Ok(ExitCode::SUCCESS)

@@ -1,7 +1,7 @@
 pub(crate) mod kinds;
 
 use centrode_geometry::Jet;
-use centrode_mechanism::design::Design;
+use centrode_mechanism::design::{Design as _, DesignSpec as _};
 use centrode_mechanism::gear::design::GearPairDesign;
 use centrode_mechanism::gear::pitch as spec;
 use numpy::{IntoPyArray, PyArray1, PyArray2};
@@ -119,8 +119,9 @@ impl Pitch {
     }
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, (String,))> {
-        let design = Design::GearPair(Box::new(GearPairDesign::new(self.spec.clone())));
-        let text = design.to_toml().map_err(|e| of_design(&e))?;
+        let text = GearPairDesign::new(self.spec.clone())
+            .to_toml()
+            .map_err(|e| of_design(&e))?;
         let module = PyModule::import(py, "centrode._centrode")?;
         Ok((module.getattr("_pitch_from_toml")?, (text,)))
     }
@@ -129,8 +130,6 @@ impl Pitch {
 /// The pitch curve of a design file: how a pitch curve is unpickled.
 #[pyfunction]
 pub(crate) fn _pitch_from_toml(text: &str) -> PyResult<Pitch> {
-    match Design::from_toml(text).map_err(|e| of_design(&e))? {
-        Design::GearPair(design) => Pitch::resolve(design.pitch),
-        _ => Err(crate::error::not_of_family("gear-pair")),
-    }
+    let design = GearPairDesign::from_toml(text).map_err(|e| of_design(&e))?;
+    Pitch::resolve(design.pitch)
 }

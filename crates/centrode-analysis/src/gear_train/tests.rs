@@ -1,15 +1,12 @@
 use super::*;
-use centrode_mechanism::design::Design;
+use centrode_mechanism::design::DesignSpec as _;
 use centrode_mechanism::gear::pitch::{Limacon, PitchSpec};
 use centrode_mechanism::three_arm::Mesh;
 use centrode_mechanism::three_arm::design::{Direction, ThreeArmDesign};
 
 /// Gentle gears with full teeth, three chains as published.
 fn gentle(change: impl Fn(&mut ThreeArmDesign)) -> (ThreeArm, GearPair) {
-    let text = Design::template("three-arm").expect("a template");
-    let Design::ThreeArm(mut design) = Design::from_toml(text).expect("sound") else {
-        panic!("a three-arm mechanism")
-    };
+    let mut design = ThreeArmDesign::from_toml(ThreeArmDesign::TEMPLATE).expect("sound");
     design.pitch = PitchSpec::Limacon(Limacon {
         mean_radius: 45.0,
         amplitude: 7.0,

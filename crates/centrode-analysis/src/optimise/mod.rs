@@ -20,7 +20,7 @@ pub mod six_bar;
 mod tests;
 pub mod three_arm;
 
-pub use design::{DesignProblem, NotSearched, Variable, problem_of};
+pub use design::{DesignProblem, NotSearched, Variable};
 pub use design_search::{DesignSearch, Strategy};
 pub use guided::{GuidedSearch, GuidedStep};
 pub use problem::{Candidate, Evaluation, Problem};

@@ -9,6 +9,7 @@ mod sheets;
 use crate::package::title_or_name;
 use crate::{Bundle, ExportError, Format, Options, Package};
 use centrode_mechanism::feeder::{Feeder, FeederError, Part, Plate};
+use centrode_mechanism::machine::Machine;
 pub use picture::{Teeth, curves, picture};
 pub use plates::{assembly, plate};
 
@@ -16,6 +17,20 @@ impl From<FeederError> for ExportError {
     fn from(error: FeederError) -> Self {
         Self::missing(error)
     }
+}
+
+/// The six-bar as links and joints.
+///
+/// # Errors
+/// [`ExportError`] where a link cannot be cut from plate.
+pub fn machine(feeder: &Feeder) -> Result<Machine, ExportError> {
+    links::machine(feeder, &cut(feeder)?)
+}
+
+/// Every part as a plate.
+fn cut(feeder: &Feeder) -> Result<Vec<Plate>, FeederError> {
+    let plates = Part::ALL.into_iter().map(|part| feeder.plate(part));
+    plates.collect()
 }
 
 /// The files of a feeder in the formats asked for, not yet on disk.
@@ -33,10 +48,7 @@ pub fn files(
     options: &Options,
 ) -> Result<Bundle, ExportError> {
     let design = feeder.design();
-    let plates: Vec<Plate> = Part::ALL
-        .into_iter()
-        .map(|part| feeder.plate(part))
-        .collect::<Result<_, _>>()?;
+    let plates = cut(feeder)?;
     let named = [design.name.as_str(), design.title.as_str()];
     let mut package = Package::new("a feeder", named, formats, options);
     for part in &plates {

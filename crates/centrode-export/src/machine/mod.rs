@@ -8,9 +8,9 @@ mod motion;
 use centrode_mechanism::machine::Machine;
 
 use crate::{ExportError, Format, Package, csv, mjcf, urdf};
+pub use file::{MachineFileError, plain, read, schema, write};
 #[cfg(test)]
 pub(crate) use model::simulated;
-pub use file::{MachineFileError, plain, read, schema, write};
 pub use motion::{
     ClosureWords, ColumnWords, InputWords, Interpolation, JointWords, LinearWords, MeshWords,
     MotionFile, PointWords,

@@ -10,6 +10,7 @@ mod tables;
 
 use crate::{Bundle, ExportError, Format, Options, Package, gear_pair};
 use centrode_geometry::Solid;
+use centrode_mechanism::machine::Machine as Linked;
 use centrode_mechanism::shaft::{MovingBox, ShaftError, SpiralShaft};
 pub use drawings::{developed, side_view, slider};
 pub use gcode::program;
@@ -56,6 +57,22 @@ pub fn moving_box_files(
     options: &Options,
 ) -> Result<Bundle, ExportError> {
     all("a moving box", &Machine::of_box(machine)?, formats, options)
+}
+
+/// Shaft, box and slider as links and joints.
+///
+/// # Errors
+/// [`ExportError`] where body and groove make no solid.
+pub fn machine(shaft: &SpiralShaft) -> Result<Linked, ExportError> {
+    links::machine(&Machine::of_shaft(shaft))
+}
+
+/// Gears, shaft, box and slider as links and joints.
+///
+/// # Errors
+/// [`ExportError`], for instance where the gears cannot be cut.
+pub fn moving_box_machine(machine: &MovingBox) -> Result<Linked, ExportError> {
+    links::machine(&Machine::of_box(machine)?)
 }
 
 fn slider_solid(shaft: &SpiralShaft) -> Result<Solid, ExportError> {

@@ -11,6 +11,7 @@ mod surroundings;
 mod turn;
 
 use centrode_mechanism::arm::ArmError;
+use centrode_mechanism::machine::Machine as Linked;
 use centrode_mechanism::three_arm::{PusherError, ThreeArm};
 
 use crate::gear_pair::{self, Label};
@@ -29,6 +30,14 @@ impl From<PusherError> for ExportError {
     fn from(error: PusherError) -> Self {
         Self::missing_at(error.key(), error)
     }
+}
+
+/// The mechanism as links and joints.
+///
+/// # Errors
+/// [`ExportError`] where a part does not exist.
+pub fn machine(mechanism: &ThreeArm) -> Result<Linked, ExportError> {
+    links::machine(&Machine::new(mechanism)?)
 }
 
 /// The files of a mechanism's parts in the formats asked for, not yet on disk: each part once, however many

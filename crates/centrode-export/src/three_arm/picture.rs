@@ -319,14 +319,12 @@ mod tests {
     use std::f64::consts::TAU;
 
     use super::*;
-    use centrode_mechanism::design::Design;
+    use centrode_mechanism::design::DesignSpec as _;
+    use centrode_mechanism::three_arm::design::ThreeArmDesign;
 
     #[test]
     fn arms_that_work_have_their_tips_at_the_marks() {
-        let text = Design::template("three-arm").expect("a template");
-        let Design::ThreeArm(design) = Design::from_toml(text).expect("sound") else {
-            panic!("a three-arm mechanism")
-        };
+        let design = ThreeArmDesign::from_toml(ThreeArmDesign::TEMPLATE).expect("sound");
         let mechanism = ThreeArm::resolve(&design).expect("a mechanism");
         for (pose, mark) in working_poses(&mechanism).iter().zip(marks(&mechanism)) {
             let tip = Point::new(pose.vertices[9], pose.vertices[10]);
@@ -336,10 +334,7 @@ mod tests {
 
     #[test]
     fn the_path_left_on_the_ground_goes_through_the_tip_at_every_input() {
-        let text = Design::template("three-arm").expect("a template");
-        let Design::ThreeArm(design) = Design::from_toml(text).expect("sound") else {
-            panic!("a three-arm mechanism")
-        };
+        let design = ThreeArmDesign::from_toml(ThreeArmDesign::TEMPLATE).expect("sound");
         let mechanism = ThreeArm::resolve(&design).expect("a mechanism");
         let tolerance = Tolerance::new(1e-3).expect("positive");
         let picture = picture(&mechanism, Teeth::Plain, tolerance);

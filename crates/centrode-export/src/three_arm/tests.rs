@@ -1,7 +1,7 @@
 use std::collections::BTreeSet;
 
 use centrode_geometry::{Solid, Tolerance};
-use centrode_mechanism::design::Design;
+use centrode_mechanism::design::DesignSpec as _;
 use centrode_mechanism::machine::{Column, Form, JointKind, Quantity};
 use centrode_mechanism::three_arm::design::ThreeArmDesign;
 
@@ -9,10 +9,7 @@ use super::*;
 use crate::sheet::overlaps;
 
 fn mechanism(change: impl Fn(&mut ThreeArmDesign)) -> ThreeArm {
-    let text = Design::template("three-arm").expect("a template");
-    let Design::ThreeArm(mut design) = Design::from_toml(text).expect("sound") else {
-        panic!("a three-arm mechanism")
-    };
+    let mut design = ThreeArmDesign::from_toml(ThreeArmDesign::TEMPLATE).expect("sound");
     change(&mut design);
     ThreeArm::resolve(&design).expect("a mechanism")
 }

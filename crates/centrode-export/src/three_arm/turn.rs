@@ -62,16 +62,14 @@ impl<'a> Turn<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use centrode_mechanism::design::Design;
+    use centrode_mechanism::design::DesignSpec as _;
+    use centrode_mechanism::three_arm::design::ThreeArmDesign;
 
     #[test]
     fn every_arm_does_what_the_first_does_later() {
-        let text = Design::template("three-arm").expect("a template");
         for arms in ["2", "3", "5"] {
-            let text = text.replace("arms = 3", &format!("arms = {arms}"));
-            let Design::ThreeArm(design) = Design::from_toml(&text).expect("sound") else {
-                panic!("a three-arm mechanism")
-            };
+            let text = ThreeArmDesign::TEMPLATE.replace("arms = 3", &format!("arms = {arms}"));
+            let design = ThreeArmDesign::from_toml(&text).expect("sound");
             let mechanism = ThreeArm::resolve(&design).expect("a mechanism");
             let turn = Turn::of(&mechanism, 32);
             assert!(turn.inputs().len() > 32);

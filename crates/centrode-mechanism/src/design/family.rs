@@ -1,143 +1,189 @@
+use std::any::Any;
+use std::fmt::Debug;
+use std::sync::Arc;
+
+use schemars::{JsonSchema, Schema, SchemaGenerator};
+use serde::Serialize;
 use serde::de::DeserializeOwned;
-use toml::de::{Error, ValueDeserializer};
+use toml::Spanned;
+use toml::de::{DeTable, Error, ValueDeserializer};
 
-use super::Design;
-use crate::feeder::FeederDesign;
-use crate::gear::design::{GearPairDesign, SpecError, ToolSpec};
-use crate::gear::pitch::PitchSpec;
-use crate::shaft::{MovingBoxDesign, SpeedLaw, SpiralShaftDesign};
-use crate::three_arm::design::ThreeArmDesign;
+use super::number::NumberedDesign;
+use super::reader::Reader;
+use super::{DesignError, DesignFault, DesignFile};
+use crate::gear::design::SpecError;
 
-/// What a reader must know of a family of mechanism: all there is to say, in one place a family.
-pub(crate) trait Family: DeserializeOwned + Into<Design> {
+/// A mechanism as written: one of the families, by the key `family`.
+pub trait Design: Any + Debug + Send + Sync {
+    /// Its family.
+    fn family(&self) -> DesignFamily;
+
+    /// Short name.
+    fn name(&self) -> &str;
+
+    /// One line for drawings and reports.
+    fn title(&self) -> &str;
+
+    /// Checks every rule that needs no geometry.
+    ///
+    /// # Errors
+    /// [`SpecError`] with the key at fault.
+    fn validate(&self) -> Result<(), SpecError>;
+
+    /// The design as a file; reads back as the same design.
+    ///
+    /// # Errors
+    /// [`DesignFault::NotWritable`] for a number no file can hold, such as a tooth count above the
+    /// greatest whole number of TOML.
+    fn to_toml(&self) -> Result<String, DesignError>;
+
+    /// The key in the design file that a word stands for: a parameter's name, `r1`, or the key itself.
+    fn key_of(&self, word: &str) -> String;
+
+    /// The design with the number at a key of its file open, `arm.tip_distance` or `pitch.radius[3]`.
+    ///
+    /// A number that is not written, but may be, is opened by [`NumberedDesign::with`] too, if the table it stands
+    /// in is there.
+    ///
+    /// # Errors
+    /// [`DesignFault::UnknownKey`] where no number can stand at the key.
+    fn numbered(&self, key: &str) -> Result<NumberedDesign, DesignError> {
+        NumberedDesign::new(self.family(), &self.to_toml()?, key)
+    }
+
+    /// Whether another is the same design.
+    fn equals(&self, other: &dyn Design) -> bool;
+}
+
+impl dyn Design {
+    /// The design of a family, where it is of that.
+    #[must_use]
+    pub fn downcast_ref<D: DesignSpec>(&self) -> Option<&D> {
+        (self as &dyn Any).downcast_ref()
+    }
+}
+
+impl PartialEq for dyn Design {
+    fn eq(&self, other: &Self) -> bool {
+        self.equals(other)
+    }
+}
+
+/// The design file of one family: all that a reader must know of it, in one place.
+pub trait DesignSpec:
+    Clone + Debug + DeserializeOwned + JsonSchema + PartialEq + Send + Serialize + Sync + 'static
+{
+    /// Word of the family, as written at the key `family`.
+    const FAMILY: &'static str;
+    /// Sentence that says which mechanism it is.
+    const ABOUT: &'static str;
+    /// Commented design file to start from, itself a good design.
+    const TEMPLATE: &'static str;
     /// Keys at the root that hold a table.
     const TABLES: &'static [&'static str];
     /// Those of them whose key `kind` says what else is in them.
-    const TAGGED: &'static [Tagged];
+    const TAGGED: &'static [Tagged] = &[];
+
+    /// Name and title, as written.
+    fn words(&self) -> [&str; 2];
 
     /// The rules that need no geometry.
-    fn validate(&self) -> Result<(), SpecError>;
+    ///
+    /// # Errors
+    /// [`SpecError`] with the key at fault.
+    fn rules(&self) -> Result<(), SpecError>;
+
+    /// The key that a word of this family stands for.
+    #[must_use]
+    fn key_of(_word: &str) -> Option<String> {
+        None
+    }
+
+    /// Reads a design file of this family and checks every rule that needs no geometry.
+    ///
+    /// # Errors
+    /// [`DesignError`] naming key, line and column.
+    fn from_toml(text: &str) -> Result<Self, DesignError> {
+        let mut reader = Reader::of(DesignFile::text_of(text.as_bytes())?);
+        let (root, _) = reader.root(&[DesignFamily::of::<Self>()])?;
+        reader.design(root)
+    }
+}
+
+impl<D: DesignSpec> Design for D {
+    fn family(&self) -> DesignFamily {
+        DesignFamily::of::<D>()
+    }
+
+    fn name(&self) -> &str {
+        self.words()[0]
+    }
+
+    fn title(&self) -> &str {
+        self.words()[1]
+    }
+
+    fn validate(&self) -> Result<(), SpecError> {
+        self.rules()
+    }
+
+    fn to_toml(&self) -> Result<String, DesignError> {
+        let keys = toml::to_string(self);
+        let keys = keys.map_err(|e| DesignError::at_start(DesignFault::NotWritable(e.to_string())));
+        Ok(format!("family = \"{}\"\n{}", D::FAMILY, keys?))
+    }
+
+    fn key_of(&self, word: &str) -> String {
+        <D as DesignSpec>::key_of(word).unwrap_or_else(|| word.to_owned())
+    }
+
+    fn equals(&self, other: &dyn Design) -> bool {
+        other.downcast_ref::<D>() == Some(self)
+    }
+}
+
+/// A family of mechanism, to one who reads and writes its design files.
+#[derive(Clone, Copy, Debug)]
+pub struct DesignFamily {
+    /// Word of the family, as written at the key `family`.
+    pub word: &'static str,
+    /// Sentence that says which mechanism it is.
+    pub about: &'static str,
+    /// Commented design file to start from, itself a good design.
+    pub template: &'static str,
+    pub(super) read: Read,
+    pub(super) schema: fn(&mut SchemaGenerator) -> Schema,
+    pub(super) title: fn() -> std::borrow::Cow<'static, str>,
+}
+
+type Read = for<'a> fn(&Reader<'a>, Spanned<DeTable<'a>>) -> Result<Arc<dyn Design>, DesignError>;
+
+impl DesignFamily {
+    /// The family of a design.
+    #[must_use]
+    pub const fn of<D: DesignSpec>() -> Self {
+        Self {
+            word: D::FAMILY,
+            about: D::ABOUT,
+            template: D::TEMPLATE,
+            read: |reader, root| Ok(Arc::new(reader.design::<D>(root)?)),
+            schema: D::json_schema,
+            title: D::schema_name,
+        }
+    }
+}
+
+impl AsRef<DesignFamily> for DesignFamily {
+    fn as_ref(&self) -> &Self {
+        self
+    }
 }
 
 /// A table whose key `kind` says what else is in it.
-pub(crate) struct Tagged {
+#[derive(Clone, Copy, Debug)]
+pub struct Tagged {
     pub(crate) key: &'static str,
     pub(crate) kinds: &'static [&'static str],
     /// Reads what stands beside `kind`, for the places of its errors.
     pub(crate) read: fn(&str, ValueDeserializer<'_>) -> Result<(), Error>,
-}
-
-const PITCH: Tagged = Tagged {
-    key: "pitch",
-    kinds: PitchSpec::KINDS,
-    read: |kind, table| PitchSpec::of_kind(kind, table).map(drop),
-};
-
-const TOOL: Tagged = Tagged {
-    key: "tool",
-    kinds: ToolSpec::KINDS,
-    read: |kind, table| ToolSpec::of_kind(kind, table).map(drop),
-};
-
-impl Family for GearPairDesign {
-    const TABLES: &'static [&'static str] =
-        &["pitch", "tool", "teeth", "driver", "driven", "drawing"];
-    const TAGGED: &'static [Tagged] = &[PITCH, TOOL];
-
-    fn validate(&self) -> Result<(), SpecError> {
-        self.validate()
-    }
-}
-
-impl From<GearPairDesign> for Design {
-    fn from(design: GearPairDesign) -> Self {
-        Self::GearPair(Box::new(design))
-    }
-}
-
-impl Family for ThreeArmDesign {
-    const TABLES: &'static [&'static str] = &[
-        "pitch",
-        "tool",
-        "teeth",
-        "arm",
-        "cam",
-        "fork",
-        "gearbox",
-        "work",
-        "tray",
-        "seedling",
-        "goals",
-        "optimise",
-        "sun",
-        "intermediate",
-        "planet",
-        "drawing",
-    ];
-    const TAGGED: &'static [Tagged] = &[PITCH, TOOL];
-
-    fn validate(&self) -> Result<(), SpecError> {
-        self.validate()
-    }
-}
-
-impl From<ThreeArmDesign> for Design {
-    fn from(design: ThreeArmDesign) -> Self {
-        Self::ThreeArm(Box::new(design))
-    }
-}
-
-const LAW: Tagged = Tagged {
-    key: "law",
-    kinds: SpeedLaw::KINDS,
-    read: |kind, table| SpeedLaw::of_kind(kind, table).map(drop),
-};
-
-impl Family for SpiralShaftDesign {
-    const TABLES: &'static [&'static str] = &[
-        "law", "reversal", "groove", "slider", "body", "mill", "load",
-    ];
-    const TAGGED: &'static [Tagged] = &[LAW];
-
-    fn validate(&self) -> Result<(), SpecError> {
-        self.validate()
-    }
-}
-
-impl From<SpiralShaftDesign> for Design {
-    fn from(design: SpiralShaftDesign) -> Self {
-        Self::SpiralShaft(Box::new(design))
-    }
-}
-
-impl Family for MovingBoxDesign {
-    const TABLES: &'static [&'static str] = &["gears", "shaft"];
-    const TAGGED: &'static [Tagged] = &[];
-
-    fn validate(&self) -> Result<(), SpecError> {
-        self.validate()
-    }
-}
-
-impl From<MovingBoxDesign> for Design {
-    fn from(design: MovingBoxDesign) -> Self {
-        Self::MovingBox(Box::new(design))
-    }
-}
-
-impl Family for FeederDesign {
-    const TABLES: &'static [&'static str] = &[
-        "linkage", "bounds", "goals", "drive", "gears", "plates", "making", "optimise", "drawing",
-    ];
-    const TAGGED: &'static [Tagged] = &[];
-
-    fn validate(&self) -> Result<(), SpecError> {
-        self.validate()
-    }
-}
-
-impl From<FeederDesign> for Design {
-    fn from(design: FeederDesign) -> Self {
-        Self::Feeder(Box::new(design))
-    }
 }

@@ -1,9 +1,8 @@
+use std::error;
+
 use thiserror::Error;
 
-use crate::gear::GearPairError;
-use crate::gear::design::Rule;
-use crate::gear::pitch::PitchError;
-use crate::mechanism::MechanismError;
+use crate::gear::design::{Rule, SpecError};
 
 /// What is wrong with a design file, and where.
 #[derive(Debug, Error)]
@@ -36,8 +35,11 @@ pub enum DesignFault {
     #[error("the file is not UTF-8 text")]
     NotText,
     /// Nothing but blanks and comments.
-    #[error("the file is empty: write family = \"gear-pair\" and what belongs to it")]
-    Empty,
+    #[error("the file is empty: write family = {example:?} and what belongs to it")]
+    Empty {
+        /// Word of a family.
+        example: &'static str,
+    },
     /// Not TOML.
     #[error("{0}")]
     Syntax(String),
@@ -68,21 +70,52 @@ pub enum DesignFault {
     /// A value outside its range, or against another key.
     #[error("{0}")]
     Value(Rule),
-    /// The pitch curve does not exist.
-    #[error(transparent)]
-    Pitch(PitchError),
-    /// The gears do not exist.
-    #[error(transparent)]
-    GearPair(Box<GearPairError>),
-    /// The mechanism does not exist.
-    #[error(transparent)]
-    Mechanism(Box<MechanismError>),
+    /// The mechanism does not exist: the error of what cannot be.
+    #[error("{0}")]
+    Mechanism(#[source] Box<dyn error::Error + Send + Sync>),
     /// A design that TOML cannot hold.
     #[error("{0}")]
     NotWritable(String),
 }
 
+/// Why a design gives no mechanism: the key at fault, and what is wrong there.
+#[derive(Debug, Error)]
+#[error("{fault}")]
+pub struct MechanismError {
+    /// Key of the design file.
+    pub key: String,
+    /// What is wrong.
+    #[source]
+    pub fault: DesignFault,
+}
+
+impl MechanismError {
+    /// The error of something that cannot be.
+    #[must_use]
+    pub fn new(key: String, error: impl error::Error + Send + Sync + 'static) -> Self {
+        let fault = DesignFault::Mechanism(Box::new(error));
+        Self { key, fault }
+    }
+}
+
+impl From<SpecError> for MechanismError {
+    fn from(SpecError { key, rule }: SpecError) -> Self {
+        let fault = DesignFault::Value(rule);
+        Self { key, fault }
+    }
+}
+
 impl DesignError {
+    /// A fault that no key is to blame for.
+    pub(super) fn at_start(fault: DesignFault) -> Self {
+        Self {
+            fault,
+            key: String::new(),
+            line: 1,
+            column: 1,
+        }
+    }
+
     /// The key and what is wrong with it, without the place.
     #[must_use]
     pub fn message(&self) -> String {

@@ -1,11 +1,12 @@
+use std::sync::Arc;
+
 use super::fault::nearest;
-use super::{Design, DesignError, DesignFault};
-use crate::feeder::Dimension;
-use crate::three_arm::Parameter;
+use super::{Design, DesignError, DesignFamily, DesignFault, DesignFile};
 
 /// A design with one of its numbers open.
 #[derive(Clone, Debug)]
 pub struct NumberedDesign {
+    family: DesignFamily,
     root: toml::Value,
     key: String,
     steps: Vec<Step>,
@@ -16,70 +17,6 @@ pub struct NumberedDesign {
 enum Step {
     Name(String),
     Index(usize),
-}
-
-impl Design {
-    /// The key in the design file that a word stands for: a parameter's name, `r1`, or the key itself.
-    #[must_use]
-    pub fn key_of(&self, word: &str) -> String {
-        let named = match self {
-            Self::ThreeArm(_) => word.parse().ok().map(Parameter::key),
-            Self::Feeder(_) => word.parse().ok().map(|d: Dimension| d.key().to_owned()),
-            _ => None,
-        };
-        named.unwrap_or_else(|| word.to_owned())
-    }
-
-    /// The design with the number at a key of its file open, `arm.tip_distance` or `pitch.radius[3]`.
-    ///
-    /// A number that is not written, but may be, is opened by [`NumberedDesign::with`] too, if the table it stands
-    /// in is there.
-    ///
-    /// # Errors
-    /// [`DesignFault::UnknownKey`] where no number can stand at the key.
-    pub fn numbered(&self, key: &str) -> Result<NumberedDesign, DesignError> {
-        let text = self.to_toml()?;
-        let root: toml::Value = toml::from_str(&text).map_err(|error| DesignError {
-            fault: DesignFault::NotWritable(error.to_string()),
-            key: String::new(),
-            line: 1,
-            column: 1,
-        })?;
-        let mut known = Vec::new();
-        numbers(&root, "", &mut known);
-        let unknown = || DesignError {
-            fault: DesignFault::UnknownKey {
-                near: nearest(key, &known),
-                known: known.clone(),
-            },
-            key: key.chars().take(80).collect(),
-            line: 1,
-            column: 1,
-        };
-        let steps = steps(key).ok_or_else(unknown)?;
-        let mut numbered = NumberedDesign {
-            root,
-            key: key.to_owned(),
-            steps,
-            whole: false,
-        };
-        numbered.whole = match numbered.place().ok_or_else(unknown)? {
-            toml::Value::Integer(_) => true,
-            toml::Value::Float(_) => false,
-            _ => return Err(unknown()),
-        };
-        // What is not written must be a key all the same; a count takes no fraction.
-        if !known.iter().any(|k| k == key)
-            && let Err(error) = numbered.with(1.0)
-        {
-            match error.fault {
-                DesignFault::UnknownKey { .. } => return Err(unknown()),
-                DesignFault::WrongType(_) => numbered.whole = true,
-                _ => {}
-            }
-        }
-        Ok(numbered)
-    }
 }
 
 /// Keys of all numbers at and below a value.
@@ -118,6 +55,45 @@ fn steps(path: &str) -> Option<Vec<Step>> {
 }
 
 impl NumberedDesign {
+    /// Opens the number at a key of a design's text.
+    pub(super) fn new(family: DesignFamily, text: &str, key: &str) -> Result<Self, DesignError> {
+        let root: toml::Value = toml::from_str(text)
+            .map_err(|e| DesignError::at_start(DesignFault::NotWritable(e.to_string())))?;
+        let mut known = Vec::new();
+        numbers(&root, "", &mut known);
+        let unknown = || DesignError {
+            key: key.chars().take(80).collect(),
+            ..DesignError::at_start(DesignFault::UnknownKey {
+                near: nearest(key, &known),
+                known: known.clone(),
+            })
+        };
+        let steps = steps(key).ok_or_else(unknown)?;
+        let mut numbered = Self {
+            family,
+            root,
+            key: key.to_owned(),
+            steps,
+            whole: false,
+        };
+        numbered.whole = match numbered.place().ok_or_else(unknown)? {
+            toml::Value::Integer(_) => true,
+            toml::Value::Float(_) => false,
+            _ => return Err(unknown()),
+        };
+        // What is not written must be a key all the same; a count takes no fraction.
+        if !known.iter().any(|k| k == key)
+            && let Err(error) = numbered.with(1.0)
+        {
+            match error.fault {
+                DesignFault::UnknownKey { .. } => return Err(unknown()),
+                DesignFault::WrongType(_) => numbered.whole = true,
+                _ => {}
+            }
+        }
+        Ok(numbered)
+    }
+
     fn place(&mut self) -> Option<&mut toml::Value> {
         let (last, tables) = self.steps.split_last()?;
         let mut here = &mut self.root;
@@ -141,7 +117,7 @@ impl NumberedDesign {
     ///
     /// # Errors
     /// [`DesignError`] where the number breaks a rule.
-    pub fn with(&self, value: f64) -> Result<Design, DesignError> {
+    pub fn with(&self, value: f64) -> Result<Arc<dyn Design>, DesignError> {
         let mut copy = self.clone();
         let number = if self.whole {
             toml::Value::Integer(value.round() as i64)
@@ -151,28 +127,26 @@ impl NumberedDesign {
         if let Some(place) = copy.place() {
             *place = number;
         }
-        let at_start = |fault| DesignError {
-            fault,
-            key: String::new(),
-            line: 1,
-            column: 1,
-        };
         let text = toml::to_string(&copy.root)
-            .map_err(|error| at_start(DesignFault::NotWritable(error.to_string())))?;
-        Design::from_toml(&text).map_err(|error| DesignError {
-            key: self.key.clone(),
-            ..error
-        })
+            .map_err(|e| DesignError::at_start(DesignFault::NotWritable(e.to_string())))?;
+        match DesignFile::read(text.as_bytes(), &[self.family]) {
+            Ok((file, _)) => Ok(Arc::clone(file.design())),
+            Err(error) => Err(DesignError {
+                key: self.key.clone(),
+                ..error
+            }),
+        }
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::design::DesignSpec;
+    use crate::three_arm::design::ThreeArmDesign;
 
-    fn published() -> Design {
-        let text = Design::template("three-arm").expect("a family");
-        Design::from_toml(text).expect("a design")
+    fn published() -> ThreeArmDesign {
+        ThreeArmDesign::from_toml(ThreeArmDesign::TEMPLATE).expect("a design")
     }
 
     #[test]

@@ -1,6 +1,7 @@
 use super::*;
 use crate::gear::GearPair;
-use crate::mechanism::Mechanism;
+use crate::gear::design::GearPairDesign;
+use crate::three_arm::design::ThreeArmDesign;
 use proptest::prelude::*;
 
 const GOOD: &str = r#"family = "gear-pair"
@@ -26,58 +27,42 @@ bore = 12
 keyway = { width = 4, depth = 1.8 }
 "#;
 
+fn read(text: impl AsRef<[u8]>) -> Result<DesignFile, DesignError> {
+    let families = [
+        DesignFamily::of::<GearPairDesign>(),
+        DesignFamily::of::<ThreeArmDesign>(),
+    ];
+    DesignFile::read(text.as_ref(), &families).map(|(file, _)| file)
+}
+
 fn pair_of(file: &DesignFile) -> Result<GearPair, DesignError> {
-    file.mechanism().map(|mechanism| match mechanism {
-        Mechanism::GearPair(pair) => *pair,
-        other => panic!("{} is no gear pair", other.family()),
-    })
-}
-
-fn shipped() -> Vec<(String, String)> {
-    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/designs");
-    let entries = std::fs::read_dir(folder).expect("the shipped designs");
-    entries
-        .map(|entry| entry.expect("readable").path())
-        .filter(|path| path.extension().is_some_and(|e| e == "toml"))
-        .map(|path| {
-            let text = std::fs::read_to_string(&path).expect("text");
-            (path.display().to_string(), text)
-        })
-        .collect()
-}
-
-#[test]
-fn shipped_designs_and_the_template_are_read_and_written_back() {
-    let mut files = shipped();
-    assert!(files.len() >= 7);
-    for family in Design::FAMILIES {
-        let template = Design::template(family).expect("a template");
-        files.push((family.into(), template.into()));
-    }
-    for (name, text) in files {
-        let file = DesignFile::read(text.as_bytes()).unwrap_or_else(|e| panic!("{name}: {e}"));
-        let pitch = match file.design() {
-            Design::GearPair(pair) => Some(&pair.pitch),
-            Design::ThreeArm(arms) => Some(&arms.pitch),
-            Design::SpiralShaft(_) | Design::MovingBox(_) | Design::Feeder(_) => None,
-        };
-        if let Some(pitch) = pitch {
-            pitch.resolve().unwrap_or_else(|e| panic!("{name}: {e}"));
-        }
-        let written = file.design().to_toml().expect("writable");
-        let again =
-            Design::from_toml(&written).unwrap_or_else(|e| panic!("{name}: {e}\n{written}"));
-        assert_eq!(&again, file.design(), "{written}");
-    }
+    let design = file.design().downcast_ref().expect("a gear pair");
+    GearPair::resolve(design).map_err(|error| file.blame(error.into()))
 }
 
 #[test]
 fn the_template_is_a_good_pair() {
-    let template = Design::template("gear-pair").expect("a template");
-    let file = DesignFile::read(template.as_bytes()).expect("a design");
+    let file = read(GearPairDesign::TEMPLATE).expect("a design");
     let pair = pair_of(&file).expect("a pair");
     assert!((pair.module() - 2.25).abs() < 1e-12);
-    assert!(Design::template("gear-pear").is_none());
+}
+
+#[test]
+fn only_the_families_asked_for_are_read() {
+    let error = ThreeArmDesign::from_toml(GOOD).expect_err("another family");
+    let message = error.to_string();
+    assert!(
+        message.starts_with("line 1, column 1: family: unknown word"),
+        "{message}"
+    );
+    assert!(message.ends_with("known are three-arm"), "{message}");
+    let design = GearPairDesign::from_toml(GOOD).expect("good");
+    assert!(&design as &dyn Design == read(GOOD).expect("good").design().as_ref());
+    assert!(
+        (&design as &dyn Design)
+            .downcast_ref::<ThreeArmDesign>()
+            .is_none()
+    );
 }
 
 #[test]
@@ -279,7 +264,7 @@ fn every_bad_line_is_named_with_key_and_place() {
     ] {
         assert!(GOOD.contains(old), "{old}");
         let text = GOOD.replacen(old, new, 1);
-        let found = DesignFile::read(text.as_bytes()).and_then(|file| pair_of(&file).map(drop));
+        let found = read(text).and_then(|file| pair_of(&file).map(drop));
         let message = found.expect_err(new).to_string();
         assert!(message.starts_with(expected), "{new:?}:\n  {message}");
     }
@@ -294,9 +279,7 @@ fn a_missing_table_is_told_by_its_own_name() {
             "carrier_start_deg",
         ),
     ] {
-        let error = DesignFile::read(text.as_bytes())
-            .map(drop)
-            .expect_err("missing");
+        let error = read(text).map(drop).expect_err("missing");
         assert_eq!(error.key, key);
     }
 }
@@ -304,7 +287,7 @@ fn a_missing_table_is_told_by_its_own_name() {
 #[test]
 fn too_much_play_is_told_at_the_play() {
     let text = GOOD.replacen("backlash = 0.05", "backlash = 24", 1);
-    let found = DesignFile::read(text.as_bytes()).and_then(|file| pair_of(&file).map(drop));
+    let found = read(text).and_then(|file| pair_of(&file).map(drop));
     assert_eq!(found.expect_err("no tooth left").key, "teeth.backlash");
 }
 
@@ -370,7 +353,7 @@ fn pitch_curve_faults_name_their_line() {
         ),
     ] {
         let text = format!("{head}{pitch}\n");
-        let found = DesignFile::read(text.as_bytes()).and_then(|file| pair_of(&file).map(drop));
+        let found = read(text).and_then(|file| pair_of(&file).map(drop));
         let message = found.expect_err(pitch).to_string();
         assert!(message.starts_with(expected), "{pitch}:\n  {message}");
     }
@@ -379,7 +362,7 @@ fn pitch_curve_faults_name_their_line() {
 #[test]
 fn bytes_that_are_no_design_are_refused_at_once() {
     let begun = std::time::Instant::now();
-    let message = |bytes: &[u8]| DesignFile::read(bytes).expect_err("no design").to_string();
+    let message = |bytes: &[u8]| read(bytes).expect_err("no design").to_string();
     assert!(message(b"").contains("the file is empty"));
     assert!(message(b"# nothing\n").contains("the file is empty"));
     assert!(
@@ -388,7 +371,7 @@ fn bytes_that_are_no_design_are_refused_at_once() {
     );
     assert!(message(&vec![b'a'; 10_000_000]).contains("10000000 bytes"));
     for cut in 0..GOOD.len() {
-        if let Err(error) = DesignFile::read(&GOOD.as_bytes()[..cut]) {
+        if let Err(error) = read(&GOOD.as_bytes()[..cut]) {
             assert!(error.line <= GOOD.lines().count() + 1, "{error}");
         }
     }
@@ -413,89 +396,16 @@ fn bytes_that_are_no_design_are_refused_at_once() {
 
 #[test]
 fn angles_are_degrees_in_the_file_and_come_back_round() {
-    let design = Design::from_toml(GOOD).expect("good");
-    let Design::GearPair(pair) = &design else {
-        panic!("no gear pair");
-    };
-    assert_eq!(pair.tool.pressure_angle(), 20.0_f64.to_radians());
+    let design = GearPairDesign::from_toml(GOOD).expect("good");
+    assert_eq!(design.tool.pressure_angle(), 20.0_f64.to_radians());
     let written = design.to_toml().expect("writable");
     assert!(written.contains("pressure_angle_deg = 20.0\n"), "{written}");
-}
-
-#[test]
-fn the_checked_in_schemas_are_those_of_the_code() {
-    for (family, keys) in [
-        (
-            "gear-pair",
-            [
-                "pressure_angle_deg",
-                "backlash_angle_deg",
-                "lobed-ellipse",
-                "mean_ratio",
-            ],
-        ),
-        (
-            "three-arm",
-            [
-                "carrier_start_deg",
-                "pick_angle_deg",
-                "lobed-ellipse",
-                "counter-clockwise",
-            ],
-        ),
-        (
-            "spiral-shaft",
-            [
-                "moved_distance",
-                "window_deg",
-                "rotated-sine",
-                "rail_friction",
-            ],
-        ),
-        (
-            "moving-box",
-            [
-                "elliptic-gear",
-                "speed_ratio",
-                "return_offset",
-                "tooth_count",
-            ],
-        ),
-        (
-            "feeder",
-            [
-                "effector_length",
-                "driven_pitches",
-                "pushing_time",
-                "transmission_angle_deg",
-            ],
-        ),
-    ] {
-        let file = family.replace('-', "_");
-        let path = format!("{}/design/{file}.schema.json", env!("CARGO_MANIFEST_DIR"));
-        let schema = Design::json_schema_of(family).expect("a family");
-        let schema = serde_json::to_string_pretty(&schema).expect("json") + "\n";
-        if std::env::var_os("CENTRODE_REFRESH").is_some() {
-            std::fs::write(&path, &schema).expect("writable");
-        }
-        let checked_in = std::fs::read_to_string(&path).expect("checked in");
-        assert!(
-            checked_in == schema,
-            "run the tests with CENTRODE_REFRESH=1 to write {path}"
-        );
-        for key in keys.into_iter().chain([family]) {
-            assert!(schema.contains(key), "{key}");
-        }
-    }
-    let whole = Design::json_schema().to_string();
-    assert!(Design::FAMILIES.iter().all(|family| whole.contains(family)));
-    assert!(Design::json_schema_of("gear-pear").is_none());
 }
 
 proptest! {
     #[test]
     fn any_text_is_a_design_or_an_error_with_a_place(text in "\\PC{0,200}") {
-        if let Err(error) = DesignFile::read(text.as_bytes()) {
+        if let Err(error) = read(text) {
             prop_assert!(error.line >= 1 && error.column >= 1);
         }
     }
@@ -504,7 +414,7 @@ proptest! {
     fn a_damaged_design_is_a_design_or_an_error(at in 0..GOOD.len(), byte: u8) {
         let mut bytes = GOOD.as_bytes().to_vec();
         bytes[at] = byte;
-        let _ = DesignFile::read(&bytes).map(|f| f.design().validate());
+        let _ = read(&bytes).map(|f| f.design().validate());
     }
 
     #[test]
@@ -515,10 +425,7 @@ proptest! {
         angle in 6.0..39.0_f64,
         backlash in 0.0..1.0_f64,
     ) {
-        let design = Design::from_toml(GOOD).expect("good");
-        let Design::GearPair(mut pair) = design else {
-            panic!("no gear pair");
-        };
+        let mut pair = GearPairDesign::from_toml(GOOD).expect("good");
         pair.pitch = crate::gear::pitch::PitchSpec::Ellipse(crate::gear::pitch::Ellipse {
             eccentricity: k,
             semi_major_axis: None,
@@ -532,13 +439,8 @@ proptest! {
             ..Default::default()
         });
         pair.teeth.backlash = backlash;
-        let design = Design::GearPair(pair);
-        let written = design.to_toml().expect("writable");
-        let (Design::GearPair(again), Design::GearPair(pair)) =
-            (Design::from_toml(&written).expect("reads back"), design)
-        else {
-            panic!("no gear pair");
-        };
+        let written = pair.to_toml().expect("writable");
+        let again = GearPairDesign::from_toml(&written).expect("reads back");
         let (a, b) = (again.tool.pressure_angle(), pair.tool.pressure_angle());
         prop_assert!((a - b).abs() <= 2.0 * f64::EPSILON * b);
         prop_assert_eq!((again.pitch, again.teeth), (pair.pitch, pair.teeth));
@@ -554,16 +456,13 @@ fn a_conjugate_curve_is_read_and_its_faults_are_placed() {
         )
     };
     let text_in = text("0.2").replace("[pitch]", "mean_ratio = [1, 2]\n[pitch]");
-    let file = DesignFile::read(text_in.as_bytes()).expect("a design");
+    let file = read(text_in).expect("a design");
     let pair = pair_of(&file).expect("a pair");
     assert_eq!(pair.driven().tooth_count(), 20);
     let written = file.design().to_toml().expect("writable");
-    assert_eq!(
-        &Design::from_toml(&written).expect("readable"),
-        file.design()
-    );
+    assert_eq!(read(&written).expect("readable").design(), file.design());
 
-    let file = DesignFile::read(text("1.5").as_bytes()).expect("well-formed");
+    let file = read(text("1.5")).expect("well-formed");
     let error = pair_of(&file).expect_err("no ellipse");
     assert_eq!((error.key.as_str(), error.line), ("pitch.of", 6));
 }

@@ -3,9 +3,9 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{DimensionSearchSpec, GearsSpec, PlatesSpec};
+use super::{Dimension, DimensionSearchSpec, GearsSpec, PlatesSpec};
 use crate::degrees;
-use crate::design::DrawingSpec;
+use crate::design::{DesignSpec, DrawingSpec};
 use crate::gear::design::rule::{Rule, broken, finite, line, name, not_negative, positive, within};
 use crate::gear::design::{SpecError, rule::between};
 use crate::linkage::Branch;
@@ -220,6 +220,27 @@ impl FeederGoals {
         not_negative("quick_return", self.quick_return)?;
         not_negative("feed_rate", self.feed_rate)?;
         not_negative("pushing_time", self.pushing_time)
+    }
+}
+
+impl DesignSpec for FeederDesign {
+    const FAMILY: &'static str = "feeder";
+    const ABOUT: &'static str = "A willow-cutting feeder.";
+    const TEMPLATE: &'static str = include_str!("../../design/feeder.toml");
+    const TABLES: &'static [&'static str] = &[
+        "linkage", "bounds", "goals", "drive", "gears", "plates", "making", "optimise", "drawing",
+    ];
+
+    fn words(&self) -> [&str; 2] {
+        [&self.name, &self.title]
+    }
+
+    fn rules(&self) -> Result<(), SpecError> {
+        self.validate()
+    }
+
+    fn key_of(word: &str) -> Option<String> {
+        word.parse().ok().map(|d: Dimension| d.key().to_owned())
     }
 }
 

@@ -119,23 +119,20 @@ impl FromStr for Dimension {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::design::Design;
+    use crate::design::{Design as _, DesignSpec as _};
+    use crate::feeder::FeederDesign;
 
     #[test]
     fn names_and_keys_are_those_of_the_file() {
-        let text = Design::template("feeder").expect("a family");
-        let Ok(Design::Feeder(design)) = Design::from_toml(text) else {
-            unreachable!("the template is a feeder")
-        };
+        let design = FeederDesign::from_toml(FeederDesign::TEMPLATE).expect("a feeder");
         for (i, dimension) in Dimension::ALL.into_iter().enumerate() {
             assert_eq!(dimension.name().parse(), Ok(dimension));
             let word = serde_json::to_value(dimension).expect("a word");
             assert_eq!(word, dimension.name());
             let value = dimension.of(&design.linkage) + 1.0 + i as f64;
-            let open = Design::Feeder(design.clone()).numbered(dimension.key());
-            let Ok(Design::Feeder(moved)) = open.expect("a number").with(value) else {
-                unreachable!("still a feeder")
-            };
+            let open = design.numbered(dimension.key()).expect("a number");
+            let moved = open.with(value).expect("still a feeder");
+            let moved: &FeederDesign = moved.downcast_ref().expect("a feeder");
             let mut linkage = design.linkage.clone();
             dimension.set(&mut linkage, value);
             assert_eq!(moved.linkage, linkage, "{dimension}");

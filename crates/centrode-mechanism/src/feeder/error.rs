@@ -1,5 +1,6 @@
 use thiserror::Error;
 
+use crate::design::MechanismError;
 use crate::gear::design::SpecError;
 use crate::gear::{IncompleteError, IncompletePairError};
 use crate::linkage::{FourBarError, SixBarError};
@@ -61,6 +62,15 @@ impl FeederError {
             Self::SlotMeetsPivot { .. } => "plates.slider_length".into(),
             Self::NoPlate(_) => "plates".into(),
             Self::Drive(_) | Self::NotOneTurn { .. } => "gears.teeth".into(),
+        }
+    }
+}
+
+impl From<FeederError> for MechanismError {
+    fn from(error: FeederError) -> Self {
+        match error {
+            FeederError::Spec(error) => error.into(),
+            other => Self::new(other.key(), other),
         }
     }
 }

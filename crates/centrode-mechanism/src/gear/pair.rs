@@ -4,7 +4,7 @@ use centrode_geometry::{Outline, Segment, Spline, Tolerance};
 
 use crate::bore;
 
-use crate::design::DrawingSpec;
+use crate::design::{DrawingSpec, MechanismError};
 
 use super::{
     design::{BodySpec, GearPairDesign, SpecError, ToolSpec},
@@ -24,8 +24,7 @@ const OUTLINE_TOLERANCE: f64 = 1e-10;
 /// driver has turned by -phi and the driven gear by +`driven_angle(phi)`.
 #[derive(Clone, Debug)]
 pub struct GearPair {
-    name: String,
-    title: String,
+    design: GearPairDesign,
     definition: String,
     rolling: Rolling,
     module: f64,
@@ -33,8 +32,6 @@ pub struct GearPair {
     phase: f64,
     backlash: f64,
     congruent: bool,
-    pin_diameter: Option<f64>,
-    drawing: DrawingSpec,
     driver: Gear,
     driven: Gear,
 }
@@ -151,6 +148,17 @@ impl GearPairError {
     }
 }
 
+impl From<GearPairError> for MechanismError {
+    fn from(error: GearPairError) -> Self {
+        let key = error.key();
+        match error {
+            GearPairError::Spec(error) => error.into(),
+            GearPairError::Pitch(error) => Self::new(key, error),
+            other => Self::new(key, other),
+        }
+    }
+}
+
 impl GearPair {
     /// Rolls the pitch curves, lays out the teeth and cuts both gears.
     ///
@@ -199,8 +207,7 @@ impl GearPair {
         };
         let (driver, driven) = (cut(Member::Driver)?, cut(Member::Driven)?);
         Ok(Self {
-            name: design.name.clone(),
-            title: design.title.clone(),
+            design: design.clone(),
             definition,
             rolling,
             module,
@@ -208,8 +215,6 @@ impl GearPair {
             phase: plan.phase,
             backlash: plan.backlash,
             congruent: plan.congruent,
-            pin_diameter: design.teeth.pin_diameter,
-            drawing: design.drawing.clone(),
             driver,
             driven,
         })
@@ -248,21 +253,28 @@ impl GearPair {
     pub fn with_driver_body(&self, body: &BodySpec) -> Result<Self, GearPairError> {
         body.validate().map_err(|e| e.inside("driver"))?;
         let mut pair = self.clone();
+        pair.design.driver = body.clone();
         pair.driver.body = body.clone();
         pair.driver.clears_bore()?;
         Ok(pair)
     }
 
+    /// The design it was made from.
+    #[must_use]
+    pub fn design(&self) -> &GearPairDesign {
+        &self.design
+    }
+
     /// Name, as written in the design.
     #[must_use]
     pub fn name(&self) -> &str {
-        &self.name
+        &self.design.name
     }
 
     /// Title, as written in the design.
     #[must_use]
     pub fn title(&self) -> &str {
-        &self.title
+        &self.design.title
     }
 
     /// The driver's pitch curve in words.
@@ -346,11 +358,11 @@ impl GearPair {
     /// What the drawing sheets are to say and look like.
     #[must_use]
     pub fn drawing(&self) -> &DrawingSpec {
-        &self.drawing
+        &self.design.drawing
     }
 
     pub(crate) fn written_pin_diameter(&self) -> Option<f64> {
-        self.pin_diameter
+        self.design.teeth.pin_diameter
     }
 
     /// The gear that is turned.

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{AmplitudeFor, Load, Mill, Reversal, ShaftBody, ShaftError, SliderSpec, SpeedLaw};
 use crate::degrees;
-use crate::design::DrawingSpec;
+use crate::design::{DesignSpec, DrawingSpec, Tagged};
 use crate::gear::design::SpecError;
 use crate::gear::design::rule::{Rule, between, broken, finite, line, name, positive, within};
 
@@ -100,6 +100,24 @@ impl Default for SpiralShaftDesign {
             load: Load::default(),
             drawing: DrawingSpec::default(),
         }
+    }
+}
+
+impl DesignSpec for SpiralShaftDesign {
+    const FAMILY: &'static str = "spiral-shaft";
+    const ABOUT: &'static str = "A variable-speed spiral shaft.";
+    const TEMPLATE: &'static str = include_str!("../../design/spiral_shaft.toml");
+    const TABLES: &'static [&'static str] = &[
+        "law", "reversal", "groove", "slider", "body", "mill", "load",
+    ];
+    const TAGGED: &'static [Tagged] = &[SpeedLaw::TAGGED];
+
+    fn words(&self) -> [&str; 2] {
+        [&self.name, &self.title]
+    }
+
+    fn rules(&self) -> Result<(), SpecError> {
+        self.validate()
     }
 }
 

@@ -1,5 +1,6 @@
 use thiserror::Error;
 
+use crate::design::MechanismError;
 use crate::gear::design::SpecError;
 use crate::gear::pitch::PitchError;
 
@@ -153,6 +154,15 @@ impl ShaftError {
             Self::GrooveWidth { .. } => "groove.width".into(),
             Self::GrooveDepth { .. } => "groove.depth".into(),
             Self::Inside { table, error } => format!("{table}.{}", error.key()),
+        }
+    }
+}
+
+impl From<ShaftError> for MechanismError {
+    fn from(error: ShaftError) -> Self {
+        match error {
+            ShaftError::Spec(error) => error.into(),
+            other => Self::new(other.key(), other),
         }
     }
 }

@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 use super::{
     EllipticDrive, Load, Schedule, ShaftError, SliderForce, SpiralShaft, SpiralShaftDesign,
 };
+use crate::design::DesignSpec;
 use crate::gear::design::rule::{Rule, between, broken, line, name, positive, within};
 use crate::gear::design::{BodySpec, GearPairDesign, Keyway, SpecError, TeethSpec, ToolSpec};
 use crate::gear::pitch::{Ellipse, PitchSpec};
@@ -154,6 +155,21 @@ impl Default for MovingBoxDesign {
             gears: None,
             shaft: SpiralShaftDesign::default(),
         }
+    }
+}
+
+impl DesignSpec for MovingBoxDesign {
+    const FAMILY: &'static str = "moving-box";
+    const ABOUT: &'static str = "A seedling box moved at a variable speed.";
+    const TEMPLATE: &'static str = include_str!("../../design/moving_box.toml");
+    const TABLES: &'static [&'static str] = &["gears", "shaft"];
+
+    fn words(&self) -> [&str; 2] {
+        [&self.name, &self.title]
+    }
+
+    fn rules(&self) -> Result<(), SpecError> {
+        self.validate()
     }
 }
 

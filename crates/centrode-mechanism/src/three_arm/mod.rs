@@ -28,6 +28,7 @@ pub use train::{ArmOnCarrier, Train, TrainJet};
 pub use trajectory::{Extreme, PickingRule, PlantingRule, Trajectory};
 pub use tray::TrayBody;
 
+use crate::design::MechanismError;
 use crate::gear::design::SpecError;
 use crate::gear::{GearPair, GearPairError, Member, Rolling, Soundness};
 use design::ThreeArmDesign;
@@ -78,6 +79,15 @@ impl ThreeArmError {
         match self {
             Self::Gears(error) => error.key(),
             Self::TrayOutOfReach { .. } => "tray.distance".into(),
+        }
+    }
+}
+
+impl From<ThreeArmError> for MechanismError {
+    fn from(error: ThreeArmError) -> Self {
+        match error {
+            ThreeArmError::Gears(error) => error.into(),
+            other => Self::new(other.key(), other),
         }
     }
 }

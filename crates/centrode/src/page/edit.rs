@@ -267,7 +267,7 @@ pub(super) fn written(value: &Json) -> Option<Value> {
 mod tests {
     use super::super::field::tables;
     use super::*;
-    use centrode::mechanism::design::Design;
+    use centrode::FAMILIES;
 
     const TEXT: &str = "# head\nfamily = \"gear-pair\" # a pair\n\n[pitch] # the curve\nkind = \"bspline\"\n\
                         radius = [1, 2, # two\n  3]\nmodule = 2.250 # mm\n# tail\n[driver]\nkeyway = { width = 4, depth = 1.8 }\n";
@@ -329,8 +329,8 @@ mod tests {
 
     #[test]
     fn a_new_table_has_what_it_cannot_be_without() {
-        for family in Design::FAMILIES {
-            let text = Design::template(family).expect("a template");
+        for family in FAMILIES.words() {
+            let text = FAMILIES.template(family).expect("a template");
             let fields = tables(text).into_iter().flat_map(|table| table.fields);
             for field in fields {
                 let (key, value) = match &field.value {
@@ -343,10 +343,10 @@ mod tests {
                 let edits = [edit(&key, value)];
                 let changed = edited(text, &edits).expect("edited");
                 assert!(
-                    Design::from_toml(&changed).is_ok(),
+                    FAMILIES.read(changed.as_bytes()).is_ok(),
                     "{} of {family}: {:?}",
                     field.key,
-                    Design::from_toml(&changed)
+                    FAMILIES.read(changed.as_bytes())
                 );
             }
         }

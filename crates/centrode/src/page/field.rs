@@ -1,6 +1,6 @@
 use std::sync::OnceLock;
 
-use centrode::mechanism::design::Design;
+use centrode::FAMILIES;
 use serde::Serialize;
 use serde_json::{Map, Value};
 
@@ -156,7 +156,7 @@ pub(crate) fn list(text: &str, key: &str) -> Option<Value> {
 
 fn schema() -> &'static Value {
     static SCHEMA: OnceLock<Value> = OnceLock::new();
-    SCHEMA.get_or_init(Design::json_schema)
+    SCHEMA.get_or_init(|| FAMILIES.json_schema())
 }
 
 fn add(
@@ -294,8 +294,8 @@ mod tests {
 
     #[test]
     fn every_key_of_every_template_has_a_field() {
-        for family in Design::FAMILIES {
-            let text = Design::template(family).expect("a template");
+        for family in FAMILIES.0 {
+            let text = family.design.template;
             let written: toml::Table = text.parse().expect("toml");
             let mut left: Vec<(String, toml::Value)> = written.into_iter().collect();
             let fields = tables(text);
@@ -333,7 +333,7 @@ mod tests {
         let kind = field(text, "pitch.kind");
         assert_eq!(kind.value, "elipse");
         assert!(kind.choices.iter().any(|c| c.word == "ellipse"));
-        assert!(field("family = \"gear\"", "family").choices.len() == Design::FAMILIES.len());
+        assert!(field("family = \"gear\"", "family").choices.len() == FAMILIES.0.len());
         assert!(tables("= not toml").is_empty());
     }
 

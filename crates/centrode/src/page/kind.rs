@@ -1,4 +1,5 @@
-use centrode::mechanism::design::{DesignError, DesignFile};
+use centrode::FAMILIES;
+use centrode::mechanism::design::DesignError;
 use serde_json::{Map, Value as Json};
 use toml_edit::{DocumentMut, InlineTable, Item, Value};
 
@@ -157,7 +158,9 @@ fn sound(mut document: DocumentMut, table: &str, sacrifice: usize) -> Option<Doc
 }
 
 fn mechanism(text: &str) -> Result<(), DesignError> {
-    DesignFile::read(text.as_bytes()).and_then(|file| file.mechanism().map(drop))
+    FAMILIES
+        .read(text.as_bytes())
+        .and_then(|file| file.mechanism().map(drop))
 }
 
 #[cfg(test)]
@@ -167,7 +170,6 @@ mod tests {
 
     use super::super::edit::{Edit, edited};
     use super::*;
-    use centrode::mechanism::design::Design;
 
     /// Every shipped design and template, by name.
     fn designs() -> Vec<(String, String)> {
@@ -178,9 +180,9 @@ mod tests {
             let text = fs::read_to_string(&path).expect("readable");
             (path.display().to_string(), text)
         });
-        let templates = Design::FAMILIES.map(|family| {
-            let text = Design::template(family).expect("a template");
-            (family.to_owned(), text.to_owned())
+        let templates = FAMILIES.0.iter().map(|family| {
+            let design = family.design;
+            (design.word.to_owned(), design.template.to_owned())
         });
         shipped.chain(templates).collect()
     }

@@ -1,10 +1,11 @@
+use std::sync::Arc;
+
 use centrode::analysis::Report;
 use centrode::export::page::{Curve, Picture};
-use centrode::mechanism::design::{DesignError, DesignFile};
-use centrode::mechanism::mechanism::Mechanism;
+use centrode::family::{FAMILIES, Mechanism};
+use centrode::mechanism::design::DesignError;
 use serde::Serialize;
 
-use super::family;
 use super::field::{Table, tables};
 use crate::report;
 
@@ -74,7 +75,7 @@ impl Verdict {
 /// A design that has become a mechanism.
 pub(crate) struct Subject {
     snapshot: Snapshot,
-    mechanism: Mechanism,
+    mechanism: Arc<dyn Mechanism>,
 }
 
 impl Snapshot {
@@ -130,19 +131,17 @@ impl Subject {
     /// Resolves a design file and draws it; without a mechanism, the snapshot says why.
     pub(crate) fn of(text: String) -> Result<Self, Box<Snapshot>> {
         let mut snapshot = Snapshot::of_text(text);
-        let resolved = DesignFile::read(snapshot.text.as_bytes())
-            .and_then(|file| file.mechanism().map(|mechanism| (file, mechanism)));
-        let (file, mechanism) = match resolved {
-            Ok(both) => both,
+        let read = FAMILIES.read(snapshot.text.as_bytes());
+        let mechanism = match read.and_then(|file| file.mechanism()) {
+            Ok(mechanism) => mechanism,
             Err(error) => return Err(Box::new(snapshot.with_error(&error))),
         };
-        let design = file.design();
-        snapshot.name = mechanism.name().into();
-        snapshot.title = mechanism.title().into();
-        snapshot.definition = report::definition(&mechanism);
-        snapshot.picture = Some(family::picture(design, &mechanism));
-        snapshot.coarse = family::is_coarse(&mechanism);
-        snapshot.curves = family::curves(&mechanism);
+        snapshot.name = mechanism.design().name().into();
+        snapshot.title = mechanism.design().title().into();
+        snapshot.definition = mechanism.definition();
+        snapshot.picture = Some(mechanism.picture());
+        snapshot.coarse = mechanism.is_coarse();
+        snapshot.curves = mechanism.curves();
         Ok(Self {
             snapshot,
             mechanism,
@@ -163,7 +162,7 @@ impl Subject {
     pub(crate) fn detailed(&self) -> Snapshot {
         let mut snapshot = self.snapshot.clone();
         snapshot.coarse = false;
-        if let Some(picture) = family::detailed(&self.mechanism) {
+        if let Some(picture) = self.mechanism.detailed() {
             snapshot.picture = Some(picture);
         }
         snapshot
@@ -172,7 +171,7 @@ impl Subject {
     /// The same with what the checks say.
     pub(crate) fn checked(&self) -> Snapshot {
         let mut snapshot = self.detailed();
-        let (found, curves) = family::checked(&self.mechanism);
+        let (found, curves) = self.mechanism.check_with_curves();
         snapshot.curves.extend(curves);
         snapshot.verdict = Some(Verdict::of(&found));
         snapshot

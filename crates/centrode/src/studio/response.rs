@@ -1,5 +1,5 @@
-use centrode::analysis::{Depth, Goal, Response};
-use centrode::mechanism::design::DesignFile;
+use centrode::analysis::Goal;
+use centrode::family::{Depth, FAMILIES};
 use serde::{Deserialize, Serialize};
 
 /// Values at which the design is checked.
@@ -37,14 +37,18 @@ struct Chart {
 
 /// Checks the design at every value.
 pub(crate) fn answers(ask: &Ask) -> Result<Answers, String> {
-    let file = DesignFile::read(ask.text.as_bytes()).map_err(|error| error.message())?;
+    let file = FAMILIES
+        .read(ask.text.as_bytes())
+        .map_err(|error| error.message())?;
     if !(ask.from.is_finite() && ask.to.is_finite()) || ask.from >= ask.to {
         let (from, to) = (ask.from, ask.to);
         return Err(format!("the values must rise, but go from {from} to {to}"));
     }
     let step = (ask.to - ask.from) / f64::from(COUNT - 1);
     let values: Vec<f64> = (0..COUNT).map(|i| ask.from + step * f64::from(i)).collect();
-    let response = Response::of(file.design(), &ask.key, &values, Depth::Motion);
+    let response = file
+        .family()
+        .response(file.design(), &ask.key, &values, Depth::Motion);
     let response = response.map_err(|error| error.message())?;
     let goals: Vec<&Goal> = response
         .reports

@@ -7,10 +7,10 @@ use axum::http::{StatusCode, header};
 use axum::response::{Html, IntoResponse, Response};
 use axum::routing::{get, post};
 use axum::{Json, Router};
-use centrode::analysis::optimise::{NotSearched, Strategy, problem_of};
+use centrode::FAMILIES;
+use centrode::analysis::optimise::{NotSearched, Strategy};
 use centrode::export::page;
 use centrode::geometry::Cancel;
-use centrode::mechanism::design::DesignFile;
 use clap::{Parser as _, ValueEnum as _};
 use serde::Deserialize;
 use serde_json::json;
@@ -117,8 +117,8 @@ async fn design(State(desk): Shared) -> Response {
 
 /// Why there is no search for designs of this family; null where there is one.
 fn unsearchable(text: &str) -> Option<String> {
-    let file = DesignFile::read(text.as_bytes()).ok()?;
-    match problem_of(file.design()) {
+    let file = FAMILIES.read(text.as_bytes()).ok()?;
+    match file.family().problem(file.design()) {
         Err(reason @ NotSearched::Family) => Some(reason.to_string()),
         _ => None,
     }
@@ -171,7 +171,7 @@ struct Text {
 
 /// Why a text does not read as a design; null where it does.
 async fn fault(Json(ask): Json<Text>) -> Response {
-    let fault = DesignFile::read(ask.text.as_bytes()).err();
+    let fault = FAMILIES.read(ask.text.as_bytes()).err();
     Json(json!({ "fault": fault.as_ref().map(Fault::from) })).into_response()
 }
 

@@ -4,11 +4,10 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
-use centrode::analysis::check_motion;
+use centrode::FAMILIES;
 use centrode::analysis::optimise::{
-    DesignProblem, DesignSearch, Ended, Progress, Settings, Strategy, problem_of,
+    DesignProblem, DesignSearch, Ended, Progress, Settings, Strategy,
 };
-use centrode::mechanism::design::DesignFile;
 use serde::{Deserialize, Serialize};
 
 use crate::optimise::better;
@@ -85,8 +84,11 @@ impl Searching {
 
     /// Starts a search; one under way is stopped. The reason where there is none to start.
     pub(crate) fn start(&self, ask: Ask) -> Result<(), String> {
-        let file = DesignFile::read(ask.text.as_bytes()).map_err(|error| error.message())?;
-        let problem = problem_of(file.design()).map_err(|error| error.to_string())?;
+        let file = FAMILIES
+            .read(ask.text.as_bytes())
+            .map_err(|error| error.message())?;
+        let problem = file.family().problem(file.design());
+        let problem = problem.map_err(|error| error.to_string())?;
         let strategy = Strategy::NAMES.iter().find(|(name, _)| *name == ask.method);
         let Some(&(_, strategy)) = strategy else {
             return Err(format!("unknown method {:?}", ask.method));
@@ -144,11 +146,14 @@ impl Searching {
 
 /// The goals of a design; none where there is no mechanism.
 fn goals(text: &str) -> Vec<GoalWords> {
-    let mechanism = DesignFile::read(text.as_bytes()).and_then(|file| file.mechanism());
+    let mechanism = FAMILIES
+        .read(text.as_bytes())
+        .and_then(|file| file.mechanism());
     mechanism.map_or_else(
         |_| Vec::new(),
         |mechanism| {
-            check_motion(&mechanism)
+            mechanism
+                .check_motion()
                 .goals
                 .iter()
                 .map(goal_words)

@@ -121,7 +121,7 @@ fn held<T>(what: &Mutex<T>) -> MutexGuard<'_, T> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use centrode::mechanism::design::Design;
+    use centrode::FAMILIES;
     use std::time::{Duration, Instant};
 
     const PAGE: &str = "one";
@@ -191,7 +191,7 @@ mod tests {
             .expect("a runtime");
         runtime.block_on(async {
             let solver = Arc::new(Solver::default());
-            let template = Design::template("gear-pair").expect("a template");
+            let template = FAMILIES.template("gear-pair").expect("a template");
             let mut asked = Vec::new();
             for z in 20..60 {
                 let text = template.replace("tooth_count = 23", &format!("tooth_count = {z}"));
@@ -223,8 +223,8 @@ mod tests {
         runtime.block_on(async {
             let solver = Arc::new(Solver::default());
             // Its checks take some seconds in a debug build.
-            let slow = Design::template("three-arm").expect("a template");
-            let quick = Design::template("gear-pair").expect("a template");
+            let slow = FAMILIES.template("three-arm").expect("a template");
+            let quick = FAMILIES.template("gear-pair").expect("a template");
             let first = solver.solve(PAGE, slow.to_owned(), Depth::Picture).await;
             assert!(first.expect("nothing overtakes it").contains("\"picture\""));
             let checker = Arc::clone(&solver);

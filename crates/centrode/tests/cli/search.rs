@@ -294,7 +294,10 @@ fn the_least_widening_is_written_as_shipped() {
     assert_eq!(numbers(&to), numbers(&shipped("feeder-widened.toml")));
     for (design, why) in [
         (shipped("feeder-widened.toml"), "need not be widened"),
-        (shipped("circular-pair.toml"), "only the bounds of a feeder"),
+        (
+            shipped("circular-pair.toml"),
+            "the bounds of a gear pair cannot be widened",
+        ),
     ] {
         let refused = centrode(&["optimise", &design, "--widen", "-o", &to]);
         assert_eq!(refused.status.code(), Some(2));

@@ -3,6 +3,7 @@
 mod widened;
 
 use std::f64::consts::TAU;
+use std::sync::Arc;
 
 use centrode_geometry::Point;
 use centrode_mechanism::design::Design;
@@ -123,8 +124,8 @@ impl DesignProblem for FeederProblem {
         &self.variables
     }
 
-    fn design(&self, point: &[f64]) -> Design {
-        Design::Feeder(Box::new(self.design_at(point)))
+    fn design(&self, point: &[f64]) -> Arc<dyn Design> {
+        Arc::new(self.design_at(point))
     }
 
     fn followers(&self, _point: &[f64]) -> Vec<(String, f64)> {

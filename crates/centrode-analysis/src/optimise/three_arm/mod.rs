@@ -2,7 +2,7 @@
 
 mod mesh;
 
-use std::sync::Mutex;
+use std::sync::{Arc, Mutex};
 
 use centrode_mechanism::design::Design;
 use centrode_mechanism::gear::Limits;
@@ -272,9 +272,9 @@ impl DesignProblem for ThreeArmProblem {
         &self.variables
     }
 
-    fn design(&self, point: &[f64]) -> Design {
+    fn design(&self, point: &[f64]) -> Arc<dyn Design> {
         let quick = self.quick(point);
-        Design::ThreeArm(Box::new(quick.map_or_else(|| self.at(point), |q| q.design)))
+        Arc::new(quick.map_or_else(|| self.at(point), |q| q.design))
     }
 
     fn followers(&self, point: &[f64]) -> Vec<(String, f64)> {

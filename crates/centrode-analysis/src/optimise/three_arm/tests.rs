@@ -1,14 +1,12 @@
+use centrode_mechanism::design::DesignSpec as _;
+
 use super::*;
 use crate::optimise::{DesignSearch, Ended, Settings, Strategy, minimise};
 use crate::{check_three_arm, optimise::Method};
 use std::ops::ControlFlow;
 
 fn template() -> ThreeArmDesign {
-    let text = Design::template("three-arm").expect("a family");
-    let Ok(Design::ThreeArm(design)) = Design::from_toml(text) else {
-        unreachable!("the template is a three-arm mechanism")
-    };
-    *design
+    ThreeArmDesign::from_toml(ThreeArmDesign::TEMPLATE).expect("a good design")
 }
 
 fn problem(design: &ThreeArmDesign) -> ThreeArmProblem {
@@ -32,9 +30,8 @@ fn the_start_is_the_design_itself() {
     let problem = problem(&design);
     let start = problem.start().expect("a start");
     assert_eq!(start.len(), problem.bounds().len());
-    let Design::ThreeArm(again) = problem.design(&start) else {
-        unreachable!("a three-arm mechanism")
-    };
+    let again = problem.design(&start);
+    let again: &ThreeArmDesign = again.downcast_ref().expect("a three-arm mechanism");
     assert_eq!(again.pitch, design.pitch);
     assert_eq!(again.tooth_count, Some(37));
     assert!(problem.moved(&start) < 1e-12);
@@ -56,10 +53,9 @@ fn what_is_met_in_the_search_is_met_in_the_check() {
     let design = gentle();
     let problem = problem(&design);
     let start = problem.start().expect("a start");
-    let Design::ThreeArm(settled) = problem.design(&start) else {
-        unreachable!("a three-arm mechanism")
-    };
-    let mechanism = ThreeArm::resolve(&settled).expect("a mechanism");
+    let settled = problem.design(&start);
+    let settled = settled.downcast_ref().expect("a three-arm mechanism");
+    let mechanism = ThreeArm::resolve(settled).expect("a mechanism");
     let report = check_three_arm(&mechanism);
     let goals = problem.goals(&start).expect("a mechanism");
     assert_eq!(report.goals.len() + 5, goals.len());
@@ -133,10 +129,7 @@ fn values_are_written_on_a_grid() {
 /// The shipped design that reaches every goal.
 fn shipped() -> ThreeArmDesign {
     let text = include_str!("../../../../../tests/designs/three-arm-all-goals.toml");
-    let Ok(Design::ThreeArm(design)) = Design::from_toml(text) else {
-        unreachable!("the shipped design is a three-arm mechanism")
-    };
-    *design
+    ThreeArmDesign::from_toml(text).expect("the shipped design is a three-arm mechanism")
 }
 
 #[test]

@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::pitch::PitchSpec;
-use crate::design::DrawingSpec;
+use crate::design::{DesignSpec, DrawingSpec, Tagged};
 
 mod body;
 pub(crate) mod rule;
@@ -67,6 +67,23 @@ fn default_mean_ratio() -> [u32; 2] {
 
 /// Largest number of turns in a mean ratio.
 const MOST_TURNS: u32 = 60;
+
+impl DesignSpec for GearPairDesign {
+    const FAMILY: &'static str = "gear-pair";
+    const ABOUT: &'static str = "A non-circular gear pair.";
+    const TEMPLATE: &'static str = include_str!("../../../design/gear_pair.toml");
+    const TABLES: &'static [&'static str] =
+        &["pitch", "tool", "teeth", "driver", "driven", "drawing"];
+    const TAGGED: &'static [Tagged] = &[PitchSpec::TAGGED, ToolSpec::TAGGED];
+
+    fn words(&self) -> [&str; 2] {
+        [&self.name, &self.title]
+    }
+
+    fn rules(&self) -> Result<(), SpecError> {
+        self.validate()
+    }
+}
 
 impl GearPairDesign {
     /// A pair with the given driver pitch curve and every other value at its default.

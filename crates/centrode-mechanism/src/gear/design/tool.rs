@@ -6,6 +6,7 @@ use serde::{Deserialize, Deserializer, Serialize};
 
 use super::rule::{Rule, SpecError, between, broken, not_negative, positive, within};
 use crate::degrees;
+use crate::design::Tagged;
 
 /// The tool that cuts both gears, by the key `kind`; its module is that of the pitch curve.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
@@ -115,6 +116,13 @@ impl Default for Shaper {
 impl ToolSpec {
     /// Every `kind`.
     pub(crate) const KINDS: &'static [&'static str] = &["rack", "shaper"];
+
+    /// The table of a design file that holds one.
+    pub(crate) const TAGGED: Tagged = Tagged {
+        key: "tool",
+        kinds: Self::KINDS,
+        read: |kind, table| Self::of_kind(kind, table).map(drop),
+    };
 
     /// Reads what stands beside the key `kind`.
     pub(crate) fn of_kind<'de, D: Deserializer<'de>>(kind: &str, d: D) -> Result<Self, D::Error> {

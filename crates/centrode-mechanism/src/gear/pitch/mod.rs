@@ -10,6 +10,8 @@ use schemars::JsonSchema;
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize};
 
+use crate::design::Tagged;
+
 mod bezier;
 mod bspline;
 mod circle;
@@ -103,6 +105,13 @@ impl PitchSpec {
         "ratio",
         "conjugate",
     ];
+
+    /// The table of a design file that holds one.
+    pub(crate) const TAGGED: Tagged = Tagged {
+        key: "pitch",
+        kinds: Self::KINDS,
+        read: |kind, table| Self::of_kind(kind, table).map(drop),
+    };
 
     /// Reads what stands beside the key `kind`.
     pub(crate) fn of_kind<'de, D: Deserializer<'de>>(kind: &str, d: D) -> Result<Self, D::Error> {

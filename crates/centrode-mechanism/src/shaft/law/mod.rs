@@ -17,6 +17,7 @@ pub use rotated::RotatedSine;
 pub use sine::{AmplitudeFor, Sine};
 
 use super::ShaftError;
+use crate::design::Tagged;
 use crate::gear::design::rule::positive;
 use crate::transmission::{MotionJet, Transmission};
 
@@ -61,6 +62,13 @@ impl SpeedLaw {
     /// Every `kind`.
     pub const KINDS: &'static [&'static str] =
         &["sine", "rotated-sine", "knots", "table", "formula"];
+
+    /// The table of a design file that holds one.
+    pub(crate) const TAGGED: Tagged = Tagged {
+        key: "law",
+        kinds: Self::KINDS,
+        read: |kind, table| Self::of_kind(kind, table).map(drop),
+    };
 
     /// Reads what stands beside the key `kind`.
     pub(crate) fn of_kind<'de, D: Deserializer<'de>>(kind: &str, d: D) -> Result<Self, D::Error> {

@@ -3,8 +3,9 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::Parameter;
 use crate::degrees;
-use crate::design::DrawingSpec;
+use crate::design::{DesignSpec, DrawingSpec, Tagged};
 use crate::gear::design::rule::{between, broken, finite, line, name, positive, within};
 use crate::gear::design::{BodySpec, GearPairDesign, Rule, SpecError, TeethSpec, ToolSpec};
 use crate::gear::pitch::PitchSpec;
@@ -140,6 +141,43 @@ fn default_name() -> String {
 
 fn default_arms() -> u32 {
     3
+}
+
+impl DesignSpec for ThreeArmDesign {
+    const FAMILY: &'static str = "three-arm";
+    const ABOUT: &'static str = "A three-arm transplanting mechanism.";
+    const TEMPLATE: &'static str = include_str!("../../../design/three_arm.toml");
+    const TABLES: &'static [&'static str] = &[
+        "pitch",
+        "tool",
+        "teeth",
+        "arm",
+        "cam",
+        "fork",
+        "gearbox",
+        "work",
+        "tray",
+        "seedling",
+        "goals",
+        "optimise",
+        "sun",
+        "intermediate",
+        "planet",
+        "drawing",
+    ];
+    const TAGGED: &'static [Tagged] = &[PitchSpec::TAGGED, ToolSpec::TAGGED];
+
+    fn words(&self) -> [&str; 2] {
+        [&self.name, &self.title]
+    }
+
+    fn rules(&self) -> Result<(), SpecError> {
+        self.validate()
+    }
+
+    fn key_of(word: &str) -> Option<String> {
+        word.parse().ok().map(Parameter::key)
+    }
 }
 
 impl ThreeArmDesign {

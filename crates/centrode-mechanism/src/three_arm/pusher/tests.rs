@@ -1,16 +1,12 @@
 use super::*;
-use crate::design::Design;
+use crate::design::DesignSpec as _;
 use crate::gear::pitch::PitchSpec;
 use crate::three_arm::Link;
 use crate::three_arm::design::ThreeArmDesign;
 use centrode_geometry::Tolerance;
 
 fn template() -> ThreeArmDesign {
-    let text = Design::template("three-arm").expect("a template");
-    match Design::from_toml(text).expect("sound") {
-        Design::ThreeArm(design) => *design,
-        other => panic!("{other:?}"),
-    }
+    ThreeArmDesign::from_toml(ThreeArmDesign::TEMPLATE).expect("sound")
 }
 
 fn with(change: impl Fn(&mut ThreeArmDesign)) -> ThreeArm {

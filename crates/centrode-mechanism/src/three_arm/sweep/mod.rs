@@ -27,11 +27,11 @@ use stage::Stage;
 /// the published one, and to 1e-7 where the radii of the pitch curve differ tenfold; that the pitch curve goes round its axis is only looked at where it is integrated. Not for a pitch curve scaled by a module.
 ///
 /// ```
-/// use centrode_mechanism::design::Design;
+/// use centrode_mechanism::design::DesignSpec;
 /// use centrode_mechanism::three_arm::Sweep;
+/// use centrode_mechanism::three_arm::design::ThreeArmDesign;
 ///
-/// let template = Design::template("three-arm").ok_or("a family")?;
-/// let Design::ThreeArm(mut design) = Design::from_toml(template)? else { return Err("a family".into()) };
+/// let mut design = ThreeArmDesign::from_toml(ThreeArmDesign::TEMPLATE)?;
 /// let mut sweep = Sweep::like(&design, 360)?;
 /// let height = sweep.figures(&design)?.trajectory_height;
 /// design.arm.tip_distance += 5.0;

@@ -1,35 +1,7 @@
-use centrode::analysis::Contact;
-use centrode::export::gear_pair;
-use centrode::export::page::{Curve, Picture};
-use centrode::geometry::Tolerance;
-use centrode::mechanism::design::Design;
-use centrode::mechanism::gear::GearPair;
+use centrode_analysis::Contact;
+use centrode_export::page::Curve;
 
-use super::handles::handles;
-
-/// Tolerance of the picture, as a share of the module: a tenth of a pixel when a tooth is as high as a hand.
-const DRAWN: f64 = 2e-3;
-
-/// The pair as it moves, with its control points.
-pub(super) fn picture(design: &Design, pair: &GearPair) -> Picture {
-    let tolerance = Tolerance::new(DRAWN * pair.module());
-    let mut picture =
-        tolerance.map_or_else(|_| Picture::default(), |t| gear_pair::picture(pair, t));
-    let Design::GearPair(design) = design else {
-        return picture;
-    };
-    let driver = picture
-        .links
-        .iter()
-        .position(|link| link.name == picture.motion.input_name);
-    if let Some(link) = driver {
-        let length = pair.driver().pitch_length();
-        picture.handles = handles(&design.pitch, length, link);
-    }
-    picture
-}
-
-/// What running the finished gears together says along the cycle.
+/// Findings of running finished gears together, along the cycle.
 pub(super) fn contact_curves(contact: &Contact) -> Vec<Curve> {
     let curve = |chart, name, unit, value: Vec<f64>| Curve {
         chart,

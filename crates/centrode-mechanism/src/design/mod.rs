@@ -1,0 +1,20 @@
+//! The design file: TOML in, a description of one family of mechanism out.
+
+mod drawing;
+mod family;
+mod fault;
+mod file;
+mod keys;
+mod number;
+mod reader;
+mod schema;
+
+pub use drawing::{DrawingSpec, Projection, SheetSize};
+pub use family::{Design, DesignFamily, DesignSpec, Tagged};
+pub use fault::{DesignError, DesignFault, MechanismError};
+pub use file::DesignFile;
+pub use number::NumberedDesign;
+pub use schema::json_schema;
+
+#[cfg(test)]
+mod tests;

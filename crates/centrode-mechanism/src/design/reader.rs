@@ -1,0 +1,192 @@
+use toml::Spanned;
+use toml::de::{DeTable, DeValue, Deserializer, ValueDeserializer};
+
+use super::family::{DesignFamily, DesignSpec, Tagged};
+use super::fault::nearest;
+use super::keys::{Keys, line_and_column};
+use super::{DesignError, DesignFault};
+use crate::gear::design::SpecError;
+
+/// A file while it is read.
+#[derive(Debug)]
+pub(super) struct Reader<'a> {
+    text: &'a str,
+    keys: Keys,
+}
+
+impl<'a> Reader<'a> {
+    pub(super) fn of(text: &'a str) -> Self {
+        Self {
+            text,
+            keys: Keys::default(),
+        }
+    }
+
+    /// The places of the keys.
+    pub(super) fn into_keys(self) -> Keys {
+        self.keys
+    }
+
+    /// The file without its key `family`, and which of the families that names.
+    pub(super) fn root<'f, F: AsRef<DesignFamily>>(
+        &mut self,
+        families: &'f [F],
+    ) -> Result<(Spanned<DeTable<'a>>, &'f F), DesignError> {
+        let mut root = DeTable::parse(self.text).map_err(|e| self.syntax(&e))?;
+        self.keys = Keys::of(root.get_ref());
+        if root.get_ref().is_empty() {
+            let example = families.first().map_or("", |family| family.as_ref().word);
+            return Err(self.error(DesignFault::Empty { example }, String::new(), 0));
+        }
+        let word = self.word(root.get_ref(), "family", "family", 0)?;
+        let Some(family) = families.iter().find(|f| f.as_ref().word == word) else {
+            let known: Vec<String> = families.iter().map(|f| f.as_ref().word.into()).collect();
+            return Err(self.unknown_word("family", word, &known));
+        };
+        root.get_mut().remove("family");
+        Ok((root, family))
+    }
+
+    /// The design of a family.
+    pub(super) fn design<D: DesignSpec>(
+        &self,
+        root: Spanned<DeTable<'a>>,
+    ) -> Result<D, DesignError> {
+        self.tables(root.get_ref(), D::TABLES)?;
+        for tagged in D::TAGGED {
+            self.tagged(root.get_ref(), tagged)?;
+        }
+        let design = D::deserialize(Deserializer::from(root)).map_err(|e| self.shape(&e))?;
+        design.rules().map_err(|SpecError { key, rule }| {
+            let offset = self.keys.offset(&key).unwrap_or(0);
+            self.error(DesignFault::Value(rule), key, offset)
+        })?;
+        Ok(design)
+    }
+
+    /// Refuses anything but a table at the keys; serde would read a list as a table's values in order.
+    fn tables(&self, root: &DeTable<'_>, keys: &[&str]) -> Result<(), DesignError> {
+        for &key in keys {
+            if root.get(key).is_some_and(|v| !v.get_ref().is_table()) {
+                let fault = DesignFault::WrongType(format!("must be a table: write [{key}]"));
+                let offset = self.keys.offset(key).unwrap_or(0);
+                return Err(self.error(fault, key.into(), offset));
+            }
+        }
+        Ok(())
+    }
+
+    /// Reads a table whose key `kind` says what else is in it, for the places of its errors.
+    ///
+    /// Serde gathers such a table before it looks at its keys, and loses their places on the way.
+    fn tagged(&self, root: &DeTable<'a>, tagged: &Tagged) -> Result<(), DesignError> {
+        let Tagged { key, kinds, read } = *tagged;
+        let Some(value) = root.get(key) else {
+            return Ok(());
+        };
+        let DeValue::Table(table) = value.get_ref() else {
+            return Ok(());
+        };
+        let path = format!("{key}.kind");
+        let offset = self.keys.offset(key).unwrap_or(0);
+        let kind = self.word(table, "kind", &path, offset)?;
+        if !kinds.contains(&kind.as_str()) {
+            let kinds: Vec<String> = kinds.iter().map(|&k| k.into()).collect();
+            return Err(self.unknown_word(&path, kind, &kinds));
+        }
+        let mut rest = table.clone();
+        rest.remove("kind");
+        let rest = Spanned::new(value.span(), DeValue::Table(rest));
+        read(&kind, ValueDeserializer::from(rest)).map_err(|e| self.shape(&e))
+    }
+
+    /// The string at a key that must be there.
+    fn word(
+        &self,
+        table: &DeTable<'_>,
+        key: &str,
+        path: &str,
+        around: usize,
+    ) -> Result<String, DesignError> {
+        let Some(value) = table.get(key) else {
+            let fault = DesignFault::MissingKey(key.into());
+            return Err(self.error(fault, path.into(), around));
+        };
+        match value.get_ref() {
+            DeValue::String(word) => Ok(word.to_string()),
+            _ => {
+                let fault = DesignFault::WrongType("must be a word in quotes".into());
+                let offset = self.keys.offset(path).unwrap_or(around);
+                Err(self.error(fault, path.into(), offset))
+            }
+        }
+    }
+
+    fn unknown_word(&self, path: &str, word: String, known: &[String]) -> DesignError {
+        let fault = DesignFault::UnknownWord {
+            near: nearest(&word, known),
+            word,
+            known: known.to_vec(),
+        };
+        let offset = self.keys.offset(path).unwrap_or(0);
+        self.error(fault, path.into(), offset)
+    }
+
+    fn error(&self, fault: DesignFault, key: String, offset: usize) -> DesignError {
+        let (line, column) = line_and_column(self.text, offset);
+        DesignError {
+            fault,
+            key,
+            line,
+            column,
+        }
+    }
+
+    fn syntax(&self, error: &toml::de::Error) -> DesignError {
+        let offset = error.span().map_or(self.text.len(), |s| s.start);
+        let fault = DesignFault::Syntax(error.message().into());
+        self.error(fault, String::new(), offset)
+    }
+
+    /// Names the key of an error serde has found, in the words of the file rather than of Rust.
+    fn shape(&self, error: &toml::de::Error) -> DesignError {
+        let offset = error.span().map_or(0, |s| s.start);
+        let key = self.keys.around(offset).unwrap_or_default().to_owned();
+        let message = error.message();
+        let names = quoted(message);
+        if message.starts_with("unknown field") {
+            let known: Vec<String> = names.iter().skip(1).cloned().collect();
+            let near = names.first().and_then(|name| nearest(name, &known));
+            return self.error(DesignFault::UnknownKey { near, known }, key, offset);
+        }
+        if message.starts_with("unknown variant") {
+            let known: Vec<String> = names.iter().skip(1).cloned().collect();
+            let word = names.first().cloned().unwrap_or_default();
+            let near = nearest(&word, &known);
+            return self.error(DesignFault::UnknownWord { word, near, known }, key, offset);
+        }
+        if let (true, Some(name)) = (message.starts_with("missing field"), names.first()) {
+            let fault = DesignFault::MissingKey(name.clone());
+            // What lacks it begins with the text itself: no table has been opened, whatever key comes first.
+            let path = if key.is_empty() || offset == 0 {
+                name.clone()
+            } else {
+                format!("{key}.{name}")
+            };
+            let offset = self.keys.offset(&path).unwrap_or(0);
+            return self.error(fault, path, offset);
+        }
+        let plain = message
+            .replace("floating point", "number")
+            .replace("expected f64", "expected a number")
+            .replace("expected u32", "expected a whole number, not negative")
+            .replace("expected struct ", "expected a table: ");
+        self.error(DesignFault::WrongType(plain), key, offset)
+    }
+}
+
+/// The parts of a message in backticks.
+fn quoted(message: &str) -> Vec<String> {
+    let parts = message.split('`').skip(1).step_by(2);
+    parts.map(String::from).collect()
+}

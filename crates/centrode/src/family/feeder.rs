@@ -1,0 +1,212 @@
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
+use centrode_analysis::optimise::feeder::{FeederProblem, Widened};
+use centrode_analysis::optimise::{DesignProblem, NotSearched};
+use centrode_analysis::{FeederForces, Report, check_feeder, check_strokes};
+use centrode_export::feeder::{self, Teeth};
+use centrode_export::page::{Curve, Handle, HandlePlane, Picture};
+use centrode_export::{Bundle, ExportError, Format, Options};
+use centrode_geometry::Tolerance;
+use centrode_mechanism::design::{Design, MechanismError};
+use centrode_mechanism::feeder::{Dimension, Feeder, FeederDesign, Part};
+use centrode_mechanism::machine::Machine;
+
+use super::{Mechanism, Resolved, Widening, WideningError};
+
+/// Places of a cycle at which the torque is worked out.
+const LOOKS: u32 = 360;
+
+/// Tolerance of the picture, as a share of the frame.
+const DRAWN: f64 = 1e-4;
+
+impl Mechanism for Feeder {
+    fn design(&self) -> &dyn Design {
+        self.design()
+    }
+
+    fn definition(&self) -> String {
+        let [crank, coupler, rocker, frame] = self.six_bar().four_bar().lengths();
+        format!(
+            "crank {crank}, coupler {coupler}, rocker {rocker}, frame {frame} mm; {:.4} cycles a minute",
+            self.cycles_per_minute()
+        )
+    }
+
+    fn check(&self) -> Report {
+        check_feeder(self)
+    }
+
+    fn check_motion(&self) -> Report {
+        check_strokes(self)
+    }
+
+    fn check_with_curves(&self) -> (Report, Vec<Curve>) {
+        (check_feeder(self), torques(self))
+    }
+
+    fn curves(&self) -> Vec<Curve> {
+        feeder::curves(self)
+    }
+
+    /// The six-bar as it moves, with the path of its tip. The gears are plain: cutting their teeth takes longer than an
+    /// eye waits.
+    fn picture(&self) -> Picture {
+        drawn(self, Teeth::Plain)
+    }
+
+    fn is_coarse(&self) -> bool {
+        true
+    }
+
+    fn detailed(&self) -> Option<Picture> {
+        let pair = self.gears().ok()?;
+        Some(drawn(self, Teeth::Cut(&pair)))
+    }
+
+    fn machine(&self) -> Result<Machine, ExportError> {
+        feeder::machine(self)
+    }
+
+    fn files(&self, formats: &[Format], options: &Options) -> Result<Bundle, ExportError> {
+        feeder::files(self, formats, options)
+    }
+}
+
+impl Resolved for Feeder {
+    type Design = FeederDesign;
+
+    const NOUN: &'static str = "a feeder";
+
+    fn resolve(design: &FeederDesign) -> Result<Self, MechanismError> {
+        Ok(Self::resolve(design)?)
+    }
+
+    fn problem(design: &FeederDesign) -> Result<Box<dyn DesignProblem + Send>, NotSearched> {
+        Ok(Box::new(FeederProblem::new(design)))
+    }
+
+    fn widen(design: &FeederDesign) -> Result<Widening, WideningError> {
+        let Widened { share, design } = Widened::of(design)?;
+        let linkage = &design.linkage;
+        let lengths = Dimension::ALL.into_iter().filter(|d| !d.is_of_pivot());
+        let numbers = lengths.map(|d| (d.key().to_owned(), d.of(linkage)));
+        let bounds = design.bounds.named();
+        let pivot = ("linkage.pivot".to_owned(), linkage.pivot.to_vec());
+        let lists = bounds.map(|(name, ends)| (format!("bounds.{name}"), ends.to_vec()));
+        let bounded = Dimension::ALL.into_iter().zip(bounds);
+        let mut lines: Vec<String> = bounded
+            .map(|(dimension, (_, [low, high]))| {
+                let (name, length) = (dimension.name(), dimension.of(linkage));
+                format!("{name:<8} {length:>9.3} mm, within {low:.3} to {high:.3}")
+            })
+            .collect();
+        let [x, y] = linkage.pivot;
+        lines.push(format!("{:<8} ({x:.3}, {y:.3}) mm", "pivot"));
+        Ok(Widening {
+            share,
+            tables: &["linkage", "bounds"],
+            numbers: numbers.collect(),
+            lists: std::iter::once(pivot).chain(lists).collect(),
+            lines,
+            design: Arc::new(design),
+        })
+    }
+}
+
+/// Torque of the crank along the cycle; none where a link makes no plate.
+fn torques(machine: &Feeder) -> Vec<Curve> {
+    let Ok(system) = FeederForces::of(machine) else {
+        return Vec::new();
+    };
+    let input: Vec<f64> = (0..=LOOKS)
+        .map(|i| TAU * f64::from(i) / f64::from(LOOKS))
+        .collect();
+    let curve = |name, moving| {
+        let torque = |&phi: &f64| system.at(phi, moving).map_or(f64::NAN, |f| f.torque);
+        Curve {
+            chart: "Torque of the crank",
+            name,
+            unit: "N·mm",
+            count: false,
+            value: input.iter().map(torque).collect(),
+            input: input.clone(),
+        }
+    };
+    vec![curve("moving", true), curve("held still", false)]
+}
+
+fn drawn(machine: &Feeder, teeth: Teeth<'_>) -> Picture {
+    let frame = machine.six_bar().four_bar().lengths()[3];
+    let Ok(tolerance) = Tolerance::new(DRAWN * frame) else {
+        return Picture::default();
+    };
+    let mut picture = feeder::picture(machine, teeth, tolerance);
+    let link = |part: Part| picture.links.iter().position(|l| l.name == part.name());
+    let handles = joints(machine).into_iter().filter_map(|(part, handle)| {
+        let link = link(part)?;
+        Some(Handle { link, ..handle })
+    });
+    picture.handles = handles.collect();
+    picture
+}
+
+/// A point of each part that stands for one of the linkage's numbers.
+fn joints(machine: &Feeder) -> [(Part, Handle); 6] {
+    let spec = &machine.design().linkage;
+    let handle = |name: &str, plane, keys: [&str; 2], values, scale| Handle {
+        name: name.into(),
+        link: 0,
+        plane,
+        keys: keys.map(|key| match key {
+            "" => String::new(),
+            key => format!("linkage.{key}"),
+        }),
+        values,
+        scale,
+        origin: [0.0; 2],
+        chained: false,
+    };
+    // A length reaches along its own link, at whatever angle that stands.
+    let reach = |name, key, length, scale| {
+        handle(name, HandlePlane::Polar, [key, ""], [length, 0.0], scale)
+    };
+    let place = |name, keys, values| handle(name, HandlePlane::Cartesian, keys, values, 1.0);
+    [
+        (
+            Part::Frame,
+            place("axis of the rocker", ["frame", ""], [spec.frame, 0.0]),
+        ),
+        (
+            Part::Crank,
+            reach("end of the crank", "crank", spec.crank, 1.0),
+        ),
+        // Both end in one joint: each is held in its middle.
+        (
+            Part::Coupler,
+            reach("middle of the coupler", "coupler", spec.coupler, 0.5),
+        ),
+        (
+            Part::Rocker,
+            reach("middle of the rocker", "rocker", spec.rocker, 0.5),
+        ),
+        (
+            Part::Effector,
+            reach(
+                "tip of the effector",
+                "effector_length",
+                spec.effector_length,
+                1.0,
+            ),
+        ),
+        // On top: a coupler that passes over it must not keep it from being reached.
+        (
+            Part::Frame,
+            place(
+                "pivot of the effector",
+                ["pivot[0]", "pivot[1]"],
+                spec.pivot,
+            ),
+        ),
+    ]
+}

@@ -1,0 +1,34 @@
+//! Families of machine: the one list of them, and what each binds of the lower crates.
+
+mod contact;
+mod feeder;
+mod gear_pair;
+mod handles;
+mod mechanism;
+mod moving_box;
+mod open;
+mod registry;
+mod spiral_shaft;
+#[cfg(test)]
+mod tests;
+mod three_arm;
+mod widening;
+
+pub use mechanism::{Depth, Mechanism};
+pub use open::OpenDesign;
+pub use registry::{Families, Family, PartName, Resolved};
+pub use widening::{Widening, WideningError};
+
+use centrode_mechanism::feeder::Feeder;
+use centrode_mechanism::gear::GearPair;
+use centrode_mechanism::shaft::{MovingBox, SpiralShaft};
+use centrode_mechanism::three_arm::ThreeArm;
+
+/// Every family there is.
+pub static FAMILIES: Families = Families(&[
+    Family::of::<GearPair>(),
+    Family::of::<ThreeArm>(),
+    Family::of::<SpiralShaft>(),
+    Family::of::<MovingBox>(),
+    Family::of::<Feeder>(),
+]);

@@ -1,0 +1,58 @@
+use centrode_analysis::{Report, check_moving_box};
+use centrode_export::page::{Curve, Picture};
+use centrode_export::{Bundle, ExportError, Format, Options};
+use centrode_export::shaft;
+use centrode_mechanism::design::{Design, MechanismError};
+use centrode_mechanism::machine::Machine;
+use centrode_mechanism::shaft::{MovingBox, MovingBoxDesign, Scheme};
+
+use super::spiral_shaft::{in_words, tolerance, window};
+use super::{Mechanism, Resolved};
+
+impl Mechanism for MovingBox {
+    fn design(&self) -> &dyn Design {
+        self.design()
+    }
+
+    fn definition(&self) -> String {
+        let scheme = match self.design().scheme {
+            Scheme::Shaft => "driven evenly",
+            Scheme::EllipticGear | Scheme::Both => "driven by elliptic gears",
+        };
+        format!("{}, {scheme}", in_words(self.shaft()))
+    }
+
+    fn check(&self) -> Report {
+        check_moving_box(self)
+    }
+
+    fn curves(&self) -> Vec<Curve> {
+        shaft::box_curves(self).unwrap_or_default()
+    }
+
+    /// The developed groove with its slider, by the input of the machine.
+    fn picture(&self) -> Picture {
+        let drawn = tolerance(self.shaft()).and_then(|t| shaft::box_picture(self, t).ok());
+        let mut picture = drawn.unwrap_or_default();
+        picture.handles = window(self.shaft(), "shaft.", |input| self.shaft_turn(input));
+        picture
+    }
+
+    fn machine(&self) -> Result<Machine, ExportError> {
+        shaft::moving_box_machine(self)
+    }
+
+    fn files(&self, formats: &[Format], options: &Options) -> Result<Bundle, ExportError> {
+        shaft::moving_box_files(self, formats, options)
+    }
+}
+
+impl Resolved for MovingBox {
+    type Design = MovingBoxDesign;
+
+    const NOUN: &'static str = "a moving box";
+
+    fn resolve(design: &MovingBoxDesign) -> Result<Self, MechanismError> {
+        Ok(Self::resolve(design)?)
+    }
+}

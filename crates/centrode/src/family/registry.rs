@@ -1,0 +1,192 @@
+use std::sync::Arc;
+
+use centrode_analysis::Response;
+use centrode_analysis::optimise::{DesignProblem, NotSearched};
+use centrode_mechanism::design::{
+    self, Design, DesignError, DesignFamily, DesignFault, DesignFile, DesignSpec, MechanismError,
+};
+
+use super::{Depth, Mechanism, OpenDesign, Widening, WideningError};
+
+/// A mechanism of one family: all that the registry reads of it beside the mechanism itself.
+pub trait Resolved: Mechanism + Sized {
+    /// Its design.
+    type Design: DesignSpec;
+
+    /// One machine of the family in a sentence, `a gear pair`.
+    const NOUN: &'static str;
+
+    /// Parts whose files can be asked for by name.
+    const PARTS: &'static [PartName] = &[];
+
+    /// Resolves a design.
+    ///
+    /// # Errors
+    /// [`MechanismError`] naming the key at fault.
+    fn resolve(design: &Self::Design) -> Result<Self, MechanismError>;
+
+    /// The search problem around a design.
+    ///
+    /// # Errors
+    /// [`NotSearched`] for a design that no search knows.
+    fn problem(_design: &Self::Design) -> Result<Box<dyn DesignProblem + Send>, NotSearched> {
+        Err(NotSearched::Family)
+    }
+
+    /// The least widening of a design's bounds that lets all its goals be reached.
+    ///
+    /// # Errors
+    /// A sentence that says why there is none.
+    fn widen(_design: &Self::Design) -> Result<Widening, WideningError> {
+        Err(format!("the bounds of {} cannot be widened", Self::NOUN).into())
+    }
+}
+
+/// A part of a machine, or all in place, by its name.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+pub struct PartName {
+    /// The name, which its files have too.
+    pub name: &'static str,
+    /// The part in words.
+    pub about: &'static str,
+}
+
+impl PartName {
+    /// The whole machine, as drawings show it.
+    pub const ASSEMBLY: Self = Self {
+        name: "assembly",
+        about: "Everything in place",
+    };
+}
+
+/// One family of machine.
+#[derive(Clone, Copy, Debug)]
+pub struct Family {
+    /// Its design files.
+    pub design: DesignFamily,
+    /// One machine of the family in a sentence, `a gear pair`.
+    pub noun: &'static str,
+    /// Parts whose files can be asked for by name.
+    pub parts: &'static [PartName],
+    resolve: fn(&dyn Design) -> Result<Arc<dyn Mechanism>, MechanismError>,
+    problem: fn(&dyn Design) -> Result<Box<dyn DesignProblem + Send>, NotSearched>,
+    widen: fn(&dyn Design) -> Result<Widening, WideningError>,
+}
+
+impl Family {
+    /// The family of a mechanism.
+    #[must_use]
+    pub const fn of<M: Resolved>() -> Self {
+        Self {
+            design: DesignFamily::of::<M::Design>(),
+            noun: M::NOUN,
+            parts: M::PARTS,
+            resolve: |design| Ok(Arc::new(M::resolve(own(design)?)?)),
+            problem: |design| match own(design) {
+                Ok(design) => M::problem(design),
+                Err(_) => Err(NotSearched::Family),
+            },
+            widen: |design| M::widen(own(design)?),
+        }
+    }
+
+    /// Resolves a design.
+    ///
+    /// # Errors
+    /// [`MechanismError`] naming the key at fault, `family` where the design is of another.
+    pub fn resolve(&self, design: &dyn Design) -> Result<Arc<dyn Mechanism>, MechanismError> {
+        (self.resolve)(design)
+    }
+
+    /// The search problem around a design.
+    ///
+    /// # Errors
+    /// [`NotSearched`] for a design that no search knows.
+    pub fn problem(
+        &self,
+        design: &dyn Design,
+    ) -> Result<Box<dyn DesignProblem + Send>, NotSearched> {
+        (self.problem)(design)
+    }
+
+    /// The least widening of a design's bounds that lets all its goals be reached.
+    ///
+    /// # Errors
+    /// A sentence that says why there is none.
+    pub fn widen(&self, design: &dyn Design) -> Result<Widening, WideningError> {
+        (self.widen)(design)
+    }
+
+    /// How the figures of a design answer one of its numbers, at values in the file's unit.
+    ///
+    /// # Errors
+    /// [`DesignError`] where the key is no number of the design.
+    pub fn response(
+        &self,
+        design: &dyn Design,
+        key: &str,
+        values: &[f64],
+        depth: Depth,
+    ) -> Result<Response, DesignError> {
+        Response::of(design, key, values, |design| {
+            Some(self.resolve(design).ok()?.report(depth))
+        })
+    }
+}
+
+impl AsRef<DesignFamily> for Family {
+    fn as_ref(&self) -> &DesignFamily {
+        &self.design
+    }
+}
+
+/// The design as one of its own family.
+fn own<D: DesignSpec>(design: &dyn Design) -> Result<&D, MechanismError> {
+    design.downcast_ref().ok_or_else(|| MechanismError {
+        key: "family".into(),
+        fault: DesignFault::UnknownWord {
+            word: design.family().word.into(),
+            near: None,
+            known: vec![D::FAMILY.into()],
+        },
+    })
+}
+
+/// Families to choose from, by the word at the key `family`.
+#[derive(Clone, Copy, Debug)]
+pub struct Families(pub &'static [Family]);
+
+impl Families {
+    /// The words that name them.
+    #[must_use]
+    pub fn words(&self) -> Vec<&'static str> {
+        self.0.iter().map(|family| family.design.word).collect()
+    }
+
+    /// The family of a word.
+    #[must_use]
+    pub fn named(&self, word: &str) -> Option<&'static Family> {
+        self.0.iter().find(|family| family.design.word == word)
+    }
+
+    /// A commented design file of a family to start from, itself a good design.
+    #[must_use]
+    pub fn template(&self, word: &str) -> Option<&'static str> {
+        self.named(word).map(|family| family.design.template)
+    }
+
+    /// The JSON schema of the design file, of whatever family.
+    #[must_use]
+    pub fn json_schema(&self) -> serde_json::Value {
+        design::json_schema(self.0)
+    }
+
+    /// Reads a design file of one of the families and checks every rule that needs no geometry.
+    ///
+    /// # Errors
+    /// [`DesignError`] naming key, line and column.
+    pub fn read(&self, bytes: &[u8]) -> Result<OpenDesign, DesignError> {
+        let (file, family) = DesignFile::read(bytes, self.0)?;
+        Ok(OpenDesign::new(*family, file))
+    }
+}

@@ -1,0 +1,125 @@
+use std::f64::consts::TAU;
+
+use centrode_analysis::{Report, check_shaft};
+use centrode_export::page::{Curve, Handle, HandlePlane, Picture};
+use centrode_export::{Bundle, ExportError, Format, Options};
+use centrode_export::shaft;
+use centrode_geometry::Tolerance;
+use centrode_mechanism::design::{Design, MechanismError};
+use centrode_mechanism::machine::Machine;
+use centrode_mechanism::shaft::{ShaftSolid, SpiralShaft, SpiralShaftDesign};
+use centrode_mechanism::transmission::MotionJet;
+
+use super::handles::degrees;
+use super::{Mechanism, Resolved};
+
+/// Tolerance of the picture, as a share of the groove's width.
+const DRAWN: f64 = 5e-3;
+
+impl Mechanism for SpiralShaft {
+    fn design(&self) -> &dyn Design {
+        self.design()
+    }
+
+    fn definition(&self) -> String {
+        in_words(self)
+    }
+
+    fn check(&self) -> Report {
+        check_shaft(self)
+    }
+
+    fn curves(&self) -> Vec<Curve> {
+        shaft::shaft_curves(self)
+    }
+
+    /// The developed groove with its slider.
+    fn picture(&self) -> Picture {
+        let drawn = tolerance(self).and_then(|t| shaft::shaft_picture(self, t).ok());
+        let mut picture = drawn.unwrap_or_default();
+        let even = |input: f64| MotionJet {
+            position: input,
+            velocity: 1.0,
+            ..MotionJet::default()
+        };
+        picture.handles = window(self, "", even);
+        picture
+    }
+
+    fn machine(&self) -> Result<Machine, ExportError> {
+        shaft::machine(self)
+    }
+
+    fn files(&self, formats: &[Format], options: &Options) -> Result<Bundle, ExportError> {
+        shaft::files(self, formats, options)
+    }
+}
+
+impl Resolved for SpiralShaft {
+    type Design = SpiralShaftDesign;
+
+    const NOUN: &'static str = "a spiral shaft";
+
+    fn resolve(design: &SpiralShaftDesign) -> Result<Self, MechanismError> {
+        Ok(Self::resolve(design)?)
+    }
+}
+
+/// How exactly a shaft is drawn.
+pub(super) fn tolerance(shaft: &SpiralShaft) -> Option<Tolerance> {
+    Tolerance::new(DRAWN * shaft.groove().width()).ok()
+}
+
+/// A shaft in one line.
+pub(super) fn in_words(shaft: &SpiralShaft) -> String {
+    let design = shaft.design();
+    format!(
+        "{} holes, {} mm a turn, {} turns out and back on a shaft of radius {} mm",
+        design.holes,
+        design.lead,
+        shaft.traverse().turns(),
+        design.radius
+    )
+}
+
+/// Middle and end of the window in which a seedling is picked, at the near and the far end of the development:
+/// side by side they would lie on one another.
+pub(super) fn window(
+    part: &SpiralShaft,
+    table: &str,
+    turn: impl Fn(f64) -> MotionJet,
+) -> Vec<Handle> {
+    let Ok(solid) = ShaftSolid::new(part.groove(), part.body()) else {
+        return Vec::new();
+    };
+    let (design, radius) = (part.design(), part.groove().radius());
+    let handle = |name: &str, key: &str, value: f64, input: f64, [x, share]: [f64; 2]| {
+        let at = turn(input);
+        // One degree of the number moves the point so far; the turned surface runs downwards.
+        let scale = -radius * at.velocity * share * 1.0_f64.to_radians();
+        let place = -radius * at.position.rem_euclid(TAU);
+        Handle {
+            name: name.into(),
+            link: 0,
+            plane: HandlePlane::Cartesian,
+            keys: [String::new(), format!("{table}{key}")],
+            values: [0.0, value],
+            scale,
+            origin: [x, place - scale * value],
+            chained: false,
+        }
+    };
+    let [near, far] = solid.ends();
+    let (middle, end) = (design.pick, design.pick + 0.5 * design.window);
+    let (pick, width) = (degrees(middle), degrees(design.window));
+    vec![
+        handle(
+            "middle of the picking",
+            "pick_deg",
+            pick,
+            middle,
+            [near, 1.0],
+        ),
+        handle("end of the picking", "window_deg", width, end, [far, 0.5]),
+    ]
+}

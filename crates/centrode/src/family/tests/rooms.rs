@@ -1,0 +1,115 @@
+//! Families stay in rooms of their own.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use super::FAMILIES;
+
+/// Names of files and folders that are a family's own, wherever they stand.
+const OWN: [&str; 7] = [
+    "gear",
+    "gear_pair",
+    "three_arm",
+    "shaft",
+    "spiral_shaft",
+    "moving_box",
+    "feeder",
+];
+
+/// Other files of one family, and the lists: that of the families and that of their Python classes.
+const OTHERS: [&str; 9] = [
+    "centrode-analysis/src/arm_clearance.rs",
+    "centrode-analysis/src/gear_train.rs",
+    "centrode-analysis/src/pusher.rs",
+    "centrode-analysis/src/variants.rs",
+    "centrode/src/family/mod.rs",
+    "python/src/design.rs",
+    "python/src/lib.rs",
+    "python/src/pitch/mod.rs",
+    "python/src/variants.rs",
+];
+
+/// Types of a family. A gear pair is an element of other families too.
+const TYPES: [&str; 9] = [
+    "GearPairDesign",
+    "ThreeArm",
+    "ThreeArmDesign",
+    "SpiralShaft",
+    "SpiralShaftDesign",
+    "MovingBox",
+    "MovingBoxDesign",
+    "Feeder",
+    "FeederDesign",
+];
+
+/// Every source file below a folder, tests aside.
+fn sources(folder: &Path, found: &mut Vec<PathBuf>) {
+    for entry in fs::read_dir(folder).expect("a folder") {
+        let path = entry.expect("an entry").path();
+        let test = path.file_stem().is_some_and(|stem| stem == "tests");
+        if path.is_dir() && !test {
+            sources(&path, found);
+        } else if path.extension().is_some_and(|e| e == "rs") && !test {
+            found.push(path);
+        }
+    }
+}
+
+/// The words of a family that a source names outside its comments and tests.
+fn named(source: &str) -> Vec<String> {
+    let code = source.split("#[cfg(test)]\nmod tests {").next();
+    let lines = code.unwrap_or_default().lines().map(str::trim_start);
+    let code: Vec<&str> = lines.filter(|line| !line.starts_with("//")).collect();
+    let code = code.join("\n");
+    let quoted = FAMILIES.words().into_iter().map(|word| format!("{word:?}"));
+    let mut found: Vec<String> = quoted.filter(|word| code.contains(word)).collect();
+    let mut tokens: Vec<&str> = code
+        .split(|c: char| !c.is_alphanumeric() && c != '_')
+        .filter(|token| TYPES.contains(token))
+        .collect();
+    tokens.sort_unstable();
+    tokens.dedup();
+    found.extend(tokens.into_iter().map(String::from));
+    found
+}
+
+#[test]
+fn no_family_is_named_outside_its_rooms() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let mut files = Vec::new();
+    sources(&root.join("crates"), &mut files);
+    sources(&root.join("python/src"), &mut files);
+    assert!(files.len() > 300, "only {} files", files.len());
+    let mut named_in_rooms = 0;
+    let mut strays = Vec::new();
+    for path in files {
+        let found = named(&fs::read_to_string(&path).expect("text"));
+        if found.is_empty() {
+            continue;
+        }
+        let path = path.strip_prefix(&root).expect("below the root");
+        let own = |part: &Path| {
+            let stem = part.file_stem().unwrap_or_default();
+            OWN.iter().any(|room| stem == *room)
+        };
+        if path.iter().any(|part| own(Path::new(part))) || OTHERS.iter().any(|o| path.ends_with(o))
+        {
+            named_in_rooms += 1;
+        } else {
+            strays.push(format!("{}: {}", path.display(), found.join(", ")));
+        }
+    }
+    assert!(strays.is_empty(), "{strays:#?}");
+    assert!(
+        named_in_rooms > 50,
+        "only {named_in_rooms} files of families"
+    );
+}
+
+#[test]
+fn a_match_over_families_would_be_found() {
+    let matched = "match family {\n    \"three-arm\" => 3,\n    // \"feeder\"\n    _ => 1,\n}";
+    assert_eq!(named(matched), ["\"three-arm\""]);
+    assert_eq!(named("let Mechanism::Feeder(feeder) = it"), ["Feeder"]);
+    assert!(named("FeederForces::of(three_arm)").is_empty());
+}

@@ -1,0 +1,199 @@
+use centrode_analysis::optimise::three_arm::ThreeArmProblem;
+use centrode_analysis::optimise::{DesignProblem, NotSearched};
+use centrode_analysis::{
+    Report, TrainTeeth, arm_clearance_course, carrier_turn, check_arms, check_three_arm,
+    check_three_arm_teeth,
+};
+use centrode_export::page::{Curve, Picture};
+use centrode_export::three_arm::{self, Teeth};
+use centrode_export::{Bundle, ExportError, Format, Options};
+use centrode_geometry::Tolerance;
+use centrode_mechanism::design::{Design, MechanismError};
+use centrode_mechanism::gear::Member;
+use centrode_mechanism::machine::Machine;
+use centrode_mechanism::three_arm::ThreeArm;
+use centrode_mechanism::three_arm::design::ThreeArmDesign;
+
+use super::contact::contact_curves;
+use super::handles::handles;
+use super::{Mechanism, PartName, Resolved};
+
+/// Parts of a carrier turn in which the arms' clearance is shown.
+const PARTS: u32 = 120;
+
+/// Tolerance of the picture, as a share of the distance between two axes.
+const DRAWN: f64 = 1e-4;
+
+impl Mechanism for ThreeArm {
+    fn design(&self) -> &dyn Design {
+        self.design()
+    }
+
+    fn definition(&self) -> String {
+        format!(
+            "{} arms; sun: {}; centre distance {:.6} mm",
+            self.arms(),
+            self.definition(),
+            self.center_distance()
+        )
+    }
+
+    fn check(&self) -> Report {
+        check_three_arm(self)
+    }
+
+    fn check_motion(&self) -> Report {
+        check_arms(self)
+    }
+
+    fn check_with_curves(&self) -> (Report, Vec<Curve>) {
+        let teeth = TrainTeeth::of(self);
+        let found = check_three_arm_teeth(self, &teeth);
+        (found, checked_curves(self, teeth.ok().flatten().as_ref()))
+    }
+
+    fn curves(&self) -> Vec<Curve> {
+        three_arm::curves(self)
+    }
+
+    /// The mechanism with plain gears: cutting teeth takes longer than an eye waits.
+    fn picture(&self) -> Picture {
+        drawn(self, Teeth::Plain)
+    }
+
+    fn is_coarse(&self) -> bool {
+        true
+    }
+
+    fn detailed(&self) -> Option<Picture> {
+        let pair = self.pair().ok()?;
+        Some(drawn(self, Teeth::Cut(&pair)))
+    }
+
+    fn machine(&self) -> Result<Machine, ExportError> {
+        three_arm::machine(self)
+    }
+
+    fn files(&self, formats: &[Format], options: &Options) -> Result<Bundle, ExportError> {
+        three_arm::files(self, formats, options)
+    }
+}
+
+impl Resolved for ThreeArm {
+    type Design = ThreeArmDesign;
+
+    const NOUN: &'static str = "a three-arm mechanism";
+
+    const PARTS: &'static [PartName] = &[
+        PartName {
+            name: "sun",
+            about: "Three arms: the fixed gear",
+        },
+        PartName {
+            name: "intermediate",
+            about: "Three arms: the gear between sun and planet",
+        },
+        PartName {
+            name: "planet",
+            about: "Three arms: the gear that carries an arm",
+        },
+        PartName {
+            name: "cam",
+            about: "Three arms: what moves the push rod",
+        },
+        PartName {
+            name: "fork",
+            about: "Three arms: between cam and push rod",
+        },
+        PartName {
+            name: "roller",
+            about: "Three arms: on the fork",
+        },
+        PartName {
+            name: "carrier",
+            about: "Three arms: the plate on either side of the gears",
+        },
+        PartName {
+            name: "housing",
+            about: "Three arms: the wall of an arm's housing",
+        },
+        PartName {
+            name: "cover-rear",
+            about: "Three arms: its cover towards the gearbox",
+        },
+        PartName {
+            name: "cover-front",
+            about: "Three arms: its cover away from the gearbox",
+        },
+        PartName {
+            name: "clamp",
+            about: "Three arms: a flake of the clamp",
+        },
+        PartName {
+            name: "push-rod",
+            about: "Three arms: with its pusher",
+        },
+        PartName::ASSEMBLY,
+    ];
+
+    fn resolve(design: &ThreeArmDesign) -> Result<Self, MechanismError> {
+        Ok(Self::resolve(design)?)
+    }
+
+    fn problem(design: &ThreeArmDesign) -> Result<Box<dyn DesignProblem + Send>, NotSearched> {
+        match ThreeArmProblem::new(design) {
+            Ok(problem) => Ok(Box::new(problem)),
+            Err(error) => Err(NotSearched::Design(error.to_string())),
+        }
+    }
+}
+
+/// How clear the arms keep, and what the flanks of sun and first intermediate gear do, by the carrier's turn.
+fn checked_curves(mechanism: &ThreeArm, teeth: Option<&TrainTeeth>) -> Vec<Curve> {
+    let mut curves = Vec::new();
+    if let Some(course) = arm_clearance_course(mechanism, PARTS) {
+        let all = [
+            ("from one another", course.arms),
+            ("from the tray", course.tray),
+        ];
+        let found = all.into_iter().filter(|(_, value)| !value.is_empty());
+        curves.extend(found.map(|(name, value)| Curve {
+            chart: "Clearance of the arms",
+            name,
+            unit: "mm",
+            count: false,
+            input: course.input.clone(),
+            value,
+        }));
+    }
+    if let Some(teeth) = teeth {
+        curves.extend(contact_curves(&teeth.contact).into_iter().map(|curve| {
+            let mut points: Vec<(f64, f64)> = curve
+                .input
+                .iter()
+                .map(|&sun| carrier_turn(mechanism, sun))
+                .zip(curve.value)
+                .collect();
+            points.sort_by(|a, b| a.0.total_cmp(&b.0));
+            let (input, value) = points.into_iter().unzip();
+            Curve {
+                input,
+                value,
+                ..curve
+            }
+        }));
+    }
+    curves
+}
+
+fn drawn(mechanism: &ThreeArm, teeth: Teeth<'_>) -> Picture {
+    let Ok(tolerance) = Tolerance::new(DRAWN * mechanism.center_distance()) else {
+        return Picture::default();
+    };
+    let mut picture = three_arm::picture(mechanism, teeth, tolerance);
+    if let Some(sun) = picture.links.iter().position(|link| link.name == "sun") {
+        let length = mechanism.rolling().pitch_length(Member::Driver);
+        picture.handles = handles(&mechanism.design().pitch, length, sun);
+    }
+    picture
+}
