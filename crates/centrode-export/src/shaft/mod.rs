@@ -114,9 +114,7 @@ fn all(
             gear_pair::fill(gears, pair)
         })?;
         // The machine's model shows them.
-        if package.simulated() {
-            gear_pair::show(&mut package, pair, prefix)?;
-        }
+        gear_pair::show(&mut package, pair, prefix)?;
     }
     package.finish()
 }
