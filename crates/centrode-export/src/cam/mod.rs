@@ -66,13 +66,5 @@ pub fn drawing(cam: &Cam, tolerance: Tolerance) -> Result<Drawing, CamError> {
     Ok(sheet::cam(&Contours::new(cam, tolerance)?))
 }
 
-/// The drawing of a cam with its follower at the input zero, with exact contours.
-///
-/// # Errors
-/// [`CamError::Open`] where the roller's path is not made of numbers.
-pub fn assembly_drawing(cam: &Cam, tolerance: Tolerance) -> Result<Drawing, CamError> {
-    Ok(sheet::assembly(cam, &Contours::new(cam, tolerance)?))
-}
-
 #[cfg(test)]
 mod tests;

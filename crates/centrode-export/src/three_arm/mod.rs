@@ -17,7 +17,7 @@ use centrode_mechanism::three_arm::{PusherError, ThreeArm};
 use crate::gear_pair::{self, Label};
 use crate::{Bundle, ExportError, Format, Options, Package, cam};
 use machine::Machine;
-pub use part::{Part, UnknownPart};
+pub use part::Part;
 pub use picture::{Teeth, curves, picture};
 
 impl From<ArmError> for ExportError {

@@ -1,6 +1,4 @@
-use std::{fmt, str::FromStr};
-
-use thiserror::Error;
+use std::fmt;
 
 /// A part of a three-arm mechanism, or the whole.
 #[derive(Clone, Copy, Debug, Eq, Hash, Ord, PartialEq, PartialOrd)]
@@ -107,22 +105,5 @@ impl Part {
 impl fmt::Display for Part {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(self.name())
-    }
-}
-
-/// A word that names no part.
-#[derive(Clone, Debug, Error, PartialEq)]
-#[error("a three-arm mechanism has no part named {word:?}; there are {}", Part::ALL.map(Part::name).join(", "))]
-pub struct UnknownPart {
-    /// The word.
-    pub word: String,
-}
-
-impl FromStr for Part {
-    type Err = UnknownPart;
-
-    fn from_str(word: &str) -> Result<Self, UnknownPart> {
-        let found = Self::ALL.into_iter().find(|part| part.name() == word);
-        found.ok_or_else(|| UnknownPart { word: word.into() })
     }
 }

@@ -1,7 +1,7 @@
 use centrode_analysis::{Report, check_moving_box};
 use centrode_export::page::{Curve, Picture};
-use centrode_export::{Bundle, ExportError, Format, Options};
 use centrode_export::shaft;
+use centrode_export::{Bundle, ExportError, Format, Options};
 use centrode_mechanism::design::{Design, MechanismError};
 use centrode_mechanism::machine::Machine;
 use centrode_mechanism::shaft::{MovingBox, MovingBoxDesign, Scheme};

@@ -2,8 +2,8 @@ use std::f64::consts::TAU;
 
 use centrode_analysis::{Report, check_shaft};
 use centrode_export::page::{Curve, Handle, HandlePlane, Picture};
-use centrode_export::{Bundle, ExportError, Format, Options};
 use centrode_export::shaft;
+use centrode_export::{Bundle, ExportError, Format, Options};
 use centrode_geometry::Tolerance;
 use centrode_mechanism::design::{Design, MechanismError};
 use centrode_mechanism::machine::Machine;

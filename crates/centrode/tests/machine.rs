@@ -1,0 +1,96 @@
+//! The machine of every shipped design, written out as a plain file and read back with the family's object dropped.
+
+use std::fs;
+use std::path::Path;
+
+use centrode::FAMILIES;
+use centrode::export::machine::{plain, read, schema, write};
+use centrode::export::{Bundle, Format, Options, Package};
+use centrode::geometry::Tolerance;
+use centrode::mechanism::machine::Machine;
+
+/// Name and machine of every shipped design that gives one.
+fn machines() -> Vec<(String, Machine)> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/designs");
+    let mut names: Vec<_> = fs::read_dir(folder)
+        .expect("checked in")
+        .map(|entry| entry.expect("readable").path())
+        .filter(|path| path.extension().is_some_and(|end| end == "toml"))
+        .collect();
+    names.sort();
+    let machine = |path: &std::path::PathBuf| {
+        let text = fs::read(path).expect("readable");
+        let design = FAMILIES.read(&text).expect("a design");
+        let machine = design.mechanism().ok()?.machine().ok()?;
+        let name = path.file_stem()?.to_str()?.to_owned();
+        Some((name, machine))
+    };
+    let found: Vec<_> = names.iter().filter_map(machine).collect();
+    assert!(found.len() >= 10, "{} machines", found.len());
+    found
+}
+
+fn files(machine: &Machine, options: &Options) -> Bundle {
+    let formats = [Format::Csv, Format::Urdf, Format::Mjcf];
+    let mut package = Package::new("a machine", ["", ""], &formats, options);
+    package.machine(|| Ok(machine.clone())).expect("written");
+    package.finish().expect("whole")
+}
+
+#[test]
+fn a_machine_read_back_from_its_plain_file_stands_and_exports_as_the_first() {
+    let tolerance = Tolerance::new(2e-2).expect("positive");
+    let options = Options::new(tolerance);
+    for (name, machine) in machines() {
+        assert_eq!(machine.validate(), Ok(()), "{name}");
+        let bytes = write(&plain(&machine, tolerance).expect("meshed")).expect("plain");
+        let again = read(&bytes).expect("readable");
+        for i in 0..60 {
+            let input = machine.input.period * (0.37 + 2.21 * f64::from(i)) / 60.0;
+            let poses = machine.pose(input).into_iter().zip(again.pose(input));
+            for (link, (one, other)) in poses.enumerate() {
+                let off = (one.0[0] - other.0[0]).abs().max();
+                let size = one.0[0].abs().max();
+                assert!(off <= 1e-12 * size, "{name} link {link} at {input}: {off}");
+            }
+        }
+        let (first, second) = (files(&machine, &options), files(&again, &options));
+        for ((file, one), (_, other)) in first.files().zip(second.files()) {
+            assert!(one == other, "{name}: {file} differs");
+        }
+        assert_eq!(first, second, "{name}");
+    }
+}
+
+#[test]
+fn a_plain_file_of_another_kind_or_cut_short_is_refused() {
+    let (_, machine) = machines().swap_remove(0);
+    let tolerance = Tolerance::new(2e-2).expect("positive");
+    let bytes = write(&plain(&machine, tolerance).expect("meshed")).expect("plain");
+    let text = String::from_utf8(bytes).expect("text");
+    let refused = |text: &str| read(text.as_bytes()).expect_err("refused").to_string();
+    assert!(refused(&text[..text.len() / 2]).contains("not the plain file of a machine"));
+    assert!(refused(&text.replace("\"version\":1", "\"version\":9")).contains("version 9"));
+    let lost = text.replacen("\"parent\":0", "\"parent\":99", 1);
+    assert!(
+        refused(&lost).contains("joint 0 names link 99"),
+        "{}",
+        refused(&lost)
+    );
+    assert!(refused("{\"format\": 1}").contains("not the plain file"));
+}
+
+#[test]
+fn the_schema_of_the_plain_file_names_what_it_holds() {
+    let schema = schema().to_string();
+    for word in [
+        "joints",
+        "closures",
+        "meshes",
+        "coefficients",
+        "inertia",
+        "linear",
+    ] {
+        assert!(schema.contains(word) || word == "linear", "{word}");
+    }
+}
