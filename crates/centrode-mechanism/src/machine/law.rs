@@ -1,4 +1,5 @@
 use std::f64::consts::PI;
+use std::sync::LazyLock;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -45,6 +46,8 @@ impl Transmission for Linear {
 const COUNT: usize = 16;
 /// Share of a law's size by which a piece may miss it: the law's own rounding.
 const ROUNDING: f64 = 4e-15;
+/// Share of a law's size below which a tail that halving does not lessen is the law's own noise.
+const NOISE: f64 = 1e-9;
 /// Shortest piece, as a share of the period: below it a jump lies inside.
 const SHORTEST: f64 = 1e-9;
 
@@ -63,7 +66,7 @@ pub struct Piecewise {
     /// Ends of the pieces, from 0 to the period.
     ends: Vec<f64>,
     /// Chebyshev coefficients of each piece of the law less its mean growth.
-    pieces: Vec<Vec<f64>>,
+    pub(super) pieces: Vec<Vec<f64>>,
 }
 
 impl Piecewise {
@@ -77,16 +80,19 @@ impl Piecewise {
         let rest = |input: f64| law.at(input).position - slope * input;
         let size = cuts.iter().map(|&cut| rest(cut).abs());
         let size = size.fold(0.0, f64::max);
-        let mut open: Vec<[f64; 2]> = cuts.windows(2).rev().map(|w| [w[0], w[1]]).collect();
+        // Ends of what is still to be fitted, and the tail of the series over twice as much.
+        let whole = |w: &[f64]| (w[0], w[1], f64::INFINITY);
+        let mut open: Vec<(f64, f64, f64)> = cuts.windows(2).rev().map(whole).collect();
         let (mut ends, mut pieces) = (vec![0.0], Vec::new());
-        while let Some([from, to]) = open.pop() {
+        while let Some((from, to, before)) = open.pop() {
             centrode_geometry::checkpoint();
             let piece = interpolated(rest, from, to);
             let scale = piece.iter().fold(size, |m, c| m.max(c.abs()));
             let tail: f64 = piece[COUNT - 3..].iter().map(|c| c.abs()).sum();
-            if tail > ROUNDING * scale && to - from > SHORTEST * period {
+            let decays = tail < 0.5 * before || tail > NOISE * scale;
+            if tail > ROUNDING * scale && decays && to - from > SHORTEST * period {
                 let middle = 0.5 * (from + to);
-                open.extend([[middle, to], [from, middle]]);
+                open.extend([(middle, to, tail), (from, middle, tail)]);
                 continue;
             }
             let kept = piece.iter().rposition(|&c| c != 0.0).map_or(1, |i| i + 1);
@@ -119,14 +125,20 @@ impl Piecewise {
     }
 }
 
+/// Cosine of k times the angle of each root: the Chebyshev polynomials there.
+static COSINES: LazyLock<[[f64; COUNT]; COUNT]> = LazyLock::new(|| {
+    let angle = |j: usize| PI * (j as f64 + 0.5) / COUNT as f64;
+    std::array::from_fn(|k| std::array::from_fn(|j| (k as f64 * angle(j)).cos()))
+});
+
 /// Chebyshev coefficients of the polynomial through a function's values at the roots of the Chebyshev polynomial.
 fn interpolated(f: impl Fn(f64) -> f64, from: f64, to: f64) -> [f64; COUNT] {
-    let angle = |j: usize| PI * (j as f64 + 0.5) / COUNT as f64;
+    let cosines = &*COSINES;
     let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
-    let values: [f64; COUNT] = std::array::from_fn(|j| f(middle + half * angle(j).cos()));
+    let values: [f64; COUNT] = std::array::from_fn(|j| f(middle + half * cosines[1][j]));
     std::array::from_fn(|k| {
         let scale = if k == 0 { 1.0 } else { 2.0 } / COUNT as f64;
-        let terms = (0..COUNT).map(|j| values[j] * (k as f64 * angle(j)).cos());
+        let terms = values.iter().zip(&cosines[k]).map(|(v, c)| v * c);
         scale * terms.sum::<f64>()
     })
 }

@@ -100,6 +100,17 @@ fn pieces_are_a_law_within_rounding() {
 }
 
 #[test]
+fn noise_in_a_law_ends_its_halving() {
+    let noisy = FromFn::new(TAU, 0.0, vec![], |t: f64| MotionJet {
+        position: t.sin() + 1e-12 * (1e7 * t).sin(),
+        ..MotionJet::default()
+    });
+    let pieces = Piecewise::fit(&noisy);
+    assert!(pieces.pieces.len() < 1000, "{}", pieces.pieces.len());
+    assert!((pieces.at(1.0).position - 1.0_f64.sin()).abs() < 1e-10);
+}
+
+#[test]
 fn a_law_that_jumps_is_cut_where_it_jumps() {
     let step = FromFn::new(TAU, 0.0, vec![], |t: f64| MotionJet {
         position: if t.rem_euclid(TAU) < 2.0 { 1.0 } else { 5.0 },
