@@ -17,6 +17,10 @@ class Contact:
     """Driver angle, rad."""
     law: NDArray[float64]
     """Driven angle the pitch curves ask for, rad."""
+    driven_angle: NDArray[float64]
+    """Driven angle when the driver pushes it on, rad; infinite where nothing does."""
+    reverse_driven_angle: NDArray[float64]
+    """Driven angle when the driver pushes it back, rad."""
     transmission_error: NDArray[float64]
     """Driven angle when the driver pushes it on, less the law and the designed half backlash, rad."""
     reverse_transmission_error: NDArray[float64]

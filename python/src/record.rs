@@ -194,6 +194,8 @@ pub(crate) fn contact(py: Python<'_>, contact: Contact) -> PyResult<Bound<'_, Py
     for (name, values) in [
         ("input", contact.input),
         ("law", contact.law),
+        ("driven_angle", contact.driven_angle),
+        ("reverse_driven_angle", contact.reverse_driven_angle),
         ("transmission_error", contact.transmission_error),
         (
             "reverse_transmission_error",

@@ -1,29 +1,41 @@
-use std::f64::consts::{PI, TAU};
+use std::cell::OnceCell;
 
 use centrode_geometry::{Outline, Point, Segment, SegmentJet, Vector};
 use centrode_mechanism::gear::{Gear, Role};
+
+use super::span::{self, Span};
 
 /// Change of direction at a joint above which it is a corner, rad: far above the rounding of a fitted
 /// joint, far below a tip edge.
 const CORNER: f64 = 1e-4;
 
-/// Directions of the outward normals of a part: the middle one and how far the rest turn from it.
+/// Directions of the outward normals of a part: the middle one and how far the rest turn from it, less than a right
+/// angle; or all directions.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Cone {
     pub(super) direction: Vector,
-    half: f64,
     sin: f64,
+    /// Nothing where all directions are in it.
     cos: f64,
 }
 
 impl Cone {
-    fn new(middle: f64, half: f64) -> Self {
-        let (sin, cos) = half.sin_cos();
+    /// The cone between two directions of tangents.
+    fn between(from: Vector, to: Vector) -> Self {
+        let [from, to] = [from, to].map(|t| Vector::new(t.y, -t.x).normalize());
+        let direction = (from + to).normalize();
         Self {
-            direction: Vector::new(middle.cos(), middle.sin()),
-            half,
-            sin,
-            cos,
+            direction,
+            sin: direction.perp(&to).abs(),
+            cos: direction.dot(&to).max(1e-9),
+        }
+    }
+
+    fn all() -> Self {
+        Self {
+            direction: Vector::x(),
+            sin: 1.0,
+            cos: 0.0,
         }
     }
 
@@ -34,7 +46,8 @@ impl Cone {
 
     /// Whether some direction of one opposes some direction of the other.
     pub(super) fn opposes(&self, other: &Self) -> bool {
-        self.half + other.half >= PI
+        self.cos == 0.0
+            || other.cos == 0.0
             || self.direction.dot(&other.direction) <= self.sin * other.sin - self.cos * other.cos
     }
 
@@ -50,175 +63,212 @@ pub(super) struct Part<'a> {
     pub(super) segment: &'a Segment,
     pub(super) role: Role,
     pub(super) owner: u32,
+    /// The corner at its start.
+    pub(super) corner: Option<Corner>,
+    /// Circle around it.
     pub(super) center: Point,
     pub(super) radius: f64,
     pub(super) normals: Cone,
-    pub(super) start: Point,
-    pub(super) end: Point,
-    /// Greatest distance from the chord.
-    pub(super) sagitta: f64,
-    /// Bound of the curvature from above, positive where the gear is convex.
-    pub(super) bend: f64,
+    pub(super) ends: [Point; 2],
+    pub(super) span: Span,
 }
 
 /// A corner of an outline: an edge of the gear.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Corner {
     pub(super) point: Point,
-    pub(super) owner: u32,
     /// Whether a flank ends here.
     pub(super) on_flank: bool,
     pub(super) normals: Cone,
+}
+
+/// The middle of a part and bounds of its halves.
+#[derive(Clone, Debug)]
+pub(super) struct Halves {
+    pub(super) middle: SegmentJet,
+    pub(super) spans: [Span; 2],
 }
 
 /// A finished gear as the contact analysis sees it: nothing but its outline.
 #[derive(Debug)]
 pub(super) struct Body<'a> {
     pub(super) parts: Vec<Part<'a>>,
-    pub(super) corners: Vec<Corner>,
+    /// Centres and radii of their circles, side by side: every pose looks at all of them.
+    pub(super) circles: Vec<(Point, f64)>,
+    /// Bounds of the parts' curvatures, once asked for.
+    curvatures: Vec<OnceCell<(f64, f64)>>,
+    /// The parts' halves, once asked for.
+    halves: Vec<OnceCell<Halves>>,
+    /// Distance from the axis within which there is nothing but the body.
+    pub(super) core: f64,
     /// Greatest distance from the axis.
-    pub(super) reach: f64,
-    /// The same, sector by sector of the body's own polar angle.
-    sectors: Vec<f64>,
+    reach: f64,
+    /// Greatest distance from the axis of what is near a direction, sector by sector of the body's own plane.
+    sectors: [f64; SECTORS],
+    /// How near that is, mm.
+    grown: f64,
 }
 
 /// Sectors in which a body's reach is kept.
 const SECTORS: usize = 72;
 
 impl<'a> Body<'a> {
-    pub(super) fn of(gear: &'a Gear) -> Self {
-        let outline: &Outline = gear.outline();
-        let parts: Vec<Part<'a>> = outline
-            .segments()
-            .iter()
-            .zip(gear.roles().iter().zip(gear.owners()))
-            .map(|(segment, (&role, &owner))| part(segment, role, owner))
-            .collect();
-        let mut corners = Vec::new();
-        let count = parts.len();
-        for i in 0..count {
-            let (before, after) = (&parts[i], &parts[(i + 1) % count]);
-            let (end, start) = (before.segment.at(1.0), after.segment.at(-1.0));
-            let turn = angle(end.first.perp(&start.first), end.first.dot(&start.first));
-            // A re-entrant corner can touch nothing that its neighbours do not touch first.
-            if turn > CORNER {
-                let from = direction(&end);
-                corners.push(Corner {
-                    point: start.point,
-                    owner: before.owner,
-                    on_flank: before.role == Role::Flank || after.role == Role::Flank,
-                    normals: Cone::new(from + 0.5 * turn, 0.5 * turn),
-                });
-            }
-        }
+    /// Two gears that look for each other within so many mm.
+    pub(super) fn pair(driver: &'a Gear, driven: &'a Gear, near: f64) -> [Self; 2] {
+        let parts = [parts(driver), parts(driven)];
+        let largest = |parts: &[Part<'_>]| parts.iter().map(|p| p.radius).fold(0.0, f64::max);
+        let grown = [&parts[1], &parts[0]].map(|other| largest(other) + near);
+        let [driver, driven] = parts;
+        [Self::new(driver, grown[0]), Self::new(driven, grown[1])]
+    }
+
+    fn new(parts: Vec<Part<'a>>, grown: f64) -> Self {
         let reach = parts
             .iter()
             .map(|p| p.center.coords.norm() + p.radius)
             .fold(0.0, f64::max);
-        let sectors = sectors(&parts);
         Self {
+            curvatures: vec![OnceCell::new(); parts.len()],
+            halves: vec![OnceCell::new(); parts.len()],
+            circles: parts.iter().map(|p| (p.center, p.radius)).collect(),
+            core: parts
+                .iter()
+                .map(clear_of_axis)
+                .fold(f64::INFINITY, f64::min),
+            sectors: sectors(&parts, grown),
             parts,
-            corners,
             reach,
-            sectors,
+            grown,
         }
     }
 
-    /// Greatest distance from the axis near a direction in the body's own frame.
-    pub(super) fn reach_towards(&self, direction: &Vector) -> f64 {
-        self.sectors[sector(angle(direction.y, direction.x)) % SECTORS]
+    /// Whether anything of the body can be within so many mm of a point, as far as its reach tells.
+    pub(super) fn is_near(&self, point: &Vector, near: f64) -> bool {
+        let squared = point.norm_squared();
+        let within = |reach: f64| squared < (reach + near).powi(2);
+        within(self.reach) && (near > self.grown || within(self.sectors[sector(point)]))
+    }
+
+    /// A part of a flank and its neighbours on the same flank.
+    pub(super) fn along_flank(&self, part: usize) -> Vec<usize> {
+        let count = self.parts.len();
+        let here = &self.parts[part];
+        [0, count - 1, 1]
+            .map(|step| (part + step) % count)
+            .into_iter()
+            .filter(|&k| self.parts[k].role == here.role && self.parts[k].owner == here.owner)
+            .collect()
+    }
+
+    /// Bounds of a part's curvature, 1/mm.
+    pub(super) fn curvature(&self, part: usize) -> (f64, f64) {
+        let bounds = || span::curvature(self.parts[part].segment, -1.0, 1.0);
+        *self.curvatures[part].get_or_init(bounds)
+    }
+
+    /// Middle of a part and bounds of its halves.
+    pub(super) fn halves(&self, part: usize) -> &Halves {
+        self.halves[part].get_or_init(|| {
+            let segment = self.parts[part].segment;
+            Halves {
+                middle: segment.at(0.0),
+                spans: [(-1.0, 0.0), (0.0, 1.0)].map(|(u0, u1)| Span::new(segment, u0, u1)),
+            }
+        })
     }
 }
 
-fn sector(angle: f64) -> usize {
-    let share = angle.rem_euclid(TAU) / TAU;
-    (share * SECTORS as f64) as usize
+/// Bound of a part's distance from the axis.
+fn clear_of_axis(part: &Part<'_>) -> f64 {
+    let chord = part.ends[1] - part.ends[0];
+    let along = (-part.ends[0].coords.dot(&chord) / chord.norm_squared()).clamp(0.0, 1.0);
+    (part.ends[0].coords + chord * along).norm() - part.span.sagitta
 }
 
-/// Reach by sector, each with its neighbours': what is near a direction may lie just beside it.
-fn sectors(parts: &[Part<'_>]) -> Vec<f64> {
-    let mut own = vec![0.0_f64; SECTORS];
+/// The sector of a direction, by the share of the way round a square.
+fn sector(direction: &Vector) -> usize {
+    let share = direction.y / (direction.x.abs() + direction.y.abs());
+    let round = if direction.x < 0.0 {
+        2.0 - share
+    } else {
+        (4.0 + share) % 4.0
+    };
+    ((0.25 * round * SECTORS as f64) as usize).min(SECTORS - 1)
+}
+
+/// Reach by sector of what comes so near it.
+fn sectors(parts: &[Part<'_>], grown: f64) -> [f64; SECTORS] {
+    let mut out = [0.0_f64; SECTORS];
     for part in parts {
         let away = part.center.coords.norm();
         let far = away + part.radius;
-        let middle = angle(part.center.y, part.center.x);
+        let sin = (part.radius + grown) / away;
         // A part about the axis itself, or reaching it, is in every sector.
-        let spread = if part.radius < away {
-            (part.radius / away).asin()
-        } else {
-            PI
-        };
-        let width = TAU / SECTORS as f64;
-        let count = (2.0 * spread / width).ceil() as usize + 1;
-        for k in 0..=count.min(SECTORS) {
-            let at = sector(middle - spread + k as f64 * width) % SECTORS;
-            own[at] = own[at].max(far);
+        if sin.is_nan() || sin >= 1.0 {
+            out = out.map(|r| r.max(far));
+            continue;
+        }
+        let cos = (1.0 - sin * sin).sqrt();
+        let across = Vector::new(-part.center.y, part.center.x);
+        let [first, last] =
+            [-sin, sin].map(|sin| sector(&(part.center.coords * cos + across * sin)));
+        let count = (last + SECTORS - first) % SECTORS;
+        for k in first..=first + count {
+            out[k % SECTORS] = out[k % SECTORS].max(far);
         }
     }
-    (0..SECTORS)
-        .map(|k| {
-            own[k]
-                .max(own[(k + 1) % SECTORS])
-                .max(own[(k + SECTORS - 1) % SECTORS])
-        })
-        .collect()
+    out
 }
 
-fn angle(y: f64, x: f64) -> f64 {
-    y.atan2(x)
+fn parts(gear: &Gear) -> Vec<Part<'_>> {
+    let outline: &Outline = gear.outline();
+    let mut parts: Vec<Part<'_>> = outline
+        .segments()
+        .iter()
+        .zip(gear.roles().iter().zip(gear.owners()))
+        .map(|(segment, (&role, &owner))| part(segment, role, owner))
+        .collect();
+    let count = parts.len();
+    for i in 0..count {
+        let before = parts[(i + count - 1) % count];
+        parts[i].corner = corner(&before, &parts[i]);
+    }
+    parts
 }
 
-/// Direction of the outward normal: the contour is counter-clockwise.
-fn direction(jet: &SegmentJet) -> f64 {
-    angle(-jet.first.x, jet.first.y)
+/// The corner between two parts, if there is one.
+///
+/// A re-entrant corner can touch nothing that its neighbours do not touch first.
+fn corner(before: &Part<'_>, after: &Part<'_>) -> Option<Corner> {
+    let (end, start) = (before.span.tangents[1], after.span.tangents[0]);
+    let (turn, along) = (end.perp(&start), end.dot(&start));
+    (turn > CORNER * along && turn > 0.0).then(|| Corner {
+        point: after.ends[0],
+        on_flank: before.role == Role::Flank || after.role == Role::Flank,
+        normals: Cone::between(end, start),
+    })
 }
 
 fn part(segment: &Segment, role: Role, owner: u32) -> Part<'_> {
-    const SAMPLES: usize = 6;
-    let jets: [SegmentJet; SAMPLES + 1] =
-        std::array::from_fn(|i| segment.at(-1.0 + 2.0 * i as f64 / SAMPLES as f64));
-    let center = nalgebra::center(&jets[0].point, &jets[SAMPLES].point);
-    let radius = jets
-        .iter()
-        .map(|j| (j.point - center).norm())
-        .fold(0.0, f64::max);
-    let chord = (jets[SAMPLES].point - jets[0].point).normalize();
-    let sagitta = jets
-        .iter()
-        .map(|j| chord.perp(&(j.point - jets[0].point)).abs())
-        .fold(0.0, f64::max);
-    let mut direction_now = direction(&jets[0]);
-    let (mut low, mut high) = (direction_now, direction_now);
-    for pair in jets.windows(2) {
-        let (a, b): (Vector, Vector) = (pair[0].first, pair[1].first);
-        direction_now += angle(a.perp(&b), a.dot(&b));
-        low = low.min(direction_now);
-        high = high.max(direction_now);
-    }
-    // Between samples a smooth part turns little more than between their ends.
-    let half = 0.5 * (high - low);
+    let span = Span::new(segment, -1.0, 1.0);
+    let ends = [segment.start(), segment.end()];
+    let chord = ends[1] - ends[0];
+    let (low, high) = span.slopes;
+    let normals = if high - low < f64::INFINITY {
+        let across = Vector::new(-chord.y, chord.x);
+        Cone::between(chord + across * low, chord + across * high)
+    } else {
+        Cone::all()
+    };
     Part {
         segment,
         role,
         owner,
-        center,
-        radius: radius * 1.02,
-        normals: Cone::new(0.5 * (low + high), half * 1.05 + 1e-3),
-        start: jets[0].point,
-        end: jets[SAMPLES].point,
-        sagitta: 1.1 * sagitta,
-        bend: bend(&jets),
+        corner: None,
+        center: nalgebra::center(&ends[0], &ends[1]),
+        radius: 0.5 * chord.norm() + span.sagitta,
+        normals,
+        ends,
+        span,
     }
-}
-
-/// Greatest curvature among samples, raised by half its spread.
-fn bend(jets: &[SegmentJet]) -> f64 {
-    let curvature = |j: &SegmentJet| j.first.perp(&j.second) / j.first.norm().powi(3);
-    let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
-    for jet in jets {
-        let k = curvature(jet);
-        low = low.min(k);
-        high = high.max(k);
-    }
-    high + 0.5 * (high - low)
 }

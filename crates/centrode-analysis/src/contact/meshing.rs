@@ -1,10 +1,13 @@
 use centrode_geometry::{Point, Vector, checkpoint};
-use centrode_mechanism::gear::{GearPair, Role};
+use centrode_mechanism::gear::GearPair;
 
 use super::{
     Contact,
-    body::{Body, Cone, Part},
+    body::{Body, Part},
+    places::{Candidates, Kind, Place, SHALLOW},
+    stretch::Stretch,
     touch::{self, Pose, Touch},
+    turning::{Hit, Limits, Turning},
 };
 
 /// Places farther apart than this many modules are not looked at.
@@ -16,93 +19,56 @@ const DESIGNED: f64 = 1e-6;
 /// Turn of the driven gear, rad, below which a seat is exact.
 const SETTLED: f64 = 1e-12;
 
-/// Play, in modules, beyond which the gears are taken not to hold each other.
+/// Play or overlap, in modules, beyond which the gears are taken not to hold each other, or to have no room.
 const FARTHEST: f64 = 2.0;
+
+/// Overlaps deeper than this many modules are not looked at: more than the height of a tooth.
+const DEEPEST: f64 = 4.0;
 
 /// Flanks farther apart than this many modules are not looked at unless nothing nearer is found.
 const CLOSE: f64 = 0.05;
 
-/// Overlaps no deeper than this many modules are taken as they are.
-const SHALLOW: f64 = 1e-3;
-
 /// Two flanks seated to within this many modules are in contact.
 const SEATED: f64 = 1e-6;
 
-/// One place where the gears face each other, and what is there.
-#[derive(Clone, Copy, Debug)]
-struct Place {
-    touch: Touch,
-    kind: Kind,
-    /// Driver and driven tooth.
-    teeth: (u32, u32),
-    /// Parts or corners, to look again.
-    from: From,
-}
-
-#[derive(Clone, Copy, Debug, Eq, PartialEq)]
-enum Kind {
-    Flanks,
-    Fillet,
-    TipAndRoot,
-}
-
-#[derive(Clone, Copy, Debug, Eq, PartialEq)]
-enum From {
-    Parts(usize, usize),
-    DriverCorner(usize, usize),
-    DrivenCorner(usize, usize),
-}
-
-/// A part of the driven gear that may touch something, where the pose puts it.
-#[derive(Clone, Copy, Debug)]
-struct Placed {
-    index: usize,
-    center: Point,
-    ends: [Point; 2],
-    normals: Cone,
-}
-
-impl Placed {
-    /// Whether the two parts can be nearer than `near`, and no deeper in each other than half a module,
-    /// along the driver part's middle normal.
-    fn in_range(&self, a: &Part<'_>, b: &Part<'_>, near: f64, module: f64) -> bool {
-        let normal = a.normals.direction;
-        let along = |p: &Point| normal.dot(&p.coords);
-        let (a0, a1) = (along(&a.start), along(&a.end));
-        let (b0, b1) = (along(&self.ends[0]), along(&self.ends[1]));
-        let bulge = a.sagitta + b.sagitta;
-        let slant = a.normals.slant();
-        b0.min(b1) - a0.max(a1) < slant * near + bulge
-            && b0.max(b1) - a0.min(a1) > -slant * 0.5 * module - bulge
-    }
-}
+/// Contacts whose normal passes the driven axis nearer than this many modules hold nothing.
+const IDLE: f64 = 1e-3;
 
 /// A pair being analysed, pose by pose.
 #[derive(Debug)]
 pub(super) struct Meshing<'a> {
-    pair: &'a GearPair,
-    driver: Body<'a>,
-    driven: Body<'a>,
-    module: f64,
-    near: f64,
+    pub(super) pair: &'a GearPair,
+    pub(super) driver: Body<'a>,
+    pub(super) driven: Body<'a>,
+    /// The parts of the driven gear.
+    pub(super) stretches: Vec<Stretch>,
+    pub(super) module: f64,
+    /// Whether all teeth are as the tool would make them.
+    whole: bool,
+    pub(super) near: f64,
     /// The same between flanks, which touch or nearly do.
-    close: f64,
+    pub(super) close: f64,
     /// Where parts faced each other at the sample before.
-    memory: Vec<(usize, usize, (f64, f64))>,
-    active: (Vec<usize>, Vec<Placed>),
+    pub(super) memory: Vec<(usize, usize, (f64, f64))>,
 }
 
 impl<'a> Meshing<'a> {
     pub(super) fn new(pair: &'a GearPair) -> Self {
+        let near = NEAR * pair.module() + 2.0 * pair.backlash();
+        let [driver, driven] = Body::pair(pair.driver(), pair.driven(), near);
+        let parts = driven.parts.iter().enumerate();
         Self {
             pair,
-            driver: Body::of(pair.driver()),
-            driven: Body::of(pair.driven()),
+            stretches: parts
+                .map(|(j, part)| Stretch::of(j, part, |p| *p, |v| *v))
+                .collect(),
+            driver,
+            driven,
             module: pair.module(),
-            near: NEAR * pair.module() + 2.0 * pair.backlash(),
+            whole: super::is_whole(pair),
+            near,
             close: CLOSE * pair.module() + 2.0 * pair.backlash(),
             memory: Vec::new(),
-            active: (Vec::new(), Vec::new()),
         }
     }
 
@@ -112,21 +78,30 @@ impl<'a> Meshing<'a> {
         let a = self.pair.center_distance();
         let pose = Pose::new(phi, law, a);
         let limits = (self.near, self.close);
-        let (places, seats) = loop {
-            let places = self.places(&pose);
-            let seats = [1.0, -1.0].map(|sign| self.seat(&places, phi, law, sign));
-            // What was not looked at is farther than `close`: sure to touch later than what was found
-            // only if that touches within so much motion of the outermost lever.
-            let sure = |seat: &Option<Seat>| {
-                seat.as_ref()
-                    .is_some_and(|s| (s.angle - law).abs() * a < self.close)
-            };
-            if seats.iter().all(sure) || self.close >= FARTHEST * self.module {
-                break (places, seats);
-            }
+        let mut candidates = self.candidates(&pose);
+        let places = self.places(&mut candidates, &pose);
+        let mut seats = [1.0, -1.0].map(|sign| self.seat(&candidates, phi, law, sign));
+        // Nothing so near: look farther.
+        while seats.iter().any(Option::is_none) && self.close < FARTHEST * self.module {
             self.close *= 3.0;
             self.near = self.near.max(self.close);
+            let candidates = self.candidates(&pose);
+            seats = [1.0, -1.0].map(|sign| self.seat(&candidates, phi, law, sign));
+        }
+        // Teeth cut short or undercut may lie so deep in each other that no sides that face each other are near.
+        let free = |seats: &[Option<Seat>; 2]| match seats {
+            [Some(forward), Some(back)] => forward.angle <= back.angle,
+            _ => false,
         };
+        while !self.whole
+            && free(&seats)
+            && seats.iter().flatten().any(|s| self.lie_deep(phi, s.angle))
+            && self.near < DEEPEST * self.module
+        {
+            self.near *= 2.0;
+            let candidates = self.candidates(&pose);
+            seats = [1.0, -1.0].map(|sign| self.seat(&candidates, phi, law, sign));
+        }
         (self.near, self.close) = limits;
         let [forward, back] = seats;
         out.input.push(phi);
@@ -135,6 +110,8 @@ impl<'a> Meshing<'a> {
         let (Some(forward), Some(back)) = (forward, back) else {
             // Nothing near enough to drive: the mesh has come apart.
             for list in [
+                &mut out.driven_angle,
+                &mut out.reverse_driven_angle,
                 &mut out.transmission_error,
                 &mut out.reverse_transmission_error,
                 &mut out.backlash,
@@ -149,19 +126,27 @@ impl<'a> Meshing<'a> {
             out.sliding.push(0.0);
             return;
         };
-        let mut error = |seat: &Seat, sign: f64| {
-            let ideal = self.ideal(&places, phi, law, sign * half);
-            seat.angle - ideal.unwrap_or(law - sign * half / seat.lever)
-        };
+        out.driven_angle.push(forward.angle);
+        out.reverse_driven_angle.push(back.angle);
+        let error =
+            |seat: &Seat, sign: f64| seat.angle - self.ideal(&places, phi, law, sign * half);
         out.transmission_error.push(error(&forward, 1.0));
         out.reverse_transmission_error.push(error(&back, -1.0));
         let play = back.angle - forward.angle;
         out.backlash.push(play);
         out.normal_backlash.push(play * forward.lever);
-        // Stuck between two sides: half of what is missing, but never more than what overlaps.
-        let deepest = places.iter().map(|p| -p.touch.gap).fold(0.0, f64::max);
-        let stuck = (-play * 0.5 * forward.lever.min(back.lever)).max(0.0);
-        out.overlap.push(stuck.min(deepest));
+        // Stuck between two sides: half of what is missing.
+        out.overlap
+            .push((-play * 0.5 * forward.lever.min(back.lever)).max(0.0));
+        // Where the law puts the gears into each other though there is room for them, they stand in its middle.
+        let off = (law - back.angle).max(forward.angle - law);
+        let (places, clash) = if play > 0.0 && off * a > SEATED * self.module {
+            let pose = Pose::new(phi, 0.5 * (forward.angle + back.angle), a);
+            let mut candidates = self.candidates(&pose);
+            (self.places(&mut candidates, &pose), candidates.clash)
+        } else {
+            (places, candidates.clash)
+        };
         let least = |kind: Kind| {
             let gaps = places
                 .iter()
@@ -169,263 +154,170 @@ impl<'a> Meshing<'a> {
                 .map(|p| p.touch.gap);
             gaps.fold(f64::INFINITY, f64::min)
         };
-        out.clearance.push(least(Kind::TipAndRoot));
+        let tip = least(Kind::TipAndRoot);
+        out.clearance
+            .push(if clash > 0.0 { tip.min(-clash) } else { tip });
         out.fillet_clearance.push(least(Kind::Fillet));
         out.contacts.push(forward.contacts);
         let ratio = self.pair.ratio(phi);
         let sliding = forward
-            .places
+            .touches
             .iter()
-            .map(|p| sliding(&p.touch, phi, a, ratio));
+            .map(|&(point, normal)| sliding(point, normal, phi, a, ratio));
         out.sliding.push(sliding.fold(0.0, f64::max));
-    }
-
-    /// Every place where the outlines face each other nearer than the limit.
-    fn places(&mut self, pose: &Pose) -> Vec<Place> {
-        let (near, close, module) = (self.near, self.close, self.module);
-        self.active.0.clear();
-        self.active.1.clear();
-        // Two bodies can meet only where each lies within what the other reaches in that direction.
-        for (i, part) in self.driver.parts.iter().enumerate() {
-            let from = part.center - pose.axis;
-            let farthest = self.driven.reach + part.radius + near;
-            if from.norm_squared() < farthest * farthest {
-                let reach = self.driven.reach_towards(&pose.turn_back(&from)) + part.radius + near;
-                if from.norm_squared() < reach * reach {
-                    self.active.0.push(i);
-                }
-            }
-        }
-        for (j, part) in self.driven.parts.iter().enumerate() {
-            let farthest = self.driver.reach + part.radius + near;
-            let center = pose.place(&part.center);
-            if center.coords.norm_squared() < farthest * farthest {
-                let reach = self.driver.reach_towards(&center.coords) + part.radius + near;
-                if center.coords.norm_squared() < reach * reach {
-                    self.active.1.push(Placed {
-                        index: j,
-                        center,
-                        ends: [pose.place(&part.start), pose.place(&part.end)],
-                        normals: part.normals.turned(pose.turn(&part.normals.direction)),
-                    });
-                }
-            }
-        }
-        let mut out = Vec::with_capacity(16);
-        let mut memory = Vec::with_capacity(16);
-        // An overlap deeper than half a module is the far side of a tooth.
-        let within = |touch: &Touch, near: f64| touch.gap < near && touch.gap > -0.5 * module;
-        let limit = |kind: Kind| if kind == Kind::Flanks { close } else { near };
-        for &i in &self.active.0 {
-            checkpoint();
-            let a = &self.driver.parts[i];
-            for placed in &self.active.1 {
-                let j = placed.index;
-                let b = &self.driven.parts[j];
-                let near = limit(kind(a.role, b.role));
-                let reach = a.radius + b.radius + near;
-                if (a.center - placed.center).norm_squared() > reach * reach
-                    || !a.normals.opposes(&placed.normals)
-                    || a.bend + b.bend <= 0.0
-                    || !placed.in_range(a, b, near, module)
-                {
-                    continue;
-                }
-                let start = self
-                    .memory
-                    .iter()
-                    .find(|m| (m.0, m.1) == (i, j))
-                    .map_or((0.0, 0.0), |m| m.2);
-                if let Some(touch) = touch::parts(a, b, pose, start)
-                    && within(&touch, near)
-                    && self.real(&touch, pose)
-                {
-                    memory.push((i, j, touch.at));
-                    out.push(Place {
-                        touch,
-                        kind: kind(a.role, b.role),
-                        teeth: (a.owner, b.owner),
-                        from: From::Parts(i, j),
-                    });
-                }
-            }
-        }
-        self.memory = memory;
-        for (k, corner) in self.driver.corners.iter().enumerate() {
-            let from = corner.point - pose.axis;
-            let farthest = self.driven.reach + near;
-            if from.norm_squared() > farthest * farthest
-                || from.norm() > self.driven.reach_towards(&pose.turn_back(&from)) + near
-            {
-                continue;
-            }
-            for placed in &self.active.1 {
-                let j = placed.index;
-                let b = &self.driven.parts[j];
-                let near = limit(corner_kind(corner.on_flank, b.role));
-                let reach = b.radius + near;
-                if (corner.point - placed.center).norm_squared() > reach * reach
-                    || !corner.normals.opposes(&placed.normals)
-                {
-                    continue;
-                }
-                if let Some(touch) = touch::driver_corner(corner, b, pose)
-                    && within(&touch, near)
-                    && self.real(&touch, pose)
-                {
-                    out.push(Place {
-                        touch,
-                        kind: corner_kind(corner.on_flank, b.role),
-                        teeth: (corner.owner, b.owner),
-                        from: From::DriverCorner(k, j),
-                    });
-                }
-            }
-        }
-        for (k, corner) in self.driven.corners.iter().enumerate() {
-            let point = pose.place(&corner.point);
-            let farthest = self.driver.reach + near;
-            if point.coords.norm_squared() > farthest * farthest
-                || point.coords.norm() > self.driver.reach_towards(&point.coords) + near
-            {
-                continue;
-            }
-            let normals = corner.normals.turned(pose.turn(&corner.normals.direction));
-            for &i in &self.active.0 {
-                let a = &self.driver.parts[i];
-                let near = limit(corner_kind(corner.on_flank, a.role));
-                let reach = a.radius + near;
-                if (point - a.center).norm_squared() > reach * reach || !a.normals.opposes(&normals)
-                {
-                    continue;
-                }
-                if let Some(touch) = touch::driven_corner(a, corner, pose)
-                    && within(&touch, near)
-                    && self.real(&touch, pose)
-                {
-                    out.push(Place {
-                        touch,
-                        kind: corner_kind(corner.on_flank, a.role),
-                        teeth: (a.owner, corner.owner),
-                        from: From::DrivenCorner(i, k),
-                    });
-                }
-            }
-        }
-        out
     }
 
     /// The angle at which the driven gear would stand if the flanks held the designed play exactly.
     ///
-    /// At the law's own angle flanks thinned for play are parallel and half the play apart; how far the
-    /// driven gear turns until they touch takes the same steps as the seating itself. Nothing where no
-    /// flanks face each other as designed.
-    fn ideal(&mut self, places: &[Place], phi: f64, law: f64, half: f64) -> Option<f64> {
+    /// At the law's own angle flanks thinned for play are parallel and half the play apart; the driven gear is turned
+    /// until they touch. Where no flanks face each other as designed the lever is that of the law's own normal.
+    fn ideal(&self, places: &[Place], phi: f64, law: f64, half: f64) -> f64 {
         if half == 0.0 {
-            return Some(law);
+            return law;
         }
-        let off = |p: &&Place| (half.abs() - p.touch.gap).abs();
-        let place = places
+        let off = |p: &Place| (half.abs() - p.touch.gap).abs();
+        let mut facing: Vec<&Place> = places
             .iter()
-            .filter(|p| half * p.touch.lever > 0.0)
-            .min_by(|p, q| off(p).total_cmp(&off(q)))
-            .filter(|p| off(p) < DESIGNED * self.module)?;
-        let wrong = (half.abs() - place.touch.gap) / place.touch.lever;
-        let (mut angle, mut place) = (law, *place);
-        for _ in 0..8 {
-            let step = place.touch.gap / place.touch.lever;
-            angle -= step;
-            if step.abs() < SETTLED {
-                break;
-            }
-            let pose = Pose::new(phi, angle, self.pair.center_distance());
-            place = match self.again(&place, &pose) {
-                Some(place) => place,
-                None => {
-                    let found = self.places(&pose);
-                    let facing = found.into_iter().filter(|p| half * p.touch.lever > 0.0);
-                    facing.min_by(|p, q| p.touch.gap.abs().total_cmp(&q.touch.gap.abs()))?
-                }
-            };
-        }
-        Some(angle - wrong)
-    }
-
-    /// Whether a deep overlap is one: the far sides of two neighbouring teeth face each other too, but
-    /// neither lies in the other.
-    fn real(&self, touch: &Touch, pose: &Pose) -> bool {
-        touch.gap > -SHALLOW * self.module || {
-            let inside = touch.point + touch.normal * (0.5 * touch.gap);
-            self.pair.driver().outline().contains(inside)
-                && self.pair.driven().outline().contains(pose.back(&inside))
-        }
-    }
-
-    /// Turns the driven gear until the first place on the side of `sign` touches.
-    fn seat(&mut self, places: &[Place], phi: f64, law: f64, sign: f64) -> Option<Seat> {
-        let a = self.pair.center_distance();
-        let mut at: Vec<Place> = places
-            .iter()
-            .filter(|p| sign * p.touch.lever > 0.0)
-            .copied()
+            .filter(|p| p.kind == Kind::Flanks && half * p.touch.lever > 0.0)
+            .filter(|p| off(p) < DESIGNED * self.module)
             .collect();
-        // The angle at which a place would close, and which of them closes first.
-        let bound = |p: &Place, angle: f64| angle - p.touch.gap / p.touch.lever;
-        let mut angle = law;
-        let mut lever = None;
-        for _ in 0..8 {
-            let first = at
-                .iter()
-                .max_by(|p, q| (sign * bound(p, angle)).total_cmp(&(sign * bound(q, angle))))?;
-            let next = bound(first, angle);
-            lever = Some(first.touch.lever.abs());
-            let moved = (next - angle).abs() * a;
-            let settled = moved < 1e-7 * self.module;
-            let slack = 4.0 * (next - angle).abs();
-            at.retain(|p| sign * (bound(p, angle) - next) > -slack - 1e-3);
-            if settled {
-                angle = next;
-                break;
+        facing.sort_by(|p, q| off(p).total_cmp(&off(q)));
+        let touching = facing.into_iter().find_map(|place| {
+            let wrong = (half.abs() - place.touch.gap) / place.touch.lever;
+            let mut parts = place.parts?;
+            let (mut angle, mut touch) = (law, place.touch);
+            for _ in 0..8 {
+                let step = touch.gap / touch.lever;
+                angle -= step;
+                if step.abs() < SETTLED {
+                    return Some(angle - wrong);
+                }
+                let pose = Pose::new(phi, angle, self.pair.center_distance());
+                (parts, touch) = self.along_flanks(parts, touch.at, &pose)?;
             }
-            angle = next;
-            let pose = Pose::new(phi, angle, a);
-            let again: Option<Vec<Place>> = at.iter().map(|p| self.again(p, &pose)).collect();
-            // A place that left its part is found anew on the neighbour.
-            at = again.unwrap_or_else(|| {
-                let mut all = self.places(&pose);
-                all.retain(|p| sign * p.touch.lever > 0.0);
-                all
-            });
-        }
-        let seated = SEATED * self.module;
-        at.retain(|p| p.touch.gap.abs() <= seated || p.touch.gap < 0.0);
-        let mut pairs: Vec<(u32, u32)> = at.iter().map(|p| p.teeth).collect();
-        pairs.sort_unstable();
-        pairs.dedup();
-        Some(Seat {
-            angle,
-            lever: lever?,
-            contacts: pairs.len() as u32,
-            places: at,
+            None
+        });
+        touching.unwrap_or_else(|| {
+            let point = self.pair.pitch_point(phi);
+            let angle = if half > 0.0 {
+                point.pressure_angle
+            } else {
+                point.reverse_pressure_angle
+            };
+            law - half / (point.driven_radius * angle.cos())
         })
     }
 
-    fn again(&self, place: &Place, pose: &Pose) -> Option<Place> {
-        let touch = match place.from {
-            From::Parts(i, j) => touch::parts(
-                &self.driver.parts[i],
-                &self.driven.parts[j],
-                pose,
-                place.touch.at,
-            ),
-            From::DriverCorner(k, j) => {
-                touch::driver_corner(&self.driver.corners[k], &self.driven.parts[j], pose)
+    /// Where two flanks face each other, from where they did: on these parts, on their neighbours of the same flanks, or
+    /// beyond the ends of the flanks.
+    fn along_flanks(
+        &self,
+        (i, j): (usize, usize),
+        at: (f64, f64),
+        pose: &Pose,
+    ) -> Option<((usize, usize), Touch)> {
+        let facing = |i: usize, j: usize, at: (f64, f64)| {
+            let touch = touch::parts(&self.driver.parts[i], &self.driven.parts[j], pose, at)?;
+            Some(((i, j), touch))
+        };
+        facing(i, j, at).or_else(|| {
+            let near = [self.driver.along_flank(i), self.driven.along_flank(j)];
+            let [first, second] = &near;
+            let pairs = first
+                .iter()
+                .flat_map(|&i| second.iter().map(move |&j| (i, j)));
+            let mut neighbours = pairs.filter(|&pair| pair != (i, j));
+            neighbours
+                .find_map(|(i, j)| facing(i, j, (0.0, 0.0)))
+                .or_else(|| {
+                    let (a, b) = (&self.driver.parts[i], &self.driven.parts[j]);
+                    Some(((i, j), touch::continued(a, b, pose, at)?))
+                })
+        })
+    }
+
+    /// Turns the driven gear back (`sign` 1) or on (-1) until it rests on the driver.
+    fn seat(&self, candidates: &Candidates, phi: f64, law: f64, sign: f64) -> Option<Seat> {
+        let a = self.pair.center_distance();
+        let seated = SEATED * self.module;
+        let (mut angle, mut pose) = (law, Pose::new(phi, law, a));
+        let mut hits = self.first_hits(candidates, &pose, sign);
+        // Out of one overlap the gear may come into the next. What leaves no room lets it past the other seat, which tells
+        // how much is missing. Every step is more than a seated gap: the way ends.
+        let farthest = FARTHEST * self.module / a;
+        while (angle - law).abs() < farthest {
+            checkpoint();
+            let first = hits.first()?;
+            if sign * first.turn * first.lever < seated {
+                break;
             }
-            From::DrivenCorner(i, k) => {
-                touch::driven_corner(&self.driver.parts[i], &self.driven.corners[k], pose)
+            angle += first.turn;
+            pose = Pose::new(phi, angle, a);
+            hits = self.first_hits(&self.candidates(&pose), &pose, sign);
+        }
+        let first = *hits.first()?;
+        hits.retain(|h| sign * (first.turn - h.turn) * h.lever <= seated);
+        let teeth = |h: &Hit| {
+            let (i, j) = h.parts;
+            (self.driver.parts[i].owner, self.driven.parts[j].owner)
+        };
+        // The first meeting of each pair of teeth is its contact.
+        let mut pairs: Vec<(u32, u32)> = Vec::new();
+        hits.retain(|h| {
+            let new = !pairs.contains(&teeth(h));
+            if new {
+                pairs.push(teeth(h));
             }
-        }?;
-        Some(Place { touch, ..*place })
+            new
+        });
+        Some(Seat {
+            angle: angle + first.turn,
+            lever: first.lever,
+            contacts: pairs.len() as u32,
+            touches: hits.iter().map(|h| h.touch(&pose)).collect(),
+        })
+    }
+
+    /// Whether the gears lie in each other by more than a shallow overlap.
+    fn lie_deep(&self, phi: f64, angle: f64) -> bool {
+        let pose = Pose::new(phi, angle, self.pair.center_distance());
+        let [driver, driven] = [self.pair.driver(), self.pair.driven()].map(|g| g.outline());
+        let inner = |part: &Part<'_>| {
+            let along = part.span.tangents[0].normalize();
+            part.ends[0] + Vector::new(-along.y, along.x) * (SHALLOW * self.module)
+        };
+        let both = |on_driver: Point, on_driven: Point| {
+            driver.contains(on_driver) && driven.contains(on_driven)
+        };
+        self.driver.parts.iter().map(inner).any(|p| {
+            let back = pose.back(&p);
+            self.driven.is_near(&back.coords, 0.0) && both(p, back)
+        }) || self.driven.parts.iter().map(inner).any(|p| {
+            let placed = pose.place(&p);
+            self.driver.is_near(&placed.coords, 0.0) && both(placed, p)
+        })
+    }
+
+    /// The meetings that hold the driven gear when it is turned from a pose, the first of them first.
+    fn first_hits(&self, candidates: &Candidates, pose: &Pose, sign: f64) -> Vec<Hit> {
+        let [driver, driven] = [self.pair.driver(), self.pair.driven()].map(|g| g.outline());
+        let overlaps = |a: &Vector, b: &Vector| {
+            driven.contains(Point::from(*a)) || driver.contains(pose.place(&Point::from(*b)))
+        };
+        let limits = Limits {
+            window: self.close / self.pair.center_distance(),
+            deep: self.near,
+            seated: SEATED * self.module,
+            idle: IDLE * self.module,
+            facing: &self.memory,
+            overlaps: &overlaps,
+        };
+        let mut turning = Turning::new(&self.driver, &self.driven, *pose, sign, &limits);
+        for &(k, j) in &candidates.pairs {
+            checkpoint();
+            turning.look(&candidates.posed[k].0, &self.stretches[j]);
+        }
+        turning.finish()
     }
 }
 
@@ -435,30 +327,15 @@ struct Seat {
     /// Distance of the driven axis from the common normal, mm.
     lever: f64,
     contacts: u32,
-    places: Vec<Place>,
-}
-
-fn kind(a: Role, b: Role) -> Kind {
-    match (a, b) {
-        (Role::Flank, Role::Flank) => Kind::Flanks,
-        (Role::Fillet, _) | (_, Role::Fillet) => Kind::Fillet,
-        _ => Kind::TipAndRoot,
-    }
-}
-
-fn corner_kind(on_flank: bool, part: Role) -> Kind {
-    match part {
-        Role::Flank if on_flank => Kind::Flanks,
-        Role::Fillet => Kind::Fillet,
-        _ => Kind::TipAndRoot,
-    }
+    /// Points on the driver and its outward normals there, one a pair of teeth.
+    touches: Vec<(Point, Vector)>,
 }
 
 /// Speed at which the gears slide on each other per speed of the driver, mm/rad.
-fn sliding(touch: &Touch, phi: f64, a: f64, ratio: f64) -> f64 {
+fn sliding(point: Point, normal: Vector, phi: f64, a: f64, ratio: f64) -> f64 {
     let axis = Vector::new(a * phi.cos(), a * phi.sin());
-    let arm = touch.point.coords - axis;
+    let arm = point.coords - axis;
     let across = |v: Vector| Vector::new(-v.y, v.x);
     let speed = across(axis) + across(arm) * (1.0 + ratio);
-    speed.perp(&touch.normal).abs()
+    speed.perp(&normal).abs()
 }

@@ -6,7 +6,13 @@
 
 mod body;
 mod meshing;
+mod places;
+mod span;
+mod stretch;
+#[cfg(test)]
+mod tests;
 mod touch;
+mod turning;
 
 use centrode_mechanism::gear::design::Addendum;
 use centrode_mechanism::gear::{GearPair, Member, Tooth, ToothSide};
@@ -25,6 +31,10 @@ pub struct Contact {
     pub input: Vec<f64>,
     /// Driven angle the pitch curves ask for, rad.
     pub law: Vec<f64>,
+    /// Driven angle when the driver pushes it on, rad.
+    pub driven_angle: Vec<f64>,
+    /// Driven angle when the driver pushes it back, rad.
+    pub reverse_driven_angle: Vec<f64>,
     /// Driven angle when the driver pushes it on, less the law and the designed half backlash, rad.
     pub transmission_error: Vec<f64>,
     /// The same with the driver pushing it back.
@@ -45,17 +55,20 @@ pub struct Contact {
     pub sliding: Vec<f64>,
 }
 
+/// Whether every tooth of both gears is as the tool would make it.
+fn is_whole(pair: &GearPair) -> bool {
+    let sound = |side: &ToothSide| side.undercut == 0.0 && side.shortened == 0.0;
+    let whole = |tooth: &Tooth| !tooth.severed && sound(&tooth.leading) && sound(&tooth.trailing);
+    let mut teeth = pair.driver().teeth().iter().chain(pair.driven().teeth());
+    teeth.all(whole)
+}
+
 impl Contact {
     /// Analyses one whole cycle at four inputs a pitch, or at 48 where a tooth is not what the tool would
     /// make of it or a pitch curve is concave: contact can then be lost over a small part of a pitch.
     #[must_use]
     pub fn of(pair: &GearPair) -> Self {
-        let whole = |tooth: &Tooth| {
-            let sound = |side: &ToothSide| side.undercut == 0.0 && side.shortened == 0.0;
-            !tooth.severed && sound(&tooth.leading) && sound(&tooth.trailing)
-        };
-        let teeth = || pair.driver().teeth().iter().chain(pair.driven().teeth());
-        if pair.teeth().addendum == Addendum::Full && teeth().all(whole) {
+        if pair.teeth().addendum == Addendum::Full && is_whole(pair) {
             let found = Self::sampled(pair, SAMPLES_PER_PITCH);
             let sure = |e: &f64| e.abs() < 1e-9;
             if found.transmission_error.iter().all(sure)

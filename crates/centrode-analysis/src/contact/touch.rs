@@ -89,20 +89,30 @@ impl Touch {
 /// Parameter change below which a gap, second-order in it, is exact.
 const SETTLED: f64 = 3e-7;
 
+/// A place this little beyond an end belongs to the neighbour just as well.
+const JOINT: f64 = 1e-3;
+
+/// Parameter beyond an end up to which a part is the same curve.
+const CONTINUED: f64 = 0.25;
+
 /// Where two smooth parts face each other, by Newton's method from the parameters `at`.
 ///
 /// Solves A' x B' = 0 and (A - B).A' = 0; regular while the two parts do not hug each other.
 pub(super) fn parts(a: &Part<'_>, b: &Part<'_>, pose: &Pose, at: (f64, f64)) -> Option<Touch> {
     // Mating flanks are walked against each other: where one starts the other ends, and from the middle
     // a step may overshoot a place just inside an end.
-    let starts = [at, (-0.9, 0.9), (0.9, -0.9), (0.0, 0.0)];
-    let count = if at == (0.0, 0.0) { 3 } else { 4 };
-    starts[..count]
+    [at, (-0.9, 0.9), (0.9, -0.9)]
         .iter()
-        .find_map(|&start| newton(a, b, pose, start))
+        .find_map(|&start| newton(a, b, pose, start, JOINT))
 }
 
-fn newton(a: &Part<'_>, b: &Part<'_>, pose: &Pose, at: (f64, f64)) -> Option<Touch> {
+/// Where two smooth parts, continued a little beyond their ends, face each other.
+pub(super) fn continued(a: &Part<'_>, b: &Part<'_>, pose: &Pose, at: (f64, f64)) -> Option<Touch> {
+    newton(a, b, pose, at, CONTINUED)
+}
+
+/// By Newton's method from the parameters `at`; at most so far beyond an end.
+fn newton(a: &Part<'_>, b: &Part<'_>, pose: &Pose, at: (f64, f64), beyond: f64) -> Option<Touch> {
     let (mut u, mut v) = at;
     for _ in 0..8 {
         let p = a.segment.at(u);
@@ -123,8 +133,7 @@ fn newton(a: &Part<'_>, b: &Part<'_>, pose: &Pose, at: (f64, f64)) -> Option<Tou
         }
         let settled = du.abs() < SETTLED && dv.abs() < SETTLED;
         if settled {
-            // A little beyond an end belongs to the neighbour just as well.
-            if u.abs() > 1.0 + 1e-3 || v.abs() > 1.0 + 1e-3 {
+            if u.abs() > 1.0 + beyond || v.abs() > 1.0 + beyond {
                 return None;
             }
             let size = p.first.norm();
@@ -191,6 +200,10 @@ fn foot(part: &Part<'_>, point: &Point) -> Option<(f64, SegmentJet)> {
         }
         if step.abs() < SETTLED {
             return (u.abs() <= 1.0 + 1e-6).then_some((u, jet));
+        }
+        // Well outside and still going.
+        if u.abs() > 1.25 && u * step > 0.0 {
+            return None;
         }
         u = (u + step.clamp(-1.0, 1.0)).clamp(-1.6, 1.6);
     }

@@ -1,0 +1,183 @@
+//! Places where the outlines of two gears face each other in one pose.
+
+use centrode_geometry::{Vector, checkpoint};
+use centrode_mechanism::gear::Role;
+
+use super::{
+    body::{Cone, Corner, Part},
+    meshing::Meshing,
+    stretch::Stretch,
+    touch::{self, Pose, Touch},
+};
+
+/// Overlaps no deeper than this many modules are taken as they are.
+pub(super) const SHALLOW: f64 = 1e-3;
+
+/// One place where the gears face each other, and what is there.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Place {
+    pub(super) touch: Touch,
+    pub(super) kind: Kind,
+    /// The two parts, where no corner is in it.
+    pub(super) parts: Option<(usize, usize)>,
+}
+
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+pub(super) enum Kind {
+    Flanks,
+    Fillet,
+    TipAndRoot,
+}
+
+/// Parts of the two gears that are near each other in one pose.
+#[derive(Debug)]
+pub(super) struct Candidates {
+    /// Parts of the driver, in the driven gear's axes, and their normals.
+    pub(super) posed: Vec<(Stretch, Cone)>,
+    /// Index into these, and part of the driven gear.
+    pub(super) pairs: Vec<(usize, usize)>,
+    /// How deep one gear reaches into the core of the other, mm.
+    pub(super) clash: f64,
+}
+
+impl Meshing<'_> {
+    /// The parts near each other in a pose.
+    pub(super) fn candidates(&self, pose: &Pose) -> Candidates {
+        let near = self.near;
+        let mut out = Candidates {
+            posed: Vec::with_capacity(64),
+            pairs: Vec::with_capacity(512),
+            clash: 0.0,
+        };
+        let mut circles = Vec::with_capacity(64);
+        // Two bodies can meet only where each lies within what the other reaches in that direction.
+        for (i, (center, radius)) in self.driver.circles.iter().enumerate() {
+            let center = pose.back(center).coords;
+            if self.driven.is_near(&center, radius + near) {
+                out.clash = out.clash.max(self.driven.core - center.norm() - radius);
+                let part = &self.driver.parts[i];
+                let stretch = Stretch::of(i, part, |p| pose.back(p), |v| pose.turn_back(v));
+                let normals = part.normals.turned(pose.turn_back(&part.normals.direction));
+                circles.push((center, radius + near));
+                out.posed.push((stretch, normals));
+            }
+        }
+        for (j, (center, radius)) in self.driven.circles.iter().enumerate() {
+            if self
+                .driver
+                .is_near(&pose.place(center).coords, radius + near)
+            {
+                for (k, (other, reach)) in circles.iter().enumerate() {
+                    if (other - center.coords).norm_squared() < (radius + reach).powi(2) {
+                        out.pairs.push((k, j));
+                    }
+                }
+            }
+        }
+        out
+    }
+
+    /// Every place where the outlines face each other nearer than the limit.
+    pub(super) fn places(&mut self, candidates: &mut Candidates, pose: &Pose) -> Vec<Place> {
+        let (near, close, module) = (self.near, self.close, self.module);
+        let mut out = Vec::with_capacity(16);
+        let mut memory = Vec::with_capacity(16);
+        let limit = |kind: Kind| if kind == Kind::Flanks { close } else { near };
+        let mut keep = |touch: Option<Touch>, kind: Kind, parts: Option<(usize, usize)>| {
+            // An overlap deeper than half a module is the far side of a tooth.
+            if let Some(touch) = touch
+                && touch.gap < limit(kind)
+                && touch.gap > -0.5 * module
+                && self.real(&touch, pose)
+            {
+                if let Some((i, j)) = parts {
+                    memory.push((i, j, touch.at));
+                }
+                out.push(Place { touch, kind, parts });
+            }
+        };
+        for &(k, j) in &candidates.pairs {
+            checkpoint();
+            let (stretch, normals) = &candidates.posed[k];
+            let i = stretch.part;
+            let (a, b) = (&self.driver.parts[i], &self.driven.parts[j]);
+            let kind = kind(a.role, b.role);
+            if normals.opposes(&b.normals)
+                && in_range(stretch, &self.stretches[j], &b.normals, limit(kind), module)
+                && self.driver.curvature(i).1 + self.driven.curvature(j).1 > 0.0
+            {
+                let known = self.memory.iter().find(|m| (m.0, m.1) == (i, j));
+                let start = known.map_or_else(|| stretch.facing(&self.stretches[j]), |m| m.2);
+                keep(touch::parts(a, b, pose, start), kind, Some((i, j)));
+            }
+            let near_corner = |corner: &Corner, other: &Part<'_>, apart: Vector| {
+                let reach = other.radius + limit(corner_kind(corner.on_flank, other.role));
+                apart.norm_squared() <= reach * reach
+            };
+            if let Some(corner) = &a.corner
+                && near_corner(corner, b, stretch.point[0] - b.center.coords)
+            {
+                let normal = pose.turn_back(&corner.normals.direction);
+                if corner.normals.turned(normal).opposes(&b.normals) {
+                    let touch = touch::driver_corner(corner, b, pose);
+                    keep(touch, corner_kind(corner.on_flank, b.role), None);
+                }
+            }
+            if let Some(corner) = &b.corner
+                && near_corner(corner, a, corner.point.coords - stretch.center)
+                && corner.normals.opposes(normals)
+            {
+                let touch = touch::driven_corner(a, corner, pose);
+                keep(touch, corner_kind(corner.on_flank, a.role), None);
+            }
+        }
+        // What faces each other first: it leaves little to look for when the gears are seated.
+        let mut first = 0;
+        for at in 0..candidates.pairs.len() {
+            let (k, j) = candidates.pairs[at];
+            let i = candidates.posed[k].0.part;
+            if memory.iter().any(|m| (m.0, m.1) == (i, j)) {
+                candidates.pairs.swap(first, at);
+                first += 1;
+            }
+        }
+        self.memory = memory;
+        out
+    }
+
+    /// Whether a deep overlap is one: the far sides of two neighbouring teeth face each other too, but
+    /// neither lies in the other.
+    fn real(&self, touch: &Touch, pose: &Pose) -> bool {
+        touch.gap > -SHALLOW * self.module || {
+            let inside = touch.point + touch.normal * (0.5 * touch.gap);
+            self.pair.driver().outline().contains(inside)
+                && self.pair.driven().outline().contains(pose.back(&inside))
+        }
+    }
+}
+
+/// Whether two parts can be nearer than `near`, and no deeper in each other than half a module, along the driven
+/// part's middle normal.
+fn in_range(a: &Stretch, b: &Stretch, normals: &Cone, near: f64, module: f64) -> bool {
+    let normal = normals.direction;
+    let slant = normals.slant();
+    let lowest = |s: &Stretch| -s.farthest(&-normal);
+    lowest(a) - b.farthest(&normal) < slant * near
+        && a.farthest(&normal) - lowest(b) > -slant * 0.5 * module
+}
+
+fn kind(a: Role, b: Role) -> Kind {
+    match (a, b) {
+        (Role::Flank, Role::Flank) => Kind::Flanks,
+        (Role::Fillet, _) | (_, Role::Fillet) => Kind::Fillet,
+        _ => Kind::TipAndRoot,
+    }
+}
+
+fn corner_kind(on_flank: bool, part: Role) -> Kind {
+    match part {
+        Role::Flank if on_flank => Kind::Flanks,
+        Role::Fillet => Kind::Fillet,
+        _ => Kind::TipAndRoot,
+    }
+}

@@ -1,0 +1,287 @@
+use std::f64::consts::PI;
+use std::sync::LazyLock;
+
+use centrode_geometry::{Segment, Spline, Vector};
+
+/// Proven bounds of a stretch of a segment.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Span {
+    /// Least and greatest slope of a tangent against the chord; infinite where one may stand across it.
+    pub(super) slopes: (f64, f64),
+    /// Least cosine and greatest sine of the angle of a tangent with the chord.
+    pub(super) lean: (f64, f64),
+    /// Greatest distance from the chord, mm.
+    pub(super) sagitta: f64,
+    /// Least and greatest distance beyond the chord, mm, positive to the right of it; where a tangent may stand across
+    /// the chord it is in any direction.
+    pub(super) bulge: (f64, f64),
+    /// Directions of the tangents at the ends.
+    pub(super) tangents: [Vector; 2],
+}
+
+impl Span {
+    /// Bounds between two parameters.
+    pub(super) fn new(segment: &Segment, u0: f64, u1: f64) -> Self {
+        let tangents = || [u0, u1].map(|u| segment.tangent(u));
+        match segment {
+            Segment::Line(..) => Self {
+                slopes: (0.0, 0.0),
+                lean: (1.0, 0.0),
+                sagitta: 0.0,
+                bulge: (0.0, 0.0),
+                tangents: tangents(),
+            },
+            Segment::Arc(arc) => {
+                let lean = 0.25 * (u1 - u0) * arc.sweep().abs();
+                let slope = if lean < 0.5 * PI {
+                    lean.tan()
+                } else {
+                    f64::INFINITY
+                };
+                let sagitta = arc.radius() * lean * lean.min(2.0);
+                Self {
+                    slopes: (-slope, slope),
+                    lean: lean_of((-slope, slope)),
+                    sagitta,
+                    bulge: (-sagitta, sagitta),
+                    tangents: tangents(),
+                }
+            }
+            Segment::Spline(spline) => hull(&polygon(spline, u0, u1)),
+        }
+    }
+}
+
+impl Span {
+    /// How far the stretch over a chord goes beyond its ends in a direction, times the direction's size.
+    pub(super) fn beyond(&self, chord: &Vector, direction: &Vector) -> f64 {
+        let right = chord.perp(direction) / -chord.norm();
+        if self.slopes.1.is_finite() && right.is_finite() {
+            (right * self.bulge.0).max(right * self.bulge.1)
+        } else {
+            self.sagitta * direction.norm()
+        }
+    }
+}
+
+/// Cosine and sine of the steeper of two slopes.
+fn lean_of(slopes: (f64, f64)) -> (f64, f64) {
+    let slope = slopes.1.max(-slopes.0);
+    if slope < f64::INFINITY {
+        let cos = 1.0 / (1.0 + slope * slope).sqrt();
+        (cos, slope * cos)
+    } else {
+        (0.0, 1.0)
+    }
+}
+
+/// Least and greatest curvature between two parameters, 1/mm, positive where the gear is convex.
+pub(super) fn curvature(segment: &Segment, u0: f64, u1: f64) -> (f64, f64) {
+    match segment {
+        Segment::Line(..) => (0.0, 0.0),
+        Segment::Arc(arc) => {
+            let curvature = arc.bulge.signum() / arc.radius();
+            (curvature, curvature)
+        }
+        Segment::Spline(spline) => bend(&polygon(spline, u0, u1)),
+    }
+}
+
+/// Coefficients of a spline.
+const COUNT: usize = 14;
+
+/// Tables of binomial coefficients.
+struct Tables {
+    /// Control values of the powers of u, by control point and power.
+    powers: [[f64; COUNT]; COUNT],
+    /// Weights of the cross products of first and second differences.
+    products: [[f64; COUNT - 2]; COUNT - 1],
+}
+
+static TABLES: LazyLock<Tables> = LazyLock::new(|| {
+    let choose = |n: usize, k: usize| -> f64 {
+        if k > n {
+            return 0.0;
+        }
+        (0..k)
+            .map(|i| (n - i) as f64 / (i + 1) as f64)
+            .product::<f64>()
+            .round()
+    };
+    let degree = COUNT - 1;
+    // The polar form of u^k at i ends and the rest starts is its elementary symmetric mean.
+    let power = |i: usize, k: usize| -> f64 {
+        let term = |m: usize| {
+            let sign = if (k - m).is_multiple_of(2) { 1.0 } else { -1.0 };
+            sign * choose(i, m) * choose(degree - i, k - m)
+        };
+        (0..=k).map(term).sum::<f64>() / choose(degree, k)
+    };
+    let product = |i: usize, j: usize| {
+        choose(degree - 1, i) * choose(degree - 2, j) / choose(2 * degree - 3, i + j)
+    };
+    Tables {
+        powers: std::array::from_fn(|i| std::array::from_fn(|k| power(i, k))),
+        products: std::array::from_fn(|i| std::array::from_fn(|j| product(i, j))),
+    }
+});
+
+/// Takes the origin of the parameter to `middle` and its unit to `half`.
+fn stretch(c: &mut [Vector; COUNT], middle: f64, half: f64) {
+    for low in 0..COUNT - 1 {
+        for k in (low..COUNT - 1).rev() {
+            let above = c[k + 1];
+            c[k] += above * middle;
+        }
+    }
+    let mut unit = 1.0;
+    for c in c.iter_mut().skip(1) {
+        unit *= half;
+        *c *= unit;
+    }
+}
+
+/// Bernstein control points of a spline between two parameters.
+fn polygon(spline: &Spline, u0: f64, u1: f64) -> [Vector; COUNT] {
+    let mut c = [Vector::zeros(); COUNT];
+    c.copy_from_slice(spline.coefficients());
+    if (u0, u1) != (-1.0, 1.0) {
+        stretch(&mut c, 0.5 * (u0 + u1), 0.5 * (u1 - u0));
+    }
+    let powers = &TABLES.powers;
+    let mut out = [Vector::zeros(); COUNT];
+    // The second half has the odd powers turned round.
+    for i in 0..COUNT / 2 {
+        let (mut even, mut odd) = (Vector::zeros(), Vector::zeros());
+        for k in (0..COUNT).step_by(2) {
+            even += c[k] * powers[i][k];
+            odd += c[k + 1] * powers[i][k + 1];
+        }
+        out[i] = even + odd;
+        out[COUNT - 1 - i] = even - odd;
+    }
+    out
+}
+
+/// Bounds of a spline by its control points: it lies in their hull, its derivative in that of their differences.
+fn hull(points: &[Vector; COUNT]) -> Span {
+    let chord = points[COUNT - 1] - points[0];
+    let first: [Vector; COUNT - 1] = std::array::from_fn(|i| points[i + 1] - points[i]);
+    let mut slopes = (f64::INFINITY, f64::NEG_INFINITY);
+    for d in &first {
+        let (along, across) = (chord.dot(d), chord.perp(d));
+        // Nothing points nowhere.
+        if along > 0.0 {
+            let slope = across / along;
+            slopes = (slopes.0.min(slope), slopes.1.max(slope));
+        } else if along < 0.0 || across != 0.0 {
+            slopes = (f64::NEG_INFINITY, f64::INFINITY);
+        }
+    }
+    // All the way forward no point lies beyond the ends of the chord.
+    let forward = slopes.1.is_finite();
+    let size = if forward { chord.norm() } else { 1.0 };
+    let mut bulge = (0.0_f64, 0.0_f64);
+    for p in points {
+        let from = p - points[0];
+        if forward {
+            let right = from.perp(&chord) / size;
+            bulge = (bulge.0.min(right), bulge.1.max(right));
+        } else {
+            let away = (from - chord * 0.5).norm();
+            bulge = (bulge.0.min(-away), bulge.1.max(away));
+        }
+    }
+    let moving = |d: &&Vector| **d != Vector::zeros();
+    let [start, end] = [first.iter().find(moving), first.iter().rev().find(moving)];
+    Span {
+        slopes,
+        lean: lean_of(slopes),
+        sagitta: bulge.1.max(-bulge.0),
+        bulge,
+        tangents: [start, end].map(|d| d.copied().unwrap_or(chord)),
+    }
+}
+
+/// Bounds of a spline's curvature: the cross product of its derivatives has control values too.
+fn bend(points: &[Vector; COUNT]) -> (f64, f64) {
+    let degree = (COUNT - 1) as f64;
+    let chord = points[COUNT - 1] - points[0];
+    let size = chord.norm();
+    let first: [Vector; COUNT - 1] = std::array::from_fn(|i| points[i + 1] - points[i]);
+    let second: [Vector; COUNT - 2] = std::array::from_fn(|i| first[i + 1] - first[i]);
+    let products = &TABLES.products;
+    let mut cross = [0.0; 2 * COUNT - 4];
+    for (i, d) in first.iter().enumerate() {
+        for (j, e) in second.iter().enumerate() {
+            cross[i + j] += products[i][j] * d.perp(e);
+        }
+    }
+    let low = cross.iter().copied().fold(f64::INFINITY, f64::min);
+    let high = cross.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let slowest = first
+        .iter()
+        .map(|d| chord.dot(d))
+        .fold(f64::INFINITY, f64::min)
+        / size;
+    let fastest = first.iter().map(Vector::norm).fold(0.0, f64::max);
+    let curvature = |cross: f64, outward: bool| {
+        // Away from zero the slowest speed bends most, towards zero the fastest bends least.
+        let speed = if outward { slowest } else { fastest };
+        if speed > 0.0 {
+            cross * (degree - 1.0) / (degree * speed.powi(3))
+        } else {
+            f64::INFINITY.copysign(cross)
+        }
+    };
+    (curvature(low, low < 0.0), curvature(high, high > 0.0))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use centrode_geometry::{Arc, Point, Spline, Tolerance};
+
+    #[test]
+    fn the_bounds_hold_every_stretch_and_tighten_with_it() {
+        let spiral = |t: f64| Point::new((1.0 + t * t) * t.cos(), (1.0 + t * t) * t.sin());
+        let fine = Tolerance::new(1e-9).expect("positive");
+        let mut segments: Vec<Segment> = Spline::fit(spiral, -0.9, 0.8, fine)
+            .into_iter()
+            .map(Segment::from)
+            .collect();
+        segments.push(Segment::Arc(Arc {
+            start: Point::new(3.0, 1.0),
+            end: Point::new(2.0, 2.0),
+            bulge: -0.4,
+        }));
+        for segment in &segments {
+            for (u0, u1) in [(-1.0, 1.0), (-1.0, -0.5), (0.2, 0.7), (0.5, 0.501)] {
+                let span = Span::new(segment, u0, u1);
+                let start = segment.at(u0);
+                let chord = segment.at(u1).point - start.point;
+                let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+                for i in 0..=200 {
+                    let jet = segment.at(u0 + (u1 - u0) * f64::from(i) / 200.0);
+                    let k = jet.first.perp(&jet.second) / jet.first.norm().powi(3);
+                    (low, high) = (low.min(k), high.max(k));
+                    let slope = chord.perp(&jet.first) / chord.dot(&jet.first);
+                    assert!(span.slopes.0 - 1e-9 <= slope && slope <= span.slopes.1 + 1e-9);
+                    let off = chord.perp(&(jet.point - start.point)).abs() / chord.norm();
+                    assert!(off <= span.sagitta * (1.0 + 1e-9) + 1e-14);
+                }
+                let (least, greatest) = curvature(segment, u0, u1);
+                assert!(
+                    least <= low + 1e-6 && high - 1e-6 <= greatest,
+                    "{least} {low} {high} {greatest}"
+                );
+                if u1 - u0 < 0.01 {
+                    assert!(
+                        greatest - least < 2.0 * (high - low) + 1e-2,
+                        "{least} {low} {high} {greatest}"
+                    );
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,207 @@
+//! Stretches of a contour about the driven axis, in the driven gear's axes.
+
+use centrode_geometry::{Point, SegmentJet, Vector};
+
+use super::{
+    body::{Body, Part},
+    span::{self, Span},
+    touch::Pose,
+};
+
+/// Parameter step of Newton's method that is the last.
+pub(super) const SETTLED: f64 = 1e-8;
+
+/// A stretch of a part, its points taken about the driven axis and in the driven gear's axes.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Stretch {
+    pub(super) part: usize,
+    pub(super) u: [f64; 2],
+    pub(super) point: [Vector; 2],
+    pub(super) tangent: [Vector; 2],
+    pub(super) span: Span,
+    /// Circle around the stretch.
+    pub(super) center: Vector,
+    pub(super) radius: f64,
+    /// Whether the distance from the axis grows (1) or falls (-1) all along; 0 where that is not proven.
+    pub(super) sense: f64,
+    /// Range of the squared distance.
+    pub(super) squared: [f64; 2],
+}
+
+impl Stretch {
+    fn new(part: usize, u: [f64; 2], point: [Vector; 2], tangent: [Vector; 2], span: Span) -> Self {
+        let chord = point[1] - point[0];
+        let center = 0.5 * (point[0] + point[1]);
+        let radius = 0.5 * chord.norm() + span.sagitta;
+        let mut sense = 0.0;
+        let (cos, sin) = span.lean;
+        let away = center.dot(&chord);
+        let least = away.abs() * cos - center.perp(&chord).abs() * sin;
+        if least > radius * chord.norm() {
+            sense = away.signum();
+        }
+        let squared = if sense == 0.0 {
+            let distance = center.norm();
+            [distance - radius, distance + radius].map(|d| d.max(0.0).powi(2))
+        } else {
+            let [start, end] = point.map(|p| p.norm_squared());
+            [start.min(end), start.max(end)]
+        };
+        Self {
+            part,
+            u,
+            point,
+            tangent,
+            span,
+            center,
+            radius,
+            sense,
+            squared,
+        }
+    }
+
+    /// Bound of the distance of the axis from the normals, mm.
+    pub(super) fn greatest_lever(&self) -> f64 {
+        let chord = self.point[1] - self.point[0];
+        let lever = self.center.dot(&chord).abs() / chord.norm();
+        lever + self.center.norm() * self.span.lean.1 + self.radius
+    }
+
+    pub(super) fn is_whole(&self) -> bool {
+        self.u == [-1.0, 1.0]
+    }
+
+    /// Guess of the parameters at which two whole parts face each other: parabolas over their chords do.
+    pub(super) fn facing(&self, mate: &Self) -> (f64, f64) {
+        let chords = [self, mate].map(|s| s.point[1] - s.point[0]);
+        let [size, other] = chords.map(|c| c.norm());
+        let along = chords[0] / size;
+        let bend = |s: &Self, size: f64| 8.0 * (s.span.bulge.0 + s.span.bulge.1) / (size * size);
+        let (bend, mate_bend) = (bend(self, size), bend(mate, other));
+        let apart = along.dot(&(mate.center - self.center));
+        let slope = chords[1].perp(&along) / chords[1].dot(&along);
+        let x = (mate_bend * apart - slope) / (bend + mate_bend);
+        let start = |x: f64| if x.is_nan() { 0.0 } else { x.clamp(-0.9, 0.9) };
+        (start(2.0 * x / size), start(2.0 * (apart - x) / other))
+    }
+
+    /// Bound of how far the stretch lies in a direction.
+    pub(super) fn farthest(&self, direction: &Vector) -> f64 {
+        let [start, end] = self.point;
+        direction.dot(&start).max(direction.dot(&end)) + self.span.beyond(&(end - start), direction)
+    }
+
+    /// A whole part, by what takes points and vectors to the driven gear's axes.
+    pub(super) fn of(
+        index: usize,
+        part: &Part<'_>,
+        point: impl Fn(&Point) -> Point,
+        vector: impl Fn(&Vector) -> Vector,
+    ) -> Self {
+        let ends = part.ends.each_ref().map(|p| point(p).coords);
+        let tangents = part.span.tangents.each_ref().map(vector);
+        Self::new(index, [-1.0, 1.0], ends, tangents, part.span)
+    }
+}
+
+/// One gear's contour about the driven axis, in the driven gear's axes.
+pub(super) struct Contour<'a> {
+    pub(super) body: &'a Body<'a>,
+    /// Where the driven gear stands, for the driver's contour.
+    pub(super) pose: Option<Pose>,
+}
+
+impl Contour<'_> {
+    pub(super) fn at(&self, part: usize, u: f64) -> SegmentJet {
+        self.placed(&self.body.parts[part].segment.at(u))
+    }
+
+    fn placed(&self, jet: &SegmentJet) -> SegmentJet {
+        match &self.pose {
+            None => *jet,
+            Some(pose) => SegmentJet {
+                point: pose.back(&jet.point),
+                first: pose.turn_back(&jet.first),
+                second: pose.turn_back(&jet.second),
+            },
+        }
+    }
+
+    /// Where a stretch comes to a squared distance, to within a step that `Meeting::angle` makes up for.
+    pub(super) fn reach(&self, stretch: &Stretch, squared: f64) -> (f64, (Vector, Vector)) {
+        let over = stretch.point.map(|p| p.norm_squared() - squared);
+        for k in [0, 1] {
+            if over[k] == 0.0 {
+                return (stretch.u[k], (stretch.point[k], stretch.tangent[k]));
+            }
+        }
+        let [mut low, mut high] = stretch.u;
+        let mut u = low + (high - low) * over[0] / (over[0] - over[1]);
+        loop {
+            let jet = self.at(stretch.part, u);
+            let point = jet.point.coords;
+            let over = point.norm_squared() - squared;
+            let step = -0.5 * over / point.dot(&jet.first);
+            if step.abs() < SETTLED || high - low < SETTLED {
+                return (u, (point, jet.first));
+            }
+            if (over > 0.0) == (stretch.sense > 0.0) {
+                high = u;
+            } else {
+                low = u;
+            }
+            u += step;
+            if !(low < u && u < high) {
+                u = 0.5 * (low + high);
+            }
+        }
+    }
+
+    /// Bounds of a stretch's curvature.
+    pub(super) fn curvature(&self, stretch: &Stretch) -> (f64, f64) {
+        let [u0, u1] = stretch.u;
+        if stretch.is_whole() {
+            self.body.curvature(stretch.part)
+        } else {
+            span::curvature(self.body.parts[stretch.part].segment, u0, u1)
+        }
+    }
+
+    /// The stretch between two places, in either order.
+    pub(super) fn cut(&self, stretch: &Stretch, mut ends: [(f64, (Vector, Vector)); 2]) -> Stretch {
+        if ends[0].0 > ends[1].0 {
+            ends.swap(0, 1);
+        }
+        let u = ends.map(|e| e.0);
+        if u == stretch.u {
+            return *stretch;
+        }
+        let span = Span::new(self.body.parts[stretch.part].segment, u[0], u[1]);
+        Stretch::new(
+            stretch.part,
+            u,
+            ends.map(|e| e.1.0),
+            ends.map(|e| e.1.1),
+            span,
+        )
+    }
+
+    /// The two halves of a stretch; those of a whole part are kept.
+    pub(super) fn halves(&self, stretch: &Stretch) -> [Stretch; 2] {
+        let [u0, u1] = stretch.u;
+        let middle = 0.5 * (u0 + u1);
+        let segment = self.body.parts[stretch.part].segment;
+        let (jet, spans) = if stretch.is_whole() {
+            let halves = self.body.halves(stretch.part);
+            (self.placed(&halves.middle), halves.spans)
+        } else {
+            let spans = [(u0, middle), (middle, u1)].map(|(u0, u1)| Span::new(segment, u0, u1));
+            (self.at(stretch.part, middle), spans)
+        };
+        [0, 1].map(|k| {
+            let (mut u, mut point, mut tangent) = (stretch.u, stretch.point, stretch.tangent);
+            (u[1 - k], point[1 - k], tangent[1 - k]) = (middle, jet.point.coords, jet.first);
+            Stretch::new(stretch.part, u, point, tangent, spans[k])
+        })
+    }
+}

@@ -1,0 +1,61 @@
+use centrode_mechanism::design::DesignFile;
+use centrode_mechanism::gear::GearPair;
+use centrode_mechanism::mechanism::Mechanism;
+
+use super::Contact;
+
+fn design(name: &str) -> GearPair {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/designs");
+    let text = std::fs::read(format!("{folder}/{name}.toml")).expect("readable");
+    let design = DesignFile::read(&text).expect("a design");
+    match design.mechanism().expect("a mechanism") {
+        Mechanism::GearPair(pair) => *pair,
+        _ => panic!("a gear pair"),
+    }
+}
+
+/// The backlash comes from seating the contours as polygons.
+#[test]
+fn edges_that_touch_bound_the_backlash_of_trimmed_teeth() {
+    let pair = design("transplanter-pair-2021");
+    let polygons = [
+        (3.876, 0.001_897),
+        (3.880, 0.001_910),
+        (3.888, 0.001_939),
+        (3.900, 0.002_001),
+    ];
+    let contact = Contact::at(&pair, &polygons.map(|(input, _)| input));
+    for (i, (input, backlash)) in polygons.into_iter().enumerate() {
+        assert!(
+            (contact.backlash[i] - backlash).abs() < 1e-6,
+            "{} at {input}",
+            contact.backlash[i]
+        );
+        assert!(contact.transmission_error[i].abs() < 6e-5, "at {input}");
+        assert!(contact.overlap[i] == 0.0, "at {input}");
+    }
+}
+
+#[test]
+fn the_error_where_an_edge_touches_is_from_where_the_designed_flank_would_stand() {
+    let pair = design("transplanter-pair-2021");
+    let phi = 3.5343;
+    let contact = Contact::at(&pair, &[phi]);
+    let pitch = pair.pitch_point(phi);
+    let lever = pitch.driven_radius * pitch.pressure_angle.cos();
+    let designed = pair.driven_angle(phi) - 0.5 * pair.backlash() / lever;
+    let error = contact.driven_angle[0] - designed;
+    // The lever holds to the first order of the play.
+    assert!((contact.transmission_error[0] - error).abs() < 2e-6);
+    assert!((error - 1.18e-3).abs() < 2e-6, "{error:e}");
+}
+
+/// At both inputs turning the driven gear by half the play takes the contact past the end of a flank.
+#[test]
+fn flanks_thinned_for_play_stand_where_designed_at_their_ends_too() {
+    let contact = Contact::at(&design("quintic-pair"), &[0.0, 4.476_110_580_575_04]);
+    let errors = contact.transmission_error.iter();
+    for error in errors.chain(&contact.reverse_transmission_error) {
+        assert!(error.abs() < 1e-12, "{error:e}");
+    }
+}
