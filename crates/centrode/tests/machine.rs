@@ -42,7 +42,6 @@ fn a_machine_read_back_from_its_plain_file_stands_and_exports_as_the_first() {
     let tolerance = Tolerance::new(2e-2).expect("positive");
     let options = Options::new(tolerance);
     for (name, machine) in machines() {
-        let begun = std::time::Instant::now();
         assert_eq!(machine.validate(), Ok(()), "{name}");
         let bytes = write(&plain(&machine, tolerance).expect("meshed")).expect("plain");
         let again = read(&bytes).expect("readable");
@@ -60,7 +59,6 @@ fn a_machine_read_back_from_its_plain_file_stands_and_exports_as_the_first() {
             assert!(one == other, "{name}: {file} differs");
         }
         assert_eq!(first, second, "{name}");
-        eprintln!("{name} {} bytes {:?}", bytes.len(), begun.elapsed());
     }
 }
 

@@ -80,6 +80,8 @@ impl Piecewise {
         let rest = |input: f64| law.at(input).position - slope * input;
         let size = cuts.iter().map(|&cut| rest(cut).abs());
         let size = size.fold(0.0, f64::max);
+        let places = cuts.iter().map(|&cut| law.at(cut).position.abs());
+        let rounding = 4.0 * f64::EPSILON * places.fold(0.0, f64::max);
         // Ends of what is still to be fitted, and the tail of the series over twice as much.
         let whole = |w: &[f64]| (w[0], w[1], f64::INFINITY);
         let mut open: Vec<(f64, f64, f64)> = cuts.windows(2).rev().map(whole).collect();
@@ -90,7 +92,8 @@ impl Piecewise {
             let scale = piece.iter().fold(size, |m, c| m.max(c.abs()));
             let tail: f64 = piece[COUNT - 3..].iter().map(|c| c.abs()).sum();
             let decays = tail < 0.5 * before || tail > NOISE * scale;
-            if tail > ROUNDING * scale && decays && to - from > SHORTEST * period {
+            let within = tail <= (ROUNDING * scale).max(rounding);
+            if !within && decays && to - from > SHORTEST * period {
                 let middle = 0.5 * (from + to);
                 open.extend([(middle, to, tail), (from, middle, tail)]);
                 continue;

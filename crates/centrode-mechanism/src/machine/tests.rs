@@ -100,6 +100,15 @@ fn pieces_are_a_law_within_rounding() {
 }
 
 #[test]
+fn a_straight_line_with_rounding_is_one_piece() {
+    let line = FromFn::new(TAU, 40.0 * TAU, vec![], |t: f64| MotionJet {
+        position: 40.0 * t * (1.0 + 1e-16 * (1e6 * t).sin()),
+        ..MotionJet::default()
+    });
+    assert_eq!(Piecewise::fit(&line).pieces.len(), 1);
+}
+
+#[test]
 fn noise_in_a_law_ends_its_halving() {
     let noisy = FromFn::new(TAU, 0.0, vec![], |t: f64| MotionJet {
         position: t.sin() + 1e-12 * (1e7 * t).sin(),
