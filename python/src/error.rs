@@ -2,9 +2,7 @@ use std::error::Error;
 
 use centrode_export::BundleError;
 use centrode_export::cam::CamFilesError;
-use centrode_export::feeder::FeederFilesError;
 use centrode_export::gear_pair::GearPairFilesError;
-use centrode_export::shaft::ShaftFilesError;
 use centrode_export::three_arm::ThreeArmFilesError;
 use centrode_geometry::{SolidError, Tolerance};
 use centrode_mechanism::cam;
@@ -98,18 +96,13 @@ pub(crate) fn of_shaft(error: &ShaftError) -> PyErr {
     class::DesignError::new_err((error.to_string(), error.key()))
 }
 
-/// The exception of a spiral shaft's files that cannot be made.
-pub(crate) fn of_shaft_files(error: &ShaftFilesError) -> PyErr {
+/// The exception of a mechanism's files that cannot be made.
+pub(crate) fn of_mechanism_files(error: &dyn Error) -> PyErr {
     class::ExportError::new_err(error.to_string())
 }
 
 /// The exception of a three-arm mechanism's files that cannot be made.
 pub(crate) fn of_three_arm_files(error: &ThreeArmFilesError) -> PyErr {
-    class::ExportError::new_err(error.to_string())
-}
-
-/// The exception of a feeder's files that cannot be made.
-pub(crate) fn of_feeder_files(error: &FeederFilesError) -> PyErr {
     class::ExportError::new_err(error.to_string())
 }
 
