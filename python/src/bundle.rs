@@ -1,11 +1,30 @@
 use std::path::PathBuf;
+use std::sync::Arc;
 
+use centrode::family::Mechanism;
 use centrode_export::{Bundle, write_file};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 
 use crate::error;
+use crate::format;
 use crate::wait::wait;
+
+/// The files of a mechanism, all parts of it.
+pub(crate) fn of(
+    py: Python<'_>,
+    mechanism: &Arc<impl Mechanism>,
+    formats: Option<Vec<String>>,
+    tolerance: f64,
+    dxf_version: &str,
+    dxf_curves: &str,
+) -> PyResult<Bundle> {
+    let tolerance = error::plain_tolerance(tolerance)?;
+    let (formats, options) = format::within(tolerance, formats, dxf_version, dxf_curves)?;
+    let mechanism = Arc::clone(mechanism);
+    let made = wait(py, move || mechanism.files(&formats, &options))?;
+    made.map_err(|e| error::of_files(&e))
+}
 
 /// The files, name to contents.
 pub(crate) fn contents<'py>(py: Python<'py>, bundle: &Bundle) -> PyResult<Bound<'py, PyDict>> {

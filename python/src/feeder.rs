@@ -4,8 +4,6 @@ use std::sync::Arc;
 use centrode_analysis::optimise::Settings;
 use centrode_analysis::optimise::feeder::Widened;
 use centrode_analysis::{FeederForces, Forces, check_feeder};
-use centrode_export::Bundle;
-use centrode_export::feeder as files;
 use centrode_mechanism::design::Design as _;
 use centrode_mechanism::feeder as mechanism;
 use pyo3::prelude::{Bound, Py, PyAny, PyResult, Python, pyclass, pymethods};
@@ -14,8 +12,7 @@ use pyo3::types::PyDict;
 use crate::array::{Values, each, each_array, together, together_array};
 use crate::bundle;
 use crate::design::Class;
-use crate::error::{no_search, of_design, of_files, of_plates, plain_tolerance};
-use crate::format;
+use crate::error::{no_search, of_design, of_plates};
 use crate::made::{Reduced, by_design};
 use crate::record;
 use crate::search;
@@ -62,22 +59,6 @@ impl Class for Feeder {
 impl PartialEq for Feeder {
     fn eq(&self, other: &Self) -> bool {
         self.feeder.design() == other.feeder.design()
-    }
-}
-
-impl Feeder {
-    fn bundle(
-        &self,
-        py: Python<'_>,
-        formats: Option<Vec<String>>,
-        tolerance: f64,
-        dxf_version: &str,
-        dxf_curves: &str,
-    ) -> PyResult<Bundle> {
-        let tolerance = plain_tolerance(tolerance)?;
-        let (formats, options) = format::within(tolerance, formats, dxf_version, dxf_curves)?;
-        let feeder = Arc::clone(&self.feeder);
-        wait(py, move || files::files(&feeder, &formats, &options))?.map_err(|e| of_files(&e))
     }
 }
 
@@ -337,7 +318,14 @@ impl Feeder {
         dxf_version: &str,
         dxf_curves: &str,
     ) -> PyResult<Bound<'py, PyDict>> {
-        let bundle = self.bundle(py, formats, tolerance, dxf_version, dxf_curves)?;
+        let bundle = bundle::of(
+            py,
+            &self.feeder,
+            formats,
+            tolerance,
+            dxf_version,
+            dxf_curves,
+        )?;
         bundle::contents(py, &bundle)
     }
 
@@ -362,7 +350,14 @@ impl Feeder {
         dxf_version: &str,
         dxf_curves: &str,
     ) -> PyResult<Vec<PathBuf>> {
-        let bundle = self.bundle(py, formats, tolerance, dxf_version, dxf_curves)?;
+        let bundle = bundle::of(
+            py,
+            &self.feeder,
+            formats,
+            tolerance,
+            dxf_version,
+            dxf_curves,
+        )?;
         bundle::written(py, bundle, directory)
     }
 

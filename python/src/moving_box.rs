@@ -2,8 +2,6 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use centrode_analysis::check_moving_box;
-use centrode_export::Bundle;
-use centrode_export::shaft as files;
 use centrode_mechanism::design::Design as _;
 use centrode_mechanism::gear::GearPair as Gears;
 use centrode_mechanism::shaft as mechanism;
@@ -15,8 +13,7 @@ use crate::array::{Values, each};
 use crate::bundle;
 use crate::count::Count;
 use crate::design::Class;
-use crate::error::{finite, of_design, of_files, of_pair, of_shaft, plain_tolerance, unknown_word};
-use crate::format;
+use crate::error::{finite, of_design, of_pair, of_shaft, unknown_word};
 use crate::gear_pair::GearPair;
 use crate::made::{Reduced, by_design};
 use crate::record;
@@ -85,23 +82,6 @@ impl MovingBox {
     ) -> PyResult<Bound<'py, PyAny>> {
         let machine = Arc::clone(&self.machine);
         each(py, phi, move |phi| f(&machine, phi))
-    }
-
-    fn bundle(
-        &self,
-        py: Python<'_>,
-        formats: Option<Vec<String>>,
-        tolerance: f64,
-        dxf_version: &str,
-        dxf_curves: &str,
-    ) -> PyResult<Bundle> {
-        let tolerance = plain_tolerance(tolerance)?;
-        let (formats, options) = format::within(tolerance, formats, dxf_version, dxf_curves)?;
-        let machine = Arc::clone(&self.machine);
-        let made = wait(py, move || {
-            files::moving_box_files(&machine, &formats, &options)
-        })?;
-        made.map_err(|e| of_files(&e))
     }
 }
 
@@ -335,7 +315,14 @@ impl MovingBox {
         dxf_version: &str,
         dxf_curves: &str,
     ) -> PyResult<Bound<'py, PyDict>> {
-        let bundle = self.bundle(py, formats, tolerance, dxf_version, dxf_curves)?;
+        let bundle = bundle::of(
+            py,
+            &self.machine,
+            formats,
+            tolerance,
+            dxf_version,
+            dxf_curves,
+        )?;
         bundle::contents(py, &bundle)
     }
 
@@ -360,7 +347,14 @@ impl MovingBox {
         dxf_version: &str,
         dxf_curves: &str,
     ) -> PyResult<Vec<PathBuf>> {
-        let bundle = self.bundle(py, formats, tolerance, dxf_version, dxf_curves)?;
+        let bundle = bundle::of(
+            py,
+            &self.machine,
+            formats,
+            tolerance,
+            dxf_version,
+            dxf_curves,
+        )?;
         bundle::written(py, bundle, directory)
     }
 

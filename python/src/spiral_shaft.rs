@@ -2,8 +2,6 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use centrode_analysis::check_shaft;
-use centrode_export::Bundle;
-use centrode_export::shaft as files;
 use centrode_mechanism::cam::law::LawSpec;
 use centrode_mechanism::design::Design as _;
 use centrode_mechanism::shaft as mechanism;
@@ -20,8 +18,7 @@ use crate::array::{Numbers, Values, each, points, rows};
 use crate::bundle;
 use crate::count::Count;
 use crate::design::Class;
-use crate::error::{finite, of_design, of_files, of_shaft, plain_tolerance, unknown_word};
-use crate::format;
+use crate::error::{finite, of_design, of_shaft, plain_tolerance, unknown_word};
 use crate::made::{Reduced, by_design};
 use crate::record;
 use crate::wait::wait;
@@ -102,20 +99,6 @@ impl SpiralShaft {
     ) -> PyResult<Bound<'py, PyAny>> {
         let shaft = Arc::clone(&self.shaft);
         each(py, theta, move |theta| f(&shaft, theta))
-    }
-
-    fn bundle(
-        &self,
-        py: Python<'_>,
-        formats: Option<Vec<String>>,
-        tolerance: f64,
-        dxf_version: &str,
-        dxf_curves: &str,
-    ) -> PyResult<Bundle> {
-        let tolerance = plain_tolerance(tolerance)?;
-        let (formats, options) = format::within(tolerance, formats, dxf_version, dxf_curves)?;
-        let shaft = Arc::clone(&self.shaft);
-        wait(py, move || files::files(&shaft, &formats, &options))?.map_err(|e| of_files(&e))
     }
 }
 
@@ -540,7 +523,7 @@ impl SpiralShaft {
         dxf_version: &str,
         dxf_curves: &str,
     ) -> PyResult<Bound<'py, PyDict>> {
-        let bundle = self.bundle(py, formats, tolerance, dxf_version, dxf_curves)?;
+        let bundle = bundle::of(py, &self.shaft, formats, tolerance, dxf_version, dxf_curves)?;
         bundle::contents(py, &bundle)
     }
 
@@ -565,7 +548,7 @@ impl SpiralShaft {
         dxf_version: &str,
         dxf_curves: &str,
     ) -> PyResult<Vec<PathBuf>> {
-        let bundle = self.bundle(py, formats, tolerance, dxf_version, dxf_curves)?;
+        let bundle = bundle::of(py, &self.shaft, formats, tolerance, dxf_version, dxf_curves)?;
         bundle::written(py, bundle, directory)
     }
 

@@ -1,17 +1,14 @@
-use centrode_mechanism::design::DesignFile;
+use centrode_mechanism::design::DesignSpec as _;
 use centrode_mechanism::gear::GearPair;
-use centrode_mechanism::mechanism::Mechanism;
+use centrode_mechanism::gear::design::GearPairDesign;
 
 use super::Contact;
 
 fn design(name: &str) -> GearPair {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/designs");
-    let text = std::fs::read(format!("{folder}/{name}.toml")).expect("readable");
-    let design = DesignFile::read(&text).expect("a design");
-    match design.mechanism().expect("a mechanism") {
-        Mechanism::GearPair(pair) => *pair,
-        _ => panic!("a gear pair"),
-    }
+    let text = std::fs::read_to_string(format!("{folder}/{name}.toml")).expect("readable");
+    let design = GearPairDesign::from_toml(&text).expect("a design");
+    GearPair::resolve(&design).expect("a pair")
 }
 
 /// The backlash comes from seating the contours as polygons.

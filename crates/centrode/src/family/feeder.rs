@@ -1,5 +1,4 @@
 use std::f64::consts::TAU;
-use std::sync::Arc;
 
 use centrode_analysis::optimise::feeder::{FeederProblem, Widened};
 use centrode_analysis::optimise::{DesignProblem, NotSearched};
@@ -11,6 +10,7 @@ use centrode_geometry::Tolerance;
 use centrode_mechanism::design::{Design, MechanismError};
 use centrode_mechanism::feeder::{Dimension, Feeder, FeederDesign, Part};
 use centrode_mechanism::machine::Machine;
+use serde_json::json;
 
 use super::{Mechanism, Resolved, Widening, WideningError};
 
@@ -105,11 +105,13 @@ impl Resolved for Feeder {
         lines.push(format!("{:<8} ({x:.3}, {y:.3}) mm", "pivot"));
         Ok(Widening {
             share,
-            tables: &["linkage", "bounds"],
+            tables: vec![
+                ("linkage", json!(linkage)),
+                ("bounds", json!(design.bounds)),
+            ],
             numbers: numbers.collect(),
             lists: std::iter::once(pivot).chain(lists).collect(),
             lines,
-            design: Arc::new(design),
         })
     }
 }

@@ -66,14 +66,8 @@ impl Resolved for GearPair {
     const NOUN: &'static str = "a gear pair";
 
     const PARTS: &'static [PartName] = &[
-        PartName {
-            name: "driver",
-            about: "The driver of a pair",
-        },
-        PartName {
-            name: "driven",
-            about: "The driven gear of a pair",
-        },
+        PartName::new("driver", "The driver of a pair"),
+        PartName::new("driven", "The driven gear of a pair"),
         PartName::ASSEMBLY,
     ];
 

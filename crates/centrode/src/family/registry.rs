@@ -53,10 +53,13 @@ pub struct PartName {
 
 impl PartName {
     /// The whole machine, as drawings show it.
-    pub const ASSEMBLY: Self = Self {
-        name: "assembly",
-        about: "Everything in place",
-    };
+    pub const ASSEMBLY: Self = Self::new("assembly", "Everything in place");
+
+    /// A part by its name, and in words.
+    #[must_use]
+    pub const fn new(name: &'static str, about: &'static str) -> Self {
+        Self { name, about }
+    }
 }
 
 /// One family of machine.

@@ -85,54 +85,24 @@ impl Resolved for ThreeArm {
     const NOUN: &'static str = "a three-arm mechanism";
 
     const PARTS: &'static [PartName] = &[
-        PartName {
-            name: "sun",
-            about: "Three arms: the fixed gear",
-        },
-        PartName {
-            name: "intermediate",
-            about: "Three arms: the gear between sun and planet",
-        },
-        PartName {
-            name: "planet",
-            about: "Three arms: the gear that carries an arm",
-        },
-        PartName {
-            name: "cam",
-            about: "Three arms: what moves the push rod",
-        },
-        PartName {
-            name: "fork",
-            about: "Three arms: between cam and push rod",
-        },
-        PartName {
-            name: "roller",
-            about: "Three arms: on the fork",
-        },
-        PartName {
-            name: "carrier",
-            about: "Three arms: the plate on either side of the gears",
-        },
-        PartName {
-            name: "housing",
-            about: "Three arms: the wall of an arm's housing",
-        },
-        PartName {
-            name: "cover-rear",
-            about: "Three arms: its cover towards the gearbox",
-        },
-        PartName {
-            name: "cover-front",
-            about: "Three arms: its cover away from the gearbox",
-        },
-        PartName {
-            name: "clamp",
-            about: "Three arms: a flake of the clamp",
-        },
-        PartName {
-            name: "push-rod",
-            about: "Three arms: with its pusher",
-        },
+        PartName::new("sun", "Three arms: the fixed gear"),
+        PartName::new(
+            "intermediate",
+            "Three arms: the gear between sun and planet",
+        ),
+        PartName::new("planet", "Three arms: the gear that carries an arm"),
+        PartName::new("cam", "Three arms: what moves the push rod"),
+        PartName::new("fork", "Three arms: between cam and push rod"),
+        PartName::new("roller", "Three arms: on the fork"),
+        PartName::new(
+            "carrier",
+            "Three arms: the plate on either side of the gears",
+        ),
+        PartName::new("housing", "Three arms: the wall of an arm's housing"),
+        PartName::new("cover-rear", "Three arms: its cover towards the gearbox"),
+        PartName::new("cover-front", "Three arms: its cover away from the gearbox"),
+        PartName::new("clamp", "Three arms: a flake of the clamp"),
+        PartName::new("push-rod", "Three arms: with its pusher"),
         PartName::ASSEMBLY,
     ];
 

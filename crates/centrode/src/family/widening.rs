@@ -1,7 +1,6 @@
 use std::error::Error;
-use std::sync::Arc;
 
-use centrode_mechanism::design::Design;
+use serde_json::Value;
 
 /// Why there is no widening, in a sentence.
 pub type WideningError = Box<dyn Error + Send + Sync>;
@@ -11,10 +10,8 @@ pub type WideningError = Box<dyn Error + Send + Sync>;
 pub struct Widening {
     /// Share by which the bounds were widened.
     pub share: f64,
-    /// The design there.
-    pub design: Arc<dyn Design>,
-    /// Tables of the design that hold something new.
-    pub tables: &'static [&'static str],
+    /// Tables of the design that hold something new, whole, as programs read them.
+    pub tables: Vec<(&'static str, Value)>,
     /// New numbers, each by its key in the file.
     pub numbers: Vec<(String, f64)>,
     /// New lists, each whole by its key: a file may leave them out.

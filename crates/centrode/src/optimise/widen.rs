@@ -27,11 +27,8 @@ pub(super) fn run(
     Stored::beside(&command.output).write_design(&better)?;
     if command.json {
         let mut told = json!({ "share": widened.share });
-        let design = widened.design.to_toml();
-        let design = design.map_err(|error| Failure::Usage(error.to_string()))?;
-        let design: toml::Table = toml::from_str(&design).map_err(std::io::Error::other)?;
-        for table in widened.tables {
-            told[*table] = json!(design.get(*table));
+        for (name, table) in widened.tables {
+            told[name] = table;
         }
         serde_json::to_writer_pretty(&mut *out, &told).map_err(std::io::Error::from)?;
         writeln!(out)?;
