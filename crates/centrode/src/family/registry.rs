@@ -62,6 +62,9 @@ impl PartName {
     }
 }
 
+type Resolve = fn(&dyn Design) -> Result<Arc<dyn Mechanism>, MechanismError>;
+type SetProblem = fn(&dyn Design) -> Result<Box<dyn DesignProblem + Send>, NotSearched>;
+
 /// One family of machine.
 #[derive(Clone, Copy, Debug)]
 pub struct Family {
@@ -71,8 +74,8 @@ pub struct Family {
     pub noun: &'static str,
     /// Parts whose files can be asked for by name.
     pub parts: &'static [PartName],
-    resolve: fn(&dyn Design) -> Result<Arc<dyn Mechanism>, MechanismError>,
-    problem: fn(&dyn Design) -> Result<Box<dyn DesignProblem + Send>, NotSearched>,
+    resolve: Resolve,
+    problem: SetProblem,
     widen: fn(&dyn Design) -> Result<Widening, WideningError>,
 }
 
