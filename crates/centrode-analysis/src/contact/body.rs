@@ -73,6 +73,38 @@ pub(super) struct Part<'a> {
     pub(super) span: Span,
 }
 
+/// Crossings of a stretch of a segment with the ray from a point towards +x, to their parity.
+///
+/// Stretch and chord make a loop. A point farther from the chord than the stretch is anywhere lies outside of it, and the
+/// ray crosses both or neither, to parity. Other stretches are halved, which quarters how far they bulge.
+fn stretch_crossings(
+    segment: &Segment,
+    (u0, u1): (f64, f64),
+    (start, end): (Point, Point),
+    span: &Span,
+    point: Point,
+) -> usize {
+    let side = |p: &Point| p.y > point.y;
+    let (chord, from) = (end - start, point - start);
+    let share = (from.dot(&chord) / chord.norm_squared()).clamp(0.0, 1.0);
+    let off = (from - chord * share).norm();
+    let middle = 0.5 * (u0 + u1);
+    // A point on the contour itself may get either answer.
+    if off > span.sagitta || u1 - u0 < 1e-9 || off.is_nan() {
+        let share = (point.y - start.y) / (end.y - start.y);
+        let crosses = side(&start) != side(&end);
+        return usize::from(crosses && start.x + share * chord.x > point.x);
+    }
+    let between = segment.at(middle).point;
+    [
+        ((u0, middle), (start, between)),
+        ((middle, u1), (between, end)),
+    ]
+    .into_iter()
+    .map(|(u, ends)| stretch_crossings(segment, u, ends, &Span::new(segment, u.0, u.1), point))
+    .sum()
+}
+
 /// A corner of an outline: an edge of the gear.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Corner {
@@ -120,6 +152,24 @@ impl<'a> Body<'a> {
         let grown = [&parts[1], &parts[0]].map(|other| largest(other) + near);
         let [driver, driven] = parts;
         [Self::new(driver, grown[0]), Self::new(driven, grown[1])]
+    }
+
+    /// Whether a point lies in the body, by the parity of crossings with a ray to the right.
+    pub(super) fn contains(&self, point: Point) -> bool {
+        let side = |p: &Point| p.y > point.y;
+        let crossings = self.circles.iter().zip(&self.parts).map(|(circle, part)| {
+            let (center, radius) = circle;
+            if (center.y - point.y).abs() > *radius || center.x + radius < point.x {
+                0
+            } else if center.x - radius > point.x {
+                // Whatever happens in a part wholly to the right, its ends tell the parity.
+                usize::from(side(&part.ends[0]) != side(&part.ends[1]))
+            } else {
+                let [start, end] = part.ends;
+                stretch_crossings(part.segment, (-1.0, 1.0), (start, end), &part.span, point)
+            }
+        });
+        crossings.sum::<usize>() % 2 == 1
     }
 
     fn new(parts: Vec<Part<'a>>, grown: f64) -> Self {

@@ -281,7 +281,7 @@ impl<'a> Meshing<'a> {
     /// Whether the gears lie in each other by more than a shallow overlap.
     fn lie_deep(&self, phi: f64, angle: f64) -> bool {
         let pose = Pose::new(phi, angle, self.pair.center_distance());
-        let [driver, driven] = [self.pair.driver(), self.pair.driven()].map(|g| g.outline());
+        let (driver, driven) = (&self.driver, &self.driven);
         let inner = |part: &Part<'_>| {
             let along = part.span.tangents[0].normalize();
             part.ends[0] + Vector::new(-along.y, along.x) * (SHALLOW * self.module)
@@ -300,7 +300,7 @@ impl<'a> Meshing<'a> {
 
     /// The meetings that hold the driven gear when it is turned from a pose, the first of them first.
     fn first_hits(&self, candidates: &Candidates, pose: &Pose, sign: f64) -> Vec<Hit> {
-        let [driver, driven] = [self.pair.driver(), self.pair.driven()].map(|g| g.outline());
+        let (driver, driven) = (&self.driver, &self.driven);
         let overlaps = |a: &Vector, b: &Vector| {
             driven.contains(Point::from(*a)) || driver.contains(pose.place(&Point::from(*b)))
         };

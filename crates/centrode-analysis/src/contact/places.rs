@@ -150,8 +150,7 @@ impl Meshing<'_> {
     fn real(&self, touch: &Touch, pose: &Pose) -> bool {
         touch.gap > -SHALLOW * self.module || {
             let inside = touch.point + touch.normal * (0.5 * touch.gap);
-            self.pair.driver().outline().contains(inside)
-                && self.pair.driven().outline().contains(pose.back(&inside))
+            self.driver.contains(inside) && self.driven.contains(pose.back(&inside))
         }
     }
 }
