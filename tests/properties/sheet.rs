@@ -6,9 +6,9 @@ use centrode_export::SheetOptions;
 use centrode_export::gear_pair::{Subject, sheets};
 use centrode_export::sheet::overlaps;
 use centrode_geometry::Tolerance;
-use centrode_mechanism::design::{Projection, SheetSize};
+use centrode_mechanism::design::{DesignSpec as _, Projection, SheetSize};
 use centrode_mechanism::gear::GearPair;
-use centrode_mechanism::gear::design::Keyway;
+use centrode_mechanism::gear::design::{GearPairDesign, Keyway};
 use centrode_tests::sound_pair;
 use proptest::prelude::{ProptestConfig, any, prop_assert, proptest};
 
@@ -63,6 +63,23 @@ fn words_touch_nothing_on_the_sheets_of_every_design_at_every_size() {
         }
     }
     assert!(count >= 6 * 7, "only {count} sets of sheets");
+}
+
+#[test]
+fn the_first_teeth_are_told_apart_wherever_they_stand() {
+    let text = "family = \"gear-pair\"\n[pitch]\nkind = \"bspline\"\ndegree = 3\ninterpolate = false\n\
+                radius = [23.918768, 20.727547, 10, 10, 10, 10]\nmodule = 0.5\ntooth_count = 32\n\
+                angle_deg = [49.907301453, 107.014602905, 164.121904358, 238.585397095, 295.692698547, 352.800000000]\n\
+                [teeth]\nphase = 0.9865918629\nthickness_split = 0.44\n\
+                [driver]\nbore = 2\nwidth = 5\n[driven]\nbore = 2\nwidth = 5\n";
+    let design = GearPairDesign::from_toml(text).expect("a design");
+    let pair = GearPair::resolve(&design).expect("a pair");
+    let sheet = SheetOptions {
+        projection: Some(PROJECTIONS[0]),
+        ..SheetOptions::default()
+    };
+    let found = unreadable(&pair, sheet);
+    assert!(found.is_empty(), "{found:#?}");
 }
 
 proptest! {

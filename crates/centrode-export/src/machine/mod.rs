@@ -24,9 +24,11 @@ const MODEL: &str = "machine";
 pub(crate) fn add(machine: &Machine, package: &mut Package<'_>) -> Result<(), ExportError> {
     let tolerance = package.tolerance();
     let no_solid = |source| ExportError::no_solid("link")(source);
+    // The table is of the exact laws: pieces have every digit of a position, but fewer of its derivatives.
+    let exact = motion::with_rates(machine);
     let machine = motion::with_rates(&plain(machine, tolerance).map_err(no_solid)?);
     let (steps, off) = motion::steps(&machine, tolerance);
-    let table = csv::write(&motion::columns(&machine, steps))?;
+    let table = csv::write(&motion::columns(&exact, steps))?;
     package.file(motion::TABLE, table)?;
     let about = motion::description(&machine, steps, off);
     let mut json = serde_json::to_string_pretty(&about)?;

@@ -286,7 +286,7 @@ pub(super) fn driving(machine: &Machine) -> Option<usize> {
         let joint = &machine.joints[joint];
         let jet = joint.law.at(0.0);
         joint.kind == JointKind::Turning
-            && jet.velocity.abs() == 1.0
+            && (jet.velocity.abs() - 1.0).abs() <= LINEAR
             && line(machine, joint.law.as_ref())[2] <= LINEAR
     };
     let all = 0..machine.joints.len();

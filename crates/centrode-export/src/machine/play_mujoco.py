@@ -62,7 +62,7 @@ class Machine:
         """Leaves free what teeth and closed loops carry, with a load at the end of a chain of gears."""
         about, model, meshes = self.law.about, self.model, self.meshes
         carried = [mesh["joint"] for mesh in meshes]
-        self.free = [name for name in self.joints if name != self.input] if about["closures"] else carried
+        self.free = [name for name in (self.joints if about["closures"] else carried) if name != self.input]
         if not self.free:
             raise SystemExit("--contact is for machines with gears or closed loops")
         # Only teeth and closures may tie the links: no joint follows another by an equation.

@@ -72,7 +72,9 @@ pub(super) fn view(driver: &Part<'_>, driven: &Part<'_>, scale: Scale, letters: 
         let frame = part.middle(0, 0.0);
         let height = 0.5 * pair.teeth().tool.addendum;
         let tip = (frame.point + frame.normal * height) * k + Vector::new(x, 0.0);
-        let elbow = Point::new(touch.x + 6.0 * side, whole.max.y + 12.0);
+        // Words go on from the leader: it leans outwards, off its mate's, wherever the first tooth stands.
+        let out = (side * touch.x).max(side * tip.x) * side;
+        let elbow = Point::new(out + 6.0 * side, whole.max.y + 12.0);
         draft.leader(tip, elbow, &words.map(str::to_owned));
     }
     draft
