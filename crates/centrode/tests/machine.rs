@@ -51,7 +51,7 @@ fn assert_near(one: &[u8], other: &[u8], name: &str) {
     let (one, other) = (rows(one), rows(other));
     assert_eq!(one.len(), other.len(), "{name}");
     for column in 0..one[0].len() {
-        let size = one.iter().map(|row| row[column].abs()).fold(1e-9, f64::max);
+        let size = one.iter().map(|row| row[column].abs()).fold(1e-3, f64::max);
         let off = one
             .iter()
             .zip(&other)

@@ -116,10 +116,10 @@ fn every_format_is_there_and_the_same_twice() {
     assert_eq!(
         beside(&model),
         [
-            "driver.stl",
-            "driven.stl",
             "motion.csv",
             "motion.json",
+            "driver.stl",
+            "driven.stl",
             "machine.urdf",
             "play_pybullet.py",
         ]

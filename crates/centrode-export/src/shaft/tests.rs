@@ -190,7 +190,7 @@ fn a_moving_box_has_the_files_of_shaft_and_gears() {
         "motion.csv",
         "machine.xml",
         "gears-driver.stl",
-        "gears-motion.csv",
+        "gears-driven.csv",
     ] {
         assert!(names.contains(&name), "{name} in {names:?}");
     }
