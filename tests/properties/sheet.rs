@@ -71,7 +71,7 @@ fn the_first_teeth_are_told_apart_wherever_they_stand() {
                 radius = [23.918768, 20.727547, 10, 10, 10, 10]\nmodule = 0.5\ntooth_count = 32\n\
                 angle_deg = [49.907301453, 107.014602905, 164.121904358, 238.585397095, 295.692698547, 352.800000000]\n\
                 [teeth]\nphase = 0.9865918629\nthickness_split = 0.44\n\
-                [driver]\nbore = 2\nwidth = 5\n[driven]\nbore = 2\nwidth = 5\n";
+                [tool]\nkind = \"rack\"\ntip_radius_coefficient = 0.25\n[driver]\nbore = 2\nwidth = 5\n[driven]\nbore = 2\nwidth = 5\n";
     let design = GearPairDesign::from_toml(text).expect("a design");
     let pair = GearPair::resolve(&design).expect("a pair");
     let sheet = SheetOptions {

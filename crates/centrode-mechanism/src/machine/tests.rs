@@ -100,6 +100,20 @@ fn pieces_are_a_law_within_rounding() {
 }
 
 #[test]
+fn a_break_off_the_start_by_rounding_leaves_no_sliver() {
+    let law = FromFn::new(TAU, 0.0, vec![1e-16, 2.0, 2.0 + 1e-15], |t: f64| {
+        MotionJet {
+            position: t.sin(),
+            ..MotionJet::default()
+        }
+    });
+    let pieces = Piecewise::fit(&law);
+    for at in [0.0, 1e-16, 2.0, 2.0 + 5e-16] {
+        assert!((pieces.at(at).velocity - at.cos()).abs() < 1e-9, "{at}");
+    }
+}
+
+#[test]
 fn a_straight_line_with_rounding_is_one_piece() {
     let line = FromFn::new(TAU, 40.0 * TAU, vec![], |t: f64| MotionJet {
         position: 40.0 * t * (1.0 + 1e-16 * (1e6 * t).sin()),
