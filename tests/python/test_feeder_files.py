@@ -6,6 +6,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import centrode as ct
 import ezdxf
 import mujoco
 import numpy as np
@@ -15,8 +16,6 @@ import trimesh
 import yourdfpy
 from reading import rows
 from scipy.optimize import fsolve
-
-import centrode as ct
 
 DESIGNS = Path(__file__).resolve().parents[1] / "designs"
 LENGTHS = {

@@ -114,7 +114,7 @@ fn meaning_of(part: Part) -> (&'static str, &'static str) {
 
 /// A joint's coordinate since the effector rested.
 fn law(feeder: &Feeder, part: Part) -> Arc<dyn Transmission> {
-    let bar = feeder.six_bar().clone();
+    let bar = *feeder.six_bar();
     let at = move |crank: f64| -> MotionJet {
         let by_crank = MotionJet {
             position: crank,

@@ -138,9 +138,7 @@ class Machine:
         """How far each joint that is not held is off its law, rad or m: positive if it has gone too far."""
         names = self.free + [name for name, about in self.law.joints.items() if about["leader"] in self.free]
         watched = names if self.mode == "contact" else self.joints
-        return {
-            name: self.data.qpos[self.joints[name].qposadr[0]] - self.law(name, self.travelled) for name in watched
-        }
+        return {name: self.data.qpos[self.joints[name].qposadr[0]] - self.law(name, self.travelled) for name in watched}
 
     def rate(self, name):
         """Rate of a joint by the input."""

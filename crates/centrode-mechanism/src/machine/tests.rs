@@ -161,7 +161,8 @@ fn what_does_not_hang_together_is_refused_by_name() {
         change(&mut machine);
         machine.validate().expect_err("refused").to_string()
     };
-    let cases: [(fn(&mut Machine), &str); 5] = [
+    type Change = fn(&mut Machine);
+    let cases: [(Change, &str); 5] = [
         (
             |m| m.points[0].link = 9,
             "point \"tip\" names link 9, of which there are 4",
