@@ -5,7 +5,7 @@ import { element } from "./elements.js";
 import * as server from "./server.js";
 import { work } from "./work.js";
 
-/** Work is put beside the file when no change has come for so long, ms. */
+/** Work is put beside the file so long after a change, ms. */
 const REST = 200;
 
 export class DesignFile {
@@ -19,14 +19,26 @@ export class DesignFile {
     this.history = history;
     this.page = page;
     this.keeping = 0;
+    addEventListener("pagehide", () => {
+      if (this.keeping) this.put();
+    });
   }
 
   /** Puts what is not saved beside the file, soon. */
   keep() {
+    this.keeping ||= setTimeout(() => this.put(), REST);
+  }
+
+  /** Puts what is not saved beside the file, now. */
+  put() {
+    this.rest();
+    server.keep(this.history.text).then(() => dialogs.withdraw("keep")).catch((error) => this.page.complain("keep", error));
+  }
+
+  /** Nothing is left to be put beside the file. */
+  rest() {
     clearTimeout(this.keeping);
-    this.keeping = setTimeout(() => {
-      server.keep(this.history.text).then(() => dialogs.withdraw("keep")).catch((error) => this.page.complain("keep", error));
-    }, REST);
+    this.keeping = 0;
   }
 
   async save(over = false) {
@@ -38,7 +50,7 @@ export class DesignFile {
         await this.settle(answer);
         return;
       }
-      clearTimeout(this.keeping);
+      this.rest();
       this.history.saved = text;
       if (this.history.dirty) this.keep();
       dialogs.withdraw("disk");

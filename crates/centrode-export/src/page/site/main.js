@@ -229,8 +229,11 @@ async function check({ text, coarse }) {
       show(snapshot, asked);
     }
   } catch (error) {
-    if (stop.signal.aborted) dialogs.notice("server", "the checks were cancelled", [["Check", () => check({ text, coarse })]]);
-    else complain("server", error);
+    if (!stop.signal.aborted) complain("server", error);
+    else if (wanted()) verdict.unchecked(() => {
+      verdict.clear();
+      check(state.snapshot);
+    });
   }
 }
 

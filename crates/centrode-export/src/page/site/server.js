@@ -20,7 +20,7 @@ export class Away extends Error {
 const page = String(Math.random());
 
 /** The program stops what it does for an answer once `signal` aborts. */
-async function ask(path, method, body, signal) {
+async function ask(path, method, body, signal, keepalive = false) {
   let answer;
   try {
     answer = await fetch(path, {
@@ -28,6 +28,7 @@ async function ask(path, method, body, signal) {
       headers: body === undefined ? {} : { "Content-Type": "application/json" },
       body: body === undefined ? undefined : JSON.stringify(body),
       signal,
+      keepalive,
     });
   } catch {
     throw new Away();
@@ -49,7 +50,8 @@ const json = async (answer) => (await answer).json();
 
 export const design = () => json(ask("design", "GET"));
 export const save = (text, base, over) => json(ask("save", "POST", { text, base, over }));
-export const keep = (text) => json(ask("keep", "POST", { text }));
+// It arrives although the page is left; browsers send no more than 64 KiB that way.
+export const keep = (text) => json(ask("keep", "POST", { text }, undefined, text.length < 20_000));
 export const forget = (file) => json(ask("keep", "DELETE", { file }));
 export const reread = () => json(ask("reread", "POST", {}));
 export const fault = (text) => json(ask("fault", "POST", { text }));

@@ -14,6 +14,14 @@ export function clear() {
   byId("figures").replaceChildren();
 }
 
+/** The checks were cancelled: what an earlier design was worth says nothing of this one; `again` begins anew. */
+export function unchecked(again) {
+  clear();
+  byId("findings").replaceChildren(
+    title("Not checked", "error"),
+    element("p", {}, "The checks were cancelled. ", element("button", { type: "button", class: "link", onclick: again }, "Check")));
+}
+
 /** Shows what the checks say; `go` leads to an input angle. */
 export function show(snapshot, pinned, go) {
   const place = byId("findings");
