@@ -2,6 +2,7 @@
 
 use crate::model::{Convex, Joint, JointKind, Link, Model};
 use centrode_geometry::MassProperties;
+use centrode_mechanism::machine::loose_link;
 use nalgebra::UnitQuaternion;
 use std::collections::BTreeSet;
 use std::fmt::Write;
@@ -115,40 +116,23 @@ pub fn write_closed(model: &Model, closures: &[Closure]) -> Result<Vec<u8>, Mjcf
 
 /// Every link is carried by one joint, the first by none, and hangs from the first in the end.
 fn is_tree(model: &Model) -> Result<(), MjcfError> {
-    for joint in &model.joints {
-        for end in [&joint.parent, &joint.child] {
-            if !model.links.iter().any(|link| link.name == *end) {
-                return Err(MjcfError::Link {
-                    joint: joint.name.clone(),
-                    link: end.clone(),
-                });
-            }
-        }
+    let index = |joint: &Joint, end: &str| {
+        let found = model.links.iter().position(|link| link.name == end);
+        found.ok_or_else(|| MjcfError::Link {
+            joint: joint.name.clone(),
+            link: end.to_owned(),
+        })
+    };
+    let ends = model.joints.iter();
+    let ends = ends.map(|j| Ok([index(j, &j.parent)?, index(j, &j.child)?]));
+    let ends: Vec<[usize; 2]> = ends.collect::<Result<_, _>>()?;
+    match loose_link(model.links.len(), &ends) {
+        None => Ok(()),
+        Some((link, ways)) => Err(MjcfError::Tree {
+            link: model.links[link].name.clone(),
+            ways,
+        }),
     }
-    for (i, link) in model.links.iter().enumerate() {
-        let carriers = |name: &str| model.joints.iter().filter(|j| j.child == name).count();
-        let ways = carriers(&link.name) + usize::from(i == 0);
-        if ways != 1 {
-            return Err(MjcfError::Tree {
-                link: link.name.clone(),
-                ways,
-            });
-        }
-        // Carried once each, links that never come to the first go round a ring.
-        let mut at = &link.name;
-        let mut steps = 0;
-        while let Some(joint) = model.joints.iter().find(|j| j.child == *at) {
-            at = &joint.parent;
-            steps += 1;
-            if steps > model.joints.len() {
-                return Err(MjcfError::Tree {
-                    link: link.name.clone(),
-                    ways: 0,
-                });
-            }
-        }
-    }
-    Ok(())
 }
 
 fn assets<'a>(xml: &mut String, link: &'a Link, written: &mut BTreeSet<&'a str>) {

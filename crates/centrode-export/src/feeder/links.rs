@@ -66,13 +66,8 @@ pub(super) fn machine(feeder: &Feeder, plates: &[Plate]) -> Result<Machine, Expo
         };
         let joint = machine.joint(joint.at([at.x, at.y, 0.0]));
         let (unit, meaning) = meaning_of(part);
-        let quantity = Quantity::Joint {
-            joint,
-            order: 0,
-            factor: 1.0,
-        };
         let name = format!("{}_joint_{unit}", part.name());
-        machine.column(&name, unit, meaning, quantity);
+        machine.column(&name, unit, meaning, Quantity::joint(joint));
     }
     close(feeder, &mut machine);
     tip(feeder, &mut machine);

@@ -44,34 +44,29 @@ pub fn machine(pair: &GearPair) -> Result<Machine, ExportError> {
         joint,
         copy: 0,
     });
-    let column = |joint, order, factor| Quantity::Joint {
-        joint,
-        order,
-        factor,
-    };
     machine.column(
         "driver_angle_rad",
         "rad",
         "polar angle of the driver's pitch point; the driver has turned by minus this",
-        column(driving, 0, -1.0),
+        Quantity::rate(driving, 0, -1.0),
     );
     machine.column(
         "driven_angle_rad",
         "rad",
         "angle the driven gear has turned by, counter-clockwise",
-        column(joint, 0, 1.0),
+        Quantity::joint(joint),
     );
     machine.column(
         "ratio",
         "1",
         "d driven_angle / d driver_angle",
-        column(joint, 1, 1.0),
+        Quantity::rate(joint, 1, 1.0),
     );
     machine.column(
         "ratio_slope_per_rad",
         "1/rad",
         "d ratio / d driver_angle",
-        column(joint, 2, 1.0),
+        Quantity::rate(joint, 2, 1.0),
     );
     Ok(machine)
 }

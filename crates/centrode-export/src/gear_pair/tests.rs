@@ -188,7 +188,11 @@ fn teeth_are_one_convex_body_each_or_several_where_they_are_hollow() {
     let (plain, hollow) = (elliptic(), pair_of_lobes());
     for pair in [&plain, &hollow] {
         let machine = machine(pair).expect("linked");
-        let simulated = crate::machine::simulated(&machine, options().tolerance);
+        let simulated = crate::machine::simulated(
+            &machine,
+            &crate::machine::lines(&machine),
+            options().tolerance,
+        );
         let model = simulated.expect("made").model;
         assert!(model.note.contains("by at most"), "{}", model.note);
         for (link, gear) in model.links[1..].iter().zip([pair.driver(), pair.driven()]) {

@@ -51,6 +51,18 @@ pub enum MachineFileError {
 /// # Errors
 /// [`SolidError`] where a tolerance leaves no solid.
 pub fn plain(machine: &Machine, tolerance: Tolerance) -> Result<Machine, SolidError> {
+    let mut plain = in_pieces(machine);
+    for shape in &mut plain.shapes {
+        if let Form::Body(_) = shape.form {
+            let (mesh, off) = meshed(&shape.form, tolerance)?;
+            shape.form = Form::Mesh(mesh, off);
+        }
+    }
+    Ok(plain)
+}
+
+/// The machine with its laws in pieces.
+pub(super) fn in_pieces(machine: &Machine) -> Machine {
     let mut plain = machine.clone();
     for joint in &mut plain.joints {
         joint.law = Arc::new(joint.law.pieces());
@@ -60,13 +72,7 @@ pub fn plain(machine: &Machine, tolerance: Tolerance) -> Result<Machine, SolidEr
             *law = Arc::new(law.pieces());
         }
     }
-    for shape in &mut plain.shapes {
-        if let Form::Body(_) = shape.form {
-            let (mesh, off) = meshed(&shape.form, tolerance)?;
-            shape.form = Form::Mesh(mesh, off);
-        }
-    }
-    Ok(plain)
+    plain
 }
 
 /// A machine in plain numbers as JSON; reads back as the same machine.

@@ -40,6 +40,13 @@ class Law:
         rate = 6 * x * (1 - x) * (b - a) / h + (1 - x) * (1 - 3 * x) * va + x * (3 * x - 2) * vb
         return place + whole * factor * advance + about["offset"], rate
 
+    def row_of(self, joint, travel):
+        """Position of a joint as the row next to a travel has it, with nothing read between rows."""
+        about, count = self.joints[joint], self.about["rows"] - 1
+        whole, row = divmod(round(travel / self.step), count)
+        place = self.values[about["column"]][row] + whole * self.advance[about["column"]]
+        return about["factor"] * place + about["offset"]
+
     def __call__(self, joint, travel):
         """Position of a joint, rad or m."""
         return self.read(joint, travel)[0]

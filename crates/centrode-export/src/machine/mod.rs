@@ -9,12 +9,12 @@ use centrode_mechanism::machine::Machine;
 
 use crate::{ExportError, Format, Package, csv, mjcf, urdf};
 pub use file::{MachineFileError, plain, read, schema, write};
-#[cfg(test)]
-pub(crate) use model::simulated;
 pub use motion::{
     ClosureWords, ColumnWords, InputWords, Interpolation, JointWords, LinearWords, MeshWords,
     MotionFile, PointWords,
 };
+#[cfg(test)]
+pub(crate) use {model::simulated, motion::lines};
 
 /// Name of the simulator models, without its end.
 const MODEL: &str = "machine";
@@ -25,12 +25,14 @@ pub(crate) fn add(machine: &Machine, package: &mut Package<'_>) -> Result<(), Ex
     let tolerance = package.tolerance();
     let no_solid = |source| ExportError::no_solid("link")(source);
     // The table is of the exact laws: pieces have every digit of a position, but fewer of its derivatives.
-    let exact = motion::with_rates(machine);
-    let machine = motion::with_rates(&plain(machine, tolerance).map_err(no_solid)?);
-    let (steps, off) = motion::steps(&machine, tolerance);
-    let table = csv::write(&motion::columns(&exact, steps))?;
+    let pieces = file::in_pieces(machine);
+    let lines = motion::lines(&pieces);
+    let exact = motion::with_rates(machine.clone(), &lines);
+    let machine = motion::with_rates(pieces, &lines);
+    let rows = motion::steps(&machine, tolerance);
+    let table = csv::write(&motion::columns(&exact, rows.0))?;
     package.file(motion::TABLE, table)?;
-    let about = motion::description(&machine, steps, off);
+    let about = motion::description(&machine, &lines, rows);
     let mut json = serde_json::to_string_pretty(&about)?;
     json.push('\n');
     package.file("motion.json", json.into_bytes())?;
@@ -38,7 +40,7 @@ pub(crate) fn add(machine: &Machine, package: &mut Package<'_>) -> Result<(), Ex
     if !urdf && !mjcf {
         return Ok(());
     }
-    let simulated = model::simulated(&machine, tolerance).map_err(no_solid)?;
+    let simulated = model::simulated(&machine, &lines, tolerance).map_err(no_solid)?;
     for (name, mesh) in simulated.meshes {
         package.shown(&name, || Ok(mesh))?;
     }

@@ -1,6 +1,7 @@
 use centrode_geometry::{Mesh, SolidError, Tolerance};
 use centrode_mechanism::machine::{Form, JointKind, Machine, Shape};
 
+use super::motion::Line;
 use super::{bodies, motion};
 use crate::mjcf::Closure;
 use crate::model::{self, Convex, Joint, Link, MOST_FACES, Mimic, Model, shown_tolerance};
@@ -22,7 +23,11 @@ struct Seen {
 }
 
 /// The tree of links with every joint zero where the cycle begins.
-pub(crate) fn simulated(machine: &Machine, tolerance: Tolerance) -> Result<Simulated, SolidError> {
+pub(crate) fn simulated(
+    machine: &Machine,
+    lines: &[Line],
+    tolerance: Tolerance,
+) -> Result<Simulated, SolidError> {
     let seen: Vec<Seen> = machine
         .shapes
         .iter()
@@ -43,11 +48,11 @@ pub(crate) fn simulated(machine: &Machine, tolerance: Tolerance) -> Result<Simul
             .flat_map(|&surface| touching[surface].bodies.iter().cloned())
             .collect::<Vec<Convex>>(),
     };
-    let driving = motion::driving(machine);
-    let joints = (0..machine.joints.len()).map(|index| joint(machine, index, driving));
+    let driving = motion::driving(machine, lines);
+    let joints = (0..machine.joints.len()).map(|index| joint(machine, lines, index, driving));
     let model = Model {
         name: machine.name.clone(),
-        note: note(machine, &touching, &seen),
+        note: note(machine, lines, &touching, &seen),
         links: machine.links.iter().map(link).collect(),
         joints: joints.collect(),
     };
@@ -108,19 +113,17 @@ pub(super) fn meshed(form: &Form, tolerance: Tolerance) -> Result<(Mesh, f64), S
     }
 }
 
-fn joint(machine: &Machine, index: usize, driving: Option<usize>) -> Joint {
+fn joint(machine: &Machine, lines: &[Line], index: usize, driving: Option<usize>) -> Joint {
     let about = &machine.joints[index];
-    let law = about.law.as_ref();
-    let start = law.at(0.0).position;
+    let start = about.law.at(0.0).position;
     let name = |link: usize| machine.links[link].name.clone();
     // A joint follows another one by itself where both laws are straight lines.
     let mimic = driving.filter(|&driver| driver != index && about.kind == JointKind::Turning);
     let mimic = mimic.and_then(|driver| {
-        let [slope, _, off] = motion::line(machine, law);
-        let [input, _, even] = motion::line(machine, machine.joints[driver].law.as_ref());
-        (off.max(even) <= motion::LINEAR).then(|| Mimic {
+        let [line, input] = [&lines[index], &lines[driver]];
+        (line.is_law() && input.is_law()).then(|| Mimic {
             joint: machine.joint_name(driver),
-            multiplier: slope / input,
+            multiplier: line.slope / input.slope,
             offset: 0.0,
         })
     });
@@ -142,16 +145,17 @@ fn joint(machine: &Machine, index: usize, driving: Option<usize>) -> Joint {
 }
 
 /// What a reader of the model should know.
-fn note(machine: &Machine, touching: &[bodies::ContactBodies], seen: &[Seen]) -> String {
+fn note(
+    machine: &Machine,
+    lines: &[Line],
+    touching: &[bodies::ContactBodies],
+    seen: &[Seen],
+) -> String {
     let table = motion::TABLE;
     let mut note = format!(
         "The laws of motion are in {table}, as motion.json describes. Every joint is zero where the cycle begins. "
     );
-    let even = machine.joints.iter().all(|joint| {
-        joint.kind == JointKind::Fixed
-            || motion::line(machine, joint.law.as_ref())[2] <= motion::LINEAR
-    });
-    note += if even {
+    note += if lines.iter().all(Line::is_law) {
         "They are linear and written as mimic joints."
     } else {
         "Those that are not linear are in no mimic joint, which is affine."

@@ -1,5 +1,5 @@
 use centrode_geometry::{Tolerance, extremes, greatest, pieces};
-use centrode_mechanism::machine::{Form, JointKind, Machine, Quantity};
+use centrode_mechanism::machine::{Form, Joint, JointKind, Machine, Quantity};
 use centrode_mechanism::transmission::Transmission;
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -17,7 +17,7 @@ const MOST: f64 = 2e4;
 /// Metres to the millimetre.
 const METRE: f64 = 1e-3;
 /// Distance, rad or mm, below which a law counts as a straight line: rounding over a whole cycle.
-pub(super) const LINEAR: f64 = 1e-9;
+const LINEAR: f64 = 1e-9;
 
 /// The contents of `motion.json`: how `motion.csv` and the simulator models are read.
 #[derive(Clone, Debug, JsonSchema, Serialize)]
@@ -205,8 +205,8 @@ fn reach(machine: &Machine, link: usize) -> f64 {
         Some(Form::Solids(solids)) => {
             most = solids.iter().map(|s| far(s.outline())).fold(most, f64::max);
         }
-        Some(Form::Mesh(mesh, _)) => most = mesh.vertices.iter().map(norm).fold(most, f64::max),
-        Some(Form::Body(_)) | None => {}
+        // Shafts and surroundings turn by nothing that gears and arms do not reach beyond.
+        Some(Form::Mesh(..) | Form::Body(_)) | None => {}
     }
     let points = machine.points.iter().filter(|point| point.link == link);
     most = points.map(|point| norm(&point.at)).fold(most, f64::max);
@@ -216,26 +216,42 @@ fn reach(machine: &Machine, link: usize) -> f64 {
         .fold(most, f64::max)
 }
 
-/// The straight line nearest to a law over a period: slope, offset and greatest distance.
-pub(super) fn line(machine: &Machine, law: &dyn Transmission) -> [f64; 3] {
-    let slope = law.advance() / law.period();
-    let ends = pieces(0.0, machine.input.period, 4, &within(law, machine));
-    let [low, high] = extremes(|input| law.at(input).position - slope * input, &ends);
-    let half = 0.5 * (high.value - low.value);
-    [slope, 0.5 * (low.value + high.value), half]
+/// The straight line nearest to a joint's law over a period.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Line {
+    pub(super) slope: f64,
+    offset: f64,
+    /// Greatest distance of the law from it.
+    off: f64,
+}
+
+impl Line {
+    /// Whether the law is the line, but for rounding.
+    pub(super) fn is_law(&self) -> bool {
+        self.off <= LINEAR
+    }
+}
+
+/// The line of every joint.
+pub(crate) fn lines(machine: &Machine) -> Vec<Line> {
+    let line = |joint: &Joint| {
+        let law = joint.law.as_ref();
+        let slope = law.advance() / law.period();
+        let ends = pieces(0.0, machine.input.period, 4, &within(law, machine));
+        let [low, high] = extremes(|input| law.at(input).position - slope * input, &ends);
+        Line {
+            slope,
+            offset: 0.5 * (low.value + high.value),
+            off: 0.5 * (high.value - low.value),
+        }
+    };
+    machine.joints.iter().map(line).collect()
 }
 
 /// The machine with a column for the rate of every joint that does not move evenly.
-pub(super) fn with_rates(machine: &Machine) -> Machine {
-    let mut machine = machine.clone();
-    for joint in 0..machine.joints.len() {
-        let law = &machine.joints[joint].law;
-        let moves = machine.joints[joint].kind != JointKind::Fixed;
-        if !moves || position(&machine, joint).is_none() || rate(&machine, joint).is_some() {
-            continue;
-        }
-        let [.., off] = line(&machine, law.as_ref());
-        if off <= LINEAR {
+pub(super) fn with_rates(mut machine: Machine, lines: &[Line]) -> Machine {
+    for (joint, line) in lines.iter().enumerate() {
+        if line.is_law() || rate(&machine, joint).is_some() {
             continue;
         }
         if let Some((column, factor)) = position(&machine, joint) {
@@ -245,12 +261,7 @@ pub(super) fn with_rates(machine: &Machine) -> Machine {
                 format!("{}/rad", about.unit),
             );
             let meaning = format!("rate of {} by the input", about.name);
-            let order = 1;
-            let quantity = Quantity::Joint {
-                joint,
-                order,
-                factor,
-            };
+            let quantity = Quantity::rate(joint, 1, factor);
             machine.column(&name, &unit, &meaning, quantity);
         }
     }
@@ -281,13 +292,12 @@ fn rate(machine: &Machine, joint: usize) -> Option<(usize, f64)> {
 }
 
 /// The joint that drives all others: the first that turns as the input does.
-pub(super) fn driving(machine: &Machine) -> Option<usize> {
+pub(super) fn driving(machine: &Machine, lines: &[Line]) -> Option<usize> {
     let turns = |&joint: &usize| {
-        let joint = &machine.joints[joint];
-        let jet = joint.law.at(0.0);
-        joint.kind == JointKind::Turning
-            && (jet.velocity.abs() - 1.0).abs() <= LINEAR
-            && line(machine, joint.law.as_ref())[2] <= LINEAR
+        let line = &lines[joint];
+        machine.joints[joint].kind == JointKind::Turning
+            && (line.slope.abs() - 1.0).abs() <= LINEAR
+            && line.is_law()
     };
     let all = 0..machine.joints.len();
     let first = || {
@@ -311,7 +321,11 @@ pub(super) fn columns(machine: &Machine, steps: u32) -> Vec<Column> {
 }
 
 /// The description of the table and of the models for programs.
-pub(super) fn description(machine: &Machine, steps: u32, linear_error_max_mm: f64) -> MotionFile {
+pub(super) fn description(
+    machine: &Machine,
+    lines: &[Line],
+    (steps, linear_error_max_mm): (u32, f64),
+) -> MotionFile {
     let link = |index: usize| machine.links[index].name.clone();
     let column = |index: usize| machine.columns[index].name.clone();
     let joint = |index: usize| {
@@ -323,7 +337,7 @@ pub(super) fn description(machine: &Machine, steps: u32, linear_error_max_mm: f6
             JointKind::Sliding(_) => METRE,
         };
         let rate = rate(machine, index);
-        let [multiplier, offset, error_max] = line(machine, about.law.as_ref());
+        let line = &lines[index];
         let start = about.law.at(0.0).position;
         Some(JointWords {
             name: machine.joint_name(index),
@@ -333,9 +347,9 @@ pub(super) fn description(machine: &Machine, steps: u32, linear_error_max_mm: f6
             rate: rate.map(|(index, _)| column(index)),
             rate_factor: rate.map_or(0.0, |(_, factor)| unit / factor),
             linear: LinearWords {
-                multiplier: unit * multiplier,
-                offset: unit * (offset - start),
-                error_max: unit * error_max,
+                multiplier: unit * line.slope,
+                offset: unit * (line.offset - start),
+                error_max: unit * line.off,
             },
             leader: about.leader.map(|leader| machine.joint_name(leader)),
             load: about.load.map(column),
@@ -360,7 +374,7 @@ pub(super) fn description(machine: &Machine, steps: u32, linear_error_max_mm: f6
                 .map_or(String::new(), |c| c.name.clone()),
             period_rad: machine.input.period,
             speed_rad_per_s: machine.input.speed,
-            joint: driving(machine).map(|joint| machine.joint_name(joint)),
+            joint: driving(machine, lines).map(|joint| machine.joint_name(joint)),
         },
         columns: machine
             .columns

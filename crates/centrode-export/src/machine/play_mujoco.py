@@ -47,7 +47,8 @@ class Machine:
             # Bodies that are moved by their laws need not touch.
             self.model.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_CONTACT
         else:
-            self.model.opt.timestep = max(self.model.opt.timestep, self.law.step / abs(self.speed))
+            # From row to row of the table.
+            self.model.opt.timestep = self.law.step / abs(self.speed)
         self.place(0.0)
 
     def touch(self, links):
@@ -135,10 +136,14 @@ class Machine:
                 self.data.qvel[self.joints[name].dofadr] = 0.0
 
     def off(self):
-        """How far each joint that is not held is off its law, rad or m: positive if it has gone too far."""
+        """How far each joint that is not held is off its law, rad or m: positive if it has gone too far.
+
+        Joints placed by their laws are held against the rows of the table.
+        """
         names = self.free + [name for name, about in self.law.joints.items() if about["leader"] in self.free]
         watched = names if self.mode == "contact" else self.joints
-        return {name: self.data.qpos[self.joints[name].qposadr[0]] - self.law(name, self.travelled) for name in watched}
+        law = self.law.row_of if self.mode == "law" else self.law
+        return {name: self.data.qpos[self.joints[name].qposadr[0]] - law(name, self.travelled) for name in watched}
 
     def rate(self, name):
         """Rate of a joint by the input."""

@@ -41,9 +41,9 @@ class Machine:
             pybullet.resetJointState(self.body, self.joints[name], self.law(name, travel))
 
     def off(self, travel):
-        """How far the joints are off their laws, rad or m."""
+        """How far the joints, placed by their laws, are off the row of the table there, rad or m."""
         found = {name: pybullet.getJointState(self.body, self.joints[name])[0] for name in self.law.joints}
-        return max(abs(position - self.law(name, travel)) for name, position in found.items())
+        return max(abs(position - self.law.row_of(name, travel)) for name, position in found.items())
 
     def point(self, point, travel):
         """Where a point of a link is at a travel, m."""

@@ -75,7 +75,7 @@ pub(super) fn machine(parts: &Machine<'_>) -> Result<machine::Machine, ExportErr
     });
     // The frame's z, along the shaft, on the world's x; its x, where the slider is, upwards.
     machine.joint(Joint::fixed(base, frame).turned([PI, -FRAC_PI_2, 0.0]));
-    let (turn, stroke) = (turn(parts), stroke(parts));
+    let (turn, stroke) = (turn(parts), parts.stroke.clone());
     let against = turn.clone();
     let back = FromFn::new(
         against.period(),
@@ -125,24 +125,6 @@ fn turn(parts: &Machine<'_>) -> Arc<dyn Transmission> {
     }
 }
 
-/// Way of the box by the input, mm.
-fn stroke(parts: &Machine<'_>) -> Arc<dyn Transmission> {
-    let traverse = parts.shaft.traverse().clone();
-    let Some(gears) = &parts.gears else {
-        return Arc::new(traverse);
-    };
-    let (drive, period) = (*gears.drive, traverse.period());
-    let mut breaks: Vec<f64> = traverse.breaks();
-    for at in &mut breaks {
-        *at = drive.input_at(*at).rem_euclid(period);
-    }
-    breaks.sort_by(f64::total_cmp);
-    Arc::new(FromFn::new(period, 0.0, breaks, move |input| {
-        let turn = drive.at(input);
-        traverse.at(turn.position).after(&turn)
-    }))
-}
-
 /// Lead angle under the slider by the input, rad: how far the slider has swivelled.
 fn swivel(turn: &Arc<dyn Transmission>, stroke: &Arc<dyn Transmission>, radius: f64) -> Piecewise {
     let (turn, stroke) = (turn.clone(), stroke.clone());
@@ -161,10 +143,8 @@ fn columns(
     turn: &Arc<dyn Transmission>,
 ) {
     let omega = parts.shaft.load().speed();
-    let joint = |joint, order: u8, sign: f64| Quantity::Joint {
-        joint,
-        order,
-        factor: sign * omega.powi(i32::from(order)),
+    let joint = |joint, order: u8, sign: f64| {
+        Quantity::rate(joint, order, sign * omega.powi(i32::from(order)))
     };
     let places = [
         (
@@ -302,13 +282,8 @@ fn hang(
             };
             let at = [-gears.pair.center_distance(), 0.0, bottom];
             let joint = machine.joint(Joint::turning(frame, *link, Arc::new(law)).at(at));
-            let quantity = Quantity::Joint {
-                joint,
-                order: 0,
-                factor: 1.0,
-            };
             let meaning = "turn of the gear that drives, from its zero";
-            machine.column("driver_angle_rad", "rad", meaning, quantity);
+            machine.column("driver_angle_rad", "rad", meaning, Quantity::joint(joint));
         } else {
             let fixed = Joint::fixed(shaft, *link).at([0.0, 0.0, bottom]);
             machine.joint(fixed.turned([0.0, 0.0, gears.rest()]));

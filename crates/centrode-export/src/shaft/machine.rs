@@ -3,6 +3,7 @@ use centrode_mechanism::gear::GearPair;
 use centrode_mechanism::shaft::{EllipticDrive, MovingBox, Schedule, SliderForce, SpiralShaft};
 use centrode_mechanism::transmission::{MotionJet, Transmission};
 use std::f64::consts::PI;
+use std::sync::Arc;
 
 /// A shaft and what turns it.
 pub(super) struct Machine<'a> {
@@ -11,6 +12,8 @@ pub(super) struct Machine<'a> {
     pub(super) shaft: &'a SpiralShaft,
     pub(super) gears: Option<Gears<'a>>,
     pub(super) schedule: Schedule,
+    /// Way of the box by the input, mm.
+    pub(super) stroke: Arc<dyn Transmission>,
 }
 
 /// The elliptic gears before a shaft.
@@ -28,6 +31,7 @@ impl<'a> Machine<'a> {
             shaft,
             gears: None,
             schedule: shaft.schedule(),
+            stroke: Arc::new(shaft.traverse().clone()),
         }
     }
 
@@ -50,6 +54,7 @@ impl<'a> Machine<'a> {
             shaft: machine.shaft(),
             gears,
             schedule: machine.schedule(),
+            stroke: Arc::clone(machine.motion()),
         })
     }
 
@@ -67,8 +72,7 @@ impl<'a> Machine<'a> {
 
     /// Motion of the box by the input, mm and rad.
     pub(super) fn motion(&self, input: f64) -> MotionJet {
-        let turn = self.turn(input);
-        self.shaft.traverse().at(turn.position).after(&turn)
+        self.stroke.at(input)
     }
 
     /// Lead angle under the slider by the input, rad: how far the slider has swivelled.

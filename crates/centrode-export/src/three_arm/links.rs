@@ -136,13 +136,9 @@ impl Builder<'_> {
 
     /// Adds the column that holds a joint's coordinate.
     fn column(&mut self, joint: usize, name: &str, unit: &str, meaning: &str) {
-        let quantity = Quantity::Joint {
-            joint,
-            order: 0,
-            factor: 1.0,
-        };
         let name = format!("{name}_{unit}");
-        self.machine.column(&name, unit, meaning, quantity);
+        self.machine
+            .column(&name, unit, meaning, Quantity::joint(joint));
     }
 
     /// Several solids as one body; their mass together.

@@ -124,21 +124,6 @@ impl Plate {
     }
 }
 
-/// Joint coordinates of the machine since it rested: angles in rad, the slider's way along the effector in mm.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct JointPositions {
-    /// Crank against the frame.
-    pub crank: f64,
-    /// Coupler against the crank.
-    pub coupler: f64,
-    /// Rocker against the frame.
-    pub rocker: f64,
-    /// Effector against the frame.
-    pub effector: f64,
-    /// Slider along the effector, outwards.
-    pub slider: f64,
-}
-
 impl Feeder {
     /// A part as a plate.
     ///
@@ -241,32 +226,6 @@ impl Feeder {
         };
         let way = towards - origin;
         Isometry2::new(origin.coords, way.y.atan2(way.x))
-    }
-
-    /// Every joint since the machine rested, without jumps, at an input.
-    #[must_use]
-    pub fn joint_positions(&self, input: f64) -> JointPositions {
-        let [now, rest] = [input, 0.0].map(|input| {
-            let crank = self.crank(input).position;
-            let bar = self.six_bar().four_bar();
-            let rocker = bar.rocker_angle(crank).unwrap_or_default().position;
-            // The angle at C stays within (0, pi), so the coupler's angle has no jumps either.
-            let coupler = rocker - bar.branch().sign() * bar.transmission_angle(crank);
-            JointPositions {
-                crank,
-                coupler: coupler - crank,
-                rocker,
-                effector: self.six_bar().effector_angle(crank).position,
-                slider: self.six_bar().slider_distance(crank).position,
-            }
-        });
-        JointPositions {
-            crank: now.crank - rest.crank,
-            coupler: now.coupler - rest.coupler,
-            rocker: now.rocker - rest.rocker,
-            effector: now.effector - rest.effector,
-            slider: now.slider - rest.slider,
-        }
     }
 
     /// Room between the rocker's shaft D, where it passes the effector, and the effector's plate at an input, mm;

@@ -20,7 +20,7 @@ use crate::transmission::Transmission;
 
 pub use jet::{FrameJet, PointJet};
 pub use law::{Constant, Linear, Piecewise};
-pub use sound::MachineError;
+pub use sound::{MachineError, loose_link};
 
 /// Rigid links, and how each of them moves with the one input.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, Serialize)]
@@ -202,6 +202,24 @@ pub enum Quantity {
         #[schemars(with = "plain::laws::File")]
         Arc<dyn Transmission>,
     ),
+}
+
+impl Quantity {
+    /// A joint's coordinate.
+    #[must_use]
+    pub fn joint(joint: usize) -> Self {
+        Self::rate(joint, 0, 1.0)
+    }
+
+    /// A derivative of a joint's coordinate by the input, times a factor.
+    #[must_use]
+    pub fn rate(joint: usize, order: u8, factor: f64) -> Self {
+        Self::Joint {
+            joint,
+            order,
+            factor,
+        }
+    }
 }
 
 /// A body as it is seen.

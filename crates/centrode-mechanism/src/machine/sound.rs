@@ -120,25 +120,35 @@ impl Machine {
     }
 
     fn is_tree(&self) -> Result<(), MachineError> {
-        for (index, link) in self.links.iter().enumerate() {
-            let wrong = |ways| MachineError::Tree {
-                link: link.name.clone(),
+        let ends: Vec<[usize; 2]> = self.joints.iter().map(|j| [j.parent, j.child]).collect();
+        match loose_link(self.links.len(), &ends) {
+            None => Ok(()),
+            Some((link, ways)) => Err(MachineError::Tree {
+                link: self.links[link].name.clone(),
                 ways,
-            };
-            let carriers = self.joints.iter().filter(|j| j.child == index).count();
-            let ways = carriers + usize::from(index == 0);
-            if ways != 1 {
-                return Err(wrong(ways));
-            }
-            // Carried once each, links that never come to the first make a ring.
-            let (mut at, mut steps) = (index, 0);
-            while let Some(joint) = self.joints.iter().find(|j| j.child == at) {
-                (at, steps) = (joint.parent, steps + 1);
-                if steps > self.joints.len() {
-                    return Err(wrong(0));
-                }
+            }),
+        }
+    }
+}
+
+/// The first of some links that does not hang from link 0 by one chain of joints, each given by its parent and child, and
+/// by how many it does: 0 may mean a ring.
+#[must_use]
+pub fn loose_link(links: usize, joints: &[[usize; 2]]) -> Option<(usize, usize)> {
+    (0..links).find_map(|link| {
+        let carriers = joints.iter().filter(|[_, child]| *child == link).count();
+        let ways = carriers + usize::from(link == 0);
+        if ways != 1 {
+            return Some((link, ways));
+        }
+        // Carried once each, links that never come to the first make a ring.
+        let (mut at, mut steps) = (link, 0);
+        while let Some([parent, _]) = joints.iter().find(|[_, child]| *child == at) {
+            (at, steps) = (*parent, steps + 1);
+            if steps > joints.len() {
+                return Some((link, 0));
             }
         }
-        Ok(())
-    }
+        None
+    })
 }

@@ -302,8 +302,8 @@ impl MovingBox {
 
     /// Motion of the box by the machine's input, mm and rad.
     #[must_use]
-    pub fn motion(&self) -> &dyn Transmission {
-        self.motion.as_ref()
+    pub fn motion(&self) -> &Arc<dyn Transmission> {
+        &self.motion
     }
 
     /// Distance the box moves in the window around the first picking, mm, in full stroke.

@@ -429,7 +429,7 @@ fn both_schemes_together_are_their_chain() {
         ..Sine::default()
     });
     let both = MovingBox::resolve(&design).expect("resolves");
-    let motion = both.motion();
+    let motion = both.motion().as_ref();
     for i in 0..200 {
         let input = 0.9 * f64::from(i);
         let jet = motion.at(input);

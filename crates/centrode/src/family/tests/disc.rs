@@ -103,13 +103,8 @@ impl Mechanism for Disc {
             slope: 1.0,
         };
         let joint = machine.joint(Joint::turning(base, disc, Arc::new(law)));
-        let (order, factor) = (0, 1.0);
-        let quantity = Quantity::Joint {
-            joint,
-            order,
-            factor,
-        };
-        machine.column("disc_rad", "rad", "turn of the disc", quantity);
+        let turned = Quantity::joint(joint);
+        machine.column("disc_rad", "rad", "turn of the disc", turned);
         Ok(machine)
     }
 
