@@ -95,7 +95,7 @@ def main():
     parser.add_argument("designs", nargs="*", type=Path, default=[ROOT / "tests/designs/three-arm-2021.toml"])
     parser.add_argument("--edits", type=int, default=50, help="edits of each design (50)")
     options = parser.parse_args()
-    chromium = next(filter(None, map(shutil.which, ["chromium", "chromium-browser", "google-chrome"])), None)
+    chromium = next(filter(None, map(shutil.which, ["chromium-headless-shell", "chromium", "google-chrome"])), None)
     print(f"{'ms from edit to':28} {'answer':>8} {'picture':>8} {'95 %':>8} {'worst':>8}")
     with sync_playwright() as playwright:
         browser = playwright.chromium.launch(executable_path=chromium, args=FLAGS)

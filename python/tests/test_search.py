@@ -81,9 +81,14 @@ def designs(count: int) -> list[str]:
     return [text.replace("tip_distance = 145", f"tip_distance = {140 + 10 * i / count}") for i in range(count)]
 
 
-def test_a_sweep_is_the_same_on_any_executor() -> None:
-    texts = designs(6)
-    alone = ct.sweep(texts)
+@pytest.fixture(scope="module")
+def alone() -> list[dict[str, float] | None]:
+    """Figures of the designs, swept without an executor."""
+    return ct.sweep(designs(4))
+
+
+def test_a_sweep_is_the_same_on_any_executor(alone) -> None:
+    texts = designs(4)
     assert all(figures is not None for figures in alone)
     with ThreadPoolExecutor(2) as pool:
         assert ct.sweep(texts, executor=pool, chunk=2) == alone
@@ -101,14 +106,13 @@ def killed_once(flag: str) -> None:
 
 
 @pytest.mark.skipif(os.name != "posix", reason="kills a process")
-def test_a_killed_worker_loses_nothing(tmp_path: Path) -> None:
-    texts = designs(4)
+def test_a_killed_worker_loses_nothing(tmp_path: Path, alone) -> None:
     flag = str(tmp_path / "killed")
 
     def pool() -> ProcessPoolExecutor:
         return ProcessPoolExecutor(2, mp_context=get_context("spawn"), initializer=killed_once, initargs=(flag,))
 
-    assert ct.sweep(texts, executor=pool, chunk=1) == ct.sweep(texts)
+    assert ct.sweep(designs(4), executor=pool, chunk=1) == alone
     assert Path(flag).exists()
 
 
@@ -180,9 +184,9 @@ def test_what_is_found_travels() -> None:
     assert again == found
 
 
-def test_a_sweep_runs_on_dask() -> None:
+def test_a_sweep_runs_on_dask(alone) -> None:
     distributed = pytest.importorskip("distributed")
-    texts = designs(6)
+    texts = designs(4)
     with (
         distributed.LocalCluster(
             n_workers=2, threads_per_worker=1, host="127.0.0.1", dashboard_address=None
@@ -190,7 +194,7 @@ def test_a_sweep_runs_on_dask() -> None:
         distributed.Client(cluster) as client,
     ):
         pool = client.get_executor()
-        assert ct.sweep(texts, executor=pool, chunk=2) == ct.sweep(texts)
+        assert ct.sweep(texts, executor=pool, chunk=2) == alone
         over = grid(500)
         spread = ct.sweep(texts[0], over=over, executor=pool, chunk=100)
         for name, values in ct.sweep(texts[0], over=over).items():

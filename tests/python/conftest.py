@@ -123,7 +123,7 @@ def browser():
     from playwright.sync_api import sync_playwright
 
     if CHROMIUM is None:
-        pytest.skip("the page needs a browser: apt-get install chromium")
+        pytest.skip("the page needs a browser: apt-get install chromium-headless-shell")
     with sync_playwright() as playwright:
         running = playwright.chromium.launch(executable_path=CHROMIUM, args=FLAGS)
         yield running

@@ -249,10 +249,13 @@ def test_the_enter_key_exports(points):
 def test_on_paper_the_drawing_keeps_its_shape_dark_on_light(browser, tmp_path, size, scheme):
     with opened(browser, tmp_path, CIRCLE, color_scheme=scheme) as (page, _):
         page.set_viewport_size({"width": size[0], "height": size[1]})
-        page.wait_for_timeout(100)
         shape = "({ width, height }) => width / height"
         stage = page.locator("#stage canvas")
-        on_screen = stage.evaluate(f"canvas => ({shape})(canvas.getBoundingClientRect())")
+        # The canvas follows the window a little later.
+        before, on_screen = None, stage.evaluate(f"canvas => ({shape})(canvas.getBoundingClientRect())")
+        while on_screen != before:
+            page.wait_for_timeout(300)
+            before, on_screen = on_screen, stage.evaluate(f"canvas => ({shape})(canvas.getBoundingClientRect())")
         page.evaluate("dispatchEvent(new Event('beforeprint'))")
         page.emulate_media(media="print")
         box = stage.evaluate(f"canvas => ({shape})(canvas.getBoundingClientRect())")

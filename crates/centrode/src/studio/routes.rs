@@ -142,6 +142,9 @@ struct Solve {
     /// Which of the pages that are open asks: its next request takes the place of this one.
     #[serde(default)]
     page: String,
+    /// How many requests the page has made before.
+    #[serde(default)]
+    turn: u64,
     text: String,
     #[serde(default)]
     edits: Vec<Edit>,
@@ -156,7 +159,11 @@ async fn solve(State(desk): Shared, Json(ask): Json<Solve>) -> Result<Response, 
         let made = apart(move || edited(&ask.text, &ask.edits)).await?;
         made.map_err(|error| Refused::because(StatusCode::UNPROCESSABLE_ENTITY, error))?
     };
-    match desk.solver.solve(&ask.page, text, ask.depth).await {
+    match desk
+        .solver
+        .solve(&ask.page, ask.turn, text, ask.depth)
+        .await
+    {
         Ok(snapshot) => Ok(as_json(snapshot)),
         // To be overtaken is no failure: browsers would log it as one.
         Err(Unsolved::Overtaken) => Ok(Json(json!({ "overtaken": true })).into_response()),

@@ -11,8 +11,8 @@ use crate::page::{Snapshot, Subject};
 /// A solve ends early once its page asks for another, or nobody waits for its answer any more.
 #[derive(Default)]
 pub(crate) struct Solver {
-    /// What is being solved for each page.
-    under_way: Mutex<HashMap<String, Cancel>>,
+    /// The request being solved for each page: its turn, and what ends it.
+    under_way: Mutex<HashMap<String, (u64, Cancel)>>,
     /// The last design solved: after its picture its checks are asked for.
     last: Mutex<Option<Arc<Subject>>>,
 }
@@ -48,18 +48,22 @@ struct Wait<'a> {
 }
 
 impl<'a> Wait<'a> {
-    /// Takes the place of what is being solved for the page.
-    fn begin(solver: &'a Solver, page: &'a str) -> Self {
+    /// Takes the place of the request being solved for the page; none for one that comes after a later one.
+    fn begin(solver: &'a Solver, page: &'a str, turn: u64) -> Option<Self> {
         let cancel = Cancel::default();
-        let before = held(&solver.under_way).insert(page.to_owned(), cancel.clone());
-        if let Some(before) = before {
+        let mut under_way = held(&solver.under_way);
+        if under_way.get(page).is_some_and(|(later, _)| *later > turn) {
+            return None;
+        }
+        let before = under_way.insert(page.to_owned(), (turn, cancel.clone()));
+        if let Some((_, before)) = before {
             before.cancel();
         }
-        Self {
+        Some(Self {
             solver,
             page,
             cancel,
-        }
+        })
     }
 }
 
@@ -76,13 +80,16 @@ impl Drop for Wait<'_> {
 
 impl Solver {
     /// The snapshot of a design as JSON. Dropped before its end, the solve is cancelled.
+    ///
+    /// A page numbers its requests by `turn`: on their way one can be overtaken by the next.
     pub(crate) async fn solve(
         self: &Arc<Self>,
         page: &str,
+        turn: u64,
         text: String,
         depth: Depth,
     ) -> Result<String, Unsolved> {
-        let wait = Wait::begin(self, page);
+        let wait = Wait::begin(self, page, turn).ok_or(Unsolved::Overtaken)?;
         let (solver, cancel) = (Arc::clone(self), wait.cancel.clone());
         let job = move || cancel.run(|| solver.snapshot(text, depth));
         match tokio::task::spawn_blocking(job).await {
@@ -154,19 +161,30 @@ mod tests {
             let solver = Arc::new(Solver::default());
             let slow = |page: &'static str| {
                 let solver = Arc::clone(&solver);
-                tokio::spawn(async move { solver.solve(page, SLOW.into(), Depth::Picture).await })
+                tokio::spawn(
+                    async move { solver.solve(page, 1, SLOW.into(), Depth::Picture).await },
+                )
             };
             let (ours, others, left) = (slow(PAGE), slow("another"), slow("closed"));
             tokio::time::sleep(Duration::from_millis(300)).await;
             assert!(!ours.is_finished() && !others.is_finished());
             let asked = Instant::now();
             let quick = solver
-                .solve(PAGE, "family = 1".into(), Depth::Picture)
+                .solve(PAGE, 2, "family = 1".into(), Depth::Picture)
                 .await;
             assert!(quick.expect("the latest").contains("family"));
             let overtaken = ours.await.expect("no panic");
             assert!(matches!(overtaken, Err(Unsolved::Overtaken)));
             assert!(asked.elapsed() < Duration::from_millis(100));
+            // A request that was held up on its way takes nobody's place.
+            let latest = slow(PAGE);
+            tokio::time::sleep(Duration::from_millis(50)).await;
+            let late = solver
+                .solve(PAGE, 0, "family = 1".into(), Depth::Picture)
+                .await;
+            assert!(matches!(late, Err(Unsolved::Overtaken)));
+            assert!(!latest.is_finished());
+            latest.abort();
             // What another page waits for goes on.
             assert!(!others.is_finished());
             others.abort();
@@ -178,7 +196,7 @@ mod tests {
     fn a_cancelled_design_shows_its_numbers() {
         block_on(async {
             let solver = Arc::new(Solver::default());
-            let answer = solver.solve(PAGE, SLOW.into(), Depth::Numbers).await;
+            let answer = solver.solve(PAGE, 1, SLOW.into(), Depth::Numbers).await;
             let answer = answer.expect("at once");
             assert!(answer.contains("cancelled") && answer.contains("pitch.tooth_count"));
         });
@@ -197,7 +215,7 @@ mod tests {
                 let text = template.replace("tooth_count = 23", &format!("tooth_count = {z}"));
                 let solver = Arc::clone(&solver);
                 asked.push(tokio::spawn(async move {
-                    solver.solve(PAGE, text, Depth::Checks).await
+                    solver.solve(PAGE, z, text, Depth::Checks).await
                 }));
                 tokio::task::yield_now().await;
             }
@@ -225,15 +243,16 @@ mod tests {
             // Its checks take some seconds in a debug build.
             let slow = FAMILIES.template("three-arm").expect("a template");
             let quick = FAMILIES.template("gear-pair").expect("a template");
-            let first = solver.solve(PAGE, slow.to_owned(), Depth::Picture).await;
+            let first = solver.solve(PAGE, 1, slow.to_owned(), Depth::Picture).await;
             assert!(first.expect("nothing overtakes it").contains("\"picture\""));
             let checker = Arc::clone(&solver);
-            let checks =
-                tokio::spawn(
-                    async move { checker.solve(PAGE, slow.to_owned(), Depth::Checks).await },
-                );
+            let checks = tokio::spawn(async move {
+                checker.solve(PAGE, 2, slow.to_owned(), Depth::Checks).await
+            });
             tokio::task::yield_now().await;
-            let picture = solver.solve(PAGE, quick.to_owned(), Depth::Picture).await;
+            let picture = solver
+                .solve(PAGE, 3, quick.to_owned(), Depth::Picture)
+                .await;
             assert!(picture.expect("the latest").contains("tooth_count"));
             // The checks are still under way, or were dropped before they began; had the picture waited, they would be done.
             let waited = checks.is_finished() && checks.await.expect("no panic").is_ok();

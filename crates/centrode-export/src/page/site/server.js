@@ -19,6 +19,9 @@ export class Away extends Error {
 /** This page among those that are open. */
 const page = String(Math.random());
 
+/** Solves asked for so far: one held up on its way is not to take the place of a later one. */
+let turn = 0;
+
 /** The program stops what it does for an answer once `signal` aborts. */
 async function ask(path, method, body, signal, keepalive = false) {
   let answer;
@@ -60,7 +63,7 @@ export const searched = () => json(ask("search", "GET"));
 export const stopSearch = () => json(ask("search", "DELETE"));
 export const response = (options, signal) => json(ask("response", "POST", options, signal));
 export const files = async (options, signal) => (await ask("export", "POST", options, signal)).blob();
-export const solve = (request, signal) => json(ask("solve", "POST", { page, ...request }, signal));
+export const solve = (request, signal) => json(ask("solve", "POST", { page, turn: (turn += 1), ...request }, signal));
 
 /** Calls `disk` with the file's text, or with what is missing, whenever that changes; `lost` and `found` as the program goes and comes. */
 export function watch({ disk, lost, found }) {

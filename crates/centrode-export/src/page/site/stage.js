@@ -111,8 +111,8 @@ export class Stage {
     this.density = density;
     this.width = this.box.clientWidth;
     this.height = this.box.clientHeight;
-    // On paper the drawing keeps its shape.
-    this.box.style.setProperty("--aspect", this.width > 0 && this.height > 0 ? this.width / this.height : 1);
+    // On paper the drawing keeps the shape it has on the screen.
+    if (!matchMedia("print").matches) this.box.style.setProperty("--aspect", this.width > 0 && this.height > 0 ? this.width / this.height : 1);
     this.canvas.width = Math.max(1, Math.round(this.width * density));
     this.canvas.height = Math.max(1, Math.round(this.height * density));
     if (this.fitted) this.fit();
