@@ -9,8 +9,7 @@ use std::{
 const VAGUE: [&str; 3] = ["What ", "The same", "As "];
 
 /// Folders and files whose comments are not clean yet.
-const EXCEPTED: [&str; 6] = [
-    "crates/centrode-geometry/",
+const EXCEPTED: [&str; 5] = [
     "crates/centrode-mechanism/",
     "crates/centrode-analysis/",
     "crates/centrode-export/",

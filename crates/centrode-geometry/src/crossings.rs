@@ -7,7 +7,7 @@ use crate::{Point, Segment, SegmentJet, Tolerance, Vector};
 /// more has no end: the segments lie on each other.
 const MOST_PAIRS: u32 = 20_000;
 
-/// A part of one segment, with what is needed to tell it from another without solving anything.
+/// Part of one segment with the bounds that prove it apart from another.
 #[derive(Clone, Copy)]
 struct Part<'a> {
     segment: &'a Segment,
@@ -78,7 +78,7 @@ impl<'a> Part<'a> {
         self.to - self.from
     }
 
-    /// Whether the part is shorter than a length, or so short that it has no middle.
+    /// Whether the part is shorter than a length, or so short that it has no midpoint.
     fn is_shorter(&self, length: f64) -> bool {
         self.size() < length || self.length() <= 4.0 * f64::EPSILON
     }
@@ -128,16 +128,16 @@ impl<'a> Part<'a> {
     }
 }
 
-/// Why the crossings of two curves, or of one with itself, cannot be told.
+/// Error of curves whose crossings cannot be determined.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum Unresolved {
-    /// A curve without a place: a coordinate of it is not a number.
+    /// A coordinate of a curve is not a number.
     #[error("a coordinate is not a number")]
     NotFinite,
-    /// Curves that lie on each other, within the tolerance, for a length.
+    /// Curves that coincide, within the tolerance, over a length.
     #[error("two parts lie on each other about ({:.6}, {:.6}) mm", .near.x, .near.y)]
     Overlap {
-        /// A place of the overlap, mm.
+        /// A point of the overlap, mm.
         near: Point,
     },
 }
@@ -146,8 +146,8 @@ fn angle_between(a: &Vector, b: &Vector) -> f64 {
     a.perp(b).atan2(a.dot(b)).abs()
 }
 
-/// Parameters at which two segments cross; `joined` says that `b` starts where `a` ends, which is then
-/// not a crossing.
+/// Parameters at which two segments cross; `joined` says that `b` starts where `a` ends, which is then not a
+/// crossing.
 ///
 /// Parts are halved until their bounding boxes part or their tangent cones do; a crossing is then
 /// polished by Newton's method. Parts smaller than `tolerance` are taken to touch, not to cross.
@@ -241,7 +241,7 @@ fn search(
         if a.joined {
             let [a0, a1] = a.halves();
             let [b0, b1] = b.halves();
-            // The joint last: what lies nearest to it is least likely to cross.
+            // The joint last: parts nearest to it are least likely to cross.
             pending.push((a1, b0));
             pending.push((unjoined(a0), b0));
             pending.push((unjoined(a1), b1));

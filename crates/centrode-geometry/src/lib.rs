@@ -1,6 +1,6 @@
 //! Plane curves, closed outlines, solids and meshes for machine parts.
 //!
-//! No gear word in this crate: it knows curves, not what they are for. Lengths are millimetres,
+//! No gear word in this crate: it knows curves, not their purpose. Lengths are millimetres,
 //! angles radians, counter-clockwise positive.
 
 mod arc_chains;

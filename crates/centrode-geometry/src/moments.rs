@@ -24,7 +24,7 @@ impl AreaMoments {
         Point::from(self.first / self.area)
     }
 
-    /// The same moments with the sign that makes the area positive.
+    /// Moments with the sign that makes the area positive.
     #[must_use]
     pub fn unsigned(self) -> Self {
         if self.area < 0.0 {
@@ -34,7 +34,7 @@ impl AreaMoments {
         }
     }
 
-    /// These moments less those of a region cut out.
+    /// Moments less those of a region cut out.
     #[must_use]
     pub fn without(self, other: Self) -> Self {
         self.plus(other.times(-1.0))

@@ -1,7 +1,7 @@
 use crate::{Arc, Outline, Point, Segment, Spline, Tolerance, Vector, piece::CORNER};
 
 impl Outline {
-    /// The curve at a constant normal distance, outside for a positive distance if the outline runs
+    /// Offset curve at a constant normal distance, outside for a positive distance if the outline runs
     /// counter-clockwise; curved parts within the tolerance.
     ///
     /// `None` where no smooth simple one exists: at a corner, where the distance is more than the radius

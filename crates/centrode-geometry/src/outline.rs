@@ -125,7 +125,7 @@ impl Segment {
         }
     }
 
-    /// The same curve walked the other way.
+    /// The segment with its direction of travel reversed.
     #[must_use]
     pub fn reversed(&self) -> Self {
         match self {
@@ -170,7 +170,7 @@ impl Outline {
         Ok(Self { segments })
     }
 
-    /// Segments already known to join exactly.
+    /// Outline of segments already known to join exactly.
     pub(crate) fn from_closed(segments: Vec<Segment>) -> Self {
         Self { segments }
     }

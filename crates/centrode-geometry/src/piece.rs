@@ -84,7 +84,7 @@ impl Piece {
         ]
     }
 
-    /// Length bound of the part after `u`.
+    /// Upper bound on the length of the part after `u`.
     fn after(&self, u: f64) -> f64 {
         self.speed * (self.u1 - u)
     }
@@ -133,7 +133,7 @@ fn spline_bounds(c: &[Vector], half: f64) -> (f64, f64, f64) {
 }
 
 impl Segment {
-    /// Whether the segment is no longer than a dozen digits of its points can tell: it has no direction then.
+    /// Whether the segment is shorter than the rounding of its end points, so its tangent is undefined.
     pub(crate) fn is_null(&self) -> bool {
         let start = self.start();
         let rounding = 4096.0 * f64::EPSILON * start.coords.amax();
@@ -158,7 +158,7 @@ impl Segment {
     }
 }
 
-/// A place on an outline: a segment and the parameter on it.
+/// Point of an outline, by a segment and the parameter on it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Place {
     pub(crate) segment: usize,
@@ -178,8 +178,7 @@ impl Outline {
         }
     }
 
-    /// Unsigned tangent jump at the start of each segment, rad; none at one without length, which is
-    /// looked over.
+    /// Unsigned tangent jump at the start of each segment, rad. A segment without length is skipped and has none.
     pub(crate) fn jumps(&self) -> Vec<f64> {
         let last = self.segments().iter().rev().find(|s| !s.is_null());
         let mut before = last.map_or(Vector::x(), |s| s.tangent(1.0));
@@ -228,7 +227,7 @@ impl Outline {
         self.steps(tolerance, true)
     }
 
-    /// The same with the start of every segment among them.
+    /// Places of [`places`](Self::places) with the start of every segment among them.
     pub(crate) fn places_by_segment(&self, tolerance: Tolerance) -> Vec<Place> {
         self.steps(tolerance, false)
     }
@@ -259,7 +258,7 @@ impl Outline {
         out
     }
 
-    /// Takes a step begun with `length` at the end of piece `i` on over the following pieces.
+    /// Extends a step begun with `length` at the end of piece `i` over the following pieces.
     fn stretch(
         &self,
         pieces: &[Piece],
@@ -277,7 +276,7 @@ impl Outline {
             } else {
                 0.0
             };
-            // Ends of lines and arcs are kept: they mean something to who drew them.
+            // Ends of lines and arcs are kept: they are features of the drawing.
             if jump > CORNER || !is_spline(piece) || !is_spline(&pieces[next - 1]) {
                 break;
             }

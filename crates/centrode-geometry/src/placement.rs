@@ -28,7 +28,7 @@ impl Outline {
         )
     }
 
-    /// The outline turned and moved by a rigid motion.
+    /// The outline moved by a rigid motion.
     #[must_use]
     pub fn transformed(&self, motion: &Isometry2<f64>) -> Self {
         self.mapped(|p| motion * p, |v| motion * v)
@@ -40,7 +40,7 @@ impl Outline {
         self.mapped(|p| p * k, |v| v * k)
     }
 
-    /// The same contour walked the other way.
+    /// The contour with its direction of travel reversed.
     #[must_use]
     pub fn reversed(&self) -> Self {
         Self::from_closed(
@@ -52,7 +52,7 @@ impl Outline {
         )
     }
 
-    /// A full circle, counter-clockwise, as two half circles.
+    /// Full circle, counter-clockwise, as two half circles.
     #[must_use]
     pub fn circle(center: Point, radius: f64) -> Self {
         let right = center + Vector::new(radius, 0.0);
@@ -67,7 +67,7 @@ impl Outline {
         Self::from_closed(vec![half(right, left), half(left, right)])
     }
 
-    /// Straight lines from each point to the next, and from the last to the first.
+    /// Polygon with the given corners.
     #[must_use]
     pub fn polygon(points: &[Point]) -> Self {
         let next = points.iter().cycle().skip(1);

@@ -7,7 +7,7 @@ const NOISE: f64 = 3e-14;
 /// Halvings after which a panel is accepted as it is: the integrand is then not analytic there.
 const DEEPEST: u32 = 12;
 
-/// The integral of a function from the start of an interval, to the float limit.
+/// Antiderivative of a function from the start of an interval, to the float limit, by Chebyshev series.
 ///
 /// The interval is cut at the function's breaks and then halved until the Chebyshev series of the
 /// integrand on every panel has decayed to rounding; the series is integrated term by term. Cost:
@@ -106,8 +106,8 @@ impl Primitive {
         self.total
     }
 
-    /// Quadrature points and weights of the panels: what integrates `f`, and functions like it, to the
-    /// float limit over the whole interval (Fejér's first rule on every panel).
+    /// Nodes and weights of Fejér's first rule on every panel: they integrate `f`, and functions like it, to the
+    /// float limit over the whole interval.
     pub fn nodes(&self) -> impl Iterator<Item = (f64, f64)> + '_ {
         let tables = tables();
         self.ends.windows(2).flat_map(move |end| {
@@ -134,7 +134,7 @@ impl Primitive {
         panel.before + (u * d - dd + panel.integral[0])
     }
 
-    /// Where the integral of a positive function reaches `value`, for `value` between zero and the total.
+    /// Argument at which the integral of a positive function reaches `value`, between zero and the total.
     #[must_use]
     pub fn inverse(&self, value: f64) -> f64 {
         let after = self.panels.partition_point(|panel| panel.before <= value);

@@ -1,4 +1,4 @@
-//! Outlines the tests share.
+//! Outlines shared by the tests.
 
 use crate::{Outline, Point, Segment, Spline, Tolerance, Vector};
 use std::f64::consts::TAU;

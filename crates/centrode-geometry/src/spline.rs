@@ -85,7 +85,7 @@ impl Spline {
         spans.into_iter().map(|(spline, ..)| spline).collect()
     }
 
-    /// As [`fit`](Self::fit), each segment with the parameters of the curve it stands for.
+    /// Splits `[t0, t1]` like [`fit`](Self::fit), each segment with its interval of the curve's parameter.
     #[must_use]
     pub fn fit_spans(
         mut curve: impl FnMut(f64) -> Point,
@@ -115,7 +115,7 @@ impl Spline {
         out
     }
 
-    /// Length of the chain of `count` chords of equal parameter.
+    /// Length of the polygon of `count` chords of equal parameter.
     #[must_use]
     pub fn chords(&self, count: u32) -> f64 {
         let point = |i: u32| self.at(-1.0 + 2.0 * f64::from(i) / f64::from(count)).point;
@@ -169,7 +169,7 @@ impl Spline {
         }
     }
 
-    /// The same curve walked the other way.
+    /// The segment with its direction of travel reversed.
     #[must_use]
     pub fn reversed(&self) -> Self {
         let mut coefficients = self.coefficients;
@@ -223,7 +223,7 @@ impl Spline {
         spline
     }
 
-    /// The same curve moved so that it starts and ends exactly at the given points.
+    /// The segment moved so that it starts and ends exactly at the given points.
     ///
     /// The correction is linear in the parameter: meant for end points that differ by rounding.
     #[must_use]
