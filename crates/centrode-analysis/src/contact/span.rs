@@ -6,14 +6,14 @@ use centrode_geometry::{Segment, Spline, Vector};
 /// Proven bounds of a stretch of a segment.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Span {
-    /// Least and greatest slope of a tangent against the chord; infinite where one may stand across it.
+    /// Least and greatest slope of a tangent against the chord; infinite where a tangent may be square to it.
     pub(super) slopes: (f64, f64),
     /// Least cosine and greatest sine of the angle of a tangent with the chord.
     pub(super) lean: (f64, f64),
     /// Greatest distance from the chord, mm.
     pub(super) sagitta: f64,
-    /// Least and greatest distance beyond the chord, mm, positive to the right of it; where a tangent may stand across
-    /// the chord it is in any direction.
+    /// Least and greatest distance beyond the chord, mm, positive to the right of it; in any direction where a tangent
+    /// may be square to the chord.
     pub(super) bulge: (f64, f64),
     /// Directions of the tangents at the ends.
     pub(super) tangents: [Vector; 2],
@@ -53,7 +53,7 @@ impl Span {
 }
 
 impl Span {
-    /// How far the stretch over a chord goes beyond its ends in a direction, times the direction's size.
+    /// Distance by which the stretch over a chord goes beyond its ends in a direction, times the direction's size.
     pub(super) fn beyond(&self, chord: &Vector, direction: &Vector) -> f64 {
         let right = chord.perp(direction) / -chord.norm();
         if self.slopes.1.is_finite() && right.is_finite() {
@@ -126,7 +126,7 @@ static TABLES: LazyLock<Tables> = LazyLock::new(|| {
     }
 });
 
-/// Takes the origin of the parameter to `middle` and its unit to `half`.
+/// Moves the origin of the parameter to `middle` and scales its unit to `half`.
 fn stretch(c: &mut [Vector; COUNT], middle: f64, half: f64) {
     for low in 0..COUNT - 1 {
         for k in (low..COUNT - 1).rev() {
@@ -170,7 +170,7 @@ fn hull(points: &[Vector; COUNT]) -> Span {
     let mut slopes = (f64::INFINITY, f64::NEG_INFINITY);
     for d in &first {
         let (along, across) = (chord.dot(d), chord.perp(d));
-        // Nothing points nowhere.
+        // A null chord has no direction.
         if along > 0.0 {
             let slope = across / along;
             slopes = (slopes.0.min(slope), slopes.1.max(slope));

@@ -51,7 +51,7 @@ fn all_six_meshes_carry_their_law_over_a_whole_cycle() {
     }
 }
 
-/// The same poses with the intermediate gear turned by half a pitch are seen not to mesh.
+/// Poses with the intermediate gear turned by half a pitch are seen not to mesh.
 #[test]
 fn a_mesh_half_a_pitch_off_is_seen() {
     let (mechanism, pair) = gentle(|_| {});
@@ -68,7 +68,7 @@ fn toothed(change: impl Fn(&mut ThreeArmDesign)) -> (ThreeArm, TrainTeeth) {
     (mechanism, TrainTeeth { pair, contact })
 }
 
-/// What goes wrong at a polar angle of the sun is told at the carrier turn at which it is met there.
+/// A fault at a polar angle of the sun is reported at the carrier turn at which it is met there.
 #[test]
 fn a_finding_of_the_teeth_is_told_at_the_carriers_turn() {
     for direction in [Direction::Clockwise, Direction::CounterClockwise] {

@@ -11,30 +11,30 @@ use crate::Goal;
 /// First step of a parameter, as a share of its bounds, and the least before a goal is left.
 const FIRST_STEP: f64 = 0.04;
 const LEAST_STEP: f64 = 1e-4;
-/// What all other goals together may lose by a step, as a share of what its own goal gains.
+/// Share of the gain of a step's own goal that all other goals together may lose.
 const PRICE: f64 = 0.5;
-/// Gain, as a share of the goal's scale, below which a step is none.
+/// Least gain of a step, as a share of the goal's scale.
 const LEAST_GAIN: f64 = 1e-9;
-/// Share of the greatest influence from which a parameter counts among those that move together.
+/// Share of the greatest influence above which a parameter is moved together with others.
 const TOGETHER: f64 = 0.3;
 
-/// One step of a guided search: for which goal, what was moved, and why.
+/// Step of a guided search: its goal, the parameters moved, and the gain.
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 pub struct GuidedStep {
     /// Number and title of the goal it was made for.
     pub goal: (u32, String),
-    /// What was moved: name, and value before and after in the file's unit.
+    /// Moves: name, and value before and after in the file's unit.
     pub moves: Vec<(String, [f64; 2])>,
     /// The goal's miss before and after, as a share of its scale.
     pub miss: [f64; 2],
-    /// What the misses of all other goals together grew by; below zero where they gained, too.
+    /// Growth of the misses of all other goals together; below zero where they gained, too.
     pub others: f64,
-    /// How many of the parameters would have helped this goal.
+    /// Number of the parameters that would have helped this goal.
     pub helpful: usize,
 }
 
 impl fmt::Display for GuidedStep {
-    /// For which goal, what was moved from where to where, and what it brought.
+    /// Step in words: its goal, the moves, and the gain.
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (number, title) = &self.goal;
         write!(out, "goal {number} {title}: ")?;
@@ -56,13 +56,13 @@ impl fmt::Display for GuidedStep {
     }
 }
 
-/// The parameter-guided search: goal by goal, each missed goal moves the parameters that influence it most, step by step.
+/// Parameter-guided search: goal by goal, each missed goal moves the parameters that influence it most, step by step.
 ///
 /// At each step every free parameter is tried a little either way. The one that brings the goal nearest is moved, as
 /// long as all other goals together do not lose more than half of what it gains, and it goes on with twice the
 /// step while that helps. Where several influence the goal alike, moving them together is tried, too. Where nothing helps the
 /// step is halved; a goal that no step helps is left for the next one. So the misses fall with every step, and it
-/// ends. No chance is in it.
+/// ends. It is deterministic.
 ///
 /// Source: the "parameter guide" of Yin et al. 2021, section 4, DOI 10.25165/j.ijabe.20211405.6844, whose rules the paper
 /// does not print; these are ours.
@@ -76,16 +76,16 @@ pub struct GuidedSearch {
     history: Vec<Progress>,
 }
 
-/// What a look at a point tells: the goals, and by what share of its scale each is missed.
+/// Evaluation of a point: the goals, and by what share of its scale each is missed.
 struct Seen {
     goals: Vec<Goal>,
     misses: Vec<f64>,
 }
 
-/// A point that was tried.
+/// Candidate: a point that was tried.
 struct Trial {
     point: Vec<f64>,
-    /// How far each variable was moved, as shares of the bounds.
+    /// Displacement of each variable, as shares of the bounds.
     moved: Vec<f64>,
     seen: Seen,
 }
@@ -103,7 +103,7 @@ impl Seen {
         })
     }
 
-    /// What a goal gains, and what all others together lose, on the way to another point.
+    /// Gain of a goal, and loss of all others together, on the way to another point.
     fn change(&self, to: &Self, goal: usize) -> (f64, f64) {
         let gain = self.misses[goal] - to.misses[goal];
         let grown: f64 = to.misses.iter().sum::<f64>() - self.misses.iter().sum::<f64>();
@@ -118,7 +118,7 @@ impl Seen {
 }
 
 impl GuidedSearch {
-    /// A search from the problem's start.
+    /// Starts a search from the problem's start.
     #[must_use]
     pub fn new(problem: &dyn DesignProblem) -> Self {
         let bounds = problem.bounds();
@@ -134,7 +134,7 @@ impl GuidedSearch {
         }
     }
 
-    /// Where it stands.
+    /// Current point.
     #[must_use]
     pub fn point(&self) -> &[f64] {
         &self.point
@@ -146,19 +146,19 @@ impl GuidedSearch {
         &self.log
     }
 
-    /// How far it was at the start and after each step.
+    /// Progress at the start and after each step.
     #[must_use]
     pub fn history(&self) -> &[Progress] {
         &self.history
     }
 
-    /// Looks at points made.
+    /// Number of points evaluated.
     #[must_use]
     pub fn evaluations(&self) -> u64 {
         self.evaluations
     }
 
-    /// How far it is: the steps made count as generations, the misses as violation.
+    /// Progress: the steps made count as generations, the misses as violation.
     #[must_use]
     pub fn progress(&self) -> Progress {
         Progress {
@@ -169,7 +169,7 @@ impl GuidedSearch {
         }
     }
 
-    /// Steps until every goal is met, no step helps any more, the looks are used up, or `observe` breaks off.
+    /// Steps until every goal is met, no step helps any more, the evaluations are used up, or `observe` breaks off.
     pub fn run(
         &mut self,
         problem: &dyn DesignProblem,
@@ -218,7 +218,7 @@ impl GuidedSearch {
         }
     }
 
-    /// The best step for a goal, gone on with while it helps, and how many parameters would have helped.
+    /// Best step for a goal, continued while it helps, and how many parameters would have helped.
     fn best_step(
         &mut self,
         problem: &dyn DesignProblem,
@@ -272,7 +272,7 @@ impl GuidedSearch {
             Vec::new()
         };
         let mut best = allowed(trials).chain(allowed(joint)).max_by(better)?;
-        // On the same way, with twice the step each time.
+        // On in that direction, with twice the step each time.
         while best.seen.misses[goal] > 0.0 {
             let further = best.moved.iter().map(|moved| 2.0 * moved).collect();
             let Some(next) = self.tried(problem, vec![further]).pop() else {
@@ -286,7 +286,8 @@ impl GuidedSearch {
         Some((best, helpful))
     }
 
-    /// Looks at points moved from here by shares of the bounds, in their order; what is no mechanism is left out.
+    /// Evaluates points moved from here by shares of the bounds, in their order; those that give no mechanism are left
+    /// out.
     fn tried(&mut self, problem: &dyn DesignProblem, moves: Vec<Vec<f64>>) -> Vec<Trial> {
         self.evaluations += moves.len() as u64;
         let bounds = problem.bounds();
