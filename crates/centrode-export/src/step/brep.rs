@@ -1,4 +1,4 @@
-//! The boundary of a straight extrusion: two flat caps and one wall a side of its contours.
+//! Boundary of a straight extrusion: two flat caps and one wall a side of its contours.
 
 use super::{
     StepError, contour, opened,
@@ -38,7 +38,7 @@ pub(super) fn manifold(data: &mut Data, name: &str, solid: &Solid) -> Result<Id,
     Ok(data.add(format_args!("MANIFOLD_SOLID_BREP({name},{shell})")))
 }
 
-/// Edges of one wall: its lower and upper one, and the upright one at its start.
+/// Edges of one wall: its lower and upper one, and the axial one at its start.
 #[derive(Clone, Copy, Debug)]
 struct Side {
     bottom: Id,
@@ -98,7 +98,7 @@ impl<'a> Shape<'a> {
             .add(format_args!("EDGE_CURVE('',{from},{to},{curve},.T.)"))
     }
 
-    /// The edges along and between both copies of a contour.
+    /// Writes the edges along and between both copies of a contour.
     fn ring(&mut self, sides: &[Segment]) -> Vec<Side> {
         let levels = [self.bottom, self.top];
         let corners: Vec<[(Id, Id); 2]> = sides
@@ -131,7 +131,7 @@ impl<'a> Shape<'a> {
         (point, vertex)
     }
 
-    /// The curve a side follows at a height, walked as the side is.
+    /// Writes the curve of a side at a height, walked as the side is.
     pub(super) fn curve(&mut self, side: &Segment, start: Id, z: f64) -> Id {
         match side {
             Segment::Line(from, to) => {
@@ -161,7 +161,7 @@ impl<'a> Shape<'a> {
         }
     }
 
-    /// The walls over the sides of a contour, seen from outside counter-clockwise.
+    /// Writes the walls over the sides of a contour, seen from outside counter-clockwise.
     fn walls(&mut self, sides: &[Segment], ring: &[Side]) -> Vec<Id> {
         let next = ring.iter().cycle().skip(1);
         sides
@@ -182,7 +182,7 @@ impl<'a> Shape<'a> {
             .collect()
     }
 
-    /// The surface over a side, and whether its normal points outward.
+    /// Writes the surface over a side, and says whether its normal points outward.
     pub(super) fn surface(&mut self, side: &Segment) -> (Id, bool) {
         let (bottom, up) = (self.bottom, self.up);
         let start = self.point(side.start(), bottom);
@@ -260,7 +260,7 @@ fn logical(truth: bool) -> &'static str {
     if truth { ".T." } else { ".F." }
 }
 
-/// Bézier control points of a polynomial segment: the same curve exactly.
+/// Bézier control points of a polynomial segment, which represent the curve exactly.
 ///
 /// Control point `j` is the polar form at `j` ones and `n - j` minus ones; there a power `k` becomes the
 /// elementary symmetric function of order `k` over its number of terms, at most 1, so digits are kept.
