@@ -25,7 +25,7 @@ use search::Searching;
 use solver::Solver;
 use watch::Watch;
 
-/// What every request works on.
+/// Shared state of all requests.
 pub(crate) struct Desk {
     document: Document,
     solver: Arc<Solver>,
@@ -67,12 +67,12 @@ pub(crate) fn run(command: &Studio, out: &mut impl Write) -> Result<ExitCode, Fa
         }
         Ok::<(), Failure>(())
     })?;
-    // A solve under way is of no use to anyone now.
+    // Nobody needs a solve under way any more.
     runtime.shutdown_timeout(Duration::from_millis(100));
     Ok(ExitCode::SUCCESS)
 }
 
-/// Shows an address in the browser; where there is none, the printed address is still there.
+/// Opens an address in the browser; where there is none, the printed address remains.
 fn open(url: &str) {
     let opener = if cfg!(target_os = "macos") {
         "open"

@@ -62,7 +62,7 @@ pub(crate) fn router(desk: Arc<Desk>, guard: Guard) -> Router {
         .layer(axum::middleware::from_fn_with_state(guard, guard::pass))
 }
 
-/// Something a request asks for in vain.
+/// Answer to a request that is refused.
 struct Refused(StatusCode, serde_json::Value);
 
 impl Refused {
@@ -90,7 +90,7 @@ impl From<SaveError> for Refused {
     }
 }
 
-/// JSON text as it is.
+/// Answer of JSON text as it is.
 fn as_json(text: String) -> Response {
     ([(header::CONTENT_TYPE, "application/json")], text).into_response()
 }
@@ -115,7 +115,7 @@ async fn design(State(desk): Shared) -> Response {
     .into_response()
 }
 
-/// Why there is no search for designs of this family; null where there is one.
+/// Reason why there is no search for designs of this family; null where there is one.
 fn unsearchable(text: &str) -> Option<String> {
     let file = FAMILIES.read(text.as_bytes()).ok()?;
     match file.family().problem(file.design()) {
@@ -124,7 +124,7 @@ fn unsearchable(text: &str) -> Option<String> {
     }
 }
 
-/// Kinds of file that can be exported: the word for each, and what it is.
+/// Kinds of file that can be exported: the word for each, and its description.
 fn formats() -> Vec<[String; 2]> {
     let values = File::value_variants()
         .iter()
@@ -139,7 +139,7 @@ fn formats() -> Vec<[String; 2]> {
 
 #[derive(Deserialize)]
 struct Solve {
-    /// Which of the pages that are open asks: its next request takes the place of this one.
+    /// Page, of those that are open, that asks: its next request takes the place of this one.
     #[serde(default)]
     page: String,
     text: String,
@@ -152,13 +152,13 @@ async fn solve(State(desk): Shared, Json(ask): Json<Solve>) -> Result<Response, 
     let text = if ask.edits.is_empty() {
         ask.text
     } else {
-        // A new kind is tried out.
+        // A new kind is tested.
         let made = apart(move || edited(&ask.text, &ask.edits)).await?;
         made.map_err(|error| Refused::because(StatusCode::UNPROCESSABLE_ENTITY, error))?
     };
     match desk.solver.solve(&ask.page, text, ask.depth).await {
         Ok(snapshot) => Ok(as_json(snapshot)),
-        // To be overtaken is no failure: browsers would log it as one.
+        // Being overtaken is no failure: browsers would log it as one.
         Err(Unsolved::Overtaken) => Ok(Json(json!({ "overtaken": true })).into_response()),
         Err(fault) => Err(Refused::because(StatusCode::INTERNAL_SERVER_ERROR, fault)),
     }
@@ -169,7 +169,7 @@ struct Text {
     text: String,
 }
 
-/// Why a text does not read as a design; null where it does.
+/// Reason why a text does not read as a design; null where it does.
 async fn fault(Json(ask): Json<Text>) -> Response {
     let fault = FAMILIES.read(ask.text.as_bytes()).err();
     Json(json!({ "fault": fault.as_ref().map(Fault::from) })).into_response()
@@ -178,9 +178,9 @@ async fn fault(Json(ask): Json<Text>) -> Response {
 #[derive(Deserialize)]
 struct Save {
     text: String,
-    /// What the page believes the file holds.
+    /// Text that the page believes to be in the file.
     base: String,
-    /// Whether a file that holds something else is written over.
+    /// Whether a file with another text is written over.
     #[serde(default)]
     over: bool,
 }
@@ -205,7 +205,7 @@ async fn keep(State(desk): Shared, Json(ask): Json<Text>) -> Result<Response, Re
 
 #[derive(Deserialize)]
 struct Forget {
-    /// An autosave, as `design` names it.
+    /// Name of an autosave, as `design` gives it.
     file: String,
 }
 
@@ -235,7 +235,7 @@ async fn apart<T: Send + 'static>(job: impl FnOnce() -> T + Send + 'static) -> R
     done.map_err(|error| Refused::because(StatusCode::INTERNAL_SERVER_ERROR, error))
 }
 
-/// Cancels when it is dropped: nobody waits for the answer any more.
+/// Guard that cancels when it is dropped: nobody waits for the answer any more.
 struct Wait(Cancel);
 
 impl Drop for Wait {
@@ -261,7 +261,7 @@ async fn searching(State(desk): Shared, Json(ask): Json<search::Ask>) -> Result<
     Ok(Json(json!({})).into_response())
 }
 
-/// How far it is; null before the first.
+/// Progress of the search; null before the first.
 async fn searched(State(desk): Shared) -> Response {
     Json(desk.searching.state()).into_response()
 }
@@ -271,7 +271,7 @@ async fn unsearched(State(desk): Shared) -> Response {
     Json(json!({})).into_response()
 }
 
-/// How the goals answer one number.
+/// Response of the goals to one number.
 async fn respond(Json(ask): Json<response::Ask>) -> Result<Response, Refused> {
     let answers = computed(move || response::answers(&ask)).await?;
     let answers =
@@ -289,7 +289,7 @@ struct Files {
 }
 
 impl Files {
-    /// The same as on the command line; the folder is not used.
+    /// Export command with these options; the folder is not used.
     fn command(&self) -> Result<Export, String> {
         let (formats, tolerance, dxf) = (
             format!("--format={}", self.formats.join(",")),

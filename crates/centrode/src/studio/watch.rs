@@ -9,10 +9,10 @@ use tokio::sync::watch::{Receiver, Sender};
 use super::Desk;
 use super::document::Disk;
 
-/// Time between two looks at the file.
+/// Time between two reads of the file.
 const PERIOD: Duration = Duration::from_millis(500);
 
-/// What happens without the page asking: the file changes on disk.
+/// Watch over the file: it reports changes on disk without a request of the page.
 pub(crate) struct Watch(Sender<Option<Disk>>);
 
 impl Default for Watch {
@@ -22,7 +22,7 @@ impl Default for Watch {
 }
 
 impl Watch {
-    /// The events from now on; the first says how things stand.
+    /// Events from now on; the first gives the present state.
     pub(crate) fn events(&self) -> Sse<impl Stream<Item = Result<Event, Infallible>> + use<>> {
         let mut receiver = self.0.subscribe();
         receiver.mark_changed();
@@ -39,7 +39,7 @@ impl Watch {
     }
 }
 
-/// Looks at the file for ever, and tells what it holds whenever that is something else.
+/// Reads the file for ever, and reports its text whenever that has changed.
 pub(crate) async fn disk(desk: &Desk) {
     loop {
         let now = Some(desk.document.disk());
