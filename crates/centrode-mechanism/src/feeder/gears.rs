@@ -29,9 +29,9 @@ pub struct GearsSpec {
     pub entry: f64,
     /// Module, mm.
     pub module: f64,
-    /// Play of the teeth along their normal, mm.
+    /// Normal backlash of the teeth, mm.
     pub backlash: f64,
-    /// Play between locking arc and notch, mm.
+    /// Clearance between locking arc and notch, mm.
     pub lock_play: f64,
     /// Radius of the locking arc, mm; left out, the driver's pitch radius.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -39,7 +39,7 @@ pub struct GearsSpec {
     /// Diameter of the pins that run on the entry cam, mm; left out, two and a half modules.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pin_diameter: Option<f64>,
-    /// Diameter of the circle the pins stand on, mm; left out, three quarters of the driven pitch circle's.
+    /// Diameter of the circle through the pins' centres, mm; left out, three quarters of the driven pitch circle's.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pin_circle: Option<f64>,
     /// Angle of each pin from the line of centres at rest, rad (degrees in the file).
@@ -73,7 +73,7 @@ impl Default for GearsSpec {
 }
 
 impl GearsSpec {
-    /// Most pitches round a gear.
+    /// Greatest number of pitches round a gear.
     const MOST: u32 = 1000;
 
     pub(super) fn validate(&self) -> Result<(), SpecError> {
@@ -130,7 +130,7 @@ impl GearsSpec {
         }
     }
 
-    /// The motion they make.
+    /// Motion of the gears.
     ///
     /// # Errors
     /// [`IncompleteError`], for instance for equal pitch circles, which leave nothing to dwell.

@@ -20,7 +20,7 @@ pub struct PlatesSpec {
     pub slot_width: f64,
     /// Length of the slider along the slot, mm.
     pub slider_length: f64,
-    /// Play of the slider at the ends of the slot, mm.
+    /// Clearance of the slider at the ends of the slot, mm.
     pub slot_play: f64,
     /// Material, for the drawing.
     pub material: String,

@@ -2,7 +2,7 @@ use centrode_geometry::{Curve, Jet, Point, Vector};
 
 use super::rolling::Rolling;
 
-/// The driven pitch curve as a curve of its own: what a further gear, or a drawing, is made from.
+/// Driven pitch curve as a curve of its own, from which a further gear, or a drawing, is made.
 ///
 /// Turned so that its point in mesh at phi = 0 lies on the x axis and walked counter-clockwise, as a
 /// driver's is: the conjugate of this curve, at the turned-round mean ratio, is the original.

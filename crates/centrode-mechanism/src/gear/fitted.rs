@@ -14,14 +14,13 @@ use super::{
 /// flank ends in a knife edge of no radius of curvature.
 const LEAST_SPEED: f64 = 0.05;
 
-/// How far below the mate's reach a flank goes before its fillet starts, so that the mate's tip edge
-/// clears the fillet.
+/// Active depth of a flank over its mate's reach, so that the mate's tip edge clears the fillet.
 const SPARE: f64 = 1.02;
 
 /// Greatest rounding of a space's corner, as a share of its depth.
 const ROUNDEST: f64 = 0.8;
 
-/// What the trimming needs to know.
+/// Data of the trimming.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Fitting<'a> {
     pub(crate) rolling: &'a Rolling,
@@ -29,7 +28,7 @@ pub(crate) struct Fitting<'a> {
     pub(crate) least_tip_width: f64,
 }
 
-/// Reach in roll and normal height of a tip corner.
+/// Roll length to a tip corner, and its normal height.
 type Tip = (f64, f64);
 
 impl Fitting<'_> {
@@ -156,7 +155,7 @@ impl Fitting<'_> {
         }
     }
 
-    /// How far up a flank can go with both it and its mate regular, at most its full height.
+    /// Height up to which a flank and its mate are both regular, at most its full height.
     fn regular(&self, member: Member, side: Side, plan: &FlankPlan) -> f64 {
         let Top::Height(height) = plan.top else {
             return 0.0;
@@ -192,8 +191,8 @@ impl Fitting<'_> {
     }
 }
 
-/// How far, in arc length of roll, the flank of `member` on `side` that crosses the pitch curve at
-/// `crossing` can work above it together with its mate, at most `limit`.
+/// Roll length, in arc, up to which the flank of `member` on `side` that crosses the pitch curve at `crossing`
+/// can work above it together with its mate, at most `limit`.
 ///
 /// A roll v above the crossing both flanks are regular while sin alpha + kappa v cos alpha (its own
 /// curvature) and sin alpha - kappa v cos alpha (its mate's) are positive.
@@ -226,7 +225,7 @@ pub(crate) fn reach(
     limit
 }
 
-/// The share of both reaches a tooth can keep with a top land at least `width` wide.
+/// Share of both roll lengths a tooth can keep with a top land at least `width` wide.
 pub(crate) fn share_for_width(
     leading: (&Flank<'_>, f64),
     trailing: (&Flank<'_>, f64),

@@ -1,4 +1,4 @@
-//! Teeth that run into each other away from their contact, where a pitch curve is concave.
+//! Interference of teeth away from their contact, where a pitch curve is concave.
 
 use centrode_geometry::Point;
 
@@ -10,15 +10,15 @@ use super::{
 
 /// Poses a pitch at which two teeth are held against each other.
 const POSES: u32 = 20;
-/// Chords, each with its bulge, that stand for a flank, and for a tip.
+/// Number of chords, each with its bulge, that approximate a flank, and a tip.
 const FLANK_CHORDS: u32 = 24;
 const TIP_CHORDS: u32 = 6;
 /// Overlap that may be the approximation's own, as a share of the pitch.
 const OVERLAP: f64 = 3e-5;
-/// Share of a limiting reach that is kept, so that what passes between places and poses stays clear too.
+/// Safety factor on a limiting reach; covers what lies between sampled poses.
 const KEPT: f64 = 0.95;
 
-/// How far up, in roll, the leading and the trailing flank of a tooth go.
+/// Roll lengths to the tip of the leading and the trailing flank of a tooth.
 pub(crate) type Reaches = [f64; 2];
 
 /// A tooth whose reaches are being settled.
@@ -28,7 +28,7 @@ pub(crate) struct Trial {
     /// Crossings of the leading and the trailing flank.
     pub(crate) crossings: [f64; 2],
     pub(crate) reaches: Reaches,
-    /// How far down the flanks are needed by the mates.
+    /// Roll lengths down to which the mates need the flanks.
     pub(crate) depths: [f64; 2],
 }
 
@@ -42,7 +42,7 @@ pub(crate) struct Passing<'a> {
 }
 
 impl<'a> Passing<'a> {
-    /// The passing of two teeth about the arc length `middle`, or nothing where both pitch curves are
+    /// Sets up the passage of two teeth about the arc length `middle`, or nothing where both pitch curves are
     /// convex for a pitch and a half around: the rack's straight flank then keeps the teeth apart.
     pub(crate) fn about(
         rolling: &'a Rolling,
@@ -123,7 +123,7 @@ impl<'a> Passing<'a> {
     }
 }
 
-/// The greatest share, found by halving, at which nothing overlaps, less a margin; zero if none.
+/// Greatest share, found by bisection, at which nothing overlaps, less a margin; zero if none.
 fn longest(overlap: impl Fn(f64) -> bool) -> f64 {
     let (mut clear, mut foul) = (0.0, 1.0);
     for _ in 0..10 {
@@ -147,9 +147,9 @@ fn carry(from: &Frame, to: &Frame, p: &Point) -> Point {
 /// The working part of a tooth as chords: leading flank upwards, tip, trailing flank downwards.
 struct Shape {
     places: Vec<Point>,
-    /// How far the curve stands out of the material beyond the middle of each chord.
+    /// Height of the curve above the middle of each chord, out of the material.
     bulges: Vec<f64>,
-    /// +1 where the material lies left of the walk.
+    /// Sign: +1 where the material lies to the left of the walk.
     material: f64,
     middle: Point,
     radius: f64,
@@ -215,7 +215,7 @@ impl Shape {
         }
     }
 
-    /// How deep a point lies behind the nearest chord; nothing where an end of the tooth is nearest.
+    /// Depth of a point below the nearest chord; nothing where an end of the tooth is nearest.
     fn depth(&self, point: &Point) -> Option<f64> {
         let mut nearest = f64::INFINITY;
         let mut depth = None;
@@ -256,7 +256,7 @@ fn bulges(places: &[Point], material: f64) -> Vec<f64> {
         if length == 0.0 {
             return 0.0;
         }
-        // Turning towards the material means standing out of the chord.
+        // A curve that turns towards the material bulges out of its chord.
         0.0625 * material * chord.perp(&(second(k) + second(k + 1))) / length
     };
     (0..places.len() - 1).map(bulge).collect()

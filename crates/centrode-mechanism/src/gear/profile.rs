@@ -9,12 +9,12 @@ use super::{
     tool::{Corner, Tool},
 };
 
-/// What a part of a gear's profile is.
+/// Role of a part of a gear's profile.
 #[derive(Clone, Copy, Debug, Eq, Hash, PartialEq)]
 pub enum Role {
     /// Top of a tooth.
     Tip,
-    /// Side of a tooth: what transmits the motion.
+    /// Side of a tooth, which transmits the motion.
     Flank,
     /// Curve from a flank to the root, cut by the tool's rounded corner.
     Fillet,
@@ -23,7 +23,7 @@ pub enum Role {
 }
 
 impl Role {
-    /// The name used in files.
+    /// Name used in files.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -35,27 +35,27 @@ impl Role {
     }
 }
 
-/// How far a flank reaches up, and what ends it below.
+/// Upper limit of a flank, and its end below.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct FlankPlan {
     /// Arc length where the flank crosses the pitch curve.
     pub(crate) crossing: f64,
     pub(crate) top: Top,
     pub(crate) corner: Corner,
-    /// Arc length of roll below the crossing down to which the mate needs the flank.
+    /// Active depth: arc length of roll below the crossing down to which the mate needs the flank.
     pub(crate) needed: f64,
 }
 
-/// Where a flank ends at the tip.
+/// End of a flank at the tip.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Top {
-    /// At this normal distance from the pitch curve.
+    /// At a normal distance from the pitch curve.
     Height(f64),
-    /// Where it is generated this far, in arc length, from its crossing.
+    /// At the point generated this far, in arc length, from its crossing.
     Reach(f64),
 }
 
-/// The two flanks of a tooth as they are to be cut.
+/// Plan of the two flanks of a tooth.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ToothPlan {
     pub(crate) leading: FlankPlan,
@@ -69,16 +69,17 @@ pub struct ToothSide {
     pub crossing: f64,
     /// Height of the tip corner above the pitch curve, mm.
     pub tip_height: f64,
-    /// How much lower the tip corner is than asked for, mm: the pitch curve or the tool allows no more flank.
+    /// Tip shortening, mm: by how much the tip corner is lower than asked for, since the pitch curve or the tool
+    /// allows no more flank.
     pub shortened: f64,
-    /// Depth below the pitch curve, as the tool stands, that the tool's straight flank reaches, mm.
+    /// Form depth: depth below the pitch curve, at the tool's pose, that the tool's straight flank reaches, mm.
     pub form_depth: f64,
-    /// Arc length of roll below the crossing down to which the flank is needed, mm: as far as the tool
+    /// Active depth: arc length of roll below the crossing down to which the flank is needed, mm, as far as the tool
     /// reaches, or the mate where addenda are fitted.
     pub needed: f64,
-    /// Length of needed flank lost to undercut, in arc length of roll, mm; zero for a sound tooth.
+    /// Length of active flank lost to undercut, in arc length of roll, mm; zero for a tooth without undercut.
     pub undercut: f64,
-    /// Arc lengths of roll between which flank is left; `None` when nothing is.
+    /// Arc lengths of roll between which flank remains; `None` where nothing does.
     pub active: Option<(f64, f64)>,
     /// Least radius of curvature of the fillet, mm.
     pub fillet_radius: f64,
@@ -93,11 +94,11 @@ pub struct Tooth {
     pub trailing: ToothSide,
     /// Width of the top land, mm; zero for a pointed or missing tooth.
     pub tip_width: f64,
-    /// True when undercut from both sides has cut the tooth off.
+    /// Whether undercut from both sides has cut the tooth off.
     pub severed: bool,
 }
 
-/// The profile of one gear: its outline, what each segment of it is, and its teeth.
+/// Profile of one gear: its outline, the role of each segment of it, and its teeth.
 #[derive(Clone, Debug)]
 pub(crate) struct Profile {
     pub(crate) outline: Outline,
@@ -115,7 +116,7 @@ struct Piece {
     side: Side,
 }
 
-/// The fillet's own parameter w, with roll = depth of the rounding's centre x sinh w: the distance
+/// Fillet parameter w, with roll = depth of the rounding's centre x sinh w: the distance
 /// from the pitch point to that centre is then entire, and the fillet far smoother than in the roll,
 /// which moves it slowly at the root and fast at the flank.
 struct Swing {
@@ -150,7 +151,7 @@ impl Swing {
 /// flank curls up on itself.
 const BLUNT: f64 = 0.02;
 
-/// The tips and ends of one flank, found.
+/// Tip and ends of one flank, as found.
 struct Ends {
     /// Parameter at the tip corner.
     tip: f64,
@@ -160,22 +161,22 @@ struct Ends {
     shortened: f64,
 }
 
-/// Why a gear has no profile.
+/// Reason why a gear has no profile.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ProfileError {
     /// The pitch curve is too sharp for any tooth.
     #[error("the {} has no profile: every part of its contour lies in a loop, so the teeth are too large for the pitch curve", .member.name())]
     Looped {
-        /// Which gear.
+        /// Gear at fault.
         member: Member,
     },
-    /// It cannot be told where the contour crosses itself.
+    /// The crossings of the contour with itself cannot be determined.
     #[error("the {} has no profile: {cause}", .member.name())]
     Unresolved {
-        /// Which gear.
+        /// Gear at fault.
         member: Member,
-        /// Where and why.
+        /// Place and cause.
         cause: LoopError,
     },
     /// The contour does not close: a coordinate is not a number.
@@ -221,7 +222,7 @@ impl Cutter<'_> {
         self.join(&pieces, &kept, teeth)
     }
 
-    /// What is left of the pieces without their loops.
+    /// Parts of the pieces without their loops.
     fn without_loops(&self, pieces: &[Piece], teeth: u32) -> Result<Vec<Kept>, ProfileError> {
         let segments: Vec<Segment> = pieces.iter().map(|p| p.spline.into()).collect();
         // Up to the end of the next tooth: a longer detour is not one tooth's own.
@@ -491,7 +492,7 @@ impl Cutter<'_> {
                     }
                 });
                 let lost = side.needed - left;
-                // What rounding of a crossing can hide is not undercut.
+                // A loss within the rounding of a crossing is not undercut.
                 side.undercut = if lost > 1e-7 * side.needed { lost } else { 0.0 };
             }
         }

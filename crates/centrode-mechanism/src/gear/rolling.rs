@@ -6,7 +6,7 @@ use centrode_geometry::{Curve, Jet, Point, Primitive, Vector, bracketed_root, pi
 /// Even parts of a turn in each of which a pitch curve has few extremes.
 const PIECES: u32 = 8;
 
-/// Which gear of a pair.
+/// Gear of a pair.
 #[derive(Clone, Copy, Debug, Eq, Hash, PartialEq)]
 pub enum Member {
     /// The gear that is turned; centred at the origin.
@@ -35,7 +35,7 @@ impl Member {
     }
 }
 
-/// A point of a pitch curve while it rolls: the moving frame both tools and mates are seen in.
+/// Moving frame at a point of a rolling pitch curve, in which both tools and mates are seen.
 #[derive(Clone, Copy, Debug)]
 pub struct Frame {
     /// The point, in the gear's own body frame, mm.
@@ -87,11 +87,11 @@ struct Extreme {
     radius: f64,
 }
 
-/// Why two pitch curves cannot roll on each other.
+/// Reason why two pitch curves cannot roll on each other.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum RollingError {
-    /// The pitch curve does not go once around the shaft.
+    /// The pitch curve does not wind once around the shaft.
     #[error(
         "the pitch curve turns by {turned} rad about the shaft in one round; it must turn by 2 pi, always forward"
     )]
@@ -122,7 +122,7 @@ pub enum RollingError {
         center_distance: f64,
         /// Driven angle of one driver turn, rad.
         turned: f64,
-        /// What it should be, rad.
+        /// Angle it should be, rad.
         wanted: f64,
     },
 }
@@ -213,7 +213,7 @@ impl Rolling {
         Ok(rolling)
     }
 
-    /// A driver must repeat n2 times a turn, or the driven curve would not close after its own turn.
+    /// Checks that a driver repeats n2 times a turn, without which the driven curve would not close after its own turn.
     fn check_repeats(&self) -> Result<(), RollingError> {
         let repeats = self.mean_ratio.1;
         if repeats == 1 {
@@ -299,7 +299,7 @@ impl Rolling {
         (sharpest.0.abs() > 1e-7).then_some(sharpest)
     }
 
-    /// Driven angle of one driver turn less 2 pi n2/n1, rad: how well the cycle closes.
+    /// Closure error of the cycle, rad: driven angle of one driver turn less 2 pi n2/n1.
     #[must_use]
     pub fn closure_error(&self) -> f64 {
         self.driven.total() - TAU * f64::from(self.mean_ratio.1) / f64::from(self.mean_ratio.0)

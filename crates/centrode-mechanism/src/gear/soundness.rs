@@ -11,12 +11,12 @@ use super::{
     tool::Tool,
 };
 
-/// How many flanks of a gear stay sound when every tooth is cut to the tool's full height.
+/// Flank count of a gear with every tooth cut to the tool's full height: all, undercut and short ones.
 #[derive(Clone, Copy, Debug, Default, Eq, PartialEq)]
 pub struct Soundness {
     /// Flanks of the gear, two a tooth.
     pub flanks: u32,
-    /// Flanks of which undercut takes a part.
+    /// Flanks that undercut shortens.
     pub undercut: u32,
     /// Flanks that cannot be cut up to the full addendum.
     pub short: u32,
@@ -25,7 +25,8 @@ pub struct Soundness {
 }
 
 impl Soundness {
-    /// Of both members of a pair without cutting its teeth; the addendum is taken as full whatever is written.
+    /// Counts the flanks of both members of a pair without cutting its teeth; the addendum is taken as full whatever
+    /// is written.
     ///
     /// A flank is undercut where its speed of generation falls to zero on the way down to where the tool's straight
     /// side ends, and short where that happens on the way up to the addendum.

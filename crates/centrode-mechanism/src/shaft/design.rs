@@ -37,12 +37,12 @@ pub struct SpiralShaftDesign {
     pub pick: f64,
     /// Width of a pot, mm: the box may move by a sixth of it while a seedling is picked.
     pub pot_width: f64,
-    /// How far the return groove runs beside the forward one, mm: brings the slow places off the crossings
-    /// at the price of missing each hole by half of it.
+    /// Shift of the return groove beside the forward one, mm: brings the slow places off the crossings at the price
+    /// of missing each hole by half of it.
     pub return_offset: f64,
     /// Speed along the shaft.
     pub law: SpeedLaw,
-    /// How the slider turns round at both ends.
+    /// Reversal of the slider at both ends.
     pub reversal: Reversal,
     /// The groove.
     pub groove: GrooveSpec,
@@ -50,9 +50,9 @@ pub struct SpiralShaftDesign {
     pub slider: SliderSpec,
     /// The body of the shaft.
     pub body: ShaftBody,
-    /// What cuts the groove.
+    /// Mill that cuts the groove.
     pub mill: Mill,
-    /// What is moved, and how fast.
+    /// Load that is moved, and its speed.
     pub load: Load,
     /// The drawing sheets.
     #[serde(skip_serializing_if = "DrawingSpec::is_default")]
@@ -122,7 +122,7 @@ impl DesignSpec for SpiralShaftDesign {
 }
 
 impl SpiralShaftDesign {
-    /// The rules that need no geometry.
+    /// Checks the rules that need no geometry.
     ///
     /// # Errors
     /// [`SpecError`] with the key at fault.
@@ -159,7 +159,7 @@ impl SpiralShaftDesign {
         }
     }
 
-    /// The law, its amplitude solved for the wanted distance where one is given.
+    /// Law with its amplitude solved for the wanted distance where one is given.
     ///
     /// # Errors
     /// [`ShaftError`] where no amplitude gives it.

@@ -18,7 +18,7 @@ pub struct EllipticDrive {
 }
 
 impl EllipticDrive {
-    /// The pair that lets a plain shaft of this lead (mm a turn) move the slider by `moved` (mm) in the
+    /// Elliptic pair that lets a plain shaft of this lead (mm a turn) move the slider by `moved` (mm) in the
     /// window (rad) around the slow place: `k = t / (sin h - t cos h)`, `h = W / 2`,
     /// `t = tan((W - 2 pi d / p) / 4)`.
     ///
@@ -45,7 +45,7 @@ impl EllipticDrive {
         }
     }
 
-    /// The pair whose greatest speed is `ratio` times its least: `k = (sqrt q - 1)/(sqrt q + 1)`.
+    /// Elliptic pair whose greatest speed is `ratio` times its least: `k = (sqrt q - 1)/(sqrt q + 1)`.
     ///
     /// # Errors
     /// [`ShaftError::Spec`] unless `ratio` is at least 1.

@@ -17,20 +17,20 @@ use crate::transmission::{MotionJet, Transmission};
 /// Even parts of a turn in each of which a stroke has few extremes.
 const PARTS: u32 = 16;
 
-/// What slows the box down while a seedling is picked.
+/// Scheme by which the box is slowed down while a seedling is picked.
 #[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Scheme {
     /// The shaft's groove.
     #[default]
     Shaft,
-    /// A pair of elliptic gears before a plain shaft.
+    /// Pair of elliptic gears that drives a plain shaft.
     EllipticGear,
-    /// Elliptic gears before a variable shaft.
+    /// Pair of elliptic gears that drives a variable shaft.
     Both,
 }
 
-/// The pair of elliptic gears before the shaft, ratio 1.
+/// Pair of elliptic gears that drives the shaft, ratio 1.
 ///
 /// Of `eccentricity`, `speed_ratio` and `moved_distance` exactly one is given.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
@@ -73,7 +73,7 @@ impl Default for EllipticGears {
 }
 
 impl EllipticGears {
-    /// Ranges, and that the eccentricity is given once.
+    /// Checks the ranges, and that the eccentricity is given once.
     ///
     /// # Errors
     /// [`SpecError`] with the key at fault.
@@ -108,7 +108,7 @@ impl EllipticGears {
         self.body.validate().map_err(|e| e.inside("body"))
     }
 
-    /// The turn of the shaft, slowest at `pick` (rad).
+    /// Drive of the shaft, slowest at `pick` (rad).
     fn drive(&self, shaft: &SpiralShaftDesign) -> Result<EllipticDrive, ShaftError> {
         let drive = match (self.eccentricity, self.speed_ratio, self.moved_distance) {
             (Some(eccentricity), ..) => EllipticDrive {
@@ -137,7 +137,7 @@ pub struct MovingBoxDesign {
     /// One line for drawings and reports.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub title: String,
-    /// What slows the box down.
+    /// Scheme that slows the box down.
     pub scheme: Scheme,
     /// The elliptic gears, for the schemes that have them.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -174,7 +174,7 @@ impl DesignSpec for MovingBoxDesign {
 }
 
 impl MovingBoxDesign {
-    /// The rules that need no geometry.
+    /// Checks the rules that need no geometry.
     ///
     /// # Errors
     /// [`SpecError`] with the key at fault.
@@ -226,7 +226,7 @@ impl MovingBoxDesign {
     }
 }
 
-/// A moving box: the shaft, what drives it, and the box's motion as a function of the machine's input.
+/// A moving box: the shaft, its drive, and the box's motion as a function of the machine's input.
 #[derive(Clone, Debug)]
 pub struct MovingBox {
     design: MovingBoxDesign,
@@ -317,7 +317,7 @@ impl MovingBox {
             .moved(turn(middle - half), turn(middle + half))
     }
 
-    /// Which hole is picked when, by the machine's input.
+    /// Hole picked at each pick, by the machine's input.
     #[must_use]
     pub fn schedule(&self) -> Schedule {
         let design = self.shaft.design();
@@ -357,7 +357,7 @@ impl MovingBox {
     }
 }
 
-/// A way out and back driven by gears.
+/// Traverse driven by gears.
 #[derive(Debug)]
 struct Driven {
     drive: EllipticDrive,

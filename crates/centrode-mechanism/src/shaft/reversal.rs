@@ -10,7 +10,7 @@ use crate::degrees;
 use crate::gear::design::rule::between;
 use crate::transmission::MotionJet;
 
-/// How the slider turns round at an end: its speed goes from `v0` to `-v0` by a motion law.
+/// Reversal of the slider at an end: its speed goes from `v0` to `-v0` by a motion law.
 ///
 /// `s' = v0 (1 - 2 L(x))` over the angle `T`, `x` from 0 to 1. The harmonic law overshoots by `v0 T / pi`
 /// and reaches `|s''| = pi v0 / T`. Where the shaft's law is accelerated at the joint, a cubic carries
@@ -23,7 +23,7 @@ pub struct Reversal {
     #[serde(rename = "angle_deg", with = "degrees")]
     #[schemars(with = "f64")]
     pub angle: f64,
-    /// How the speed changes sign.
+    /// Motion law of the change of sign.
     pub law: LawSpec,
 }
 
@@ -77,14 +77,14 @@ pub(super) struct Turnaround {
     area: Primitive,
 }
 
-/// What a reversal joins.
+/// Conditions at the ends of a reversal.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Ends {
     /// Speed at its start, the opposite of that at its end, mm/rad.
     pub(super) speed: f64,
     /// Acceleration at both, mm/rad^2.
     pub(super) acceleration: f64,
-    /// Place of the end over that of the start, mm.
+    /// Position of the end over that of the start, mm.
     pub(super) shift: f64,
 }
 
@@ -122,7 +122,7 @@ impl Turnaround {
         }
     }
 
-    /// Shares of the reversal where a derivative may jump.
+    /// Shares of the reversal at which a derivative may jump.
     pub(super) fn breaks(&self) -> Vec<f64> {
         self.law.breaks()
     }

@@ -9,12 +9,12 @@ pub enum Mesh {
     Planet(u32),
 }
 
-/// Where two gears in mesh stand to the line from the sun's or planet's axis to the intermediate gear's.
+/// Pose of two gears in mesh against the line from the sun's or planet's axis to the intermediate gear's.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MeshPose {
-    /// Polar angle of the sun or planet on that line, rad: what a pair's driver angle is.
+    /// Polar angle of the sun or planet on that line, rad: the driver angle of the pair.
     pub driver: f64,
-    /// How far the intermediate gear is turned from that line, rad: what a pair's driven angle is.
+    /// Turn of the intermediate gear from that line, rad: the driven angle of the pair.
     pub driven: f64,
 }
 
@@ -24,7 +24,7 @@ impl ThreeArm {
         (0..self.arms()).flat_map(|k| [Mesh::Sun(k), Mesh::Planet(k)])
     }
 
-    /// Where the gears of a mesh stand at a carrier turn, read from the links alone.
+    /// Pose of the gears of a mesh at a carrier turn, read from the links alone.
     ///
     /// Teeth laid out once for the pair of sun and intermediate gear fit every mesh at every input if, and
     /// only if, this is a pose of that pair: the driven angle that goes with the driver angle. It is, for

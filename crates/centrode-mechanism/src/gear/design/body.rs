@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 use super::rule::{Rule, SpecError, between, broken, line, not_negative, positive};
 use crate::degrees;
 
-/// The body of a gear: what is not teeth.
+/// Body of a gear: all but its teeth.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct BodySpec {
@@ -46,7 +46,7 @@ pub struct Keyway {
     pub depth: f64,
 }
 
-/// Serde's own way of asking.
+/// Whether a keyway's angle is zero and need not be written.
 fn is_along_x(angle: &f64) -> bool {
     *angle == 0.0
 }
@@ -102,7 +102,7 @@ impl Default for BodySpec {
 }
 
 impl BodySpec {
-    /// Ranges, and a keyway that fits the bore.
+    /// Checks the ranges, and that the keyway fits the bore.
     ///
     /// # Errors
     /// [`SpecError`] with the key at fault.

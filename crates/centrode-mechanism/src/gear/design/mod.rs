@@ -104,7 +104,7 @@ impl GearPairDesign {
         }
     }
 
-    /// The rules that need no geometry: ranges, and keys that contradict each other.
+    /// Checks the rules that need no geometry: ranges, and keys that contradict each other.
     ///
     /// # Errors
     /// [`SpecError`] with the key at fault and the rule it breaks. The pitch curve's own rules are

@@ -10,7 +10,7 @@ pub struct SpecError {
     pub rule: Rule,
 }
 
-/// What a value must be, and what it is.
+/// Rule that a value breaks, with the value.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum Rule {
@@ -26,7 +26,7 @@ pub enum Rule {
     /// Outside a range.
     #[error("must be {least} to {greatest}{unit}, not {value}{unit}")]
     OutOfRange {
-        /// What was given.
+        /// Value given.
         value: f64,
         /// Least value allowed.
         least: f64,
@@ -60,7 +60,7 @@ pub enum Rule {
     Line {
         /// Characters given.
         count: usize,
-        /// Of which line ends, tabs and the like.
+        /// Control characters among them: line ends, tabs and the like.
         controls: usize,
         /// Most characters allowed.
         most: usize,
@@ -85,7 +85,7 @@ pub enum Rule {
         "is {value}, but at this pressure angle and addendum at most {greatest:.6} fits the tip of the tool"
     )]
     TipRadius {
-        /// What was given.
+        /// Value given.
         value: f64,
         /// Greatest that fits.
         greatest: f64,
@@ -93,7 +93,7 @@ pub enum Rule {
 }
 
 impl SpecError {
-    /// The same error seen from outside the table `table`.
+    /// Error with its key seen from outside the table `table`.
     #[must_use]
     pub(crate) fn inside(mut self, table: &str) -> Self {
         self.key = format!("{table}.{}", self.key);
@@ -134,7 +134,7 @@ pub(crate) fn not_negative(key: &str, value: f64) -> Result<(), SpecError> {
     }
 }
 
-/// A name that can name a file.
+/// Checks a name that can name a file.
 pub(crate) fn name(key: &str, name: &str) -> Result<(), SpecError> {
     let safe = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
     if name.is_empty() || name.len() > 64 || !name.chars().all(safe) {
@@ -143,7 +143,7 @@ pub(crate) fn name(key: &str, name: &str) -> Result<(), SpecError> {
     Ok(())
 }
 
-/// Words for a drawing: one line, not endless.
+/// Checks words for a drawing: one line, not endless.
 pub(crate) fn line(key: &str, words: &str) -> Result<(), SpecError> {
     const MOST: usize = 80;
     let count = words.chars().count();

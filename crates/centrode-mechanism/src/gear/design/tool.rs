@@ -95,7 +95,7 @@ fn dedendum_coefficient() -> f64 {
     Rack::default().dedendum_coefficient
 }
 
-/// A cutter's teeth are narrower at the tip than a rack's.
+/// Default tip radius of a shaper, whose teeth are narrower at the tip than a rack's.
 fn shaper_tip_radius_coefficient() -> f64 {
     0.2
 }
@@ -124,7 +124,7 @@ impl ToolSpec {
         read: |kind, table| Self::of_kind(kind, table).map(drop),
     };
 
-    /// Reads what stands beside the key `kind`.
+    /// Reads the keys beside `kind`.
     pub(crate) fn of_kind<'de, D: Deserializer<'de>>(kind: &str, d: D) -> Result<Self, D::Error> {
         match kind {
             "rack" => Rack::deserialize(d).map(Self::Rack),
@@ -133,7 +133,7 @@ impl ToolSpec {
         }
     }
 
-    /// Ranges, and a tip rounding that fits the tool.
+    /// Checks the ranges, and that the tip rounding fits the tool.
     ///
     /// # Errors
     /// [`SpecError`] with the key at fault.

@@ -7,10 +7,10 @@ use super::size::{OwnSize, Size};
 use super::{Draft, PitchError, PitchSpec};
 use crate::gear::{self, Rolling};
 
-/// Conjugates of conjugates are followed this deep.
+/// Greatest depth of conjugates of conjugates.
 const DEEPEST: usize = 4;
 
-/// The curve that rolls on another: the driven curve of one pair as the driver of the next.
+/// Curve that rolls on another: the driven curve of one pair as the driver of the next.
 ///
 /// Its point in mesh at phi = 0 lies on the x axis; the conjugate of this curve, at the mean ratio
 /// turned round, is `of`.
@@ -69,7 +69,7 @@ impl Conjugate {
     }
 }
 
-/// A driven curve whose size can still be changed.
+/// Driven curve whose size can still be changed.
 #[derive(Debug)]
 struct Rolled {
     curve: gear::Conjugate,

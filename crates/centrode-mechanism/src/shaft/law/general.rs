@@ -27,7 +27,7 @@ pub struct SpeedKnots {
     pub angle: Vec<f64>,
     /// Speed at each angle, in any unit.
     pub speed: Vec<f64>,
-    /// How the speed goes from each knot to the next.
+    /// Motion law of the speed from each knot to the next.
     pub law: LawSpec,
 }
 
@@ -37,7 +37,7 @@ pub struct SpeedKnots {
 pub struct SpeedTable {
     /// The speeds, in any unit.
     pub speed: Vec<f64>,
-    /// Between the samples; left out, "quintic".
+    /// Interpolation between the samples; left out, "quintic".
     #[serde(skip_serializing_if = "Option::is_none")]
     pub interpolation: Option<Interpolation>,
 }
@@ -106,12 +106,12 @@ impl Speed {
     }
 }
 
-/// A law given by its speed.
+/// Law given by its speed.
 #[derive(Debug)]
 pub(super) struct Resolved {
     speed: Speed,
     way: Primitive,
-    /// From the integral's unit to mm.
+    /// Factor from the integral's unit to mm.
     scale: f64,
     lead: f64,
 }

@@ -40,9 +40,9 @@ impl Default for RotatedSine {
 #[derive(Debug)]
 pub(super) struct Resolved {
     mean: f64,
-    /// `e`.
+    /// Relative amplitude `e`.
     share: f64,
-    /// `kappa / sin b`.
+    /// Amplitude along the shaft, `kappa / sin b`.
     along: f64,
     harmonic: f64,
     phase: f64,
@@ -77,7 +77,7 @@ impl RotatedSine {
         })
     }
 
-    /// The running angle of the sine that belongs to a shaft angle counted from the phase.
+    /// Running angle `E` of the sine at a shaft angle counted from the phase.
     fn running(share: f64, n: f64, theta: f64) -> f64 {
         let mut running = theta - share * (n * theta).sin() / (1.0 + n * share * (n * theta).cos());
         for _ in 0..50 {

@@ -36,7 +36,7 @@ impl Default for Sine {
     }
 }
 
-/// A wanted distance in a window around a slow place.
+/// Problem of a wanted distance in a window around a slow place.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AmplitudeFor {
     /// Distance the slider shall move in the window, mm.
@@ -50,10 +50,10 @@ pub struct AmplitudeFor {
 }
 
 impl AmplitudeFor {
-    /// The amplitude, mm: `B = (p W / (2 pi) - d) / (2 sin(n W / 2))`, for the distance `d` in the window `W`.
+    /// Solves for the amplitude, mm: `B = (p W / (2 pi) - d) / (2 sin(n W / 2))`, for the distance `d` in the window `W`.
     ///
     /// # Errors
-    /// [`ShaftError::MovedDistance`] where the slider would have to stand still or a plain shaft is slower;
+    /// [`ShaftError::MovedDistance`] where the slider would have to stop or a plain shaft is slower;
     /// [`ShaftError::Window`] for a window of whole waves.
     pub fn solve(self) -> Result<f64, ShaftError> {
         positive("lead", self.lead)?;

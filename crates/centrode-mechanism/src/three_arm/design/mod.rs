@@ -36,7 +36,7 @@ pub struct ThreeArmDesign {
     /// Number of arms, 1 to 6.
     #[serde(default = "default_arms")]
     pub arms: u32,
-    /// Which way the carrier turns.
+    /// Sense in which the carrier turns.
     #[serde(default)]
     pub direction: Direction,
     /// Direction of the first intermediate gear's axis from the sun's at the start, rad (degrees in the file).
@@ -58,7 +58,7 @@ pub struct ThreeArmDesign {
     )]
     #[schemars(with = "Option<f64>")]
     pub planet_reference: Option<f64>,
-    /// Teeth of every gear; left out, there are no teeth to judge.
+    /// Teeth of every gear; left out, there are no teeth to check.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tooth_count: Option<u32>,
     /// Centre distance of each mesh, mm; left out, it follows from the pitch curve.
@@ -93,10 +93,10 @@ pub struct ThreeArmDesign {
     /// The seedlings.
     #[serde(default)]
     pub seedling: SeedlingSpec,
-    /// What a good mechanism reaches.
+    /// Goals of a good mechanism.
     #[serde(default)]
     pub goals: GoalsSpec,
-    /// What a search may move, and what it looks for.
+    /// Variables and objective of a search.
     #[serde(default, skip_serializing_if = "OptimiseSpec::is_default")]
     pub optimise: OptimiseSpec,
     /// Body of the sun.
@@ -113,19 +113,19 @@ pub struct ThreeArmDesign {
     pub drawing: DrawingSpec,
 }
 
-/// Which way a shaft turns, seen from the side the drawing shows.
+/// Sense in which a shaft turns, seen from the side the drawing shows.
 #[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Direction {
-    /// With the hands of a clock.
+    /// Clockwise.
     #[default]
     Clockwise,
-    /// Against them.
+    /// Counter-clockwise.
     CounterClockwise,
 }
 
 impl Direction {
-    /// 1 counter-clockwise, -1 clockwise.
+    /// Sign: 1 counter-clockwise, -1 clockwise.
     #[must_use]
     pub fn sign(self) -> f64 {
         match self {
@@ -181,10 +181,10 @@ impl DesignSpec for ThreeArmDesign {
 }
 
 impl ThreeArmDesign {
-    /// Most arms of one carrier.
+    /// Greatest number of arms of one carrier.
     pub const MOST_ARMS: u32 = 6;
 
-    /// A mechanism with the given sun, chain and arm, and every other value at its default.
+    /// Makes a mechanism with the given sun, chain and arm, and every other value at its default.
     #[must_use]
     pub fn new(pitch: PitchSpec, carrier_start: f64, bend: f64, arm: ArmSpec) -> Self {
         Self {
@@ -239,7 +239,7 @@ impl ThreeArmDesign {
         }
     }
 
-    /// The rules that need no geometry: ranges, and keys that contradict each other.
+    /// Checks the rules that need no geometry: ranges, and keys that contradict each other.
     ///
     /// # Errors
     /// [`SpecError`] with the key at fault and the rule it breaks. The pitch curve's own rules are
@@ -290,18 +290,18 @@ impl ThreeArmDesign {
     }
 }
 
-/// Degrees, without the last digits that the way through radians has cost.
+/// Rounds degrees, to drop the last digits that the way through radians has cost.
 fn rounded_degrees(radians: f64) -> f64 {
     (radians.to_degrees() * 1e9).round() / 1e9
 }
 
-/// An angle within a turn either way.
+/// Checks an angle within a turn either way.
 fn angle(key: &str, radians: f64) -> Result<(), SpecError> {
     finite(key, radians)?;
     between(key, rounded_degrees(radians), [-360.0, 360.0], " deg")
 }
 
-/// A range with its ends in order.
+/// Checks a range with its ends in order.
 fn ordered(key: &str, [least, greatest]: [f64; 2]) -> Result<(), SpecError> {
     finite(key, least)?;
     finite(key, greatest)?;

@@ -13,7 +13,7 @@ use crate::gear::design::{BodySpec, SpecError};
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct PusherCamSpec {
-    /// Radius of the base circle, on which the roller stands with the rod thrown out, mm.
+    /// Radius of the base circle, on which the roller lies with the rod thrown out, mm.
     pub base_radius: f64,
     /// Carrier turn over which the rod is drawn back, up to picking, rad (degrees in the file).
     #[serde(rename = "closing_deg", with = "degrees")]
@@ -49,7 +49,7 @@ impl Default for PusherCamSpec {
 }
 
 impl PusherCamSpec {
-    /// Ranges.
+    /// Checks the ranges.
     ///
     /// # Errors
     /// [`SpecError`] with the key at fault.
@@ -125,7 +125,7 @@ impl Default for ForkSpec {
 }
 
 impl ForkSpec {
-    /// Ranges.
+    /// Checks the ranges.
     ///
     /// # Errors
     /// [`SpecError`] with the key at fault.

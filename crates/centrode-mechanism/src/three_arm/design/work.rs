@@ -49,7 +49,7 @@ impl Default for WorkSpec {
 }
 
 impl WorkSpec {
-    /// Ranges.
+    /// Checks the ranges.
     ///
     /// # Errors
     /// [`SpecError`] with the key at fault.
@@ -87,7 +87,7 @@ pub struct TraySpec {
     pub hole_spacing: f64,
     /// Rows that are still full, as seen from the one that is picked.
     pub unpicked: Unpicked,
-    /// How far an unpicked seedling's stem stands out of the tray's surface, mm; it is as wide as a planted one.
+    /// Length by which an unpicked seedling's stem projects from the tray's surface, mm; it is as wide as a planted one.
     pub stem_length: f64,
 }
 
@@ -121,7 +121,7 @@ impl Default for TraySpec {
 }
 
 impl TraySpec {
-    /// Ranges.
+    /// Checks the ranges.
     ///
     /// # Errors
     /// [`SpecError`] with the key at fault.
@@ -138,7 +138,7 @@ impl TraySpec {
     }
 }
 
-/// A seedling, once planted: an upright stem.
+/// A planted seedling: a vertical stem.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct SeedlingSpec {
@@ -158,7 +158,7 @@ impl Default for SeedlingSpec {
 }
 
 impl SeedlingSpec {
-    /// Ranges.
+    /// Checks the ranges.
     ///
     /// # Errors
     /// [`SpecError`] with the key at fault.

@@ -10,10 +10,10 @@ use crate::gear::pitch::HIGHEST_DEGREE;
 pub(super) const NODES: usize = 10;
 pub(super) const COEFFICIENTS: usize = NODES + 1;
 
-/// Places worked on side by side.
+/// Number of parameters evaluated side by side.
 pub(super) const LANES: usize = 4;
 
-/// One place, or [`LANES`] side by side.
+/// One parameter, or [`LANES`] side by side.
 pub(super) trait Places:
     Copy + From<f64> + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self>
 {
@@ -30,7 +30,7 @@ pub(super) struct Panel {
     pub(super) radius: Polynomial,
 }
 
-/// A function at a place, with its derivatives by s.
+/// Value of a function at a parameter, with its derivatives by s.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Look<T = f64> {
     pub(super) value: T,
@@ -56,9 +56,9 @@ impl Panel {
     };
 }
 
-/// What grows along the pitch curve.
+/// Function that grows along the pitch curve.
 pub(super) trait Growing: Copy {
-    /// It, in a panel; `C` coefficients of the panel's polynomials are not zero.
+    /// Evaluates it in a panel; `C` coefficients of the panel's polynomials are not zero.
     fn look<const C: usize, T: Places>(self, panel: &Panel, s: T) -> Look<T>;
 }
 
@@ -111,7 +111,7 @@ impl Growing for DrivenAngle {
     }
 }
 
-/// The quintic that is -1 and 1 at the ends of [0, 1], with the first and second derivatives of an inverse function there.
+/// Quintic that is -1 and 1 at the ends of [0, 1], with the first and second derivatives of an inverse function there.
 #[inline]
 pub(super) fn inverse_quintic([[d0, e0], [d1, e1]]: [[f64; 2]; 2]) -> [f64; 6] {
     [

@@ -11,7 +11,7 @@ use crate::gear::pitch::HIGHEST_DEGREE;
 use crate::three_arm::Extreme;
 use crate::three_arm::design::ThreeArmDesign;
 
-/// What of a design, beside its pitch curve, moves the tip.
+/// Dimensions, apart from the pitch curve, on which the tip's path depends.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Machine {
     sign: f64,
@@ -22,11 +22,11 @@ pub(super) struct Machine {
     mounting: f64,
     pub(super) clamp_mounting: f64,
     tip_distance: f64,
-    /// Distance and direction of the planet's axis, from the carrier's direction.
+    /// Distance of the planet's axis from the carrier's, mm.
     leg: f64,
 }
 
-/// Where the tip is at a polar angle of the sun, and its velocity per radian of that.
+/// Position of the tip at a polar angle of the sun, and its velocity per radian of that.
 #[derive(Clone, Copy, Debug)]
 struct Tip {
     position: [f64; 2],
@@ -54,7 +54,7 @@ impl Machine {
         }
     }
 
-    /// Driven angle of the intermediate on the planet's side where it has turned so far on the sun's.
+    /// Driven angle of the intermediate gear on the planet's side, from the one on the sun's side.
     fn met(&self, driven: f64) -> f64 {
         driven - self.bend - PI
     }
@@ -167,7 +167,7 @@ impl Path {
         }
     }
 
-    /// Solves both meshes at every polar angle of the sun. Whether there was a solution.
+    /// Solves both meshes at every polar angle of the sun; returns whether there was a solution.
     fn mesh_round<const C: usize>(&mut self, stage: &Stage, machine: &Machine) -> bool {
         let (angle, driven) = (stage.angle_growth(), stage.driven_growth());
         if !self.sun.find::<C, _>(angle, &self.angles) {
@@ -219,7 +219,7 @@ impl Path {
         self.near(stage, machine, place, psi).position
     }
 
-    /// Where the path reaches farthest in a direction.
+    /// Greatest reach of the path in a direction, and its input.
     pub(super) fn farthest(
         &self,
         stage: &Stage,
@@ -248,7 +248,7 @@ impl Path {
             if here < around[0] || here < around[1] {
                 continue;
             }
-            // A crest stands above the greatest of three points by about an eighth of their second difference.
+            // A crest is above the greatest of three points by about an eighth of their second difference.
             let bend = 2.0 * here - around[0] - around[1];
             if here + 0.5 * bend < best {
                 continue;
@@ -314,7 +314,7 @@ impl Path {
         best
     }
 
-    /// Where the reach in a direction last grows past a distance before an input.
+    /// Input at which the reach in a direction last grows past a distance before an input.
     pub(super) fn entering(
         &self,
         stage: &Stage,

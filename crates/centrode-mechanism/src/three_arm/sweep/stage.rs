@@ -12,10 +12,10 @@ use crate::gear::pitch::{Bspline, HIGHEST_DEGREE};
 
 /// Panels of a piece.
 const PANELS: usize = 3;
-/// Greatest step of Halley's method that is the last; what is left is below a hundredth of its cube.
+/// Halley step at which iteration stops; the remaining error is below step^3/100.
 pub(super) const LAST: f64 = 1e-3;
 
-/// A place on the pitch curve: panel, place in it, and whole turns before.
+/// Parameter on the pitch curve: panel, place in it, and whole turns before.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Spot {
     pub(super) panel: usize,
@@ -30,13 +30,13 @@ pub(super) struct Stage {
     /// Nodes of a panel and Fejér's weights of them.
     nodes: [f64; NODES],
     weights: [f64; NODES],
-    /// From values at the nodes to the coefficients of the primitive in powers, zero at the panel's start.
+    /// Map from values at the nodes to the coefficients of the antiderivative in powers, zero at the panel's start.
     primitive: [[f64; COEFFICIENTS]; NODES],
     panels: Vec<Panel>,
     /// Polar angle, and driven angle from parameter zero, at the start of each panel and the end of the last.
     angles: Vec<f64>,
     before: Vec<f64>,
-    /// At every node: radius, angle rate, and their product with the weight.
+    /// Values at every node: radius, angle rate, and their product with the weight.
     radii: Vec<f64>,
     turns: Vec<f64>,
     parts: Vec<f64>,
@@ -98,7 +98,7 @@ impl Stage {
         }
     }
 
-    /// Takes a pitch curve: closes it, integrates it.
+    /// Loads a pitch curve: closes it, integrates it.
     pub(super) fn load(&mut self, spline: &Bspline) -> Result<(), SweepError> {
         self.spline.load(spline)?;
         let half = 0.5 / PANELS as f64;
@@ -164,7 +164,7 @@ impl Stage {
         }
     }
 
-    /// Least and greatest radius, exactly: where the radius stands still inside a panel, or at its start.
+    /// Finds the least and greatest radius, exactly: inside a panel where the radius is stationary, or at its start.
     fn find_extremes(&mut self) {
         let (mut least, mut greatest) = (f64::INFINITY, 0.0_f64);
         for panel in &self.panels {
@@ -183,7 +183,7 @@ impl Stage {
         self.extremes = (least, greatest);
     }
 
-    /// The centre distance a at which one driver turn is one driven turn, by Newton's method on the driven turn's
+    /// Centre distance a at which one driver turn is one driven turn, by Newton's method on the driven turn's
     /// reciprocal, which for a circle is a straight line.
     fn closure(&self) -> Result<f64, SweepError> {
         let greatest = self.extremes.1;
@@ -282,7 +282,7 @@ impl Stage {
         [convex, concave]
     }
 
-    /// The spot so much further on.
+    /// Parameter moved on by a step.
     #[inline]
     pub(super) fn moved(&self, from: Spot, by: f64) -> Spot {
         let mut spot = from;
@@ -308,13 +308,13 @@ impl Stage {
         spot
     }
 
-    /// Degree of the spline, as the number of coefficients to reckon with: the sums of a low degree are those of any,
-    /// with the zeros left out.
+    /// Number of coefficients to compute with, from the degree of the spline: the sums of a low degree are those of
+    /// any, with the zeros left out.
     pub(super) fn coefficients(&self) -> usize {
         self.spline.degree() + 1
     }
 
-    /// How the polar angle grows along the panels.
+    /// Growth of the polar angle along the panels.
     pub(super) fn angle_growth(&self) -> Growth<'_, PolarAngle> {
         Growth {
             of: PolarAngle,
@@ -323,7 +323,7 @@ impl Stage {
         }
     }
 
-    /// How the driven angle grows along the panels, from parameter zero.
+    /// Growth of the driven angle along the panels, from parameter zero.
     pub(super) fn driven_growth(&self) -> Growth<'_, DrivenAngle> {
         Growth {
             of: DrivenAngle {
@@ -371,14 +371,14 @@ impl Stage {
         growth.spot::<{ HIGHEST_DEGREE + 1 }>(driven + self.offset)
     }
 
-    /// One step towards a polar angle from a spot nearby: where it leads, and how long it was.
+    /// One Halley step towards a polar angle from a parameter nearby: the new parameter, and the step's length.
     #[inline]
     pub(super) fn nearer_angle(&self, spot: Spot, angle: f64) -> (Spot, f64) {
         let step = self.angle(spot).step(angle);
         (self.moved(spot, step), step)
     }
 
-    /// One step towards a driven angle from a spot nearby.
+    /// One Halley step towards a driven angle from a parameter nearby.
     #[inline]
     pub(super) fn nearer_driven(&self, spot: Spot, driven: f64) -> (Spot, f64) {
         let step = self.driven(spot).step(driven);
@@ -386,7 +386,7 @@ impl Stage {
     }
 }
 
-/// Whether a step was the last that is needed.
+/// Whether a step is the last that is needed.
 #[inline]
 pub(super) fn settled(step: f64) -> bool {
     step.abs() < LAST

@@ -10,7 +10,7 @@ use super::stage::{LAST, Spot, settled};
 /// the targets of a run are solved side by side.
 #[derive(Clone, Debug)]
 pub(super) struct Track {
-    /// Place in its panel of each target, with room for the lanes beyond the last.
+    /// Position in its panel of each target, with room for the lanes beyond the last.
     places: Vec<f64>,
     runs: Vec<Run>,
     count: usize,
@@ -24,7 +24,7 @@ struct Run {
     targets: Range<usize>,
 }
 
-/// What grows along the pitch curve: its values at the panels' ends over a turn.
+/// Function that grows along the pitch curve: its values at the panels' ends over a turn.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Growth<'a, G> {
     pub(super) of: G,
@@ -33,7 +33,7 @@ pub(super) struct Growth<'a, G> {
 }
 
 impl<G: Growing> Growth<'_, G> {
-    /// How much it grows in a turn.
+    /// Growth in a turn.
     pub(super) fn whole(&self) -> f64 {
         self.ends[self.panels.len()] - self.ends[0]
     }
@@ -53,7 +53,7 @@ impl<G: Growing> Growth<'_, G> {
         Spot { panel, s, turns }
     }
 
-    /// The place of a value in a panel.
+    /// Position of a value in a panel.
     fn place<const C: usize>(&self, index: usize, value: f64) -> f64 {
         let look = |s: f64| self.of.look::<C, _>(&self.panels[index], s);
         let (low, high) = (self.ends[index], self.ends[index + 1]);
@@ -81,7 +81,7 @@ impl Track {
     }
 
     /// Finds the targets, which grow by no more than a turn from the first to the last and have [`LANES`] numbers
-    /// more behind them. Whether all were found.
+    /// more behind them; returns whether all were found.
     #[inline]
     pub(super) fn find<const C: usize, G: Growing>(
         &mut self,
@@ -119,8 +119,8 @@ impl Track {
         false
     }
 
-    /// One step of Halley's method for each target of the last run, from the quintic that has the values and two
-    /// derivatives of the inverse function at the panel's ends; more steps where one was too long to be the last.
+    /// Solves by one step of Halley's method for each target of the last run, from the quintic that has the values
+    /// and two derivatives of the inverse function at the panel's ends; more steps where one was too long to be the last.
     #[inline]
     fn solve<const C: usize, G: Growing>(&mut self, growth: Growth<'_, G>, targets: &[f64]) {
         let Some(run) = self.runs.last() else { return };
@@ -136,7 +136,7 @@ impl Track {
         let scale = f64x4::from(1.0 / width);
         let mut long = f64x4::from(0.0);
         for start in run.targets.clone().step_by(LANES) {
-            // Lanes beyond the run's last target look for the panel's end.
+            // Lanes beyond the run's last target are set to the panel's end.
             let target = (lanes(targets, start) - f64x4::from(shift)).fast_min(f64x4::from(high));
             let u = (target - f64x4::from(low)) * scale;
             let s = guess
@@ -154,7 +154,7 @@ impl Track {
         }
     }
 
-    /// Writes what something that grows is at every target, with so much added at first and for every turn.
+    /// Evaluates a monotone function at every target, adding `first` and the growth of every whole turn.
     #[inline]
     pub(super) fn map<const C: usize, G: Growing>(
         &self,
@@ -185,7 +185,7 @@ impl Track {
     }
 }
 
-/// So many numbers from a place on, side by side.
+/// Loads [`LANES`] numbers from an index on.
 #[inline]
 pub(super) fn lanes(all: &[f64], start: usize) -> f64x4 {
     f64x4::from(std::array::from_fn::<_, LANES, _>(|lane| all[start + lane]))
