@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 use std::hint::black_box;
 
-use centrode_geometry::{Point, Primitive, Spline, Tolerance};
+use centrode_geometry::{Point, PolySegment, Primitive, Tolerance};
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 
 /// Focal ellipse of the 2018 pair, mm.
@@ -34,7 +34,7 @@ fn fit(c: &mut Criterion) {
         group.bench_with_input(
             BenchmarkId::from_parameter(format!("1e-{exponent}")),
             &tolerance,
-            |b, &tolerance| b.iter(|| Spline::fit(ellipse, 0.0, TAU, tolerance)),
+            |b, &tolerance| b.iter(|| PolySegment::fit(ellipse, 0.0, TAU, tolerance)),
         );
     }
     group.finish();

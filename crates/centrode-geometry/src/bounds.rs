@@ -73,8 +73,8 @@ impl Segment {
                 let ends = Bounds::EMPTY.with(start.point).with(end.point);
                 grown(ends, sagitta, sagitta)
             }
-            Self::Spline(spline) => {
-                let part = spline.part(u0, u1);
+            Self::Poly(poly) => {
+                let part = poly.part(u0, u1);
                 let c = part.coefficients();
                 let ends = Bounds::EMPTY
                     .with(part.at(-1.0).point)

@@ -241,7 +241,7 @@ fn gap(a: &Strand, b: &Strand) -> f64 {
 mod tests {
     use super::*;
     use crate::{
-        Arc, Segment, Spline, Tolerance, Vector,
+        Arc, PolySegment, Segment, Tolerance, Vector,
         shapes::{rosette, tooth_ring},
     };
 
@@ -250,12 +250,12 @@ mod tests {
     }
 
     fn pinned(curve: impl FnMut(f64) -> Point, t1: f64) -> Outline {
-        let mut splines = Spline::fit(curve, 0.0, t1, tolerance(1e-9));
-        let first = splines[0].start();
-        if let Some(last) = splines.last_mut() {
+        let mut polys = PolySegment::fit(curve, 0.0, t1, tolerance(1e-9));
+        let first = polys[0].start();
+        if let Some(last) = polys.last_mut() {
             *last = last.pinned(last.start(), first);
         }
-        Outline::new(splines.into_iter().map(Segment::from).collect()).expect("closed")
+        Outline::new(polys.into_iter().map(Segment::from).collect()).expect("closed")
     }
 
     #[test]

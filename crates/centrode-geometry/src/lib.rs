@@ -28,6 +28,7 @@ mod opening;
 mod outline;
 mod piece;
 mod placement;
+mod poly_segment;
 mod primitive;
 mod quadrature;
 mod roots;
@@ -36,7 +37,6 @@ mod shapes;
 mod shell;
 mod smooth_run;
 mod solid;
-mod spline;
 mod tolerance;
 
 pub use bounds::Bounds;
@@ -53,11 +53,11 @@ pub use mesh::Mesh;
 pub use moments::AreaMoments;
 pub use opening::Opening;
 pub use outline::{Arc, OpenOutline, Outline, Segment};
+pub use poly_segment::{PolySegment, SegmentJet};
 pub use primitive::Primitive;
 pub use roots::{bracketed_minimum, bracketed_root};
 pub use shell::{Shell, ShellCurve, ShellEdge, ShellFace, ShellSurface};
 pub use solid::{Solid, SolidError};
-pub use spline::{SegmentJet, Spline};
 pub use tolerance::{BadTolerance, Tolerance};
 
 /// A point of the plane, mm.

@@ -284,15 +284,15 @@ mod tests {
     fn a_chain_that_runs_back_on_itself_is_an_error_and_one_that_is_all_loop_too() {
         let p = Point::new;
         // There and back on the same arc, with a detour at either end.
-        let there = crate::Spline::fit(|t| p(t.cos(), t.sin()), 0.0, 0.5, fine())[0];
+        let there = crate::PolySegment::fit(|t| p(t.cos(), t.sin()), 0.0, 0.5, fine())[0];
         let (a, b) = (there.start(), there.end());
         let detour = |at: Point, y: f64| {
             let corners = [at, p(0.0, y), p(3.0, y), at];
             [0, 1, 2].map(|i| Segment::Line(corners[i], corners[i + 1]))
         };
-        let mut chain = vec![Segment::Spline(there)];
+        let mut chain = vec![Segment::Poly(there)];
         chain.extend(detour(b, 3.0));
-        chain.push(Segment::Spline(there.reversed()));
+        chain.push(Segment::Poly(there.reversed()));
         chain.extend(detour(a, -3.0));
         let refused = without_loops(&chain, |_, _| true, fine());
         assert!(

@@ -1,4 +1,4 @@
-use crate::{Outline, Point, Segment, Tolerance, Vector, spline::NODES};
+use crate::{Outline, Point, Segment, Tolerance, Vector, poly_segment::NODES};
 
 /// Tangent jump, rad, above which a joint is a corner rather than rounding.
 pub(crate) const CORNER: f64 = 1e-6;
@@ -36,15 +36,15 @@ impl Piece {
                 let curvature = 0.5 * arc.sweep().abs() / speed;
                 (speed, curvature, curvature)
             }
-            Segment::Spline(spline) => {
+            Segment::Poly(poly) => {
                 if u0 == -1.0 && u1 == 1.0 {
-                    spline_bounds(spline.coefficients(), 1.0)
+                    poly_bounds(poly.coefficients(), 1.0)
                 } else {
                     let half = 0.5 * (u1 - u0);
                     let mut c = [Vector::zeros(); NODES];
-                    c.copy_from_slice(spline.coefficients());
+                    c.copy_from_slice(poly.coefficients());
                     shift(&mut c, 0.5 * (u0 + u1));
-                    spline_bounds(&c, half)
+                    poly_bounds(&c, half)
                 }
             }
         };
@@ -101,7 +101,7 @@ fn shift(c: &mut [Vector; NODES], middle: f64) {
 }
 
 /// Bounds of a polynomial's speed and curvature over `[-half, half]`, and its curvature at zero.
-fn spline_bounds(c: &[Vector], half: f64) -> (f64, f64, f64) {
+fn poly_bounds(c: &[Vector], half: f64) -> (f64, f64, f64) {
     // velocity = c1 + 2 c2 v + rest, acceleration = 2 c2 + more.
     let (velocity, ramp) = (c[1], 2.0 * c[2] * half);
     let (mut rest, mut more) = (0.0, 0.0);
@@ -267,7 +267,7 @@ impl Outline {
         mut length: f64,
         tolerance: Tolerance,
     ) -> (usize, f64) {
-        let is_spline = |p: &Piece| matches!(self.segments()[p.segment], Segment::Spline(_));
+        let is_poly = |p: &Piece| matches!(self.segments()[p.segment], Segment::Poly(_));
         let (mut curvature, mut turned) = (pieces[i].curvature, 0.0);
         let mut next = i + 1;
         while let Some(piece) = pieces.get(next) {
@@ -277,7 +277,7 @@ impl Outline {
                 0.0
             };
             // Ends of lines and arcs are kept: they are features of the drawing.
-            if jump > CORNER || !is_spline(piece) || !is_spline(&pieces[next - 1]) {
+            if jump > CORNER || !is_poly(piece) || !is_poly(&pieces[next - 1]) {
                 break;
             }
             curvature = piece.curvature.max(curvature);

@@ -12,7 +12,7 @@ impl Segment {
                 end: point(&arc.end),
                 bulge: arc.bulge,
             }),
-            Self::Spline(spline) => Self::Spline(spline.mapped(point, vector)),
+            Self::Poly(poly) => Self::Poly(poly.mapped(point, vector)),
         }
     }
 }
@@ -84,19 +84,18 @@ impl Outline {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Spline, Tolerance};
+    use crate::{PolySegment, Tolerance};
 
     #[test]
     fn a_motion_keeps_area_and_closure_and_scaling_multiplies_it() {
         let wave = |t: f64| Point::from(Vector::new(t.cos(), t.sin()) * (5.0 + (3.0 * t).cos()));
         let tolerance = Tolerance::new(1e-10).expect("positive");
-        let mut splines = Spline::fit(wave, 0.0, std::f64::consts::TAU, tolerance);
-        let first = splines[0].start();
-        if let Some(last) = splines.last_mut() {
+        let mut polys = PolySegment::fit(wave, 0.0, std::f64::consts::TAU, tolerance);
+        let first = polys[0].start();
+        if let Some(last) = polys.last_mut() {
             *last = last.pinned(last.start(), first);
         }
-        let outline =
-            Outline::new(splines.into_iter().map(Segment::from).collect()).expect("closed");
+        let outline = Outline::new(polys.into_iter().map(Segment::from).collect()).expect("closed");
         let moved = outline.transformed(&Isometry2::new(Vector::new(3.0, -8.0), 0.7));
         let again = Outline::new(moved.segments().to_vec()).expect("still closed");
         assert!((again.area() - outline.area()).abs() < 1e-11);

@@ -52,11 +52,11 @@ impl Outline {
         // A step over a joint could hide a jump of the curvature from the checks between nodes.
         for place in self.places_by_segment(spacing) {
             let segment = &self.segments()[place.segment];
-            let is_spline = matches!(segment, Segment::Spline(_));
-            if place.u == -1.0 && (corner(place.segment) || !is_spline) {
+            let is_poly = matches!(segment, Segment::Poly(_));
+            if place.u == -1.0 && (corner(place.segment) || !is_poly) {
                 finish(&mut runs, &mut nodes, first, place.segment);
             }
-            if is_spline {
+            if is_poly {
                 if nodes.is_empty() {
                     first = place.segment;
                 }
@@ -106,8 +106,8 @@ mod tests {
         // Backwards by less than rounding, as constructions leave it.
         let p = segments[3].start();
         let q = Point::new(p.x.next_down(), p.y.next_up());
-        let Segment::Spline(before) = segments[2] else {
-            panic!("a spline")
+        let Segment::Poly(before) = segments[2] else {
+            panic!("a polynomial")
         };
         segments[2] = before.pinned(before.start(), q).into();
         segments.insert(3, Segment::Line(q, p));

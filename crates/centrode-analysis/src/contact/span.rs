@@ -1,7 +1,7 @@
 use std::f64::consts::PI;
 use std::sync::LazyLock;
 
-use centrode_geometry::{Segment, Spline, Vector};
+use centrode_geometry::{PolySegment, Segment, Vector};
 
 /// Proven bounds of a stretch of a segment.
 #[derive(Clone, Copy, Debug)]
@@ -47,7 +47,7 @@ impl Span {
                     tangents: tangents(),
                 }
             }
-            Segment::Spline(spline) => hull(&polygon(spline, u0, u1)),
+            Segment::Poly(poly) => hull(&polygon(poly, u0, u1)),
         }
     }
 }
@@ -83,11 +83,11 @@ pub(super) fn curvature(segment: &Segment, u0: f64, u1: f64) -> (f64, f64) {
             let curvature = arc.bulge.signum() / arc.radius();
             (curvature, curvature)
         }
-        Segment::Spline(spline) => bend(&polygon(spline, u0, u1)),
+        Segment::Poly(poly) => bend(&polygon(poly, u0, u1)),
     }
 }
 
-/// Coefficients of a spline.
+/// Coefficients of a polynomial segment.
 const COUNT: usize = 14;
 
 /// Tables of binomial coefficients.
@@ -141,10 +141,10 @@ fn stretch(c: &mut [Vector; COUNT], middle: f64, half: f64) {
     }
 }
 
-/// Bernstein control points of a spline between two parameters.
-fn polygon(spline: &Spline, u0: f64, u1: f64) -> [Vector; COUNT] {
+/// Bernstein control points of a polynomial segment between two parameters.
+fn polygon(poly: &PolySegment, u0: f64, u1: f64) -> [Vector; COUNT] {
     let mut c = [Vector::zeros(); COUNT];
-    c.copy_from_slice(spline.coefficients());
+    c.copy_from_slice(poly.coefficients());
     if (u0, u1) != (-1.0, 1.0) {
         stretch(&mut c, 0.5 * (u0 + u1), 0.5 * (u1 - u0));
     }
@@ -163,7 +163,7 @@ fn polygon(spline: &Spline, u0: f64, u1: f64) -> [Vector; COUNT] {
     out
 }
 
-/// Bounds of a spline by its control points: it lies in their hull, its derivative in that of their differences.
+/// Bounds of a polynomial segment by its control points: it lies in their hull, its derivative in that of their differences.
 fn hull(points: &[Vector; COUNT]) -> Span {
     let chord = points[COUNT - 1] - points[0];
     let first: [Vector; COUNT - 1] = std::array::from_fn(|i| points[i + 1] - points[i]);
@@ -203,7 +203,7 @@ fn hull(points: &[Vector; COUNT]) -> Span {
     }
 }
 
-/// Bounds of a spline's curvature: the cross product of its derivatives has control values too.
+/// Bounds of a polynomial segment's curvature: the cross product of its derivatives has control values too.
 fn bend(points: &[Vector; COUNT]) -> (f64, f64) {
     let degree = (COUNT - 1) as f64;
     let chord = points[COUNT - 1] - points[0];
@@ -240,13 +240,13 @@ fn bend(points: &[Vector; COUNT]) -> (f64, f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use centrode_geometry::{Arc, Point, Spline, Tolerance};
+    use centrode_geometry::{Arc, Point, PolySegment, Tolerance};
 
     #[test]
     fn the_bounds_hold_every_stretch_and_tighten_with_it() {
         let spiral = |t: f64| Point::new((1.0 + t * t) * t.cos(), (1.0 + t * t) * t.sin());
         let fine = Tolerance::new(1e-9).expect("positive");
-        let mut segments: Vec<Segment> = Spline::fit(spiral, -0.9, 0.8, fine)
+        let mut segments: Vec<Segment> = PolySegment::fit(spiral, -0.9, 0.8, fine)
             .into_iter()
             .map(Segment::from)
             .collect();

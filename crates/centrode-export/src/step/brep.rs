@@ -4,7 +4,7 @@ use super::{
     StepError, contour, opened,
     part21::{Data, Id, List, Real},
 };
-use centrode_geometry::{Point, Segment, Solid, Spline, Vector};
+use centrode_geometry::{Point, PolySegment, Segment, Solid, Vector};
 
 /// Writes the closed boundary of a solid and returns its `MANIFOLD_SOLID_BREP`.
 pub(super) fn manifold(data: &mut Data, name: &str, solid: &Solid) -> Result<Id, StepError> {
@@ -146,8 +146,8 @@ impl<'a> Shape<'a> {
                 let radius = Real(arc.radius());
                 self.data.add(format_args!("CIRCLE('',{frame},{radius})"))
             }
-            Segment::Spline(spline) => {
-                let poles: Vec<Id> = poles(spline)
+            Segment::Poly(poly) => {
+                let poles: Vec<Id> = poles(poly)
                     .into_iter()
                     .map(|pole| self.point(pole, z))
                     .collect();
@@ -204,7 +204,7 @@ impl<'a> Shape<'a> {
                     .add(format_args!("CYLINDRICAL_SURFACE('',{frame},{radius})"));
                 (cylinder, arc.bulge > 0.0)
             }
-            Segment::Spline(_) => {
+            Segment::Poly(_) => {
                 let curve = self.curve(side, start, bottom);
                 let height = Real(self.top - bottom);
                 let sweep = self.data.add(format_args!("VECTOR('',{up},{height})"));
@@ -264,8 +264,8 @@ fn logical(truth: bool) -> &'static str {
 ///
 /// Control point `j` is the polar form at `j` ones and `n - j` minus ones; there a power `k` becomes the
 /// elementary symmetric function of order `k` over its number of terms, at most 1, so digits are kept.
-fn poles(spline: &Spline) -> Vec<Point> {
-    let coefficients = spline.coefficients();
+fn poles(poly: &PolySegment) -> Vec<Point> {
+    let coefficients = poly.coefficients();
     let degree = coefficients.len() - 1;
     let mut poles: Vec<Point> = (0..=degree)
         .map(|ones| {
@@ -286,8 +286,8 @@ fn poles(spline: &Spline) -> Vec<Point> {
             Point::from(pole)
         })
         .collect();
-    poles[0] = spline.start();
-    poles[degree] = spline.end();
+    poles[0] = poly.start();
+    poles[degree] = poly.end();
     poles
 }
 
@@ -300,9 +300,9 @@ mod tests {
     fn control_points_give_the_same_curve() {
         let wave = |t: f64| Point::new(20.0 * t.cos(), 9.0 * (1.3 * t).sin() + t);
         let tolerance = Tolerance::new(1e-9).expect("positive");
-        for spline in Spline::fit(wave, -1.0, 2.0, tolerance) {
-            let poles = poles(&spline);
-            assert_eq!(poles[0], spline.start());
+        for poly in PolySegment::fit(wave, -1.0, 2.0, tolerance) {
+            let poles = poles(&poly);
+            assert_eq!(poles[0], poly.start());
             for i in 0..=40 {
                 let t = f64::from(i) / 40.0;
                 // De Casteljau.
@@ -310,7 +310,7 @@ mod tests {
                 while row.len() > 1 {
                     row = row.windows(2).map(|w| w[0] + (w[1] - w[0]) * t).collect();
                 }
-                let exact = spline.at(2.0 * t - 1.0).point;
+                let exact = poly.at(2.0 * t - 1.0).point;
                 assert!((row[0] - exact).norm() < 2e-14 * 20.0, "{t}");
             }
         }

@@ -46,7 +46,7 @@ fn between(segment: &Segment, start: Point, end: Point) -> Segment {
             end,
             bulge: arc.bulge,
         }),
-        Segment::Spline(spline) if spline.start() == start && spline.end() == end => *segment,
-        Segment::Spline(spline) => Segment::Spline(spline.pinned(start, end)),
+        Segment::Poly(poly) if poly.start() == start && poly.end() == end => *segment,
+        Segment::Poly(poly) => Segment::Poly(poly.pinned(start, end)),
     }
 }

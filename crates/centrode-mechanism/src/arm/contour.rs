@@ -171,7 +171,7 @@ pub(super) fn mirrored(outline: &Outline) -> Option<Outline> {
                 end: flip(arc.start),
                 bulge: arc.bulge,
             })),
-            Segment::Spline(_) => None,
+            Segment::Poly(_) => None,
         });
     Outline::new(segments.collect::<Option<Vec<_>>>()?).ok()
 }

@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use centrode_geometry::{
-    Arc, LoopError, Outline, Point, Segment, Spline, Tolerance, least, without_loops,
+    Arc, LoopError, Outline, Point, PolySegment, Segment, Tolerance, least, without_loops,
 };
 
 use super::disc::{CamError, DiscCam};
@@ -161,9 +161,9 @@ impl DiscCam {
             if self.rests(from, to) {
                 parts.extend(self.dwell(curve, from, to));
             } else {
-                let fitted = Spline::fit_spans(curve, from, to, tolerance);
-                parts.extend(fitted.into_iter().map(|(spline, from, to)| Part {
-                    segment: Segment::Spline(spline),
+                let fitted = PolySegment::fit_spans(curve, from, to, tolerance);
+                parts.extend(fitted.into_iter().map(|(poly, from, to)| Part {
+                    segment: Segment::Poly(poly),
                     from,
                     to,
                 }));
@@ -235,7 +235,7 @@ fn moved_start(segment: &Segment, start: Point) -> Segment {
     match segment {
         Segment::Line(_, end) => Segment::Line(start, *end),
         Segment::Arc(arc) => Segment::Arc(Arc { start, ..*arc }),
-        Segment::Spline(spline) => Segment::Spline(spline.pinned(start, spline.end())),
+        Segment::Poly(poly) => Segment::Poly(poly.pinned(start, poly.end())),
     }
 }
 

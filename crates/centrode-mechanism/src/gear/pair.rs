@@ -1,6 +1,6 @@
 use std::f64::consts::{PI, TAU};
 
-use centrode_geometry::{Outline, Segment, Spline, Tolerance};
+use centrode_geometry::{Outline, PolySegment, Segment, Tolerance};
 
 use crate::bore;
 
@@ -563,21 +563,21 @@ fn pitch_curve(
     let mut ends = vec![from];
     ends.extend(rolling.breaks_between(from, to));
     ends.push(to);
-    let mut splines: Vec<Spline> = Vec::new();
+    let mut polys: Vec<PolySegment> = Vec::new();
     for pair in ends.windows(2) {
-        splines.extend(Spline::fit(
+        polys.extend(PolySegment::fit(
             |t| rolling.frame(member, t).point,
             pair[0],
             pair[1],
             tolerance,
         ));
     }
-    for i in 0..splines.len() {
-        let end = splines[i].end();
-        let next = (i + 1) % splines.len();
-        splines[next] = splines[next].pinned(end, splines[next].end());
+    for i in 0..polys.len() {
+        let end = polys[i].end();
+        let next = (i + 1) % polys.len();
+        polys[next] = polys[next].pinned(end, polys[next].end());
     }
-    let mut segments: Vec<Segment> = splines.into_iter().map(Segment::Spline).collect();
+    let mut segments: Vec<Segment> = polys.into_iter().map(Segment::Poly).collect();
     if member == Member::Driven {
         segments = segments.iter().rev().map(Segment::reversed).collect();
     }

@@ -1,5 +1,5 @@
 use centrode_geometry::{
-    Kept, LoopError, OpenOutline, Outline, Point, Segment, Spline, Tolerance, checkpoint,
+    Kept, LoopError, OpenOutline, Outline, Point, PolySegment, Segment, Tolerance, checkpoint,
     without_loops,
 };
 
@@ -108,7 +108,7 @@ pub(crate) struct Profile {
 }
 
 struct Piece {
-    spline: Spline,
+    poly: PolySegment,
     role: Role,
     tooth: u32,
     /// Pitch-curve parameters at the ends.
@@ -224,7 +224,7 @@ impl Cutter<'_> {
 
     /// Parts of the pieces without their loops.
     fn without_loops(&self, pieces: &[Piece], teeth: u32) -> Result<Vec<Kept>, ProfileError> {
-        let segments: Vec<Segment> = pieces.iter().map(|p| p.spline.into()).collect();
+        let segments: Vec<Segment> = pieces.iter().map(|p| p.poly.into()).collect();
         // Up to the end of the next tooth: a longer detour is not one tooth's own.
         let near = |i: usize, j: usize| (pieces[j].tooth + teeth - pieces[i].tooth) % teeth <= 1;
         without_loops(&segments, near, self.tolerance).map_err(|cause| match cause {
@@ -414,10 +414,10 @@ impl Cutter<'_> {
             if (pair[1] - pair[0]).abs() <= 1e-14 * pair[0].abs().max(pair[1].abs()) {
                 continue;
             }
-            let fitted = Spline::fit_spans(curve, pair[0], pair[1], self.tolerance);
-            for (spline, t0, t1) in fitted {
+            let fitted = PolySegment::fit_spans(curve, pair[0], pair[1], self.tolerance);
+            for (poly, t0, t1) in fitted {
                 pieces.push(Piece {
-                    spline,
+                    poly,
                     role,
                     tooth,
                     span: (t0, t1),
@@ -433,22 +433,22 @@ impl Cutter<'_> {
         kept: &[Kept],
         mut teeth: Vec<Tooth>,
     ) -> Result<Profile, ProfileError> {
-        let mut splines: Vec<Spline> = kept
+        let mut polys: Vec<PolySegment> = kept
             .iter()
-            .map(|k| pieces[k.index].spline.part(k.from, k.to))
+            .map(|k| pieces[k.index].poly.part(k.from, k.to))
             .collect();
-        let count = splines.len();
+        let count = polys.len();
         for i in 0..count {
             checkpoint();
-            let end = splines[i].end();
+            let end = polys[i].end();
             let next = (i + 1) % count;
-            if splines[next].start() != end {
-                splines[next] = splines[next].pinned(end, splines[next].end());
+            if polys[next].start() != end {
+                polys[next] = polys[next].pinned(end, polys[next].end());
             }
         }
         let mut roles = Vec::with_capacity(count);
         let mut owners = Vec::with_capacity(count);
-        for (k, spline) in kept.iter().zip(&splines) {
+        for (k, poly) in kept.iter().zip(&polys) {
             let piece = &pieces[k.index];
             roles.push(piece.role);
             owners.push(piece.tooth);
@@ -467,7 +467,7 @@ impl Cutter<'_> {
                 }
                 Role::Fillet => {
                     for i in 0..=4 {
-                        let jet = spline.at(-1.0 + 0.5 * f64::from(i));
+                        let jet = poly.at(-1.0 + 0.5 * f64::from(i));
                         let turn = jet.first.perp(&jet.second).abs();
                         side.fillet_radius =
                             side.fillet_radius.min(jet.first.norm().powi(3) / turn);
@@ -475,7 +475,7 @@ impl Cutter<'_> {
                 }
                 Role::Tip => {
                     tooth.severed = false;
-                    tooth.tip_width += spline.chords(8);
+                    tooth.tip_width += poly.chords(8);
                 }
                 Role::Root => {}
             }
@@ -496,7 +496,7 @@ impl Cutter<'_> {
                 side.undercut = if lost > 1e-7 * side.needed { lost } else { 0.0 };
             }
         }
-        let mut segments: Vec<Segment> = splines.into_iter().map(Segment::Spline).collect();
+        let mut segments: Vec<Segment> = polys.into_iter().map(Segment::Poly).collect();
         if self.member == Member::Driven {
             // Rolled clockwise: turn the contour round.
             segments = segments.iter().rev().map(Segment::reversed).collect();
