@@ -3,6 +3,7 @@
 //! No gear word in this crate: it knows curves, not their purpose. Lengths are millimetres,
 //! angles radians, counter-clockwise positive.
 
+mod antiderivative;
 mod arc_chains;
 mod arc_plan;
 mod arcs;
@@ -29,7 +30,6 @@ mod outline;
 mod piece;
 mod placement;
 mod poly_segment;
-mod primitive;
 mod quadrature;
 mod roots;
 #[cfg(test)]
@@ -39,6 +39,7 @@ mod smooth_run;
 mod solid;
 mod tolerance;
 
+pub use antiderivative::Antiderivative;
 pub use bounds::Bounds;
 pub use cancel::{Cancel, Cancelled, Scope, checkpoint};
 pub use convex::{ConvexPieces, convex_pieces};
@@ -54,7 +55,6 @@ pub use moments::AreaMoments;
 pub use opening::Opening;
 pub use outline::{Arc, OpenOutline, Outline, Segment};
 pub use poly_segment::{PolySegment, SegmentJet};
-pub use primitive::Primitive;
 pub use roots::{bracketed_minimum, bracketed_root};
 pub use shell::{Shell, ShellCurve, ShellEdge, ShellFace, ShellSurface};
 pub use solid::{Solid, SolidError};

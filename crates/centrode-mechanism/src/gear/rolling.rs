@@ -1,7 +1,7 @@
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
-use centrode_geometry::{Curve, Jet, Point, Primitive, Vector, bracketed_root, pieces};
+use centrode_geometry::{Antiderivative, Curve, Jet, Point, Vector, bracketed_root, pieces};
 
 /// Even parts of a turn in each of which a pitch curve has few extremes.
 const PIECES: u32 = 8;
@@ -69,8 +69,8 @@ pub struct Rolling {
     half: f64,
     /// The curve's breaks in `[start, start + period)`.
     jumps: Vec<f64>,
-    arc: Primitive,
-    driven: Primitive,
+    arc: Antiderivative,
+    driven: Antiderivative,
     center_distance: f64,
     mean_ratio: (u32, u32),
     least: Extreme,
@@ -154,7 +154,7 @@ impl Rolling {
         breaks.extend(jumps.iter().copied().filter(|&b| b > start));
         breaks.push(start + period);
 
-        let arc = Primitive::of(|t| curve.at(t).first.norm(), &breaks);
+        let arc = Antiderivative::of(|t| curve.at(t).first.norm(), &breaks);
         let nodes: Vec<(f64, f64)> = arc
             .nodes()
             .map(|(t, weight)| {
@@ -546,7 +546,7 @@ fn axis_crossings(curve: &dyn Curve, period: f64) -> Result<(f64, f64), RollingE
 }
 
 /// Least and greatest radius, sharpened from the samples of the arc-length panels.
-fn extremes(curve: &dyn Curve, arc: &Primitive) -> (Extreme, Extreme) {
+fn extremes(curve: &dyn Curve, arc: &Antiderivative) -> (Extreme, Extreme) {
     let slope = |t: f64| {
         let jet = curve.at(t);
         jet.point.coords.dot(&jet.first)
@@ -626,8 +626,8 @@ fn closure(nodes: &[(f64, f64)], greatest: f64, wanted: f64) -> f64 {
     a
 }
 
-fn driven_angle(curve: &dyn Curve, breaks: &[f64], a: f64) -> Primitive {
-    Primitive::of(
+fn driven_angle(curve: &dyn Curve, breaks: &[f64], a: f64) -> Antiderivative {
+    Antiderivative::of(
         |t| {
             let jet = curve.at(t);
             let r = jet.point.coords.norm();

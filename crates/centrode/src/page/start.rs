@@ -1,6 +1,6 @@
 use std::f64::consts::TAU;
 
-use centrode::geometry::Primitive;
+use centrode::geometry::Antiderivative;
 use centrode::mechanism::cam::law::{LawSpec, Polynomial};
 use centrode::mechanism::gear::design::{Rack, Shaper, ToolSpec};
 use centrode::mechanism::gear::pitch::{
@@ -67,7 +67,7 @@ fn mean_radius(pitch: &Value) -> Option<f64> {
     ends.retain(|&t| t > 0.0);
     ends.insert(0, 0.0);
     ends.push(pitch.curve.period());
-    Some(Primitive::of(|t| pitch.curve.at(t).first.norm(), &ends).total() / TAU)
+    Some(Antiderivative::of(|t| pitch.curve.at(t).first.norm(), &ends).total() / TAU)
 }
 
 /// Tables from which a kind can start, the preferred one first: each holds the keys it needs besides the defaults.

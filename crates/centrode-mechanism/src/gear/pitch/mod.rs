@@ -5,7 +5,7 @@
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-use centrode_geometry::{Curve, Primitive};
+use centrode_geometry::{Antiderivative, Curve};
 use schemars::JsonSchema;
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize};
@@ -245,7 +245,7 @@ fn sized(key: &'static str, length: f64) -> Result<f64, PitchError> {
 
 /// Length of one turn of a curve, mm.
 fn perimeter(curve: &dyn Curve) -> f64 {
-    Primitive::of(|t| curve.at(t).first.norm(), &proof::piece_ends(curve)).total()
+    Antiderivative::of(|t| curve.at(t).first.norm(), &proof::piece_ends(curve)).total()
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 use std::f64::consts::TAU;
 
-use centrode_geometry::Primitive;
+use centrode_geometry::Antiderivative;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -269,7 +269,7 @@ fn draft(
             let radius = draft.curve.at(t).point.coords.norm();
             radius / (a - radius)
         };
-        Primitive::of(q, &ends).total()
+        Antiderivative::of(q, &ends).total()
     });
     draft.implied_ratio = Some(turns(key, total / TAU)?);
     Ok(draft)

@@ -1,6 +1,6 @@
 use std::f64::consts::TAU;
 
-use centrode_geometry::Primitive;
+use centrode_geometry::Antiderivative;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -110,7 +110,7 @@ impl Speed {
 #[derive(Debug)]
 pub(super) struct Resolved {
     speed: Speed,
-    way: Primitive,
+    way: Antiderivative,
     /// Factor from the integral's unit to mm.
     scale: f64,
     lead: f64,
@@ -122,7 +122,7 @@ impl Resolved {
         ends.retain(|&t| t > 0.0);
         ends.insert(0, 0.0);
         ends.push(TAU);
-        let way = Primitive::of(|t| speed.at(t).0[0], &ends);
+        let way = Antiderivative::of(|t| speed.at(t).0[0], &ends);
         let total = way.total();
         if total > 0.0 && total.is_finite() {
             let scale = lead / total;

@@ -2,7 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-use centrode_geometry::{Primitive, VolumeMoments};
+use centrode_geometry::{Antiderivative, VolumeMoments};
 use nalgebra::Vector3;
 
 use super::ShaftBody;
@@ -136,7 +136,7 @@ fn opened(groove: &Groove, half: f64, radii: &[(f64, f64)], even: u32) -> Volume
     lines.push(TAU);
     let mut sum = VolumeMoments::default();
     // Sixteen nodes between two lines: a constant needs no more panels.
-    for (angle, turned) in Primitive::of(|_| 1.0, &lines).nodes() {
+    for (angle, turned) in Antiderivative::of(|_| 1.0, &lines).nodes() {
         let heights = plan.heights_at(angle);
         for [low, high] in plan.open(0, |edge| heights[edge]) {
             for (z, along) in nodes([heights[low], heights[high]], 1) {

@@ -31,7 +31,7 @@ pub(super) struct Stage {
     nodes: [f64; NODES],
     weights: [f64; NODES],
     /// Map from values at the nodes to the coefficients of the antiderivative in powers, zero at the panel's start.
-    primitive: [[f64; COEFFICIENTS]; NODES],
+    antiderivative: [[f64; COEFFICIENTS]; NODES],
     panels: Vec<Panel>,
     /// Polar angle, and driven angle from parameter zero, at the start of each panel and the end of the last.
     angles: Vec<f64>,
@@ -67,14 +67,14 @@ impl Stage {
             }
             c
         };
-        let mut primitive = [[0.0; COEFFICIENTS]; NODES];
+        let mut antiderivative = [[0.0; COEFFICIENTS]; NODES];
         let mut weights = [0.0; NODES];
         for j in 0..NODES {
             for (power, c) in through(j).into_iter().enumerate() {
                 let part = c / (power + 1) as f64;
-                primitive[j][power + 1] = part;
+                antiderivative[j][power + 1] = part;
                 let sign = if power % 2 == 0 { 1.0 } else { -1.0 };
-                primitive[j][0] += sign * part;
+                antiderivative[j][0] += sign * part;
                 weights[j] += part + sign * part;
             }
         }
@@ -83,7 +83,7 @@ impl Stage {
             spline,
             nodes,
             weights,
-            primitive,
+            antiderivative,
             panels: vec![Panel::EMPTY; count],
             angles: vec![0.0; count + 1],
             before: vec![0.0; count + 1],
@@ -227,7 +227,7 @@ impl Stage {
             let mut out = [0.0; COEFFICIENTS];
             for j in 0..NODES {
                 let value = turns[j] * radii[j] / (a - radii[j]);
-                for (c, m) in out.iter_mut().zip(&self.primitive[j]) {
+                for (c, m) in out.iter_mut().zip(&self.antiderivative[j]) {
                     *c += m * value;
                 }
             }
