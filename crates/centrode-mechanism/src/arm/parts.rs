@@ -3,7 +3,7 @@ use centrode_geometry::{Crossing, Opening, Outline, Point};
 use super::contour::{Contour, mirrored};
 use super::spec::ArmBodySpec;
 use crate::gear::design::SpecError;
-use crate::gear::design::rule::{between, positive};
+use crate::gear::design::rule::{in_range, positive};
 
 /// One part of an arm: its contour in the arm's frame and where it lies along the planet's axis.
 #[derive(Clone, Debug, PartialEq)]
@@ -206,7 +206,7 @@ impl Reach {
             clamp_length,
         } = *self;
         positive("tip_distance", tip_distance)?;
-        between(
+        in_range(
             "pusher_offset",
             pusher_offset,
             [-tip_distance, tip_distance],

@@ -16,7 +16,7 @@ use super::motion::ends;
 use crate::degrees;
 use crate::formula::Taylor;
 use crate::gear::design::SpecError;
-use crate::gear::design::rule::{between, positive};
+use crate::gear::design::rule::{in_range, positive};
 use crate::transmission::{Chain, FromFn, Inverse, MotionJet, Transmission};
 
 /// A swinging arm with the cam's roller on one end and the push rod on the other.
@@ -110,7 +110,7 @@ impl Fork {
         let lever = self.rod.lever();
         positive("length", lever.length).map_err(|e| e.inside("rod"))?;
         let start = lever.start.to_degrees();
-        between("start_deg", start, [-85.0, 85.0], " deg").map_err(|e| e.inside("rod"))
+        in_range("start_deg", start, [-85.0, 85.0], " deg").map_err(|e| e.inside("rod"))
     }
 
     fn follower(&self) -> Follower {

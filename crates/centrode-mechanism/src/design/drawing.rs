@@ -2,7 +2,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::gear::design::SpecError;
-use crate::gear::design::rule::line;
+use crate::gear::design::rule::single_line;
 
 /// Entries of the title block of a design's drawing sheets, and their layout.
 ///
@@ -104,7 +104,9 @@ impl DrawingSpec {
             ("edges", &self.edges),
             ("surface", &self.surface),
         ];
-        words.iter().try_for_each(|(key, word)| line(key, word))
+        words
+            .iter()
+            .try_for_each(|(key, word)| single_line(key, word))
     }
 
     pub(crate) fn is_default(&self) -> bool {

@@ -6,8 +6,10 @@ use serde::{Deserialize, Serialize};
 use super::{Dimension, DimensionSearchSpec, GearsSpec, PlatesSpec};
 use crate::degrees;
 use crate::design::{DesignSpec, DrawingSpec};
-use crate::gear::design::rule::{Rule, broken, finite, line, name, not_negative, positive, within};
-use crate::gear::design::{SpecError, rule::between};
+use crate::gear::design::rule::{
+    Rule, broken, count_in_range, file_name, finite, not_negative, positive, single_line,
+};
+use crate::gear::design::{SpecError, rule::in_range};
 use crate::linkage::Branch;
 
 /// A feeder: a picking six-bar driven through an incomplete gear by a chain from a motor.
@@ -210,7 +212,7 @@ impl FeederGoals {
     fn validate(&self) -> Result<(), SpecError> {
         let degrees = |key, radians: f64, most: f64| {
             let degrees = (radians.to_degrees() * 1e9).round() / 1e9;
-            between(key, degrees, [0.0, most], " deg")
+            in_range(key, degrees, [0.0, most], " deg")
         };
         positive("swing_deg", self.swing)?;
         degrees("swing_deg", self.swing, 360.0)?;
@@ -268,8 +270,8 @@ impl FeederDesign {
     /// # Errors
     /// [`SpecError`] with the key at fault.
     pub fn validate(&self) -> Result<(), SpecError> {
-        name("name", &self.name)?;
-        line("title", &self.title)?;
+        file_name("name", &self.name)?;
+        single_line("title", &self.title)?;
         let LinkageSpec {
             crank,
             coupler,
@@ -294,7 +296,7 @@ impl FeederDesign {
         self.goals.validate().map_err(|e| e.inside("goals"))?;
         positive("drive.motor_rpm", self.drive.motor_rpm)?;
         positive("drive.chain_ratio", self.drive.chain_ratio)?;
-        within("drive.slots", self.drive.slots, 1, 1000)?;
+        count_in_range("drive.slots", self.drive.slots, 1, 1000)?;
         not_negative("drive.carried_mass", self.drive.carried_mass)?;
         self.gears.validate().map_err(|e| e.inside("gears"))?;
         self.plates.validate().map_err(|e| e.inside("plates"))?;

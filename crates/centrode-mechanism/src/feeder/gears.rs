@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::degrees;
-use crate::gear::design::rule::{between, not_negative, positive, within};
+use crate::gear::design::rule::{count_in_range, in_range, not_negative, positive};
 use crate::gear::design::{GearPairDesign, SpecError};
 use crate::gear::pitch::{Circle, PitchSpec};
 use crate::gear::{IncompleteDrive, IncompleteError, IncompletePairSpec, Pins};
@@ -77,10 +77,10 @@ impl GearsSpec {
     const MOST: u32 = 1000;
 
     pub(super) fn validate(&self) -> Result<(), SpecError> {
-        within("driver_pitches", self.driver_pitches, 1, Self::MOST)?;
-        within("driven_pitches", self.driven_pitches, 1, Self::MOST)?;
-        within("teeth", self.teeth, 1, Self::MOST)?;
-        between("entry_deg", self.entry.to_degrees(), [0.0, 180.0], " deg")?;
+        count_in_range("driver_pitches", self.driver_pitches, 1, Self::MOST)?;
+        count_in_range("driven_pitches", self.driven_pitches, 1, Self::MOST)?;
+        count_in_range("teeth", self.teeth, 1, Self::MOST)?;
+        in_range("entry_deg", self.entry.to_degrees(), [0.0, 180.0], " deg")?;
         for (key, value) in [
             ("module", Some(self.module)),
             ("lock_radius", self.lock_radius),
@@ -95,7 +95,7 @@ impl GearsSpec {
         }
         not_negative("backlash", self.backlash)?;
         not_negative("lock_play", self.lock_play)?;
-        between(
+        in_range(
             "pin_angle_deg",
             self.pin_angle.to_degrees(),
             [5.0, 85.0],

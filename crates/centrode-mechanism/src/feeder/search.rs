@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 use super::{Dimension, FeederDesign};
 use crate::degrees;
 use crate::gear::design::SpecError;
-use crate::gear::design::rule::{Rule, broken, not_negative, positive, within};
+use crate::gear::design::rule::{Rule, broken, count_in_range, not_negative, positive};
 
 /// Variables of a search for better dimensions, their resolution, and the end of the search.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
@@ -56,7 +56,7 @@ impl DimensionSearchSpec {
             return broken("pivot_weight_deg", Rule::Needed(why));
         }
         positive("pivot_room", self.pivot_room)?;
-        within("decimals", self.decimals, 0, 12)?;
+        count_in_range("decimals", self.decimals, 0, 12)?;
         positive("accuracy_deg", self.accuracy)
     }
 }

@@ -7,7 +7,9 @@ use super::{AmplitudeFor, Load, Mill, Reversal, ShaftBody, ShaftError, SliderSpe
 use crate::degrees;
 use crate::design::{DesignSpec, DrawingSpec, Tagged};
 use crate::gear::design::SpecError;
-use crate::gear::design::rule::{Rule, between, broken, finite, line, name, positive, within};
+use crate::gear::design::rule::{
+    Rule, broken, count_in_range, file_name, finite, in_range, positive, single_line,
+};
 
 /// A variable-speed spiral shaft as written: the same words in the file, in Rust and in Python.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
@@ -127,12 +129,12 @@ impl SpiralShaftDesign {
     /// # Errors
     /// [`SpecError`] with the key at fault.
     pub fn validate(&self) -> Result<(), SpecError> {
-        name("name", &self.name)?;
-        line("title", &self.title)?;
+        file_name("name", &self.name)?;
+        single_line("title", &self.title)?;
         positive("lead", self.lead)?;
-        within("holes", self.holes, 2, 1000)?;
+        count_in_range("holes", self.holes, 2, 1000)?;
         positive("radius", self.radius)?;
-        between(
+        in_range(
             "window_deg",
             self.window.to_degrees(),
             [1e-6, 360.0],

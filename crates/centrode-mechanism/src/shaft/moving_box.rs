@@ -9,7 +9,9 @@ use super::{
     EllipticDrive, Load, Schedule, ShaftError, SliderForce, SpiralShaft, SpiralShaftDesign,
 };
 use crate::design::DesignSpec;
-use crate::gear::design::rule::{Rule, between, broken, line, name, positive, within};
+use crate::gear::design::rule::{
+    Rule, broken, count_in_range, file_name, in_range, positive, single_line,
+};
 use crate::gear::design::{BodySpec, GearPairDesign, Keyway, SpecError, TeethSpec, ToolSpec};
 use crate::gear::pitch::{Ellipse, PitchSpec};
 use crate::transmission::{MotionJet, Transmission};
@@ -79,10 +81,10 @@ impl EllipticGears {
     /// [`SpecError`] with the key at fault.
     pub fn validate(&self) -> Result<(), SpecError> {
         if let Some(k) = self.eccentricity {
-            between("eccentricity", k, [0.0, 0.95], "")?;
+            in_range("eccentricity", k, [0.0, 0.95], "")?;
         }
         if let Some(ratio) = self.speed_ratio {
-            between("speed_ratio", ratio, [1.0, 100.0], "")?;
+            in_range("speed_ratio", ratio, [1.0, 100.0], "")?;
         }
         if let Some(moved) = self.moved_distance {
             positive("moved_distance", moved)?;
@@ -102,7 +104,7 @@ impl EllipticGears {
             _ => {}
         }
         positive("module", self.module)?;
-        within("tooth_count", self.tooth_count, 3, 10_000)?;
+        count_in_range("tooth_count", self.tooth_count, 3, 10_000)?;
         self.tool.validate().map_err(|e| e.inside("tool"))?;
         self.teeth.validate().map_err(|e| e.inside("teeth"))?;
         self.body.validate().map_err(|e| e.inside("body"))
@@ -179,8 +181,8 @@ impl MovingBoxDesign {
     /// # Errors
     /// [`SpecError`] with the key at fault.
     pub fn validate(&self) -> Result<(), SpecError> {
-        name("name", &self.name)?;
-        line("title", &self.title)?;
+        file_name("name", &self.name)?;
+        single_line("title", &self.title)?;
         match (self.scheme, &self.gears) {
             (Scheme::Shaft, Some(_)) => {
                 return broken("gears", Rule::Excludes("scheme = \"shaft\""));

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::ShaftError;
 use crate::cam::law::{Law, LawSpec};
 use crate::degrees;
-use crate::gear::design::rule::between;
+use crate::gear::design::rule::in_range;
 use crate::transmission::MotionJet;
 
 /// Reversal of the slider at an end: its speed goes from `v0` to `-v0` by a motion law.
@@ -42,7 +42,7 @@ const LONGEST: f64 = 40.0 * PI;
 impl Reversal {
     pub(super) fn resolve(&self) -> Result<Turnaround, ShaftError> {
         let degrees = self.angle.to_degrees();
-        between(
+        in_range(
             "reversal.angle_deg",
             degrees,
             [1e-6, LONGEST.to_degrees()],

@@ -4,7 +4,7 @@ use centrode_geometry::bracketed_root;
 
 use super::reversal::{Ends, Turnaround};
 use super::{Reversal, ShaftError, ShaftLaw};
-use crate::gear::design::rule::{finite, within};
+use crate::gear::design::rule::{count_in_range, finite};
 use crate::transmission::{MotionJet, Transmission};
 
 /// Number of samples of a reversal in the search for where the slider turns round.
@@ -56,7 +56,7 @@ impl Traverse {
         reversal: &Reversal,
         return_offset: f64,
     ) -> Result<Self, ShaftError> {
-        within("holes", holes, 2, 1000)?;
+        count_in_range("holes", holes, 2, 1000)?;
         finite("start", start)?;
         finite("return_offset", return_offset)?;
         let turnaround = reversal.resolve()?;

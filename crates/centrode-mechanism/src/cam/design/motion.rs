@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 use crate::cam::law::LawSpec;
 use crate::degrees;
 use crate::gear::design::SpecError;
-use crate::gear::design::rule::{Rule, between, broken, finite, positive};
+use crate::gear::design::rule::{Rule, broken, finite, in_range, positive};
 
 /// Motion of a follower in one turn of the cam: segments one after the other.
 ///
@@ -133,7 +133,7 @@ impl SegmentSpec {
     fn validate(&self) -> Result<(), SpecError> {
         let degrees = (self.span().to_degrees() * 1e9).round() / 1e9;
         positive("span_deg", degrees)?;
-        between("span_deg", degrees, [0.0, 360.0], " deg")?;
+        in_range("span_deg", degrees, [0.0, 360.0], " deg")?;
         match self.strokes() {
             None => return Ok(()),
             Some((Some(_), Some(_))) => return broken("swing_deg", Rule::Excludes("lift")),
@@ -183,7 +183,7 @@ impl MotionSpec {
     /// [`SpecError`] with the key at fault, `segments.2.span_deg` for the third segment.
     pub fn validate(&self) -> Result<(), SpecError> {
         finite("start_deg", self.start)?;
-        between(
+        in_range(
             "segments",
             self.segments.len() as f64,
             [1.0, 360.0],

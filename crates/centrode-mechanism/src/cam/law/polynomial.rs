@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 use super::Form;
 use crate::formula::Taylor;
 use crate::gear::design::SpecError;
-use crate::gear::design::rule::{between, finite};
+use crate::gear::design::rule::{finite, in_range};
 
 /// Derivatives that can be asked for at one end: velocity, acceleration, jerk and the next.
 const MOST: usize = 4;
@@ -26,7 +26,7 @@ impl Polynomial {
     /// Checks that the coefficients are finite and at most four at each end.
     pub(super) fn validate(&self) -> Result<(), SpecError> {
         for (key, list) in [("start", &self.start), ("end", &self.end)] {
-            between(key, list.len() as f64, [0.0, MOST as f64], " values")?;
+            in_range(key, list.len() as f64, [0.0, MOST as f64], " values")?;
             list.iter().try_for_each(|&d| finite(key, d))?;
         }
         Ok(())

@@ -1,7 +1,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::rule::{Rule, SpecError, between, broken, line, not_negative, positive};
+use super::rule::{Rule, SpecError, broken, in_range, not_negative, positive, single_line};
 use crate::degrees;
 
 /// Body of a gear: all but its teeth.
@@ -111,7 +111,7 @@ impl BodySpec {
         not_negative("bore", self.bore)?;
         positive("density", self.density)?;
         let angle = self.keyway_angle.to_degrees();
-        between("keyway_angle_deg", angle, [-360.0, 360.0], " deg")?;
+        in_range("keyway_angle_deg", angle, [-360.0, 360.0], " deg")?;
         let words = [
             ("material", &self.material),
             ("bore_fit", &self.bore_fit),
@@ -120,7 +120,7 @@ impl BodySpec {
             ("accuracy", &self.accuracy),
         ];
         for (key, word) in words {
-            line(key, word)?;
+            single_line(key, word)?;
         }
         let Some(Keyway { width, depth }) = self.keyway else {
             return Ok(());

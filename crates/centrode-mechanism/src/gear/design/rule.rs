@@ -135,7 +135,7 @@ pub(crate) fn not_negative(key: &str, value: f64) -> Result<(), SpecError> {
 }
 
 /// Checks a name that can name a file.
-pub(crate) fn name(key: &str, name: &str) -> Result<(), SpecError> {
+pub(crate) fn file_name(key: &str, name: &str) -> Result<(), SpecError> {
     let safe = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
     if name.is_empty() || name.len() > 64 || !name.chars().all(safe) {
         return broken(key, Rule::Name(name.chars().take(80).collect()));
@@ -144,7 +144,7 @@ pub(crate) fn name(key: &str, name: &str) -> Result<(), SpecError> {
 }
 
 /// Checks words for a drawing: one line, not endless.
-pub(crate) fn line(key: &str, words: &str) -> Result<(), SpecError> {
+pub(crate) fn single_line(key: &str, words: &str) -> Result<(), SpecError> {
     const MOST: usize = 80;
     let count = words.chars().count();
     let controls = words.chars().filter(|c| c.is_control()).count();
@@ -159,11 +159,16 @@ pub(crate) fn line(key: &str, words: &str) -> Result<(), SpecError> {
     broken(key, rule)
 }
 
-pub(crate) fn within(key: &str, value: u32, least: u32, greatest: u32) -> Result<(), SpecError> {
-    between(key, value.into(), [least.into(), greatest.into()], "")
+pub(crate) fn count_in_range(
+    key: &str,
+    value: u32,
+    least: u32,
+    greatest: u32,
+) -> Result<(), SpecError> {
+    in_range(key, value.into(), [least.into(), greatest.into()], "")
 }
 
-pub(crate) fn between(
+pub(crate) fn in_range(
     key: &str,
     value: f64,
     [least, greatest]: [f64; 2],

@@ -3,7 +3,7 @@ use std::fmt;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
 
-use super::rule::{Rule, SpecError, between, broken, finite, not_negative, positive};
+use super::rule::{Rule, SpecError, broken, finite, in_range, not_negative, positive};
 use crate::degrees;
 
 /// The teeth of both gears.
@@ -150,7 +150,7 @@ impl TeethSpec {
     pub fn validate(&self) -> Result<(), SpecError> {
         if let Phase::Pitches(p) = self.phase {
             finite("phase", p)?;
-            between("phase", p, [-1.0, 1.0], "")?;
+            in_range("phase", p, [-1.0, 1.0], "")?;
         }
         not_negative("backlash", self.backlash)?;
         if let Some(angle) = self.backlash_angle {
@@ -162,7 +162,7 @@ impl TeethSpec {
         if let Some(diameter) = self.pin_diameter {
             positive("pin_diameter", diameter)?;
         }
-        between("thickness_split", self.thickness_split, [0.2, 0.8], "")?;
+        in_range("thickness_split", self.thickness_split, [0.2, 0.8], "")?;
         not_negative(
             "least_tip_width_coefficient",
             self.least_tip_width_coefficient,

@@ -1,7 +1,7 @@
 use std::f64::consts::FRAC_PI_4;
 
 use crate::gear::GearPairError;
-use crate::gear::design::rule::{between, not_negative, positive, within};
+use crate::gear::design::rule::{count_in_range, in_range, not_negative, positive};
 use crate::gear::design::{GearPairDesign, SpecError};
 
 /// Intermittent gear pair as asked for.
@@ -65,8 +65,8 @@ impl IncompletePairSpec {
     /// [`SpecError`] with the key at fault.
     pub fn validate(&self) -> Result<(), SpecError> {
         self.pair.validate()?;
-        within("teeth", self.teeth, 1, 10_000)?;
-        between("entry_deg", self.entry.to_degrees(), [0.0, 180.0], " deg")?;
+        count_in_range("teeth", self.teeth, 1, 10_000)?;
+        in_range("entry_deg", self.entry.to_degrees(), [0.0, 180.0], " deg")?;
         if let Some(radius) = self.lock_radius {
             positive("lock_radius", radius)?;
         }
@@ -80,7 +80,7 @@ impl IncompletePairSpec {
                 positive(key, value)?;
             }
         }
-        between(
+        in_range(
             "pin_angle_deg",
             self.pins.angle.to_degrees(),
             [5.0, 85.0],

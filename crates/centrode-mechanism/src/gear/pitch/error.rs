@@ -309,7 +309,7 @@ pub(crate) fn eccentricity(value: f64) -> Result<f64, PitchError> {
 }
 
 /// Returns `value`, if in `least..=greatest`.
-pub(crate) fn within(
+pub(crate) fn in_range(
     key: &'static str,
     value: u32,
     least: u32,

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::MOST_HARMONICS;
 use crate::degrees;
-use crate::gear::design::rule::{finite, within};
+use crate::gear::design::rule::{count_in_range, finite};
 use crate::shaft::ShaftError;
 use crate::transmission::{MotionJet, Transmission};
 
@@ -52,7 +52,7 @@ impl RotatedSine {
     pub(super) fn resolve(&self, lead: f64, radius: f64) -> Result<Resolved, ShaftError> {
         finite("law.amplitude", self.amplitude)?;
         finite("law.phase_deg", self.phase.to_degrees())?;
-        within("law.harmonic", self.harmonic, 1, MOST_HARMONICS)?;
+        count_in_range("law.harmonic", self.harmonic, 1, MOST_HARMONICS)?;
         let (mean, n) = (lead / TAU, f64::from(self.harmonic));
         let turn = radius.hypot(mean);
         // cos b = mean / turn, sin b = radius / turn. The angle must not turn back, nor the speed.

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::MOST_HARMONICS;
 use crate::degrees;
-use crate::gear::design::rule::{finite, positive, within};
+use crate::gear::design::rule::{count_in_range, finite, positive};
 use crate::shaft::ShaftError;
 use crate::transmission::{MotionJet, Transmission};
 
@@ -59,7 +59,7 @@ impl AmplitudeFor {
         positive("lead", self.lead)?;
         finite("moved_distance", self.moved_distance)?;
         positive("window_deg", self.window.to_degrees())?;
-        within("law.harmonic", self.harmonic, 1, MOST_HARMONICS)?;
+        count_in_range("law.harmonic", self.harmonic, 1, MOST_HARMONICS)?;
         let n = f64::from(self.harmonic);
         let sin = (0.5 * n * self.window).sin();
         let mean = self.lead / TAU;
@@ -98,7 +98,7 @@ impl Sine {
     pub(super) fn resolve(&self, lead: f64) -> Result<Resolved, ShaftError> {
         finite("law.amplitude", self.amplitude)?;
         finite("law.phase_deg", self.phase.to_degrees())?;
-        within("law.harmonic", self.harmonic, 1, MOST_HARMONICS)?;
+        count_in_range("law.harmonic", self.harmonic, 1, MOST_HARMONICS)?;
         let (mean, n) = (lead / TAU, f64::from(self.harmonic));
         if n * self.amplitude.abs() >= mean {
             return Err(ShaftError::Amplitude {

@@ -5,7 +5,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::plan::columns;
-use crate::gear::design::rule::{Rule, broken, line, not_negative, positive};
+use crate::gear::design::rule::{Rule, broken, not_negative, positive, single_line};
 use crate::gear::design::{Keyway, SpecError};
 use crate::shaft::{Groove, ShaftError};
 
@@ -69,7 +69,7 @@ impl ShaftBody {
         positive("journal_length", self.journal_length)?;
         not_negative("chamfer", self.chamfer)?;
         positive("density", self.density)?;
-        line("material", &self.material)?;
+        single_line("material", &self.material)?;
         let below = |key: &str, value: f64, limit: f64| {
             if value < limit {
                 return Ok(());

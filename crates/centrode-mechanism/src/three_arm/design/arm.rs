@@ -5,7 +5,7 @@ use super::angle;
 use crate::arm::{ArmBodySpec, UsualArm};
 use crate::degrees;
 use crate::gear::design::SpecError;
-use crate::gear::design::rule::{between, not_negative, positive};
+use crate::gear::design::rule::{in_range, not_negative, positive};
 
 /// An arm, fixed to its planet.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
@@ -60,7 +60,7 @@ impl ArmSpec {
         angle("mounting_angle_deg", self.mounting_angle)?;
         positive("tip_distance", self.tip_distance)?;
         let reach = self.tip_distance;
-        between("pusher_offset", self.pusher_offset, [-reach, reach], " mm")?;
+        in_range("pusher_offset", self.pusher_offset, [-reach, reach], " mm")?;
         positive("clamp_length", self.clamp_length)?;
         let body = self.body.as_ref();
         body.map_or(Ok(()), ArmBodySpec::validate)

@@ -6,7 +6,9 @@ use serde::{Deserialize, Serialize};
 use super::Parameter;
 use crate::degrees;
 use crate::design::{DesignSpec, DrawingSpec, Tagged};
-use crate::gear::design::rule::{between, broken, finite, line, name, positive, within};
+use crate::gear::design::rule::{
+    broken, count_in_range, file_name, finite, in_range, positive, single_line,
+};
 use crate::gear::design::{BodySpec, GearPairDesign, Rule, SpecError, TeethSpec, ToolSpec};
 use crate::gear::pitch::PitchSpec;
 
@@ -245,18 +247,18 @@ impl ThreeArmDesign {
     /// [`SpecError`] with the key at fault and the rule it breaks. The pitch curve's own rules are
     /// those of [`PitchSpec::resolve`].
     pub fn validate(&self) -> Result<(), SpecError> {
-        name("name", &self.name)?;
-        line("title", &self.title)?;
-        within("arms", self.arms, 1, Self::MOST_ARMS)?;
+        file_name("name", &self.name)?;
+        single_line("title", &self.title)?;
+        count_in_range("arms", self.arms, 1, Self::MOST_ARMS)?;
         angle("carrier_start_deg", self.carrier_start)?;
         // A chain folded back on itself puts the planet on the sun's axis.
         let bend = rounded_degrees(self.bend);
-        between("bend_deg", bend, [-175.0, 175.0], " deg")?;
+        in_range("bend_deg", bend, [-175.0, 175.0], " deg")?;
         if let Some(reference) = self.planet_reference {
             angle("planet_reference_deg", reference)?;
         }
         if let Some(z) = self.tooth_count {
-            within("tooth_count", z, 3, 10_000)?;
+            count_in_range("tooth_count", z, 3, 10_000)?;
             if let Some(of_pitch) = self.pitch.tooth_count()
                 && z != of_pitch
             {
@@ -298,7 +300,7 @@ fn rounded_degrees(radians: f64) -> f64 {
 /// Checks an angle within a turn either way.
 fn angle(key: &str, radians: f64) -> Result<(), SpecError> {
     finite(key, radians)?;
-    between(key, rounded_degrees(radians), [-360.0, 360.0], " deg")
+    in_range(key, rounded_degrees(radians), [-360.0, 360.0], " deg")
 }
 
 /// Checks a range with its ends in order.

@@ -3,7 +3,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::cam::law::LawSpec;
 use crate::degrees;
-use crate::gear::design::rule::{between, positive};
+use crate::gear::design::rule::{in_range, positive};
 use crate::gear::design::{BodySpec, SpecError};
 
 /// The cam, fixed to the carrier about a planet's axis, that draws the push rod back and lets it go.
@@ -57,7 +57,7 @@ impl PusherCamSpec {
         positive("base_radius", self.base_radius)?;
         for (key, span) in [("closing_deg", self.closing), ("release_deg", self.release)] {
             positive(key, span)?;
-            between(key, span.to_degrees(), [0.1, 359.0], " deg")?;
+            in_range(key, span.to_degrees(), [0.1, 359.0], " deg")?;
         }
         self.closing_law
             .validate()
@@ -142,7 +142,7 @@ impl ForkSpec {
         ] {
             positive(key, size)?;
         }
-        between(
+        in_range(
             "roller_bore",
             self.roller_bore,
             [0.0, 2.0 * self.roller_radius],

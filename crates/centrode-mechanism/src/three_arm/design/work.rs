@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 use super::angle;
 use crate::degrees;
 use crate::gear::design::SpecError;
-use crate::gear::design::rule::{between, finite, not_negative, positive, within};
+use crate::gear::design::rule::{count_in_range, finite, in_range, not_negative, positive};
 
 /// Picking, planting and travel.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
@@ -130,9 +130,9 @@ impl TraySpec {
             finite("distance", distance)?;
         }
         let inclination = self.inclination.to_degrees();
-        between("inclination_deg", inclination, [-89.0, 89.0], " deg")?;
-        within("columns", self.columns, 1, 1000)?;
-        within("rows", self.rows, 1, 1000)?;
+        in_range("inclination_deg", inclination, [-89.0, 89.0], " deg")?;
+        count_in_range("columns", self.columns, 1, 1000)?;
+        count_in_range("rows", self.rows, 1, 1000)?;
         positive("hole_spacing", self.hole_spacing)?;
         not_negative("stem_length", self.stem_length)
     }
