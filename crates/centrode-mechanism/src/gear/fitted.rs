@@ -4,10 +4,10 @@ use centrode_geometry::{bracketed_root, checkpoint};
 
 use super::{
     flank::{Flank, Side},
-    interference::{Passing, Reaches, Trial},
     profile::{FlankPlan, ToothPlan, Top},
     rolling::{Member, Rolling},
     tool::{Corner, Tool},
+    tooth_passage::{Candidate, Reaches, ToothPassage},
 };
 
 /// Least share of a straight rack's flank speed kept at the end of a trimmed flank: below it the
@@ -80,20 +80,21 @@ impl Fitting<'_> {
                     index.div_euclid(last as isize) as f64 * lengths[1],
                 );
                 let middle = 0.25 * (one[0] + one[1] + two[0] + two[1]);
-                let Some(passing) = Passing::about(self.rolling, self.tool, middle, pitch) else {
+                let Some(passage) = ToothPassage::about(self.rolling, self.tool, middle, pitch)
+                else {
                     continue;
                 };
                 // A flank is needed as far down as any mate reaches; the mates' own reach bounds it.
-                let trial = |member, crossings, reaches, mates: &Reaches| Trial {
+                let candidate = |member, crossings, reaches, mates: &Reaches| Candidate {
                     member,
                     crossings,
                     reaches,
                     depths: [mates[1], mates[0]],
                 };
                 let (a, b) = (reach_1[i], reach_2[j]);
-                let cleared = passing.clear(
-                    &trial(Member::Driver, one, a, &b),
-                    &trial(Member::Driven, two, b, &a),
+                let cleared = passage.clear(
+                    &candidate(Member::Driver, one, a, &b),
+                    &candidate(Member::Driven, two, b, &a),
                 );
                 (reach_1[i], reach_2[j]) = cleared;
             }

@@ -5,7 +5,6 @@ pub mod design;
 mod fitted;
 mod flank;
 mod incomplete;
-mod interference;
 mod limits;
 mod over_pins;
 mod pair;
@@ -16,6 +15,7 @@ mod soundness;
 mod stage;
 mod teeth;
 mod tool;
+mod tooth_passage;
 
 pub use conjugate::Conjugate;
 pub use flank::Side;
