@@ -83,7 +83,7 @@ struct Seen {
 }
 
 /// Candidate: a point that was tried.
-struct Trial {
+struct Candidate {
     point: Vec<f64>,
     /// Displacement of each variable, as shares of the bounds.
     moved: Vec<f64>,
@@ -197,10 +197,10 @@ impl GuidedSearch {
                         return Ended::Evaluations;
                     }
                     match self.best_step(problem, &seen, goal, step) {
-                        Some((trial, helpful)) => {
-                            self.record(problem, &seen, &trial, goal, helpful);
-                            self.point = trial.point;
-                            seen = trial.seen;
+                        Some((candidate, helpful)) => {
+                            self.record(problem, &seen, &candidate, goal, helpful);
+                            self.point = candidate.point;
+                            seen = candidate.seen;
                             self.misses.clone_from(&seen.misses);
                             self.history.push(self.progress());
                         }
@@ -225,32 +225,38 @@ impl GuidedSearch {
         seen: &Seen,
         goal: usize,
         step: f64,
-    ) -> Option<(Trial, usize)> {
+    ) -> Option<(Candidate, usize)> {
         let count = self.point.len();
         let single = |k: usize| {
             let mut moved = vec![0.0; count];
             moved[k / 2] = if k.is_multiple_of(2) { step } else { -step };
             moved
         };
-        let trials = self.tried(problem, (0..2 * count).map(single).collect());
-        let gain = |trial: &Trial| seen.change(&trial.seen, goal).0;
+        let candidates = self.tried(problem, (0..2 * count).map(single).collect());
+        let gain = |candidate: &Candidate| seen.change(&candidate.seen, goal).0;
         let mut influence = vec![0.0_f64; count];
-        for trial in trials.iter().filter(|trial| gain(trial) > LEAST_GAIN) {
-            for (best, moved) in influence.iter_mut().zip(&trial.moved) {
-                if *moved != 0.0 && gain(trial) > best.abs() {
-                    *best = gain(trial) * moved.signum();
+        for candidate in candidates
+            .iter()
+            .filter(|candidate| gain(candidate) > LEAST_GAIN)
+        {
+            for (best, moved) in influence.iter_mut().zip(&candidate.moved) {
+                if *moved != 0.0 && gain(candidate) > best.abs() {
+                    *best = gain(candidate) * moved.signum();
                 }
             }
         }
         let helpful = influence.iter().filter(|i| **i != 0.0).count();
         let most = influence.iter().fold(0.0_f64, |most, i| most.max(i.abs()));
-        let allowed =
-            |trials: Vec<Trial>| trials.into_iter().filter(|t| seen.allows(&t.seen, goal));
-        let better = |a: &Trial, b: &Trial| gain(a).total_cmp(&gain(b));
+        let allowed = |candidates: Vec<Candidate>| {
+            candidates
+                .into_iter()
+                .filter(|t| seen.allows(&t.seen, goal))
+        };
+        let better = |a: &Candidate, b: &Candidate| gain(a).total_cmp(&gain(b));
         // All that count, together, as far as their influence goes; and only those whose own step is allowed.
         let mut own = vec![0.0; count];
-        for trial in trials.iter().filter(|t| seen.allows(&t.seen, goal)) {
-            for (own, moved) in own.iter_mut().zip(&trial.moved) {
+        for candidate in candidates.iter().filter(|t| seen.allows(&t.seen, goal)) {
+            for (own, moved) in own.iter_mut().zip(&candidate.moved) {
                 if *moved != 0.0 {
                     *own = *moved;
                 }
@@ -271,7 +277,7 @@ impl GuidedSearch {
         } else {
             Vec::new()
         };
-        let mut best = allowed(trials).chain(allowed(joint)).max_by(better)?;
+        let mut best = allowed(candidates).chain(allowed(joint)).max_by(better)?;
         // On in that direction, with twice the step each time.
         while best.seen.misses[goal] > 0.0 {
             let further = best.moved.iter().map(|moved| 2.0 * moved).collect();
@@ -288,24 +294,24 @@ impl GuidedSearch {
 
     /// Evaluates points moved from here by shares of the bounds, in their order; those that give no mechanism are left
     /// out.
-    fn tried(&mut self, problem: &dyn DesignProblem, moves: Vec<Vec<f64>>) -> Vec<Trial> {
+    fn tried(&mut self, problem: &dyn DesignProblem, moves: Vec<Vec<f64>>) -> Vec<Candidate> {
         self.evaluations += moves.len() as u64;
         let bounds = problem.bounds();
         let here = &self.point;
         let cancel = Cancel::current();
-        let trial = |moved: Vec<f64>| {
+        let candidate = |moved: Vec<f64>| {
             let _scope = cancel.enter();
             let place = |((x, share), &(low, high)): ((&f64, &f64), &(f64, f64))| {
                 (x + share * (high - low)).clamp(low, high)
             };
             let point: Vec<f64> = here.iter().zip(&moved).zip(&bounds).map(place).collect();
             let seen = Seen::at(problem, &point)?;
-            Some(Trial { point, moved, seen })
+            Some(Candidate { point, moved, seen })
         };
         moves
             .into_par_iter()
             .panic_fuse()
-            .filter_map(trial)
+            .filter_map(candidate)
             .collect()
     }
 
@@ -313,14 +319,14 @@ impl GuidedSearch {
         &mut self,
         problem: &dyn DesignProblem,
         seen: &Seen,
-        trial: &Trial,
+        candidate: &Candidate,
         goal: usize,
         helpful: usize,
     ) {
         let pairs = problem
             .variables()
             .iter()
-            .zip(self.point.iter().zip(&trial.point));
+            .zip(self.point.iter().zip(&candidate.point));
         let moves = pairs
             .map(|(v, (&from, &to))| (v.name.clone(), [v.written(from), v.written(to)]))
             .filter(|(_, [from, to])| from != to)
@@ -329,8 +335,8 @@ impl GuidedSearch {
         self.log.push(GuidedStep {
             goal: (what.number, what.title.to_owned()),
             moves,
-            miss: [seen.misses[goal], trial.seen.misses[goal]],
-            others: seen.change(&trial.seen, goal).1,
+            miss: [seen.misses[goal], candidate.seen.misses[goal]],
+            others: seen.change(&candidate.seen, goal).1,
             helpful,
         });
     }
