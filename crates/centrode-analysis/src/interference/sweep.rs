@@ -89,8 +89,8 @@ pub(super) fn approach(
             break;
         }
         let middle = 0.5 * (span.from + span.to);
-        let look = Look::new(a, b, middle, 0.5 * (span.to - span.from))?;
-        let rest = look.at_pairs(&span.pairs, &mut found, tolerance);
+        let state = PairState::new(a, b, middle, 0.5 * (span.to - span.from))?;
+        let rest = state.at_pairs(&span.pairs, &mut found, tolerance);
         if rest.pairs.is_empty() {
             continue;
         }
@@ -123,7 +123,7 @@ struct Rest {
 }
 
 /// State of two bodies in the middle of an interval.
-struct Look<'a> {
+struct PairState<'a> {
     bodies: [&'a Body; 2],
     frames: [Frame; 2],
     bends: [Bend; 2],
@@ -131,7 +131,7 @@ struct Look<'a> {
     half: f64,
 }
 
-impl<'a> Look<'a> {
+impl<'a> PairState<'a> {
     fn new(
         a: &Moving<'a>,
         b: &Moving<'a>,

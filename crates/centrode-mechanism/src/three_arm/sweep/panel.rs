@@ -32,13 +32,13 @@ pub(super) struct Panel {
 
 /// Value of a function at a parameter, with its derivatives by s.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Look<T = f64> {
+pub(super) struct Evaluation<T = f64> {
     pub(super) value: T,
     pub(super) rate: T,
     pub(super) change: T,
 }
 
-impl<T: Places> Look<T> {
+impl<T: Places> Evaluation<T> {
     /// Step towards a value by Halley's method.
     #[inline]
     pub(super) fn step(&self, to: T) -> T {
@@ -59,7 +59,7 @@ impl Panel {
 /// Function that grows along the pitch curve.
 pub(super) trait Growing: Copy {
     /// Evaluates it in a panel; `C` coefficients of the panel's polynomials are not zero.
-    fn look<const C: usize, T: Places>(self, panel: &Panel, s: T) -> Look<T>;
+    fn evaluate<const C: usize, T: Places>(self, panel: &Panel, s: T) -> Evaluation<T>;
 }
 
 /// The polar angle.
@@ -74,9 +74,9 @@ pub(super) struct DrivenAngle {
 
 impl Growing for PolarAngle {
     #[inline]
-    fn look<const C: usize, T: Places>(self, panel: &Panel, s: T) -> Look<T> {
+    fn evaluate<const C: usize, T: Places>(self, panel: &Panel, s: T) -> Evaluation<T> {
         let (value, rate, change) = twice(&panel.angle[..C], s);
-        Look {
+        Evaluation {
             value,
             rate,
             change,
@@ -86,7 +86,7 @@ impl Growing for PolarAngle {
 
 impl Growing for DrivenAngle {
     #[inline]
-    fn look<const C: usize, T: Places>(self, panel: &Panel, s: T) -> Look<T> {
+    fn evaluate<const C: usize, T: Places>(self, panel: &Panel, s: T) -> Evaluation<T> {
         let a = T::from(self.center_distance);
         let c = panel.driven.map(T::from);
         // Even and odd powers apart: two short chains instead of a long one.
@@ -103,7 +103,7 @@ impl Growing for DrivenAngle {
         let (r, slope, _) = twice(&panel.radius[..C], s);
         let rest = T::from(1.0) / (a - r);
         let ratio = r * rest;
-        Look {
+        Evaluation {
             value: even + odd * s,
             rate: turn * ratio,
             change: turn_change * ratio + turn * slope * a * rest * rest,

@@ -276,7 +276,7 @@ impl Path {
     ) -> Extreme {
         let step = self.step();
         let middle = step * index as f64;
-        let look = |input: f64| {
+        let reach_at = |input: f64| {
             let tip = self.near(stage, machine, index, input);
             let along = |v: [f64; 2]| v[0] * direction[0] + v[1] * direction[1];
             (along(tip.position), along(tip.velocity))
@@ -293,7 +293,7 @@ impl Path {
             if !inside {
                 input = middle;
             }
-            let (reach, slope) = look(input);
+            let (reach, slope) = reach_at(input);
             if reach >= best.reach {
                 best = Extreme { input, reach };
             }

@@ -4,7 +4,7 @@ use centrode_geometry::bracketed_root;
 
 use super::SweepError;
 use super::panel::{
-    COEFFICIENTS, DrivenAngle, Growing, Look, NODES, Panel, PolarAngle, horner, twice,
+    COEFFICIENTS, DrivenAngle, Evaluation, Growing, NODES, Panel, PolarAngle, horner, twice,
 };
 use super::spline::SplinePair;
 use super::track::Growth;
@@ -107,9 +107,9 @@ impl Stage {
             [panel.angle, panel.radius] = self.spline.part(index / PANELS, middle, half);
         }
         if self.coefficients() <= 3 {
-            self.look_round::<3>()?;
+            self.evaluate_round::<3>()?;
         } else {
-            self.look_round::<{ HIGHEST_DEGREE + 1 }>()?;
+            self.evaluate_round::<{ HIGHEST_DEGREE + 1 }>()?;
         }
         self.find_extremes();
         self.center_distance = self.closure()?;
@@ -120,7 +120,7 @@ impl Stage {
     }
 
     /// Evaluates every panel, whose polynomials have `C` coefficients, at its nodes.
-    fn look_round<const C: usize>(&mut self) -> Result<(), SweepError> {
+    fn evaluate_round<const C: usize>(&mut self) -> Result<(), SweepError> {
         let (mut length, mut first, mut second) = ([0.0; NODES], [0.0; NODES], [0.0; NODES]);
         let mut good = true;
         let nodes = self
@@ -336,28 +336,30 @@ impl Stage {
 
     /// Polar angle at a spot.
     #[inline]
-    pub(super) fn angle(&self, spot: Spot) -> Look {
-        self.look(self.angle_growth(), spot)
+    pub(super) fn angle(&self, spot: Spot) -> Evaluation {
+        self.evaluate(self.angle_growth(), spot)
     }
 
     /// Driven angle since polar angle zero at a spot.
     #[inline]
-    pub(super) fn driven(&self, spot: Spot) -> Look {
-        let mut look = self.look(self.driven_growth(), spot);
-        look.value -= self.offset;
-        look
+    pub(super) fn driven(&self, spot: Spot) -> Evaluation {
+        let mut evaluation = self.evaluate(self.driven_growth(), spot);
+        evaluation.value -= self.offset;
+        evaluation
     }
 
     #[inline]
-    fn look<G: Growing>(&self, growth: Growth<'_, G>, spot: Spot) -> Look {
+    fn evaluate<G: Growing>(&self, growth: Growth<'_, G>, spot: Spot) -> Evaluation {
         let panel = &self.panels[spot.panel];
-        let mut look = if self.coefficients() <= 3 {
-            growth.of.look::<3, _>(panel, spot.s)
+        let mut evaluation = if self.coefficients() <= 3 {
+            growth.of.evaluate::<3, _>(panel, spot.s)
         } else {
-            growth.of.look::<{ HIGHEST_DEGREE + 1 }, _>(panel, spot.s)
+            growth
+                .of
+                .evaluate::<{ HIGHEST_DEGREE + 1 }, _>(panel, spot.s)
         };
-        look.value += spot.turns * growth.whole();
-        look
+        evaluation.value += spot.turns * growth.whole();
+        evaluation
     }
 
     /// Spot at a polar angle, from anywhere.

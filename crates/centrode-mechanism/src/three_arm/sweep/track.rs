@@ -55,17 +55,17 @@ impl<G: Growing> Growth<'_, G> {
 
     /// Position of a value in a panel.
     fn place<const C: usize>(&self, index: usize, value: f64) -> f64 {
-        let look = |s: f64| self.of.look::<C, _>(&self.panels[index], s);
+        let evaluate = |s: f64| self.of.evaluate::<C, _>(&self.panels[index], s);
         let (low, high) = (self.ends[index], self.ends[index + 1]);
         let mut s = 2.0 * (value - low) / (high - low) - 1.0;
         for _ in 0..8 {
-            let step = look(s).step(value);
+            let step = evaluate(s).step(value);
             s = (s + step).clamp(-1.0, 1.0);
             if settled(step) {
                 return s;
             }
         }
-        let off = |s: f64| look(s).value - value;
+        let off = |s: f64| evaluate(s).value - value;
         let ends = (off(-1.0).min(0.0), off(1.0).max(0.0));
         bracketed_root(off, -1.0, 1.0, ends.0, ends.1)
     }
@@ -129,9 +129,9 @@ impl Track {
         let (low, high) = (growth.ends[run.panel], growth.ends[run.panel + 1]);
         let width = high - low;
         let guess = inverse_quintic([-1.0, 1.0].map(|end| {
-            let look = growth.of.look::<C, _>(panel, end);
-            let slope = width / look.rate;
-            [slope, -slope * slope * look.change / look.rate]
+            let evaluation = growth.of.evaluate::<C, _>(panel, end);
+            let slope = width / evaluation.rate;
+            [slope, -slope * slope * evaluation.change / evaluation.rate]
         }));
         let scale = f64x4::from(1.0 / width);
         let mut long = f64x4::from(0.0);
@@ -143,7 +143,7 @@ impl Track {
                 .into_iter()
                 .rev()
                 .fold(f64x4::ZERO, |s, c| s * u + f64x4::from(c));
-            let step = growth.of.look::<C, _>(panel, s).step(target);
+            let step = growth.of.evaluate::<C, _>(panel, s).step(target);
             long |= !step.abs().simd_lt(f64x4::from(LAST));
             self.places[start..start + LANES].copy_from_slice((s + step).as_array());
         }
@@ -167,7 +167,7 @@ impl Track {
             let added = f64x4::from(first + run.turns * growth.whole());
             for start in run.targets.clone().step_by(LANES) {
                 let places = lanes(&self.places, start);
-                let value = growth.of.look::<C, _>(panel, places).value + added;
+                let value = growth.of.evaluate::<C, _>(panel, places).value + added;
                 out[start..start + LANES].copy_from_slice(value.as_array());
             }
         }
