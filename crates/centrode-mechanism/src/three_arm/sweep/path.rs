@@ -5,7 +5,7 @@ use wide::f64x4;
 use super::SweepError;
 use super::circle::Circle;
 use super::panel::LANES;
-use super::stage::{Spot, Stage, settled};
+use super::stage::{Param, Stage, settled};
 use super::track::{Track, lanes};
 use crate::gear::pitch::HIGHEST_DEGREE;
 use crate::three_arm::Extreme;
@@ -64,23 +64,23 @@ impl Machine {
         self.carrier_start + psi + self.bend + self.zero - chi
     }
 
-    /// Spots in mesh at a polar angle of the sun, from spots nearby.
-    fn mesh(&self, stage: &Stage, psi: f64, sun: Spot, planet: Spot) -> (Spot, Spot) {
-        let closer = |mut spot: Spot, nearer: &dyn Fn(Spot) -> (Spot, f64)| {
+    /// Parameters in mesh at a polar angle of the sun, from parameters nearby.
+    fn mesh(&self, stage: &Stage, psi: f64, sun: Param, planet: Param) -> (Param, Param) {
+        let closer = |mut param: Param, nearer: &dyn Fn(Param) -> (Param, f64)| {
             (0..6).find_map(|_| {
-                let (next, step) = nearer(spot);
-                spot = next;
-                settled(step).then_some(spot)
+                let (next, step) = nearer(param);
+                param = next;
+                settled(step).then_some(param)
             })
         };
-        let sun = closer(sun, &|spot| stage.nearer_angle(spot, psi));
+        let sun = closer(sun, &|param| stage.nearer_angle(param, psi));
         let sun = sun.unwrap_or_else(|| stage.at_angle(psi));
         let met = self.met(stage.driven(sun).value);
-        let planet = closer(planet, &|spot| stage.nearer_driven(spot, met));
+        let planet = closer(planet, &|param| stage.nearer_driven(param, met));
         (sun, planet.unwrap_or_else(|| stage.at_driven(met)))
     }
 
-    fn tip(&self, stage: &Stage, psi: f64, sun: Spot, planet: Spot) -> Tip {
+    fn tip(&self, stage: &Stage, psi: f64, sun: Param, planet: Param) -> Tip {
         let chi = stage.angle(planet);
         let forward = stage.driven(sun).rate / stage.angle(sun).rate;
         let backward = chi.rate / stage.driven(planet).rate;
@@ -106,7 +106,7 @@ pub(super) struct Path {
     /// Polar angles of the sun, with room for the lanes beyond the last, and their cosines and sines.
     angles: Vec<f64>,
     turns: Vec<[f64; 2]>,
-    /// Spots in mesh, of sun and planet; driven angles there; polar angles of the planet.
+    /// Parameters in mesh, of sun and planet; driven angles there; polar angles of the planet.
     sun: Track,
     planet: Track,
     met: Vec<f64>,
@@ -202,13 +202,13 @@ impl Path {
     /// Direction of the arm's zero at an input.
     pub(super) fn arm(&self, stage: &Stage, machine: &Machine, input: f64) -> f64 {
         let (psi, place) = self.place(input);
-        let (_, planet) = machine.mesh(stage, psi, self.sun.spot(place), self.planet.spot(place));
+        let (_, planet) = machine.mesh(stage, psi, self.sun.param(place), self.planet.param(place));
         machine.arm(psi, stage.angle(planet).value)
     }
 
     /// The tip near a known place of the path.
     fn near(&self, stage: &Stage, machine: &Machine, place: usize, psi: f64) -> Tip {
-        let (sun, planet) = (self.sun.spot(place), self.planet.spot(place));
+        let (sun, planet) = (self.sun.param(place), self.planet.param(place));
         let (sun, planet) = machine.mesh(stage, psi, sun, planet);
         machine.tip(stage, psi, sun, planet)
     }

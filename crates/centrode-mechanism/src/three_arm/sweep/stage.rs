@@ -17,7 +17,7 @@ pub(super) const LAST: f64 = 1e-3;
 
 /// Parameter on the pitch curve: panel, place in it, and whole turns before.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Spot {
+pub(super) struct Param {
     pub(super) panel: usize,
     pub(super) s: f64,
     pub(super) turns: f64,
@@ -284,28 +284,28 @@ impl Stage {
 
     /// Parameter moved on by a step.
     #[inline]
-    pub(super) fn moved(&self, from: Spot, by: f64) -> Spot {
-        let mut spot = from;
+    pub(super) fn moved(&self, from: Param, by: f64) -> Param {
+        let mut param = from;
         // No step is longer than a turn, whatever a curve that turns back may ask for.
         let most = 2.0 * self.panels.len() as f64;
-        spot.s += by.clamp(-most, most);
-        while spot.s > 1.0 {
-            spot.s -= 2.0;
-            spot.panel += 1;
-            if spot.panel == self.panels.len() {
-                spot.panel = 0;
-                spot.turns += 1.0;
+        param.s += by.clamp(-most, most);
+        while param.s > 1.0 {
+            param.s -= 2.0;
+            param.panel += 1;
+            if param.panel == self.panels.len() {
+                param.panel = 0;
+                param.turns += 1.0;
             }
         }
-        while spot.s < -1.0 {
-            spot.s += 2.0;
-            if spot.panel == 0 {
-                spot.panel = self.panels.len();
-                spot.turns -= 1.0;
+        while param.s < -1.0 {
+            param.s += 2.0;
+            if param.panel == 0 {
+                param.panel = self.panels.len();
+                param.turns -= 1.0;
             }
-            spot.panel -= 1;
+            param.panel -= 1;
         }
-        spot
+        param
     }
 
     /// Number of coefficients to compute with, from the degree of the spline: the sums of a low degree are those of
@@ -334,57 +334,57 @@ impl Stage {
         }
     }
 
-    /// Polar angle at a spot.
+    /// Polar angle at a parameter.
     #[inline]
-    pub(super) fn angle(&self, spot: Spot) -> Evaluation {
-        self.evaluate(self.angle_growth(), spot)
+    pub(super) fn angle(&self, param: Param) -> Evaluation {
+        self.evaluate(self.angle_growth(), param)
     }
 
-    /// Driven angle since polar angle zero at a spot.
+    /// Driven angle since polar angle zero at a parameter.
     #[inline]
-    pub(super) fn driven(&self, spot: Spot) -> Evaluation {
-        let mut evaluation = self.evaluate(self.driven_growth(), spot);
+    pub(super) fn driven(&self, param: Param) -> Evaluation {
+        let mut evaluation = self.evaluate(self.driven_growth(), param);
         evaluation.value -= self.offset;
         evaluation
     }
 
     #[inline]
-    fn evaluate<G: Growing>(&self, growth: Growth<'_, G>, spot: Spot) -> Evaluation {
-        let panel = &self.panels[spot.panel];
+    fn evaluate<G: Growing>(&self, growth: Growth<'_, G>, param: Param) -> Evaluation {
+        let panel = &self.panels[param.panel];
         let mut evaluation = if self.coefficients() <= 3 {
-            growth.of.evaluate::<3, _>(panel, spot.s)
+            growth.of.evaluate::<3, _>(panel, param.s)
         } else {
             growth
                 .of
-                .evaluate::<{ HIGHEST_DEGREE + 1 }, _>(panel, spot.s)
+                .evaluate::<{ HIGHEST_DEGREE + 1 }, _>(panel, param.s)
         };
-        evaluation.value += spot.turns * growth.whole();
+        evaluation.value += param.turns * growth.whole();
         evaluation
     }
 
-    /// Spot at a polar angle, from anywhere.
-    pub(super) fn at_angle(&self, angle: f64) -> Spot {
-        self.angle_growth().spot::<{ HIGHEST_DEGREE + 1 }>(angle)
+    /// Parameter at a polar angle, from anywhere.
+    pub(super) fn at_angle(&self, angle: f64) -> Param {
+        self.angle_growth().param::<{ HIGHEST_DEGREE + 1 }>(angle)
     }
 
-    /// Spot at a driven angle since polar angle zero, from anywhere.
-    pub(super) fn at_driven(&self, driven: f64) -> Spot {
+    /// Parameter at a driven angle since polar angle zero, from anywhere.
+    pub(super) fn at_driven(&self, driven: f64) -> Param {
         let growth = self.driven_growth();
-        growth.spot::<{ HIGHEST_DEGREE + 1 }>(driven + self.offset)
+        growth.param::<{ HIGHEST_DEGREE + 1 }>(driven + self.offset)
     }
 
     /// One Halley step towards a polar angle from a parameter nearby: the new parameter, and the step's length.
     #[inline]
-    pub(super) fn nearer_angle(&self, spot: Spot, angle: f64) -> (Spot, f64) {
-        let step = self.angle(spot).step(angle);
-        (self.moved(spot, step), step)
+    pub(super) fn nearer_angle(&self, param: Param, angle: f64) -> (Param, f64) {
+        let step = self.angle(param).step(angle);
+        (self.moved(param, step), step)
     }
 
     /// One Halley step towards a driven angle from a parameter nearby.
     #[inline]
-    pub(super) fn nearer_driven(&self, spot: Spot, driven: f64) -> (Spot, f64) {
-        let step = self.driven(spot).step(driven);
-        (self.moved(spot, step), step)
+    pub(super) fn nearer_driven(&self, param: Param, driven: f64) -> (Param, f64) {
+        let step = self.driven(param).step(driven);
+        (self.moved(param, step), step)
     }
 }
 

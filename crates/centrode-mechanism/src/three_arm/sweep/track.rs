@@ -4,9 +4,9 @@ use centrode_geometry::bracketed_root;
 use wide::f64x4;
 
 use super::panel::{Growing, LANES, Panel, inverse_quintic};
-use super::stage::{LAST, Spot, settled};
+use super::stage::{LAST, Param, settled};
 
-/// Spots of growing targets along the pitch curve, over one turn of it: a run of targets to each panel, so that
+/// Parameters of growing targets along the pitch curve, over one turn of it: a run of targets to each panel, so that
 /// the targets of a run are solved side by side.
 #[derive(Clone, Debug)]
 pub(super) struct Track {
@@ -46,11 +46,11 @@ impl<G: Growing> Growth<'_, G> {
         (after.clamp(1, self.panels.len()) - 1, turns)
     }
 
-    /// The spot at a value, from anywhere.
-    pub(super) fn spot<const C: usize>(&self, value: f64) -> Spot {
+    /// Parameter at a value, from anywhere.
+    pub(super) fn param<const C: usize>(&self, value: f64) -> Param {
         let (panel, turns) = self.start(value);
         let s = self.place::<C>(panel, value - turns * self.whole());
-        Spot { panel, s, turns }
+        Param { panel, s, turns }
     }
 
     /// Position of a value in a panel.
@@ -173,11 +173,11 @@ impl Track {
         }
     }
 
-    /// The spot of a target.
-    pub(super) fn spot(&self, index: usize) -> Spot {
+    /// The parameter of a target.
+    pub(super) fn param(&self, index: usize) -> Param {
         let after = self.runs.partition_point(|run| run.targets.start <= index);
         let run = &self.runs[after.max(1) - 1];
-        Spot {
+        Param {
             panel: run.panel,
             s: self.places[index],
             turns: run.turns,
