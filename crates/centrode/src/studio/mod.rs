@@ -26,7 +26,7 @@ use solver::Solver;
 use watch::Watch;
 
 /// Shared state of all requests.
-pub(crate) struct Desk {
+pub(crate) struct StudioState {
     document: Document,
     solver: Arc<Solver>,
     searching: Searching,
@@ -53,16 +53,16 @@ pub(crate) fn run(command: &Studio, out: &mut impl Write) -> Result<ExitCode, Fa
         open(&guard.url());
     }
     runtime.block_on(async {
-        let desk = Arc::new(Desk {
+        let state = Arc::new(StudioState {
             watch: Watch::default(),
             searching: Searching::default(),
             solver: Arc::default(),
             document,
         });
-        let page = routes::router(Arc::clone(&desk), guard);
+        let page = routes::router(Arc::clone(&state), guard);
         tokio::select! {
             () = listener::serve(listener, page) => {}
-            () = watch::disk(&desk) => {}
+            () = watch::disk(&state) => {}
             stopped = tokio::signal::ctrl_c() => stopped.map_err(Failure::Serve)?,
         }
         Ok::<(), Failure>(())

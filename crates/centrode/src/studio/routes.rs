@@ -17,7 +17,7 @@ use serde_json::json;
 use tower_http::limit::RequestBodyLimitLayer;
 use tower_http::timeout::RequestBodyTimeoutLayer;
 
-use super::Desk;
+use super::StudioState;
 use super::document::SaveError;
 use super::guard::{self, Guard};
 use super::solver::{Depth, Unsolved};
@@ -32,16 +32,16 @@ const LARGEST: usize = 4 << 20;
 /// Time between two parts of a body.
 const PATIENCE: Duration = Duration::from_secs(10);
 
-type Shared = State<Arc<Desk>>;
+type Shared = State<Arc<StudioState>>;
 
 /// Every address of the page.
-pub(crate) fn router(desk: Arc<Desk>, guard: Guard) -> Router {
+pub(crate) fn router(state: Arc<StudioState>, guard: Guard) -> Router {
     let page = Router::new()
         .route("/{asset}", get(asset))
         .route("/design", get(design))
         .route(
             "/events",
-            get(async |State(desk): Shared| desk.watch.events()),
+            get(async |State(state): Shared| state.watch.events()),
         )
         .route("/solve", post(solve))
         .route("/fault", post(fault))
@@ -53,7 +53,7 @@ pub(crate) fn router(desk: Arc<Desk>, guard: Guard) -> Router {
         .route("/response", post(respond))
         .layer(RequestBodyTimeoutLayer::new(PATIENCE))
         .layer(RequestBodyLimitLayer::new(LARGEST))
-        .with_state(desk);
+        .with_state(state);
     let base = guard.base();
     Router::new()
         // A nest has no place for the bare slash that the page's own address ends with.
@@ -102,8 +102,8 @@ async fn asset(Path(name): Path<String>) -> Response {
     }
 }
 
-async fn design(State(desk): Shared) -> Response {
-    let document = &desk.document;
+async fn design(State(state): Shared) -> Response {
+    let document = &state.document;
     Json(json!({
         "file": document.name(),
         "text": document.text(),
@@ -148,7 +148,7 @@ struct Solve {
     depth: Depth,
 }
 
-async fn solve(State(desk): Shared, Json(ask): Json<Solve>) -> Result<Response, Refused> {
+async fn solve(State(state): Shared, Json(ask): Json<Solve>) -> Result<Response, Refused> {
     let text = if ask.edits.is_empty() {
         ask.text
     } else {
@@ -156,7 +156,7 @@ async fn solve(State(desk): Shared, Json(ask): Json<Solve>) -> Result<Response, 
         let made = apart(move || edited(&ask.text, &ask.edits)).await?;
         made.map_err(|error| Refused::because(StatusCode::UNPROCESSABLE_ENTITY, error))?
     };
-    match desk.solver.solve(&ask.page, text, ask.depth).await {
+    match state.solver.solve(&ask.page, text, ask.depth).await {
         Ok(snapshot) => Ok(as_json(snapshot)),
         // Being overtaken is no failure: browsers would log it as one.
         Err(Unsolved::Overtaken) => Ok(Json(json!({ "overtaken": true })).into_response()),
@@ -185,8 +185,8 @@ struct Save {
     over: bool,
 }
 
-async fn save(State(desk): Shared, Json(ask): Json<Save>) -> Result<Response, Refused> {
-    match apart(move || desk.document.save(&ask.text, &ask.base, ask.over)).await? {
+async fn save(State(state): Shared, Json(ask): Json<Save>) -> Result<Response, Refused> {
+    match apart(move || state.document.save(&ask.text, &ask.base, ask.over)).await? {
         Ok(()) => Ok(Json(json!({ "saved": true })).into_response()),
         // A question to the user, no failure.
         Err(error @ (SaveError::Changed { .. } | SaveError::Missing { .. })) => {
@@ -199,8 +199,8 @@ async fn save(State(desk): Shared, Json(ask): Json<Save>) -> Result<Response, Re
     }
 }
 
-async fn keep(State(desk): Shared, Json(ask): Json<Text>) -> Result<Response, Refused> {
-    on_disk(move || desk.document.keep(&ask.text)).await
+async fn keep(State(state): Shared, Json(ask): Json<Text>) -> Result<Response, Refused> {
+    on_disk(move || state.document.keep(&ask.text)).await
 }
 
 #[derive(Deserialize)]
@@ -209,16 +209,16 @@ struct Forget {
     file: String,
 }
 
-async fn forget(State(desk): Shared, Json(ask): Json<Forget>) -> Result<Response, Refused> {
+async fn forget(State(state): Shared, Json(ask): Json<Forget>) -> Result<Response, Refused> {
     on_disk(move || {
-        desk.document.forget(&ask.file);
+        state.document.forget(&ask.file);
         Ok(())
     })
     .await
 }
 
-async fn reread(State(desk): Shared) -> Result<Response, Refused> {
-    let text = apart(move || desk.document.reread()).await??;
+async fn reread(State(state): Shared) -> Result<Response, Refused> {
+    let text = apart(move || state.document.reread()).await??;
     Ok(Json(json!({ "text": text })).into_response())
 }
 
@@ -255,19 +255,22 @@ async fn computed<T: Send + 'static>(
 }
 
 /// Starts a search for a better design.
-async fn searching(State(desk): Shared, Json(ask): Json<search::Ask>) -> Result<Response, Refused> {
-    let started = computed(move || desk.searching.start(ask)).await?;
+async fn searching(
+    State(state): Shared,
+    Json(ask): Json<search::Ask>,
+) -> Result<Response, Refused> {
+    let started = computed(move || state.searching.start(ask)).await?;
     started.map_err(|reason| Refused::because(StatusCode::UNPROCESSABLE_ENTITY, reason))?;
     Ok(Json(json!({})).into_response())
 }
 
 /// Progress of the search; null before the first.
-async fn searched(State(desk): Shared) -> Response {
-    Json(desk.searching.state()).into_response()
+async fn searched(State(state): Shared) -> Response {
+    Json(state.searching.state()).into_response()
 }
 
-async fn unsearched(State(desk): Shared) -> Response {
-    desk.searching.dismiss();
+async fn unsearched(State(state): Shared) -> Response {
+    state.searching.dismiss();
     Json(json!({})).into_response()
 }
 

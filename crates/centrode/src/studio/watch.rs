@@ -6,7 +6,7 @@ use futures_util::stream::{Stream, unfold};
 use serde_json::json;
 use tokio::sync::watch::{Receiver, Sender};
 
-use super::Desk;
+use super::StudioState;
 use super::document::Disk;
 
 /// Time between two reads of the file.
@@ -40,12 +40,12 @@ impl Watch {
 }
 
 /// Reads the file for ever, and reports its text whenever that has changed.
-pub(crate) async fn disk(desk: &Desk) {
+pub(crate) async fn disk(state: &StudioState) {
     loop {
-        let now = Some(desk.document.disk());
-        desk.watch.0.send_if_modified(|told| {
-            let news = *told != now;
-            *told = now;
+        let now = Some(state.document.disk());
+        state.watch.0.send_if_modified(|last| {
+            let news = *last != now;
+            *last = now;
             news
         });
         tokio::time::sleep(PERIOD).await;
