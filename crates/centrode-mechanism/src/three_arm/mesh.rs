@@ -2,7 +2,7 @@ use super::{Link, ThreeArm};
 
 /// Two gears of a chain in mesh.
 #[derive(Clone, Copy, Debug, Eq, Hash, PartialEq)]
-pub enum Mesh {
+pub enum GearMesh {
     /// The sun and the intermediate gear of a chain.
     Sun(u32),
     /// The planet and the intermediate gear of a chain.
@@ -20,8 +20,8 @@ pub struct MeshPose {
 
 impl ThreeArm {
     /// Every mesh, chain by chain.
-    pub fn meshes(&self) -> impl Iterator<Item = Mesh> + use<> {
-        (0..self.arms()).flat_map(|k| [Mesh::Sun(k), Mesh::Planet(k)])
+    pub fn meshes(&self) -> impl Iterator<Item = GearMesh> + use<> {
+        (0..self.arms()).flat_map(|k| [GearMesh::Sun(k), GearMesh::Planet(k)])
     }
 
     /// Pose of the gears of a mesh at a carrier turn, read from the links alone.
@@ -32,10 +32,10 @@ impl ThreeArm {
     /// another space; chains repeat the first one; and a planet is the sun's part, set by the train so that
     /// it meets the intermediate gear at the polar angle where the sun would.
     #[must_use]
-    pub fn mesh_pose(&self, mesh: Mesh, input: f64) -> MeshPose {
+    pub fn mesh_pose(&self, mesh: GearMesh, input: f64) -> MeshPose {
         let (driver, driven) = match mesh {
-            Mesh::Sun(k) => (Link::Sun, Link::Intermediate(k)),
-            Mesh::Planet(k) => (Link::Planet(k), Link::Intermediate(k)),
+            GearMesh::Sun(k) => (Link::Sun, Link::Intermediate(k)),
+            GearMesh::Planet(k) => (Link::Planet(k), Link::Intermediate(k)),
         };
         let (driver, driven) = (self.link(driver, input), self.link(driven, input));
         let line = driven.origin.position - driver.origin.position;

@@ -18,7 +18,7 @@ mod tray;
 
 pub use figures::Figures;
 pub use gearbox::GearboxBody;
-pub use mesh::{Mesh, MeshPose};
+pub use mesh::{GearMesh, MeshPose};
 pub use parameter::{Parameter, UnknownParameter};
 pub use pose::{Chain, Link, LinkMotion, PointMotion};
 pub use pusher::{Pusher, PusherError};
