@@ -1,7 +1,7 @@
 use std::f64::consts::TAU;
 
 use centrode_geometry::Tolerance;
-use centrode_mechanism::gear::{GearPairError, Member, Soundness};
+use centrode_mechanism::gear::{FlankCount, GearPairError, Member};
 use centrode_mechanism::three_arm::design::GoalsSpec;
 use centrode_mechanism::three_arm::{Figures, PickingRule, PlantingRule, ThreeArm};
 
@@ -42,7 +42,7 @@ fn worst_first(report: &mut Report) {
 #[must_use]
 pub fn check_arms(mechanism: &ThreeArm) -> Report {
     let mut report = Report::default();
-    let teeth = mechanism.soundness().ok();
+    let teeth = mechanism.flank_counts().ok();
     let arms = match arm_clearance(mechanism) {
         Ok(arms) => arms,
         Err(finding) => {
@@ -74,7 +74,7 @@ pub(crate) fn reached(mechanism: &ThreeArm) -> (Vec<Goal>, Option<ArmClearance>)
         all_goals(
             mechanism,
             arms.as_ref(),
-            mechanism.soundness().ok().as_ref(),
+            mechanism.flank_counts().ok().as_ref(),
         ),
         arms,
     )
@@ -83,7 +83,7 @@ pub(crate) fn reached(mechanism: &ThreeArm) -> (Vec<Goal>, Option<ArmClearance>)
 fn all_goals(
     mechanism: &ThreeArm,
     arms: Option<&ArmClearance>,
-    teeth: Option<&[Soundness; 2]>,
+    teeth: Option<&[FlankCount; 2]>,
 ) -> Vec<Goal> {
     let mut goals = goals(&mechanism.figures(), &mechanism.design().goals);
     for goal in &mut goals {
@@ -409,7 +409,7 @@ fn unchecked(mechanism: &ThreeArm, report: &mut Report) {
     report.findings.extend(findings);
 }
 
-fn tooth_findings(teeth: &[Soundness; 2], report: &mut Report) {
+fn tooth_findings(teeth: &[FlankCount; 2], report: &mut Report) {
     let parts = ["sun and planets", "intermediate gears"];
     for (part, sound) in parts.into_iter().zip(teeth) {
         if sound.unsound == 0 {

@@ -30,7 +30,7 @@ pub use tray::TrayBody;
 
 use crate::design::MechanismError;
 use crate::gear::design::SpecError;
-use crate::gear::{GearPair, GearPairError, Member, Rolling, Soundness};
+use crate::gear::{FlankCount, GearPair, GearPairError, Member, Rolling};
 use design::ThreeArmDesign;
 
 /// A three-arm transplanting mechanism, resolved: exact pitch curves, exact motion of every link.
@@ -198,8 +198,8 @@ impl ThreeArm {
     ///
     /// # Errors
     /// [`GearPairError`] without a tooth count, or where no teeth can be laid out.
-    pub fn soundness(&self) -> Result<[Soundness; 2], GearPairError> {
-        Soundness::of(&self.design.pair(), self.rolling())
+    pub fn flank_counts(&self) -> Result<[FlankCount; 2], GearPairError> {
+        FlankCount::of(&self.design.pair(), self.rolling())
     }
 
     /// Direction of the clamp from the arm's zero, rad: that of the tip turned by asin(H/S).

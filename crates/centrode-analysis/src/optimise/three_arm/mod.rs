@@ -241,7 +241,7 @@ impl Problem for ThreeArmProblem {
         let Ok(mechanism) = ThreeArm::resolve(&quick.design) else {
             return nothing();
         };
-        let Ok(teeth) = mechanism.soundness() else {
+        let Ok(teeth) = mechanism.flank_counts() else {
             return nothing();
         };
         let unsound: u32 = teeth.iter().map(|gear| gear.unsound).sum();

@@ -13,7 +13,7 @@ use super::{
 
 /// Flank count of a gear with every tooth cut to the tool's full height: all, undercut and short ones.
 #[derive(Clone, Copy, Debug, Default, Eq, PartialEq)]
-pub struct Soundness {
+pub struct FlankCount {
     /// Flanks of the gear, two a tooth.
     pub flanks: u32,
     /// Flanks that undercut shortens.
@@ -24,7 +24,7 @@ pub struct Soundness {
     pub unsound: u32,
 }
 
-impl Soundness {
+impl FlankCount {
     /// Counts the flanks of both members of a pair without cutting its teeth; the addendum is taken as full whatever
     /// is written.
     ///
@@ -104,10 +104,10 @@ mod tests {
     use crate::gear::pitch::{Circle, Ellipse, PitchSpec};
     use crate::gear::{GearPair, Limits};
 
-    fn counted(pitch: PitchSpec) -> (GearPair, Limits, [Soundness; 2]) {
+    fn counted(pitch: PitchSpec) -> (GearPair, Limits, [FlankCount; 2]) {
         let design = GearPairDesign::new(pitch);
         let pair = GearPair::resolve(&design).expect("a pair");
-        let sound = Soundness::of(&design, pair.rolling()).expect("teeth");
+        let sound = FlankCount::of(&design, pair.rolling()).expect("teeth");
         let limits = pair.limits();
         (pair, limits, sound)
     }
