@@ -17,7 +17,7 @@ mod teeth;
 mod tool;
 mod tooth_passage;
 
-pub use conjugate::Conjugate;
+pub use conjugate::ConjugateCurve;
 pub use flank::Side;
 pub use flank_count::FlankCount;
 pub use incomplete::{

@@ -52,7 +52,7 @@ impl Conjugate {
             .map_err(|reason| PitchError::NoConjugate(Box::new(reason)))?;
         let definition = format!("conjugate, {n1}:{n2}, of {}", of.definition);
         let curve = Rolled {
-            curve: gear::Conjugate::of(rolling),
+            curve: gear::ConjugateCurve::of(rolling),
             scale: 1.0,
         };
         Draft::new("of", curve, size, definition)
@@ -72,7 +72,7 @@ impl Conjugate {
 /// Driven curve whose size can still be changed.
 #[derive(Debug)]
 struct Rolled {
-    curve: gear::Conjugate,
+    curve: gear::ConjugateCurve,
     scale: f64,
 }
 
