@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 use std::hint::black_box;
 
-use centrode_geometry::{Point, Primitive, Spline, Tolerance};
+use centrode_geometry::{Antiderivative, Point, PolySegment, Tolerance};
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 
 /// Focal ellipse of the 2018 pair, mm.
@@ -19,9 +19,9 @@ fn primitive(c: &mut Criterion) {
         r / (52.709_220_759_512_11 - r)
     };
     c.bench_function("primitive/of", |b| {
-        b.iter(|| Primitive::of(ratio, black_box(&[0.0, TAU])))
+        b.iter(|| Antiderivative::of(ratio, black_box(&[0.0, TAU])))
     });
-    let turn = Primitive::of(ratio, &[0.0, TAU]);
+    let turn = Antiderivative::of(ratio, &[0.0, TAU]);
     c.bench_function("primitive/at", |b| b.iter(|| turn.at(black_box(2.345))));
 }
 
@@ -34,7 +34,7 @@ fn fit(c: &mut Criterion) {
         group.bench_with_input(
             BenchmarkId::from_parameter(format!("1e-{exponent}")),
             &tolerance,
-            |b, &tolerance| b.iter(|| Spline::fit(ellipse, 0.0, TAU, tolerance)),
+            |b, &tolerance| b.iter(|| PolySegment::fit(ellipse, 0.0, TAU, tolerance)),
         );
     }
     group.finish();

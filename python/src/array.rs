@@ -102,7 +102,7 @@ pub(crate) fn list(numbers: Option<Numbers>) -> Vec<f64> {
     numbers.map_or_else(Vec::new, Numbers::into_vec)
 }
 
-/// A function applied to each number; the answer has the shape of the question.
+/// Applies a function to each number; the answer has the shape of the question.
 pub(crate) fn each(
     py: Python<'_>,
     values: Values,
@@ -119,7 +119,7 @@ pub(crate) fn each(
     Ok(answer.into_pyarray(py).into_any())
 }
 
-/// A function applied to each number; the answer has the shape of the question and then that of one
+/// Applies a function to each number; the answer has the shape of the question and then that of one
 /// answer, `tail`.
 pub(crate) fn each_array<const COUNT: usize>(
     py: Python<'_>,
@@ -133,7 +133,7 @@ pub(crate) fn each_array<const COUNT: usize>(
     Ok(shaped(shape, answer)?.into_pyarray(py).into_any().unbind())
 }
 
-/// As [`each`] with a function of all numbers at once.
+/// Applies a function of all numbers at once, like [`each`].
 pub(crate) fn together(
     py: Python<'_>,
     values: Values,
@@ -148,7 +148,7 @@ pub(crate) fn together(
     Ok(shaped(shape, answer)?.into_pyarray(py).into_any())
 }
 
-/// As [`each_array`] with a function of all numbers at once.
+/// Applies a function of all numbers at once, like [`each_array`].
 pub(crate) fn together_array<const COUNT: usize>(
     py: Python<'_>,
     values: Values,
@@ -169,7 +169,7 @@ fn shaped(shape: Vec<usize>, numbers: Vec<f64>) -> PyResult<ArrayD<f64>> {
     array.map_err(|error| PyValueError::new_err(error.to_string()))
 }
 
-/// As [`each_array`] with one axis more.
+/// Applies a function to each number, like [`each_array`], with one axis more.
 pub(crate) fn each_row<'py, const COLUMNS: usize>(
     py: Python<'py>,
     values: Values,

@@ -4,7 +4,7 @@ use pyo3::types::{PyDict, PyTuple};
 
 use crate::error::of_spec;
 
-/// The body of a gear: what is not teeth.
+/// Body of a gear: all but its teeth.
 ///
 /// Args:
 ///     width: Face width, mm.

@@ -33,7 +33,7 @@ pub(crate) trait Class: for<'py> IntoPyObject<'py> {
         mechanism.ok_or_else(not_of_family::<Self>)
     }
 
-    /// Its family.
+    /// Family of the class.
     fn family() -> Family {
         Family::of::<Self::Mechanism>()
     }

@@ -5,9 +5,9 @@ use pyo3::types::{PyDict, PyTuple};
 
 use crate::error::of_spec;
 
-/// What the drawing sheets say in their title block, and how they are laid out.
+/// Entries of the title block of the drawing sheets, and their layout.
 ///
-/// What is left out stays empty on the sheet.
+/// An entry left out stays empty on the sheet.
 ///
 /// Args:
 ///     number: Drawing number; the part's name is added to it.

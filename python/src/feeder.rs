@@ -284,8 +284,8 @@ impl Feeder {
         Ok((Self { feeder }, found.share))
     }
 
-    /// How goals and figures answer one number of the design: by name, a figure at each value, NaN where there is no
-    /// feeder.
+    /// Response of goals and figures to one number of the design: by name, a figure at each value, NaN where there is
+    /// no feeder.
     ///
     /// Args:
     ///     parameter: Key of the design file, "linkage.crank", or a dimension's name, "crank" or "pivot_x".

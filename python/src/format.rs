@@ -17,7 +17,7 @@ pub(crate) fn options(
     within(exact(tolerance, pair)?, formats, dxf_version, dxf_curves)
 }
 
-/// The same within a tolerance that has been looked at.
+/// Options within a tolerance that has been checked.
 pub(crate) fn within(
     tolerance: Tolerance,
     formats: Option<Vec<String>>,

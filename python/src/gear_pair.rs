@@ -217,7 +217,7 @@ impl GearPair {
         Pitch::resolve(self.pair.design().pitch.clone())
     }
 
-    /// What cuts both gears.
+    /// Tool that cuts both gears.
     #[getter]
     fn tool(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
         tool::object(py, &self.pair.design().tool)
@@ -256,7 +256,7 @@ impl GearPair {
         self.pair.phase()
     }
 
-    /// What the drawing sheets say.
+    /// Entries and layout of the drawing sheets.
     #[getter]
     fn drawing(&self) -> DrawingSpec {
         DrawingSpec(self.pair.drawing().clone())
@@ -274,7 +274,7 @@ impl GearPair {
         self.pair.congruent()
     }
 
-    /// Driver angle after which both gears stand as they did, rad.
+    /// Driver angle after which both gears are as they were, rad.
     #[getter]
     fn cycle(&self) -> f64 {
         self.pair.cycle()
@@ -342,7 +342,7 @@ impl GearPair {
         each(py, phi, move |phi| pair.pitch_point(phi).pressure_angle)
     }
 
-    /// The same with the driver pushing it back: |alpha + mu|.
+    /// Angle (rad) between the common normal and the driven gear's motion, the driver pushing it back: |alpha + mu|.
     fn reverse_pressure_angle<'py>(
         &self,
         py: Python<'py>,

@@ -10,11 +10,11 @@ use crate::record::Keywords;
 #[derive(Debug)]
 pub(crate) struct Made(Py<PyAny>);
 
-/// What `__reduce__` gives: something to call, and its arguments.
+/// Value of `__reduce__`: a callable, and its arguments.
 pub(crate) type Reduced<'py> = (Bound<'py, PyAny>, Bound<'py, PyTuple>);
 
 impl Made {
-    /// By calling something that can itself be pickled.
+    /// Makes it by calling something that can itself be pickled.
     pub(crate) fn call<'py>(
         call: Bound<'py, PyAny>,
         mut arguments: Vec<Bound<'py, PyAny>>,
@@ -27,7 +27,7 @@ impl Made {
         Ok(Self(partial.call(all, Some(&keywords.0))?.unbind()))
     }
 
-    /// As an attribute of another object.
+    /// Makes it as an attribute of another object.
     pub(crate) fn part_of<'py>(whole: Bound<'py, PyAny>, name: &str) -> PyResult<Self> {
         let py = whole.py();
         let getattr = PyModule::import(py, "builtins")?.getattr("getattr")?;

@@ -168,7 +168,7 @@ impl MovingBox {
         &self.machine.design().title
     }
 
-    /// What slows the box down: "shaft", "elliptic-gear" or "both".
+    /// Scheme that slows the box down: "shaft", "elliptic-gear" or "both".
     #[getter]
     fn scheme(&self) -> &'static str {
         let scheme = self.machine.design().scheme;

@@ -1,4 +1,4 @@
-//! Words and numbers that say where teeth sit and how high they are.
+//! Words and numbers for the position and the height of teeth.
 
 use centrode_mechanism::gear::design::{Addendum, Phase};
 use pyo3::exceptions::PyTypeError;
@@ -6,7 +6,7 @@ use pyo3::prelude::{Borrowed, FromPyObject, PyAny, PyErr, PyResult};
 
 use crate::error::unknown_word;
 
-/// Where the teeth sit: a word, or pitches from the polar angle zero to the middle of a tooth.
+/// Position of the teeth: a word, or pitches from the polar angle zero to the middle of a tooth.
 #[derive(Debug)]
 pub(crate) enum Place {
     /// Left out.

@@ -74,7 +74,7 @@ pub(crate) fn slider_force<'py>(
     CLASS.make(&keywords.0)
 }
 
-/// How close two arms come.
+/// Clearance of two arms.
 pub(crate) fn clearance<'py>(py: Python<'py>, found: &Clearance) -> PyResult<Bound<'py, PyAny>> {
     static CLASS: Class = Class::new("centrode._clearance", "Clearance");
     let keywords = Keywords::new(py)
@@ -101,7 +101,7 @@ pub(crate) fn report<'py>(py: Python<'py>, report: &Report) -> PyResult<Bound<'p
     CLASS.make(&keywords.0)
 }
 
-/// What a search has come to.
+/// Result of a search.
 pub(crate) fn optimised<'py>(
     py: Python<'py>,
     mechanism: Bound<'py, PyAny>,

@@ -20,7 +20,7 @@ use crate::wait::{attend, wait};
 /// The design of a class's family.
 type DesignOf<C> = <<C as Class>::Mechanism as Resolved>::Design;
 
-/// What a search has come to.
+/// Result of a search.
 pub(crate) struct Found {
     pub(crate) mechanism: Result<Arc<dyn Mechanism>, MechanismError>,
     pub(crate) goals: Vec<Goal>,

@@ -204,7 +204,7 @@ impl Drawing {
         PyBytes::new(py, &self.dxf)
     }
 
-    /// A picture of the same.
+    /// SVG picture of the drawing.
     #[getter]
     fn svg<'py>(&self, py: Python<'py>) -> Bound<'py, PyBytes> {
         PyBytes::new(py, &self.svg)

@@ -182,14 +182,14 @@ impl SixBar {
         self.0.four_bar().slow_stroke()
     }
 
-    /// Where crank and coupler lie in one line.
+    /// Dead centres, where crank and coupler lie in one line.
     #[getter]
     fn dead_centers<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
         let dead = self.0.four_bar().dead_centers();
         dead.map(|d| record::dead_centers(py, &d)).transpose()
     }
 
-    /// How the swing changes with each dimension, rad/mm: exact derivatives by name.
+    /// Sensitivity of the swing to each dimension, rad/mm: exact derivatives by name.
     ///
     /// >>> import centrode as ct
     /// >>> six = ct.SixBar(crank=77, coupler=147, rocker=127, frame=105, pivot=(100, 67), effector_length=200)

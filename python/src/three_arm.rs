@@ -424,9 +424,9 @@ impl ThreeArm {
         each(py, theta, move |theta| arms.clamp_elevation(theta, arm))
     }
 
-    /// Where every link stands: by name x, y (mm) and turn (rad) of its frame, (N, 3).
+    /// Pose of every link: by name x, y (mm) and turn (rad) of its frame, (N, 3).
     ///
-    /// Gears stand in the frames of a gear pair's gears; an arm's x axis points as its clamp does.
+    /// Gears are in the frames of a gear pair's gears; an arm's x axis points as its clamp does.
     ///
     /// >>> import centrode as ct
     /// >>> arms = ct.ThreeArm.from_toml(ct.template("three-arm"))
@@ -483,7 +483,7 @@ impl ThreeArm {
         Ok(Fork(pusher.fork().clone()))
     }
 
-    /// What an arm must keep clear with, (N, 2), mm, in the frame in which `pose` gives it: corners of a closed
+    /// Contour that an arm must keep clear with, (N, 2), mm, in the frame in which `pose` gives it: corners of a closed
     /// polygon, counter-clockwise, nowhere farther than `tolerance` (mm) from the exact contour.
     ///
     /// Raises:
@@ -499,7 +499,8 @@ impl ThreeArm {
         points(py, &arm.outline().flatten(tolerance))
     }
 
-    /// How close arms come over a whole turn, proven between samples to within `tolerance` (mm); None for one arm.
+    /// Least clearance of the arms over a whole turn, proven between samples to within `tolerance` (mm); None for one
+    /// arm.
     ///
     /// Raises:
     ///     MechanismError: The arm's parts do not fit each other.
@@ -572,8 +573,8 @@ impl ThreeArm {
         search::optimised::<Self>(py, design, method, settings, progress.as_ref())
     }
 
-    /// How goals and figures answer one number of the design: by name, a figure at each value, NaN where there is no
-    /// mechanism.
+    /// Response of goals and figures to one number of the design: by name, a figure at each value, NaN where there is
+    /// no mechanism.
     ///
     /// Args:
     ///     parameter: Key of the design file, "arm.tip_distance", or a parameter's name, "r1".
@@ -638,7 +639,7 @@ impl ThreeArm {
         })
     }
 
-    /// How far an arm's push rod is drawn back at carrier turns (rad), mm: 0 thrown out.
+    /// Retraction of an arm's push rod at carrier turns (rad), mm: 0 thrown out.
     ///
     /// Raises:
     ///     MechanismError: Cam and fork cannot be.

@@ -13,7 +13,7 @@ use crate::array::Values;
 use crate::error::design_error;
 use crate::wait::wait;
 
-/// Most variants and inputs: what memory holds.
+/// Greatest number of variants and inputs that memory holds.
 const MOST: usize = 50_000_000;
 const MOST_INPUTS: usize = 100_000;
 
@@ -60,7 +60,7 @@ fn key(error: &VariantsError) -> &'static str {
     }
 }
 
-/// How many variants: the length of all arrays.
+/// Number of variants: the length of all arrays.
 fn count(parameters: &BTreeMap<String, Values>) -> PyResult<usize> {
     let mut count: Option<(usize, &str)> = None;
     for (name, values) in parameters {

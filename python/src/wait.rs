@@ -7,10 +7,10 @@ use centrode_geometry::Cancel;
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::{PyErr, PyResult, Python};
 
-/// How often a waiting call looks whether the user has had enough.
+/// Interval at which a waiting call checks for Ctrl-C.
 const PATIENCE: Duration = Duration::from_millis(25);
 
-/// As much stack as a main thread has.
+/// Stack size, that of a main thread.
 const STACK: usize = 8 << 20;
 
 /// Does a job that may take long: other Python threads run meanwhile, and Ctrl-C cancels it.
@@ -23,7 +23,7 @@ pub(crate) fn wait<T: Send + 'static>(
     attend(py, |_: &Sender<()>| job(), |()| Ok(()))
 }
 
-/// The same for a job that tells how far it is; an error of `heed` cancels it, too.
+/// Does a job that reports its progress, like [`wait`]; an error of `heed` cancels it, too.
 pub(crate) fn attend<T: Send + 'static, N: Send + 'static>(
     py: Python<'_>,
     job: impl FnOnce(&Sender<N>) -> T + Send + 'static,

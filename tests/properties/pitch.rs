@@ -1,6 +1,6 @@
 use std::f64::consts::{PI, TAU};
 
-use centrode_geometry::{Curve, Primitive};
+use centrode_geometry::{Antiderivative, Curve};
 use centrode_mechanism::gear::pitch::PitchSpec;
 use centrode_tests::pitch;
 use proptest::prelude::{prop_assert, proptest};
@@ -16,7 +16,7 @@ fn ends(curve: &dyn Curve) -> Vec<f64> {
 }
 
 fn perimeter(curve: &dyn Curve) -> f64 {
-    Primitive::of(|t| curve.at(t).first.norm(), &ends(curve)).total()
+    Antiderivative::of(|t| curve.at(t).first.norm(), &ends(curve)).total()
 }
 
 fn scaled(spec: &PitchSpec, factor: f64) -> PitchSpec {

@@ -1,7 +1,9 @@
 use centrode_geometry::Segment;
 use centrode_mechanism::gear::design::{Addendum, GearPairDesign};
 use centrode_mechanism::gear::pitch::{Bspline, PitchSpec};
-use centrode_mechanism::gear::{Conjugate, GearPair, GearPairError, Member, ProfileError, Rolling};
+use centrode_mechanism::gear::{
+    ConjugateCurve, GearPair, GearPairError, Member, ProfileError, Rolling,
+};
 use centrode_tests::{Points, bspline_pair, crossing, pitch, sound_pair};
 use proptest::prelude::{ProptestConfig, Strategy, any, prop_assert, prop_assert_eq, proptest};
 use proptest::test_runner::RngSeed;
@@ -53,9 +55,9 @@ proptest! {
         let pair = GearPair::resolve(&design).expect("valid");
         let (n1, n2) = pair.mean_ratio();
         let first = pair.rolling().clone();
-        let back = Rolling::of(Arc::new(Conjugate::of(first.clone())), (n2, n1)).expect("rolls");
+        let back = Rolling::of(Arc::new(ConjugateCurve::of(first.clone())), (n2, n1)).expect("rolls");
         prop_assert!((back.center_distance() / first.center_distance() - 1.0).abs() < 1e-12);
-        let again = Rolling::of(Arc::new(Conjugate::of(back)), (n1, n2)).expect("rolls");
+        let again = Rolling::of(Arc::new(ConjugateCurve::of(back)), (n1, n2)).expect("rolls");
         for i in 0..64 {
             let phi = f64::from(i) * 0.1;
             prop_assert!((again.radius(phi) / first.radius(phi) - 1.0).abs() < 1e-10);

@@ -4,7 +4,7 @@ use centrode_analysis::{Goal, check_three_arm};
 use centrode_mechanism::design::DesignSpec as _;
 use centrode_mechanism::gear::design::Phase;
 use centrode_mechanism::gear::pitch::{PitchSpec, Plane};
-use centrode_mechanism::gear::{Member, Soundness};
+use centrode_mechanism::gear::{FlankCount, Member};
 use centrode_mechanism::three_arm::ThreeArm;
 use centrode_mechanism::three_arm::design::ThreeArmDesign;
 
@@ -117,7 +117,7 @@ fn no_reading_bears_sound_full_teeth_at_the_goals_module() {
     for case in cases::<ThreeArmReading>("three_arm") {
         let arms = read_as(&case);
         assert!(arms.module().expect("teeth") > 2.5);
-        let [sun, intermediate] = arms.soundness().expect("teeth");
+        let [sun, intermediate] = arms.flank_counts().expect("teeth");
         assert!(
             sun.unsound + intermediate.unsound > 0,
             "{} {}",
@@ -140,7 +140,7 @@ fn as_many_flanks_are_undercut_as_the_oracle_counts_wherever_the_teeth_sit() {
     let mut told = Vec::new();
     for case in cases::<UndercutAtPhase>("undercut") {
         design.teeth.phase = Phase::Pitches(case.phase);
-        let [sun, _] = Soundness::of(&design, arms.rolling()).expect("teeth");
+        let [sun, _] = FlankCount::of(&design, arms.rolling()).expect("teeth");
         let found = (sun.flanks, sun.undercut);
         assert_eq!(found, (66, case.undercut), "{}", case.phase);
         told.push((sun.undercut, sun.short));

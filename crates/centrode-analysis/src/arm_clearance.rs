@@ -9,29 +9,29 @@ use crate::interference::{
     BodyError, Clearance, InterferenceError, Later, Motion, Moving, PoseJet, Rest, Shares, Uniform,
 };
 
-/// How clear the arms of a planetary transplanting mechanism keep, proven over a whole cycle.
+/// Clearances of the arms of a planetary transplanting mechanism, proven over a whole cycle.
 ///
-/// The arms run beside the gearbox, not in its plane: an arm goes once round its planet while the
+/// The arms run beside the gearbox, not in its plane: an arm turns once round its planet while the
 /// intermediate gear stays next to it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ArmClearance {
-    /// Of one arm from another, by their numbers; none for a single arm.
+    /// Clearance of one arm from another, by their numbers; none for a single arm.
     pub arms: Option<Clearance>,
-    /// Of the first arm's housing from the tray, a plate behind the surface in which the tip picks; the
+    /// Clearance of the first arm's housing from the tray, a plate behind the surface in which the tip picks; the
     /// clamp goes into it and does not count.
     pub tray: Option<Clearance>,
-    /// Of the first arm from the stems of the rows still in the tray; none where no row is.
+    /// Clearance of the first arm from the stems of the rows still in the tray; none where there is no such row.
     pub unpicked: Option<Clearance>,
-    /// Of the first arm from the stems planted before its own: the second of the pair counts them back.
+    /// Clearance of the first arm from the stems planted before its own: the second of the pair counts them back.
     /// Its own, which its open clamp leaves behind, does not count.
     pub seedlings: Option<Clearance>,
 }
 
-/// Why a mechanism's clearance cannot be told.
+/// Reason why a mechanism's clearance cannot be determined.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ArmClearanceError {
-    /// The arm's contour is no body.
+    /// The arm's contour makes no body.
     #[error(transparent)]
     Body(#[from] BodyError),
     /// A pose is not finite.
@@ -46,7 +46,7 @@ impl From<crate::interference::MotionError> for ArmClearanceError {
 }
 
 impl ArmClearance {
-    /// All clearances of a mechanism with such arms, to within the tolerance.
+    /// Computes all clearances of a mechanism with such arms, to within the tolerance.
     ///
     /// # Errors
     /// [`ArmClearanceError`] where a pose or the contour is not finite.
@@ -65,7 +65,7 @@ impl ArmClearance {
 }
 
 impl ArmClearance {
-    /// What was found, with the names in a report of its least clearance, lower bound (mm) and input (rad).
+    /// Clearances found, with the names in a report of their least clearance, lower bound (mm) and input (rad).
     pub(crate) fn named(&self) -> impl Iterator<Item = (Clearance, [&'static str; 3])> + use<> {
         let arms = [
             "arm_clearance",
@@ -101,7 +101,7 @@ impl ArmClearance {
 /// Least clearance of two arms over a cycle, to within the tolerance; none for a single arm.
 ///
 /// Each arm does what the one before it did, later by its share of a turn: the first arm against every
-/// other up to the opposite one tells all. Seen from the carrier the arms only turn.
+/// other up to the opposite one is enough. Seen from the carrier the arms only turn.
 ///
 /// # Errors
 /// [`ArmClearanceError`] where a pose or the contour is not finite.
@@ -117,19 +117,19 @@ pub fn between_arms(
     Ok(found.flatten())
 }
 
-/// How far the arms keep from what is near them as the carrier turns.
+/// Course of the arms' clearances as the carrier turns.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ArmClearanceCourse {
     /// Middles of the parts of a carrier turn, rad, from zero on.
     pub input: Vec<f64>,
     /// Least distance of the first arm from another within each part, mm; empty for a single arm.
     pub arms: Vec<f64>,
-    /// The same of its housing from the tray; empty for an arm without a housing.
+    /// Least distance of its housing from the tray within each part, mm; empty for an arm without a housing.
     pub tray: Vec<f64>,
 }
 
 impl ArmClearanceCourse {
-    /// The clearances in so many equal parts of a carrier turn, to within the tolerance; none for no parts.
+    /// Computes the clearances in so many equal parts of a carrier turn, to within the tolerance; none for no parts.
     ///
     /// # Errors
     /// [`ArmClearanceError`] where a pose or the contour is not finite.
@@ -157,8 +157,7 @@ impl ArmClearanceCourse {
     }
 }
 
-/// What `look` makes of the first arm and those it could meet, as they turn against the carrier; none for a
-/// single arm.
+/// Applies `look` to the first arm and those it could meet, as they turn against the carrier; none for a single arm.
 fn among_arms<R>(
     mechanism: &ThreeArm,
     arm: &ArmBody,
@@ -175,7 +174,7 @@ fn among_arms<R>(
         train.at(0.0).carrier.position,
     );
     let axis = Rotation2::new(-carrier) * axis;
-    // Seen from the carrier an arm turns about its planet's axis, and does no more.
+    // Seen from the carrier an arm turns about its planet's axis, and does not move otherwise.
     let first = shares.motion(&body, [0.0, TAU], |input| {
         let jet = train.at(input);
         PoseJet {
@@ -226,7 +225,7 @@ fn from_tray(
     Ok(found.flatten())
 }
 
-/// What `look` makes of the first arm's housing and the tray; none for an arm without a housing.
+/// Applies `look` to the first arm's housing and the tray; none for an arm without a housing.
 fn beside_tray<R>(
     mechanism: &ThreeArm,
     arm: &ArmBody,
@@ -259,7 +258,7 @@ fn from_unpicked(
     })
 }
 
-/// What `look` makes of what the first arm carries and a body that stands still.
+/// Applies `look` to an outline carried by the first arm and a fixed outline.
 fn at_rest<R>(
     mechanism: &ThreeArm,
     carried: &[Outline],
@@ -301,7 +300,7 @@ fn from_seedlings(
     let motion = shares.motion(&arm, inputs, |input| {
         on_frame(&mechanism.link(Link::Arm(0), input))
     })?;
-    // Seen from the machine, what is planted moves back evenly.
+    // Seen from the machine, planted seedlings move back evenly.
     let still = mechanism.tip(release, 0);
     let back = still.velocity - mechanism.over_ground(&still, release).velocity;
     let apart = TAU / f64::from(mechanism.arms());

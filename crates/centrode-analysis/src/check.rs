@@ -5,9 +5,9 @@ use centrode_mechanism::gear::{Gear, GearPair, Limits, Member, ToolKind, Tooth};
 use crate::remedy::remedy;
 use crate::{Contact, Finding, Place, Report, Severity};
 
-/// Overlap, in modules, above which two outlines are said to run into each other.
+/// Penetration, in modules, above which two outlines are reported to interfere.
 const OVERLAP: f64 = 1e-6;
-/// Transmission error, rad, above which contact is said to be lost.
+/// Transmission error, rad, above which contact is reported as lost.
 const LOST: f64 = 1e-6;
 
 /// Checks a gear pair: its pitch curves, every tooth, and the mesh along one whole cycle.
@@ -19,7 +19,7 @@ pub fn check(pair: &GearPair) -> Report {
     check_contact(pair, &Contact::of(pair))
 }
 
-/// As [`check`], with a contact analysis made before.
+/// Checks a gear pair like [`check`], with a contact analysis made before.
 #[must_use]
 pub fn check_contact(pair: &GearPair, contact: &Contact) -> Report {
     let mut report = Report::default();
@@ -128,11 +128,11 @@ fn pitch_curves(pair: &GearPair, limits: &Limits, report: &mut Report) {
         .insert("largest_addendum", limits.largest_addendum);
 }
 
-/// Pressure angle beyond which friction is commonly held to be a danger, rad.
+/// Pressure angle above which friction is commonly considered a danger, rad.
 const PRESSURE_ANGLE: f64 = 50.0 * PI / 180.0;
 
-/// The greatest angle between the common normal and the driven gear's direction of motion at the pitch
-/// point, over both flanks, and where.
+/// Greatest pressure angle, between the common normal and the driven gear's direction of motion at the pitch point,
+/// over both flanks, and its input.
 fn greatest_pressure_angle(pair: &GearPair) -> (f64, f64) {
     const SAMPLES: u32 = 360;
     let rolling = pair.rolling();
@@ -292,7 +292,7 @@ fn teeth(pair: &GearPair, gear: &Gear, limits: &Limits, report: &mut Report) {
 
 /// Transmission error, rad, up to which the flanks carry the motion.
 pub(crate) fn allowed_error(pair: &GearPair) -> f64 {
-    // Play thins the flanks: they are then conjugate only to the first order of the play.
+    // Backlash thins the flanks: they are then conjugate only to the first order of it.
     let a = pair.center_distance();
     LOST.max(2.0 * (pair.backlash() / a).powi(2) * a / pair.module())
 }
@@ -363,7 +363,7 @@ fn mesh(pair: &GearPair, contact: &Contact, report: &mut Report) {
             place: place(input),
         });
     }
-    // Clearance below zero is an overlap that no turning of the driven gear takes away.
+    // Clearance below zero is a penetration that no turning of the driven gear removes.
     let deepest = [
         (overlap.0, overlap.1),
         (-clearance.0, clearance.1),

@@ -1,4 +1,4 @@
-//! The check of a feeder.
+//! Check of a feeder.
 
 mod attainable;
 mod forces;
@@ -19,14 +19,12 @@ pub(crate) use goals::{feed_stroke, goals};
 
 use crate::{Finding, Place, Report, Severity, SixBarTolerances, SwingSpread, Table};
 
-/// Six-bars made by chance.
+/// Number of random six-bars, Monte Carlo samples within the tolerances.
 const MADE: u32 = 2000;
-/// Distance of the effector's pivot from the chord, as a share of the frame, within which the swing says nothing of
-/// the lengths.
+/// Below this distance from the chord (share of the frame) the swing is pi for any lengths: a degenerate design.
 const ON_CHORD: f64 = 1e-3;
 
-/// Checks a feeder: swing, transmission angle, strokes and speeds, dwell and feed rate, each goal met or by how
-/// much not.
+/// Checks a feeder: swing, transmission angle, strokes and speeds, dwell and feed rate, each goal with its margin.
 ///
 /// Lengths are mm, angles rad, times s; speeds of the tip are mm/s, angular accelerations rad/s², torques N mm, forces N.
 #[must_use]
@@ -59,7 +57,7 @@ pub fn check_strokes(feeder: &Feeder) -> Report {
     report
 }
 
-/// What the lengths alone settle.
+/// Checks the figures that the lengths alone determine.
 fn linkage(feeder: &Feeder, report: &mut Report) {
     let (six_bar, bar) = (feeder.six_bar(), feeder.six_bar().four_bar());
     let extremes = six_bar.extremes();
@@ -125,7 +123,7 @@ fn motion(feeder: &Feeder, report: &mut Report) {
     values.insert("quick_return", quick);
     values.insert("tip_speed_feed_max", feed.speed * speed * reach);
     values.insert("tip_speed_return_max", back.speed * speed * reach);
-    // What is left of the speed at the ends is rounding: the tip is at rest there.
+    // The speed left at the ends is rounding: the tip is at rest there.
     let rest =
         [feed.from, feed.to].map(|input| (feeder.effector(input).velocity * speed * reach).abs());
     values.insert("tip_speed_ends_max", rest[0].max(rest[1]));
@@ -142,7 +140,7 @@ fn motion(feeder: &Feeder, report: &mut Report) {
     values.insert("crank_turns_a_cycle", turned / TAU);
 }
 
-/// What tolerances of making do to the swing.
+/// Spread of the swing through the tolerances of making.
 fn spread(feeder: &Feeder, report: &mut Report) {
     let making = &feeder.design().making;
     let tolerances = SixBarTolerances {
@@ -176,7 +174,7 @@ fn spread(feeder: &Feeder, report: &mut Report) {
     }
 }
 
-/// Says where the swing is half a turn whatever the lengths are.
+/// Reports where the swing is half a turn whatever the lengths are.
 fn vacuous(feeder: &Feeder, report: &mut Report) {
     let frame = feeder.six_bar().four_bar().lengths()[3];
     let Some(distance) = feeder.distance_from_chord() else {

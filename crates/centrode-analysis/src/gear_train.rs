@@ -1,4 +1,4 @@
-//! The gears of a three-arm mechanism: every mesh, and the gears that must not touch.
+//! Check of the gears of a three-arm mechanism: every mesh, and the gears that must not touch.
 
 use std::f64::consts::TAU;
 
@@ -10,21 +10,21 @@ use crate::interference::{Clearance, Motion, Moving, PoseJet, Shares};
 use crate::{ArmClearanceError, Contact};
 use crate::{Finding, Place, Report, Severity, check_contact};
 
-/// Carrier turns at which each mesh is looked at.
+/// Number of carrier turns at which each mesh is checked.
 const LOOKS: u32 = 360;
 /// Turn of a gear, rad, by which a mesh may be off its teeth: rounding.
 const PHASE: f64 = 1e-9;
-/// How closely clearances of gears are told, in modules.
+/// Tolerance of the gears' clearances, in modules.
 const TOLERANCE: f64 = 1e-3;
 
-/// The teeth of a train, run together over a whole cycle.
+/// Teeth of a train, run together over a whole cycle.
 ///
-/// Sun and intermediate gear of the first chain stand for every mesh.
+/// Sun and intermediate gear of the first chain represent every mesh.
 #[derive(Clone, Debug)]
 pub struct TrainTeeth {
     /// Sun and intermediate gear.
     pub pair: GearPair,
-    /// What their flanks do, by the sun's polar angle.
+    /// Contact of their flanks, by the sun's polar angle.
     pub contact: Contact,
 }
 
@@ -52,7 +52,7 @@ pub fn carrier_turn(mechanism: &ThreeArm, sun: f64) -> f64 {
 
 /// Checks the teeth of every mesh and the clearance of gears that are not in mesh.
 ///
-/// All meshes of all chains are poses of the one pair of sun and intermediate gear, which is shown here from
+/// All meshes of all chains are poses of the one pair of sun and intermediate gear, as proven here from
 /// the links' poses alone; its contact analysis over a whole cycle is then that of every mesh.
 pub(crate) fn check_gear_train(mechanism: &ThreeArm, teeth: &TrainTeeth, report: &mut Report) {
     let TrainTeeth { pair, contact } = teeth;
@@ -110,7 +110,7 @@ pub(crate) fn check_gear_train(mechanism: &ThreeArm, teeth: &TrainTeeth, report:
     apart(mechanism, pair, report);
 }
 
-/// Greatest angle by which a mesh is off the pair's own law at any look, rad, and the carrier turn.
+/// Greatest angle by which a mesh is off the pair's own law at any sample, rad, and the carrier turn.
 fn phase_error(mechanism: &ThreeArm, pair: &GearPair) -> (f64, f64) {
     let mut worst = (0.0, 0.0);
     for mesh in mechanism.meshes() {
@@ -128,7 +128,7 @@ fn phase_error(mechanism: &ThreeArm, pair: &GearPair) -> (f64, f64) {
     worst
 }
 
-/// Gears that are not in mesh: how far they keep from each other.
+/// Checks the clearance of gears that are not in mesh.
 fn apart(mechanism: &ThreeArm, pair: &GearPair, report: &mut Report) {
     let least = match gear_clearance(mechanism, pair) {
         Ok(Some(least)) => least,
@@ -157,17 +157,17 @@ fn apart(mechanism: &ThreeArm, pair: &GearPair, report: &mut Report) {
     });
 }
 
-/// The nearest two gears that are not in mesh.
+/// Nearest two gears that are not in mesh.
 pub(crate) struct GearClearance {
-    /// What they are.
+    /// Names of the two.
     pair: [String; 2],
-    /// No gears come nearer than this, mm: their tip circles, or better.
+    /// Lower bound of their distance, mm: that of the tip circles, or better.
     bound: f64,
-    /// Proven over a cycle, where the tip circles do not tell.
+    /// Clearance proven over a cycle, where the tip circles do not suffice.
     found: Option<Clearance>,
 }
 
-/// The least clearance of gears that are not in mesh, over a whole cycle.
+/// Least clearance of gears that are not in mesh, over a whole cycle.
 ///
 /// Seen from the carrier gears only turn. Where the tip circles of two are apart, that is enough.
 fn gear_clearance(

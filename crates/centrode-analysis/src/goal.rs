@@ -2,7 +2,7 @@ use serde::Serialize;
 
 use crate::figure;
 
-/// What a mechanism is to reach: a figure and the range it is wanted in.
+/// Goal of a mechanism: a figure and the range in which it is wanted.
 ///
 /// Margin and progress say how well: both rise as the figure comes nearer to its range, so an optimiser can follow
 /// them.
@@ -14,7 +14,7 @@ pub struct Goal {
     pub name: &'static str,
     /// The goal in a few words.
     pub title: &'static str,
-    /// The figure, in `unit`; none where it was not looked at.
+    /// Figure, in `unit`; none where it was not checked.
     #[serde(serialize_with = "figure::option")]
     pub value: Option<f64>,
     /// Least and greatest figure wanted; none where it is open.
@@ -32,7 +32,7 @@ pub struct Goal {
 }
 
 impl Goal {
-    /// A goal with what a figure says of it. `scale` is a positive size, in `unit`: a miss by it is half way.
+    /// Makes a goal with its figure. `scale` is a positive size, in `unit`: a miss by it is half way.
     #[must_use]
     pub fn new(
         (number, name, title): (u32, &'static str, &'static str),
@@ -58,7 +58,7 @@ impl Goal {
         }
     }
 
-    /// The same goal with another figure.
+    /// Goal with another figure.
     #[must_use]
     pub fn with(self, value: f64) -> Self {
         let above = self.wanted[0].map_or(f64::INFINITY, |least| value - least);
@@ -73,7 +73,7 @@ impl Goal {
         }
     }
 
-    /// Whether it is reached; none where it was not looked at.
+    /// Whether it is reached; none where it was not checked.
     #[must_use]
     pub fn met(&self) -> Option<bool> {
         self.margin.map(|margin| margin >= 0.0)

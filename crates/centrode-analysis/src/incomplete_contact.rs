@@ -5,12 +5,12 @@ use centrode_mechanism::gear::IncompletePair;
 use centrode_mechanism::transmission::Transmission;
 use nalgebra::Isometry2;
 
-/// Turns of the driven gear beyond which nothing is looked for, rad.
+/// Greatest turn of the driven gear searched, rad.
 const FREE: f64 = 0.5;
 /// Corners of a pin.
 const PIN_CORNERS: u32 = 240;
 
-/// How a finished incomplete gear pair runs: how far the driven gear is free either way at each input.
+/// Contact analysis of a finished intermittent gear pair: the free angle of the driven gear either way at each input.
 ///
 /// Works on the finished contours alone: every corner of either gear is turned about the driven gear's axis until it
 /// meets an edge of the other.
@@ -20,16 +20,16 @@ pub struct IncompleteContact {
     pub input: Vec<f64>,
     /// Whether the driven gear moves.
     pub moving: Vec<bool>,
-    /// How far the driven gear can turn on from its law, rad; less than nothing where it must go back to be free.
+    /// Angle by which the driven gear can turn on from its law, rad; negative where it must go back to be free.
     pub ahead: Vec<f64>,
-    /// How far it can turn back, rad.
+    /// Angle by which it can turn back, rad.
     pub back: Vec<f64>,
-    /// Deepest overlap along the driven gear's turning, mm.
+    /// Deepest penetration along the driven gear's turning, mm.
     pub overlap: Vec<f64>,
 }
 
 impl IncompleteContact {
-    /// Looks at one turn of the driver at so many even inputs, never in step with the teeth.
+    /// Analyses one turn of the driver at so many even inputs, never in step with the teeth.
     ///
     /// Contours are taken as polygons nowhere farther off than the tolerance.
     #[must_use]
@@ -73,14 +73,14 @@ impl IncompleteContact {
         of.map(|c| *c.0).fold(f64::NEG_INFINITY, f64::max)
     }
 
-    /// Deepest overlap of all, mm.
+    /// Deepest penetration of all, mm.
     #[must_use]
     pub fn deepest(&self) -> f64 {
         self.overlap.iter().copied().fold(0.0, f64::max)
     }
 }
 
-/// A polygon and how to tell what lies in it.
+/// Polygon with an index of what lies in it.
 struct Wheel {
     corners: Vec<Point>,
     reach: f64,
@@ -133,7 +133,7 @@ impl Wheel {
     }
 }
 
-/// How far the driven gear is free.
+/// Free angle of the driven gear.
 struct Room {
     ahead: f64,
     back: f64,
@@ -151,7 +151,7 @@ impl Default for Room {
 }
 
 impl Room {
-    /// Takes a driver, its axes given in the driven gear's, and what it meets there.
+    /// Narrows the room by a driver, its axes given in the driven gear's, and the mate it meets there.
     fn narrow(&mut self, driver: &Wheel, place: &Isometry2<f64>, mate: &Wheel) {
         let axis = Point::from(place.translation.vector);
         let driver_points: Vec<Point> = driver.corners.iter().map(|p| place * p).collect();
@@ -167,7 +167,8 @@ impl Room {
         }
     }
 
-    /// A corner that turns about the origin until it meets an edge; `sense` is 1 for one of the driver.
+    /// Narrows the room by a corner that turns about the origin until it meets an edge; `sense` is 1 for one of the
+    /// driver.
     fn corner(&mut self, corner: Point, edges: &[(Point, Point)], sense: f64, inside: bool) {
         let squared = corner.coords.norm_squared();
         let (mut less, mut more) = (FREE, FREE);
@@ -251,13 +252,13 @@ mod tests {
         (pair, contact)
     }
 
-    /// What a tooth's play is on the driven gear, rad.
+    /// Angular backlash of a tooth on the driven gear, rad.
     fn play(pair: &IncompletePair) -> f64 {
         let length = pair.pair().rolling().pitch_length(Member::Driven);
         0.05 / (length / TAU * 20_f64.to_radians().cos())
     }
 
-    /// No overlap anywhere, and the driven gear held all the way, moving or not.
+    /// Guards that nothing penetrates, and that the driven gear is held all the way, moving or not.
     fn held(spec: &IncompletePairSpec) {
         let (pair, contact) = contact(spec);
         assert!(contact.deepest() < 1e-3, "{spec:?}: {}", contact.deepest());

@@ -5,10 +5,10 @@ use nalgebra::{DMatrix, DVector};
 /// Millimetres in a metre: kg mm/s² are thousandths of a newton.
 const MM: f64 = 1000.0;
 
-/// The mass of a link.
+/// Mass of a link.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LinkMass {
-    /// Which link.
+    /// Link.
     pub link: Link,
     /// Mass, kg.
     pub mass: f64,
@@ -18,12 +18,12 @@ pub struct LinkMass {
     pub inertia: f64,
 }
 
-/// A load on a link, standing still in the world: a force at a point of it, and a torque.
+/// Load on a link, fixed in the world: a force at a point of it, and a torque.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Load {
-    /// Which link.
+    /// Link.
     pub link: Link,
-    /// Where the force acts, in the link's axes, mm.
+    /// Point of action of the force, in the link's axes, mm.
     pub at: Point,
     /// Force, N.
     pub force: Vector,
@@ -31,7 +31,7 @@ pub struct Load {
     pub torque: f64,
 }
 
-/// How the crank moves.
+/// Motion of the crank.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct CrankMotion {
     /// Speed, rad/s; zero for the quasi-static torque.
@@ -40,10 +40,10 @@ pub struct CrankMotion {
     pub acceleration: f64,
 }
 
-/// What holds two links together.
+/// Reaction in the connection of two links.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reaction {
-    /// Which pin or guide.
+    /// Pin or guide.
     pub connection: Connection,
     /// Force on the second link of a pin, or on the block, N.
     pub force: Vector,
@@ -64,7 +64,7 @@ pub struct Forces {
     pub potential_energy: f64,
 }
 
-/// Why there are no forces.
+/// Reason why there are no forces.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ForceError {
@@ -88,9 +88,9 @@ pub enum ForceError {
     Mass {
         /// The link's number.
         link: usize,
-        /// As given, kg.
+        /// Mass as given, kg.
         mass: f64,
-        /// As given, kg mm².
+        /// Moment of inertia as given, kg mm².
         inertia: f64,
     },
 }
@@ -109,7 +109,7 @@ pub struct Kinetostatics<'a> {
 }
 
 impl<'a> Kinetostatics<'a> {
-    /// A linkage with masses and loads in a field of gravity (mm/s²).
+    /// Makes a linkage with masses and loads in a field of gravity (mm/s²).
     ///
     /// # Errors
     /// [`ForceError::Mass`].
@@ -263,7 +263,7 @@ impl Balance {
         }
     }
 
-    /// What the joints must bring together on a link.
+    /// Adds the force and moment that the joints must supply on a link.
     fn needs(&mut self, link: Link, force: Vector, at: Point, moment: f64) {
         if let Some(row) = Self::row(link) {
             self.right[row] += force.x;
@@ -321,7 +321,7 @@ mod tests {
         (linkage.clone(), masses.collect())
     }
 
-    /// Torque times speed is the rate at which kinetic and potential energy grow.
+    /// Guards that torque times speed is the rate at which kinetic and potential energy grow.
     #[test]
     fn the_torque_feeds_the_energy() {
         let (linkage, masses) = picker();
@@ -353,7 +353,7 @@ mod tests {
         assert!(work.abs() / f64::from(count) < 1e-9, "{work}");
     }
 
-    /// An accelerated crank needs what its own inertia and the links' take.
+    /// An accelerated crank needs the torque of its own inertia and the links'.
     #[test]
     fn a_lone_crank_needs_inertia_times_acceleration() {
         let mut linkage = Linkage::new();
@@ -383,7 +383,7 @@ mod tests {
         assert!((forces.reactions[0].force - force).norm() < 1e-12);
     }
 
-    /// Virtual work: without masses the torque is the load's force times the slope of its way.
+    /// Virtual work: without masses the torque is the load's force times the slope of its path.
     #[test]
     fn a_still_linkage_passes_a_load_by_its_ratio() {
         let (linkage, _) = picker();

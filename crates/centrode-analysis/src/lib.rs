@@ -1,4 +1,4 @@
-//! Questions asked of a mechanism: contact, clearance, undercut, goals.
+//! Checks and searches of a mechanism: contact, clearance, undercut, goals.
 
 mod arm_clearance;
 mod check;

@@ -1,4 +1,4 @@
-//! What a check says of the cams and forks that move the push rods of transplanting arms.
+//! Check of the cams and forks that move the push rods of transplanting arms.
 
 use std::f64::consts::PI;
 

@@ -1,4 +1,4 @@
-/// What usually helps against a finding of a rule.
+/// Usual remedy against a finding of a rule.
 pub(crate) fn remedy(rule: &str) -> Option<&'static str> {
     Some(match rule {
         "severed" | "undercut" | "short-tooth" => {

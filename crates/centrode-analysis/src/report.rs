@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use crate::{Goal, figure};
 
-/// How much a finding matters.
+/// Severity of a finding.
 #[derive(Clone, Copy, Debug, Eq, Ord, PartialEq, PartialOrd, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Severity {
@@ -12,11 +12,11 @@ pub enum Severity {
     Note,
     /// The part works, but worse than a good one.
     Warning,
-    /// The part does not do its job.
+    /// The part does not fulfil its purpose.
     Error,
 }
 
-/// Where in the mechanism and its cycle a finding was made.
+/// Place in the mechanism and its cycle at which a finding was made.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Place {
     /// Link or part, as named in the design.
@@ -35,7 +35,7 @@ pub struct Place {
 pub struct Finding {
     /// Short stable name of the rule, such as `undercut`.
     pub rule: &'static str,
-    /// How much it matters.
+    /// Severity.
     pub severity: Severity,
     /// One sentence for a person.
     pub message: String,
@@ -45,7 +45,7 @@ pub struct Finding {
         serialize_with = "figure::option"
     )]
     pub measured: Option<f64>,
-    /// The figure it is held against, in `unit`.
+    /// Required figure, in `unit`.
     #[serde(
         skip_serializing_if = "Option::is_none",
         serialize_with = "figure::option"
@@ -53,10 +53,10 @@ pub struct Finding {
     pub required: Option<f64>,
     /// Unit of both figures: `mm`, `rad`, or empty for a plain number.
     pub unit: &'static str,
-    /// What usually helps.
+    /// Usual remedy.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub remedy: Option<&'static str>,
-    /// Where it was found.
+    /// Place at which it was found.
     pub place: Place,
 }
 
@@ -65,28 +65,28 @@ pub struct Finding {
 pub struct Table {
     /// Short stable name.
     pub name: &'static str,
-    /// What the figures are.
+    /// Title of the table.
     pub title: &'static str,
     /// Unit of every figure: `mm`, `rad`, `N`, or empty for a plain number.
     pub unit: &'static str,
-    /// What each column is of.
+    /// Headings of the columns.
     pub columns: Vec<String>,
-    /// What each row is of, and its figures.
+    /// Rows, each with its heading and its figures.
     #[serde(serialize_with = "figure::rows")]
     pub rows: Vec<(String, Vec<f64>)>,
 }
 
 /// All findings and figures of one mechanism.
 ///
-/// In JSON an infinite figure is a string, as [`Figure`](crate::Figure) tells.
+/// In JSON an infinite figure is a string, as [`Figure`](crate::Figure) says.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Report {
-    /// What is wrong or worth knowing, worst first.
+    /// Findings, worst first.
     pub findings: Vec<Finding>,
     /// Figures by name; the unit is in the documentation of the check that makes them.
     #[serde(serialize_with = "figure::values")]
     pub values: BTreeMap<&'static str, f64>,
-    /// What it is to reach, if its design says.
+    /// Goals, if its design has any.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub goals: Vec<Goal>,
     /// Figures in rows and columns.
@@ -95,7 +95,7 @@ pub struct Report {
 }
 
 impl Report {
-    /// True when no finding is an error.
+    /// Whether no finding is an error.
     #[must_use]
     pub fn ok(&self) -> bool {
         self.findings.iter().all(|f| f.severity < Severity::Error)

@@ -5,15 +5,15 @@ use serde::Serialize;
 
 use crate::{Report, figure};
 
-/// How the figures of a mechanism answer one number of its design: the parameter response of Yin et al. 2021, Figure
-/// 5, DOI 10.25165/j.ijabe.20211405.6844, for any number of any family.
+/// Response of the figures of a mechanism to one number of its design: the parameter response of Yin et al. 2021,
+/// Figure 5, DOI 10.25165/j.ijabe.20211405.6844, for any number of any family.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Response {
     /// Key of the number in the design file.
     pub key: String,
-    /// Its values, in the file's unit.
+    /// Values of the number, in the file's unit.
     pub values: Vec<f64>,
-    /// The report at each value; none where it gives no mechanism.
+    /// Report at each value; none where it gives no mechanism.
     pub reports: Vec<Option<Report>>,
 }
 
@@ -22,7 +22,7 @@ pub struct Response {
 pub struct Answer {
     /// Name of the goal or figure.
     pub name: &'static str,
-    /// Its unit: `mm`, `rad`, or empty for a plain number or a unit its name tells.
+    /// Unit: `mm`, `rad`, or empty for a plain number or a unit that the name holds.
     pub unit: &'static str,
     /// The figure at each value; none where there is none.
     #[serde(serialize_with = "figure::options")]
@@ -79,7 +79,7 @@ impl Response {
         }
         for (at, report) in self.reports.iter().enumerate() {
             for (name, value) in report.iter().flat_map(|report| &report.values) {
-                // A goal's own figure has been told.
+                // A goal's own figure has been listed.
                 if !found
                     .iter()
                     .any(|a| a.name == *name && a.figures[at].is_some())

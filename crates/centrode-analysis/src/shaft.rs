@@ -15,7 +15,7 @@ const PRESSURE_ANGLE: f64 = FRAC_PI_6;
 /// Misplacement, mm, below which a hole is met.
 const MET: f64 = 1e-6;
 
-/// Checks a spiral shaft: what it moves while picking, its crossings, slider and forces.
+/// Checks a spiral shaft: its motion while picking, its crossings, slider and forces.
 ///
 /// Lengths are mm, angles rad, forces N, torques N mm; speeds and accelerations of the slider are by the
 /// radian of shaft turn unless the name ends in a unit. Names ending in `_min` and `_max` are over the
@@ -85,7 +85,7 @@ pub fn check_moving_box(machine: &MovingBox) -> Report {
     report
 }
 
-/// A finding where the gears have a bore of their own that is not the journal's they sit on.
+/// Reports gears that have a bore of their own which is not that of their journal.
 fn seat(machine: &MovingBox, report: &mut Report) {
     let Some(gears) = &machine.design().gears else {
         return;
@@ -125,8 +125,8 @@ fn at(theta: f64) -> Place {
     }
 }
 
-/// What the box moves while a seedling is picked, in full stroke and at the pick where it moves most, against a
-/// sixth of the pot.
+/// Checks the movement of the box while a seedling is picked, in full stroke and at the pick where it moves most,
+/// against a sixth of the pot.
 fn moved(shaft: &SpiralShaft, moved: f64, picks: &Schedule, report: &mut Report) {
     let design = shaft.design();
     let widest = picks.widest().filter(|pick| pick.swept > moved + MET);
@@ -324,9 +324,9 @@ fn crossings(shaft: &SpiralShaft, report: &mut Report) {
     });
 }
 
-/// A slider free on its pin, pushed against one wall, where a crossing interrupts that wall over `gap` mm.
+/// Checks a slider free on its pin, pushed against one wall, where a crossing interrupts that wall over `gap` mm.
 ///
-/// The load acts at the pin, the wall on whatever of it stands. While the pin passes the gap the slider must
+/// The load acts at the pin, the wall on the parts that are left of it. While the pin passes the gap the slider must
 /// touch the wall before it and behind it, up to a whole gap away at either end: it must be twice as long as
 /// the gap. A shorter one, held on one side of its pin alone, turns into the other groove.
 fn tilt(shaft: &SpiralShaft, gap: f64, report: &mut Report) {
@@ -353,7 +353,7 @@ fn tilt(shaft: &SpiralShaft, gap: f64, report: &mut Report) {
     });
 }
 
-/// The shift of the return groove that brings the slow places off the crossings, in words.
+/// Shift of the return groove that brings the slow places off the crossings, in words.
 fn advice(shaft: &SpiralShaft) -> String {
     let law = shaft.law();
     let steepest = 2.0 * (law.mean_speed() / shaft.groove().radius()).atan();

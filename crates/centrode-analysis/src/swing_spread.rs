@@ -4,21 +4,21 @@ use serde::{Deserialize, Serialize};
 
 use crate::optimise::Random;
 
-/// How exact the dimensions of a six-bar are: each lies evenly spread within plus or minus this, mm.
+/// Tolerances of the dimensions of a six-bar: each is uniformly distributed within plus or minus this, mm.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
 pub struct SixBarTolerances {
-    /// Of the four lengths.
+    /// Tolerance of the four lengths.
     pub lengths: f64,
-    /// Of both coordinates of the effector's pivot.
+    /// Tolerance of both coordinates of the effector's pivot.
     pub pivot: f64,
 }
 
-/// How the swing of six-bars made with tolerances spreads.
+/// Spread of the swing of six-bars made with tolerances.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
 pub struct SwingSpread {
-    /// Six-bars tried.
+    /// Number of six-bars tried.
     pub count: u32,
-    /// Those that are no crank-rocker any more, not counted below.
+    /// Number of them that are no crank-rocker any more, not counted below.
     pub failed: u32,
     /// Mean of the swing, rad.
     pub mean: f64,
@@ -36,7 +36,7 @@ pub struct SwingSpread {
 }
 
 impl SwingSpread {
-    /// Tries `count` six-bars; the same seed gives the same ones.
+    /// Tries `count` random six-bars; the same seed gives the same ones.
     #[must_use]
     pub fn of(six_bar: &SixBar, tolerances: SixBarTolerances, count: u32, seed: u64) -> Self {
         let mut random = Random::new(seed, 0);

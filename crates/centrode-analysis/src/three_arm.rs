@@ -1,7 +1,7 @@
 use std::f64::consts::TAU;
 
 use centrode_geometry::Tolerance;
-use centrode_mechanism::gear::{GearPairError, Member, Soundness};
+use centrode_mechanism::gear::{FlankCount, GearPairError, Member};
 use centrode_mechanism::three_arm::design::GoalsSpec;
 use centrode_mechanism::three_arm::{Figures, PickingRule, PlantingRule, ThreeArm};
 
@@ -9,16 +9,16 @@ use crate::gear_train::{TrainTeeth, check_gear_train};
 use crate::pusher::check_pusher;
 use crate::{ArmClearance, ArmClearanceCourse, Finding, Goal, Place, Report, Severity, Table};
 
-/// How closely clearances of arms are told, as a share of the tip's distance from the planet's axis.
+/// Tolerance of the arms' clearances, as a share of the tip's distance from the planet's axis.
 const ARM_TOLERANCE: f64 = 1e-4;
 
-/// Checks a three-arm mechanism: its goals, where its arms work, and what teeth its curves can bear.
+/// Checks a three-arm mechanism: its goals, its working points, and the teeth its curves can bear.
 #[must_use]
 pub fn check_three_arm(mechanism: &ThreeArm) -> Report {
     check_three_arm_teeth(mechanism, &TrainTeeth::of(mechanism))
 }
 
-/// The same for teeth that have been run together already.
+/// Checks a three-arm mechanism like [`check_three_arm`], with teeth that have been run together already.
 #[must_use]
 pub fn check_three_arm_teeth(
     mechanism: &ThreeArm,
@@ -37,12 +37,12 @@ fn worst_first(report: &mut Report) {
         .sort_by_key(|finding| std::cmp::Reverse(finding.severity));
 }
 
-/// Checks goals, working points and arms alone: of [`check_three_arm`] what needs no tooth and no cam, some ten times
-/// sooner.
+/// Checks goals, working points and arms alone: the part of [`check_three_arm`] that needs no tooth and no cam, some
+/// ten times quicker.
 #[must_use]
 pub fn check_arms(mechanism: &ThreeArm) -> Report {
     let mut report = Report::default();
-    let teeth = mechanism.soundness().ok();
+    let teeth = mechanism.flank_counts().ok();
     let arms = match arm_clearance(mechanism) {
         Ok(arms) => arms,
         Err(finding) => {
@@ -67,14 +67,14 @@ pub fn check_arms(mechanism: &ThreeArm) -> Report {
     report
 }
 
-/// Every goal of a mechanism and the clearances of its arms, as [`check_three_arm`] reports them.
+/// Goals of a mechanism and the clearances of its arms, as [`check_three_arm`] reports them.
 pub(crate) fn reached(mechanism: &ThreeArm) -> (Vec<Goal>, Option<ArmClearance>) {
     let arms = arm_clearance(mechanism).ok().flatten();
     (
         all_goals(
             mechanism,
             arms.as_ref(),
-            mechanism.soundness().ok().as_ref(),
+            mechanism.flank_counts().ok().as_ref(),
         ),
         arms,
     )
@@ -83,7 +83,7 @@ pub(crate) fn reached(mechanism: &ThreeArm) -> (Vec<Goal>, Option<ArmClearance>)
 fn all_goals(
     mechanism: &ThreeArm,
     arms: Option<&ArmClearance>,
-    teeth: Option<&[Soundness; 2]>,
+    teeth: Option<&[FlankCount; 2]>,
 ) -> Vec<Goal> {
     let mut goals = goals(&mechanism.figures(), &mechanism.design().goals);
     for goal in &mut goals {
@@ -104,7 +104,7 @@ fn all_goals(
     goals
 }
 
-/// The teeth of every mesh, where the design has any.
+/// Checks the teeth of every mesh, where the design has any.
 fn check_teeth(
     mechanism: &ThreeArm,
     teeth: &Result<Option<TrainTeeth>, GearPairError>,
@@ -144,20 +144,20 @@ fn arm_clearance(mechanism: &ThreeArm) -> Result<Option<ArmClearance>, Box<Findi
     Ok(arm_tolerance(mechanism).and_then(|t| ArmClearance::of(mechanism, &body, t).ok()))
 }
 
-/// How closely clearances of arms are told.
+/// Tolerance of the arms' clearances, mm.
 fn arm_tolerance(mechanism: &ThreeArm) -> Option<Tolerance> {
     Tolerance::new(ARM_TOLERANCE * mechanism.design().arm.tip_distance).ok()
 }
 
-/// How far the arms keep from what is near them in so many parts of a carrier turn, as closely as
-/// [`check_three_arm`] tells the least; none without such an arm.
+/// Course of the arms' clearances in so many parts of a carrier turn, to the tolerance of [`check_three_arm`]; none
+/// without such an arm.
 #[must_use]
 pub fn arm_clearance_course(mechanism: &ThreeArm, parts: u32) -> Option<ArmClearanceCourse> {
     let (body, tolerance) = (mechanism.arm_body().ok()?, arm_tolerance(mechanism)?);
     ArmClearanceCourse::of(mechanism, &body, tolerance, parts).ok()
 }
 
-/// The goals of a mechanism as far as its figures reach: those of arms, seedlings and flanks are left open.
+/// Goals of a mechanism as far as its figures reach: those of arms, seedlings and flanks are left open.
 #[must_use]
 pub fn goals(figures: &Figures, wanted: &GoalsSpec) -> Vec<Goal> {
     let range = |[least, greatest]: [f64; 2]| [Some(least), Some(greatest)];
@@ -171,7 +171,7 @@ pub fn goals(figures: &Figures, wanted: &GoalsSpec) -> Vec<Goal> {
             wanted[1] - wanted[0],
         )
     };
-    // A clearance of 20 mm is the paper's own; it serves as the scale where nothing is wanted but clearance.
+    // A clearance of 20 mm is the paper's own; it is the scale where any clearance will do.
     let size = |wanted: f64| if wanted > 0.0 { wanted } else { 20.0 };
     let length =
         |about, value, wanted: f64| Goal::new(about, value, least(wanted), "mm", size(wanted));
@@ -261,7 +261,7 @@ fn figures(mechanism: &ThreeArm, report: &mut Report) {
     values.insert("planting_speed", tip(mechanism.planting(0)));
 }
 
-/// A finding where an arm bends the seedlings beside the one it picks.
+/// Reports an arm that bends the seedlings beside the one it picks.
 fn crowded(arms: Option<&ArmClearance>, report: &mut Report) {
     let Some(found) = arms.and_then(|found| found.unpicked) else {
         return;
@@ -312,7 +312,7 @@ fn numeral(arm: u32) -> &'static str {
     NUMERALS.get(arm as usize).copied().unwrap_or("?")
 }
 
-/// A finding for every goal that is not reached, and for working points no rule of the design has fixed.
+/// Reports every goal that is not reached, and working points that no rule of the design has fixed.
 fn unmet(mechanism: &ThreeArm, arms: Option<&ArmClearance>, report: &mut Report) {
     let path = mechanism.trajectory();
     let input = |goal: &Goal| match goal.name {
@@ -380,7 +380,7 @@ fn unmet(mechanism: &ThreeArm, arms: Option<&ArmClearance>, report: &mut Report)
     }
 }
 
-/// A finding for every goal that could not be checked: none passes by not being looked at.
+/// Reports every goal that could not be checked: none passes unchecked.
 fn unchecked(mechanism: &ThreeArm, report: &mut Report) {
     let reason = |goal: &Goal| match goal.name {
         "arm-clearance" if mechanism.arms() == 1 => (Severity::Note, "there is no other arm"),
@@ -409,7 +409,7 @@ fn unchecked(mechanism: &ThreeArm, report: &mut Report) {
     report.findings.extend(findings);
 }
 
-fn tooth_findings(teeth: &[Soundness; 2], report: &mut Report) {
+fn tooth_findings(teeth: &[FlankCount; 2], report: &mut Report) {
     let parts = ["sun and planets", "intermediate gears"];
     for (part, sound) in parts.into_iter().zip(teeth) {
         if sound.unsound == 0 {

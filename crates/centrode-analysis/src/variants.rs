@@ -3,10 +3,11 @@ use centrode_mechanism::three_arm::design::ThreeArmDesign;
 use centrode_mechanism::three_arm::{Parameter, Sweep, SweepError, UnknownParameter};
 use rayon::prelude::{IndexedParallelIterator, IntoParallelIterator, ParallelIterator};
 
-/// Many variants of one three-arm design: the figures of its goals 2 to 4 and 6 to 8, about twenty microseconds each.
+/// Evaluates many variants of one three-arm design: the figures of its goals 2 to 4 and 6 to 8, about twenty
+/// microseconds each.
 ///
-/// For pitch curves that a [`Sweep`] knows; the figures agree with those of a check as closely as it says. What a variant
-/// means for arms, seedlings and teeth only a check tells.
+/// For pitch curves that a [`Sweep`] accepts; the figures agree with those of a check as closely as it says. The effect
+/// of a variant on arms, seedlings and teeth only a check shows.
 #[derive(Clone, Debug)]
 pub struct Variants {
     start: ThreeArmDesign,
@@ -14,7 +15,7 @@ pub struct Variants {
     sweep: Sweep,
 }
 
-/// Why a design has no such variants.
+/// Reason why a design has no such variants.
 #[derive(Clone, Debug, Eq, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum VariantsError {
@@ -29,7 +30,7 @@ pub enum VariantsError {
         /// Points of the pitch curve.
         points: usize,
     },
-    /// The same parameter is asked for twice.
+    /// A parameter is asked for twice.
     #[error("`{0}` is given twice")]
     Twice(String),
     /// The pitch curve is of another kind.
@@ -38,7 +39,7 @@ pub enum VariantsError {
 }
 
 impl Variants {
-    /// What is told of each variant: the goals' figures by their names, and two lengths; angles in rad, lengths in mm.
+    /// Names of the figures of each variant: the goals' figures, and two lengths; angles in rad, lengths in mm.
     pub const FIGURES: [&'static str; 8] = [
         "pick-angle",
         "push-angle",
@@ -50,8 +51,8 @@ impl Variants {
         "pitch_length",
     ];
 
-    /// Variants of a design in the parameters of these names; the tip's path is looked at for so many inputs a turn
-    /// before its extremes are sharpened.
+    /// Makes variants of a design in the parameters of these names; the tip's path is sampled at so many inputs a turn
+    /// before its extremes are refined.
     ///
     /// # Errors
     /// [`VariantsError`] where a name is unknown or comes twice, or the pitch curve is of another kind.

@@ -16,7 +16,7 @@ pub struct Bundle {
     files: Vec<(String, Vec<u8>)>,
 }
 
-/// Why a bundle could not be built or written.
+/// Reason why a bundle could not be built or written.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum BundleError {
@@ -35,12 +35,12 @@ pub enum BundleError {
     /// The archive would be larger than the format holds.
     #[error("the archive cannot be made: {0}")]
     Archive(#[from] zip::result::ZipError),
-    /// The system refused.
+    /// The system refused an action.
     #[error("cannot {action} {}: {source}", path.display())]
     Disk {
-        /// What was tried.
+        /// Action tried.
         action: &'static str,
-        /// On which path.
+        /// Path of it.
         path: PathBuf,
         /// The system's reason.
         source: io::Error,
@@ -95,7 +95,7 @@ impl Bundle {
         self.files.into_iter()
     }
 
-    /// Every file in one zip archive; the same files give the same bytes.
+    /// Packs every file into one zip archive; equal files give equal bytes.
     ///
     /// # Errors
     /// [`BundleError::Archive`] if it would be larger than the format holds.
@@ -118,7 +118,7 @@ impl Bundle {
     /// Returns the paths.
     ///
     /// All contents are first written and flushed in hidden folders, then renamed: a file is there whole or, after an
-    /// error, as it was before; nothing else is left behind. What a killed program left is cleared by the next one that
+    /// error, as it was before; nothing else is left behind. Remains of a killed program are cleared by the next one that
     /// writes there; several may write at the same time. A file written over keeps its permissions. Cancelled by
     /// [`Cancel`](centrode_geometry::Cancel) it leaves no new file.
     ///
@@ -158,8 +158,7 @@ impl Bundle {
     }
 }
 
-/// Writes one file whole or, after an error, leaves what was there; the folder it goes into is made if it
-/// is missing.
+/// Writes one file whole or, after an error, leaves the old one; its folder is made if it is missing.
 ///
 /// # Errors
 /// [`BundleError::Name`] if the path does not end in a plain file name, [`BundleError::Disk`] with the
@@ -176,7 +175,7 @@ pub fn write_file(path: &Path, bytes: Vec<u8>) -> Result<(), BundleError> {
     Ok(())
 }
 
-/// A name that stays where it is put, and is seen, on every system.
+/// Whether a name stays inside its folder, and is visible, on every system.
 fn is_plain(name: &str) -> bool {
     let apart = |c: char| matches!(c, '/' | '\\' | ':') || c.is_control();
     !name.is_empty() && !name.starts_with('.') && !name.chars().any(apart)

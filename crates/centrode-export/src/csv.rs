@@ -20,7 +20,7 @@ pub enum Values {
     Words(Vec<String>),
 }
 
-/// Why columns make no table.
+/// Reason why columns make no table.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum TableError {
@@ -44,7 +44,7 @@ pub enum TableError {
         /// The value.
         value: f64,
     },
-    /// A heading or word that would break the row it stands in.
+    /// A heading or word that would break its row.
     #[error("{word:?} has a comma, quote or line end")]
     Separator {
         /// The word.

@@ -11,7 +11,8 @@ use thiserror::Error;
 /// Metres to the millimetre.
 const METRE: f64 = 1e-3;
 
-/// Stiff contacts, resolved finely: a tooth sinks into its mate by less than a micrometre under a small load.
+/// Options of the solver: stiff contacts, resolved finely, so that a tooth sinks into its mate by less than a
+/// micrometre under a small load.
 const OPTIONS: &str = r#"  <compiler angle="radian" autolimits="true"/>
   <option timestep="0.0002" ccd_tolerance="1e-9" ccd_iterations="100"/>
   <default>
@@ -24,7 +25,7 @@ const OPTIONS: &str = r#"  <compiler angle="radian" autolimits="true"/>
   </default>
 "#;
 
-/// Why a model could not be written.
+/// Reason why a model could not be written.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum MjcfError {
@@ -41,7 +42,7 @@ pub enum MjcfError {
     Tree {
         /// The link.
         link: String,
-        /// How many chains there are; none may mean a ring.
+        /// Number of chains; none may mean a ring.
         ways: usize,
     },
     /// A link that moves has no mass.
@@ -52,20 +53,20 @@ pub enum MjcfError {
     },
 }
 
-/// A point at which two links are pinned to each other beside the tree of joints: what closes a loop.
+/// Point at which two links are pinned to each other beside the tree of joints, which closes a loop.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Closure {
     /// Name.
     pub name: String,
-    /// The one link.
+    /// First link.
     pub first: String,
-    /// The other one.
+    /// Second link.
     pub second: String,
     /// The point in the frame of the first, mm; where all joints are zero the links meet there.
     pub at: [f64; 3],
 }
 
-/// A model as MJCF: metres, kilograms, radians; meshes to look at by file name beside it, scaled from mm,
+/// Writes a model as MJCF: metres, kilograms, radians; meshes to look at by file name beside it, scaled from mm,
 /// and convex bodies, inline, to touch with.
 ///
 /// # Errors
@@ -74,10 +75,10 @@ pub fn write(model: &Model) -> Result<Vec<u8>, MjcfError> {
     write_closed(model, &[])
 }
 
-/// The same with loops, closed by stiff equality constraints.
+/// Writes a model with loops, closed by stiff equality constraints.
 ///
 /// # Errors
-/// As [`write()`], and where a closure names a link the model has not.
+/// Those of [`write()`], and where a closure names a link the model has not.
 pub fn write_closed(model: &Model, closures: &[Closure]) -> Result<Vec<u8>, MjcfError> {
     is_tree(model)?;
     for closure in closures {
@@ -114,7 +115,7 @@ pub fn write_closed(model: &Model, closures: &[Closure]) -> Result<Vec<u8>, Mjcf
     Ok(xml.into_bytes())
 }
 
-/// Every link is carried by one joint, the first by none, and hangs from the first in the end.
+/// Checks that every link is carried by one joint, the first by none, and hangs from the first in the end.
 fn is_tree(model: &Model) -> Result<(), MjcfError> {
     let index = |joint: &Joint, end: &str| {
         let found = model.links.iter().position(|link| link.name == end);
@@ -172,7 +173,7 @@ fn geoms(xml: &mut String, link: &Link, depth: usize) {
     }
 }
 
-/// The links a link carries, each with all that it carries in turn.
+/// Writes the links a link carries, each with all that it carries in turn.
 fn children(xml: &mut String, model: &Model, of: &Link, depth: usize) -> Result<(), MjcfError> {
     for joint in model.joints.iter().filter(|j| j.parent == of.name) {
         let Some(link) = model.links.iter().find(|l| l.name == joint.child) else {
@@ -209,7 +210,7 @@ fn children(xml: &mut String, model: &Model, of: &Link, depth: usize) -> Result<
     Ok(())
 }
 
-/// How a body may move on the one that carries it.
+/// Writes the joints of a body on the one that carries it.
 fn moves(xml: &mut String, joint: &Joint, depth: usize) {
     let (name, axis) = (quoted(&joint.name), numbers(joint.axis));
     match joint.kind {

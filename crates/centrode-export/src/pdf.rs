@@ -21,7 +21,7 @@ use thiserror::Error;
 /// Points a millimetre.
 const POINT: f64 = 72.0 / 25.4;
 
-/// Why sheets could not be written as PDF.
+/// Reason why sheets could not be written as PDF.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum PdfError {
@@ -33,9 +33,9 @@ pub enum PdfError {
     Library(String),
 }
 
-/// Sheets as the pages of one PDF: exact sizes, strokes of true width, the font embedded.
+/// Writes sheets as the pages of one PDF: exact sizes, strokes of true width, the font embedded.
 ///
-/// The same sheets always give the same bytes: there are no dates and identifiers in it.
+/// Equal sheets give equal bytes: there are no dates and identifiers in it.
 ///
 /// # Errors
 /// [`PdfError`] if the library refuses.

@@ -3,7 +3,7 @@ use std::hash::{BuildHasher as _, Hasher as _, RandomState};
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// Name of a stage, about a number of its own.
+/// Beginning and end of a stage's name, about a number of its own.
 const NAME: [&str; 2] = [".centrode-", ".part"];
 
 /// File of a stage that is locked as long as its writer lives.
@@ -21,7 +21,7 @@ pub(crate) struct Stage {
 }
 
 impl Stage {
-    /// A new stage in a folder, which is cleared of dead ones.
+    /// Opens a new stage in a folder, which is cleared of dead ones.
     pub(crate) fn open(folder: &Path) -> io::Result<Self> {
         clear(folder);
         loop {
@@ -44,7 +44,7 @@ impl Stage {
         }
     }
 
-    /// Place of a file of that name while it is written.
+    /// Path of a file of that name while it is written.
     pub(crate) fn place(&self, name: &str) -> PathBuf {
         // With its own name a file could be taken for the lock.
         self.path.join(format!("{name}.part"))
@@ -53,7 +53,7 @@ impl Stage {
 
 impl Drop for Stage {
     fn drop(&mut self) {
-        // What cannot be removed now is cleared by the next stage.
+        // Files that cannot be removed now are cleared by the next stage.
         let _ = fs::remove_dir_all(&self.path);
     }
 }
@@ -113,7 +113,7 @@ mod tests {
         }
         drop(Stage::open(root.path()).expect("a stage"));
         assert_eq!(names(root.path()).len(), 5, "both are alive");
-        // As the system does for a program that is killed.
+        // The lock is lifted, as by the system for a killed program.
         dead._lock.unlock().expect("unlocked");
         drop(Stage::open(root.path()).expect("a stage"));
         assert!(alive.place("one.txt").exists() && !dead.path.exists());

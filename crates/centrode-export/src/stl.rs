@@ -2,9 +2,9 @@
 
 use centrode_geometry::{Mesh, checkpoint};
 
-/// A mesh as binary STL, in the mesh's own units (mm).
+/// Writes a mesh as binary STL, in the mesh's own units (mm).
 ///
-/// Coordinates are single precision, as the format has it; a triangle that rounding to it makes
+/// Coordinates are single precision, as the format requires; a triangle that rounding to it makes
 /// degenerate is left out, which leaves the rest closed.
 #[must_use]
 pub fn write(mesh: &Mesh) -> Vec<u8> {

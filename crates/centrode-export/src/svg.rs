@@ -7,7 +7,7 @@ use crate::{
 use centrode_geometry::{Arc, Outline, Point, Segment, Tolerance, Vector};
 use std::{collections::BTreeSet, fmt::Write};
 
-/// A drawing as an SVG picture, one user unit to the millimetre, with lines and true arcs.
+/// Writes a drawing as an SVG picture, one user unit to the millimetre, with lines and true arcs.
 ///
 /// Curved contours become arcs within the tolerance. Numbers keep a millionth of a millimetre.
 #[must_use]
@@ -35,7 +35,7 @@ pub fn write(drawing: &Drawing, tolerance: Tolerance) -> String {
     out
 }
 
-/// A drawing sheet as an SVG picture of its size. Words are drawn with the outlines of the sheet's own
+/// Writes a drawing sheet as an SVG picture of its size. Words are drawn with the outlines of the sheet's own
 /// font, each line a group that carries its words as a label, so that every viewer shows the same.
 #[must_use]
 pub fn sheet(sheet: &Sheet, tolerance: Tolerance) -> String {

@@ -9,7 +9,7 @@ use std::{
 use thiserror::Error;
 use zip::{CompressionMethod, DateTime, ZipWriter, write::SimpleFileOptions};
 
-/// Why a package could not be made.
+/// Reason why a package could not be made.
 #[derive(Debug, Error)]
 #[error("the 3MF package could not be made: {0}")]
 pub struct PackageError(#[from] zip::result::ZipError);
@@ -37,7 +37,7 @@ const RELATIONS: &str = concat!(
     "</Relationships>\n",
 );
 
-/// A mesh as a 3MF package in millimetres, its object called `name`, the model `title`.
+/// Writes a mesh as a 3MF package in millimetres, its object called `name`, the model `title`.
 ///
 /// Coordinates are single precision, as readers take them; vertices which that makes one are written
 /// once, which leaves the mesh closed.
@@ -45,7 +45,7 @@ const RELATIONS: &str = concat!(
 /// # Errors
 /// [`PackageError`] if the package would be larger than the format holds.
 pub fn write(mesh: &Mesh, name: &str, title: &str) -> Result<Vec<u8>, PackageError> {
-    // A fixed date: the same mesh gives the same bytes.
+    // A fixed date: equal meshes give equal bytes.
     let options = SimpleFileOptions::default()
         .compression_method(CompressionMethod::Deflated)
         .last_modified_time(DateTime::default())
@@ -88,7 +88,7 @@ fn model(mesh: &Mesh, name: &str, title: &str) -> String {
     xml
 }
 
-/// Vertices rounded to single precision, equal ones made one, and the faces that are left.
+/// Vertices rounded to single precision, equal ones merged, and the faces that are left.
 fn single_precision(mesh: &Mesh) -> (Vec<[f32; 3]>, Vec<[u32; 3]>) {
     let mut numbers = HashMap::new();
     let mut vertices = Vec::with_capacity(mesh.vertices.len());
@@ -112,7 +112,7 @@ fn single_precision(mesh: &Mesh) -> (Vec<[f32; 3]>, Vec<[u32; 3]>) {
     (vertices, faces)
 }
 
-/// Text with what XML reserves replaced, and left out what it cannot hold.
+/// Text with characters that XML reserves replaced, and those it cannot hold left out.
 fn escaped(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {

@@ -10,7 +10,7 @@ use urdf_rs::{
 /// Metres to the millimetre.
 const METRE: f64 = 1e-3;
 
-/// Why a model could not be written.
+/// Reason why a model could not be written.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum UrdfError {
@@ -27,19 +27,19 @@ pub enum UrdfError {
     Library(#[from] urdf_rs::UrdfError),
 }
 
-/// Makes `MuJoCo` look for meshes in the folders they are named with; other readers pass over it.
+/// Note to `MuJoCo` to search meshes in the folders they are named with; other readers skip it.
 const FOLDERS: &str = "\n  <mujoco><compiler strippath=\"false\"/></mujoco>";
 
-/// Name of the STL file a model's convex body is named by, in a folder beside the URDF file.
+/// Name of the STL file of a model's convex body, in a folder beside the URDF file.
 ///
-/// One file a body: several in one file, as OBJ has it, are one hull to `MuJoCo` and one trimesh to others.
+/// One file a body: several in one file, as in OBJ, are one hull to `MuJoCo` and one trimesh to others.
 #[must_use]
 pub fn collision_file(body: &str) -> String {
     format!("collision/{body}.stl")
 }
 
-/// A model as URDF: metres, kilograms, radians; meshes by file name beside it, scaled from mm, those to
-/// touch with as [`collision_file`] names them.
+/// Writes a model as URDF: metres, kilograms, radians; meshes by file name beside it, scaled from mm, the convex bodies
+/// to touch with under the names of [`collision_file`].
 ///
 /// # Errors
 /// [`UrdfError`] where a joint names a link the model has not.
@@ -65,7 +65,7 @@ pub fn write(model: &Model) -> Result<Vec<u8>, UrdfError> {
     Ok(with_note(&xml, &model.note).into_bytes())
 }
 
-/// Puts the note as a comment, and a word to one reader, inside the outermost element, where every reader
+/// Adds the note as a comment, and a word to one reader, inside the outermost element, where every reader
 /// allows it.
 fn with_note(xml: &str, note: &str) -> String {
     let end = xml
@@ -156,7 +156,7 @@ fn joint(joint: &crate::model::Joint) -> Joint {
         axis: Axis {
             xyz: Vec3(joint.axis),
         },
-        // A joint without end has no limits; these say so to readers that want numbers.
+        // An endless joint has no limits; these say so to readers that want numbers.
         limit: JointLimit {
             effort: 1000.0,
             velocity: 1000.0,

@@ -7,36 +7,37 @@ use crate::{
 
 /// Chains followed side by side.
 const WIDTH: usize = 12;
-/// Nodes to which a chain is carried on.
+/// End nodes tried for the next arc of a chain.
 const BRANCHES: usize = 2;
 /// Lengths tried for the next arc, in arcs as planned.
 const REACHES: [f64; 20] = [
     16.0, 4.0, 2.0, 1.7, 1.5, 1.4, 1.3, 1.2, 1.15, 1.1, 1.05, 1.0, 0.95, 0.9, 0.85, 0.8, 0.65, 0.5,
     0.25, 0.0,
 ];
-/// Where arcs may meet beside the curve, as shares of the limit.
+/// Offsets from the curve at which arcs may join, as shares of the limit.
 const SIDES: [f64; 3] = [0.0, 0.3, -0.3];
 /// Greatest angle, rad, one arc turns through.
 const HALF_TURN: f64 = 2.9;
-/// Planned arcs that a lean off by as much as the planned one costs.
+/// Cost, in arcs, of reaching a node with the tangent off by one planned deviation.
 const LEAN_COST: f64 = 0.15;
-/// Share of the planned lean by which chains to one place must differ to be worth following both.
+/// Chains that reach the same node with tangents closer than this share of the planned deviation are duplicates; the
+/// better is kept.
 const LEAN_CLASS: f64 = 0.35;
 
 /// A chain of arcs from the start of the run to a place at a node.
 #[derive(Clone, Copy, Debug)]
 struct Link {
     node: usize,
-    /// Which of the [`SIDES`] of the node.
+    /// Index of the node's offset in [`SIDES`].
     side: usize,
     point: Point,
-    /// Direction in which it arrives.
+    /// Direction of arrival.
     tangent: Vector,
-    /// Angle between that and the planned direction, in classes.
+    /// Deviation of that direction from the planned one, in classes.
     lean: i32,
-    /// The chain without its last arc, as an index.
+    /// Index of the chain without its last arc.
     before: usize,
-    /// How good a chain it is: planned arcs up to here, less the cost of a wrong lean.
+    /// Merit of the chain: planned arcs up to here, less the cost of a deviating tangent.
     merit: f64,
 }
 
@@ -52,7 +53,7 @@ pub(crate) struct ArcChains<'a> {
 }
 
 impl<'a> ArcChains<'a> {
-    /// `free` tells at which ends the tangent need not be the curve's own.
+    /// Plans the chains of a run; `free` says at which ends the tangent need not be the curve's own.
     pub(crate) fn new(nodes: &'a [Node], free: [bool; 2], limit: f64) -> Self {
         Self {
             nodes,
@@ -67,7 +68,7 @@ impl<'a> ArcChains<'a> {
     pub(crate) fn fewest(mut self, out: &mut Vec<Segment>) {
         let last = self.nodes.len() - 1;
         let mut front = self.starts();
-        // The first chain that a pair of arcs could bring to the end, and the count with them.
+        // The first chain that a pair of arcs could finish, and the count with them.
         let mut closing: Option<(usize, usize, Biarc)> = None;
         let mut count = 0;
         loop {
@@ -103,7 +104,7 @@ impl<'a> ArcChains<'a> {
         }
     }
 
-    /// Chains of no arc yet: with the curve's tangent, and if the tangent is free with the planned one.
+    /// Chains of no arc yet: with the curve's tangent and, if the tangent is free, also the planned and the mean one.
     fn starts(&mut self) -> Vec<usize> {
         let (own, planned) = (self.nodes[0].tangent, self.plan.tangents[0]);
         let tangents = [own, planned, (own + planned).normalize()];
@@ -130,8 +131,8 @@ impl<'a> ArcChains<'a> {
             let target = self.plan.count[from.node] + reach;
             let end = self.plan.count.partition_point(|&c| c <= target);
             let end = end.saturating_sub(1).max(from.node + 1).min(last);
-            // The last node has a tangent of its own to arrive with, unless that is free; an arc of
-            // more than a half turn could go round the wrong side.
+            // The last node has a tangent of its own to arrive along, unless that is free; an arc of
+            // more than a half turn could bend to the wrong side.
             let turned = self.plan.turned[end] - self.plan.turned[from.node];
             if end >= tried || (end == last && !self.free[1]) || turned.abs() > HALF_TURN {
                 continue;

@@ -19,7 +19,7 @@ pub(crate) struct ArcPlan {
 }
 
 impl ArcPlan {
-    /// The ends of the run keep the curve's own tangent unless it is free.
+    /// Plans a run; its ends keep the curve's own tangent unless it is free there.
     pub(crate) fn new(nodes: &[Node], free: [bool; 2], tolerance: f64) -> Self {
         let scale = 72.0 * 3.0_f64.sqrt() * tolerance;
         let last = nodes.len() - 1;
@@ -45,8 +45,7 @@ impl ArcPlan {
         let (mut count, mut density) = (0.0, 0.0);
         let mut length = total / 16.0;
         for (i, node) in nodes.iter().enumerate() {
-            // The change of curvature as an arc of the length it allows would meet it; no lean where it
-            // is not of one sign.
+            // Curvature rate averaged over one arc; where it changes sign the tangent is not turned.
             let rate_over = |window: f64| {
                 let middle = travelled[i].clamp(window, total - window);
                 let angles = [middle - window, middle, middle + window].map(angle_at);

@@ -112,7 +112,7 @@ mod tests {
     }
 
     #[test]
-    fn splines_on_a_circle_become_few_arcs_of_its_radius() {
+    fn polynomials_on_a_circle_become_few_arcs_of_its_radius() {
         let arcs = rosette(10.0, 0.0, 1, tolerance(1e-11)).arcs(tolerance(1e-4));
         assert!(arcs.segments().len() <= 6, "{}", arcs.segments().len());
         for segment in arcs.segments() {

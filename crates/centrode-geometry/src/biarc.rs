@@ -3,7 +3,7 @@ use crate::{
     smooth_run::{Node, hermite_peak},
 };
 
-/// The tangent of a quarter of the turn of an arc between two directions, one of them its chord.
+/// Bulge of an arc from one of its end directions to that of its chord: the tangent of a quarter of the turn.
 pub(crate) fn bulge(from: Vector, to: Vector) -> f64 {
     from.perp(&to) / (from.norm() * to.norm() + from.dot(&to))
 }

@@ -1,6 +1,6 @@
 use crate::{Outline, Point, Segment, bracketed_root};
 
-/// The smallest upright rectangle around a shape.
+/// The smallest axis-aligned rectangle around a shape.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bounds {
     /// Lower left corner.
@@ -10,7 +10,7 @@ pub struct Bounds {
 }
 
 impl Bounds {
-    /// The rectangle of no point: the neutral element of [`with`](Self::with).
+    /// The empty rectangle: the neutral element of [`with`](Self::with).
     pub const EMPTY: Self = Self {
         min: Point::new(f64::INFINITY, f64::INFINITY),
         max: Point::new(f64::NEG_INFINITY, f64::NEG_INFINITY),
@@ -73,8 +73,8 @@ impl Segment {
                 let ends = Bounds::EMPTY.with(start.point).with(end.point);
                 grown(ends, sagitta, sagitta)
             }
-            Self::Spline(spline) => {
-                let part = spline.part(u0, u1);
+            Self::Poly(poly) => {
+                let part = poly.part(u0, u1);
                 let c = part.coefficients();
                 let ends = Bounds::EMPTY
                     .with(part.at(-1.0).point)
@@ -100,7 +100,7 @@ fn grown(bounds: Bounds, x: f64, y: f64) -> Bounds {
 }
 
 impl Outline {
-    /// The smallest upright rectangle around the outline, exact to rounding.
+    /// The smallest axis-aligned rectangle around the outline, exact to rounding.
     #[must_use]
     pub fn bounds(&self) -> Bounds {
         let ends = self

@@ -37,7 +37,7 @@ pub struct Cancelled;
 /// Payload of the unwinding, with the token it is for.
 struct Unwinding(Cancel);
 
-/// Holds a thread under a token; dropped, the token before it holds again.
+/// Guard that holds a thread under a token; when it is dropped the token before it holds again.
 #[derive(Debug)]
 pub struct Scope {
     before: Option<Cancel>,
@@ -98,9 +98,9 @@ impl Drop for Scope {
     }
 }
 
-/// Place at which a computation can be stopped by the token it runs under; costs about a nanosecond.
+/// Point at which a computation can be stopped by the token it runs under; costs about a nanosecond.
 ///
-/// Stands in every loop that may take long, and not in code that must not be left half done.
+/// Belongs in every loop that may take long, and not in code that must not be left half done.
 #[inline]
 pub fn checkpoint() {
     let cancelled = |current: &Option<Cancel>| current.as_ref().is_some_and(Cancel::is_cancelled);

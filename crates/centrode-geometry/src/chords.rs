@@ -2,7 +2,7 @@ use crate::{Outline, Point, Segment, Tolerance, Vector, arc_chains::ArcChains, s
 
 /// Turn, rad, above which a vertex is a corner however short its chords.
 const SHARP: f64 = 0.5;
-/// Most pieces a chord is divided into beside a shorter one.
+/// Greatest number of pieces into which a chord beside a shorter one is divided.
 const MOST_PIECES: f64 = 64.0;
 
 impl Outline {
@@ -53,14 +53,14 @@ impl Outline {
     }
 }
 
-/// How closely arcs follow the vertices of a chain, mm, and those the curve.
+/// Distances, mm, within which arcs follow the vertices of a chain and the curve.
 struct Fit {
     limit: f64,
     accuracy: f64,
 }
 
 impl Fit {
-    /// Arcs along a chain between two corners. Where they cannot follow it, that vertex is a corner, too.
+    /// Appends arcs along a chain between two corners; where they cannot follow it, that vertex is a corner, too.
     fn open(&self, chain: &[Point], out: &mut Vec<Segment>) {
         if let [start, end] = *chain {
             out.push(Segment::Line(start, end));
@@ -76,7 +76,7 @@ impl Fit {
         }
     }
 
-    /// Arcs along a chain whose last vertex is its first, and no corner.
+    /// Appends arcs along a closed chain without corners, its last vertex its first.
     fn closed(&self, chain: &[Point], out: &mut Vec<Segment>) {
         let arcs = self.arcs(chain, false);
         match self.strays(chain, &arcs) {
@@ -94,7 +94,7 @@ impl Fit {
 
     /// The inner vertex at which arcs leave the chain most, if they leave it by more than they may.
     fn strays(&self, chain: &[Point], arcs: &[Segment]) -> Option<usize> {
-        // Rounding, and what the ends of a beam search leave.
+        // Rounding, and the error left at the ends of a beam search.
         let most = 1.01 * self.limit;
         let mut worst = (0.0, 0);
         for (i, p) in chain.iter().enumerate() {
@@ -104,7 +104,7 @@ impl Fit {
                 worst = (off, i);
             }
         }
-        // The curve, and the arc on it, bulge from a chord by as much as it stands for.
+        // The curve, and the arc on it, bulge from a chord by its error.
         let aside = most + 2.0 * self.accuracy;
         for arc in arcs {
             for step in 1..8 {
@@ -240,7 +240,7 @@ mod tests {
         assert!(few * 3 < own * 5, "{few} {own}");
         let worst = deviation(&corners, &found);
         assert!(worst < 1e-3 - 1e-4, "{worst}");
-        // And nothing of the arcs stands off the polygon.
+        // Nor do the arcs leave the polygon anywhere.
         let back = deviation(&found.flatten(tolerance(1e-4)), &polygon);
         assert!(back < 1e-3, "{back}");
         // Too fine a tolerance leaves the polygon as it is.

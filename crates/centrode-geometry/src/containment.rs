@@ -15,7 +15,7 @@ impl Outline {
     }
 }
 
-/// Parity of the crossings of a segment with the ray from `point` towards +x.
+/// Number of crossings of a segment with the ray from `point` towards +x, right in parity.
 fn crossings(segment: &Segment, point: Point) -> usize {
     let side = |y: f64| y > point.y;
     let mut count = 0;

@@ -1,22 +1,22 @@
 use crate::{Point, Tolerance, Vector};
 
-/// A region cut into convex pieces, each the hull of a part of it.
+/// Convex pieces that cover a region, each the hull of a part of it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ConvexPieces {
     /// Corners of the pieces, each counter-clockwise.
     pub pieces: Vec<Vec<Point>>,
-    /// How far a piece stands out of the region at most, mm.
+    /// Greatest distance by which a piece exceeds the region, mm.
     pub excess: f64,
 }
 
 /// Cuts the region inside a simple polygon, walked counter-clockwise, into convex pieces that cover it and
-/// stand out of it by no more than the tolerance.
+/// exceed it by no more than the tolerance.
 ///
-/// A part that is hollow by more than that is cut in two at the bottom of its deepest hollow, straight
-/// across: to where the greatest circle within the part that touches the hollow there touches it again.
-/// Halving a smooth hollow quarters its depth, so the pieces are as many as the root of depth over
-/// tolerance, within a factor of two. Where no such cut exists, as in a polygon that crosses itself, the
-/// hull of the part stays and [`ConvexPieces::excess`] tells. Cost: the square of the corners for each cut.
+/// A part with a concavity deeper than the tolerance is split at its deepest vertex, along the chord to the second
+/// contact point of the maximal inscribed circle touching there. Halving a smooth concavity quarters its depth, so
+/// the pieces are as many as the root of depth over tolerance, within a factor of two. Where no such cut exists, as
+/// in a polygon that crosses itself, the hull of the part is taken and [`ConvexPieces::excess`] says by how much it
+/// exceeds it. Cost: the square of the corners for each cut.
 ///
 /// Parts of less area than the tolerance squared are left out.
 #[must_use]
@@ -57,7 +57,7 @@ fn without_repeats(polygon: &[Point]) -> Vec<Point> {
     points
 }
 
-/// Twice is enough: only its sign and smallness are asked for.
+/// Signed area of a polygon by the shoelace formula.
 fn area(polygon: &[Point]) -> f64 {
     let next = polygon.iter().cycle().skip(1);
     let start = polygon.first().copied().unwrap_or(Point::origin());
@@ -100,7 +100,7 @@ fn hull(polygon: &[Point]) -> Vec<usize> {
     corners
 }
 
-/// The corner of a polygon that lies deepest below its hull, and how deep.
+/// Index and depth of the corner of a polygon that lies deepest below its hull.
 fn deepest(polygon: &[Point], corners: &[usize]) -> Option<(usize, f64)> {
     let n = polygon.len();
     let next = corners.iter().cycle().skip(1);
@@ -119,9 +119,8 @@ fn deepest(polygon: &[Point], corners: &[usize]) -> Option<(usize, f64)> {
         .max_by(|a, b| a.1.total_cmp(&b.1))
 }
 
-/// The corner at the other end of a cut that starts at a hollow's bottom.
-///
-/// Of all circles that touch the polygon from inside at the bottom, it is on the one that meets it first.
+/// Index of the corner at the other end of a cut from the deepest vertex of a concavity: the second contact point of
+/// the maximal inscribed circle touching at that vertex.
 fn across(polygon: &[Point], bottom: usize) -> Option<usize> {
     let n = polygon.len();
     let at = polygon[bottom];
@@ -187,7 +186,7 @@ mod tests {
         })
     }
 
-    /// A post between two hollow sides of the radius 10, `waist` wide where it is thinnest and 8 high.
+    /// A post between two concave sides of the radius 10, `waist` wide where it is thinnest and 8 high.
     fn post(waist: f64) -> Vec<Point> {
         let angle = (0.4_f64).asin();
         let side = |k: u32| angle * (f64::from(k) / 50.0 - 1.0);
@@ -223,7 +222,7 @@ mod tests {
             assert!(cut.pieces.iter().all(|piece| is_convex(piece)), "{mm}");
             assert!(cut.excess <= mm, "{mm}: {}", cut.excess);
             assert!(cut.pieces.len() <= most, "{mm}: {}", cut.pieces.len());
-            // Cuts share their line: what is more than the region is what stands out of it, a strip of
+            // Cuts share their line: the surplus over the region is a strip of
             // at most two thirds of the excess along each side.
             let sum: f64 = cut.pieces.iter().map(|piece| area(piece)).sum();
             assert!(sum >= exact - 1e-9, "{mm}: {sum} < {exact}");

@@ -1,10 +1,10 @@
 use crate::{Bounds, Outline, Point, piece::Piece};
 use std::f64::consts::PI;
 
-/// A place where a contour meets itself.
+/// Point at which a contour meets itself.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Crossing {
-    /// Where, mm.
+    /// Position, mm.
     pub point: Point,
     /// The two segments that meet, the lower index first.
     pub segments: [usize; 2],
@@ -13,7 +13,7 @@ pub struct Crossing {
 /// Share of the outline's size below which two parts count as touching.
 const TOUCH: f64 = 1e-12;
 
-/// A piece with its end points and an upright box around it.
+/// Piece with its end points and an axis-aligned box around it.
 #[derive(Clone, Copy, Debug)]
 struct Strand {
     piece: Piece,
@@ -69,7 +69,7 @@ impl Strand {
 }
 
 impl Outline {
-    /// A place where the contour crosses or touches itself, or `None` if it is simple.
+    /// Point where the contour crosses or touches itself, or `None` if it is simple.
     ///
     /// Decided on the exact segments with proven bounds, not on a polygon in their place: parts that
     /// come closer than 1e-12 of the outline's size count as touching.
@@ -124,7 +124,7 @@ impl Outline {
         None
     }
 
-    /// Pieces that turn by less than half a radian, at least four.
+    /// Splits the segments into pieces that turn by less than half a radian, at least four.
     fn strands(&self) -> Vec<Strand> {
         let least_depth = if self.segments().len() < 4 { 2 } else { 0 };
         let mut out = Vec::with_capacity(self.segments().len());
@@ -241,7 +241,7 @@ fn gap(a: &Strand, b: &Strand) -> f64 {
 mod tests {
     use super::*;
     use crate::{
-        Arc, Segment, Spline, Tolerance, Vector,
+        Arc, PolySegment, Segment, Tolerance, Vector,
         shapes::{rosette, tooth_ring},
     };
 
@@ -250,12 +250,12 @@ mod tests {
     }
 
     fn pinned(curve: impl FnMut(f64) -> Point, t1: f64) -> Outline {
-        let mut splines = Spline::fit(curve, 0.0, t1, tolerance(1e-9));
-        let first = splines[0].start();
-        if let Some(last) = splines.last_mut() {
+        let mut polys = PolySegment::fit(curve, 0.0, t1, tolerance(1e-9));
+        let first = polys[0].start();
+        if let Some(last) = polys.last_mut() {
             *last = last.pinned(last.start(), first);
         }
-        Outline::new(splines.into_iter().map(Segment::from).collect()).expect("closed")
+        Outline::new(polys.into_iter().map(Segment::from).collect()).expect("closed")
     }
 
     #[test]

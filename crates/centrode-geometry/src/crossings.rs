@@ -7,7 +7,7 @@ use crate::{Point, Segment, SegmentJet, Tolerance, Vector};
 /// more has no end: the segments lie on each other.
 const MOST_PAIRS: u32 = 20_000;
 
-/// A part of one segment, with what is needed to tell it from another without solving anything.
+/// Part of one segment with the bounds that prove it apart from another.
 #[derive(Clone, Copy)]
 struct Part<'a> {
     segment: &'a Segment,
@@ -26,7 +26,7 @@ impl<'a> Part<'a> {
         let third = match segment {
             Segment::Line(..) => 0.0,
             Segment::Arc(arc) => (0.5 * arc.sweep().abs()).powi(3) * arc.radius(),
-            Segment::Spline(spline) => spline
+            Segment::Poly(poly) => poly
                 .coefficients()
                 .iter()
                 .enumerate()
@@ -78,7 +78,7 @@ impl<'a> Part<'a> {
         self.to - self.from
     }
 
-    /// Whether the part is shorter than a length, or so short that it has no middle.
+    /// Whether the part is shorter than a length, or so short that it has no midpoint.
     fn is_shorter(&self, length: f64) -> bool {
         self.size() < length || self.length() <= 4.0 * f64::EPSILON
     }
@@ -128,16 +128,16 @@ impl<'a> Part<'a> {
     }
 }
 
-/// Why the crossings of two curves, or of one with itself, cannot be told.
+/// Error of curves whose crossings cannot be determined.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum Unresolved {
-    /// A curve without a place: a coordinate of it is not a number.
+    /// A coordinate of a curve is not a number.
     #[error("a coordinate is not a number")]
     NotFinite,
-    /// Curves that lie on each other, within the tolerance, for a length.
+    /// Curves that coincide, within the tolerance, over a length.
     #[error("two parts lie on each other about ({:.6}, {:.6}) mm", .near.x, .near.y)]
     Overlap {
-        /// A place of the overlap, mm.
+        /// A point of the overlap, mm.
         near: Point,
     },
 }
@@ -146,8 +146,8 @@ fn angle_between(a: &Vector, b: &Vector) -> f64 {
     a.perp(b).atan2(a.dot(b)).abs()
 }
 
-/// Parameters at which two segments cross; `joined` says that `b` starts where `a` ends, which is then
-/// not a crossing.
+/// Parameters at which two segments cross; `joined` says that `b` starts where `a` ends, which is then not a
+/// crossing.
 ///
 /// Parts are halved until their bounding boxes part or their tangent cones do; a crossing is then
 /// polished by Newton's method. Parts smaller than `tolerance` are taken to touch, not to cross.
@@ -241,7 +241,7 @@ fn search(
         if a.joined {
             let [a0, a1] = a.halves();
             let [b0, b1] = b.halves();
-            // The joint last: what lies nearest to it is least likely to cross.
+            // The joint last: parts nearest to it are least likely to cross.
             pending.push((a1, b0));
             pending.push((unjoined(a0), b0));
             pending.push((unjoined(a1), b1));
@@ -300,15 +300,15 @@ fn polish(a: &Part<'_>, b: &Part<'_>) -> Option<(f64, f64)> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Spline;
+    use crate::PolySegment;
 
     fn fine() -> Tolerance {
         Tolerance::new(1e-13).expect("positive")
     }
 
-    fn splines(f: impl Fn(f64) -> Point, a: f64, b: f64) -> Vec<Segment> {
+    fn polys(f: impl Fn(f64) -> Point, a: f64, b: f64) -> Vec<Segment> {
         let tolerance = Tolerance::new(1e-10).expect("positive");
-        Spline::fit(f, a, b, tolerance)
+        PolySegment::fit(f, a, b, tolerance)
             .into_iter()
             .map(Segment::from)
             .collect()
@@ -319,7 +319,7 @@ mod tests {
         // x = t^2, y = t^3 - e t crosses itself at t = +-sqrt e.
         for exponent in 0..3 {
             let e = 10_f64.powi(-exponent);
-            let whole = splines(|t| Point::new(t * t, t * (t * t - e)), -1.2, 1.2);
+            let whole = polys(|t| Point::new(t * t, t * (t * t - e)), -1.2, 1.2);
             let found: Vec<_> = if whole.len() == 1 {
                 self_crossings(&whole[0], fine()).expect("told")
             } else {
@@ -340,7 +340,7 @@ mod tests {
             let y = 0.25 * t.powi(4) - 0.5 * a * a * t * t;
             Point::new(y, x)
         };
-        let curve = splines(tail, -1.0, 0.93)[0];
+        let curve = polys(tail, -1.0, 0.93)[0];
         let found = self_crossings(&curve, fine()).expect("told");
         assert_eq!(found.len(), 1, "{found:?}");
         let [p, q] = [found[0].0, found[0].1].map(|u| curve.at(u).point);
@@ -354,7 +354,7 @@ mod tests {
 
     #[test]
     fn curves_that_lie_on_each_other_are_an_error_that_names_a_place() {
-        let quarter = splines(|t| Point::new(t.cos(), t.sin()), 0.0, 1.5)[0];
+        let quarter = polys(|t| Point::new(t.cos(), t.sin()), 0.0, 1.5)[0];
         let found = crossings(&quarter, &quarter.reversed(), false, fine());
         let Err(Unresolved::Overlap { near }) = found else {
             panic!("{found:?}")
@@ -366,7 +366,7 @@ mod tests {
     fn a_curve_that_is_not_a_number_is_an_error_and_ends() {
         let inside = |t: f64| Point::new(t, if t.abs() < 0.5 { f64::NAN } else { t * t });
         for nowhere in [
-            splines(inside, -1.0, 1.0)[0],
+            polys(inside, -1.0, 1.0)[0],
             Segment::Line(Point::origin(), Point::new(f64::NAN, 1.0)),
         ] {
             let line = Segment::Line(Point::origin(), Point::new(1.0, 1.0));
@@ -381,7 +381,7 @@ mod tests {
     #[test]
     fn a_tolerance_below_every_rounding_ends_as_well() {
         let tiny = Tolerance::new(f64::MIN_POSITIVE).expect("positive");
-        let cusp = splines(|t| Point::new(t * t, t * t * t), -1.0, 1.0)[0];
+        let cusp = polys(|t| Point::new(t * t, t * t * t), -1.0, 1.0)[0];
         // Rounding may make a loop of the cusp, as small as itself.
         let found = self_crossings(&cusp, tiny).expect("ends");
         assert!(

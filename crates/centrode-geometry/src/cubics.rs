@@ -4,7 +4,7 @@ use crate::{
 };
 
 impl Outline {
-    /// Bézier cubics, end to start, nowhere farther from the outline than the tolerance.
+    /// Bézier cubics, joined end to start, nowhere farther from the outline than the tolerance.
     ///
     /// Each is its four control points. Corners stay exact, and cubics join without a kink wherever the
     /// outline does.
@@ -38,7 +38,7 @@ impl Outline {
     }
 }
 
-/// The cubic over the most steps that keeps the limit, found around a guess; one step if none does.
+/// Longest cubic within the limit, sought around a guess of its steps; one step if none is.
 fn longest(nodes: &[Node], guess: usize, limit: f64) -> (usize, [Point; 4]) {
     let last = nodes.len() - 1;
     let (mut good, mut bad) = (0, last + 1);
@@ -130,7 +130,7 @@ fn at(c: &[Point; 4], t: f64) -> (Point, Vector) {
     (Point::from(point), velocity)
 }
 
-/// Equal parts of an arc whose cubics leave it by less than the limit.
+/// Appends cubics of equal parts of an arc that leave it by less than the limit.
 fn arc_cubics(arc: &Arc, limit: f64, out: &mut Vec<[Point; 4]>) {
     let segment = Segment::Arc(*arc);
     let (sweep, radius) = (arc.sweep().abs(), arc.radius());

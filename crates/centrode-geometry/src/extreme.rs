@@ -3,13 +3,13 @@ use crate::bracketed_minimum;
 /// A greatest or least value of a function and where it is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Extreme {
-    /// Where: the function's argument.
+    /// Argument of the function.
     pub input: f64,
     /// The value there.
     pub value: f64,
 }
 
-/// Samples of a piece, of which each local extreme is bracketed: a smooth piece has a few.
+/// Samples a piece, among which each local extreme is bracketed: a smooth piece has a few.
 const SAMPLES: u32 = 48;
 
 /// Ends of pieces of an interval: those of `count` even parts and the breaks inside, ascending.

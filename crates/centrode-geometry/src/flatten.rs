@@ -52,7 +52,7 @@ impl Outline {
             .collect()
     }
 
-    /// At least three places, however coarse the tolerance.
+    /// Places of a chain within the tolerance, at least three however coarse it is.
     fn chain(&self, tolerance: Tolerance) -> Vec<Place> {
         let mut finer = tolerance;
         for _ in 0..60 {

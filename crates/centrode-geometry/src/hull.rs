@@ -3,7 +3,7 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 use crate::{Arc, Outline, Point, Segment, Vector};
 
 impl Outline {
-    /// The tightest convex contour around circles, like a belt: arcs of them joined by common tangents.
+    /// Tightest convex contour around circles, like a belt: arcs of them joined by common tangents.
     ///
     /// Exact and counter-clockwise; a circle of radius zero is a corner. `None` where it would enclose
     /// nothing, or where a number is not finite or a radius negative. Cost: arcs times circles.
@@ -47,7 +47,7 @@ impl Outline {
     }
 }
 
-/// A part of a circle on the hull, by the directions of its outward normals.
+/// Part of a circle on the hull, by the directions of its outward normals.
 struct Touched {
     circle: usize,
     from: f64,
@@ -95,7 +95,7 @@ fn belt(circles: &[(Point, f64)]) -> Option<Vec<Touched>> {
     None
 }
 
-/// How far the normal turns on until the tangent of one circle touches another one that then goes on.
+/// Angle by which the normal turns on until the tangent of one circle touches another one that then goes on.
 fn turn(circles: &[(Point, f64)], circle: usize, other: usize, normal: f64) -> Option<f64> {
     let ((from, radius), (to, other_radius)) = (circles[circle], circles[other]);
     let (way, shrink) = (to - from, radius - other_radius);

@@ -1,8 +1,9 @@
 //! Plane curves, closed outlines, solids and meshes for machine parts.
 //!
-//! No gear word in this crate: it knows curves, not what they are for. Lengths are millimetres,
+//! No gear word in this crate: it knows curves, not their purpose. Lengths are millimetres,
 //! angles radians, counter-clockwise positive.
 
+mod antiderivative;
 mod arc_chains;
 mod arc_plan;
 mod arcs;
@@ -28,7 +29,7 @@ mod opening;
 mod outline;
 mod piece;
 mod placement;
-mod primitive;
+mod poly_segment;
 mod quadrature;
 mod roots;
 #[cfg(test)]
@@ -36,9 +37,9 @@ mod shapes;
 mod shell;
 mod smooth_run;
 mod solid;
-mod spline;
 mod tolerance;
 
+pub use antiderivative::Antiderivative;
 pub use bounds::Bounds;
 pub use cancel::{Cancel, Cancelled, Scope, checkpoint};
 pub use convex::{ConvexPieces, convex_pieces};
@@ -53,11 +54,10 @@ pub use mesh::Mesh;
 pub use moments::AreaMoments;
 pub use opening::Opening;
 pub use outline::{Arc, OpenOutline, Outline, Segment};
-pub use primitive::Primitive;
+pub use poly_segment::{PolySegment, SegmentJet};
 pub use roots::{bracketed_minimum, bracketed_root};
 pub use shell::{Shell, ShellCurve, ShellEdge, ShellFace, ShellSurface};
 pub use solid::{Solid, SolidError};
-pub use spline::{SegmentJet, Spline};
 pub use tolerance::{BadTolerance, Tolerance};
 
 /// A point of the plane, mm.

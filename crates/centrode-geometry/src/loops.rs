@@ -1,28 +1,28 @@
-//! Closed chains of curves without their loops.
+//! Removal of loops from closed chains of curves.
 
 use crate::{
     Bounds, Segment, Tolerance,
     crossings::{Unresolved, crossings, self_crossings},
 };
 
-/// Passes that may each find loops which the one before laid bare.
+/// Greatest number of passes; each may find loops which the one before laid bare.
 const MOST_PASSES: u32 = 16;
 
-/// Why a closed chain has no contour.
+/// Error of a closed chain that has no contour.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum LoopError {
     /// Every place of the chain lies in a loop.
     #[error("every part of its contour lies in a loop")]
     Everywhere,
-    /// Two segments, or one and itself, of which the crossings cannot be told.
+    /// Two segments, or one and itself, whose crossings cannot be determined.
     #[error("where segments {} and {} of its contour cross cannot be told: {cause}", .segments[0], .segments[1])]
     Unresolved {
         /// The segments, counted from 0.
         segments: [usize; 2],
-        /// Why.
+        /// Cause.
         cause: Unresolved,
     },
-    /// Loops that remain, however often they are cut off.
+    /// Loops that remain after the greatest number of passes.
     #[error("its contour still crosses itself at segments {} and {} after its loops were cut off {MOST_PASSES} times", .segments[0], .segments[1])]
     Endless {
         /// Two segments that cross, counted from 0.
@@ -33,11 +33,11 @@ pub enum LoopError {
 /// A part of a segment that is left after the loops of its chain are cut off.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Kept {
-    /// Which segment.
+    /// Index of the segment.
     pub index: usize,
-    /// Parameter it now starts at.
+    /// Parameter of its new start.
     pub from: f64,
-    /// Parameter it now ends at.
+    /// Parameter of its new end.
     pub to: f64,
 }
 
@@ -73,19 +73,19 @@ impl Kept {
     }
 }
 
-/// Where a chain opens a loop, segment and parameter, and where it closes it; closed segments are counted on
-/// beyond the last.
+/// Loop of a chain: segment and parameter where it opens, and where it closes; closing segments are counted on beyond
+/// the last.
 type Loop = (usize, f64, usize, f64);
 
-/// Cuts the loops off a closed chain of segments: where the chain crosses itself, what lies between
-/// the two passes is dropped, and so is what that lays bare.
+/// Cuts the loops off a closed chain of segments: where the chain crosses itself the part between the two passes is
+/// dropped, and so are loops laid bare by that.
 ///
 /// `near(i, j)` says whether segment `j`, after `i`, may take part in a loop with it: longer detours
 /// are left alone. The chain is cut open at a place no loop covers.
 ///
 /// # Errors
-/// [`LoopError`] where every place of the chain lies in a loop, or where it cannot be told where it crosses
-/// itself.
+/// [`LoopError`] where every place of the chain lies in a loop, or where its crossings with itself cannot be
+/// determined.
 pub fn without_loops(
     segments: &[Segment],
     near: impl Fn(usize, usize) -> bool,
@@ -147,7 +147,7 @@ fn loops(
     Ok(found)
 }
 
-/// What is left of a chain of `count` segments without its loops; `None` where they cover every segment.
+/// Parts of a chain of `count` segments without its loops; `None` where they cover every segment.
 fn cut(mut found: Vec<Loop>, count: usize) -> Option<Vec<Kept>> {
     // Start at a segment no loop reaches into.
     let mut covered = vec![false; count];
@@ -171,7 +171,7 @@ fn cut(mut found: Vec<Loop>, count: usize) -> Option<Vec<Kept>> {
     let (mut index, mut from) = (0, -1.0);
     let mut next = found.iter().peekable();
     while index < count {
-        // The next loop that opens at or after where we stand.
+        // The next loop that opens at or after the present place.
         while next.peek().is_some_and(|l| (l.0, l.1) < (index, from)) {
             next.next();
         }
@@ -284,15 +284,15 @@ mod tests {
     fn a_chain_that_runs_back_on_itself_is_an_error_and_one_that_is_all_loop_too() {
         let p = Point::new;
         // There and back on the same arc, with a detour at either end.
-        let there = crate::Spline::fit(|t| p(t.cos(), t.sin()), 0.0, 0.5, fine())[0];
+        let there = crate::PolySegment::fit(|t| p(t.cos(), t.sin()), 0.0, 0.5, fine())[0];
         let (a, b) = (there.start(), there.end());
         let detour = |at: Point, y: f64| {
             let corners = [at, p(0.0, y), p(3.0, y), at];
             [0, 1, 2].map(|i| Segment::Line(corners[i], corners[i + 1]))
         };
-        let mut chain = vec![Segment::Spline(there)];
+        let mut chain = vec![Segment::Poly(there)];
         chain.extend(detour(b, 3.0));
-        chain.push(Segment::Spline(there.reversed()));
+        chain.push(Segment::Poly(there.reversed()));
         chain.extend(detour(a, -3.0));
         let refused = without_loops(&chain, |_, _| true, fine());
         assert!(

@@ -33,7 +33,7 @@ impl MassProperties {
         }
     }
 
-    /// Several bodies fixed to each other, by the parallel axis theorem; `None` without mass.
+    /// Combines several bodies fixed to each other, by the parallel axis theorem; `None` without mass.
     #[must_use]
     pub fn together(bodies: &[Self]) -> Option<Self> {
         let mass: f64 = bodies.iter().map(|b| b.mass).sum();
@@ -67,14 +67,14 @@ pub struct VolumeMoments {
 }
 
 impl VolumeMoments {
-    /// Adds a point (mm) with the volume it stands for (mm³): the node of a quadrature rule and its weight.
+    /// Adds a point (mm) with its volume (mm³): the node of a quadrature rule and its weight.
     pub fn add(&mut self, point: Vector3<f64>, volume: f64) {
         self.volume += volume;
         self.first += point * volume;
         self.second += point * point.transpose() * volume;
     }
 
-    /// Takes a body away.
+    /// Subtracts the moments of a body.
     pub fn subtract(&mut self, other: &Self) {
         self.volume -= other.volume;
         self.first -= other.first;

@@ -27,7 +27,7 @@ impl Mesh {
         }
     }
 
-    /// Several bodies as one mesh; they may touch or overlap, each stays closed.
+    /// Joins several bodies into one mesh; they may touch or overlap, each stays closed.
     #[must_use]
     pub fn joined<'a>(bodies: impl IntoIterator<Item = &'a Self>) -> Self {
         let mut whole = Self::default();

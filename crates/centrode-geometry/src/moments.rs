@@ -24,7 +24,7 @@ impl AreaMoments {
         Point::from(self.first / self.area)
     }
 
-    /// The same moments with the sign that makes the area positive.
+    /// Moments with the sign that makes the area positive.
     #[must_use]
     pub fn unsigned(self) -> Self {
         if self.area < 0.0 {
@@ -34,7 +34,7 @@ impl AreaMoments {
         }
     }
 
-    /// These moments less those of a region cut out.
+    /// Moments less those of a region cut out.
     #[must_use]
     pub fn without(self, other: Self) -> Self {
         self.plus(other.times(-1.0))
@@ -68,7 +68,7 @@ impl Segment {
             Self::Arc(arc) => (arc.sweep().abs() / std::f64::consts::FRAC_PI_2)
                 .ceil()
                 .max(1.0) as usize,
-            Self::Line(..) | Self::Spline(_) => 1,
+            Self::Line(..) | Self::Poly(_) => 1,
         }
     }
 
@@ -79,10 +79,10 @@ impl Segment {
             Self::Line(start, end) => (end - start).norm(),
             Self::Arc(arc) if arc.bulge == 0.0 => (arc.end - arc.start).norm(),
             Self::Arc(arc) => arc.radius() * arc.sweep().abs(),
-            Self::Spline(spline) => {
+            Self::Poly(poly) => {
                 let over = |low, high| {
                     let mut sum = 0.0;
-                    gauss_legendre(low, high, |u, w| sum += w * spline.at(u).first.norm());
+                    gauss_legendre(low, high, |u, w| sum += w * poly.at(u).first.norm());
                     sum
                 };
                 // Halves until the rule agrees with itself: at once unless the speed nearly vanishes.
@@ -158,19 +158,19 @@ impl Outline {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Arc, Spline, Tolerance};
+    use crate::{Arc, PolySegment, Tolerance};
     use std::f64::consts::PI;
 
     #[test]
-    fn an_ellipse_of_splines_has_the_closed_forms() {
+    fn an_ellipse_of_polynomials_has_the_closed_forms() {
         let (a, b, x0, y0) = (7.0, 4.0, 2.0, -3.0);
         let tolerance = Tolerance::new(1e-12).expect("positive");
         let ellipse = |t: f64| Point::new(x0 + a * t.cos(), y0 + b * t.sin());
-        let splines = Spline::fit(ellipse, 0.0, 2.0 * PI, tolerance);
-        let (first, last) = (splines[0].start(), splines.len() - 1);
-        let mut segments: Vec<Segment> = splines.into_iter().map(Segment::from).collect();
-        if let Segment::Spline(spline) = segments[last] {
-            segments[last] = spline.pinned(spline.start(), first).into();
+        let polys = PolySegment::fit(ellipse, 0.0, 2.0 * PI, tolerance);
+        let (first, last) = (polys[0].start(), polys.len() - 1);
+        let mut segments: Vec<Segment> = polys.into_iter().map(Segment::from).collect();
+        if let Segment::Poly(poly) = segments[last] {
+            segments[last] = poly.pinned(poly.start(), first).into();
         }
         let outline = Outline::new(segments).expect("closed");
         let m = outline.moments();

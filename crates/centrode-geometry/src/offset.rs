@@ -1,7 +1,7 @@
-use crate::{Arc, Outline, Point, Segment, Spline, Tolerance, Vector, piece::CORNER};
+use crate::{Arc, Outline, Point, PolySegment, Segment, Tolerance, Vector, piece::CORNER};
 
 impl Outline {
-    /// The curve at a constant normal distance, outside for a positive distance if the outline runs
+    /// Offset curve at a constant normal distance, outside for a positive distance if the outline runs
     /// counter-clockwise; curved parts within the tolerance.
     ///
     /// `None` where no smooth simple one exists: at a corner, where the distance is more than the radius
@@ -36,12 +36,12 @@ impl Outline {
                     end,
                     bulge: arc.bulge,
                 })),
-                Segment::Spline(_) => {
-                    let mut fitted = Spline::fit(|u| beside(segment, u), -1.0, 1.0, tolerance);
+                Segment::Poly(_) => {
+                    let mut fitted = PolySegment::fit(|u| beside(segment, u), -1.0, 1.0, tolerance);
                     if let Some(first) = fitted.first_mut() {
                         *first = first.pinned(start, first.end());
                     }
-                    segments.extend(fitted.into_iter().map(Segment::Spline));
+                    segments.extend(fitted.into_iter().map(Segment::Poly));
                 }
             }
         }
@@ -50,7 +50,7 @@ impl Outline {
         match segments.last_mut()? {
             Segment::Line(_, end) => *end = first,
             Segment::Arc(arc) => arc.end = first,
-            Segment::Spline(spline) => *spline = spline.pinned(spline.start(), first),
+            Segment::Poly(poly) => *poly = poly.pinned(poly.start(), first),
         }
         let offset = Self::from_closed(segments);
         offset.crossing().is_none().then_some(offset)

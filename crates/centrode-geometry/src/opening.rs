@@ -14,7 +14,7 @@ pub struct Opening {
 }
 
 impl Opening {
-    /// The outline's segment and the hole's that the opening takes away.
+    /// Segments of the outline and of the hole that the opening interrupts.
     #[must_use]
     pub fn segments(&self, solid: &Solid) -> Option<[Segment; 2]> {
         let between = |contour: &Outline, [start, end]: [Point; 2]| {
@@ -31,7 +31,7 @@ impl Opening {
         Some([outer, inner])
     }
 
-    /// The section that the opening takes away, counter-clockwise.
+    /// Cross-section of the opening, counter-clockwise.
     pub(crate) fn region(&self, solid: &Solid) -> Option<Outline> {
         let [outer, inner] = self.segments(solid)?;
         let sides = vec![
@@ -45,8 +45,8 @@ impl Opening {
             .filter(Outline::is_counter_clockwise)
     }
 
-    /// The mesh of the solid over its flattened contours, every one with the material on its left: at all four heights
-    /// every point, so that the walls beside the opening meet its corners.
+    /// Mesh of the solid over its flattened contours, every one with the material on its left: every point at all
+    /// four heights, so that the walls beside the opening meet its corners.
     pub(crate) fn mesh(
         &self,
         solid: &Solid,
@@ -106,7 +106,7 @@ impl Opening {
     }
 }
 
-/// Points of a contour from one corner to another, by their numbers.
+/// Point numbers along a contour from one corner to another.
 struct Stretch {
     numbers: Vec<u32>,
 }
@@ -148,7 +148,7 @@ mod tests {
     use crate::{Arc, VolumeMoments};
     use nalgebra::Vector3;
 
-    /// A tube, its contours split where an opening of a half width leaves them.
+    /// Tube with an opening of a half width, its contours split at the opening's corners.
     fn tube(half: f64, span: [f64; 2]) -> (Solid, Opening) {
         let ring = |radius: f64| {
             let angle = (half / radius).asin();

@@ -1,4 +1,4 @@
-use crate::{Point, Spline, Vector, spline::SegmentJet};
+use crate::{Point, PolySegment, Vector, poly_segment::SegmentJet};
 use nalgebra::Rotation2;
 
 /// A circular arc from `start` to `end`; `bulge` is the tangent of a quarter of the turned angle,
@@ -40,7 +40,7 @@ impl Arc {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[expect(
     clippy::large_enum_variant,
-    reason = "an outline is nearly all splines; a box each would cost more than it saves"
+    reason = "an outline is nearly all polynomials; a box each would cost more than it saves"
 )]
 pub enum Segment {
     /// A straight line between two points.
@@ -48,12 +48,12 @@ pub enum Segment {
     /// A circular arc.
     Arc(Arc),
     /// A polynomial curve.
-    Spline(Spline),
+    Poly(PolySegment),
 }
 
-impl From<Spline> for Segment {
-    fn from(spline: Spline) -> Self {
-        Self::Spline(spline)
+impl From<PolySegment> for Segment {
+    fn from(poly: PolySegment) -> Self {
+        Self::Poly(poly)
     }
 }
 
@@ -64,7 +64,7 @@ impl Segment {
         match self {
             Self::Line(start, _) => *start,
             Self::Arc(arc) => arc.start,
-            Self::Spline(spline) => spline.start(),
+            Self::Poly(poly) => poly.start(),
         }
     }
 
@@ -74,7 +74,7 @@ impl Segment {
         match self {
             Self::Line(_, end) => *end,
             Self::Arc(arc) => arc.end,
-            Self::Spline(spline) => spline.end(),
+            Self::Poly(poly) => poly.end(),
         }
     }
 
@@ -104,7 +104,7 @@ impl Segment {
                     second: Vector::new(-first.y, first.x) * half,
                 }
             }
-            Self::Spline(spline) => spline.at(u),
+            Self::Poly(poly) => poly.at(u),
         }
     }
 
@@ -121,11 +121,11 @@ impl Segment {
                 end: self.at(u1).point,
                 bulge: (0.125 * (u1 - u0) * arc.sweep()).tan(),
             }),
-            Self::Spline(spline) => Self::Spline(spline.part(u0, u1)),
+            Self::Poly(poly) => Self::Poly(poly.part(u0, u1)),
         }
     }
 
-    /// The same curve walked the other way.
+    /// The segment with its direction of travel reversed.
     #[must_use]
     pub fn reversed(&self) -> Self {
         match self {
@@ -135,7 +135,7 @@ impl Segment {
                 end: arc.start,
                 bulge: -arc.bulge,
             }),
-            Self::Spline(spline) => Self::Spline(spline.reversed()),
+            Self::Poly(poly) => Self::Poly(poly.reversed()),
         }
     }
 }
@@ -170,7 +170,7 @@ impl Outline {
         Ok(Self { segments })
     }
 
-    /// Segments already known to join exactly.
+    /// Outline of segments already known to join exactly.
     pub(crate) fn from_closed(segments: Vec<Segment>) -> Self {
         Self { segments }
     }
@@ -202,9 +202,9 @@ mod tests {
     fn a_segment_that_is_not_a_number_between_its_ends_is_refused() {
         let tolerance = crate::Tolerance::new(1e-9).expect("positive");
         let bow = |t: f64| Point::new(t, if t.abs() < 0.5 { f64::NAN } else { 1.0 - t * t });
-        let bow = Spline::fit(bow, -1.0, 1.0, tolerance)[0];
+        let bow = PolySegment::fit(bow, -1.0, 1.0, tolerance)[0];
         let back = Segment::Line(bow.end(), bow.start());
-        let refused = Outline::new(vec![Segment::Spline(bow), back]).expect_err("no outline");
+        let refused = Outline::new(vec![Segment::Poly(bow), back]).expect_err("no outline");
         assert!(refused.index == 0 && refused.gap.is_nan());
     }
 

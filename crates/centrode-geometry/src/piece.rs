@@ -1,4 +1,4 @@
-use crate::{Outline, Point, Segment, Tolerance, Vector, spline::NODES};
+use crate::{Outline, Point, Segment, Tolerance, Vector, poly_segment::NODES};
 
 /// Tangent jump, rad, above which a joint is a corner rather than rounding.
 pub(crate) const CORNER: f64 = 1e-6;
@@ -36,15 +36,15 @@ impl Piece {
                 let curvature = 0.5 * arc.sweep().abs() / speed;
                 (speed, curvature, curvature)
             }
-            Segment::Spline(spline) => {
+            Segment::Poly(poly) => {
                 if u0 == -1.0 && u1 == 1.0 {
-                    spline_bounds(spline.coefficients(), 1.0)
+                    poly_bounds(poly.coefficients(), 1.0)
                 } else {
                     let half = 0.5 * (u1 - u0);
                     let mut c = [Vector::zeros(); NODES];
-                    c.copy_from_slice(spline.coefficients());
+                    c.copy_from_slice(poly.coefficients());
                     shift(&mut c, 0.5 * (u0 + u1));
-                    spline_bounds(&c, half)
+                    poly_bounds(&c, half)
                 }
             }
         };
@@ -84,7 +84,7 @@ impl Piece {
         ]
     }
 
-    /// Length bound of the part after `u`.
+    /// Upper bound on the length of the part after `u`.
     fn after(&self, u: f64) -> f64 {
         self.speed * (self.u1 - u)
     }
@@ -101,7 +101,7 @@ fn shift(c: &mut [Vector; NODES], middle: f64) {
 }
 
 /// Bounds of a polynomial's speed and curvature over `[-half, half]`, and its curvature at zero.
-fn spline_bounds(c: &[Vector], half: f64) -> (f64, f64, f64) {
+fn poly_bounds(c: &[Vector], half: f64) -> (f64, f64, f64) {
     // velocity = c1 + 2 c2 v + rest, acceleration = 2 c2 + more.
     let (velocity, ramp) = (c[1], 2.0 * c[2] * half);
     let (mut rest, mut more) = (0.0, 0.0);
@@ -133,7 +133,7 @@ fn spline_bounds(c: &[Vector], half: f64) -> (f64, f64, f64) {
 }
 
 impl Segment {
-    /// Whether the segment is no longer than a dozen digits of its points can tell: it has no direction then.
+    /// Whether the segment is shorter than the rounding of its end points, so its tangent is undefined.
     pub(crate) fn is_null(&self) -> bool {
         let start = self.start();
         let rounding = 4096.0 * f64::EPSILON * start.coords.amax();
@@ -158,7 +158,7 @@ impl Segment {
     }
 }
 
-/// A place on an outline: a segment and the parameter on it.
+/// Point of an outline, by a segment and the parameter on it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Place {
     pub(crate) segment: usize,
@@ -178,8 +178,7 @@ impl Outline {
         }
     }
 
-    /// Unsigned tangent jump at the start of each segment, rad; none at one without length, which is
-    /// looked over.
+    /// Unsigned tangent jump at the start of each segment, rad. A segment without length is skipped and has none.
     pub(crate) fn jumps(&self) -> Vec<f64> {
         let last = self.segments().iter().rev().find(|s| !s.is_null());
         let mut before = last.map_or(Vector::x(), |s| s.tangent(1.0));
@@ -228,7 +227,7 @@ impl Outline {
         self.steps(tolerance, true)
     }
 
-    /// The same with the start of every segment among them.
+    /// Places of [`places`](Self::places) with the start of every segment among them.
     pub(crate) fn places_by_segment(&self, tolerance: Tolerance) -> Vec<Place> {
         self.steps(tolerance, false)
     }
@@ -259,7 +258,7 @@ impl Outline {
         out
     }
 
-    /// Takes a step begun with `length` at the end of piece `i` on over the following pieces.
+    /// Extends a step begun with `length` at the end of piece `i` over the following pieces.
     fn stretch(
         &self,
         pieces: &[Piece],
@@ -268,7 +267,7 @@ impl Outline {
         mut length: f64,
         tolerance: Tolerance,
     ) -> (usize, f64) {
-        let is_spline = |p: &Piece| matches!(self.segments()[p.segment], Segment::Spline(_));
+        let is_poly = |p: &Piece| matches!(self.segments()[p.segment], Segment::Poly(_));
         let (mut curvature, mut turned) = (pieces[i].curvature, 0.0);
         let mut next = i + 1;
         while let Some(piece) = pieces.get(next) {
@@ -277,8 +276,8 @@ impl Outline {
             } else {
                 0.0
             };
-            // Ends of lines and arcs are kept: they mean something to who drew them.
-            if jump > CORNER || !is_spline(piece) || !is_spline(&pieces[next - 1]) {
+            // Ends of lines and arcs are kept: they are features of the drawing.
+            if jump > CORNER || !is_poly(piece) || !is_poly(&pieces[next - 1]) {
                 break;
             }
             curvature = piece.curvature.max(curvature);

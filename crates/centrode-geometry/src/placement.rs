@@ -12,7 +12,7 @@ impl Segment {
                 end: point(&arc.end),
                 bulge: arc.bulge,
             }),
-            Self::Spline(spline) => Self::Spline(spline.mapped(point, vector)),
+            Self::Poly(poly) => Self::Poly(poly.mapped(point, vector)),
         }
     }
 }
@@ -28,7 +28,7 @@ impl Outline {
         )
     }
 
-    /// The outline turned and moved by a rigid motion.
+    /// The outline moved by a rigid motion.
     #[must_use]
     pub fn transformed(&self, motion: &Isometry2<f64>) -> Self {
         self.mapped(|p| motion * p, |v| motion * v)
@@ -40,7 +40,7 @@ impl Outline {
         self.mapped(|p| p * k, |v| v * k)
     }
 
-    /// The same contour walked the other way.
+    /// The contour with its direction of travel reversed.
     #[must_use]
     pub fn reversed(&self) -> Self {
         Self::from_closed(
@@ -52,7 +52,7 @@ impl Outline {
         )
     }
 
-    /// A full circle, counter-clockwise, as two half circles.
+    /// Full circle, counter-clockwise, as two half circles.
     #[must_use]
     pub fn circle(center: Point, radius: f64) -> Self {
         let right = center + Vector::new(radius, 0.0);
@@ -67,7 +67,7 @@ impl Outline {
         Self::from_closed(vec![half(right, left), half(left, right)])
     }
 
-    /// Straight lines from each point to the next, and from the last to the first.
+    /// Polygon with the given corners.
     #[must_use]
     pub fn polygon(points: &[Point]) -> Self {
         let next = points.iter().cycle().skip(1);
@@ -84,19 +84,18 @@ impl Outline {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Spline, Tolerance};
+    use crate::{PolySegment, Tolerance};
 
     #[test]
     fn a_motion_keeps_area_and_closure_and_scaling_multiplies_it() {
         let wave = |t: f64| Point::from(Vector::new(t.cos(), t.sin()) * (5.0 + (3.0 * t).cos()));
         let tolerance = Tolerance::new(1e-10).expect("positive");
-        let mut splines = Spline::fit(wave, 0.0, std::f64::consts::TAU, tolerance);
-        let first = splines[0].start();
-        if let Some(last) = splines.last_mut() {
+        let mut polys = PolySegment::fit(wave, 0.0, std::f64::consts::TAU, tolerance);
+        let first = polys[0].start();
+        if let Some(last) = polys.last_mut() {
             *last = last.pinned(last.start(), first);
         }
-        let outline =
-            Outline::new(splines.into_iter().map(Segment::from).collect()).expect("closed");
+        let outline = Outline::new(polys.into_iter().map(Segment::from).collect()).expect("closed");
         let moved = outline.transformed(&Isometry2::new(Vector::new(3.0, -8.0), 0.7));
         let again = Outline::new(moved.segments().to_vec()).expect("still closed");
         assert!((again.area() - outline.area()).abs() < 1e-11);

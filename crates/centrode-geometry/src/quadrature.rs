@@ -1,8 +1,8 @@
-use crate::spline::NODES;
+use crate::poly_segment::NODES;
 use std::sync::OnceLock;
 
 /// Nodes of the rule: exact up to degree `4 (NODES - 1) - 1`, that of `x³ y'` on a
-/// [`Spline`](crate::Spline).
+/// [`PolySegment`](crate::PolySegment).
 const COUNT: usize = 2 * (NODES - 1);
 
 /// Nodes and weights of the Gauss–Legendre rule on `[-1, 1]`, found by Newton steps on the polynomial.
@@ -32,7 +32,7 @@ fn rule() -> &'static [(f64, f64); COUNT] {
     })
 }
 
-/// Visits the nodes of `[low, high]` with their weights: exact for every moment integral of a spline.
+/// Visits the nodes of `[low, high]` with their weights: exact for every moment integral of a polynomial segment.
 pub(crate) fn gauss_legendre(low: f64, high: f64, mut visit: impl FnMut(f64, f64)) {
     let (middle, half) = (0.5 * (low + high), 0.5 * (high - low));
     for &(node, weight) in rule() {

@@ -1,19 +1,19 @@
-//! Outlines the tests share.
+//! Outlines shared by the tests.
 
-use crate::{Outline, Point, Segment, Spline, Tolerance, Vector};
+use crate::{Outline, Point, PolySegment, Segment, Tolerance, Vector};
 use std::f64::consts::TAU;
 
-/// Closes a chain of splines by rounding only.
-fn closed(mut splines: Vec<Spline>) -> Outline {
-    let first = splines[0].start();
+/// Closes a chain of polynomial segments by rounding only.
+fn closed(mut polys: Vec<PolySegment>) -> Outline {
+    let first = polys[0].start();
     let mut end = first;
-    for spline in splines.iter_mut().rev() {
-        if spline.end() != end {
-            *spline = spline.pinned(spline.start(), end);
+    for poly in polys.iter_mut().rev() {
+        if poly.end() != end {
+            *poly = poly.pinned(poly.start(), end);
         }
-        end = spline.start();
+        end = poly.start();
     }
-    Outline::new(splines.into_iter().map(Segment::from).collect()).expect("closed")
+    Outline::new(polys.into_iter().map(Segment::from).collect()).expect("closed")
 }
 
 /// A smooth closed curve `r = radius + wave cos(lobes t)`.
@@ -21,7 +21,7 @@ pub(crate) fn rosette(radius: f64, wave: f64, lobes: u32, tolerance: Tolerance) 
     let curve = |t: f64| {
         Point::from(Vector::new(t.cos(), t.sin()) * (radius + wave * (f64::from(lobes) * t).cos()))
     };
-    closed(Spline::fit(curve, 0.0, TAU, tolerance))
+    closed(PolySegment::fit(curve, 0.0, TAU, tolerance))
 }
 
 /// A ring of involute teeth cut by a rack with rounded tips: two corners a tooth, smooth in between.
@@ -49,33 +49,43 @@ pub(crate) fn tooth_ring(teeth: u32, module: f64, tolerance: Tolerance) -> Outli
     let (root_angle, corner) = (side / r, flank(highest));
     let tip_angle = corner.y.atan2(corner.x);
     let next = TAU / f64::from(teeth);
-    let mut splines = Vec::new();
+    let mut polys = Vec::new();
     for tooth in 0..teeth {
         let place = nalgebra::Rotation2::new(next * f64::from(tooth));
         let mirrored = |p: Point| place * Point::new(p.x, -p.y);
         let circle =
             |radius: f64| move |a: f64| place * Point::new(radius * a.cos(), radius * a.sin());
-        splines.extend(Spline::fit(
+        polys.extend(PolySegment::fit(
             |a| mirrored(flank(a)),
             highest,
             joint,
             tolerance,
         ));
-        splines.extend(Spline::fit(
+        polys.extend(PolySegment::fit(
             |a| mirrored(fillet(a)),
             joint,
             lowest,
             tolerance,
         ));
-        splines.extend(Spline::fit(
+        polys.extend(PolySegment::fit(
             circle(r - depth),
             -root_angle,
             root_angle,
             tolerance,
         ));
-        splines.extend(Spline::fit(|a| place * fillet(a), lowest, joint, tolerance));
-        splines.extend(Spline::fit(|a| place * flank(a), joint, highest, tolerance));
-        splines.extend(Spline::fit(
+        polys.extend(PolySegment::fit(
+            |a| place * fillet(a),
+            lowest,
+            joint,
+            tolerance,
+        ));
+        polys.extend(PolySegment::fit(
+            |a| place * flank(a),
+            joint,
+            highest,
+            tolerance,
+        ));
+        polys.extend(PolySegment::fit(
             circle(tip),
             tip_angle,
             next - tip_angle,
@@ -83,10 +93,10 @@ pub(crate) fn tooth_ring(teeth: u32, module: f64, tolerance: Tolerance) -> Outli
         ));
     }
     // Neighbours computed by different formulas differ by rounding.
-    for i in 1..splines.len() {
-        let start = splines[i - 1].end();
-        assert!((splines[i].start() - start).norm() < 1e-9, "parts {i} meet");
-        splines[i] = splines[i].pinned(start, splines[i].end());
+    for i in 1..polys.len() {
+        let start = polys[i - 1].end();
+        assert!((polys[i].start() - start).norm() < 1e-9, "parts {i} meet");
+        polys[i] = polys[i].pinned(start, polys[i].end());
     }
-    closed(splines)
+    closed(polys)
 }

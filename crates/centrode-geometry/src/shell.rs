@@ -1,6 +1,6 @@
 use std::collections::HashMap;
 
-/// The closed boundary of a body as faces on exact surfaces, joined along shared edges: what a CAD kernel holds.
+/// Closed boundary of a body: faces on exact surfaces, joined along shared edges, as a CAD kernel holds it.
 ///
 /// Surfaces of revolution are about the z axis.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -18,11 +18,11 @@ pub struct Shell {
 pub struct ShellEdge {
     /// Indices of its ends.
     pub ends: [usize; 2],
-    /// What it follows.
+    /// Curve of the edge.
     pub curve: ShellCurve,
 }
 
-/// What an edge follows.
+/// Curve of an edge.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ShellCurve {
     /// A straight line.
@@ -36,17 +36,17 @@ pub enum ShellCurve {
     Bezier(Vec<[f64; 3]>),
 }
 
-/// A face: a piece of a surface.
+/// Face of a shell: a part of a surface within bounds.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ShellFace {
-    /// What it is a piece of.
+    /// Surface of the face.
     pub surface: ShellSurface,
     /// Its bounds, the outer one first: edges, and whether each is walked from its first end to its second.
     /// Seen from outside the body the face lies to the left.
     pub bounds: Vec<Vec<(usize, bool)>>,
 }
 
-/// What a face is a piece of.
+/// Surface of a face.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ShellSurface {
     /// A plane through a point, its normal pointing out of the body.
@@ -70,8 +70,7 @@ pub enum ShellSurface {
         /// Whether the radius grows upwards.
         widens: bool,
     },
-    /// Straight lines between two Bézier curves of one degree, from the points of the first at a parameter to
-    /// those of the second.
+    /// Ruled surface between two Bézier curves of one degree: straight lines join the points of equal parameter.
     Ruled {
         /// Points of both curves, mm.
         points: [Vec<[f64; 3]>; 2],

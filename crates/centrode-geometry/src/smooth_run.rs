@@ -7,9 +7,9 @@ pub(crate) struct Node {
     pub(crate) tangent: Vector,
 }
 
-/// A longest part of an outline without a corner, line or arc in it, as closely spaced nodes.
+/// Smooth part of an outline, as long as can be, as closely spaced nodes.
 ///
-/// Also a line or an arc by itself, which is kept as it is.
+/// A line or an arc is a run of its own, which is kept exactly.
 #[derive(Debug)]
 pub(crate) enum Run {
     /// Index of the segment.
@@ -52,11 +52,11 @@ impl Outline {
         // A step over a joint could hide a jump of the curvature from the checks between nodes.
         for place in self.places_by_segment(spacing) {
             let segment = &self.segments()[place.segment];
-            let is_spline = matches!(segment, Segment::Spline(_));
-            if place.u == -1.0 && (corner(place.segment) || !is_spline) {
+            let is_poly = matches!(segment, Segment::Poly(_));
+            if place.u == -1.0 && (corner(place.segment) || !is_poly) {
                 finish(&mut runs, &mut nodes, first, place.segment);
             }
-            if is_spline {
+            if is_poly {
                 if nodes.is_empty() {
                     first = place.segment;
                 }
@@ -73,8 +73,8 @@ impl Outline {
     }
 }
 
-/// Upper bound, to fourth order, of `|d|` over a step of length `h`, from its values and slopes at the
-/// ends: the extremes of the cubic through them.
+/// Upper bound, to fourth order, of `|d|` over a step of length `h`: the extremes of the cubic Hermite interpolant of
+/// its values and slopes at the ends.
 pub(crate) fn hermite_peak(d0: f64, s0: f64, d1: f64, s1: f64, h: f64) -> f64 {
     let mut peak = d0.abs().max(d1.abs());
     if s0 * s1 > 0.0 && (d1 - d0) * s0 > 0.0 {
@@ -106,8 +106,8 @@ mod tests {
         // Backwards by less than rounding, as constructions leave it.
         let p = segments[3].start();
         let q = Point::new(p.x.next_down(), p.y.next_up());
-        let Segment::Spline(before) = segments[2] else {
-            panic!("a spline")
+        let Segment::Poly(before) = segments[2] else {
+            panic!("a polynomial")
         };
         segments[2] = before.pinned(before.start(), q).into();
         segments.insert(3, Segment::Line(q, p));

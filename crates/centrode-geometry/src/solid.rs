@@ -13,7 +13,7 @@ pub struct Solid {
     opening: Option<Opening>,
 }
 
-/// Why contours do not bound a solid.
+/// Error of contours that do not bound a solid.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum SolidError {
@@ -34,9 +34,9 @@ pub enum SolidError {
     /// Contours flattened at the tolerance meet or cross themselves or one another.
     #[error("contours cross or touch near ({x}, {y}) mm at a tolerance of {tolerance} mm")]
     Crossing {
-        /// Where, mm.
+        /// X coordinate, mm.
         x: f64,
-        /// Where, mm.
+        /// Y coordinate, mm.
         y: f64,
         /// The flattening tolerance, mm.
         tolerance: f64,
@@ -93,7 +93,7 @@ impl Solid {
         })
     }
 
-    /// The solid with an opening through the wall between its outline and a hole.
+    /// Cuts an opening through the wall between the outline and a hole.
     ///
     /// # Errors
     /// [`SolidError::Opening`] unless it lies within the height, a side of the outline runs from its first outer
@@ -160,7 +160,7 @@ impl Solid {
         self.section().area * (self.top - self.bottom) - opened
     }
 
-    /// What the opening takes away: a section, and between which heights.
+    /// Section removed by the opening, and its lower and upper height.
     fn opened(&self) -> Option<(Outline, [f64; 2])> {
         let opening = self.opening.as_ref()?;
         Some((opening.region(self)?, opening.span))
@@ -177,7 +177,7 @@ impl Solid {
         MassProperties::together(&[whole, missing]).unwrap_or(whole)
     }
 
-    /// Number of triangles that [`mesh`](Self::mesh) has at a tolerance.
+    /// Number of triangles of [`mesh`](Self::mesh) at a tolerance.
     #[must_use]
     pub fn mesh_faces(&self, tolerance: Tolerance) -> usize {
         let contours = std::iter::once(&self.outline).chain(&self.holes);
@@ -188,9 +188,9 @@ impl Solid {
         ((2 + walls) * points + 4 * self.holes.len()).saturating_sub(4)
     }
 
-    /// A closed triangle mesh with outward normals whose side walls follow the contours within the
-    /// tolerance. Its vertices are shared: the bottom ones first, then the top ones in the same order, with those of an
-    /// opening's ends between.
+    /// Closed triangle mesh with outward normals whose side walls follow the contours within the tolerance. Its
+    /// vertices are shared: the bottom ones first, then the top ones in the same order, with those of an opening's
+    /// ends between.
     ///
     /// # Errors
     /// [`SolidError`] where the flattened contours cross or touch, or a hole is not in the material.
@@ -322,7 +322,7 @@ pub(crate) fn triangulate(
     Ok(triangles)
 }
 
-/// Every contour edge must bound exactly one triangle, on its left.
+/// Checks that every contour edge bounds exactly one triangle, on its left.
 fn check_sides(contours: &[Vec<Point>], triangles: &[[u32; 3]]) -> Result<(), SolidError> {
     let directed: std::collections::HashSet<[u32; 2]> = triangles
         .iter()

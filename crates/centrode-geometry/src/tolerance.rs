@@ -1,6 +1,6 @@
 use thiserror::Error;
 
-/// The greatest distance, in millimetres, between a curve and what stands in for it.
+/// Greatest distance, in millimetres, between a curve and its approximation.
 ///
 /// Last argument of every approximating function. Scale a shape and its tolerance by the same
 /// factor and every output scales by that factor.

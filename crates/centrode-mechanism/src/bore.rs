@@ -1,4 +1,4 @@
-//! The hole in the middle of a part.
+//! Bore in the middle of a part.
 
 use std::f64::consts::PI;
 

@@ -1,8 +1,8 @@
-//! Angles are degrees in the file and radians in the program.
+//! Conversion of angles: degrees in the file, radians in the program.
 
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-/// The degrees that read back as the given radians, the round number where there is one.
+/// Degrees that read back as the given radians, the round number where there is one.
 pub(crate) fn written(radians: f64) -> f64 {
     let degrees = radians.to_degrees();
     let round = (degrees * 1e11).round() / 1e11;
@@ -21,7 +21,7 @@ pub(crate) fn deserialize<'de, D: Deserializer<'de>>(d: D) -> Result<f64, D::Err
     f64::deserialize(d).map(f64::to_radians)
 }
 
-/// The same for a list.
+/// A list of angles, degrees in the file.
 pub(crate) mod list {
     use super::{Deserialize, Deserializer, Serialize, Serializer, written};
 
@@ -36,7 +36,7 @@ pub(crate) mod list {
     }
 }
 
-/// The same for an angle that may be absent.
+/// An angle that may be absent, degrees in the file.
 pub(crate) mod option {
     use super::{Deserialize, Deserializer, Serialize, Serializer, written};
 
@@ -50,7 +50,7 @@ pub(crate) mod option {
     }
 }
 
-/// The same for the two ends of a range.
+/// Both ends of a range of angles, degrees in the file.
 pub(crate) mod range {
     use super::{Deserialize, Deserializer, Serialize, Serializer, written};
 

@@ -1,4 +1,4 @@
-//! What every joint follows: its position as a function of the machine's input.
+//! Transmission function of a joint: its position as a function of the machine's input.
 
 use std::fmt;
 use std::sync::Arc;
@@ -25,7 +25,7 @@ pub struct MotionJet {
 }
 
 impl MotionJet {
-    /// The jet of this motion's output read as a function of what its input is a function of.
+    /// Jet of this motion's output by the variable of which its input is a function.
     ///
     /// `self` is f at g(t), `inner` is g at t: the result is f(g(t)), by the chain rule to third order.
     #[must_use]
@@ -68,7 +68,7 @@ impl MotionJet {
         Self::of_lane(series, 0)
     }
 
-    /// One of those that a series holds side by side.
+    /// Jet of one lane of a series.
     #[inline(always)]
     pub(crate) fn of_lane<const N: usize, T: Number>(series: &Taylor<N, T>, lane: usize) -> Self {
         let [position, velocity, acceleration, jerk] = series.derivatives();
@@ -105,7 +105,7 @@ pub trait Transmission: fmt::Debug + Send + Sync {
         std::f64::consts::TAU
     }
 
-    /// How much the position has grown after one period: zero for what comes back.
+    /// Growth of the position over one period: zero for a motion that comes back.
     fn advance(&self) -> f64 {
         0.0
     }
@@ -115,7 +115,7 @@ pub trait Transmission: fmt::Debug + Send + Sync {
         Vec::new()
     }
 
-    /// The same function in pieces, within rounding.
+    /// Approximation in pieces, within rounding.
     fn pieces(&self) -> Piecewise {
         Piecewise::fit(self)
     }
@@ -178,7 +178,7 @@ pub struct Chain {
 }
 
 impl Chain {
-    /// Both must fit: what `inner` advances in its period is the period of `outer`.
+    /// Chains two transmissions, which must fit: what `inner` advances in its period is the period of `outer`.
     ///
     /// # Errors
     /// [`TransmissionError::Periods`] where it is not.
@@ -223,7 +223,7 @@ impl Transmission for Chain {
     }
 }
 
-/// The input as a function of the position of a transmission that never stands still.
+/// Inverse of a transmission that always advances: the input as a function of the position.
 #[derive(Clone, Debug)]
 pub struct Inverse {
     of: Arc<dyn Transmission>,
@@ -231,10 +231,10 @@ pub struct Inverse {
 }
 
 impl Inverse {
-    /// The inverse of a transmission that runs one way.
+    /// Inverts a transmission that runs one way.
     ///
     /// # Errors
-    /// [`TransmissionError::StandsStill`] where its velocity is zero or against its advance, looked for
+    /// [`TransmissionError::StandsStill`] where its velocity is zero or against its advance, sampled
     /// at a thousand inputs and at its breaks.
     pub fn new(of: Arc<dyn Transmission>) -> Result<Self, TransmissionError> {
         const LOOKS: u32 = 1000;
@@ -291,7 +291,7 @@ fn root(of: &dyn Transmission, position: f64, low: f64, high: f64) -> f64 {
     bracketed_root(off, low, high, at_low, at_high)
 }
 
-/// Ascending, without those that differ by rounding only.
+/// Ascending breaks, without those that differ by rounding only.
 fn sorted(breaks: impl Iterator<Item = f64>, period: f64) -> Vec<f64> {
     let mut breaks: Vec<f64> = breaks.collect();
     breaks.sort_by(f64::total_cmp);
@@ -302,7 +302,7 @@ fn sorted(breaks: impl Iterator<Item = f64>, period: f64) -> Vec<f64> {
     breaks
 }
 
-/// Why transmissions do not go together.
+/// Reason why transmissions do not go together.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum TransmissionError {
@@ -311,17 +311,17 @@ pub enum TransmissionError {
         "a cycle of the driving motion advances it by {advance}, but the driven one repeats after {period}"
     )]
     Periods {
-        /// What the driving one advances in a period.
+        /// Advance of the driving one in a period.
         advance: f64,
         /// Period of the driven one.
         period: f64,
     },
-    /// A motion that must run one way stands still or runs back.
+    /// A motion that must run one way stops or runs back.
     #[error("the motion must run one way, but at the input {input} rad its velocity is {velocity}")]
     StandsStill {
-        /// Where.
+        /// Input there.
         input: f64,
-        /// The velocity there.
+        /// Velocity there.
         velocity: f64,
     },
 }

@@ -111,7 +111,7 @@ pub(crate) enum File {
     Svg,
     /// Drawing sheets with dimensions and tables, as DXF and SVG
     Sheet,
-    /// The same sheets as PDF
+    /// Drawing sheets as PDF
     Pdf,
     /// Solids
     Stl,

@@ -66,12 +66,12 @@ fn bundle(
     Ok(bundle)
 }
 
-/// A line on standard error: what was found, and that the files are there all the same.
+/// Writes a line on standard error: the findings, and that the files are there all the same.
 fn tell(found: &centrode::analysis::Report, files: usize, command: &Export) {
     let mut err = anstream::stderr();
     let summary = report::summary(found);
     let design = command.design.display();
-    // Nobody is left to tell when standard error is closed.
+    // Nobody reads it when standard error is closed.
     let _ = if found.ok() {
         writeln!(err, "{files} files written; {summary}")
     } else {
@@ -99,7 +99,7 @@ fn formats(command: &Export) -> Vec<Format> {
     wanted.map(|(_, format)| format).collect()
 }
 
-/// Refuses options that none of the files asked for has a use for.
+/// Refuses options that have no effect on any of the files asked for.
 fn refuse_useless(command: &Export) -> Result<(), Failure> {
     let sheets = command.wants(File::Sheet) || command.wants(File::Pdf);
     let refused = |option: &str, files: &str| {

@@ -10,10 +10,10 @@ const WIDEST: usize = 100;
 const ERROR: Style = AnsiColor::Red.on_default().bold();
 const MARGIN: Style = AnsiColor::Blue.on_default().bold();
 
-/// Why a command could not do its job.
+/// Reason why a command could not do its job.
 #[derive(Debug)]
 pub(crate) enum Failure {
-    /// The design is bad: what, and in which text.
+    /// The design is bad: its error, and the text it is in.
     Design {
         name: String,
         text: String,
@@ -27,9 +27,9 @@ pub(crate) enum Failure {
     Serve(io::Error),
     /// The files of the design cannot be made or written.
     Files(Box<dyn std::error::Error + Send + Sync>),
-    /// Ctrl-C.
+    /// Ctrl-C was pressed.
     Interrupted,
-    /// A word on the command line that means nothing.
+    /// A word on the command line has no meaning.
     Usage(String),
 }
 
@@ -52,7 +52,7 @@ impl From<BundleError> for Failure {
 }
 
 impl Failure {
-    /// Tells a person what went wrong, with the line of the file where there is one.
+    /// Writes the failure for a person, with the line of the file where there is one.
     pub(crate) fn write(&self, out: &mut impl Write) -> io::Result<()> {
         write!(out, "{ERROR}error{ERROR:#}: ")?;
         match self {
@@ -63,7 +63,7 @@ impl Failure {
 }
 
 impl std::fmt::Display for Failure {
-    /// What has gone wrong, in one line.
+    /// Failure in one line.
     fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Self::Design { error, .. } => write!(out, "{error}"),

@@ -7,7 +7,7 @@ use centrode::mechanism::design::{DesignError, DesignFile};
 
 use crate::failure::Failure;
 
-/// The text of a design file, kept for its errors.
+/// Text of a design file, kept for its errors.
 pub(crate) struct Source {
     name: String,
     bytes: Vec<u8>,
@@ -35,7 +35,7 @@ impl Source {
         }
     }
 
-    /// A text that is in no file.
+    /// Source of a text that is in no file.
     pub(crate) fn of_text(text: &str) -> Self {
         Self {
             name: "design".into(),
@@ -43,7 +43,7 @@ impl Source {
         }
     }
 
-    /// The text of the file, whatever it means.
+    /// Text of the file, whatever it means.
     pub(crate) fn text(&self) -> Result<String, Failure> {
         match std::str::from_utf8(&self.bytes) {
             Ok(text) if text.len() <= DesignFile::LARGEST => Ok(text.to_owned()),
@@ -54,14 +54,14 @@ impl Source {
         }
     }
 
-    /// The design of the file.
+    /// Design of the file.
     pub(crate) fn design(&self) -> Result<OpenDesign, Failure> {
         FAMILIES
             .read(&self.bytes)
             .map_err(|error| self.blame(error))
     }
 
-    /// The error, shown at its line of this file.
+    /// Failure of an error, shown at its line of this file.
     pub(crate) fn blame(&self, error: DesignError) -> Failure {
         Failure::Design {
             name: self.name.clone(),

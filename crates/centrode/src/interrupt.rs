@@ -2,16 +2,16 @@ use std::io;
 
 use centrode::geometry::Cancel;
 
-/// Whether Ctrl-C was pressed since; a second one ends the program at once.
+/// Watch for Ctrl-C; a second one ends the program at once.
 pub(crate) struct Interrupt {
-    /// Cancelled by it.
+    /// Token that Ctrl-C cancels.
     pub(crate) cancel: Cancel,
-    /// Dropped, it stops watching.
+    /// Runtime of the watch, which ends when it is dropped.
     runtime: Option<tokio::runtime::Runtime>,
 }
 
 impl Interrupt {
-    /// Starts to watch.
+    /// Starts the watch.
     pub(crate) fn watch() -> io::Result<Self> {
         let runtime = tokio::runtime::Builder::new_multi_thread()
             .worker_threads(1)

@@ -13,8 +13,8 @@ pub use family::FAMILIES;
 
 use export::Meshing;
 
-/// What drawing sheets tell of a report: the pairs of teeth in contact, and the play along the common
-/// normal, mm. `None` for gears that do not hold each other.
+/// Figures of a report for drawing sheets: the pairs of teeth in contact, and the normal backlash,
+/// mm. `None` for gears that do not hold each other.
 #[must_use]
 pub fn meshing(report: &analysis::Report) -> Option<Meshing> {
     let range = |least: &str, greatest: &str| {

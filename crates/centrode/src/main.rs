@@ -53,7 +53,7 @@ fn main() -> ExitCode {
         Command::Man(command) => man::run(command, &mut out),
     };
     let result = result.and_then(|code| out.flush().map(|()| code).map_err(Failure::Output));
-    // What is still buffered would fail again when dropped.
+    // Bytes still buffered would fail again when dropped.
     let _ = out.into_parts();
     match result {
         Ok(code) => code,

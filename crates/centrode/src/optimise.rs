@@ -20,14 +20,14 @@ use crate::page::{Edit, edited};
 use outcome::Outcome;
 use stored::Stored;
 
-/// How often the search is stored while it runs.
+/// Interval at which the search is stored while it runs.
 const STORE: Duration = Duration::from_secs(10);
 
 /// Searches for a better design and writes it, with its search beside it.
 pub(crate) fn run(command: &Optimise, out: &mut impl Write) -> Result<ExitCode, Failure> {
     let source = Source::open(&command.design)?;
     let file = source.design()?;
-    // A design that gives no mechanism is told as by a check.
+    // A design that gives no mechanism is reported as by a check.
     file.mechanism().map_err(|error| source.blame(error))?;
     if command.widen {
         return widen::run(command, &file, &source.text()?, out);
@@ -89,7 +89,7 @@ pub(crate) fn run(command: &Optimise, out: &mut impl Write) -> Result<ExitCode, 
     Ok(ExitCode::from(u8::from(!outcome.reached())))
 }
 
-/// A search goes on as it began: what the command line says of method and seed must be what is stored.
+/// Checks that method and seed of the command line are those of the stored search, which goes on as it began.
 fn same(command: &Optimise, search: &DesignSearch, name: &str) -> Result<(), Failure> {
     let differs = |flag: &str, asked: &str, stored: &str| {
         let message = format!("--{flag} {asked}: {name} is a search with the {flag} {stored}");
@@ -159,7 +159,7 @@ fn target() -> ProgressDrawTarget {
     }
 }
 
-/// The design's text with the numbers of a point.
+/// Text of the design with the numbers of a point.
 pub(crate) fn better(
     text: &str,
     problem: &dyn DesignProblem,

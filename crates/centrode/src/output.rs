@@ -12,7 +12,7 @@ pub(crate) fn write(bundle: &Bundle, folder: &Path) -> Result<Vec<PathBuf>, Fail
     Ok(written.map_err(|_| Failure::Interrupted)??)
 }
 
-/// Has a write beyond the limit of a file's size fail with a reason: the signal of it, not caught, ends the program.
+/// Makes a write beyond the limit of a file's size fail with a reason: its signal, not caught, would end the program.
 #[cfg(unix)]
 pub(crate) fn heed_file_limit() -> std::io::Result<()> {
     use tokio::signal::unix::{SignalKind, signal};

@@ -7,7 +7,7 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 /// Work shorter than this shows no bar.
 const PATIENCE: Duration = Duration::from_secs(1);
 
-/// A bar on the terminal's standard error, there only while long work lasts.
+/// Bar on the terminal's standard error, there only while long work lasts.
 pub(crate) struct Progress {
     bar: ProgressBar,
     done: Option<Sender<()>>,
@@ -39,7 +39,7 @@ impl Progress {
         }
     }
 
-    /// The next step begins.
+    /// Begins the next step.
     pub(crate) fn step(&self, what: &'static str) {
         if !self.bar.message().is_empty() {
             self.bar.inc(1);

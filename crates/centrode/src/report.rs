@@ -14,7 +14,7 @@ pub(crate) use figures::{Section, sections};
 pub(crate) use findings::{Words, summary, words};
 pub(crate) use goals::{GoalWords, goal_words};
 
-/// The report as other programs read it.
+/// Report as other programs read it.
 #[derive(Serialize)]
 struct Json<'a> {
     ok: bool,
@@ -33,7 +33,7 @@ pub(crate) fn json(report: &Report) -> std::io::Result<String> {
     Ok(text)
 }
 
-/// The report as a person reads it: findings first, then goals, tables and the figures in groups.
+/// Writes the report as a person reads it: findings first, then goals, tables and the figures in groups.
 pub(crate) fn write(
     mechanism: &dyn Mechanism,
     report: &Report,

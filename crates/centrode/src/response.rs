@@ -13,7 +13,7 @@ use crate::input::Source;
 use crate::output;
 use crate::progress::Progress;
 
-/// Tells how the figures of a design answer one of its numbers.
+/// Prints the response of a design's figures to one of its numbers.
 pub(crate) fn run(command: &Response, out: &mut impl Write) -> Result<ExitCode, Failure> {
     let source = Source::open(&command.design)?;
     let file = source.design()?;
@@ -57,7 +57,7 @@ pub(crate) fn run(command: &Response, out: &mut impl Write) -> Result<ExitCode, 
     Ok(ExitCode::SUCCESS)
 }
 
-/// The answers asked for; all goals, or all figures of a family without goals, where none is.
+/// Answers asked for; all goals, or all figures of a family without goals, where none is asked for.
 fn asked<'a>(
     command: &Response,
     response: &Found,

@@ -11,7 +11,7 @@ use crate::output;
 use crate::page::Subject;
 use crate::progress::Progress;
 
-/// Writes a design's page as one file that needs nothing else.
+/// Writes a design's page as one file that needs no other.
 pub(crate) fn run(command: &Report, out: &mut impl Write) -> Result<ExitCode, Failure> {
     let source = Source::open(&command.design)?;
     let design = source.design()?;

@@ -37,7 +37,7 @@ fn files(machine: &Machine, options: &Options) -> Bundle {
     package.finish().expect("whole")
 }
 
-/// Holds two tables against each other: positions to rounding, what pieces are differentiated for to less.
+/// Holds two tables against each other: positions to rounding, derivatives of pieces less closely.
 fn assert_near(one: &[u8], other: &[u8], name: &str) {
     let rows = |bytes: &[u8]| -> Vec<Vec<f64>> {
         let text = String::from_utf8_lossy(bytes).into_owned();

@@ -198,7 +198,7 @@ impl DiscCam {
         points(py, &self.cam.profile().outline().flatten(tolerance))
     }
 
-    /// The same of the path of the roller's centre; None for a flat face.
+    /// Corners of a polygon within the tolerance of the path of the roller's centre; None for a flat face.
     #[pyo3(signature = (tolerance=1e-3))]
     fn pitch_curve<'py>(
         &self,
@@ -230,7 +230,7 @@ impl DiscCam {
         ])
     }
 
-    /// What the cam is up to, each with its cam angle: "rise_pressure_angle" and "return_pressure_angle"
+    /// Limits of the cam, each with its cam angle: "rise_pressure_angle" and "return_pressure_angle"
     /// (rad), "largest_roller" (rollers only), "least_radius" of the convex profile, at most zero where it
     /// is undercut, "largest_wheel" that can grind it (mm), and "regularity", above zero for a sound cam.
     #[getter]

@@ -113,13 +113,13 @@ impl Fork {
         self.lever().start
     }
 
-    /// Which way the fork turns when the cam lifts it.
+    /// Sense in which the fork turns when the cam lifts it.
     #[getter]
     fn lifts(&self) -> &'static str {
         word(self.0.lifts)
     }
 
-    /// How fork and rod are joined, "pin-on-rod" or "pin-on-fork".
+    /// Joint of fork and rod, "pin-on-rod" or "pin-on-fork".
     #[getter]
     fn joint(&self) -> &'static str {
         match self.0.rod {
@@ -128,7 +128,7 @@ impl Fork {
         }
     }
 
-    /// How far the rod is drawn back, mm, when the fork has swung by angles, rad.
+    /// Retraction of the rod, mm, when the fork has swung by angles, rad.
     fn retraction<'py>(&self, py: Python<'py>, swing: Values) -> PyResult<Bound<'py, PyAny>> {
         let rod = self.0.rod;
         each(py, swing, move |swing| {
@@ -136,7 +136,7 @@ impl Fork {
         })
     }
 
-    /// How far the fork has swung, rad, when the rod is drawn back by lengths, mm; not a number where a pin on the
+    /// Swing of the fork, rad, when the rod is drawn back by lengths, mm; not a number where a pin on the
     /// fork cannot reach so far.
     ///
     /// >>> import centrode as ct
@@ -229,7 +229,7 @@ impl Fork {
     }
 }
 
-/// A place without movement.
+/// Motion of a fixed position.
 fn at_rest(position: f64) -> MotionJet {
     MotionJet {
         position,

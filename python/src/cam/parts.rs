@@ -18,7 +18,7 @@ use crate::record::Keywords;
 #[derive(Debug, PartialEq)]
 pub(crate) struct Segment(pub(crate) spec::SegmentSpec);
 
-/// What rides on a cam and how it is guided; made by the functions of ``centrode.cam``.
+/// Follower of a cam with its guidance; made by the functions of ``centrode.cam``.
 #[pyclass(frozen, eq, module = "centrode.cam")]
 #[derive(Debug, PartialEq)]
 pub(crate) struct Follower(pub(crate) spec::Follower);

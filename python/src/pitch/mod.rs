@@ -12,7 +12,7 @@ use pyo3::prelude::{
 use crate::array::{Numbers, points};
 use crate::error::{of_design, of_pitch};
 
-/// A pitch curve around the shaft axis at the origin, proved to go round it exactly once.
+/// A pitch curve around the shaft axis at the origin, proved to wind round it exactly once.
 ///
 /// Made by the functions of ``centrode.pitch``.
 ///
@@ -47,7 +47,7 @@ impl Pitch {
 
 #[pymethods]
 impl Pitch {
-    /// What the curve is, in one line.
+    /// Definition of the curve, in one line.
     #[getter]
     fn definition(&self) -> &str {
         &self.resolved.definition

@@ -143,7 +143,7 @@ fn tray_and_stems_are_where_the_machine_has_them() {
         between_arms(&machine, &arm, tolerance(1e-2)).expect("finite")
     );
     let samples = (0..7200).map(|i| TAU * f64::from(i) / 7200.0);
-    // The tray's surface is upright here: what counts is how far right the housing goes.
+    // The tray's surface is vertical here: only how far right the housing reaches counts.
     let housing = arm.parts()[0].outline.flatten(tolerance(1e-2));
     let surface = machine.tip(machine.picking(0), 0).position.x;
     let right = |input: f64| {
@@ -156,7 +156,7 @@ fn tray_and_stems_are_where_the_machine_has_them() {
         .fold(f64::INFINITY, f64::min);
     let tray = found.tray.expect("a tray");
     assert!((tray.least - gap).abs() < 0.03, "{tray:?} {gap}");
-    // Over ground, stems stand still: where the tips of the arms before were at planting.
+    // Over ground, stems are fixed where the tips of the arms before were at planting.
     let outline = arm.outline().flatten(tolerance(1e-2));
     let spec = &machine.design().seedling;
     let spacing = machine.design().work.plant_spacing;
@@ -192,7 +192,7 @@ fn tray_and_stems_are_where_the_machine_has_them() {
     );
 }
 
-/// The row above stands a hole's spacing over the picked one, its stems square out of an upright tray.
+/// The row above is a hole's spacing over the picked one, its stems square to a vertical tray.
 #[test]
 fn the_arm_bends_the_row_above_by_as_much_as_samples_say() {
     let (mut design, arm) = (published(3).design().clone(), default_arm());
@@ -216,7 +216,7 @@ fn the_arm_bends_the_row_above_by_as_much_as_samples_say() {
         (off[0].max(off[1]) + unpicked.least).abs() < 0.03,
         "{off:?} {unpicked:?}"
     );
-    // With rows far enough apart, or shorter stems, samples tell the clearance.
+    // With rows far enough apart, or shorter stems, samples find the clearance.
     for (spacing, length) in [(40.0, 60.0), (60.0, 25.0)] {
         let mut design = machine.design().clone();
         design.tray.hole_spacing = spacing;
@@ -244,7 +244,7 @@ fn the_arm_bends_the_row_above_by_as_much_as_samples_say() {
     }
 }
 
-/// Least distance over inputs near one, by ever finer looks: no code of the search.
+/// Least distance over inputs near one, by ever finer samples: no code of the search.
 fn sharpened(apart: impl Fn(f64) -> f64, middle: f64) -> f64 {
     let (mut middle, mut reach, mut least) = (middle, 0.02, f64::INFINITY);
     while reach > 1e-7 {

@@ -9,13 +9,13 @@ use super::span::{self, Span};
 /// joint, far below a tip edge.
 const CORNER: f64 = 1e-4;
 
-/// Directions of the outward normals of a part: the middle one and how far the rest turn from it, less than a right
+/// Cone of the outward normals of a part: the middle direction and how far the others turn from it, less than a right
 /// angle; or all directions.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Cone {
     pub(super) direction: Vector,
     sin: f64,
-    /// Nothing where all directions are in it.
+    /// Cosine of the half-angle; nothing where the cone holds all directions.
     cos: f64,
 }
 
@@ -39,7 +39,7 @@ impl Cone {
         }
     }
 
-    /// The same cone with its body turned.
+    /// Cone with its body turned.
     pub(super) fn turned(&self, direction: Vector) -> Self {
         Self { direction, ..*self }
     }
@@ -51,13 +51,13 @@ impl Cone {
             || self.direction.dot(&other.direction) <= self.sin * other.sin - self.cos * other.cos
     }
 
-    /// How much longer than along the middle a length along any direction of the cone can be.
+    /// Greatest ratio of a length along a direction of the cone to that along the middle.
     pub(super) fn slant(&self) -> f64 {
         1.0 / self.cos.max(0.4)
     }
 }
 
-/// A smooth part of an outline with what tells quickly whether it can touch another.
+/// Smooth part of an outline with bounds that tell quickly whether it can touch another.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Part<'a> {
     pub(super) segment: &'a Segment,
@@ -75,8 +75,8 @@ pub(super) struct Part<'a> {
 
 /// Crossings of a stretch of a segment with the ray from a point towards +x, to their parity.
 ///
-/// Stretch and chord make a loop. A point farther from the chord than the stretch is anywhere lies outside of it, and the
-/// ray crosses both or neither, to parity. Other stretches are halved, which quarters how far they bulge.
+/// Stretch and chord form a loop. A point farther from the chord than the stretch is anywhere lies outside of it, and the
+/// ray crosses both or neither, to parity. Other stretches are halved, which quarters their bulge.
 fn stretch_crossings(
     segment: &Segment,
     (u0, u1): (f64, f64),
@@ -121,31 +121,31 @@ pub(super) struct Halves {
     pub(super) spans: [Span; 2],
 }
 
-/// A finished gear as the contact analysis sees it: nothing but its outline.
+/// Finished gear as the contact analysis knows it: by its outline alone.
 #[derive(Debug)]
 pub(super) struct Body<'a> {
     pub(super) parts: Vec<Part<'a>>,
-    /// Centres and radii of their circles, side by side: every pose looks at all of them.
+    /// Centres and radii of their circles, side by side, since every pose visits all of them.
     pub(super) circles: Vec<(Point, f64)>,
-    /// Bounds of the parts' curvatures, once asked for.
+    /// Bounds of the parts' curvatures, computed when first needed.
     curvatures: Vec<OnceCell<(f64, f64)>>,
-    /// The parts' halves, once asked for.
+    /// Halves of the parts, computed when first needed.
     halves: Vec<OnceCell<Halves>>,
-    /// Distance from the axis within which there is nothing but the body.
+    /// Radius of the core: the distance from the axis within which there is nothing but the body.
     pub(super) core: f64,
     /// Greatest distance from the axis.
     reach: f64,
-    /// Greatest distance from the axis of what is near a direction, sector by sector of the body's own plane.
+    /// Greatest distance from the axis of the outline near a direction, sector by sector of the body's own plane.
     sectors: [f64; SECTORS],
-    /// How near that is, mm.
+    /// Distance, mm, within which it counts as near.
     grown: f64,
 }
 
-/// Sectors in which a body's reach is kept.
+/// Number of sectors in which a body's reach is kept.
 const SECTORS: usize = 72;
 
 impl<'a> Body<'a> {
-    /// Two gears that look for each other within so many mm.
+    /// Bodies of two gears that are searched for each other within so many mm.
     pub(super) fn pair(driver: &'a Gear, driven: &'a Gear, near: f64) -> [Self; 2] {
         let parts = [parts(driver), parts(driven)];
         let largest = |parts: &[Part<'_>]| parts.iter().map(|p| p.radius).fold(0.0, f64::max);
@@ -162,7 +162,7 @@ impl<'a> Body<'a> {
             if (center.y - point.y).abs() > *radius || center.x + radius < point.x {
                 0
             } else if center.x - radius > point.x {
-                // Whatever happens in a part wholly to the right, its ends tell the parity.
+                // Whatever happens in a part wholly to the right, its ends determine the parity.
                 usize::from(side(&part.ends[0]) != side(&part.ends[1]))
             } else {
                 let [start, end] = part.ends;
@@ -192,14 +192,14 @@ impl<'a> Body<'a> {
         }
     }
 
-    /// Whether anything of the body can be within so many mm of a point, as far as its reach tells.
+    /// Whether the body can be within so many mm of a point, by its reach in that direction.
     pub(super) fn is_near(&self, point: &Vector, near: f64) -> bool {
         let squared = point.norm_squared();
         let within = |reach: f64| squared < (reach + near).powi(2);
         within(self.reach) && (near > self.grown || within(self.sectors[sector(point)]))
     }
 
-    /// A part of a flank and its neighbours on the same flank.
+    /// Part of a flank and its neighbours on the same flank.
     pub(super) fn along_flank(&self, part: usize) -> Vec<usize> {
         let count = self.parts.len();
         let here = &self.parts[part];
@@ -235,7 +235,7 @@ fn clear_of_axis(part: &Part<'_>) -> f64 {
     (part.ends[0].coords + chord * along).norm() - part.span.sagitta
 }
 
-/// The sector of a direction, by the share of the way round a square.
+/// Sector of a direction, by its share of the perimeter of a square.
 fn sector(direction: &Vector) -> usize {
     let share = direction.y / (direction.x.abs() + direction.y.abs());
     let round = if direction.x < 0.0 {
@@ -246,14 +246,14 @@ fn sector(direction: &Vector) -> usize {
     ((0.25 * round * SECTORS as f64) as usize).min(SECTORS - 1)
 }
 
-/// Reach by sector of what comes so near it.
+/// Reach by sector of the parts, grown by a distance.
 fn sectors(parts: &[Part<'_>], grown: f64) -> [f64; SECTORS] {
     let mut out = [0.0_f64; SECTORS];
     for part in parts {
         let away = part.center.coords.norm();
         let far = away + part.radius;
         let sin = (part.radius + grown) / away;
-        // A part about the axis itself, or reaching it, is in every sector.
+        // A part around the axis itself, or reaching it, is in every sector.
         if sin.is_nan() || sin >= 1.0 {
             out = out.map(|r| r.max(far));
             continue;
@@ -286,7 +286,7 @@ fn parts(gear: &Gear) -> Vec<Part<'_>> {
     parts
 }
 
-/// The corner between two parts, if there is one.
+/// Corner between two parts, if there is one.
 ///
 /// A re-entrant corner can touch nothing that its neighbours do not touch first.
 fn corner(before: &Part<'_>, after: &Part<'_>) -> Option<Corner> {

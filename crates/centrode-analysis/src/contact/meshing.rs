@@ -10,45 +10,45 @@ use super::{
     turning::{Hit, Limits, Turning},
 };
 
-/// Places farther apart than this many modules are not looked at.
+/// Greatest distance, in modules, of places that are examined.
 const NEAR: f64 = 0.3;
 
-/// Flanks within this many modules of the designed play face each other as designed.
+/// Deviation, in modules, from the designed backlash within which flanks face each other as designed.
 const DESIGNED: f64 = 1e-6;
 
 /// Turn of the driven gear, rad, below which a seat is exact.
 const SETTLED: f64 = 1e-12;
 
-/// Play or overlap, in modules, beyond which the gears are taken not to hold each other, or to have no room.
+/// Play or penetration, in modules, beyond which the gears are taken not to hold each other, or to have no room.
 const FARTHEST: f64 = 2.0;
 
-/// Overlaps deeper than this many modules are not looked at: more than the height of a tooth.
+/// Greatest depth, in modules, of penetrations that are examined: more than the height of a tooth.
 const DEEPEST: f64 = 4.0;
 
-/// Flanks farther apart than this many modules are not looked at unless nothing nearer is found.
+/// Greatest distance, in modules, of flanks that are examined unless nothing nearer is found.
 const CLOSE: f64 = 0.05;
 
-/// Two flanks seated to within this many modules are in contact.
+/// Gap, in modules, within which two seated flanks are in contact.
 const SEATED: f64 = 1e-6;
 
-/// Contacts whose normal passes the driven axis nearer than this many modules hold nothing.
+/// Lever, in modules, of the normal about the driven axis below which a contact holds nothing.
 const IDLE: f64 = 1e-3;
 
-/// A pair being analysed, pose by pose.
+/// Pair under analysis, pose by pose.
 #[derive(Debug)]
 pub(super) struct Meshing<'a> {
     pub(super) pair: &'a GearPair,
     pub(super) driver: Body<'a>,
     pub(super) driven: Body<'a>,
-    /// The parts of the driven gear.
+    /// Parts of the driven gear.
     pub(super) stretches: Vec<Stretch>,
     pub(super) module: f64,
     /// Whether all teeth are as the tool would make them.
     whole: bool,
     pub(super) near: f64,
-    /// The same between flanks, which touch or nearly do.
+    /// Search distance between flanks, which touch or nearly do, mm.
     pub(super) close: f64,
-    /// Where parts faced each other at the sample before.
+    /// Parameters at which parts faced each other at the sample before.
     pub(super) memory: Vec<(usize, usize, (f64, f64))>,
 }
 
@@ -81,14 +81,14 @@ impl<'a> Meshing<'a> {
         let mut candidates = self.candidates(&pose);
         let places = self.places(&mut candidates, &pose);
         let mut seats = [1.0, -1.0].map(|sign| self.seat(&candidates, phi, law, sign));
-        // Nothing so near: look farther.
+        // Nothing so near: search farther.
         while seats.iter().any(Option::is_none) && self.close < FARTHEST * self.module {
             self.close *= 3.0;
             self.near = self.near.max(self.close);
             let candidates = self.candidates(&pose);
             seats = [1.0, -1.0].map(|sign| self.seat(&candidates, phi, law, sign));
         }
-        // Teeth cut short or undercut may lie so deep in each other that no sides that face each other are near.
+        // Teeth cut short or undercut may penetrate so deep that no sides that face each other are near.
         let free = |seats: &[Option<Seat>; 2]| match seats {
             [Some(forward), Some(back)] => forward.angle <= back.angle,
             _ => false,
@@ -135,10 +135,10 @@ impl<'a> Meshing<'a> {
         let play = back.angle - forward.angle;
         out.backlash.push(play);
         out.normal_backlash.push(play * forward.lever);
-        // Stuck between two sides: half of what is missing.
+        // Wedged between two sides: half of the missing room.
         out.overlap
             .push((-play * 0.5 * forward.lever.min(back.lever)).max(0.0));
-        // Where the law puts the gears into each other though there is room for them, they stand in its middle.
+        // Where the gears penetrate at the law's angle though there is room for them, they are put in its middle.
         let off = (law - back.angle).max(forward.angle - law);
         let (places, clash) = if play > 0.0 && off * a > SEATED * self.module {
             let pose = Pose::new(phi, 0.5 * (forward.angle + back.angle), a);
@@ -167,7 +167,7 @@ impl<'a> Meshing<'a> {
         out.sliding.push(sliding.fold(0.0, f64::max));
     }
 
-    /// The angle at which the driven gear would stand if the flanks held the designed play exactly.
+    /// Angle of the driven gear if the flanks had the designed backlash exactly.
     ///
     /// At the law's own angle flanks thinned for play are parallel and half the play apart; the driven gear is turned
     /// until they touch. Where no flanks face each other as designed the lever is that of the law's own normal.
@@ -208,8 +208,8 @@ impl<'a> Meshing<'a> {
         })
     }
 
-    /// Where two flanks face each other, from where they did: on these parts, on their neighbours of the same flanks, or
-    /// beyond the ends of the flanks.
+    /// Points where two flanks face each other, sought from where they did: on these parts, on their neighbours of the
+    /// same flanks, or beyond the ends of the flanks.
     fn along_flanks(
         &self,
         (i, j): (usize, usize),
@@ -242,8 +242,8 @@ impl<'a> Meshing<'a> {
         let seated = SEATED * self.module;
         let (mut angle, mut pose) = (law, Pose::new(phi, law, a));
         let mut hits = self.first_hits(candidates, &pose, sign);
-        // Out of one overlap the gear may come into the next. What leaves no room lets it past the other seat, which tells
-        // how much is missing. Every step is more than a seated gap: the way ends.
+        // Out of one penetration the gear may come into the next. Where there is no room it passes the other seat, by
+        // the missing room. Every step is more than a seated gap, so the search ends.
         let farthest = FARTHEST * self.module / a;
         while (angle - law).abs() < farthest {
             checkpoint();
@@ -278,7 +278,7 @@ impl<'a> Meshing<'a> {
         })
     }
 
-    /// Whether the gears lie in each other by more than a shallow overlap.
+    /// Whether the gears penetrate each other by more than a shallow amount.
     fn lie_deep(&self, phi: f64, angle: f64) -> bool {
         let pose = Pose::new(phi, angle, self.pair.center_distance());
         let (driver, driven) = (&self.driver, &self.driven);
@@ -298,7 +298,7 @@ impl<'a> Meshing<'a> {
         })
     }
 
-    /// The meetings that hold the driven gear when it is turned from a pose, the first of them first.
+    /// Contacts that hold the driven gear when it is turned from a pose, the first of them first.
     fn first_hits(&self, candidates: &Candidates, pose: &Pose, sign: f64) -> Vec<Hit> {
         let (driver, driven) = (&self.driver, &self.driven);
         let overlaps = |a: &Vector, b: &Vector| {
@@ -321,7 +321,7 @@ impl<'a> Meshing<'a> {
     }
 }
 
-/// The driven gear pushed to one side.
+/// Seat of the driven gear pushed to one side.
 struct Seat {
     angle: f64,
     /// Distance of the driven axis from the common normal, mm.
@@ -331,7 +331,7 @@ struct Seat {
     touches: Vec<(Point, Vector)>,
 }
 
-/// Speed at which the gears slide on each other per speed of the driver, mm/rad.
+/// Sliding speed of the gears in a contact per speed of the driver, mm/rad.
 fn sliding(point: Point, normal: Vector, phi: f64, a: f64, ratio: f64) -> f64 {
     let axis = Vector::new(a * phi.cos(), a * phi.sin());
     let arm = point.coords - axis;

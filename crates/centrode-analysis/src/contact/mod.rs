@@ -1,4 +1,4 @@
-//! Contact analysis of a finished pair: what turns what, by how much, and what else comes near.
+//! Contact analysis of a finished pair: the driven angle, the backlash, and all clearances.
 //!
 //! Works on the outlines and the centre distance alone; how the teeth were made plays no part. At each
 //! input the driven gear is seated against the driver from either side, and every place where the two
@@ -18,7 +18,7 @@ use centrode_mechanism::gear::design::Addendum;
 use centrode_mechanism::gear::{GearPair, Member, Tooth, ToothSide};
 use meshing::Meshing;
 
-/// Samples a pitch of sound teeth.
+/// Samples a pitch where no flank is undercut or short.
 const SAMPLES_PER_PITCH: u32 = 4;
 
 /// Samples a pitch where contact may be lost.
@@ -37,19 +37,19 @@ pub struct Contact {
     pub reverse_driven_angle: Vec<f64>,
     /// Driven angle when the driver pushes it on, less the law and the designed half backlash, rad.
     pub transmission_error: Vec<f64>,
-    /// The same with the driver pushing it back.
+    /// Transmission error with the driver pushing it back, rad.
     pub reverse_transmission_error: Vec<f64>,
-    /// Play of the driven gear with the driver held, rad.
+    /// Angular backlash of the driven gear with the driver held, rad.
     pub backlash: Vec<f64>,
-    /// Play along the common normal of the driving contact, mm.
+    /// Normal backlash of the driving contact, mm.
     pub normal_backlash: Vec<f64>,
     /// Pairs of teeth in contact when the driver pushes the driven gear on.
     pub contacts: Vec<u32>,
-    /// Deepest overlap of the two outlines with the driven gear seated, mm.
+    /// Deepest penetration of the two outlines with the driven gear seated, mm.
     pub overlap: Vec<f64>,
     /// Least distance of a tip from a root, mm; infinite where none is near.
     pub clearance: Vec<f64>,
-    /// Least distance of anything from a fillet, mm; infinite where nothing is near.
+    /// Least clearance from a fillet, mm; infinite where nothing is near.
     pub fillet_clearance: Vec<f64>,
     /// Greatest sliding speed in the contact per driver speed, mm/rad.
     pub sliding: Vec<f64>,
@@ -64,8 +64,8 @@ fn is_whole(pair: &GearPair) -> bool {
 }
 
 impl Contact {
-    /// Analyses one whole cycle at four inputs a pitch, or at 48 where a tooth is not what the tool would
-    /// make of it or a pitch curve is concave: contact can then be lost over a small part of a pitch.
+    /// Analyses one whole cycle at four inputs a pitch, or at 48 where a tooth is not as the tool would make it or a
+    /// pitch curve is concave: contact can then be lost over a small part of a pitch.
     #[must_use]
     pub fn of(pair: &GearPair) -> Self {
         if pair.teeth().addendum == Addendum::Full && is_whole(pair) {
@@ -87,7 +87,7 @@ impl Contact {
         let (n1, _) = pair.mean_ratio();
         let rolling = pair.rolling();
         let teeth = pair.driver().tooth_count() * n1;
-        // One more than a multiple of the teeth: every sample stands elsewhere on its tooth.
+        // One more than a multiple of the teeth: every sample is elsewhere on its tooth.
         let count = teeth * per_pitch.max(1) + 1;
         let length = rolling.pitch_length(Member::Driver) * f64::from(n1);
         let mut meshing = Meshing::new(pair);
@@ -110,7 +110,7 @@ impl Contact {
         out
     }
 
-    /// Analyses poses: driver angle and the driven angle asked for there, rad, wherever both come from.
+    /// Analyses poses: driver angle and the driven angle asked for there, rad, whatever their source.
     #[must_use]
     pub fn posed(pair: &GearPair, poses: &[[f64; 2]]) -> Self {
         let mut meshing = Meshing::new(pair);

@@ -1,4 +1,4 @@
-//! Places where the outlines of two gears face each other in one pose.
+//! Points at which the outlines of two gears face each other in one pose.
 
 use centrode_geometry::{Vector, checkpoint};
 use centrode_mechanism::gear::Role;
@@ -10,15 +10,15 @@ use super::{
     touch::{self, Pose, Touch},
 };
 
-/// Overlaps no deeper than this many modules are taken as they are.
+/// Depth, in modules, up to which a penetration is accepted without a second test.
 pub(super) const SHALLOW: f64 = 1e-3;
 
-/// One place where the gears face each other, and what is there.
+/// Point at which the gears face each other, and the features there.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Place {
     pub(super) touch: Touch,
     pub(super) kind: Kind,
-    /// The two parts, where no corner is in it.
+    /// Both parts, where neither is a corner.
     pub(super) parts: Option<(usize, usize)>,
 }
 
@@ -36,12 +36,12 @@ pub(super) struct Candidates {
     pub(super) posed: Vec<(Stretch, Cone)>,
     /// Index into these, and part of the driven gear.
     pub(super) pairs: Vec<(usize, usize)>,
-    /// How deep one gear reaches into the core of the other, mm.
+    /// Depth to which one gear reaches into the core of the other, mm.
     pub(super) clash: f64,
 }
 
 impl Meshing<'_> {
-    /// The parts near each other in a pose.
+    /// Finds the parts near each other in a pose.
     pub(super) fn candidates(&self, pose: &Pose) -> Candidates {
         let near = self.near;
         let mut out = Candidates {
@@ -50,7 +50,7 @@ impl Meshing<'_> {
             clash: 0.0,
         };
         let mut circles = Vec::with_capacity(64);
-        // Two bodies can meet only where each lies within what the other reaches in that direction.
+        // Two bodies can meet only where each lies within the other's reach in that direction.
         for (i, (center, radius)) in self.driver.circles.iter().enumerate() {
             let center = pose.back(center).coords;
             if self.driven.is_near(&center, radius + near) {
@@ -77,14 +77,14 @@ impl Meshing<'_> {
         out
     }
 
-    /// Every place where the outlines face each other nearer than the limit.
+    /// Finds every point at which the outlines face each other nearer than the limit.
     pub(super) fn places(&mut self, candidates: &mut Candidates, pose: &Pose) -> Vec<Place> {
         let (near, close, module) = (self.near, self.close, self.module);
         let mut out = Vec::with_capacity(16);
         let mut memory = Vec::with_capacity(16);
         let limit = |kind: Kind| if kind == Kind::Flanks { close } else { near };
         let mut keep = |touch: Option<Touch>, kind: Kind, parts: Option<(usize, usize)>| {
-            // An overlap deeper than half a module is the far side of a tooth.
+            // A penetration deeper than half a module is the far side of a tooth.
             if let Some(touch) = touch
                 && touch.gap < limit(kind)
                 && touch.gap > -0.5 * module
@@ -131,7 +131,7 @@ impl Meshing<'_> {
                 keep(touch, corner_kind(corner.on_flank, a.role), None);
             }
         }
-        // What faces each other first: it leaves little to look for when the gears are seated.
+        // Facing parts first: they leave little to search when the gears are seated.
         let mut first = 0;
         for at in 0..candidates.pairs.len() {
             let (k, j) = candidates.pairs[at];
@@ -145,8 +145,8 @@ impl Meshing<'_> {
         out
     }
 
-    /// Whether a deep overlap is one: the far sides of two neighbouring teeth face each other too, but
-    /// neither lies in the other.
+    /// Whether a deep penetration is real: the far sides of two neighbouring teeth face each other too, but neither
+    /// lies in the other.
     fn real(&self, touch: &Touch, pose: &Pose) -> bool {
         touch.gap > -SHALLOW * self.module || {
             let inside = touch.point + touch.normal * (0.5 * touch.gap);
@@ -155,7 +155,7 @@ impl Meshing<'_> {
     }
 }
 
-/// Whether two parts can be nearer than `near`, and no deeper in each other than half a module, along the driven
+/// Whether two parts can be nearer than `near`, and penetrate no deeper than half a module, along the driven
 /// part's middle normal.
 fn in_range(a: &Stretch, b: &Stretch, normals: &Cone, near: f64, module: f64) -> bool {
     let normal = normals.direction;

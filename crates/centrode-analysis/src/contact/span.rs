@@ -1,19 +1,19 @@
 use std::f64::consts::PI;
 use std::sync::LazyLock;
 
-use centrode_geometry::{Segment, Spline, Vector};
+use centrode_geometry::{PolySegment, Segment, Vector};
 
 /// Proven bounds of a stretch of a segment.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Span {
-    /// Least and greatest slope of a tangent against the chord; infinite where one may stand across it.
+    /// Least and greatest slope of a tangent against the chord; infinite where a tangent may be square to it.
     pub(super) slopes: (f64, f64),
     /// Least cosine and greatest sine of the angle of a tangent with the chord.
     pub(super) lean: (f64, f64),
     /// Greatest distance from the chord, mm.
     pub(super) sagitta: f64,
-    /// Least and greatest distance beyond the chord, mm, positive to the right of it; where a tangent may stand across
-    /// the chord it is in any direction.
+    /// Least and greatest distance beyond the chord, mm, positive to the right of it; in any direction where a tangent
+    /// may be square to the chord.
     pub(super) bulge: (f64, f64),
     /// Directions of the tangents at the ends.
     pub(super) tangents: [Vector; 2],
@@ -47,13 +47,13 @@ impl Span {
                     tangents: tangents(),
                 }
             }
-            Segment::Spline(spline) => hull(&polygon(spline, u0, u1)),
+            Segment::Poly(poly) => hull(&polygon(poly, u0, u1)),
         }
     }
 }
 
 impl Span {
-    /// How far the stretch over a chord goes beyond its ends in a direction, times the direction's size.
+    /// Distance by which the stretch over a chord goes beyond its ends in a direction, times the direction's size.
     pub(super) fn beyond(&self, chord: &Vector, direction: &Vector) -> f64 {
         let right = chord.perp(direction) / -chord.norm();
         if self.slopes.1.is_finite() && right.is_finite() {
@@ -83,11 +83,11 @@ pub(super) fn curvature(segment: &Segment, u0: f64, u1: f64) -> (f64, f64) {
             let curvature = arc.bulge.signum() / arc.radius();
             (curvature, curvature)
         }
-        Segment::Spline(spline) => bend(&polygon(spline, u0, u1)),
+        Segment::Poly(poly) => bend(&polygon(poly, u0, u1)),
     }
 }
 
-/// Coefficients of a spline.
+/// Coefficients of a polynomial segment.
 const COUNT: usize = 14;
 
 /// Tables of binomial coefficients.
@@ -126,7 +126,7 @@ static TABLES: LazyLock<Tables> = LazyLock::new(|| {
     }
 });
 
-/// Takes the origin of the parameter to `middle` and its unit to `half`.
+/// Moves the origin of the parameter to `middle` and scales its unit to `half`.
 fn stretch(c: &mut [Vector; COUNT], middle: f64, half: f64) {
     for low in 0..COUNT - 1 {
         for k in (low..COUNT - 1).rev() {
@@ -141,10 +141,10 @@ fn stretch(c: &mut [Vector; COUNT], middle: f64, half: f64) {
     }
 }
 
-/// Bernstein control points of a spline between two parameters.
-fn polygon(spline: &Spline, u0: f64, u1: f64) -> [Vector; COUNT] {
+/// Bernstein control points of a polynomial segment between two parameters.
+fn polygon(poly: &PolySegment, u0: f64, u1: f64) -> [Vector; COUNT] {
     let mut c = [Vector::zeros(); COUNT];
-    c.copy_from_slice(spline.coefficients());
+    c.copy_from_slice(poly.coefficients());
     if (u0, u1) != (-1.0, 1.0) {
         stretch(&mut c, 0.5 * (u0 + u1), 0.5 * (u1 - u0));
     }
@@ -163,14 +163,14 @@ fn polygon(spline: &Spline, u0: f64, u1: f64) -> [Vector; COUNT] {
     out
 }
 
-/// Bounds of a spline by its control points: it lies in their hull, its derivative in that of their differences.
+/// Bounds of a polynomial segment by its control points: it lies in their hull, its derivative in that of their differences.
 fn hull(points: &[Vector; COUNT]) -> Span {
     let chord = points[COUNT - 1] - points[0];
     let first: [Vector; COUNT - 1] = std::array::from_fn(|i| points[i + 1] - points[i]);
     let mut slopes = (f64::INFINITY, f64::NEG_INFINITY);
     for d in &first {
         let (along, across) = (chord.dot(d), chord.perp(d));
-        // Nothing points nowhere.
+        // A null chord has no direction.
         if along > 0.0 {
             let slope = across / along;
             slopes = (slopes.0.min(slope), slopes.1.max(slope));
@@ -203,7 +203,7 @@ fn hull(points: &[Vector; COUNT]) -> Span {
     }
 }
 
-/// Bounds of a spline's curvature: the cross product of its derivatives has control values too.
+/// Bounds of a polynomial segment's curvature: the cross product of its derivatives has control values too.
 fn bend(points: &[Vector; COUNT]) -> (f64, f64) {
     let degree = (COUNT - 1) as f64;
     let chord = points[COUNT - 1] - points[0];
@@ -240,13 +240,13 @@ fn bend(points: &[Vector; COUNT]) -> (f64, f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use centrode_geometry::{Arc, Point, Spline, Tolerance};
+    use centrode_geometry::{Arc, Point, PolySegment, Tolerance};
 
     #[test]
     fn the_bounds_hold_every_stretch_and_tighten_with_it() {
         let spiral = |t: f64| Point::new((1.0 + t * t) * t.cos(), (1.0 + t * t) * t.sin());
         let fine = Tolerance::new(1e-9).expect("positive");
-        let mut segments: Vec<Segment> = Spline::fit(spiral, -0.9, 0.8, fine)
+        let mut segments: Vec<Segment> = PolySegment::fit(spiral, -0.9, 0.8, fine)
             .into_iter()
             .map(Segment::from)
             .collect();

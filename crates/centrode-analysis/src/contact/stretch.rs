@@ -8,7 +8,7 @@ use super::{
     touch::Pose,
 };
 
-/// Parameter step of Newton's method that is the last.
+/// Newton step of the parameter at which iteration stops.
 pub(super) const SETTLED: f64 = 1e-8;
 
 /// A stretch of a part, its points taken about the driven axis and in the driven gear's axes.
@@ -71,7 +71,7 @@ impl Stretch {
         self.u == [-1.0, 1.0]
     }
 
-    /// Guess of the parameters at which two whole parts face each other: parabolas over their chords do.
+    /// Guess of the parameters at which two whole parts face each other: those of parabolas over their chords.
     pub(super) fn facing(&self, mate: &Self) -> (f64, f64) {
         let chords = [self, mate].map(|s| s.point[1] - s.point[0]);
         let [size, other] = chords.map(|c| c.norm());
@@ -85,13 +85,13 @@ impl Stretch {
         (start(2.0 * x / size), start(2.0 * (apart - x) / other))
     }
 
-    /// Bound of how far the stretch lies in a direction.
+    /// Upper bound of the stretch's extent in a direction.
     pub(super) fn farthest(&self, direction: &Vector) -> f64 {
         let [start, end] = self.point;
         direction.dot(&start).max(direction.dot(&end)) + self.span.beyond(&(end - start), direction)
     }
 
-    /// A whole part, by what takes points and vectors to the driven gear's axes.
+    /// Stretch of a whole part, by the map of points and vectors to the driven gear's axes.
     pub(super) fn of(
         index: usize,
         part: &Part<'_>,
@@ -104,10 +104,10 @@ impl Stretch {
     }
 }
 
-/// One gear's contour about the driven axis, in the driven gear's axes.
+/// Contour of one gear about the driven axis, in the driven gear's axes.
 pub(super) struct Contour<'a> {
     pub(super) body: &'a Body<'a>,
-    /// Where the driven gear stands, for the driver's contour.
+    /// Pose of the driven gear, for the driver's contour.
     pub(super) pose: Option<Pose>,
 }
 
@@ -127,7 +127,7 @@ impl Contour<'_> {
         }
     }
 
-    /// Where a stretch comes to a squared distance, to within a step that `Meeting::angle` makes up for.
+    /// Parameter at which a stretch comes to a squared distance, to within a step that `Meeting::angle` corrects.
     pub(super) fn reach(&self, stretch: &Stretch, squared: f64) -> (f64, (Vector, Vector)) {
         let over = stretch.point.map(|p| p.norm_squared() - squared);
         for k in [0, 1] {

@@ -42,12 +42,12 @@ fn the_error_where_an_edge_touches_is_from_where_the_designed_flank_would_stand(
     let lever = pitch.driven_radius * pitch.pressure_angle.cos();
     let designed = pair.driven_angle(phi) - 0.5 * pair.backlash() / lever;
     let error = contact.driven_angle[0] - designed;
-    // The lever holds to the first order of the play.
+    // The lever holds to the first order of the backlash.
     assert!((contact.transmission_error[0] - error).abs() < 2e-6);
     assert!((error - 1.18e-3).abs() < 2e-6, "{error:e}");
 }
 
-/// At both inputs turning the driven gear by half the play takes the contact past the end of a flank.
+/// Turning the driven gear by half the backlash takes at both inputs the contact past the end of a flank.
 #[test]
 fn flanks_thinned_for_play_stand_where_designed_at_their_ends_too() {
     let contact = Contact::at(&design("quintic-pair"), &[0.0, 4.476_110_580_575_04]);

@@ -58,12 +58,12 @@ impl Pose {
     }
 }
 
-/// Two places, one on each gear, that face each other along a common normal.
+/// Pair of points, one on each gear, that face each other along a common normal.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Touch {
-    /// Distance between them along the normal, mm; negative where the gears overlap.
+    /// Distance between them along the normal, mm; negative where the gears penetrate.
     pub(super) gap: f64,
-    /// The place on the driver, in the driver's frame.
+    /// Point on the driver, in the driver's frame.
     pub(super) point: Point,
     /// Outward normal of the driver there.
     pub(super) normal: Vector,
@@ -89,13 +89,13 @@ impl Touch {
 /// Parameter change below which a gap, second-order in it, is exact.
 const SETTLED: f64 = 3e-7;
 
-/// A place this little beyond an end belongs to the neighbour just as well.
+/// Distance beyond an end, as a parameter, within which a point belongs to the neighbour as well.
 const JOINT: f64 = 1e-3;
 
 /// Parameter beyond an end up to which a part is the same curve.
 const CONTINUED: f64 = 0.25;
 
-/// Where two smooth parts face each other, by Newton's method from the parameters `at`.
+/// Points at which two smooth parts face each other, by Newton's method from the parameters `at`.
 ///
 /// Solves A' x B' = 0 and (A - B).A' = 0; regular while the two parts do not hug each other.
 pub(super) fn parts(a: &Part<'_>, b: &Part<'_>, pose: &Pose, at: (f64, f64)) -> Option<Touch> {
@@ -106,12 +106,12 @@ pub(super) fn parts(a: &Part<'_>, b: &Part<'_>, pose: &Pose, at: (f64, f64)) -> 
         .find_map(|&start| newton(a, b, pose, start, JOINT))
 }
 
-/// Where two smooth parts, continued a little beyond their ends, face each other.
+/// Points at which two smooth parts, continued a little beyond their ends, face each other.
 pub(super) fn continued(a: &Part<'_>, b: &Part<'_>, pose: &Pose, at: (f64, f64)) -> Option<Touch> {
     newton(a, b, pose, at, CONTINUED)
 }
 
-/// By Newton's method from the parameters `at`; at most so far beyond an end.
+/// Newton's method for facing points from the parameters `at`; at most so far beyond an end.
 fn newton(a: &Part<'_>, b: &Part<'_>, pose: &Pose, at: (f64, f64), beyond: f64) -> Option<Touch> {
     let (mut u, mut v) = at;
     for _ in 0..8 {
@@ -145,7 +145,7 @@ fn newton(a: &Part<'_>, b: &Part<'_>, pose: &Pose, at: (f64, f64), beyond: f64) 
             let opening = bend_a + bend_b + bend_a * bend_b * touch.gap;
             return (opening > 0.0).then_some(touch);
         }
-        // Twice well outside and still going: what faces lies on a neighbour, which will find it.
+        // Twice well outside and still going: the facing point is on a neighbour, which will find it.
         let outside = |x: f64, dx: f64| x.abs() > 1.25 && x * dx > 0.0;
         if outside(u, du) || outside(v, dv) {
             return None;
@@ -157,7 +157,7 @@ fn newton(a: &Part<'_>, b: &Part<'_>, pose: &Pose, at: (f64, f64), beyond: f64) 
     None
 }
 
-/// Where a corner of the driven gear faces a part of the driver.
+/// Point at which a corner of the driven gear faces a part of the driver.
 pub(super) fn driven_corner(a: &Part<'_>, corner: &Corner, pose: &Pose) -> Option<Touch> {
     let mate = pose.place(&corner.point);
     let (u, jet) = foot(a, &mate)?;
@@ -165,7 +165,7 @@ pub(super) fn driven_corner(a: &Part<'_>, corner: &Corner, pose: &Pose) -> Optio
     Some(Touch::new(jet.point, mate, normal, (u, 0.0), pose))
 }
 
-/// Where a corner of the driver faces a part of the driven gear.
+/// Point at which a corner of the driver faces a part of the driven gear.
 pub(super) fn driver_corner(corner: &Corner, b: &Part<'_>, pose: &Pose) -> Option<Touch> {
     // Seen from the driven gear, whose parts do not move.
     let back = corner.point - pose.axis;

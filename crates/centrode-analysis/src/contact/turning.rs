@@ -1,4 +1,4 @@
-//! Where the driven gear, turned about its axis, comes to rest against the driver.
+//! Search for the angle at which the driven gear, turned about its axis, comes to rest against the driver.
 //!
 //! Seen from the driven axis a point of either contour has a distance and an angle. Two points at the same distance
 //! meet when the driven gear turns by the difference of their angles; the gear rests at the extreme of this
@@ -14,10 +14,10 @@ use super::{
     touch::Pose,
 };
 
-/// Stretches smaller than this share of a contact's allowance are points.
+/// Size, as a share of a contact's allowance, below which a stretch is a point.
 const POINT: f64 = 1e-5;
 
-/// Two points, one on either contour, at one distance from the driven axis.
+/// Pair of points, one on either contour, at one distance from the driven axis.
 #[derive(Clone, Copy, Debug)]
 struct Meeting {
     u: f64,
@@ -33,7 +33,7 @@ impl Meeting {
     fn angle(&self) -> f64 {
         let ((a, _), (b, tangent)) = (self.driver, self.driven);
         let turned = b.perp(&a).atan2(b.dot(&a));
-        // What the distances still differ by, along the driven contour.
+        // Remaining difference of the distances, along the driven contour.
         let over = 0.5 * (a.norm_squared() - b.norm_squared()) / b.dot(&tangent);
         let rest = b.perp(&tangent) / b.norm_squared() * over;
         if rest.is_finite() {
@@ -51,10 +51,10 @@ impl Meeting {
     }
 }
 
-/// A place where the gears meet when the driven gear turns.
+/// Contact at which the gears meet when the driven gear turns.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Hit {
-    /// Turn of the driven gear from the pose looked from, rad.
+    /// Turn of the driven gear from the first pose, rad.
     pub(super) turn: f64,
     /// Distance of the driven axis from the common normal, mm.
     pub(super) lever: f64,
@@ -83,39 +83,39 @@ impl Hit {
     }
 }
 
-/// The search for the first meetings when the driven gear turns back (`sign` 1) or on (-1).
+/// Search for the first contacts when the driven gear turns back (`sign` 1) or on (-1).
 pub(super) struct Turning<'a> {
     driver: Contour<'a>,
     driven: Contour<'a>,
     sign: f64,
-    /// Ways deeper than this into each other are looked at from where the gears come first, mm.
+    /// Depth, mm, beyond which a path into the mate is searched from where the gears first meet.
     deep: f64,
-    /// Overlaps deeper than this are looked at twice, mm.
+    /// Depth, mm, beyond which a penetration is tested twice.
     shallow: f64,
-    /// What acts at a lever below this stops nothing, mm.
+    /// Lever, mm, below which a contact stops nothing.
     idle: f64,
     facing: &'a [(usize, usize, (f64, f64))],
     overlaps: &'a dyn Fn(&Vector, &Vector) -> bool,
     /// Greatest `sign * turn` found.
     best: f64,
-    /// What is less than the best by no more than this is kept too, rad.
+    /// Difference from the best, rad, within which a contact is kept too.
     slack: f64,
     /// Sine, cosine and size of the turn of `best - slack`.
     floor: (f64, f64, f64),
     hits: Vec<Hit>,
 }
 
-/// What bounds a search.
+/// Bounds of a search.
 pub(super) struct Limits<'a> {
-    /// Greatest turn looked at, rad.
+    /// Greatest turn searched, rad.
     pub(super) window: f64,
-    /// Ways deeper than this into each other are looked at from where the gears come first, mm.
+    /// Depth, mm, beyond which a path into the mate is searched from where the gears first meet.
     pub(super) deep: f64,
-    /// Gaps and overlaps below this are contact, mm.
+    /// Gap or penetration, mm, below which there is contact.
     pub(super) seated: f64,
-    /// What acts at a lever below this stops nothing, mm.
+    /// Lever, mm, below which a contact stops nothing.
     pub(super) idle: f64,
-    /// Parts that face each other in the pose looked from, and where.
+    /// Parts that face each other in the first pose, and their parameters there.
     pub(super) facing: &'a [(usize, usize, (f64, f64))],
     /// Whether a point of the driver lies in the driven gear or one of the driven gear in the driver.
     pub(super) overlaps: &'a dyn Fn(&Vector, &Vector) -> bool,
@@ -152,7 +152,7 @@ impl<'a> Turning<'a> {
         }
     }
 
-    /// The meetings within reach of contact, the first of them first; nothing where none is in the window.
+    /// Contacts within reach of the first, that one first; nothing where none is in the window.
     pub(super) fn finish(mut self) -> Vec<Hit> {
         let floor = self.floor.2;
         self.hits.retain(|h| self.sign * h.turn >= floor);
@@ -161,7 +161,7 @@ impl<'a> Turning<'a> {
         self.hits
     }
 
-    /// Looks wherever two stretches may meet first.
+    /// Searches wherever two stretches may meet first.
     pub(super) fn look(&mut self, a: &Stretch, b: &Stretch) {
         // Only a side of the driver that faces on stops the driven gear that turns back.
         if a.sense * self.sign > 0.0 || b.sense * self.sign < 0.0 || self.clear(a, b) {
@@ -170,7 +170,7 @@ impl<'a> Turning<'a> {
         if a.sense == 0.0 || b.sense == 0.0 {
             let first = b.sense != 0.0 || (a.sense == 0.0 && a.radius > b.radius);
             let larger = if first { a } else { b };
-            // Where the distance turns a meeting stops nothing; the neighbours end there too.
+            // Where the distance has an extreme a contact stops nothing; the neighbours end there too.
             if self.is_idle(larger) || larger.radius < POINT * self.shallow {
                 return;
             }
@@ -190,7 +190,7 @@ impl<'a> Turning<'a> {
         if low > high {
             return;
         }
-        // Where they face each other now they meet soon, and once only.
+        // Parts that face each other now meet soon, and once only.
         if let Some(at) = self.known(a, b)
             && self.bend(a, b).0 > 0.0
             && let Some(meeting) = self.newton(a, b, at)
@@ -215,7 +215,7 @@ impl<'a> Turning<'a> {
         self.inside(a, b, &ends);
     }
 
-    /// Looks between two meetings.
+    /// Searches between two meetings.
     fn inside(&mut self, a: &Stretch, b: &Stretch, ends: &[Meeting; 2]) {
         let a = self.driver.cut(a, ends.map(|m| (m.u, m.driver)));
         let b = self.driven.cut(b, ends.map(|m| (m.v, m.driven)));
@@ -250,7 +250,7 @@ impl<'a> Turning<'a> {
         self.inside(&a, &b, &[middle, ends[1]]);
     }
 
-    /// Whether nothing that the stretch touches along its normals stops the driven gear.
+    /// Whether no contact along the stretch's normals can stop the driven gear.
     fn is_idle(&self, stretch: &Stretch) -> bool {
         stretch.greatest_lever() < self.idle
     }
@@ -261,14 +261,14 @@ impl<'a> Turning<'a> {
         (a.0 + b.0, a.1 + b.1)
     }
 
-    /// Where two whole parts face each other in the pose looked from.
+    /// Parameters at which two whole parts face each other in the first pose.
     fn known(&self, a: &Stretch, b: &Stretch) -> Option<(f64, f64)> {
         let whole = a.is_whole() && b.is_whole();
         let facing = |f: &&(usize, usize, (f64, f64))| whole && (f.0, f.1) == (a.part, b.part);
         self.facing.iter().find(facing).map(|f| f.2)
     }
 
-    /// Whether two stretches cannot meet in a turn greater than the floor, nor lie in each other now.
+    /// Whether two stretches can neither meet in a turn greater than the floor nor penetrate now.
     fn clear(&self, a: &Stretch, b: &Stretch) -> bool {
         if a.squared[0] > b.squared[1] || b.squared[0] > a.squared[1] {
             return true;
@@ -325,7 +325,7 @@ impl<'a> Turning<'a> {
             })
     }
 
-    /// Where the tangents of two stretches meet, by Newton's method from a guess, if it stays on both.
+    /// Point at which the tangents of two stretches meet, by Newton's method from a guess, if it stays on both.
     fn newton(&self, a: &Stretch, b: &Stretch, (mut u, mut v): (f64, f64)) -> Option<Meeting> {
         for _ in 0..8 {
             if !(a.u[0] <= u && u <= a.u[1] && b.u[0] <= v && v <= b.u[1]) {
@@ -356,20 +356,20 @@ impl<'a> Turning<'a> {
         None
     }
 
-    /// Takes a meeting if it is within reach of the first.
+    /// Adds a meeting if it is within reach of the first.
     fn offer(&mut self, a: &Stretch, b: &Stretch, meeting: &Meeting) {
         let turn = meeting.angle();
         let value = self.sign * turn;
         if value < self.floor.2 || value.is_nan() {
             return;
         }
-        // Where the gears seem to lie in each other now, one of the two points does.
+        // Where the gears seem to penetrate now, one of the two points lies in the other gear.
         if value * meeting.driver.0.norm() > self.shallow
             && !(self.overlaps)(&meeting.driver.0, &meeting.driven.0)
         {
             return;
         }
-        // A corner takes the direction of what it touches.
+        // A corner takes the direction of its mate.
         let at_corner = meeting.u.abs() == 1.0;
         let (point, tangent) = if at_corner {
             meeting.driven

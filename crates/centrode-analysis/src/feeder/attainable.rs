@@ -12,7 +12,7 @@ const ATTAINABLE: u64 = 20_000;
 /// Evaluations of the search for the least widening of the bounds.
 const WIDENING: u64 = 40_000;
 
-/// What the bounds of a feeder's lengths allow of its least transmission angle.
+/// Greatest least transmission angle that the bounds of a feeder's lengths allow.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Attainable {
     /// Greatest least transmission angle of any crank-rocker within the bounds, rad.
@@ -26,7 +26,7 @@ pub struct Attainable {
 }
 
 impl Attainable {
-    /// Searches the bounds of a design's lengths, the same ones always found alike.
+    /// Searches the bounds of a design's lengths; equal designs give equal results.
     ///
     /// None where the bounds hold no crank-rocker, or none is found that would do.
     #[must_use]
@@ -70,7 +70,7 @@ fn search(problem: &dyn Problem, evaluations: u64) -> Option<Candidate> {
 }
 
 impl fmt::Display for Attainable {
-    /// How far the bounds let the transmission angle come.
+    /// Limit that the bounds set to the transmission angle, in words.
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         let best = self.transmission_angle.to_degrees();
         let words = |lengths: [f64; 4]| lengths.map(|l| format!("{l:.3}")).join(", ");

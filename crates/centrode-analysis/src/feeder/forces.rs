@@ -11,7 +11,7 @@ const GRAVITY: Vector = Vector::new(0.0, -9806.65);
 /// Figures of a state: the torque and the force in every joint.
 const FIGURES: usize = 1 + FeederForces::CONNECTIONS.len();
 
-/// Why there are no forces.
+/// Reason why there are no forces.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum FeederForcesError {
@@ -21,9 +21,9 @@ pub enum FeederForcesError {
     /// A plate encloses no volume.
     #[error("the {part} has no volume: {source}")]
     Solid {
-        /// Which one.
+        /// Name of the part.
         part: &'static str,
-        /// Why.
+        /// Cause.
         source: SolidError,
     },
     /// The linkage's balance has no answer.
@@ -37,7 +37,7 @@ impl From<LinkageError> for FeederForcesError {
     }
 }
 
-/// A feeder whose links weigh what their plates do: the torque its crank needs and the forces in its joints.
+/// A feeder with the masses of its plates: the torque its crank needs and the forces in its joints.
 ///
 /// The y axis points up. The links' inertia at the design's speed is counted or left out; a jump of speed, which has no
 /// finite force, and friction are not.
@@ -49,12 +49,12 @@ pub struct FeederForces<'a> {
 }
 
 impl<'a> FeederForces<'a> {
-    /// Connections of the linkage in the order of [`Forces::reactions`]: the shafts A and D of crank and rocker and the pin
-    /// B, what the coupler's pin C does to the rocker and to the slider, the pivot F, what the slot does to the slider.
+    /// Connections of the linkage in the order of [`Forces::reactions`]: the shafts A and D of crank and rocker and the
+    /// pin B, the coupler's pin C on the rocker and on the slider, the pivot F, the slot on the slider.
     pub const CONNECTIONS: [&'static str; 7] =
         ["A", "B", "D", "C, rocker", "C, slider", "F", "slot"];
 
-    /// A feeder that carries what its design says.
+    /// Makes a feeder that carries the mass of its design.
     ///
     /// # Errors
     /// [`FeederForcesError`].
@@ -62,7 +62,7 @@ impl<'a> FeederForces<'a> {
         Self::new(feeder, feeder.design().drive.carried_mass)
     }
 
-    /// A feeder that carries a mass (kg) at the tip of its effector.
+    /// Makes a feeder that carries a mass (kg) at the tip of its effector.
     ///
     /// # Errors
     /// [`FeederForcesError`].
@@ -104,7 +104,7 @@ impl<'a> FeederForces<'a> {
             center: Point::new(six_bar.effector_length(), 0.0),
             inertia: 0.0,
         });
-        // Refuses what is carried where it is no mass.
+        // Refuses a carried mass that is none.
         Kinetostatics::new(&linkage, masses.clone(), Vec::new(), GRAVITY)?;
         Ok(Self {
             feeder,
@@ -113,7 +113,7 @@ impl<'a> FeederForces<'a> {
         })
     }
 
-    /// Torque and forces at an input, moving at the design's speed or held still there.
+    /// Torque and forces at an input, moving at the design's speed or at rest there.
     ///
     /// # Errors
     /// [`FeederForcesError::Balance`].
@@ -133,7 +133,7 @@ impl<'a> FeederForces<'a> {
     }
 }
 
-/// Greatest torque and joint forces, held still and moving.
+/// Greatest torque and joint forces, at rest and moving.
 pub(super) fn forces(feeder: &Feeder, report: &mut Report) {
     // A link that cannot be cut is a finding of its own.
     let Ok(system) = FeederForces::of(feeder) else {

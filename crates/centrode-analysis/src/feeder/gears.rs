@@ -3,17 +3,17 @@ use centrode_mechanism::feeder::Feeder;
 
 use crate::{Finding, IncompleteContact, Place, Report, Severity};
 
-/// Inputs at which the incomplete gears are held against each other.
+/// Number of inputs at which the intermittent gears are held against each other.
 const GEAR_LOOKS: u32 = 240;
-/// Distance of their contours from the polygons looked at, in modules.
+/// Distance of their contours from the polygons, in modules.
 const CONTOUR: f64 = 1e-4;
-/// Overlap above which they do not run, in modules.
+/// Penetration above which they do not run, in modules.
 const OVERLAP: f64 = 1e-3;
-/// Play above which they are loose, as a multiple of the play asked for.
+/// Backlash above which they are loose, as a multiple of the one asked for.
 const LOOSE: f64 = 2.0;
 
-/// Whether the incomplete gears can be cut, and hold the crank all the way: none of it overlaps, and the crank is
-/// free by no more than the play asked for.
+/// Checks that the intermittent gears can be cut, and hold the crank all the way: nothing penetrates, and the crank is
+/// free by no more than the backlash asked for.
 pub(super) fn gears(feeder: &Feeder, report: &mut Report) {
     let about_gears =
         |rule, severity, message, [measured, required]: [Option<f64>; 2], unit| Finding {

@@ -137,7 +137,7 @@ pub(super) fn unmet(feeder: &Feeder, report: &mut Report) {
     }
 }
 
-/// How far the bounds let the transmission angle come, in words.
+/// Limit that the bounds set to the transmission angle, in words.
 fn attainable(feeder: &Feeder, report: &mut Report) -> String {
     let Some(found) = Attainable::of(feeder.design()) else {
         return "; no crank-rocker that would do was found".into();

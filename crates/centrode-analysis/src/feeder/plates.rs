@@ -3,7 +3,7 @@ use centrode_mechanism::feeder::{Feeder, Part};
 
 use crate::{Finding, Place, Report, Severity};
 
-/// Whether the links can be cut from plate, and run clear of the shaft that passes them.
+/// Checks that the links can be cut from plate, and run clear of the shaft that passes them.
 pub(super) fn plates(feeder: &Feeder, report: &mut Report) {
     let cut = Part::ALL.map(|part| (part, feeder.plate(part)));
     for (part, plate) in cut {

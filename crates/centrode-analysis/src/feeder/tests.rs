@@ -79,7 +79,7 @@ fn bounds_that_allow_the_angle_need_no_widening() {
     );
 }
 
-/// Power of the crank is the growth of what energy the links have, and the force of the tip's mass in F is its weight.
+/// Power of the crank is the growth of the links' energy, and the force of the tip's mass in F is its weight.
 #[test]
 fn the_crank_moves_the_masses_of_the_plates() {
     let feeder = feeder([59.718, 105.477, 98.497, 129.79], [84.118, 63.61]);
@@ -90,7 +90,7 @@ fn the_crank_moves_the_masses_of_the_plates() {
     for i in 1..40 {
         let input = 0.1 * f64::from(i);
         let turned = feeder.crank(input);
-        // Held still, the torque is the slope of the height of all masses: nothing but weight.
+        // At rest, the torque is the slope of the height of all masses: nothing but weight.
         for system in [&empty, &full] {
             let energy = |x: f64| at(system, x, false).potential_energy;
             let slope = (energy(input + step) - energy(input - step)) / (2.0 * step);
@@ -151,7 +151,7 @@ fn no_torque_or_joint_force_is_above_the_greatest_stated() {
         let joints = rows.iter().map(|(_, row)| row[column]);
         let stated = std::iter::once(report.values[torques[column]]).chain(joints);
         for (k, (stated, seen)) in stated.zip(greatest_seen(&feeder, moving)).enumerate() {
-            // Even looks miss a smooth peak by about a millionth.
+            // Even samples miss a smooth peak by about a millionth.
             let near = stated >= seen && stated <= seen * (1.0 + 1e-5);
             assert!(near, "{k}, moving {moving}: {stated} {seen}");
         }

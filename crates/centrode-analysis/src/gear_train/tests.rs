@@ -1,7 +1,7 @@
 use super::*;
 use centrode_mechanism::design::DesignSpec as _;
 use centrode_mechanism::gear::pitch::{Limacon, PitchSpec};
-use centrode_mechanism::three_arm::Mesh;
+use centrode_mechanism::three_arm::GearMesh;
 use centrode_mechanism::three_arm::design::{Direction, ThreeArmDesign};
 
 /// Gentle gears with full teeth, three chains as published.
@@ -51,11 +51,11 @@ fn all_six_meshes_carry_their_law_over_a_whole_cycle() {
     }
 }
 
-/// The same poses with the intermediate gear turned by half a pitch are seen not to mesh.
+/// Poses with the intermediate gear turned by half a pitch are seen not to mesh.
 #[test]
 fn a_mesh_half_a_pitch_off_is_seen() {
     let (mechanism, pair) = gentle(|_| {});
-    let pose = mechanism.mesh_pose(Mesh::Planet(1), 0.4);
+    let pose = mechanism.mesh_pose(GearMesh::Planet(1), 0.4);
     let half_pitch = 0.5 * TAU / 36.0;
     let contact = Contact::posed(&pair, &[[pose.driver, pose.driven + half_pitch]]);
     let off = contact.transmission_error[0].abs();
@@ -68,7 +68,7 @@ fn toothed(change: impl Fn(&mut ThreeArmDesign)) -> (ThreeArm, TrainTeeth) {
     (mechanism, TrainTeeth { pair, contact })
 }
 
-/// What goes wrong at a polar angle of the sun is told at the carrier turn at which it is met there.
+/// A fault at a polar angle of the sun is reported at the carrier turn at which it is met there.
 #[test]
 fn a_finding_of_the_teeth_is_told_at_the_carriers_turn() {
     for direction in [Direction::Clockwise, Direction::CounterClockwise] {
@@ -79,7 +79,7 @@ fn a_finding_of_the_teeth_is_told_at_the_carriers_turn() {
         check_gear_train(&mechanism, &teeth, &mut report);
         let found = report.findings.iter().find(|f| f.rule == "interference");
         let input = found.and_then(|f| f.place.input).expect("an input");
-        let met = mechanism.mesh_pose(Mesh::Sun(0), input).driver;
+        let met = mechanism.mesh_pose(GearMesh::Sun(0), input).driver;
         let off = (met - teeth.contact.input[at]).rem_euclid(TAU);
         assert!(off.min(TAU - off) < 1e-9, "{direction:?}: {off}");
     }

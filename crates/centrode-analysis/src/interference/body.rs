@@ -2,11 +2,11 @@ use centrode_geometry::{Outline, Point, Tolerance, Vector};
 
 use super::parry::Boundary;
 
-/// The shape of a rigid body of the plane, in its own frame.
+/// Shape of a rigid body of the plane, in its own frame.
 ///
 /// Outlines are flattened to closed polygons; the material is what lies inside an odd number of them,
-/// so a body may be concave, have holes, or be several pieces that move as one. Around the edges a tree
-/// of circles is laid, which is what makes far parts cheap.
+/// so a body may be concave, have holes, or be several pieces that move as one. A tree of
+/// circles around the edges makes far parts cheap.
 #[derive(Clone, Debug)]
 pub struct Body {
     edges: Vec<[Point; 2]>,
@@ -30,11 +30,11 @@ pub(super) enum Part {
     Halves([u32; 2]),
 }
 
-/// Why outlines make no body.
+/// Reason why outlines make no body.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum BodyError {
-    /// Nothing to keep clear of.
+    /// No outline to keep clear of.
     #[error("a body needs at least one outline with a segment")]
     Empty,
     /// A point of an outline is not a finite number.
@@ -46,10 +46,10 @@ pub enum BodyError {
 }
 
 impl Body {
-    /// The body inside `outlines`, each replaced by a polygon within the tolerance.
+    /// Makes the body inside `outlines`, each replaced by a polygon within the tolerance.
     ///
-    /// Outlines must not cross one another or themselves. Choose the frame's origin where the body turns
-    /// about: bounds of its movement are then the tightest.
+    /// Outlines must not cross one another or themselves. Choose the frame's origin at the body's centre of
+    /// rotation: bounds of its movement are then the tightest.
     ///
     /// # Errors
     /// [`BodyError::Empty`] without a segment, [`BodyError::NotFinite`] for points at infinity or NaN.
@@ -89,13 +89,13 @@ impl Body {
         })
     }
 
-    /// Corners of the polygons that stand in for the outlines.
+    /// Number of corners of the polygons that replace the outlines.
     #[must_use]
     pub fn vertex_count(&self) -> usize {
         self.edges.len()
     }
 
-    /// Greatest distance between the outlines and the polygons that stand in for them, mm.
+    /// Greatest distance between the outlines and the polygons that replace them, mm.
     #[must_use]
     pub fn flattening(&self) -> f64 {
         self.flattening
@@ -115,7 +115,7 @@ impl Body {
         &self.nodes[index as usize]
     }
 
-    /// A corner of every outline.
+    /// One corner of every outline.
     pub(super) fn corners(&self) -> impl Iterator<Item = Point> + '_ {
         self.corners.iter().copied()
     }
@@ -133,7 +133,7 @@ impl Body {
     }
 }
 
-/// Adds the tree of `order`'s edges to `nodes`; gives the index of its root.
+/// Adds the tree of `order`'s edges to `nodes`; returns the index of its root.
 fn grow(edges: &[[Point; 2]], order: &mut [u32], nodes: &mut Vec<Node>) -> u32 {
     let ends = || order.iter().flat_map(|&e| edges[e as usize]);
     let (mut low, mut high) = (

@@ -1,4 +1,4 @@
-//! How deep one moving body comes to lie in another, by branch and bound over input and boundary.
+//! Depth of penetration of two moving bodies, by branch and bound over input and boundary.
 
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
@@ -8,21 +8,21 @@ use centrode_geometry::{Point, checkpoint};
 use super::body::{Body, Part};
 use super::{InterferenceError, Moving};
 
-/// The deepest point found.
+/// Deepest point found.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Deepest {
-    /// How far inside, mm; negative if no point ever is; what was to beat if nothing is deeper.
+    /// Depth inside, mm; negative if no point ever is; the depth to beat if nothing is deeper.
     pub(super) depth: f64,
-    /// Nothing is deeper.
+    /// Upper bound of the depth.
     pub(super) bound: f64,
-    /// The input and the point in the common frame; `None` if nothing is deeper than what was to beat.
+    /// Input and point in the common frame; `None` if nothing is deeper than the depth to beat.
     pub(super) place: Option<(f64, Point)>,
 }
 
-/// A stretch of one body's boundary during an interval.
+/// Stretch of one body's boundary during an interval.
 #[derive(Clone, Copy, Debug)]
 struct Piece {
-    /// Which body's boundary: it is held against the other.
+    /// Index of the boundary's body: it is held against the other.
     of: usize,
     stretch: Stretch,
     from: f64,
@@ -92,8 +92,8 @@ impl PartialEq for Piece {
 
 impl Eq for Piece {}
 
-/// The deepest point of either boundary in the other body while the input runs, within `tolerance`,
-/// looked for only deeper than `beat`.
+/// Deepest point of either boundary in the other body while the input runs, within `tolerance`, searched only deeper
+/// than `beat`.
 pub(super) fn deepest(
     pair: [&Moving<'_>; 2],
     [from, to]: [f64; 2],
@@ -162,18 +162,18 @@ pub(super) fn deepest(
     Ok(best)
 }
 
-/// A point of one body seen from the other.
+/// Point of one body seen from the other.
 struct Seen {
-    /// In the common frame, in the middle of the interval.
+    /// Position in the common frame, in the middle of the interval.
     point: Point,
-    /// How far inside the other body it is, mm; negative outside.
+    /// Depth inside the other body, mm; negative outside.
     depth: f64,
-    /// How far it can move against the other body from there to the ends of the interval.
+    /// Distance it can move against the other body from there to the ends of the interval.
     travel: f64,
     /// Greatest distance of the whole stretch from the other's edge that is nearest to the point, were
     /// all to go straight on: nothing inside the other is deeper. Distance from an edge is convex.
     beside: f64,
-    /// How far it can leave that straight path.
+    /// Distance by which it can leave that straight path.
     drift: f64,
 }
 

@@ -16,34 +16,34 @@ use motion::{Frame, ascending};
 use parry::Boundary;
 use sweep::approach;
 
-/// A body and how it moves.
+/// Body with its motion.
 #[derive(Clone, Copy, Debug)]
 pub struct Moving<'a> {
-    /// Its shape.
+    /// Shape.
     pub body: &'a Body,
-    /// Its pose as a function of the input.
+    /// Pose as a function of the input.
     pub motion: &'a dyn Motion,
 }
 
-/// How close two bodies come while the input runs.
+/// Clearance of two bodies while the input runs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Clearance {
-    /// Least distance found, mm. Where the bodies overlap it is negative: how far the deepest point of
+    /// Least distance found, mm. Where the bodies overlap it is negative: the depth of the deepest point of
     /// one lies inside the other.
     pub least: f64,
-    /// The clearance is proven to be nowhere smaller, mm.
+    /// Proven lower bound of the clearance, mm.
     pub lower_bound: f64,
     /// Input at which `least` was found, rad.
     pub input: f64,
     /// Closest points of the two bodies there, in the common frame; for bodies that overlap, the deepest
     /// point twice.
     pub points: [Point; 2],
-    /// The two bodies, by their places in the list.
+    /// Indices of the two bodies in the list.
     pub pair: [usize; 2],
 }
 
-/// What a clearance told to within a tolerance may lose where: the sum over two bodies, their motions and the search
-/// is the tolerance. The least clearance told is then above the true one by no more, nor is the bound farther below.
+/// Division of a tolerance: the errors of two bodies, their motions and the search sum up to the tolerance. The least
+/// clearance found is then above the true one by no more, nor is the bound farther below.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Shares {
     body: Tolerance,
@@ -60,12 +60,12 @@ impl Shares {
         }
     }
 
-    /// A body of such outlines.
+    /// Makes a body of such outlines.
     pub(crate) fn body(self, outlines: &[Outline]) -> Result<Body, BodyError> {
         Body::new(outlines, self.body)
     }
 
-    /// A motion of such a body.
+    /// Makes a motion of such a body.
     pub(crate) fn motion(
         self,
         body: &Body,
@@ -75,7 +75,7 @@ impl Shares {
         Tabulated::within(inputs, body.reach(), motion, self.motion)
     }
 
-    /// The least clearance among pairs of such bodies.
+    /// Least clearance among pairs of such bodies.
     pub(crate) fn least(
         self,
         bodies: &[Moving<'_>],
@@ -86,7 +86,7 @@ impl Shares {
     }
 }
 
-/// Why a clearance cannot be told.
+/// Reason why a clearance cannot be determined.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum InterferenceError {
@@ -110,10 +110,10 @@ pub enum InterferenceError {
 /// second derivative allows. `lower_bound` is `least` less at most the tolerance, the flattening of both
 /// bodies and the deviation of both motions; it is proven where [`Motion::bend`] is. Poses may be given in
 /// any one frame; the search is quickest where the bodies' movement is least, for arms on a carrier in
-/// the carrier's frame. Arms that follow one another in equal phases make one curve: one pair tells all.
+/// the carrier's frame. Arms that follow one another in equal phases make one curve: one pair is enough.
 ///
 /// A body inside another, or one that runs through it between two samples, overlaps it. Cost: a few
-/// hundred looks at the few edges that come close; bodies that overlap cost more.
+/// hundred evaluations of the few edges that come close; bodies that overlap cost more.
 ///
 /// # Errors
 /// [`InterferenceError::Motion`] where `inputs` do not ascend or a pose is not finite.
@@ -135,7 +135,7 @@ pub fn clearance(
 /// `lower_bound` holds for all pairs.
 ///
 /// # Errors
-/// [`InterferenceError`] for a pair that is none, and as [`clearance`].
+/// [`InterferenceError`] for a pair that is none, and those of [`clearance`].
 pub fn least_clearance(
     bodies: &[Moving<'_>],
     pairs: &[[usize; 2]],
@@ -160,9 +160,9 @@ pub fn least_clearance(
     Ok(least)
 }
 
-/// What is known of a pair after a search.
+/// Result of the search of a pair.
 struct Search {
-    /// Present if the pair comes closer than the one to beat.
+    /// Clearance, if the pair comes closer than the one to beat.
     closest: Option<Clearance>,
     bound: f64,
 }
@@ -238,13 +238,13 @@ impl Moving<'_> {
         }
     }
 
-    /// By how much a point of the outline may be off the flattened, tabulated one.
+    /// Error of the flattened, tabulated outline: the distance by which a point may be off.
     fn unsure(&self) -> f64 {
         let (far, turned) = self.motion.deviation();
         self.body.flattening() + far + turned * self.body.reach()
     }
 
-    /// How large its coordinates are.
+    /// Size of its coordinates.
     fn extent(&self, input: f64) -> Result<f64, MotionError> {
         Ok(self.frame(input)?.jet.position.coords.norm() + self.body.reach())
     }

@@ -1,10 +1,10 @@
 use centrode_geometry::{Point, Tolerance, Vector};
 use nalgebra::{Isometry2, Rotation2};
 
-/// Where a body is at an input and how fast it moves there; speeds are per radian of the input.
+/// Pose of a body at an input and its speed there, per radian of the input.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PoseJet {
-    /// Place of the body frame's origin, mm.
+    /// Position of the body frame's origin, mm.
     pub position: Point,
     /// Turned angle, rad, continuous over the cycle.
     pub angle: f64,
@@ -15,7 +15,7 @@ pub struct PoseJet {
 }
 
 impl PoseJet {
-    /// The rigid motion from the body's frame to the common one.
+    /// Rigid motion from the body's frame to the common one.
     #[must_use]
     pub fn isometry(&self) -> Isometry2<f64> {
         Isometry2::new(self.position.coords, self.angle)
@@ -31,7 +31,7 @@ impl PoseJet {
     }
 }
 
-/// How strongly a body's movement can change within an interval of the input: never too small.
+/// Bound of the change of a body's movement within an interval of the input: never too small.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Bend {
     /// Greatest length of the second derivative of the position, mm/rad^2.
@@ -43,7 +43,7 @@ pub struct Bend {
 }
 
 impl Bend {
-    /// Greatest second derivative of the place of a point at a distance from the frame's origin.
+    /// Greatest second derivative of the position of a point at a distance from the frame's origin.
     pub(super) fn of_point(&self, distance: f64) -> f64 {
         // A point at r turns and is drawn inward: p'' + angle'' x r - angle'^2 r.
         self.acceleration + distance * self.turning_change.hypot(self.turning * self.turning)
@@ -68,7 +68,7 @@ pub trait Motion: std::fmt::Debug {
     /// The lower bound of a clearance is proven if these are.
     fn bend(&self, from: f64, to: f64) -> Bend;
 
-    /// By how much the motion may differ from the one meant: mm of the origin, and rad.
+    /// Greatest difference of the motion from the one meant: mm of the origin, and rad.
     fn deviation(&self) -> (f64, f64) {
         (0.0, 0.0)
     }
@@ -124,10 +124,10 @@ impl Motion for Uniform {
     }
 }
 
-/// A motion read at even inputs and joined by cubics with the same velocities (Hermite).
+/// Motion read at even inputs and joined by cubics with the same velocities (Hermite).
 ///
 /// Bounds of the cubics are exact, so a clearance is proven for them; how far they are from the motion
-/// itself is measured in the middle of every cell, doubled, and taken off the bound. It falls with the
+/// itself is measured in the middle of every cell, doubled, and subtracted from the bound. It falls with the
 /// fourth power of the cell where the motion is smooth.
 #[derive(Clone, Debug)]
 pub struct Tabulated {
@@ -139,11 +139,11 @@ pub struct Tabulated {
     deviation: (f64, f64),
 }
 
-/// Cells with which a motion that is to keep a tolerance is tabulated first, and at which it is left as it is.
+/// Number of cells with which a motion within a tolerance is tabulated first, and the greatest number.
 const FEWEST: usize = 360;
 const MOST: usize = 360 << 8;
 
-/// Why a motion cannot be tabulated.
+/// Reason why a motion cannot be tabulated.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum MotionError {
@@ -161,7 +161,7 @@ pub enum MotionError {
     /// A pose that is not finite.
     #[error("the pose at the input {input} rad is not a finite number")]
     NotFinite {
-        /// Where, rad.
+        /// Input, rad.
         input: f64,
     },
 }
@@ -233,7 +233,7 @@ impl Tabulated {
         }
     }
 
-    /// From the first input to the last.
+    /// Length from the first input to the last.
     fn length(&self) -> f64 {
         self.cell * (self.jets.len() - 1) as f64
     }
@@ -282,21 +282,21 @@ impl Motion for Tabulated {
     }
 }
 
-/// The motion of a body that does later, turned about the common frame's origin, what another one did.
+/// Motion of a body that repeats another's later, turned about the common frame's origin.
 ///
 /// Arms on one carrier: seen from it, each is a turned copy of the first, late by its share of a cycle.
 #[derive(Clone, Copy, Debug)]
 pub struct Later<'a> {
-    /// What is repeated; its inputs are one whole cycle.
+    /// Motion that is repeated; its inputs are one whole cycle.
     pub first: &'a Tabulated,
-    /// By how much of the input, in `[0, cycle]`.
+    /// Delay of the input, in `[0, cycle]`.
     pub delay: f64,
-    /// Turned by, rad.
+    /// Turn, rad.
     pub turned: f64,
 }
 
 impl Later<'_> {
-    /// The input of the first body, in its table.
+    /// Input of the first body, in its table.
     fn own(&self, input: f64) -> f64 {
         let (start, cycle) = (self.first.start, self.first.length());
         start + (input - self.delay - start).rem_euclid(cycle)
@@ -370,7 +370,7 @@ fn windows(cells: Vec<Bend>) -> Vec<Vec<Bend>> {
     levels
 }
 
-/// A pose at one input, ready to move points.
+/// Pose at one input, ready to move points.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Frame {
     pub(super) rotation: Rotation2<f64>,
@@ -385,7 +385,7 @@ impl Frame {
         }
     }
 
-    /// Place and velocity of a point of the body.
+    /// Position and velocity of a point of the body.
     pub(super) fn moved(&self, p: &Point) -> (Point, Vector) {
         let arm = self.rotation * p.coords;
         (self.jet.position + arm, self.velocity_at(arm))
@@ -396,7 +396,7 @@ impl Frame {
         self.jet.velocity + Vector::new(-arm.y, arm.x) * self.jet.turning
     }
 
-    /// A point of the common frame in the body's.
+    /// Map of a point of the common frame into the body's.
     pub(super) fn inside(&self, p: &Point) -> Point {
         Point::from(self.rotation.inverse() * (p - self.jet.position))
     }

@@ -1,4 +1,4 @@
-//! The only file that names parry: distances at one pose, from a library of its own.
+//! Distances at one pose by the library parry, which no other file names.
 
 use centrode_geometry::Point;
 use nalgebra::Isometry2;

@@ -14,17 +14,17 @@ use super::body::{Body, Part};
 use super::motion::{Bend, Frame};
 use super::{InterferenceError, Moving};
 
-/// What the search of one pair has found.
+/// Result of the search of one pair.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Approach {
-    /// Least distance found, and where; the one to beat if nothing came closer.
+    /// Least distance found, and its place; the one to beat if nothing came closer.
     pub(super) least: f64,
     pub(super) input: Option<f64>,
-    /// No distance is smaller.
+    /// Lower bound of the distance.
     pub(super) bound: f64,
 }
 
-/// An interval not yet decided.
+/// Interval not yet decided.
 struct Span {
     from: f64,
     to: f64,
@@ -33,7 +33,7 @@ struct Span {
 }
 
 impl Ord for Span {
-    /// The least bound is the greatest: a heap gives it first.
+    /// Reversed order of the bounds: a heap gives the least first.
     fn cmp(&self, other: &Self) -> Ordering {
         other.bound.total_cmp(&self.bound)
     }
@@ -53,11 +53,10 @@ impl PartialEq for Span {
 
 impl Eq for Span {}
 
-/// Intervals the search starts with.
+/// Number of intervals with which the search starts.
 const FIRST_SPANS: u32 = 16;
 
-/// Least distance of two boundaries while the input runs, to within `tolerance`, looked for only below
-/// `beat`.
+/// Least distance of two boundaries while the input runs, to within `tolerance`, searched only below `beat`.
 pub(super) fn approach(
     [a, b]: [&Moving<'_>; 2],
     [from, to]: [f64; 2],
@@ -90,12 +89,12 @@ pub(super) fn approach(
             break;
         }
         let middle = 0.5 * (span.from + span.to);
-        let look = Look::new(a, b, middle, 0.5 * (span.to - span.from))?;
-        let rest = look.at_pairs(&span.pairs, &mut found, tolerance);
+        let state = PairState::new(a, b, middle, 0.5 * (span.to - span.from))?;
+        let rest = state.at_pairs(&span.pairs, &mut found, tolerance);
         if rest.pairs.is_empty() {
             continue;
         }
-        // Neighbouring floats, or contact: nothing is gained by going on.
+        // Neighbouring floats, or contact: no further halving helps.
         if middle <= span.from || middle >= span.to || found.least <= 0.0 {
             found.bound = found.bound.min(rest.bound);
             if found.least <= 0.0 {
@@ -123,8 +122,8 @@ struct Rest {
     bound: f64,
 }
 
-/// Two bodies in the middle of an interval.
-struct Look<'a> {
+/// State of two bodies in the middle of an interval.
+struct PairState<'a> {
     bodies: [&'a Body; 2],
     frames: [Frame; 2],
     bends: [Bend; 2],
@@ -132,7 +131,7 @@ struct Look<'a> {
     half: f64,
 }
 
-impl<'a> Look<'a> {
+impl<'a> PairState<'a> {
     fn new(
         a: &Moving<'a>,
         b: &Moving<'a>,
@@ -174,7 +173,7 @@ impl<'a> Look<'a> {
                         rest.keep(pair, bound);
                     }
                 }
-                // What moves by more than the circles are wide is cut in time, not in space.
+                // A pair that moves by more than its circles are wide is cut in time, not in space.
                 _ if blur > p.radius + q.radius => rest.keep(pair, bound),
                 (Part::Halves([m, n]), _) if p.radius >= q.radius || is_edge(q.part) => {
                     open.extend([[m, pair[1]], [n, pair[1]]]);
@@ -186,7 +185,7 @@ impl<'a> Look<'a> {
         rest
     }
 
-    /// Least distance of two circles in the interval, and what of it is owed to their movement.
+    /// Lower bound of the distance of two circles in the interval, and the share of it owed to their movement.
     fn circles(&self, pair: [u32; 2]) -> (f64, f64) {
         let [p, q] = [0, 1].map(|i| self.bodies[i].node(pair[i]));
         let (at_p, move_p) = self.frames[0].moved(&p.center);

@@ -23,7 +23,7 @@ fn moving<'a>(body: &'a Body, motion: &'a dyn Motion) -> Moving<'a> {
     Moving { body, motion }
 }
 
-/// The same numbers on every machine: a linear congruential sequence in `[0, 1)`.
+/// Linear congruential sequence in `[0, 1)`, equal on every machine.
 struct Chance(u64);
 
 impl Chance {
@@ -197,7 +197,7 @@ fn inside_is_overlap_and_pulled_apart_is_not() {
         let into = found(11.0 - gap, 0.1 * gap);
         assert!((into.least + gap).abs() < 0.2 * gap, "{into:?}");
     }
-    // A ring is hollow: what sits in its hole is clear of it.
+    // A ring has a hole: a body in the hole is clear of it.
     let hole = Outline::circle(Point::origin(), 8.0).reversed();
     let ring = Body::new(&[rectangle(10.0, 10.0), hole], tolerance(1e-6)).expect("a body");
     let (a, b) = (moving(&ring, &home), moving(&small, &home));
@@ -303,7 +303,7 @@ fn bounds_of_a_table_hold_everywhere_and_a_later_body_does_the_same() {
         let (ours, theirs) = (table.at(input), law(input));
         assert!((ours.position - theirs.position).norm() <= far);
         assert!((ours.angle - theirs.angle).abs() <= turned);
-        // The same rigid motion, turned about the origin.
+        // The rigid motion of the first, turned about the origin.
         let pose = later.at(input).isometry();
         let first = table.at((input - 1.9).rem_euclid(TAU)).isometry();
         let expected = Isometry2::rotation(0.6) * first;

@@ -6,7 +6,7 @@ use super::random::Random;
 
 /// First step, as a share of the bounds.
 const FIRST_STEP: f64 = 0.3;
-/// The same about a point to start from.
+/// First step about a point to start from, as a share of the bounds.
 const NEAR_STEP: f64 = 0.1;
 /// Step and spread of the distribution at which it starts again, with twice the points.
 const LEAST_STEP: f64 = 1e-14;
@@ -19,7 +19,7 @@ pub(super) struct CmaEs {
     generation: u32,
     mean: Vec<f64>,
     step: f64,
-    /// Row by row.
+    /// Covariance matrix, row by row.
     covariance: Vec<f64>,
     step_path: Vec<f64>,
     path: Vec<f64>,

@@ -5,23 +5,23 @@ use centrode_mechanism::design::Design;
 use super::Problem;
 use crate::Goal;
 
-/// A number of a design that a search moves.
+/// Number of a design that a search moves.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Variable {
-    /// Its name, `r1`.
+    /// Name, `r1`.
     pub name: String,
-    /// Its key in the design file, `pitch.radius[0]`.
+    /// Key in the design file, `pitch.radius[0]`.
     pub key: String,
     /// Least and greatest value, rad or mm.
     pub bounds: [f64; 2],
-    /// True for an angle, in rad, and in degrees in the file.
+    /// Whether it is an angle, in rad, and in degrees in the file.
     pub is_angle: bool,
     /// Decimals of its values in the file, degrees or mm: the file then holds what was evaluated.
     pub decimals: u32,
 }
 
 impl Variable {
-    /// The value in the file's unit, to its decimals.
+    /// Rounds a value, in the file's unit, to its decimals.
     #[must_use]
     pub fn written(&self, value: f64) -> f64 {
         let value = if self.is_angle {
@@ -30,11 +30,11 @@ impl Variable {
             value
         };
         let grid = 10_f64.powi(self.decimals as i32);
-        // Divided by the whole number: the nearest number to so many decimals.
+        // Divided by the whole number: the nearest number to those decimals.
         (value * grid).round() / grid
     }
 
-    /// The value as the file gives it back, rad or mm.
+    /// Value as read back from the file, rad or mm.
     #[must_use]
     pub fn rounded(&self, value: f64) -> f64 {
         let written = self.written(value);
@@ -46,45 +46,44 @@ impl Variable {
     }
 }
 
-/// A problem whose points are designs: what an optimiser of design files needs to know, of whatever family.
+/// Problem whose points are designs: the interface of an optimiser of design files, of whatever family.
 pub trait DesignProblem: Problem {
-    /// What is moved; the points of the problem hold their values, rad or mm.
+    /// Variables; the points of the problem hold their values, rad or mm.
     fn variables(&self) -> &[Variable];
 
-    /// The design at a point, values rounded to what a file holds.
+    /// Design at a point, values rounded to those a file holds.
     fn design(&self, point: &[f64]) -> Arc<dyn Design>;
 
     /// Numbers of the design at a point that follow from its variables: key in the file, and value as written.
     fn followers(&self, point: &[f64]) -> Vec<(String, f64)>;
 
-    /// The goals at a point, and whatever else must be kept, each with figure, range and margin; none where the point
-    /// gives no mechanism.
+    /// Goals at a point, and all other constraints, each with figure, range and margin; none where the point gives no
+    /// mechanism.
     fn goals(&self, point: &[f64]) -> Option<Vec<Goal>>;
 
-    /// The goals at a point as a guide needs them: smooth figures, which may be nearer or farther than those of
+    /// Goals at a point as a guide needs them: smooth figures, which may be nearer or farther than those of
     /// [`DesignProblem::goals`] but are met only where those are.
     fn guides(&self, point: &[f64]) -> Option<Vec<Goal>>;
 
-    /// The objective at which a point that breaks no constraint is good enough; none where less is always better.
+    /// Objective at which a point that breaks no constraint is good enough; none where less is always better.
     fn target(&self) -> Option<f64> {
         None
     }
 
-    /// What the problem itself says of a point at which a search has ended: why no better one can be had, or why it
-    /// says little.
+    /// Remark of the problem on a point at which a search has ended: why no better one can be had, or why it says little.
     fn remark(&self, _point: &[f64]) -> Option<String> {
         None
     }
 }
 
-/// Why there is no search for a better design.
+/// Reason why there is no search for a better design.
 #[derive(Clone, Debug, Eq, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum NotSearched {
     /// A family without goals.
     #[error("there is no search for designs of this family: it has no goals")]
     Family,
-    /// A design that the search of its family does not know.
+    /// A design that the search of its family does not accept.
     #[error("no search: {0}")]
     Design(String),
 }

@@ -6,13 +6,13 @@ use super::{
     DesignProblem, Ended, GuidedSearch, GuidedStep, Method, Progress, Search, SearchError, Settings,
 };
 
-/// How a better design is searched for.
+/// Strategy of a search for a better design.
 #[derive(Clone, Copy, Debug, Deserialize, Eq, PartialEq, Serialize)]
 #[non_exhaustive]
 pub enum Strategy {
-    /// Goal by goal, by the parameters that influence it most.
+    /// Search goal by goal, by the parameters that influence it most.
     Guided,
-    /// Everywhere within the bounds.
+    /// Search everywhere within the bounds.
     Global(Method),
 }
 
@@ -25,7 +25,7 @@ impl Strategy {
         ("ga", Self::Global(Method::Genetic)),
     ];
 
-    /// Its name.
+    /// Name of the strategy.
     #[must_use]
     pub fn name(self) -> &'static str {
         let named = Self::NAMES.into_iter().find(|(_, one)| *one == self);
@@ -33,10 +33,10 @@ impl Strategy {
     }
 }
 
-/// A search for a better design under way: keep it, store it, go on with it.
+/// Search for a better design under way: keep it, store it, go on with it.
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 pub struct DesignSearch {
-    /// What it moves; a search goes on only with the same.
+    /// Variables with their bounds; a search goes on only with equal ones.
     variables: Vec<(String, [f64; 2])>,
     evaluations: u64,
     state: State,
@@ -54,7 +54,7 @@ fn variables(problem: &dyn DesignProblem) -> Vec<(String, [f64; 2])> {
 }
 
 impl DesignSearch {
-    /// A search from the problem's start. The method of the settings is not looked at; without a target the problem's
+    /// Starts a search from the problem's start. The method of the settings is ignored; without a target the problem's
     /// own holds.
     ///
     /// # Errors
@@ -96,7 +96,7 @@ impl DesignSearch {
         self.variables == variables(problem)
     }
 
-    /// How it searches.
+    /// Strategy of the search.
     #[must_use]
     pub fn strategy(&self) -> Strategy {
         match &self.state {
@@ -105,7 +105,7 @@ impl DesignSearch {
         }
     }
 
-    /// Its seed; none of a guided search, which has no chance in it.
+    /// Seed; none of a guided search, which is deterministic.
     #[must_use]
     pub fn seed(&self) -> Option<u64> {
         match &self.state {
@@ -114,7 +114,7 @@ impl DesignSearch {
         }
     }
 
-    /// Most evaluations in all.
+    /// Greatest number of evaluations in all.
     #[must_use]
     pub fn allowed(&self) -> u64 {
         self.evaluations
@@ -152,7 +152,7 @@ impl DesignSearch {
         }
     }
 
-    /// How far it is; none before the first look of a guided search.
+    /// Progress; none before the first evaluation of a guided search.
     #[must_use]
     pub fn progress(&self) -> Option<Progress> {
         match &self.state {

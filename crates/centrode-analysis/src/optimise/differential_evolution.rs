@@ -3,7 +3,7 @@ use serde::{Deserialize, Serialize};
 use super::problem::Candidate;
 use super::random::Random;
 
-/// Remembered parameter pairs.
+/// Number of remembered parameter pairs.
 const MEMORY: usize = 6;
 /// Share of the population that counts as the best to move towards.
 const BEST: f64 = 0.11;
@@ -12,10 +12,10 @@ const BEST: f64 = 0.11;
 /// (Tanabe and Fukunaga 2013, DOI 10.1109/CEC.2013.6557555), without its archive.
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 pub(super) struct DifferentialEvolution {
-    /// Scale and crossover rate that served.
+    /// Scale and crossover rate that succeeded.
     memory: Vec<[f64; 2]>,
     next: usize,
-    /// The pair each trial of this generation was made with.
+    /// Pair with which each trial of this generation was made.
     #[serde(skip)]
     used: Vec<[f64; 2]>,
 }
@@ -64,7 +64,7 @@ impl DifferentialEvolution {
                     return x;
                 }
                 let moved = x + scale * (better[k] - x) + scale * (a[k] - b[k]);
-                // Half-way back to the bound it left.
+                // Beyond a bound: half-way between the parent and the bound.
                 if moved < 0.0 {
                     0.5 * x
                 } else if moved > 1.0 {

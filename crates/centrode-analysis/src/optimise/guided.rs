@@ -11,30 +11,30 @@ use crate::Goal;
 /// First step of a parameter, as a share of its bounds, and the least before a goal is left.
 const FIRST_STEP: f64 = 0.04;
 const LEAST_STEP: f64 = 1e-4;
-/// What all other goals together may lose by a step, as a share of what its own goal gains.
+/// Share of the gain of a step's own goal that all other goals together may lose.
 const PRICE: f64 = 0.5;
-/// Gain, as a share of the goal's scale, below which a step is none.
+/// Least gain of a step, as a share of the goal's scale.
 const LEAST_GAIN: f64 = 1e-9;
-/// Share of the greatest influence from which a parameter counts among those that move together.
+/// Share of the greatest influence above which a parameter is moved together with others.
 const TOGETHER: f64 = 0.3;
 
-/// One step of a guided search: for which goal, what was moved, and why.
+/// Step of a guided search: its goal, the parameters moved, and the gain.
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 pub struct GuidedStep {
     /// Number and title of the goal it was made for.
     pub goal: (u32, String),
-    /// What was moved: name, and value before and after in the file's unit.
+    /// Moves: name, and value before and after in the file's unit.
     pub moves: Vec<(String, [f64; 2])>,
     /// The goal's miss before and after, as a share of its scale.
     pub miss: [f64; 2],
-    /// What the misses of all other goals together grew by; below zero where they gained, too.
+    /// Growth of the misses of all other goals together; below zero where they gained, too.
     pub others: f64,
-    /// How many of the parameters would have helped this goal.
+    /// Number of the parameters that would have helped this goal.
     pub helpful: usize,
 }
 
 impl fmt::Display for GuidedStep {
-    /// For which goal, what was moved from where to where, and what it brought.
+    /// Step in words: its goal, the moves, and the gain.
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (number, title) = &self.goal;
         write!(out, "goal {number} {title}: ")?;
@@ -56,13 +56,13 @@ impl fmt::Display for GuidedStep {
     }
 }
 
-/// The parameter-guided search: goal by goal, each missed goal moves the parameters that influence it most, step by step.
+/// Parameter-guided search: goal by goal, each missed goal moves the parameters that influence it most, step by step.
 ///
 /// At each step every free parameter is tried a little either way. The one that brings the goal nearest is moved, as
 /// long as all other goals together do not lose more than half of what it gains, and it goes on with twice the
 /// step while that helps. Where several influence the goal alike, moving them together is tried, too. Where nothing helps the
 /// step is halved; a goal that no step helps is left for the next one. So the misses fall with every step, and it
-/// ends. No chance is in it.
+/// ends. It is deterministic.
 ///
 /// Source: the "parameter guide" of Yin et al. 2021, section 4, DOI 10.25165/j.ijabe.20211405.6844, whose rules the paper
 /// does not print; these are ours.
@@ -76,16 +76,16 @@ pub struct GuidedSearch {
     history: Vec<Progress>,
 }
 
-/// What a look at a point tells: the goals, and by what share of its scale each is missed.
+/// Evaluation of a point: the goals, and by what share of its scale each is missed.
 struct Seen {
     goals: Vec<Goal>,
     misses: Vec<f64>,
 }
 
-/// A point that was tried.
-struct Trial {
+/// Candidate: a point that was tried.
+struct Candidate {
     point: Vec<f64>,
-    /// How far each variable was moved, as shares of the bounds.
+    /// Displacement of each variable, as shares of the bounds.
     moved: Vec<f64>,
     seen: Seen,
 }
@@ -103,7 +103,7 @@ impl Seen {
         })
     }
 
-    /// What a goal gains, and what all others together lose, on the way to another point.
+    /// Gain of a goal, and loss of all others together, on the way to another point.
     fn change(&self, to: &Self, goal: usize) -> (f64, f64) {
         let gain = self.misses[goal] - to.misses[goal];
         let grown: f64 = to.misses.iter().sum::<f64>() - self.misses.iter().sum::<f64>();
@@ -118,7 +118,7 @@ impl Seen {
 }
 
 impl GuidedSearch {
-    /// A search from the problem's start.
+    /// Starts a search from the problem's start.
     #[must_use]
     pub fn new(problem: &dyn DesignProblem) -> Self {
         let bounds = problem.bounds();
@@ -134,7 +134,7 @@ impl GuidedSearch {
         }
     }
 
-    /// Where it stands.
+    /// Current point.
     #[must_use]
     pub fn point(&self) -> &[f64] {
         &self.point
@@ -146,19 +146,19 @@ impl GuidedSearch {
         &self.log
     }
 
-    /// How far it was at the start and after each step.
+    /// Progress at the start and after each step.
     #[must_use]
     pub fn history(&self) -> &[Progress] {
         &self.history
     }
 
-    /// Looks at points made.
+    /// Number of points evaluated.
     #[must_use]
     pub fn evaluations(&self) -> u64 {
         self.evaluations
     }
 
-    /// How far it is: the steps made count as generations, the misses as violation.
+    /// Progress: the steps made count as generations, the misses as violation.
     #[must_use]
     pub fn progress(&self) -> Progress {
         Progress {
@@ -169,7 +169,7 @@ impl GuidedSearch {
         }
     }
 
-    /// Steps until every goal is met, no step helps any more, the looks are used up, or `observe` breaks off.
+    /// Steps until every goal is met, no step helps any more, the evaluations are used up, or `observe` breaks off.
     pub fn run(
         &mut self,
         problem: &dyn DesignProblem,
@@ -197,10 +197,10 @@ impl GuidedSearch {
                         return Ended::Evaluations;
                     }
                     match self.best_step(problem, &seen, goal, step) {
-                        Some((trial, helpful)) => {
-                            self.record(problem, &seen, &trial, goal, helpful);
-                            self.point = trial.point;
-                            seen = trial.seen;
+                        Some((candidate, helpful)) => {
+                            self.record(problem, &seen, &candidate, goal, helpful);
+                            self.point = candidate.point;
+                            seen = candidate.seen;
                             self.misses.clone_from(&seen.misses);
                             self.history.push(self.progress());
                         }
@@ -218,39 +218,45 @@ impl GuidedSearch {
         }
     }
 
-    /// The best step for a goal, gone on with while it helps, and how many parameters would have helped.
+    /// Best step for a goal, continued while it helps, and how many parameters would have helped.
     fn best_step(
         &mut self,
         problem: &dyn DesignProblem,
         seen: &Seen,
         goal: usize,
         step: f64,
-    ) -> Option<(Trial, usize)> {
+    ) -> Option<(Candidate, usize)> {
         let count = self.point.len();
         let single = |k: usize| {
             let mut moved = vec![0.0; count];
             moved[k / 2] = if k.is_multiple_of(2) { step } else { -step };
             moved
         };
-        let trials = self.tried(problem, (0..2 * count).map(single).collect());
-        let gain = |trial: &Trial| seen.change(&trial.seen, goal).0;
+        let candidates = self.tried(problem, (0..2 * count).map(single).collect());
+        let gain = |candidate: &Candidate| seen.change(&candidate.seen, goal).0;
         let mut influence = vec![0.0_f64; count];
-        for trial in trials.iter().filter(|trial| gain(trial) > LEAST_GAIN) {
-            for (best, moved) in influence.iter_mut().zip(&trial.moved) {
-                if *moved != 0.0 && gain(trial) > best.abs() {
-                    *best = gain(trial) * moved.signum();
+        for candidate in candidates
+            .iter()
+            .filter(|candidate| gain(candidate) > LEAST_GAIN)
+        {
+            for (best, moved) in influence.iter_mut().zip(&candidate.moved) {
+                if *moved != 0.0 && gain(candidate) > best.abs() {
+                    *best = gain(candidate) * moved.signum();
                 }
             }
         }
         let helpful = influence.iter().filter(|i| **i != 0.0).count();
         let most = influence.iter().fold(0.0_f64, |most, i| most.max(i.abs()));
-        let allowed =
-            |trials: Vec<Trial>| trials.into_iter().filter(|t| seen.allows(&t.seen, goal));
-        let better = |a: &Trial, b: &Trial| gain(a).total_cmp(&gain(b));
+        let allowed = |candidates: Vec<Candidate>| {
+            candidates
+                .into_iter()
+                .filter(|t| seen.allows(&t.seen, goal))
+        };
+        let better = |a: &Candidate, b: &Candidate| gain(a).total_cmp(&gain(b));
         // All that count, together, as far as their influence goes; and only those whose own step is allowed.
         let mut own = vec![0.0; count];
-        for trial in trials.iter().filter(|t| seen.allows(&t.seen, goal)) {
-            for (own, moved) in own.iter_mut().zip(&trial.moved) {
+        for candidate in candidates.iter().filter(|t| seen.allows(&t.seen, goal)) {
+            for (own, moved) in own.iter_mut().zip(&candidate.moved) {
                 if *moved != 0.0 {
                     *own = *moved;
                 }
@@ -271,8 +277,8 @@ impl GuidedSearch {
         } else {
             Vec::new()
         };
-        let mut best = allowed(trials).chain(allowed(joint)).max_by(better)?;
-        // On the same way, with twice the step each time.
+        let mut best = allowed(candidates).chain(allowed(joint)).max_by(better)?;
+        // On in that direction, with twice the step each time.
         while best.seen.misses[goal] > 0.0 {
             let further = best.moved.iter().map(|moved| 2.0 * moved).collect();
             let Some(next) = self.tried(problem, vec![further]).pop() else {
@@ -286,25 +292,26 @@ impl GuidedSearch {
         Some((best, helpful))
     }
 
-    /// Looks at points moved from here by shares of the bounds, in their order; what is no mechanism is left out.
-    fn tried(&mut self, problem: &dyn DesignProblem, moves: Vec<Vec<f64>>) -> Vec<Trial> {
+    /// Evaluates points moved from here by shares of the bounds, in their order; those that give no mechanism are left
+    /// out.
+    fn tried(&mut self, problem: &dyn DesignProblem, moves: Vec<Vec<f64>>) -> Vec<Candidate> {
         self.evaluations += moves.len() as u64;
         let bounds = problem.bounds();
         let here = &self.point;
         let cancel = Cancel::current();
-        let trial = |moved: Vec<f64>| {
+        let candidate = |moved: Vec<f64>| {
             let _scope = cancel.enter();
             let place = |((x, share), &(low, high)): ((&f64, &f64), &(f64, f64))| {
                 (x + share * (high - low)).clamp(low, high)
             };
             let point: Vec<f64> = here.iter().zip(&moved).zip(&bounds).map(place).collect();
             let seen = Seen::at(problem, &point)?;
-            Some(Trial { point, moved, seen })
+            Some(Candidate { point, moved, seen })
         };
         moves
             .into_par_iter()
             .panic_fuse()
-            .filter_map(trial)
+            .filter_map(candidate)
             .collect()
     }
 
@@ -312,14 +319,14 @@ impl GuidedSearch {
         &mut self,
         problem: &dyn DesignProblem,
         seen: &Seen,
-        trial: &Trial,
+        candidate: &Candidate,
         goal: usize,
         helpful: usize,
     ) {
         let pairs = problem
             .variables()
             .iter()
-            .zip(self.point.iter().zip(&trial.point));
+            .zip(self.point.iter().zip(&candidate.point));
         let moves = pairs
             .map(|(v, (&from, &to))| (v.name.clone(), [v.written(from), v.written(to)]))
             .filter(|(_, [from, to])| from != to)
@@ -328,8 +335,8 @@ impl GuidedSearch {
         self.log.push(GuidedStep {
             goal: (what.number, what.title.to_owned()),
             moves,
-            miss: [seen.misses[goal], trial.seen.misses[goal]],
-            others: seen.change(&trial.seen, goal).1,
+            miss: [seen.misses[goal], candidate.seen.misses[goal]],
+            others: seen.change(&candidate.seen, goal).1,
             helpful,
         });
     }

@@ -5,22 +5,22 @@ use rand_pcg::Pcg64;
 pub(crate) struct Random(Pcg64);
 
 impl Random {
-    /// The stream `stream` of a seed.
+    /// Stream `stream` of a seed.
     pub(crate) fn new(seed: u64, stream: u64) -> Self {
         Self(Pcg64::new(seed.into(), stream.into()))
     }
 
-    /// Even in [0, 1).
+    /// Uniform in [0, 1).
     pub(crate) fn share(&mut self) -> f64 {
         (self.0.next_u64() >> 11) as f64 * (0.5_f64).powi(53)
     }
 
-    /// Even in [low, high).
+    /// Uniform in [low, high).
     pub(crate) fn between(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * self.share()
     }
 
-    /// Even among `0..count`.
+    /// Uniform among `0..count`.
     pub(crate) fn index(&mut self, count: usize) -> usize {
         ((self.share() * count as f64) as usize).min(count.saturating_sub(1))
     }

@@ -10,7 +10,7 @@ use super::genetic;
 use super::problem::{Candidate, Problem};
 use super::random::Random;
 
-/// How to search.
+/// Method of search.
 #[derive(Clone, Copy, Debug, Default, Deserialize, Eq, PartialEq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 #[non_exhaustive]
@@ -35,16 +35,16 @@ impl Method {
     ];
 }
 
-/// How long to search, and from where.
+/// Settings of a search: its method, its length and its start.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
 pub struct Settings {
-    /// How to search.
+    /// Method.
     pub method: Method,
-    /// Same seed, same answer.
+    /// Seed: the same one gives the same answer.
     pub seed: u64,
     /// Points a generation; by the method and the number of variables if left out.
     pub population: Option<usize>,
-    /// Most evaluations; the generation under way is finished.
+    /// Greatest number of evaluations; the generation under way is finished.
     pub evaluations: u64,
     /// Objective at which a feasible point is good enough.
     pub target: Option<f64>,
@@ -76,7 +76,7 @@ impl Default for Settings {
     }
 }
 
-/// The best found up to the end of a generation.
+/// Best found up to the end of a generation.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
 pub struct Progress {
     /// Generations done.
@@ -85,11 +85,11 @@ pub struct Progress {
     pub evaluations: u64,
     /// Objective of the best point.
     pub objective: f64,
-    /// How much the best point breaks its constraints.
+    /// Violation of the best point.
     pub violation: f64,
 }
 
-/// Why a search stopped.
+/// Reason why a search stopped.
 #[derive(Clone, Copy, Debug, Deserialize, Eq, PartialEq, Serialize)]
 pub enum Ended {
     /// The target was reached.
@@ -102,7 +102,7 @@ pub enum Ended {
     Stuck,
 }
 
-/// Why there is nothing to search.
+/// Reason why there is nothing to search.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SearchError {
@@ -115,7 +115,7 @@ pub enum SearchError {
     /// A variable with no room.
     #[error("variable {index} runs from {low} to {high}: the bounds must be finite and ascending")]
     Bounds {
-        /// Its number.
+        /// Index of the variable.
         index: usize,
         /// Least value.
         low: f64,
@@ -125,14 +125,14 @@ pub enum SearchError {
     /// Too few points for a generation.
     #[error("population is {count}, but it must be at least {least}")]
     Population {
-        /// As given.
+        /// Number given.
         count: usize,
-        /// What the methods need.
+        /// Number that the methods need.
         least: usize,
     },
 }
 
-/// Fewest points a generation.
+/// Least number of points a generation.
 const LEAST_POPULATION: usize = 5;
 
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
@@ -142,7 +142,7 @@ enum State {
     CmaEs(CmaEs),
 }
 
-/// A search under way: keep it, store it, go on with it.
+/// Search under way: keep it, store it, go on with it.
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 pub struct Search {
     settings: Settings,
@@ -157,7 +157,7 @@ pub struct Search {
 }
 
 impl Search {
-    /// The first generation: a Latin hypercube, or the points of the first distribution.
+    /// Makes the first generation: a Latin hypercube, or the points of the first distribution.
     ///
     /// # Errors
     /// [`SearchError`].
@@ -222,7 +222,7 @@ impl Search {
         Ok(search)
     }
 
-    /// One generation more.
+    /// Makes one more generation.
     pub fn step(&mut self, problem: &dyn Problem) {
         let mut random = Random::new(self.settings.seed, self.generation);
         let points = match &mut self.state {
@@ -300,7 +300,7 @@ impl Search {
         &self.history
     }
 
-    /// How it searches.
+    /// Settings of the search.
     #[must_use]
     pub fn settings(&self) -> &Settings {
         &self.settings

@@ -22,18 +22,18 @@ fn four_bar(point: &[f64], branch: Branch) -> Option<FourBar> {
     FourBar::new(crank, coupler, rocker, frame, branch).ok()
 }
 
-/// By how many of the frame's lengths a four-bar misses being a crank-rocker; zero or less where it is one.
+/// Violation of the crank-rocker condition, in lengths of the frame; zero or less where it holds.
 fn not_crank_rocker(point: &[f64]) -> f64 {
     let &[crank, coupler, rocker, frame, ..] = point else {
         return f64::INFINITY;
     };
     let longest = coupler.max(rocker).max(frame);
     let others = coupler + rocker + frame - longest;
-    // A change point is none.
+    // A change point is no crank-rocker.
     (crank + longest - others) / frame + 1e-9
 }
 
-/// Find lengths that swing the effector by a wanted angle about a fixed pivot, with a wanted least
+/// Problem of lengths that swing the effector by a wanted angle about a fixed pivot, with a wanted least
 /// transmission angle: variables are crank, coupler, rocker and frame, mm.
 #[derive(Clone, Debug)]
 pub struct WantedSwing {
@@ -42,7 +42,7 @@ pub struct WantedSwing {
     /// The effector's pivot, mm. Left free it makes the objective vacuous: on the chord between the
     /// slider's dead centres any lengths swing the effector half a turn.
     pub pivot: Point,
-    /// How the four-bar is assembled.
+    /// Assembly branch of the four-bar.
     pub branch: Branch,
     /// Wanted swing, rad.
     pub swing: f64,
@@ -51,7 +51,7 @@ pub struct WantedSwing {
 }
 
 impl WantedSwing {
-    /// What lengths about a pivot are worth, and the six-bar, if there is one.
+    /// Evaluation of lengths about a pivot, and the six-bar, if there is one.
     pub(super) fn judged(&self, lengths: &[f64], pivot: Point) -> (Evaluation, Option<SixBar>) {
         let mut constraints = vec![not_crank_rocker(lengths)];
         let six_bar = four_bar(lengths, self.branch).and_then(|f| SixBar::new(f, pivot, 1.0).ok());
@@ -59,7 +59,7 @@ impl WantedSwing {
             // Lengths that are a crank-rocker fail only with the pivot on the slider's path.
             constraints[0] = 1.0 + constraints[0].max(0.0);
             let nothing = Evaluation {
-                // A swing misses by less; a number, so that a search can be stored.
+                // Greater than any deviation of a swing; a number, so that a search can be stored.
                 objective: TAU,
                 constraints,
             };
@@ -81,7 +81,7 @@ impl Problem for WantedSwing {
         self.bounds.to_vec()
     }
 
-    /// The objective is the swing's distance from the wanted one, rad.
+    /// Evaluates a point: the objective is the swing's distance from the wanted one, rad.
     fn evaluate(&self, point: &[f64]) -> Evaluation {
         self.judged(point, self.pivot).0
     }
@@ -91,7 +91,7 @@ impl Problem for WantedSwing {
     }
 }
 
-/// Find the crank-rocker with the greatest least transmission angle: variables are crank, coupler,
+/// Problem of the crank-rocker with the greatest least transmission angle: variables are crank, coupler,
 /// rocker and frame, mm.
 ///
 /// It stays below 90 degrees less half the rocker's swing, whatever the lengths.
@@ -106,7 +106,7 @@ impl Problem for BestTransmissionAngle {
         self.bounds.to_vec()
     }
 
-    /// The objective is what the least transmission angle lacks of a right angle, rad.
+    /// Evaluates a point: the objective is a right angle less the least transmission angle, rad.
     fn evaluate(&self, point: &[f64]) -> Evaluation {
         let least = four_bar(point, Branch::Upper).map_or(0.0, |f| f.least_transmission_angle());
         Evaluation {
@@ -120,9 +120,8 @@ impl Problem for BestTransmissionAngle {
     }
 }
 
-/// Find by how much all bounds must be widened alike before they hold a crank-rocker with a wanted
-/// least transmission angle: variables are the widening and each length's place within its widened
-/// bounds, from 0 to 1.
+/// Problem of the least common widening of all bounds with which they hold a crank-rocker with a wanted least
+/// transmission angle: variables are the widening and each length's place within its widened bounds, from 0 to 1.
 #[derive(Clone, Debug)]
 pub struct LeastWidening {
     /// Bounds to be widened, mm.
@@ -132,7 +131,7 @@ pub struct LeastWidening {
 }
 
 impl LeastWidening {
-    /// The bounds with every least value made smaller and every greatest value made greater by a share.
+    /// Bounds with every least value made smaller and every greatest value made greater by a share.
     #[must_use]
     pub fn widened(&self, share: f64) -> Lengths {
         self.bounds
@@ -159,7 +158,7 @@ impl Problem for LeastWidening {
         bounds
     }
 
-    /// The objective is the widening, a share.
+    /// Evaluates a point: the objective is the widening, a share.
     fn evaluate(&self, point: &[f64]) -> Evaluation {
         let lengths = self.lengths(point);
         let least = four_bar(&lengths, Branch::Upper).map_or(0.0, |f| f.least_transmission_angle());

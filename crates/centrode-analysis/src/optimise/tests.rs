@@ -160,7 +160,7 @@ fn nothing_to_search_is_refused() {
     assert_eq!(refused, SearchError::NoEvaluation);
 }
 
-/// What is not a number is never the best.
+/// A value that is not a number is never the best.
 #[test]
 fn not_a_number_comes_last() {
     let of = |objective, constraint| Evaluation {

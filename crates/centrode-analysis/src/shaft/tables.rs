@@ -6,13 +6,13 @@ use centrode_mechanism::transmission::{MotionJet, Transmission};
 
 use crate::Table;
 
-/// A way to move the box on a stroke: its motion by the input, and the lead angle under the slider.
+/// Scheme that moves the box on a stroke: its motion by the input, and the lead angle under the slider.
 struct Way<'a> {
     name: &'static str,
     at: Box<dyn Fn(f64) -> (MotionJet, f64) + 'a>,
 }
 
-/// Both schemes alone and as designed, beside a plain shaft: what the box moves while a seedling is picked, its
+/// Both schemes alone and as designed, beside a plain shaft: the movement of the box while a seedling is picked, its
 /// speeds, its acceleration and the force on the slider.
 pub(super) fn schemes(machine: &MovingBox) -> Vec<Table> {
     let shaft = machine.shaft();
@@ -57,7 +57,7 @@ pub(super) fn schemes(machine: &MovingBox) -> Vec<Table> {
     let (load, design) = (shaft.load(), shaft.design());
     let metres = 1e-3 * load.speed() * load.speed();
     let (pick, half) = (design.pick, 0.5 * design.window);
-    // Those of the groove alone and as designed: a break too many costs little.
+    // Breaks of the groove alone and as designed: one too many costs little.
     let both = [shaft.law().pieces(pick), machine.stroke_pieces()].concat();
     let ends = pieces(pick, pick + TAU, 1, &both);
     let range = |of: &dyn Fn(f64) -> f64| extremes(of, &ends).map(|extreme| extreme.value).to_vec();
@@ -111,7 +111,7 @@ pub(super) fn schemes(machine: &MovingBox) -> Vec<Table> {
     ]
 }
 
-/// Eighths of a turn at which the paper's equations are looked at.
+/// Eighths of a turn at which the paper's equations are evaluated.
 const EIGHTHS: u32 = 8;
 
 fn eighths(of: impl Fn(f64) -> Vec<f64>) -> Vec<(String, Vec<f64>)> {

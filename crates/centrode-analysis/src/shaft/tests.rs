@@ -268,7 +268,7 @@ fn no_speed_acceleration_or_force_of_the_box_is_beyond_the_extremes_stated() {
         ("greatest force of the table", forces[1], greatest, 1.0),
     ] {
         let beyond = sign * (stated - seen) / seen.abs().max(1.0);
-        // At a jump of the acceleration even looks miss the limit by their distance from it.
+        // At a jump of the acceleration even samples miss the limit by their distance from it.
         assert!((0.0..1e-3).contains(&beyond), "{name}: {stated} {seen}");
     }
 }

@@ -1,4 +1,4 @@
-//! Entities: each shape of a drawing as the version at hand writes it.
+//! Entities of a drawing, as each version writes them.
 
 use super::pairs::{Handle, Pairs};
 use super::tables::weight;
@@ -6,7 +6,7 @@ use super::{Curves, STYLE};
 use crate::drawing::{Anchor, Drawing, Shape, Text};
 use centrode_geometry::{Arc, Point, Segment, Tolerance};
 
-/// The entities of a drawing, owned by the model space; each looks as its layer says. The newer version has
+/// Writes the entities of a drawing, owned by the model space; each looks as its layer says. The newer version has
 /// the width of the lines at each entity too: some programs ignore that of the layer.
 pub(super) fn entities(
     file: &mut Pairs,
@@ -86,7 +86,7 @@ impl Writer<'_> {
         }
     }
 
-    /// Light in the newer version, heavy in R12.
+    /// Writes a polyline: light in the newer version, heavy in R12.
     fn polyline(
         &mut self,
         layer: &str,
@@ -162,7 +162,7 @@ impl Writer<'_> {
     }
 }
 
-/// Start and end angle in degrees of an arc run through counter-clockwise, as DXF has them.
+/// Start and end angle in degrees of an arc run through counter-clockwise, in the order of DXF.
 fn angles(arc: &Arc) -> [f64; 2] {
     let center = arc.center();
     let angle = |p: &Point| {
@@ -179,7 +179,7 @@ fn angles(arc: &Arc) -> [f64; 2] {
     ends.map(angle)
 }
 
-/// How a text stands between its two points. A fitted text has the same length whatever font a program
+/// Justification of a text between its two points. A fitted text has the same length whatever font a program
 /// has at hand; of very short ones a program would stretch a single letter.
 fn justification(text: &Text) -> (u32, [Point; 2]) {
     match (text.width, text.anchor) {

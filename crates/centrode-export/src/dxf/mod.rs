@@ -9,7 +9,7 @@ use centrode_geometry::Tolerance;
 use pairs::Pairs;
 use thiserror::Error;
 
-/// Which DXF is written.
+/// Version of DXF.
 #[derive(Clone, Copy, Debug, Default, Eq, PartialEq)]
 pub enum Version {
     /// Release 2010: lightweight polylines.
@@ -19,7 +19,7 @@ pub enum Version {
     R12,
 }
 
-/// How a curved contour is written.
+/// Form of a curved contour.
 #[derive(Clone, Copy, Debug, Default, Eq, PartialEq)]
 pub enum Curves {
     /// One closed polyline of lines and arcs, joined without a kink where the contour is smooth.
@@ -29,7 +29,7 @@ pub enum Curves {
     Splines,
 }
 
-/// Why a drawing could not be written as DXF.
+/// Reason why a drawing could not be written as DXF.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum DxfError {
@@ -44,8 +44,8 @@ pub enum DxfError {
     },
 }
 
-/// A drawing as DXF text in millimetres (`$INSUNITS` 4), each contour one closed entity within the
-/// tolerance. The same drawing always gives the same bytes: dates and identifiers are fixed.
+/// Writes a drawing as DXF text in millimetres (`$INSUNITS` 4), each contour one closed entity within the tolerance.
+/// Equal drawings give equal bytes: dates and identifiers are fixed.
 ///
 /// # Errors
 /// [`DxfError`] for splines in R12 or an entity without a layer.

@@ -1,4 +1,4 @@
-//! The pairs of group code and value both versions are made of, and what the newer one adds to each entry.
+//! Pairs of group code and value of which both versions are made, and the additions of the newer one to each entry.
 
 use super::Version;
 use centrode_geometry::Point;
@@ -16,7 +16,7 @@ pub(super) struct Pairs {
 pub(super) struct Handle(u32);
 
 impl Handle {
-    /// Owner of what no entry owns.
+    /// Owner of entries that no entry owns.
     pub(super) const NONE: Self = Self(0);
 }
 
@@ -49,7 +49,7 @@ impl Pairs {
         self
     }
 
-    /// One line of text: line ends become spaces, and a caret, which otherwise begins a code, stands before a
+    /// One line of text: line ends become spaces, and a caret, which otherwise begins a code, is put before a
     /// space. R12 knows no letters beyond ASCII: others are written by their number.
     pub(super) fn line(&mut self, code: u16, value: &str) -> &mut Self {
         let newer = self.is_newer();
@@ -66,7 +66,7 @@ impl Pairs {
         self.word(code, &format!("{value:>6}"))
     }
 
-    /// A number to twelve places.
+    /// Writes a number to twelve places.
     pub(super) fn number(&mut self, code: u16, value: f64) -> &mut Self {
         let text = format!("{:.12}", value + 0.0);
         let short = text.trim_end_matches('0');
@@ -74,12 +74,12 @@ impl Pairs {
         self.word(code, &format!("{short}{dot}"))
     }
 
-    /// x at `code`, y ten after it.
+    /// Writes x at `code`, y ten after it.
     pub(super) fn flat(&mut self, code: u16, point: &Point) -> &mut Self {
         self.number(code, point.x).number(code + 10, point.y)
     }
 
-    /// x at `code`, y and z ten and twenty after it.
+    /// Writes x at `code`, y and z ten and twenty after it.
     pub(super) fn point(&mut self, code: u16, point: &Point) -> &mut Self {
         self.flat(code, point).number(code + 20, 0.0)
     }

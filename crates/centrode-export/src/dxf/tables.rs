@@ -1,4 +1,4 @@
-//! What a file says before its entities: units, line types, layers, lettering styles, blocks.
+//! Parts of a file before its entities: units, line types, layers, lettering styles, blocks.
 
 use super::pairs::{Handle, Pairs};
 use super::{STYLE, STYLE_FONT};
@@ -35,7 +35,7 @@ pub(super) fn header(file: &mut Pairs, bounds: &Bounds, seed: Handle) {
     file.word(0, "ENDSEC");
 }
 
-/// Line types, layers and lettering styles, and what else the newer version cannot be without; the handle
+/// Line types, layers and lettering styles, and all else the newer version must have; the handle
 /// is that of the model space, which owns the entities.
 pub(super) fn tables(file: &mut Pairs, drawing: &Drawing, bounds: &Bounds) -> Handle {
     file.section("TABLES");

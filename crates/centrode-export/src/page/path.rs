@@ -57,7 +57,7 @@ impl Path {
             .flat_map(|segment| {
                 let bulge = match segment {
                     Segment::Arc(arc) => arc.bulge,
-                    Segment::Line(..) | Segment::Spline(_) => 0.0,
+                    Segment::Line(..) | Segment::Poly(_) => 0.0,
                 };
                 let start = segment.start();
                 let chord = (segment.end() - start).norm();

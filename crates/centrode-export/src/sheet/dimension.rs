@@ -6,15 +6,15 @@ use centrode_geometry::{Arc, Bounds, Point, Vector};
 
 /// Distance of words from their line, mm.
 const LIFT: f64 = 1.3;
-/// How far an extension line goes beyond the dimension line, mm.
+/// Length of an extension line beyond the dimension line, mm.
 const BEYOND: f64 = 2.0;
-/// Distance of an extension line from what it is about, mm.
+/// Distance of an extension line from its feature, mm.
 const CLEAR: f64 = 0.8;
 
 impl Draft {
-    /// A dimension between two points, measured along a direction, its line through `at`.
+    /// Draws a dimension between two points, measured along a direction, its line through `at`.
     ///
-    /// Words that do not fit between the arrows stand beyond the second point.
+    /// Words that do not fit between the arrows are put beyond the second point.
     pub fn dimension(&mut self, [a, b]: [Point; 2], along: Vector, at: Point, words: &str) {
         let mut along = along.normalize();
         let upwards = along.x.abs() < 1e-9;
@@ -63,8 +63,8 @@ impl Draft {
         self.turned_text(at, self.letters, words, Anchor::Middle, rotation);
     }
 
-    /// A note with an arrow: a line from `tip` to `elbow`, then level under the words; a second line of
-    /// words stands below.
+    /// Draws a note with an arrow: a line from `tip` to `elbow`, then level under the words; a second line of
+    /// words is put below.
     pub fn leader(&mut self, tip: Point, elbow: Point, words: &[String]) {
         self.arrow(tip, tip - elbow);
         self.line(Pen::Dimension, tip, elbow);
@@ -87,7 +87,7 @@ impl Draft {
         }
     }
 
-    /// Notes in two columns left and right of a view, each with a leader to its point, in the order of
+    /// Draws notes in two columns left and right of a view, each with a leader to its point, in the order of
     /// the points so that leaders do not cross. `band` of heights is left free.
     pub fn callouts(&mut self, around: Bounds, band: [f64; 2], notes: &[(Point, Vec<String>)]) {
         let middle = 0.5 * (around.min.x + around.max.x);
@@ -120,7 +120,7 @@ impl Draft {
         }
     }
 
-    /// An arc about a centre with an arrow at its end, angles in rad.
+    /// Draws an arc about a centre with an arrow at its end, angles in rad.
     pub fn turning_arrow(&mut self, center: Point, radius: f64, from: f64, to: f64) {
         let at = |angle: f64| center + Vector::new(angle.cos(), angle.sin()) * radius;
         let arc = Arc {

@@ -5,10 +5,10 @@ use centrode_geometry::{Bounds, Outline, Point, Vector};
 /// Length of an arrow head, mm.
 pub(super) const ARROW: f64 = 3.0;
 
-/// Narrowest a line of text may be squeezed, as a share of its natural length.
+/// Least share of its natural length to which a line of text may be squeezed.
 const SQUEEZE: f64 = 0.7;
 
-/// A piece of a sheet in paper millimetres, its origin wherever is handy until it is placed.
+/// Piece of a sheet in paper millimetres, its origin wherever is handy until it is placed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Draft {
     entities: Vec<Entity>,
@@ -17,14 +17,14 @@ pub struct Draft {
 }
 
 impl Default for Draft {
-    /// Nothing, to be dimensioned in letters of 3.5 mm.
+    /// Empty draft, to be dimensioned in letters of 3.5 mm.
     fn default() -> Self {
         Self::lettered(3.5)
     }
 }
 
 impl Draft {
-    /// Nothing, to be dimensioned in letters of this height, mm.
+    /// Empty draft, to be dimensioned in letters of this height, mm.
     #[must_use]
     pub fn lettered(letters: f64) -> Self {
         Self {
@@ -120,7 +120,7 @@ impl Draft {
         self.draw(Pen::Text, Shape::Text(text));
     }
 
-    /// Takes over all of another draft, moved.
+    /// Adds all of another draft, moved.
     pub fn add(&mut self, other: &Self, by: Vector) {
         let moved = other.entities.iter().map(|entity| Entity {
             layer: entity.layer.clone(),
@@ -129,7 +129,7 @@ impl Draft {
         self.entities.extend(moved);
     }
 
-    /// Whether a line or words come into a rectangle.
+    /// Whether a line or words enter a rectangle.
     #[must_use]
     pub fn touches(&self, rectangle: Bounds) -> bool {
         let shapes = self.entities.iter().map(|entity| &entity.shape);

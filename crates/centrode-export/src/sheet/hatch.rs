@@ -20,7 +20,7 @@ impl Draft {
         let mut row = (low / SPACING).floor();
         while row * SPACING < high {
             row += 1.0;
-            // A line never goes through a corner.
+            // A line never passes through a corner.
             let y = row * SPACING + 1e-7;
             let mut xs: Vec<f64> = rings.iter().flat_map(|ring| crossings(ring, y)).collect();
             xs.sort_by(f64::total_cmp);

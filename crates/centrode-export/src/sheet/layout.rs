@@ -1,14 +1,14 @@
-//! Where the pieces of a sheet go.
+//! Placing of the pieces of a sheet.
 
 use super::{Draft, table::Table};
 use centrode_geometry::{Bounds, Point, Vector};
 
 /// Least distance between pieces, mm.
 const GAP: f64 = 6.0;
-/// Fewest rows worth starting a part of a table for.
+/// Least number of rows for which a part of a table is started.
 const FEWEST: usize = 10;
 
-/// A corner of the drawing space that a piece is to be near.
+/// Corner of the drawing space near which a piece is to be.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub enum Corner {
     /// Upper left.
@@ -21,7 +21,7 @@ pub enum Corner {
     LowerRight,
 }
 
-/// A page while pieces are placed on it: the greatest empty rectangles, overlapping each other.
+/// Page while pieces are placed on it: the greatest empty rectangles, overlapping each other.
 #[derive(Clone, Debug)]
 pub(crate) struct Page {
     room: Bounds,
@@ -31,7 +31,7 @@ pub(crate) struct Page {
 }
 
 impl Page {
-    /// A page of this room less a rectangle that is taken.
+    /// Page of this room less a rectangle that is taken.
     pub(crate) fn new(room: Bounds, taken: Bounds) -> Self {
         let mut page = Self {
             room,
@@ -43,7 +43,7 @@ impl Page {
         page
     }
 
-    /// Takes a rectangle out of all empty ones.
+    /// Subtracts a rectangle from all empty ones.
     fn take(&mut self, taken: Bounds) {
         self.taken.push(taken);
         let margin = Vector::repeat(GAP);

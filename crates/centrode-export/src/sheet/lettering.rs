@@ -1,4 +1,4 @@
-//! The words on a sheet: the lettering font, and how long and high a line of it is.
+//! Lettering of a sheet: the font, and the length and height of a line of words.
 
 use centrode_geometry::{Bounds, Point, Vector};
 use skrifa::{
@@ -9,12 +9,12 @@ use skrifa::{
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
-/// A Leroy-style drafting font with strokes of a tenth of its height, as ISO 3098 type B.
+/// Leroy-style drafting font with strokes of a tenth of its height, as in ISO 3098 type B.
 pub(crate) const FONT: &[u8] = include_bytes!("../../font/CentrodeLettering.ttf");
 
 static FACE: LazyLock<Option<FontRef<'static>>> = LazyLock::new(|| FontRef::new(FONT).ok());
 
-/// What a line needs to know of a letter, in ems.
+/// Metrics of a letter, in ems, for setting a line.
 #[derive(Clone, Copy)]
 struct Metrics {
     glyph: GlyphId,
@@ -64,7 +64,7 @@ pub(crate) const UNITS: f64 = 1024.0;
 /// Height of a capital, as a share of the em.
 const CAPITAL: f64 = 736.0 / UNITS;
 
-/// Size of the font, mm an em, at which capitals stand this high.
+/// Size of the font, mm an em, for capitals of this height.
 #[must_use]
 pub(crate) fn em(height: f64) -> f64 {
     height / CAPITAL

@@ -44,7 +44,7 @@ pub struct Sheet {
     pub drawing: Drawing,
 }
 
-/// Why there is no sheet.
+/// Reason why there is no sheet.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum SheetError {
@@ -74,7 +74,7 @@ pub enum SheetError {
     },
 }
 
-/// The sheets of a drawing: the pieces on the first, at the largest recommended scale that fits; the
+/// Composes the sheets of a drawing: the pieces on the first, at the largest recommended scale that fits; the
 /// tables where there is room left, and on further sheets.
 ///
 /// `extent` is the longest side of a view at full scale, mm: no scale is tried at which it alone is too

@@ -1,4 +1,4 @@
-/// A number to so many places, without trailing zeros.
+/// Number to so many places, without trailing zeros.
 pub(crate) fn number(x: f64, places: usize) -> String {
     let text = format!("{x:.places$}");
     let text = match text.contains('.') {
@@ -8,7 +8,7 @@ pub(crate) fn number(x: f64, places: usize) -> String {
     if text == "-0" { "0" } else { text }.to_owned()
 }
 
-/// A mass in grams with its unit, from a kilogram on in kilograms.
+/// Mass in grams with its unit, from a kilogram on in kilograms.
 pub(crate) fn mass(grams: f64) -> String {
     if grams >= 1000.0 {
         format!("{} kg", number(grams / 1000.0, 3))

@@ -1,4 +1,4 @@
-//! Whether words on a sheet can be read: none may touch a line or other words.
+//! Check that words on a sheet can be read: none may touch a line or other words.
 
 use super::{Sheet, lettering};
 use crate::drawing::{Shape, Text};
@@ -10,13 +10,13 @@ use nalgebra::Rotation2;
 pub struct Overlap {
     /// The words.
     pub words: String,
-    /// What they touch: other words, or the layer of a line.
+    /// Touched object: other words, or the layer of a line.
     pub other: String,
-    /// Where the words stand, mm.
+    /// Position of the words, mm.
     pub at: Point,
 }
 
-/// Every text of a sheet that touches another, a line, or leaves the sheet, by the ink of its letters
+/// Texts of a sheet that touch another, a line, or leave the sheet, by the ink of their letters
 /// and the widths of the lines.
 #[must_use]
 pub fn overlaps(sheet: &Sheet) -> Vec<Overlap> {
@@ -61,7 +61,7 @@ pub fn overlaps(sheet: &Sheet) -> Vec<Overlap> {
     found
 }
 
-/// Whether a shape comes into an upright rectangle.
+/// Whether a shape enters an axis-aligned rectangle.
 pub(super) fn enters<'a>(shapes: impl Iterator<Item = &'a Shape>, rectangle: Bounds) -> bool {
     let ink = Ink {
         origin: Point::origin(),

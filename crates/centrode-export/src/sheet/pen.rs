@@ -1,6 +1,6 @@
 use crate::drawing::{Color, Drawing, LineType};
 
-/// What a line of a sheet stands for; each has its layer, line type and width, ISO 128-2.
+/// Meaning of a line of a sheet; each has its layer, line type and width, ISO 128-2.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub enum Pen {
     /// Visible edges and outlines: thick.

@@ -6,15 +6,15 @@ use centrode_mechanism::design::SheetSize;
 /// A piece of the first page.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Piece {
-    /// What it is, for errors.
+    /// Name of it, for errors.
     pub name: &'static str,
-    /// What is drawn.
+    /// Drawing of it.
     pub draft: Draft,
     /// The corner of the sheet it is to be near.
     pub corner: Corner,
-    /// Whether it stands in the middle of the room it has, as views do.
+    /// Whether it is put in the middle of its room, as views are.
     pub floats: bool,
-    /// Whether it must stand on the first page; others move on to the next where there is no room.
+    /// Whether it must be on the first page; others move on to the next where there is no room.
     pub leads: bool,
 }
 

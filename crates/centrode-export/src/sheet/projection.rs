@@ -3,8 +3,8 @@ use crate::drawing::Shape;
 use centrode_geometry::{Outline, Point};
 use centrode_mechanism::design::Projection;
 
-/// The symbol of the projection method, ISO 5456-2: a truncated cone from the side and from its small
-/// end. In first angle the view from the left stands on the right.
+/// Draws the symbol of the projection method, ISO 5456-2: a truncated cone from the side and from its small
+/// end. In first angle the view from the left is on the right.
 pub(super) fn symbol(draft: &mut Draft, center: Point, height: f64, projection: Projection) {
     // The cone of the standard: diameters 1 and 2, length 2, in units of half the height.
     let unit = 0.5 * height;

@@ -41,7 +41,7 @@ impl Scale {
         f64::from(self.drawn) / f64::from(self.real)
     }
 
-    /// The largest scale at which a length is no longer on paper than a room, mm.
+    /// Largest scale at which a length on paper is no longer than a room, mm.
     #[must_use]
     pub fn largest(length: f64, room: f64) -> Self {
         Self::RECOMMENDED

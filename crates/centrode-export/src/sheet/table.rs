@@ -21,7 +21,7 @@ pub struct Table {
     pub title: String,
     /// Headings; none for a table that needs none.
     pub headings: Vec<String>,
-    /// Where words stand in each column.
+    /// Anchor of the words in each column.
     pub columns: Vec<Anchor>,
     /// The cells, row by row.
     pub rows: Vec<Vec<String>>,
@@ -53,13 +53,13 @@ impl Table {
         notes.fold(table, f64::max)
     }
 
-    /// Height of the table with this many rows, mm; the notes stand below its last part.
+    /// Height of the table with this many rows, mm; the notes are below its last part.
     pub(super) fn height(&self, rows: usize, last: bool) -> f64 {
         let notes = if last { self.notes.len() } else { 0 };
         self.head() + ROW * (rows + notes) as f64 + if notes > 0 { 1.5 } else { 0.0 }
     }
 
-    /// How many rows go into a height, mm.
+    /// Number of rows that fit a height, mm.
     pub(super) fn rows_in(&self, height: f64) -> usize {
         ((height - self.head()) / ROW + 1e-9).floor().max(0.0) as usize
     }
@@ -69,12 +69,12 @@ impl Table {
         TITLE_ROW + headings
     }
 
-    /// All of it, the upper left corner in the origin.
+    /// Draft of the whole table, the upper left corner in the origin.
     pub(crate) fn whole(&self) -> Draft {
         self.draft(0..self.rows.len(), false, true)
     }
 
-    /// Some of its rows, the upper left corner in the origin.
+    /// Draft of some of its rows, the upper left corner in the origin.
     pub(super) fn draft(&self, rows: Range<usize>, continued: bool, last: bool) -> Draft {
         let mut draft = Draft::default();
         let widths = self.widths();

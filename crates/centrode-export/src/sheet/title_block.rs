@@ -6,16 +6,16 @@ use centrode_mechanism::design::{DrawingSpec, Projection};
 
 /// Width of a title block, mm, ISO 7200.
 pub(super) const WIDTH: f64 = 180.0;
-/// Height of ours, mm.
+/// Height of this title block, mm.
 pub(super) const HEIGHT: f64 = 45.0;
 
-/// Where the texture of the surfaces stands: left, right, low, high.
+/// Field of the texture of the surfaces: left, right, low, high.
 const SURFACE: [f64; 4] = [145.0, 180.0, 36.0, 45.0];
 
 /// Height of the names of the fields, mm.
 const CAPTION: f64 = 1.8;
 
-/// What the title block of a sheet says, ISO 7200; what is not known stays empty.
+/// Entries of the title block of a sheet, ISO 7200; unknown ones stay empty.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct TitleBlock {
     /// Legal owner.
@@ -30,9 +30,9 @@ pub struct TitleBlock {
     pub revision: String,
     /// Date of issue.
     pub date: String,
-    /// Who drew it.
+    /// Person who drew it.
     pub drawn_by: String,
-    /// Who approved it.
+    /// Person who approved it.
     pub approved_by: String,
     /// Kind of document: "Part drawing".
     pub document: String,
@@ -48,12 +48,12 @@ pub struct TitleBlock {
     pub edges: String,
     /// Texture of the surfaces.
     pub surface: String,
-    /// How the views lie to each other.
+    /// Arrangement of the views.
     pub projection: Projection,
 }
 
 impl TitleBlock {
-    /// The fields a design's file gives for a part, whose name ends the drawing number.
+    /// Fields that a design's file gives for a part, whose name ends the drawing number.
     #[must_use]
     pub fn new(spec: &DrawingSpec, part: &str, options: &SheetOptions) -> Self {
         let number = match spec.number.as_str() {
@@ -75,7 +75,7 @@ impl TitleBlock {
         }
     }
 
-    /// The block, its lower left corner in the origin, on the sheet `page` of `pages`.
+    /// Draft of the block, its lower left corner in the origin, on the sheet `page` of `pages`.
     pub(super) fn draft(&self, size: &str, page: usize, pages: usize) -> Draft {
         let mut draft = Draft::default();
         let sheet = format!("{page}/{pages}");
@@ -118,7 +118,7 @@ impl TitleBlock {
         draft
     }
 
-    /// The symbol of a surface from which material is removed, ISO 21920-1, and what is asked of it.
+    /// Draws the symbol of a surface from which material is removed, ISO 21920-1, and its requirements.
     fn surface(&self, draft: &mut Draft) {
         if self.surface.is_empty() {
             return;

@@ -1,10 +1,10 @@
-//! The boundary of a straight extrusion: two flat caps and one wall a side of its contours.
+//! Boundary of a straight extrusion: two flat caps and one wall a side of its contours.
 
 use super::{
     StepError, contour, opened,
     part21::{Data, Id, List, Real},
 };
-use centrode_geometry::{Point, Segment, Solid, Spline, Vector};
+use centrode_geometry::{Point, PolySegment, Segment, Solid, Vector};
 
 /// Writes the closed boundary of a solid and returns its `MANIFOLD_SOLID_BREP`.
 pub(super) fn manifold(data: &mut Data, name: &str, solid: &Solid) -> Result<Id, StepError> {
@@ -38,7 +38,7 @@ pub(super) fn manifold(data: &mut Data, name: &str, solid: &Solid) -> Result<Id,
     Ok(data.add(format_args!("MANIFOLD_SOLID_BREP({name},{shell})")))
 }
 
-/// Edges of one wall: its lower and upper one, and the upright one at its start.
+/// Edges of one wall: its lower and upper one, and the axial one at its start.
 #[derive(Clone, Copy, Debug)]
 struct Side {
     bottom: Id,
@@ -98,7 +98,7 @@ impl<'a> Shape<'a> {
             .add(format_args!("EDGE_CURVE('',{from},{to},{curve},.T.)"))
     }
 
-    /// The edges along and between both copies of a contour.
+    /// Writes the edges along and between both copies of a contour.
     fn ring(&mut self, sides: &[Segment]) -> Vec<Side> {
         let levels = [self.bottom, self.top];
         let corners: Vec<[(Id, Id); 2]> = sides
@@ -131,7 +131,7 @@ impl<'a> Shape<'a> {
         (point, vertex)
     }
 
-    /// The curve a side follows at a height, walked as the side is.
+    /// Writes the curve of a side at a height, walked as the side is.
     pub(super) fn curve(&mut self, side: &Segment, start: Id, z: f64) -> Id {
         match side {
             Segment::Line(from, to) => {
@@ -146,8 +146,8 @@ impl<'a> Shape<'a> {
                 let radius = Real(arc.radius());
                 self.data.add(format_args!("CIRCLE('',{frame},{radius})"))
             }
-            Segment::Spline(spline) => {
-                let poles: Vec<Id> = poles(spline)
+            Segment::Poly(poly) => {
+                let poles: Vec<Id> = poles(poly)
                     .into_iter()
                     .map(|pole| self.point(pole, z))
                     .collect();
@@ -161,7 +161,7 @@ impl<'a> Shape<'a> {
         }
     }
 
-    /// The walls over the sides of a contour, seen from outside counter-clockwise.
+    /// Writes the walls over the sides of a contour, seen from outside counter-clockwise.
     fn walls(&mut self, sides: &[Segment], ring: &[Side]) -> Vec<Id> {
         let next = ring.iter().cycle().skip(1);
         sides
@@ -182,7 +182,7 @@ impl<'a> Shape<'a> {
             .collect()
     }
 
-    /// The surface over a side, and whether its normal points outward.
+    /// Writes the surface over a side, and says whether its normal points outward.
     pub(super) fn surface(&mut self, side: &Segment) -> (Id, bool) {
         let (bottom, up) = (self.bottom, self.up);
         let start = self.point(side.start(), bottom);
@@ -204,7 +204,7 @@ impl<'a> Shape<'a> {
                     .add(format_args!("CYLINDRICAL_SURFACE('',{frame},{radius})"));
                 (cylinder, arc.bulge > 0.0)
             }
-            Segment::Spline(_) => {
+            Segment::Poly(_) => {
                 let curve = self.curve(side, start, bottom);
                 let height = Real(self.top - bottom);
                 let sweep = self.data.add(format_args!("VECTOR('',{up},{height})"));
@@ -260,12 +260,12 @@ fn logical(truth: bool) -> &'static str {
     if truth { ".T." } else { ".F." }
 }
 
-/// Bézier control points of a polynomial segment: the same curve exactly.
+/// Bézier control points of a polynomial segment, which represent the curve exactly.
 ///
 /// Control point `j` is the polar form at `j` ones and `n - j` minus ones; there a power `k` becomes the
 /// elementary symmetric function of order `k` over its number of terms, at most 1, so digits are kept.
-fn poles(spline: &Spline) -> Vec<Point> {
-    let coefficients = spline.coefficients();
+fn poles(poly: &PolySegment) -> Vec<Point> {
+    let coefficients = poly.coefficients();
     let degree = coefficients.len() - 1;
     let mut poles: Vec<Point> = (0..=degree)
         .map(|ones| {
@@ -286,8 +286,8 @@ fn poles(spline: &Spline) -> Vec<Point> {
             Point::from(pole)
         })
         .collect();
-    poles[0] = spline.start();
-    poles[degree] = spline.end();
+    poles[0] = poly.start();
+    poles[degree] = poly.end();
     poles
 }
 
@@ -300,9 +300,9 @@ mod tests {
     fn control_points_give_the_same_curve() {
         let wave = |t: f64| Point::new(20.0 * t.cos(), 9.0 * (1.3 * t).sin() + t);
         let tolerance = Tolerance::new(1e-9).expect("positive");
-        for spline in Spline::fit(wave, -1.0, 2.0, tolerance) {
-            let poles = poles(&spline);
-            assert_eq!(poles[0], spline.start());
+        for poly in PolySegment::fit(wave, -1.0, 2.0, tolerance) {
+            let poles = poles(&poly);
+            assert_eq!(poles[0], poly.start());
             for i in 0..=40 {
                 let t = f64::from(i) / 40.0;
                 // De Casteljau.
@@ -310,7 +310,7 @@ mod tests {
                 while row.len() > 1 {
                     row = row.windows(2).map(|w| w[0] + (w[1] - w[0]) * t).collect();
                 }
-                let exact = spline.at(2.0 * t - 1.0).point;
+                let exact = poly.at(2.0 * t - 1.0).point;
                 assert!((row[0] - exact).norm() < 2e-14 * 20.0, "{t}");
             }
         }

@@ -1,9 +1,9 @@
-//! Contours fit for a kernel: no side so short that it is nothing to it.
+//! Contours for a CAD kernel, without sides so short that it takes them for points.
 
 use super::StepError;
 use centrode_geometry::{Arc, Outline, Point, Segment};
 
-/// Shortest side of a contour, mm: ten times the accuracy the file claims, under which a kernel takes
+/// Shortest side of a contour, mm: ten times the accuracy stated in the file, under which a kernel takes
 /// two points for one.
 const SHORTEST: f64 = 1e-6;
 /// Height over its chord, mm, below which an arc is a straight line to a kernel.
@@ -34,7 +34,7 @@ pub(super) fn sides(contour: usize, outline: &Outline) -> Result<Vec<Segment>, S
     Ok(kept)
 }
 
-/// The segment with its ends moved by what a side left out was long; an arc that is flat becomes a line.
+/// Segment with its ends moved by the length of a side left out; an arc that is flat becomes a line.
 fn between(segment: &Segment, start: Point, end: Point) -> Segment {
     match segment {
         Segment::Line(..) => Segment::Line(start, end),
@@ -46,7 +46,7 @@ fn between(segment: &Segment, start: Point, end: Point) -> Segment {
             end,
             bulge: arc.bulge,
         }),
-        Segment::Spline(spline) if spline.start() == start && spline.end() == end => *segment,
-        Segment::Spline(spline) => Segment::Spline(spline.pinned(start, end)),
+        Segment::Poly(poly) if poly.start() == start && poly.end() == end => *segment,
+        Segment::Poly(poly) => Segment::Poly(poly.pinned(start, end)),
     }
 }

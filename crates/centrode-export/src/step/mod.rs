@@ -10,7 +10,7 @@ use centrode_geometry::{Shell, Solid};
 use part21::{Data, Id, Text};
 use thiserror::Error;
 
-/// Why a solid cannot be written as STEP.
+/// Reason why a solid cannot be written as STEP.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum StepError {
@@ -29,7 +29,7 @@ pub enum StepError {
     /// A shell with a gap.
     #[error("the faces do not close: an edge is not between two of them")]
     Open,
-    /// A contour encloses nothing a CAD kernel can tell from a point or a line.
+    /// A contour that encloses nothing a CAD kernel can distinguish from a point or a line.
     #[error("contour {contour} (0 is the outer one) encloses no area")]
     NoRegion {
         /// Index of the contour, the outer one first.
@@ -37,7 +37,7 @@ pub enum StepError {
     },
 }
 
-/// A solid as STEP AP214 in millimetres, its product called `name`, the file described by `title`.
+/// Writes a solid as STEP AP214 in millimetres, its product called `name`, the file described by `title`.
 ///
 /// A straight side is a plane, an arc a cylinder, and a polynomial side the sweep of one Bézier curve, so
 /// the file holds the very solid: nothing is approximated. Sides shorter than 1e-6 mm, which a CAD kernel
@@ -49,7 +49,7 @@ pub fn write(solid: &Solid, name: &str, title: &str) -> Result<Vec<u8>, StepErro
     file(name, title, |data, name| brep::manifold(data, name, solid))
 }
 
-/// A closed shell as STEP AP214 in millimetres, its product called `name`, the file described by `title`:
+/// Writes a closed shell as STEP AP214 in millimetres, its product called `name`, the file described by `title`:
 /// planes, cylinders, cones and ruled Bézier surfaces as they are.
 ///
 /// # Errors
@@ -58,7 +58,7 @@ pub fn write_shell(shell: &Shell, name: &str, title: &str) -> Result<Vec<u8>, St
     file(name, title, |data, name| shell::manifold(data, name, shell))
 }
 
-/// A file about one product with the solid that `solid` adds.
+/// Writes a file of one product with the solid that `solid` adds.
 fn file(
     name: &str,
     title: &str,
@@ -82,7 +82,7 @@ fn file(
     data.add(format_args!(
         "SHAPE_DEFINITION_REPRESENTATION({property},{shape})"
     ));
-    // A fixed date: the same design gives the same bytes.
+    // A fixed date: equal designs give equal bytes.
     let header = format!(
         "ISO-10303-21;\nHEADER;\n\
          FILE_DESCRIPTION(({}),'2;1');\n\
@@ -100,7 +100,7 @@ fn file(
     Ok(file.concat().into_bytes())
 }
 
-/// The product the file is about; returns its definition.
+/// Writes the product of the file; returns its definition.
 fn product(data: &mut Data, name: &str) -> Id {
     let application =
         data.add("APPLICATION_CONTEXT('core data for automotive mechanical design processes')");
@@ -125,7 +125,7 @@ fn product(data: &mut Data, name: &str) -> Id {
     ))
 }
 
-/// Millimetres, radians, and the distance under which two points are one.
+/// Writes the units, millimetres and radians, and the distance under which two points are one.
 fn context(data: &mut Data) -> Id {
     let length = data.add("(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT(.MILLI.,.METRE.))");
     let angle = data.add("(NAMED_UNIT(*)PLANE_ANGLE_UNIT()SI_UNIT($,.RADIAN.))");

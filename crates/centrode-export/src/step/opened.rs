@@ -1,4 +1,4 @@
-//! The boundary of an extrusion with an opening through a wall.
+//! Boundary of an extrusion with an opening through a wall.
 
 use super::{
     StepError,
@@ -35,7 +35,7 @@ pub(super) fn manifold(
     ];
     let mut faces = Vec::new();
     let (mut below, mut above) = (Vec::new(), Vec::new());
-    // The two sides the opening takes away, the outline's and the hole's, with what follows them.
+    // The two sides the opening removes, the outline's and the hole's, with the points that follow them.
     let mut opened: Vec<[Edges; 2]> = Vec::new();
     for (index, sides) in contours.iter().enumerate() {
         let ring = ring(&mut shape, sides, opening, heights);
@@ -92,7 +92,7 @@ pub(super) fn manifold(
     faces.push(shape.cap(solid.bottom(), -1.0, &below));
     faces.push(shape.cap(solid.top(), 1.0, &above));
     let [outer, inner] = &opened[..] else {
-        // Sides shorter than a kernel can tell have been closed up, and the opening's with them.
+        // Sides shorter than a kernel's accuracy have been closed up, and the opening's with them.
         return Err(StepError::NoRegion { contour: 0 });
     };
     faces.extend(inside(&mut shape, outer, inner, heights));
@@ -104,7 +104,7 @@ pub(super) fn manifold(
         .add(format_args!("MANIFOLD_SOLID_BREP({name},{shell})")))
 }
 
-/// What the opening needs of a corner of its, and of the side that begins there.
+/// Edges of the opening at one of its corners, and of the side that begins there.
 #[derive(Clone)]
 struct Edges {
     at: Point,
@@ -179,7 +179,7 @@ fn bound(shape: &mut Shape<'_>, kind: &str, edges: &[(Id, bool)]) -> Id {
     shape.closed(kind, &edges)
 }
 
-/// The edges over a contour: at the opening's corners and along its sides also at its heights.
+/// Writes the edges over a contour: at the opening's corners and along its sides also at its heights.
 fn ring(
     shape: &mut Shape<'_>,
     sides: &[Segment],

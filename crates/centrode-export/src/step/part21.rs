@@ -1,4 +1,4 @@
-//! The exchange structure of ISO 10303-21: numbered entities, numbers and texts.
+//! Exchange structure of ISO 10303-21: numbered entities, numbers and texts.
 
 use std::fmt::{self, Display, Write};
 
@@ -30,7 +30,7 @@ impl Display for Real {
     }
 }
 
-/// A text in quotes; what is not plain ASCII is written as its code.
+/// Text in quotes; characters beyond plain ASCII are written as their codes.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Text<'a>(pub(super) &'a str);
 
@@ -64,7 +64,7 @@ impl<T: Display> Display for List<'_, T> {
     }
 }
 
-/// The data section as it grows.
+/// Data section under construction.
 #[derive(Debug, Default)]
 pub(super) struct Data {
     lines: String,

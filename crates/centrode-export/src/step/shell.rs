@@ -1,4 +1,4 @@
-//! The boundary of a shell, face by face.
+//! Boundary of a shell, face by face.
 
 use super::{
     StepError,
@@ -127,7 +127,7 @@ impl Shape<'_> {
         }
     }
 
-    /// A surface, and whether its own normal points out of the body.
+    /// Writes a surface, and says whether its own normal points out of the body.
     fn surface(&mut self, surface: &ShellSurface) -> (Id, bool) {
         match surface {
             ShellSurface::Plane { point, normal } => {
@@ -179,7 +179,7 @@ impl Shape<'_> {
     }
 }
 
-/// Along the axis.
+/// Direction of the axis.
 const UP: [f64; 3] = [0.0, 0.0, 1.0];
 
 fn logical(truth: bool) -> &'static str {

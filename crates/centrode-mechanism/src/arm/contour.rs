@@ -1,4 +1,4 @@
-//! The contours of an arm, exact, in the arm's frame with the pusher's axis below the planet's.
+//! Exact contours of an arm, in the arm's frame with the pusher's axis below the planet's.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -9,7 +9,7 @@ use centrode_geometry::{Arc, Outline, Point, Segment, Vector};
 pub(super) struct Contour {
     pub(super) drum_radius: f64,
     pub(super) tube_radius: f64,
-    /// Middles of the tube's rounded ends.
+    /// X coordinates of the centres of the tube's rounded ends.
     pub(super) rear: f64,
     pub(super) front: f64,
     pub(super) offset: f64,
@@ -24,7 +24,7 @@ impl Contour {
         Point::new(x, -self.offset)
     }
 
-    /// Drum and tube in one belt.
+    /// Belt around drum and tube.
     pub(super) fn housing(&self) -> Option<Outline> {
         self.belt(0.0)
     }
@@ -37,7 +37,7 @@ impl Contour {
         ])
     }
 
-    /// A belt with its round front split where a bar of a half height along the pusher's axis leaves it, and the two
+    /// Belt with its round front split where a bar of a half height along the pusher's axis leaves it, and the two
     /// corners, the lower one first; `None` where the bar does not leave through the front.
     pub(super) fn split(&self, inset: f64, half: f64) -> Option<(Outline, [Point; 2])> {
         let radius = self.tube_radius - inset;
@@ -88,7 +88,7 @@ impl Contour {
         ((self.root - self.end) / length).acos()
     }
 
-    /// Where the flake's upper side leaves the tube's rounded front, seen from its middle.
+    /// Direction in which the flake's upper side leaves the tube's rounded front, seen from its centre.
     fn leaves(&self) -> f64 {
         self.slant() - (self.root / self.tube_radius).acos()
     }
@@ -157,7 +157,7 @@ impl Contour {
     }
 }
 
-/// The outline seen from the other side, across the x axis, again counter-clockwise.
+/// Mirror image of an outline across the x axis, again counter-clockwise.
 pub(super) fn mirrored(outline: &Outline) -> Option<Outline> {
     let flip = |p: Point| Point::new(p.x, -p.y);
     let segments = outline
@@ -171,7 +171,7 @@ pub(super) fn mirrored(outline: &Outline) -> Option<Outline> {
                 end: flip(arc.start),
                 bulge: arc.bulge,
             })),
-            Segment::Spline(_) => None,
+            Segment::Poly(_) => None,
         });
     Outline::new(segments.collect::<Option<Vec<_>>>()?).ok()
 }

@@ -3,7 +3,7 @@ use centrode_geometry::{Crossing, Opening, Outline, Point};
 use super::contour::{Contour, mirrored};
 use super::spec::ArmBodySpec;
 use crate::gear::design::SpecError;
-use crate::gear::design::rule::{between, positive};
+use crate::gear::design::rule::{in_range, positive};
 
 /// One part of an arm: its contour in the arm's frame and where it lies along the planet's axis.
 #[derive(Clone, Debug, PartialEq)]
@@ -14,9 +14,9 @@ pub struct ArmPart {
     pub outline: Outline,
     /// Contours of holes, counter-clockwise.
     pub holes: Vec<Outline>,
-    /// From where to where along the planet's axis, mm, from the middle of the housing.
+    /// Extent along the planet's axis, mm, from the middle of the housing.
     pub span: [f64; 2],
-    /// What goes through a wall of it, square to the planet's axis.
+    /// Opening through a wall of it, square to the planet's axis.
     pub opening: Option<Opening>,
 }
 
@@ -28,7 +28,7 @@ pub struct ArmBody {
     parts: Vec<ArmPart>,
 }
 
-/// Why there is no such arm.
+/// Error of an arm that cannot be built.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ArmError {
@@ -79,14 +79,14 @@ pub enum ArmError {
         /// Outer radius of the tube, mm.
         tube_radius: f64,
     },
-    /// Something inside is larger than what is to hold it.
+    /// A part inside is larger than the room that is to hold it.
     #[error("{inner} is {inner_size} mm, but {outer} leaves {outer_size} mm")]
     TooLarge {
-        /// Key of what is inside.
+        /// Key of the inner part.
         inner: &'static str,
         /// Its size, mm.
         inner_size: f64,
-        /// Key of what encloses it.
+        /// Key of the outer part.
         outer: &'static str,
         /// The room, mm.
         outer_size: f64,
@@ -94,14 +94,14 @@ pub enum ArmError {
     /// The contour meets itself.
     #[error("the arm's outline crosses itself at ({x}, {y}) mm")]
     Crossing {
-        /// Where, mm.
+        /// X coordinate, mm.
         x: f64,
-        /// Where, mm.
+        /// Y coordinate, mm.
         y: f64,
     },
 }
 
-/// Where an arm's clamp is: the arm's own three figures.
+/// Position and length of an arm's clamp: the arm's own three figures.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Reach {
     pub(super) tip_distance: f64,
@@ -110,7 +110,7 @@ pub(super) struct Reach {
 }
 
 impl ArmBody {
-    /// The arm whose clamp ends `tip_distance` (S) from the planet's axis, on a pusher's axis that passes
+    /// Builds the arm whose clamp ends `tip_distance` (S) from the planet's axis, on a pusher's axis that passes
     /// it at `pusher_offset` (H), and is `clamp_length` long outside the housing; all mm.
     ///
     /// In the arm's frame the tip is at `(sqrt(S^2 - H^2), -H)`: the direction of the clamp is that of the
@@ -179,7 +179,7 @@ impl ArmBody {
         })
     }
 
-    /// Everything of the arm as seen along the planet's axis, counter-clockwise: lines and arcs.
+    /// Contour of the whole arm as seen along the planet's axis, counter-clockwise: lines and arcs.
     #[must_use]
     pub fn outline(&self) -> &Outline {
         &self.outline
@@ -206,7 +206,7 @@ impl Reach {
             clamp_length,
         } = *self;
         positive("tip_distance", tip_distance)?;
-        between(
+        in_range(
             "pusher_offset",
             pusher_offset,
             [-tip_distance, tip_distance],
@@ -246,7 +246,7 @@ impl Reach {
     }
 }
 
-/// What is inside is smaller than what encloses it.
+/// Checks that every inner part is smaller than the one that encloses it.
 fn fits(spec: &ArmBodySpec, tube_length: f64) -> Result<(), ArmError> {
     let (housing, clamp, rod, spring) = (&spec.housing, &spec.clamp, &spec.push_rod, &spec.spring);
     let tube = 2.0 * (housing.tube_radius - housing.wall);

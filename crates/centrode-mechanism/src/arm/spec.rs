@@ -4,20 +4,20 @@ use serde::{Deserialize, Serialize};
 use crate::gear::design::SpecError;
 use crate::gear::design::rule::{not_negative, positive};
 
-/// What an arm is made of, around its planet's axis and along its pusher's axis.
+/// The parts of an arm, around its planet's axis and along its pusher's axis.
 ///
 /// The arm's frame: the planet's axis is the origin, x points along the pusher's axis the way the clamp
 /// points. A point behind another is at a smaller x.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct ArmBodySpec {
-    /// What encloses cam, fork and spring.
+    /// Housing that encloses cam, fork and spring.
     pub housing: HousingSpec,
-    /// What holds the seedling.
+    /// Clamp that holds the seedling.
     pub clamp: ClampSpec,
-    /// What opens the clamp and pushes the seedling out.
+    /// Push rod that opens the clamp and pushes the seedling out.
     pub push_rod: PushRodSpec,
-    /// What throws the push rod out.
+    /// Spring that throws the push rod out.
     pub spring: SpringSpec,
 }
 
@@ -29,7 +29,7 @@ pub struct HousingSpec {
     pub drum_radius: f64,
     /// Outer radius of the tube, mm: room for spring and rod.
     pub tube_radius: f64,
-    /// How far the middle of the tube's rounded rear end lies behind the planet's axis, mm.
+    /// Distance of the centre of the tube's rounded rear end behind the planet's axis, mm.
     pub tube_back: f64,
     /// Width along the planet's axis, mm.
     pub width: f64,
@@ -86,7 +86,7 @@ impl Default for ClampSpec {
 pub struct PushRodSpec {
     /// Diameter of the rod, mm.
     pub diameter: f64,
-    /// How far the rod is drawn back when it holds no seedling out, mm.
+    /// Distance by which the rod is drawn back when it holds no seedling out, mm.
     pub stroke: f64,
     /// Height of the pusher on its end, mm.
     pub pusher_height: f64,
@@ -134,10 +134,10 @@ impl Default for SpringSpec {
 }
 
 impl ArmBodySpec {
-    /// Ranges.
+    /// Checks the ranges.
     ///
     /// # Errors
-    /// [`SpecError`] with the key at fault. Whether the parts fit one another is told by
+    /// [`SpecError`] with the key at fault. Whether the parts fit one another is checked by
     /// [`ArmBody::new`](super::ArmBody::new).
     pub fn validate(&self) -> Result<(), SpecError> {
         for (key, size) in [
@@ -177,14 +177,14 @@ impl ArmBodySpec {
         1.1 * self.push_rod.diameter
     }
 
-    /// Where the push rod begins along the pusher's axis when it is thrown out, mm: drawn back, it ends just
-    /// inside the tube's rounded rear wall.
+    /// Position of the push rod's rear end along the pusher's axis when it is thrown out, mm: drawn back, it ends
+    /// just inside the tube's rounded rear wall.
     pub(crate) fn rod_end(&self) -> f64 {
         let housing = &self.housing;
         self.push_rod.stroke - housing.tube_back - 0.9 * (housing.tube_radius - housing.wall)
     }
 
-    /// Every length enlarged `k` times; forces with it, stiffness as it is.
+    /// Sizes enlarged `k` times; forces with them, stiffness as it is.
     #[must_use]
     pub fn scaled(&self, k: f64) -> Self {
         Self {

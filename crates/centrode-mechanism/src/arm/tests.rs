@@ -20,7 +20,7 @@ fn the_arm_is_one_simple_contour_of_lines_and_arcs_that_ends_at_the_tip() {
     let arm = published(&ArmBodySpec::default()).expect("an arm");
     let outline = arm.outline();
     assert!(outline.is_counter_clockwise() && outline.crossing().is_none());
-    let smooth = |s: &Segment| matches!(s, Segment::Spline(_));
+    let smooth = |s: &Segment| matches!(s, Segment::Poly(_));
     assert!(!outline.segments().iter().any(smooth));
     let tip = arm.tip();
     assert!((tip.coords.norm() - 145.0).abs() < 1e-12 && tip.y == -65.0);

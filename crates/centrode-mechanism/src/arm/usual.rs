@@ -1,4 +1,4 @@
-//! The usual sizes of an arm, where a design gives none.
+//! Usual sizes of an arm, where a design gives none.
 
 use super::ArmBodySpec;
 use super::parts::Reach;
@@ -8,18 +8,18 @@ const TIP_DISTANCE: f64 = 145.0;
 /// Length, mm, that tube, spring and the fork's pin of the default sizes take along the pusher's axis, from the
 /// planet's axis to the clamp.
 const BEHIND_CLAMP: f64 = 66.0;
-/// Distance of the pusher's axis from the planet's, mm, at which the default fork still has a lever as it should.
+/// Distance of the pusher's axis from the planet's, mm, for which the default fork's lever is made.
 const BETWEEN_AXES: f64 = 46.0;
 /// Share of the room for the clamp on the housing's front that is used.
 const FILLED: f64 = 0.98;
-/// A size tried after another, as a share of it.
+/// Ratio of each size tried to the one before.
 const SMALLER: f64 = 0.9;
-/// How many scales are tried.
+/// Number of scales tried.
 const SCALES: i32 = 24;
-/// How many heights of clamp and rod are tried on each: down to four tenths.
+/// Number of heights of clamp and rod tried on each: down to four tenths.
 const HEIGHTS: i32 = 9;
 
-/// The default sizes on the scale that suits an arm.
+/// Default sizes on the scale that suits an arm.
 #[derive(Clone, Debug, PartialEq)]
 pub struct UsualArm {
     /// Scale of the default sizes, and of the usual cam and fork.
@@ -29,14 +29,14 @@ pub struct UsualArm {
 }
 
 impl UsualArm {
-    /// The arm whose tip lies `tip_distance` (S) from the planet's axis, on a pusher's axis that passes it at
+    /// Sizes the arm whose tip lies `tip_distance` (S) from the planet's axis, on a pusher's axis that passes it at
     /// `pusher_offset` (H), with a clamp of `clamp_length` (L); all mm.
     ///
     /// The scale is `min(S / 145, (sqrt(S^2 - H^2) - L) / 66, |H| / 46)`: behind the clamp there is room for the spring
     /// and, behind that, the fork's pin; between the axes for the fork and its lever. Where the belt to the drum leaves
     /// the housing's front too low, the clamp's root is made lower, down to its tip, then clamp and rod slimmer, down to
-    /// four tenths, and in the end all of it smaller. If nothing fits, the sizes are those of the scale, and [`ArmBody::new`](super::ArmBody::new) or the fork tells what is in
-    /// the way.
+    /// four tenths, and in the end all of it smaller. If nothing fits, the sizes are those of the scale, and
+    /// [`ArmBody::new`](super::ArmBody::new) or the fork says which part is in the way.
     #[must_use]
     pub fn new(tip_distance: f64, pusher_offset: f64, clamp_length: f64) -> Self {
         let usual = tip_distance / TIP_DISTANCE;

@@ -1,4 +1,4 @@
-//! Where cam and follower touch, in the cam's own frame.
+//! Contact of cam and follower, in the cam's own frame.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -9,8 +9,8 @@ use super::disc::DiscCam;
 use crate::formula::Taylor;
 use crate::transmission::MotionJet;
 
-/// Cam and follower at one input, in the frame of the cam: its axis is the origin, and the slide or the
-/// arm's pivot stands on the x axis at the input zero.
+/// Cam and follower at one input, in the frame of the cam: its axis is the origin, and the slide or the arm's pivot
+/// lies on the x axis at the input zero.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Contact {
     /// Cam angle, rad.
@@ -21,7 +21,7 @@ pub struct Contact {
     pub roller: Option<Point>,
     /// Curvature of the path of the roller's centre, 1/mm, positive where it is convex.
     pub pitch_curvature: Option<f64>,
-    /// Where the profile is touched, mm.
+    /// Contact point on the profile, mm.
     pub point: Point,
     /// Unit normal of the profile there, out of the cam.
     pub normal: Vector,
@@ -31,9 +31,9 @@ pub struct Contact {
     /// Angle from the direction in which the follower is lifted to the normal, rad,
     /// counter-clockwise positive.
     pub pressure_angle: f64,
-    /// Where a flat face is touched, mm: to the left of the slide, or from the pivot along the arm.
+    /// Position of the contact on a flat face, mm: to the left of the slide, or from the pivot along the arm.
     pub face: Option<f64>,
-    /// Above zero where the profile is regular, at most zero where it is undercut: for a roller of
+    /// Regularity, above zero where the profile is regular, at most zero where it is undercut: for a roller of
     /// radius r one less r times the curvature of its centre's path; for a flat face the radius of
     /// curvature over that of the base circle.
     pub regularity: f64,
@@ -42,7 +42,7 @@ pub struct Contact {
 impl DiscCam {
     /// Polar angle of the slide or pivot in the cam's frame.
     fn direction(&self, input: f64) -> Taylor {
-        // The follower goes round the cam the other way than the cam turns.
+        // Seen from the cam the follower turns against the cam's own sense.
         let sense = self.sense();
         let mut angle = Taylor::constant(sense * input);
         angle.0[1] = sense;
@@ -56,7 +56,7 @@ impl DiscCam {
         (heading, swing)
     }
 
-    /// What rides on the cam, in the cam's frame.
+    /// Roller centre or flat face, in the cam's frame.
     fn rider(&self, input: f64, motion: &MotionJet) -> Rider {
         let c = Taylor::constant;
         match self.follower() {
@@ -99,7 +99,7 @@ impl DiscCam {
         }
     }
 
-    /// How fast a flat face turns in the cam's frame, per radian and positive the way it goes round;
+    /// Rotation rate of a flat face in the cam's frame, per radian, positive in the follower's sense about the cam;
     /// one for a roller.
     pub(super) fn face_rate(&self, input: f64) -> f64 {
         match self.rider(input, &self.motion().at(input)) {
@@ -108,7 +108,7 @@ impl DiscCam {
         }
     }
 
-    /// Cam and follower at an input.
+    /// Analyses the contact at an input.
     ///
     /// The profile is the envelope of the follower: a roller's at the roller's radius from its centre
     /// along the normal of the centre's path; a flat face's at `h n + h' t` for a face at the distance h
@@ -181,7 +181,7 @@ impl DiscCam {
         }
     }
 
-    /// Place of the arm's pivot in the cam's frame.
+    /// Position of the arm's pivot in the cam's frame.
     fn pivot(&self, input: f64, distance: f64) -> Point {
         let angle = self.sense() * input;
         Point::new(distance * angle.cos(), distance * angle.sin())
@@ -210,7 +210,7 @@ impl DiscCam {
     }
 }
 
-/// What rides on the cam.
+/// Part of the follower that touches the cam.
 enum Rider {
     /// Coordinates of the roller's centre.
     Roller(Taylor, Taylor),

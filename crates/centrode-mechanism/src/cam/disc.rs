@@ -29,7 +29,7 @@ pub struct DiscCam {
     start_distance: f64,
 }
 
-/// Why there is no such cam.
+/// Error of a cam that cannot be made.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum CamError {
@@ -49,7 +49,7 @@ pub enum CamError {
     NotPeriodic {
         /// Input after which the motion repeats.
         period: f64,
-        /// How far it has then got.
+        /// Advance over that input.
         advance: f64,
     },
     /// A slide that passes outside the roller's lowest place.
@@ -116,12 +116,12 @@ pub enum CamError {
         /// Cam angle.
         degrees: f64,
     },
-    /// Nothing of the profile is left where its loops are cut off.
+    /// No part of the profile is left after its loops are cut off.
     #[error(
         "the cam has no profile: every part of it lies in a loop, so the roller is too large for the base circle"
     )]
     Looped,
-    /// It cannot be told where the profile crosses itself.
+    /// The crossings of the profile with itself cannot be determined.
     #[error("the cam has no profile: {0}")]
     Unresolved(LoopError),
     /// A profile that leaves the axis outside.
@@ -175,10 +175,10 @@ impl From<MotionError> for CamError {
 }
 
 impl DiscCam {
-    /// The cam that gives a follower a motion: mm of a slide, rad of an arm, zero on the base circle.
+    /// Makes the cam that gives a follower a motion: mm of a slide, rad of an arm, zero on the base circle.
     ///
     /// # Errors
-    /// [`CamError`] where the follower cannot stand on the base circle or follow the motion.
+    /// [`CamError`] where the follower cannot reach the base circle or follow the motion.
     pub fn new(
         motion: Arc<dyn Transmission>,
         follower: Follower,
@@ -204,7 +204,7 @@ impl DiscCam {
         Ok(cam)
     }
 
-    /// The cam of a description.
+    /// Makes the cam of a description.
     ///
     /// # Errors
     /// [`CamError`] naming the rule broken.
@@ -219,16 +219,16 @@ impl DiscCam {
         )
     }
 
-    /// The same with another base circle.
+    /// Makes the cam with another base circle.
     ///
     /// # Errors
-    /// As [`new`](Self::new).
+    /// Those of [`new`](Self::new).
     pub fn with_base_radius(&self, base_radius: f64) -> Result<Self, CamError> {
         let follower = self.follower.clone();
         Self::new(self.motion.clone(), follower, base_radius, self.rotation)
     }
 
-    /// Whether the follower can be where the motion wants it.
+    /// Checks that the follower can take every position of the motion.
     fn follows(&self) -> Result<(), CamError> {
         let ends = self.ends();
         let degrees = f64::to_degrees;
@@ -291,7 +291,7 @@ impl DiscCam {
         peaks(self.motion())
     }
 
-    /// What rides on the cam.
+    /// Follower that rides on the cam.
     #[must_use]
     pub fn follower(&self) -> &Follower {
         &self.follower
@@ -303,7 +303,7 @@ impl DiscCam {
         self.base_radius
     }
 
-    /// Which way the cam turns, seen from the follower.
+    /// Sense in which the cam turns, seen from the follower.
     #[must_use]
     pub fn rotation(&self) -> Turn {
         self.rotation
@@ -321,7 +321,7 @@ impl DiscCam {
         self.start_distance
     }
 
-    /// Which way the follower goes round the cam: 1 counter-clockwise.
+    /// Sense in which the follower turns about the cam: 1 counter-clockwise.
     pub(super) fn sense(&self) -> f64 {
         -self.rotation.sign()
     }

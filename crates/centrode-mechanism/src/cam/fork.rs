@@ -16,7 +16,7 @@ use super::motion::ends;
 use crate::degrees;
 use crate::formula::Taylor;
 use crate::gear::design::SpecError;
-use crate::gear::design::rule::{between, positive};
+use crate::gear::design::rule::{in_range, positive};
 use crate::transmission::{Chain, FromFn, Inverse, MotionJet, Transmission};
 
 /// A swinging arm with the cam's roller on one end and the push rod on the other.
@@ -29,14 +29,14 @@ pub struct Fork {
     pub center_distance: f64,
     /// Distance of the roller's centre from the pivot, mm.
     pub arm_length: f64,
-    /// Which way the fork turns when the cam lifts it.
+    /// Sense in which the fork turns when the cam lifts it.
     #[serde(default)]
     pub lifts: Turn,
-    /// How the other end moves the rod.
+    /// Joint of the other end and the rod.
     pub rod: RodJoint,
 }
 
-/// How a fork and its push rod are joined, by the key `kind`.
+/// Joint of a fork and its push rod, by the key `kind`.
 ///
 /// The angle b is that of the lever to the square on the rod's axis, positive towards retraction; b0
 /// with the roller on the base circle, the rod thrown out.
@@ -65,7 +65,7 @@ pub struct Lever {
 }
 
 impl RodJoint {
-    /// Its lever.
+    /// Lever of the joint.
     #[must_use]
     pub fn lever(&self) -> &Lever {
         match self {
@@ -101,7 +101,7 @@ impl RodJoint {
 }
 
 impl Fork {
-    /// Ranges.
+    /// Checks the ranges.
     ///
     /// # Errors
     /// [`SpecError`] with the key at fault.
@@ -110,7 +110,7 @@ impl Fork {
         let lever = self.rod.lever();
         positive("length", lever.length).map_err(|e| e.inside("rod"))?;
         let start = lever.start.to_degrees();
-        between("start_deg", start, [-85.0, 85.0], " deg").map_err(|e| e.inside("rod"))
+        in_range("start_deg", start, [-85.0, 85.0], " deg").map_err(|e| e.inside("rod"))
     }
 
     fn follower(&self) -> Follower {
@@ -122,7 +122,7 @@ impl Fork {
         })
     }
 
-    /// The cam that retracts the rod as wanted, given by the angle of the arm relative to the cam.
+    /// Makes the cam that retracts the rod as wanted, given by the angle of the arm relative to the cam.
     ///
     /// `retraction` is mm, zero with the rod thrown out; `rotation` is the cam's, seen from the arm.
     ///
@@ -156,7 +156,7 @@ impl Fork {
         DiscCam::new(Arc::new(swing), self.follower(), base_radius, rotation)
     }
 
-    /// The cam that retracts the rod as wanted, given by the machine's input.
+    /// Makes the cam that retracts the rod as wanted, given by the machine's input.
     ///
     /// `arm_angle` is the angle of the arm less that of the carrier, by the same input: it runs one way
     /// and makes one whole turn while `retraction` runs through its period. In the carrier's frame the
@@ -164,8 +164,7 @@ impl Fork {
     /// cam angle is the turn the arm has made since.
     ///
     /// # Errors
-    /// [`CamError::Transmission`] where the arm stands still or does not make one turn; else as
-    /// [`cam`](Self::cam).
+    /// [`CamError::Transmission`] where the arm stops or does not make one turn; else those of [`cam`](Self::cam).
     pub fn cam_by_input(
         &self,
         retraction: Arc<dyn Transmission>,
@@ -173,7 +172,7 @@ impl Fork {
         base_radius: f64,
     ) -> Result<DiscCam, CamError> {
         let (start, way) = (arm_angle.at(0.0).position, arm_angle.advance().signum());
-        // The arm going round counter-clockwise sees the cam turn clockwise.
+        // An arm that turns counter-clockwise sees the cam turn clockwise.
         let rotation = if way > 0.0 {
             Turn::Clockwise
         } else {
@@ -190,7 +189,7 @@ impl Fork {
     }
 }
 
-/// The fork's swing by whatever the rod's retraction is a function of.
+/// Swing of the fork as a function of the rod's retraction.
 #[derive(Debug)]
 struct Swing {
     retraction: Arc<dyn Transmission>,
@@ -372,7 +371,7 @@ mod tests {
         }
     }
 
-    /// A quick drop costs what it must: the figures say so, and the cut cam is the one a roller leaves.
+    /// Guards that figures say what a quick drop costs, and that the cut cam is the one a roller leaves.
     #[test]
     fn a_quicker_drop_is_told_by_acceleration_pressure_angle_and_undercut() {
         let fork = fork(Turn::CounterClockwise, RodJoint::PinOnRod(lever()));

@@ -1,4 +1,4 @@
-//! How far a cam is from what it cannot do.
+//! Margins of a cam: pressure angle, radii of curvature, undercut.
 
 use centrode_geometry::{Extreme, bracketed_root, extremes, greatest, least};
 
@@ -16,21 +16,21 @@ pub struct Limits {
     pub largest_roller: Option<Extreme>,
     /// Least radius of curvature of the profile where it is convex, mm; at most zero where it is undercut.
     pub least_radius: Extreme,
-    /// Least radius of curvature of the profile where it is hollow, mm: the largest grinding wheel;
+    /// Least radius of curvature of the profile where it is concave, mm: the largest grinding wheel;
     /// infinite for a convex cam.
     pub largest_wheel: Extreme,
-    /// Where along a flat face its contact goes, from the least to the greatest place, mm.
+    /// Range of the contact along a flat face, from the least to the greatest position, mm.
     pub face: Option<(f64, f64)>,
     /// Least [`regularity`](super::Contact::regularity): the profile is undercut where it is not
     /// above zero.
     pub regularity: Extreme,
 }
 
-/// Steps of a base radius tried one after the other.
+/// Ratio of each base radius tried to the one before.
 const STEP: f64 = 1.02;
 
 impl DiscCam {
-    /// What the cam's follower and curvature are up to.
+    /// Pressure angles and radii of curvature over a turn.
     #[must_use]
     pub fn limits(&self) -> Limits {
         let ends = self.ends();
@@ -98,11 +98,11 @@ impl DiscCam {
         }
     }
 
-    /// The least base radius, mm, at which the pressure angle stays below `rise` while the cam lifts and
+    /// Least base radius, mm, at which the pressure angle stays below `rise` while the cam lifts and
     /// below `fall` while the follower returns, rad; a right angle leaves a return by a spring free.
     ///
-    /// Looked for upwards in steps of 2 % from a thousandth of the follower's size, then solved. `None`
-    /// where no base circle will do: an arm far from the axis cannot touch a large one.
+    /// Searched upwards in steps of 2 % from a thousandth of the follower's size, then solved. `None` where no base
+    /// circle will do: an arm far from the axis cannot touch a large one.
     #[must_use]
     pub fn least_base_radius(&self, rise: f64, fall: f64) -> Option<f64> {
         self.least_base(|cam| {
@@ -112,14 +112,14 @@ impl DiscCam {
         })
     }
 
-    /// The least base radius, mm, at which no convex part of the profile is sharper than `radius`, mm;
+    /// Least base radius, mm, at which no convex part of the profile is sharper than `radius`, mm;
     /// zero asks for no undercut alone. `None` where no base circle will do.
     #[must_use]
     pub fn least_regular_base_radius(&self, radius: f64) -> Option<f64> {
         self.least_base(|cam| radius - cam.limits().least_radius.value)
     }
 
-    /// The least base radius at which `excess` is not above zero.
+    /// Least base radius at which `excess` is not above zero.
     fn least_base(&self, excess: impl Fn(&Self) -> f64) -> Option<f64> {
         const MOST: u32 = 700;
         let of = |radius: f64| match self.with_base_radius(radius) {
@@ -155,7 +155,7 @@ impl DiscCam {
     }
 }
 
-/// The least place above `low` where `excess` is not above zero, which it is not at `high`.
+/// Least value above `low` at which `excess` is not above zero, by bisection; at `high` it is not.
 fn halved(excess: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
     while high - low > 4.0 * f64::EPSILON * high {
         let middle = 0.5 * (low + high);

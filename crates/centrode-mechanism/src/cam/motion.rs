@@ -11,10 +11,10 @@ use crate::formula::Taylor;
 use crate::gear::design::SpecError;
 use crate::transmission::{MotionJet, Transmission};
 
-/// Share of a whole turn, or of the greatest stroke or velocity, that sums of written figures may miss.
+/// Error allowed to sums of written figures, as a share of a whole turn, or of the greatest stroke or velocity.
 const ROUNDING: f64 = 1e-9;
 
-/// What a follower does in one turn of the cam: exact, and without a jump of position or velocity.
+/// Motion of a follower in one turn of the cam: exact, and without a jump of position or velocity.
 #[derive(Clone, Debug)]
 pub struct Motion {
     /// Input at which the first segment starts, in `[0, 2 pi)`.
@@ -37,11 +37,11 @@ enum Course {
     Rest,
     /// A law and its stroke.
     Law(Law, f64),
-    /// Of the share of the span.
+    /// Polynomial in the share of the span.
     Polynomial(Coefficients),
 }
 
-/// Where two segments meet, and what is not smooth there.
+/// Joint of two segments, and the jumps there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Join {
     /// Cam angle, rad.
@@ -65,7 +65,7 @@ pub struct Peaks {
     pub jerk: Extreme,
 }
 
-/// Why segments make no motion.
+/// Error of segments that make no motion.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum MotionError {
@@ -78,7 +78,7 @@ pub enum MotionError {
         /// Their sum.
         degrees: f64,
     },
-    /// What rises is not what returns.
+    /// Rise and return differ.
     #[error("the follower rises by {rise} and returns by {fall}: a cycle must end where it began")]
     Open {
         /// Sum of all strokes away from the axis, mm or rad.
@@ -250,7 +250,7 @@ impl Course {
 }
 
 impl Piece {
-    /// At an input counted from the start of the piece.
+    /// Motion at an input counted from the start of the piece.
     fn at(&self, input: f64) -> MotionJet {
         let mut x = Taylor::constant(input / self.span);
         x.0[1] = 1.0 / self.span;

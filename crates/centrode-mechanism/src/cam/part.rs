@@ -8,10 +8,10 @@ use super::profile::Profile;
 use crate::bore;
 use crate::gear::design::BodySpec;
 
-/// How far the contour may be from the exact envelope, as a share of the base radius.
+/// Greatest distance of the contour from the exact envelope, as a share of the base radius.
 const ACCURACY: f64 = 1e-11;
 
-/// A disc cam, finished: what is cut and drawn.
+/// Finished disc cam: the part that is cut and drawn.
 #[derive(Clone, Debug)]
 pub struct Cam {
     name: String,
@@ -33,7 +33,7 @@ impl Cam {
         Ok(cam)
     }
 
-    /// A cam with a body.
+    /// Makes a cam with a body.
     ///
     /// # Errors
     /// [`CamError::Looped`] and [`CamError::AxisOutside`] where there is no contour,

@@ -1,9 +1,9 @@
-//! The contour of a cam: the envelope of its follower, cut as a tool of the follower's size would.
+//! Contour of a cam: the envelope of its follower, cut as by a tool of the follower's size.
 
 use std::f64::consts::{PI, TAU};
 
 use centrode_geometry::{
-    Arc, LoopError, Outline, Point, Segment, Spline, Tolerance, least, without_loops,
+    Arc, LoopError, Outline, Point, PolySegment, Segment, Tolerance, least, without_loops,
 };
 
 use super::disc::{CamError, DiscCam};
@@ -86,12 +86,12 @@ impl DiscCam {
     /// The contour within a tolerance of the exact envelope: arcs over the dwells, polynomials of degree
     /// thirteen elsewhere.
     ///
-    /// Where the envelope is singular it crosses itself; what a tool of the follower's size would take
-    /// away is taken away, and [`Profile::undercut`] tells what the follower loses.
+    /// Where the envelope is singular it crosses itself; the material that a tool of the follower's size would remove
+    /// there is removed, and [`Profile::undercut`] says over which angles the follower loses contact.
     ///
     /// # Errors
-    /// [`CamError::Looped`] where nothing is left, [`CamError::Unresolved`] where it cannot be told where it
-    /// crosses itself, [`CamError::AxisOutside`] where it leaves the axis out.
+    /// [`CamError::Looped`] where nothing is left, [`CamError::Unresolved`] where the crossings of the contour
+    /// with itself cannot be determined, [`CamError::AxisOutside`] where it leaves the axis out.
     pub fn profile(&self, tolerance: Tolerance) -> Result<Profile, CamError> {
         let whole = self.envelope(&|input| self.contact(input).point, &self.turns(), tolerance);
         let kept = sound(&whole, tolerance)?;
@@ -132,8 +132,8 @@ impl DiscCam {
         self.closed(parts).map(|(outline, _)| Some(outline))
     }
 
-    /// Ends of the analytic parts, and within each the middle of a run that goes backwards: the loop
-    /// round it, however small, then lies in two parts, where it is found.
+    /// Ends of the analytic parts, and within each the middle of a run that goes backwards: the loop about it,
+    /// however small, then lies in two parts, where it is found.
     fn turns(&self) -> Vec<f64> {
         let ends = self.ends();
         let mut turns = vec![ends[0]];
@@ -161,9 +161,9 @@ impl DiscCam {
             if self.rests(from, to) {
                 parts.extend(self.dwell(curve, from, to));
             } else {
-                let fitted = Spline::fit_spans(curve, from, to, tolerance);
-                parts.extend(fitted.into_iter().map(|(spline, from, to)| Part {
-                    segment: Segment::Spline(spline),
+                let fitted = PolySegment::fit_spans(curve, from, to, tolerance);
+                parts.extend(fitted.into_iter().map(|(poly, from, to)| Part {
+                    segment: Segment::Poly(poly),
                     from,
                     to,
                 }));
@@ -172,8 +172,8 @@ impl DiscCam {
         parts
     }
 
-    /// Whether the follower stands still all the way between two breaks: between them the motion is
-    /// analytic, so a few places without any derivative tell.
+    /// Whether the follower rests all the way between two breaks: between them the motion is analytic, so a few
+    /// samples without any derivative prove it.
     fn rests(&self, from: f64, to: f64) -> bool {
         [0.1, 0.3, 0.6, 0.8].into_iter().all(|share| {
             let motion = self.motion().at(from + share * (to - from));
@@ -235,11 +235,11 @@ fn moved_start(segment: &Segment, start: Point) -> Segment {
     match segment {
         Segment::Line(_, end) => Segment::Line(start, *end),
         Segment::Arc(arc) => Segment::Arc(Arc { start, ..*arc }),
-        Segment::Spline(spline) => Segment::Spline(spline.pinned(start, spline.end())),
+        Segment::Poly(poly) => Segment::Poly(poly.pinned(start, poly.end())),
     }
 }
 
-/// What is left of the parts without their loops.
+/// Parts without their loops.
 fn sound(parts: &[Part], tolerance: Tolerance) -> Result<Vec<Part>, CamError> {
     let segments: Vec<Segment> = parts.iter().map(|part| part.segment).collect();
     let kept = without_loops(&segments, |_, _| true, tolerance).map_err(|cause| match cause {

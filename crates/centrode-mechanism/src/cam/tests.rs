@@ -83,7 +83,7 @@ fn cams() -> Vec<DiscCam> {
     cams
 }
 
-/// Distance of a point from an outline, near enough to be found by looks at each segment.
+/// Distance of a point from an outline, accurate enough when found by samples of each segment.
 fn distance(outline: &Outline, point: Point) -> f64 {
     let mut best = f64::INFINITY;
     for segment in outline.segments() {
@@ -200,7 +200,7 @@ fn normals_curvature_and_pressure_angle_match_differences() {
             let input = TAU * (f64::from(i) + 0.37) / 40.0;
             let [before, at, after] = [-h, 0.0, h].map(|d| cam.contact(input + d));
             let step = after.point - before.point;
-            // The normal stands square on the profile, which it turns along as the curvature says.
+            // The normal is square to the profile, which it turns along as the curvature says.
             assert!(
                 step.dot(&at.normal).abs() < 1e-9,
                 "{:?} {input}",
@@ -283,7 +283,7 @@ fn an_eccentric_circle_moves_a_flat_face_harmonically() {
     assert!(limits.rise_pressure_angle.value < 1e-15);
 }
 
-/// The same circle under a roller: its centre runs round a circle about the cam's own centre.
+/// An eccentric circle under a roller: the roller's centre runs on a circle about the cam's own centre.
 #[test]
 fn an_eccentric_circle_under_a_roller_is_found_again() {
     let (e, reach) = (5.0_f64, 30.0_f64);

@@ -2,11 +2,11 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::gear::design::SpecError;
-use crate::gear::design::rule::line;
+use crate::gear::design::rule::single_line;
 
-/// What the drawing sheets of a design say in their title block, and how they are laid out.
+/// Entries of the title block of a design's drawing sheets, and their layout.
 ///
-/// What is left empty stays empty on the sheet.
+/// An entry left empty stays empty on the sheet.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct DrawingSpec {
@@ -31,7 +31,7 @@ pub struct DrawingSpec {
     /// Size of the sheets; left out, the smallest that takes the part.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub sheet: Option<SheetSize>,
-    /// How the views lie to each other.
+    /// Arrangement of the views.
     pub projection: Projection,
     /// General tolerances.
     pub general_tolerance: String,
@@ -46,7 +46,7 @@ pub struct DrawingSpec {
     Clone, Copy, Debug, Deserialize, Eq, JsonSchema, Ord, PartialEq, PartialOrd, Serialize,
 )]
 pub enum SheetSize {
-    /// 210 x 297 mm, upright.
+    /// 210 x 297 mm, portrait.
     A4,
     /// 420 x 297 mm.
     A3,
@@ -58,14 +58,14 @@ pub enum SheetSize {
     A0,
 }
 
-/// How the views of a part lie to each other, ISO 5456-2.
+/// Arrangement of the views of a part, ISO 5456-2.
 #[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Projection {
-    /// A view stands on the far side of what it looks at: the view from the left on the right.
+    /// A view lies on the far side of the object: the view from the left on the right.
     #[default]
     FirstAngle,
-    /// A view stands on the side it is looked at from.
+    /// A view lies on the side from which the object is seen.
     ThirdAngle,
 }
 
@@ -88,7 +88,7 @@ impl Default for DrawingSpec {
 }
 
 impl DrawingSpec {
-    /// Every word is one line of a drawing.
+    /// Checks that every entry is one line of a drawing.
     ///
     /// # Errors
     /// [`SpecError`] with the key at fault.
@@ -104,7 +104,9 @@ impl DrawingSpec {
             ("edges", &self.edges),
             ("surface", &self.surface),
         ];
-        words.iter().try_for_each(|(key, word)| line(key, word))
+        words
+            .iter()
+            .try_for_each(|(key, word)| single_line(key, word))
     }
 
     pub(crate) fn is_default(&self) -> bool {

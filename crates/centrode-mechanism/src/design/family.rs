@@ -15,7 +15,7 @@ use crate::gear::design::SpecError;
 
 /// A mechanism as written: one of the families, by the key `family`.
 pub trait Design: Any + Debug + Send + Sync {
-    /// Its family.
+    /// Family of the design.
     fn family(&self) -> DesignFamily;
 
     /// Short name.
@@ -37,16 +37,15 @@ pub trait Design: Any + Debug + Send + Sync {
     /// greatest whole number of TOML.
     fn to_toml(&self) -> Result<String, DesignError>;
 
-    /// The key in the design file that a word stands for: a parameter's name, `r1`, or the key itself.
+    /// Key in the design file for a word: a parameter's name, `r1`, or the key itself.
     fn key_of(&self, word: &str) -> String;
 
-    /// The design with the number at a key of its file open, `arm.tip_distance` or `pitch.radius[3]`.
+    /// Opens the number at a key of the design's file, `arm.tip_distance` or `pitch.radius[3]`.
     ///
-    /// A number that is not written, but may be, is opened by [`NumberedDesign::with`] too, if the table it stands
-    /// in is there.
+    /// A number that is not written, but may be, is opened by [`NumberedDesign::with`] too, if its table is there.
     ///
     /// # Errors
-    /// [`DesignFault::UnknownKey`] where no number can stand at the key.
+    /// [`DesignFault::UnknownKey`] where there can be no number at the key.
     fn numbered(&self, key: &str) -> Result<NumberedDesign, DesignError> {
         NumberedDesign::new(self.family(), &self.to_toml()?, key)
     }
@@ -56,7 +55,7 @@ pub trait Design: Any + Debug + Send + Sync {
 }
 
 impl dyn Design {
-    /// The design of a family, where it is of that.
+    /// Casts to the design of a family; `None` for another family.
     #[must_use]
     pub fn downcast_ref<D: DesignSpec>(&self) -> Option<&D> {
         (self as &dyn Any).downcast_ref()
@@ -69,7 +68,7 @@ impl PartialEq for dyn Design {
     }
 }
 
-/// The design file of one family: all that a reader must know of it, in one place.
+/// Design file of one family: its word, template, tables and rules.
 pub trait DesignSpec:
     Clone + Debug + DeserializeOwned + JsonSchema + PartialEq + Send + Serialize + Sync + 'static
 {
@@ -81,19 +80,19 @@ pub trait DesignSpec:
     const TEMPLATE: &'static str;
     /// Keys at the root that hold a table.
     const TABLES: &'static [&'static str];
-    /// Those of them whose key `kind` says what else is in them.
+    /// Tables among them whose key `kind` decides their other keys.
     const TAGGED: &'static [Tagged] = &[];
 
     /// Name and title, as written.
     fn words(&self) -> [&str; 2];
 
-    /// The rules that need no geometry.
+    /// Checks the rules that need no geometry.
     ///
     /// # Errors
     /// [`SpecError`] with the key at fault.
     fn rules(&self) -> Result<(), SpecError>;
 
-    /// The key that a word of this family stands for.
+    /// Key for a word of this family.
     #[must_use]
     fn key_of(_word: &str) -> Option<String> {
         None
@@ -142,7 +141,7 @@ impl<D: DesignSpec> Design for D {
     }
 }
 
-/// A family of mechanism, to one who reads and writes its design files.
+/// Family of mechanism, as readers and writers of its design files need it.
 #[derive(Clone, Copy, Debug)]
 pub struct DesignFamily {
     /// Word of the family, as written at the key `family`.
@@ -179,11 +178,11 @@ impl AsRef<DesignFamily> for DesignFamily {
     }
 }
 
-/// A table whose key `kind` says what else is in it.
+/// Table whose key `kind` decides its other keys.
 #[derive(Clone, Copy, Debug)]
 pub struct Tagged {
     pub(crate) key: &'static str,
     pub(crate) kinds: &'static [&'static str],
-    /// Reads what stands beside `kind`, for the places of its errors.
+    /// Reads the keys beside `kind`, for the places of its errors.
     pub(crate) read: fn(&str, ValueDeserializer<'_>) -> Result<(), Error>,
 }

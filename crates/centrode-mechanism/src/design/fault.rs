@@ -4,11 +4,11 @@ use thiserror::Error;
 
 use crate::gear::design::{Rule, SpecError};
 
-/// What is wrong with a design file, and where.
+/// Error of a design file: the fault and its place.
 #[derive(Debug, Error)]
 #[error("line {line}, column {column}: {}", self.message())]
 pub struct DesignError {
-    /// What is wrong.
+    /// Fault.
     #[source]
     pub fault: DesignFault,
     /// Key at fault with the tables around it, `teeth.backlash`; empty where no key is to blame.
@@ -46,7 +46,7 @@ pub enum DesignFault {
     /// A key that means nothing here.
     #[error("unknown key{}; known are {}", near.as_ref().map_or(String::new(), |n| format!(", did you mean {n:?}?")), known.join(", "))]
     UnknownKey {
-        /// The nearest known key.
+        /// Nearest known key.
         near: Option<String>,
         /// All keys known here.
         known: Vec<String>,
@@ -54,10 +54,10 @@ pub enum DesignFault {
     /// A key that must be there.
     #[error("the key {0:?} is missing")]
     MissingKey(String),
-    /// A word that is none of those allowed.
+    /// A word that is not allowed.
     #[error("unknown word {word:?}{}; known are {}", near.as_ref().map_or(String::new(), |n| format!(", did you mean {n:?}?")), known.join(", "))]
     UnknownWord {
-        /// As written.
+        /// Word as written.
         word: String,
         /// The nearest known word.
         near: Option<String>,
@@ -70,7 +70,7 @@ pub enum DesignFault {
     /// A value outside its range, or against another key.
     #[error("{0}")]
     Value(Rule),
-    /// The mechanism does not exist: the error of what cannot be.
+    /// The mechanism does not exist: the error that says why.
     #[error("{0}")]
     Mechanism(#[source] Box<dyn error::Error + Send + Sync>),
     /// A design that TOML cannot hold.
@@ -78,19 +78,19 @@ pub enum DesignFault {
     NotWritable(String),
 }
 
-/// Why a design gives no mechanism: the key at fault, and what is wrong there.
+/// Error of a design that gives no mechanism: key and fault.
 #[derive(Debug, Error)]
 #[error("{fault}")]
 pub struct MechanismError {
     /// Key of the design file.
     pub key: String,
-    /// What is wrong.
+    /// Fault.
     #[source]
     pub fault: DesignFault,
 }
 
 impl MechanismError {
-    /// The error of something that cannot be.
+    /// Wraps an error of a mechanism that cannot be.
     #[must_use]
     pub fn new(key: String, error: impl error::Error + Send + Sync + 'static) -> Self {
         let fault = DesignFault::Mechanism(Box::new(error));

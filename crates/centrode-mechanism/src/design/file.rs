@@ -16,7 +16,7 @@ impl DesignFile {
     /// Greatest size of a design file, bytes.
     pub const LARGEST: usize = 1 << 20;
 
-    /// Reads a design file of one of the families, tells which, and checks every rule that needs no geometry.
+    /// Reads a design file of one of the families, returns which, and checks every rule that needs no geometry.
     ///
     /// # Errors
     /// [`DesignError`] naming key, line and column.

@@ -2,7 +2,7 @@ use std::ops::Range;
 
 use toml::de::{DeTable, DeValue};
 
-/// Where every key of a file stands.
+/// Places of all keys of a file.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Keys(Vec<Entry>);
 

@@ -81,7 +81,7 @@ impl NumberedDesign {
             toml::Value::Float(_) => false,
             _ => return Err(unknown()),
         };
-        // What is not written must be a key all the same; a count takes no fraction.
+        // A key that is not written must be a known key all the same; a count takes no fraction.
         if !known.iter().any(|k| k == key)
             && let Err(error) = numbered.with(1.0)
         {
@@ -104,7 +104,7 @@ impl NumberedDesign {
             };
         }
         match last {
-            // What is left out takes a number as well as what is written.
+            // A key that is left out takes a number like one that is written.
             Step::Name(name) => {
                 let table = here.as_table_mut()?;
                 Some(table.entry(name.clone()).or_insert(toml::Value::Float(0.0)))
@@ -113,7 +113,7 @@ impl NumberedDesign {
         }
     }
 
-    /// The design with another number there, in the file's unit; a count is rounded.
+    /// Sets the number, in the file's unit; a count is rounded.
     ///
     /// # Errors
     /// [`DesignError`] where the number breaks a rule.

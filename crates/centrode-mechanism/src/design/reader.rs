@@ -7,7 +7,7 @@ use super::keys::{Keys, line_and_column};
 use super::{DesignError, DesignFault};
 use crate::gear::design::SpecError;
 
-/// A file while it is read.
+/// State of reading a file.
 #[derive(Debug)]
 pub(super) struct Reader<'a> {
     text: &'a str,
@@ -27,7 +27,7 @@ impl<'a> Reader<'a> {
         self.keys
     }
 
-    /// The file without its key `family`, and which of the families that names.
+    /// Splits the file into its family, from the key `family`, and all other keys.
     pub(super) fn root<'f, F: AsRef<DesignFamily>>(
         &mut self,
         families: &'f [F],
@@ -47,7 +47,7 @@ impl<'a> Reader<'a> {
         Ok((root, family))
     }
 
-    /// The design of a family.
+    /// Reads the design of a family.
     pub(super) fn design<D: DesignSpec>(
         &self,
         root: Spanned<DeTable<'a>>,
@@ -76,7 +76,7 @@ impl<'a> Reader<'a> {
         Ok(())
     }
 
-    /// Reads a table whose key `kind` says what else is in it, for the places of its errors.
+    /// Reads a table whose key `kind` decides its other keys, for the places of its errors.
     ///
     /// Serde gathers such a table before it looks at its keys, and loses their places on the way.
     fn tagged(&self, root: &DeTable<'a>, tagged: &Tagged) -> Result<(), DesignError> {
@@ -167,7 +167,7 @@ impl<'a> Reader<'a> {
         }
         if let (true, Some(name)) = (message.starts_with("missing field"), names.first()) {
             let fault = DesignFault::MissingKey(name.clone());
-            // What lacks it begins with the text itself: no table has been opened, whatever key comes first.
+            // A root without it begins with the text itself: no table has been opened, whatever key comes first.
             let path = if key.is_empty() || offset == 0 {
                 name.clone()
             } else {

@@ -6,8 +6,10 @@ use serde::{Deserialize, Serialize};
 use super::{Dimension, DimensionSearchSpec, GearsSpec, PlatesSpec};
 use crate::degrees;
 use crate::design::{DesignSpec, DrawingSpec};
-use crate::gear::design::rule::{Rule, broken, finite, line, name, not_negative, positive, within};
-use crate::gear::design::{SpecError, rule::between};
+use crate::gear::design::rule::{
+    Rule, broken, count_in_range, file_name, finite, not_negative, positive, single_line,
+};
+use crate::gear::design::{SpecError, rule::in_range};
 use crate::linkage::Branch;
 
 /// A feeder: a picking six-bar driven through an incomplete gear by a chain from a motor.
@@ -22,10 +24,10 @@ pub struct FeederDesign {
     pub title: String,
     /// The six-bar.
     pub linkage: LinkageSpec,
-    /// Within which the lengths may lie.
+    /// Ranges of the lengths.
     #[serde(default)]
     pub bounds: BoundsSpec,
-    /// What a good feeder reaches.
+    /// Goals of a good feeder.
     #[serde(default)]
     pub goals: FeederGoals,
     /// Motor, chain and receiving slots.
@@ -37,10 +39,10 @@ pub struct FeederDesign {
     /// The links as plates.
     #[serde(default)]
     pub plates: PlatesSpec,
-    /// How exactly the links are made.
+    /// Accuracy with which the links are made.
     #[serde(default)]
     pub making: MakingSpec,
-    /// What a search may move.
+    /// Variables of a search.
     #[serde(default, skip_serializing_if = "DimensionSearchSpec::is_default")]
     pub optimise: DimensionSearchSpec,
     /// The drawing sheets.
@@ -60,7 +62,7 @@ pub struct LinkageSpec {
     pub rocker: f64,
     /// Frame AD, mm; D lies on the x axis.
     pub frame: f64,
-    /// Which way the linkage is assembled: upper has C left of the way from B to D.
+    /// Assembly branch of the linkage: upper has C to the left of the way from B to D.
     #[serde(default)]
     pub branch: Branch,
     /// The effector's pivot F: x and y, mm.
@@ -83,7 +85,7 @@ pub struct BoundsSpec {
     pub frame: [f64; 2],
 }
 
-/// What a good feeder reaches; the defaults are those of the 2022 machine.
+/// Goals of a good feeder; the defaults are those of the 2022 machine.
 ///
 /// Source: Ye et al. 2022, DOI 10.6041/j.issn.1000-1298.2022.05.010, (14) to (18) and section 5.2. The time
 /// the pusher needs is not published.
@@ -94,7 +96,7 @@ pub struct FeederGoals {
     #[serde(rename = "swing_deg", with = "degrees")]
     #[schemars(with = "f64")]
     pub swing: f64,
-    /// By how much the swing may miss it, rad (degrees in the file).
+    /// Greatest deviation of the swing from the wanted one, rad (degrees in the file).
     #[serde(rename = "swing_tolerance_deg", with = "degrees")]
     #[schemars(with = "f64")]
     pub swing_tolerance: f64,
@@ -124,13 +126,13 @@ pub struct DriveSpec {
     pub carried_mass: f64,
 }
 
-/// How exactly the links are made: each dimension lies evenly spread within plus or minus this.
+/// Accuracy with which the links are made: each dimension is uniformly distributed within plus or minus this.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct MakingSpec {
-    /// Of the four lengths, mm.
+    /// Tolerance of the four lengths, mm.
     pub length_tolerance: f64,
-    /// Of both coordinates of the effector's pivot, mm.
+    /// Tolerance of both coordinates of the effector's pivot, mm.
     pub pivot_tolerance: f64,
 }
 
@@ -210,7 +212,7 @@ impl FeederGoals {
     fn validate(&self) -> Result<(), SpecError> {
         let degrees = |key, radians: f64, most: f64| {
             let degrees = (radians.to_degrees() * 1e9).round() / 1e9;
-            between(key, degrees, [0.0, most], " deg")
+            in_range(key, degrees, [0.0, most], " deg")
         };
         positive("swing_deg", self.swing)?;
         degrees("swing_deg", self.swing, 360.0)?;
@@ -263,13 +265,13 @@ impl FeederDesign {
         }
     }
 
-    /// The rules that need no geometry.
+    /// Checks the rules that need no geometry.
     ///
     /// # Errors
     /// [`SpecError`] with the key at fault.
     pub fn validate(&self) -> Result<(), SpecError> {
-        name("name", &self.name)?;
-        line("title", &self.title)?;
+        file_name("name", &self.name)?;
+        single_line("title", &self.title)?;
         let LinkageSpec {
             crank,
             coupler,
@@ -294,7 +296,7 @@ impl FeederDesign {
         self.goals.validate().map_err(|e| e.inside("goals"))?;
         positive("drive.motor_rpm", self.drive.motor_rpm)?;
         positive("drive.chain_ratio", self.drive.chain_ratio)?;
-        within("drive.slots", self.drive.slots, 1, 1000)?;
+        count_in_range("drive.slots", self.drive.slots, 1, 1000)?;
         not_negative("drive.carried_mass", self.drive.carried_mass)?;
         self.gears.validate().map_err(|e| e.inside("gears"))?;
         self.plates.validate().map_err(|e| e.inside("plates"))?;

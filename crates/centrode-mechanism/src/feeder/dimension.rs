@@ -42,7 +42,7 @@ impl Dimension {
         Self::PivotY,
     ];
 
-    /// Its name, as `optimise.hold` writes it.
+    /// Name, as written in `optimise.hold`.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -68,13 +68,13 @@ impl Dimension {
         }
     }
 
-    /// True for a coordinate of the pivot.
+    /// Whether it is a coordinate of the pivot.
     #[must_use]
     pub fn is_of_pivot(self) -> bool {
         matches!(self, Self::PivotX | Self::PivotY)
     }
 
-    /// Its value in a linkage, mm.
+    /// Value in a linkage, mm.
     #[must_use]
     pub fn of(self, linkage: &LinkageSpec) -> f64 {
         match self {
@@ -87,7 +87,7 @@ impl Dimension {
         }
     }
 
-    /// Sets it in a linkage, mm.
+    /// Sets the value in a linkage, mm.
     pub fn set(self, linkage: &mut LinkageSpec, value: f64) {
         let place = match self {
             Self::Crank => &mut linkage.crank,

@@ -5,7 +5,7 @@ use crate::gear::design::SpecError;
 use crate::gear::{IncompleteError, IncompletePairError};
 use crate::linkage::{FourBarError, SixBarError};
 
-/// Why a feeder does not exist.
+/// Error of a feeder that cannot be made.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum FeederError {
@@ -39,7 +39,7 @@ pub enum FeederError {
         "the slot for the slider would begin {start:.4} mm from the effector's pivot, whose hole has a radius of {radius} mm: take a shorter slider or a thinner pin, or move the pivot away from the slider's path"
     )]
     SlotMeetsPivot {
-        /// Where the slot begins, mm from the pivot.
+        /// Distance of the slot's start from the pivot, mm.
         start: f64,
         /// Radius of the pivot's hole, mm.
         radius: f64,
@@ -50,7 +50,7 @@ pub enum FeederError {
 }
 
 impl FeederError {
-    /// The key of the design to blame.
+    /// Key of the design to blame.
     #[must_use]
     pub fn key(&self) -> String {
         match self {

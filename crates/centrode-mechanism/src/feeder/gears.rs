@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::degrees;
-use crate::gear::design::rule::{between, not_negative, positive, within};
+use crate::gear::design::rule::{count_in_range, in_range, not_negative, positive};
 use crate::gear::design::{GearPairDesign, SpecError};
 use crate::gear::pitch::{Circle, PitchSpec};
 use crate::gear::{IncompleteDrive, IncompleteError, IncompletePairSpec, Pins};
@@ -29,9 +29,9 @@ pub struct GearsSpec {
     pub entry: f64,
     /// Module, mm.
     pub module: f64,
-    /// Play of the teeth along their normal, mm.
+    /// Normal backlash of the teeth, mm.
     pub backlash: f64,
-    /// Play between locking arc and notch, mm.
+    /// Clearance between locking arc and notch, mm.
     pub lock_play: f64,
     /// Radius of the locking arc, mm; left out, the driver's pitch radius.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -39,7 +39,7 @@ pub struct GearsSpec {
     /// Diameter of the pins that run on the entry cam, mm; left out, two and a half modules.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pin_diameter: Option<f64>,
-    /// Diameter of the circle the pins stand on, mm; left out, three quarters of the driven pitch circle's.
+    /// Diameter of the circle through the pins' centres, mm; left out, three quarters of the driven pitch circle's.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pin_circle: Option<f64>,
     /// Angle of each pin from the line of centres at rest, rad (degrees in the file).
@@ -73,14 +73,14 @@ impl Default for GearsSpec {
 }
 
 impl GearsSpec {
-    /// Most pitches round a gear.
+    /// Greatest number of pitches round a gear.
     const MOST: u32 = 1000;
 
     pub(super) fn validate(&self) -> Result<(), SpecError> {
-        within("driver_pitches", self.driver_pitches, 1, Self::MOST)?;
-        within("driven_pitches", self.driven_pitches, 1, Self::MOST)?;
-        within("teeth", self.teeth, 1, Self::MOST)?;
-        between("entry_deg", self.entry.to_degrees(), [0.0, 180.0], " deg")?;
+        count_in_range("driver_pitches", self.driver_pitches, 1, Self::MOST)?;
+        count_in_range("driven_pitches", self.driven_pitches, 1, Self::MOST)?;
+        count_in_range("teeth", self.teeth, 1, Self::MOST)?;
+        in_range("entry_deg", self.entry.to_degrees(), [0.0, 180.0], " deg")?;
         for (key, value) in [
             ("module", Some(self.module)),
             ("lock_radius", self.lock_radius),
@@ -95,7 +95,7 @@ impl GearsSpec {
         }
         not_negative("backlash", self.backlash)?;
         not_negative("lock_play", self.lock_play)?;
-        between(
+        in_range(
             "pin_angle_deg",
             self.pin_angle.to_degrees(),
             [5.0, 85.0],
@@ -130,7 +130,7 @@ impl GearsSpec {
         }
     }
 
-    /// The motion they make.
+    /// Motion of the gears.
     ///
     /// # Errors
     /// [`IncompleteError`], for instance for equal pitch circles, which leave nothing to dwell.

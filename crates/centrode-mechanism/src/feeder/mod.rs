@@ -32,7 +32,7 @@ use crate::transmission::{MotionJet, Transmission};
 /// Parts of a stroke in each of which the motion is smooth but for its breaks.
 const PARTS: u32 = 8;
 
-/// One way of the effector.
+/// Stroke of the effector one way.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stroke {
     /// Input at which it begins, rad.
@@ -182,7 +182,7 @@ impl Feeder {
         bracketed_root(off, 0.0, motion, low, high)
     }
 
-    /// The way from the store to the conveyor, and back.
+    /// Strokes from the store to the conveyor, and back.
     #[must_use]
     pub fn strokes(&self) -> [Stroke; 2] {
         let extremes = self.six_bar.extremes();

@@ -8,7 +8,7 @@ use super::{Feeder, FeederError};
 /// A part of the six-bar, cut from plate.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub enum Part {
-    /// What holds the three shafts A, D and F; one in front of the links, one behind.
+    /// Plate that holds the three shafts A, D and F; one in front of the links, one behind.
     Frame,
     /// The crank AB.
     Crank,
@@ -23,7 +23,7 @@ pub enum Part {
 }
 
 impl Part {
-    /// All of them.
+    /// All parts.
     pub const ALL: [Self; 6] = [
         Self::Frame,
         Self::Crank,
@@ -33,7 +33,7 @@ impl Part {
         Self::Slider,
     ];
 
-    /// The name of its files.
+    /// Name of the part's files.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -46,7 +46,7 @@ impl Part {
         }
     }
 
-    /// How many of it one six-bar needs.
+    /// Number of the part that one six-bar needs.
     #[must_use]
     pub fn quantity(self) -> u32 {
         match self {
@@ -55,7 +55,7 @@ impl Part {
         }
     }
 
-    /// Which plate along the shafts it is; the frame is the one below the first.
+    /// Layer of the part's plate along the shafts; the frame is the one below the first.
     fn layer(self) -> f64 {
         match self {
             Self::Frame => -1.0,
@@ -70,9 +70,9 @@ impl Part {
 /// A joint of a [`Plate`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlateJoint {
-    /// Its letter, A to F.
+    /// Letter, A to F.
     pub name: &'static str,
-    /// Where it is, in the plate's own axes, mm.
+    /// Position in the plate's own axes, mm.
     pub at: Point,
     /// Whether there is a hole for a pin.
     pub hole: bool,
@@ -81,15 +81,15 @@ pub struct PlateJoint {
 /// A part as a plate in its own axes: the first joint in the origin, the second one along x.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plate {
-    /// Which part.
+    /// The part.
     pub part: Part,
-    /// Its contour.
+    /// Contour.
     pub outline: Outline,
     /// Holes for pins.
     pub holes: Vec<Outline>,
     /// Ends of the slot along x, mm, round ends included, and its contour.
     pub slot: Option<([f64; 2], Outline)>,
-    /// Its joints.
+    /// Joints.
     pub joints: Vec<PlateJoint>,
     /// Height of the lower face along the shafts, mm.
     pub bottom: f64,
@@ -98,7 +98,7 @@ pub struct Plate {
 }
 
 impl Plate {
-    /// Everything that is cut out of it.
+    /// Contours of all cut-outs: holes and slot.
     #[must_use]
     pub fn cut_outs(&self) -> Vec<Outline> {
         let slot = self.slot.iter().map(|(_, contour)| contour.clone());
@@ -209,7 +209,7 @@ impl Feeder {
         Ok([start, end])
     }
 
-    /// Where a part's own axes are at a crank angle.
+    /// Pose of a part's own axes at a crank angle.
     #[must_use]
     pub fn place(&self, part: Part, crank: f64) -> Isometry2<f64> {
         let bar = self.six_bar().four_bar();
@@ -228,7 +228,7 @@ impl Feeder {
         Isometry2::new(origin.coords, way.y.atan2(way.x))
     }
 
-    /// Room between the rocker's shaft D, where it passes the effector, and the effector's plate at an input, mm;
+    /// Clearance between the rocker's shaft D, where it passes the effector, and the effector's plate at an input, mm;
     /// below zero where they overlap.
     #[must_use]
     pub fn shaft_clearance(&self, input: f64) -> f64 {

@@ -2,7 +2,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::gear::design::SpecError;
-use crate::gear::design::rule::{between, line, not_negative, positive};
+use crate::gear::design::rule::{in_range, not_negative, positive, single_line};
 
 /// The links as plates, stacked along the shafts: crank, coupler, rocker, effector.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
@@ -20,7 +20,7 @@ pub struct PlatesSpec {
     pub slot_width: f64,
     /// Length of the slider along the slot, mm.
     pub slider_length: f64,
-    /// Play of the slider at the ends of the slot, mm.
+    /// Clearance of the slider at the ends of the slot, mm.
     pub slot_play: f64,
     /// Material, for the drawing.
     pub material: String,
@@ -57,20 +57,20 @@ impl PlatesSpec {
             positive(key, value)?;
         }
         // Holes leave material around them, and the slider has room for its pin.
-        between(
+        in_range(
             "pin_diameter",
             self.pin_diameter,
             [0.0, 0.9 * self.width],
             " mm",
         )?;
-        between(
+        in_range(
             "slot_width",
             self.slot_width,
             [1.1 * self.pin_diameter, 0.9 * self.width],
             " mm",
         )?;
         let longest = f64::MAX;
-        between(
+        in_range(
             "slider_length",
             self.slider_length,
             [self.slot_width, longest],
@@ -78,6 +78,6 @@ impl PlatesSpec {
         )?;
         not_negative("gap", self.gap)?;
         not_negative("slot_play", self.slot_play)?;
-        line("material", &self.material)
+        single_line("material", &self.material)
     }
 }

@@ -4,27 +4,27 @@ use serde::{Deserialize, Serialize};
 use super::{Dimension, FeederDesign};
 use crate::degrees;
 use crate::gear::design::SpecError;
-use crate::gear::design::rule::{Rule, broken, not_negative, positive, within};
+use crate::gear::design::rule::{Rule, broken, count_in_range, not_negative, positive};
 
-/// What a search for better dimensions may move, how finely, and when it is good enough.
+/// Variables of a search for better dimensions, their resolution, and the end of the search.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct DimensionSearchSpec {
     /// Dimensions that stay as they are; the other lengths move within `bounds`.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub hold: Vec<Dimension>,
-    /// True: the effector's pivot moves, too. Lengths of any size have places of the pivot with the swing wanted, so
-    /// that its way must be weighed.
+    /// Whether the pivot is a variable too. Any lengths reach the wanted swing for some pivot, so its displacement
+    /// must be penalised.
     pub free_pivot: bool,
-    /// What a millimetre of the pivot's way counts as miss of the swing, rad (degrees in the file).
+    /// Deviation of the swing that a millimetre of the pivot's displacement counts as, rad (degrees in the file).
     #[serde(rename = "pivot_weight_deg", with = "degrees")]
     #[schemars(with = "f64")]
     pub pivot_weight: f64,
-    /// How far a free pivot may move along x and along y, either way, mm.
+    /// Greatest displacement of a free pivot along x and along y, either way, mm.
     pub pivot_room: f64,
     /// Decimals of the dimensions found, mm: 9 for a swing to a millionth of a degree, 2 for a drawing.
     pub decimals: u32,
-    /// Miss of the swing at which a search ends, rad (degrees in the file).
+    /// Deviation of the swing at which a search ends, rad (degrees in the file).
     #[serde(rename = "accuracy_deg", with = "degrees")]
     #[schemars(with = "f64")]
     pub accuracy: f64,
@@ -44,7 +44,7 @@ impl Default for DimensionSearchSpec {
 }
 
 impl DimensionSearchSpec {
-    /// True where nothing is asked for.
+    /// Whether the table is left at its defaults.
     pub(super) fn is_default(&self) -> bool {
         *self == Self::default()
     }
@@ -56,13 +56,13 @@ impl DimensionSearchSpec {
             return broken("pivot_weight_deg", Rule::Needed(why));
         }
         positive("pivot_room", self.pivot_room)?;
-        within("decimals", self.decimals, 0, 12)?;
+        count_in_range("decimals", self.decimals, 0, 12)?;
         positive("accuracy_deg", self.accuracy)
     }
 }
 
 impl FeederDesign {
-    /// The dimensions a search moves, with their least and greatest value, mm.
+    /// Variables of a search, with their least and greatest value, mm.
     #[must_use]
     pub fn free_dimensions(&self) -> Vec<(Dimension, [f64; 2])> {
         let spec = &self.optimise;

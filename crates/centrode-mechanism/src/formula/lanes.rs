@@ -10,12 +10,12 @@ use super::number::Number;
 /// Numbers side by side.
 pub(crate) const LANES: usize = 2;
 
-/// So many numbers.
+/// Vector of that many numbers.
 pub(crate) type Lanes = f64x2;
 
-/// Added and taken away again it rounds to a whole number, halves to the even one.
+/// Magic number that rounds: added and subtracted again it leaves a whole number, halves to the even one.
 const ROUNDING: f64 = 6_755_399_441_055_744.0;
-/// Up to here an angle has less than 2^16 quarter turns, and their number times the first part of one is exact.
+/// Greatest angle with less than 2^16 quarter turns, whose number times the first part of one is exact.
 const FARTHEST: f64 = 100_000.0;
 /// A quarter turn in parts of 33, 20 and 53 bits.
 const QUARTER: [f64; 3] = {
@@ -37,7 +37,7 @@ const ARCTANGENT: [f64; 10] = {
     c
 };
 
-/// 1 / first!, 1 / (first + 2)! and so on.
+/// Coefficients 1 / first!, 1 / (first + 2)! and so on.
 const fn inverse_factorials(first: usize) -> [f64; 8] {
     let mut c = [0.0; 8];
     let (mut factorial, mut n, mut k) = (1.0, 1, 0);
@@ -69,7 +69,7 @@ fn alternating<const COUNT: usize>(c: [f64; COUNT], z: f64x2) -> f64x2 {
     even - z * odd
 }
 
-/// The whole number next to each.
+/// Nearest whole number of each lane.
 #[inline(always)]
 fn whole(x: f64x2) -> f64x2 {
     let shift = f64x2::from(ROUNDING);
@@ -123,7 +123,7 @@ impl Number for f64x2 {
         (each.map(|e| e.0).into(), each.map(|e| e.1).into())
     }
 
-    /// From the octant's start, middle or end, whichever is nearest, to the direction.
+    /// Two-argument arctangent: a series from the octant's start, middle or end, whichever is nearest.
     #[inline(always)]
     fn atan2(self, x: Self) -> Self {
         let (across, along) = (self.abs(), x.abs());

@@ -10,7 +10,7 @@ pub(crate) use number::Number;
 pub(crate) use parser::FormulaError;
 pub(crate) use taylor::Taylor;
 
-/// Values a formula may hold back while it computes others.
+/// Depth of the stack: values a formula may hold back while it computes others.
 const DEEPEST: usize = 32;
 
 /// A formula in the variable `phi`, as a program for a stack machine.

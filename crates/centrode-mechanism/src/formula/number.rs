@@ -1,6 +1,6 @@
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// A number, or several side by side: what closed forms and series are worked out in.
+/// Number, or several side by side, in which closed forms and series are computed.
 pub(crate) trait Number:
     Copy
     + From<f64>
@@ -17,7 +17,7 @@ pub(crate) trait Number:
     /// The direction of (x, y), where this is y; (0, 0) has none.
     fn atan2(self, x: Self) -> Self;
 
-    /// One of those side by side; a single number is its only one.
+    /// Value of one lane; a single number is its only one.
     fn lane(self, lane: usize) -> f64;
 
     /// `then` where this is below a bound, `otherwise` where it is not.

@@ -22,7 +22,7 @@ const FUNCTIONS: [(&str, Function); 12] = [
     ("sqrt", Function::Sqrt),
 ];
 
-/// Why a formula cannot be read.
+/// Reason why a formula cannot be read.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[error("{reason} at character {column}")]
 pub(crate) struct FormulaError {
@@ -115,7 +115,7 @@ impl Parser<'_> {
         }
     }
 
-    /// A sign binds looser than a power: `-phi^2` is `-(phi^2)`.
+    /// Parses a sign, which binds looser than a power: `-phi^2` is `-(phi^2)`.
     fn signed(&mut self) -> Result<(), FormulaError> {
         self.nesting += 1;
         if self.nesting > DEEPEST_NESTING {

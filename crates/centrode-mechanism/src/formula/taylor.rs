@@ -38,7 +38,7 @@ impl<const ORDERS: usize, T: Number> Taylor<ORDERS, T> {
         ]
     }
 
-    /// The pair with `s' = a' c` and `c' = sign a' s`.
+    /// Pair of series with `s' = a' c` and `c' = sign a' s`.
     #[inline(always)]
     fn circular(self, (s0, c0): (T, T), sign: f64) -> (Self, Self) {
         let (mut s, mut c) = (Self::constant(s0), Self::constant(c0));
@@ -57,7 +57,7 @@ impl<const ORDERS: usize, T: Number> Taylor<ORDERS, T> {
         self.circular(self.0[0].sin_cos(), -1.0)
     }
 
-    /// Sine and cosine, whose values are known.
+    /// Sine and cosine, from their known values.
     #[inline(always)]
     pub(crate) fn sin_cos_from(self, value: (T, T)) -> (Self, Self) {
         self.circular(value, -1.0)
@@ -161,7 +161,7 @@ impl<const ORDERS: usize> Taylor<ORDERS> {
         Self(s)
     }
 
-    /// This series to a constant power.
+    /// Power of the series to a constant exponent.
     pub(crate) fn power(self, p: f64) -> Self {
         // A whole power has derivatives at zero and below it; a recurrence divides by the value.
         if p == p.trunc() && p.abs() <= 64.0 {

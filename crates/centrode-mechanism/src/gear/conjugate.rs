@@ -2,16 +2,16 @@ use centrode_geometry::{Curve, Jet, Point, Vector};
 
 use super::rolling::Rolling;
 
-/// The driven pitch curve as a curve of its own: what a further gear, or a drawing, is made from.
+/// Driven pitch curve as a curve of its own, from which a further gear, or a drawing, is made.
 ///
 /// Turned so that its point in mesh at phi = 0 lies on the x axis and walked counter-clockwise, as a
 /// driver's is: the conjugate of this curve, at the turned-round mean ratio, is the original.
 #[derive(Clone, Debug)]
-pub struct Conjugate {
+pub struct ConjugateCurve {
     rolling: Rolling,
 }
 
-impl Conjugate {
+impl ConjugateCurve {
     /// The driven curve of a rolling pair.
     #[must_use]
     pub fn of(rolling: Rolling) -> Self {
@@ -19,7 +19,7 @@ impl Conjugate {
     }
 }
 
-impl Curve for Conjugate {
+impl Curve for ConjugateCurve {
     fn period(&self) -> f64 {
         let (n1, n2) = self.rolling.mean_ratio();
         self.rolling.curve().period() * f64::from(n1) / f64::from(n2)

@@ -4,24 +4,23 @@ use centrode_geometry::{bracketed_root, checkpoint};
 
 use super::{
     flank::{Flank, Side},
-    interference::{Passing, Reaches, Trial},
     profile::{FlankPlan, ToothPlan, Top},
     rolling::{Member, Rolling},
     tool::{Corner, Tool},
+    tooth_passage::{Candidate, Reaches, ToothPassage},
 };
 
 /// Least share of a straight rack's flank speed kept at the end of a trimmed flank: below it the
 /// flank ends in a knife edge of no radius of curvature.
 const LEAST_SPEED: f64 = 0.05;
 
-/// How far below the mate's reach a flank goes before its fillet starts, so that the mate's tip edge
-/// clears the fillet.
+/// Active depth of a flank over its mate's reach, so that the mate's tip edge clears the fillet.
 const SPARE: f64 = 1.02;
 
 /// Greatest rounding of a space's corner, as a share of its depth.
 const ROUNDEST: f64 = 0.8;
 
-/// What the trimming needs to know.
+/// Data of the trimming.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Fitting<'a> {
     pub(crate) rolling: &'a Rolling,
@@ -29,7 +28,7 @@ pub(crate) struct Fitting<'a> {
     pub(crate) least_tip_width: f64,
 }
 
-/// Reach in roll and normal height of a tip corner.
+/// Roll length to a tip corner, and its normal height.
 type Tip = (f64, f64);
 
 impl Fitting<'_> {
@@ -81,20 +80,21 @@ impl Fitting<'_> {
                     index.div_euclid(last as isize) as f64 * lengths[1],
                 );
                 let middle = 0.25 * (one[0] + one[1] + two[0] + two[1]);
-                let Some(passing) = Passing::about(self.rolling, self.tool, middle, pitch) else {
+                let Some(passage) = ToothPassage::about(self.rolling, self.tool, middle, pitch)
+                else {
                     continue;
                 };
                 // A flank is needed as far down as any mate reaches; the mates' own reach bounds it.
-                let trial = |member, crossings, reaches, mates: &Reaches| Trial {
+                let candidate = |member, crossings, reaches, mates: &Reaches| Candidate {
                     member,
                     crossings,
                     reaches,
                     depths: [mates[1], mates[0]],
                 };
                 let (a, b) = (reach_1[i], reach_2[j]);
-                let cleared = passing.clear(
-                    &trial(Member::Driver, one, a, &b),
-                    &trial(Member::Driven, two, b, &a),
+                let cleared = passage.clear(
+                    &candidate(Member::Driver, one, a, &b),
+                    &candidate(Member::Driven, two, b, &a),
                 );
                 (reach_1[i], reach_2[j]) = cleared;
             }
@@ -156,7 +156,7 @@ impl Fitting<'_> {
         }
     }
 
-    /// How far up a flank can go with both it and its mate regular, at most its full height.
+    /// Height up to which a flank and its mate are both regular, at most its full height.
     fn regular(&self, member: Member, side: Side, plan: &FlankPlan) -> f64 {
         let Top::Height(height) = plan.top else {
             return 0.0;
@@ -192,8 +192,8 @@ impl Fitting<'_> {
     }
 }
 
-/// How far, in arc length of roll, the flank of `member` on `side` that crosses the pitch curve at
-/// `crossing` can work above it together with its mate, at most `limit`.
+/// Roll length, in arc, up to which the flank of `member` on `side` that crosses the pitch curve at `crossing`
+/// can work above it together with its mate, at most `limit`.
 ///
 /// A roll v above the crossing both flanks are regular while sin alpha + kappa v cos alpha (its own
 /// curvature) and sin alpha - kappa v cos alpha (its mate's) are positive.
@@ -226,7 +226,7 @@ pub(crate) fn reach(
     limit
 }
 
-/// The share of both reaches a tooth can keep with a top land at least `width` wide.
+/// Share of both roll lengths a tooth can keep with a top land at least `width` wide.
 pub(crate) fn share_for_width(
     leading: (&Flank<'_>, f64),
     trailing: (&Flank<'_>, f64),

@@ -5,7 +5,7 @@ use super::{
     tool::{Corner, Tool, ToolKind},
 };
 
-/// One side of a tooth: which way its material lies along the pitch curve.
+/// Side of a tooth, by the order in which flanks mesh.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub enum Side {
     /// The flank reached first, in the order the teeth mesh.
@@ -103,7 +103,7 @@ impl Flank<'_> {
         None
     }
 
-    /// Height of the point generated at arc length `s`, above the pitch point it was generated at.
+    /// Height of the point generated at arc length `s`, above the pitch point at which it was generated.
     pub(crate) fn height(&self, arc: f64) -> f64 {
         let (sin, cos) = self.tool.pressure_angle.sin_cos();
         self.side.sign() * (self.crossing - arc) * sin * cos
@@ -130,7 +130,7 @@ impl Flank<'_> {
         }
     }
 
-    /// Where the flank reaches a normal distance `height` from the pitch curve: the parameters of the
+    /// Parameters at which the flank reaches a normal distance `height` from the pitch curve: of the
     /// flank and of the foot of that normal. `None` where Newton's method leaves the neighbourhood.
     pub(crate) fn at_height(&self, height: f64) -> Option<(f64, f64)> {
         let (sin, cos) = self.tool.pressure_angle.sin_cos();
@@ -155,7 +155,7 @@ impl Flank<'_> {
             }
             t += dt;
             tau += dtau;
-            // One more step after this one changes nothing a double can hold.
+            // A step after this one is below the rounding of a double.
             miss = gap.norm() / at.point.coords.norm();
             if miss < 1e-14 {
                 break;

@@ -8,7 +8,7 @@ use super::{
     tool::{Tool, ToolKind},
 };
 
-/// How the pitch curves bend, and what that allows the teeth.
+/// Curvature of the pitch curves, and the teeth it allows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limits {
     /// Greatest curvature of either pitch curve where it is convex, 1/mm; zero where neither is.
@@ -35,7 +35,7 @@ pub struct CurvatureRange {
 }
 
 impl CurvatureRange {
-    /// Over the whole pitch curve of a member, to the float limit between its breaks.
+    /// Range over the whole pitch curve of a member, to the float limit between its breaks.
     #[must_use]
     pub fn of(rolling: &Rolling, member: Member) -> Self {
         let curvature = |t: f64| rolling.frame(member, t).curvature;
@@ -61,7 +61,7 @@ pub struct PitchPoint {
     /// Angle between the common normal and the driven gear's motion while the driver pushes it on, rad:
     /// |alpha - mu|, with mu the inclination of the pitch curve, tan mu = r'/r.
     pub pressure_angle: f64,
-    /// The same while the driver pushes it back: |alpha + mu|.
+    /// Pressure angle while the driver pushes it back, rad: |alpha + mu|.
     pub reverse_pressure_angle: f64,
 }
 
@@ -97,7 +97,7 @@ impl GearPair {
         }
     }
 
-    /// What module and addendum these pitch curves and this tool allow.
+    /// Module and addendum allowed by these pitch curves and this tool.
     #[must_use]
     pub fn limits(&self) -> Limits {
         let tool = &self.teeth().tool;
@@ -138,7 +138,7 @@ impl GearPair {
                 let spare = |h: f64| {
                     land(&leading, &trailing, h).map_or(-1.0, |w| w - self.teeth().least_tip_width)
                 };
-                // Most teeth are wide enough at what the others leave.
+                // Most teeth are wide enough at the height the others leave.
                 if spare(height) >= 0.0 {
                     continue;
                 }
@@ -159,7 +159,7 @@ impl GearPair {
 }
 
 impl Limits {
-    /// The largest module without undercut or short teeth, mm, where the pitch curves bend no more than so much
+    /// Largest module without undercut or short teeth, mm, where the pitch curves' curvatures are at most those given
     /// (convex, concave, 1/mm): no tooth has to be laid out.
     #[must_use]
     pub fn largest_module_of(design: &GearPairDesign, curvatures: [f64; 2]) -> f64 {

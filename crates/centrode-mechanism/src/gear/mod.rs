@@ -4,21 +4,22 @@ mod conjugate;
 pub mod design;
 mod fitted;
 mod flank;
+mod flank_count;
 mod incomplete;
-mod interference;
 mod limits;
 mod over_pins;
 mod pair;
 pub mod pitch;
 mod profile;
 mod rolling;
-mod soundness;
 mod stage;
 mod teeth;
 mod tool;
+mod tooth_passage;
 
-pub use conjugate::Conjugate;
+pub use conjugate::ConjugateCurve;
 pub use flank::Side;
+pub use flank_count::FlankCount;
 pub use incomplete::{
     Cam, IncompleteDrive, IncompleteError, IncompleteLaw, IncompletePair, IncompletePairError,
     IncompletePairSpec, Pins,
@@ -28,6 +29,5 @@ pub use over_pins::{OverPins, Pin, PinFault};
 pub use pair::{Gear, GearPair, GearPairError};
 pub use profile::{ProfileError, Role, Tooth, ToothSide};
 pub use rolling::{Frame, Member, Rolling, RollingError};
-pub use soundness::Soundness;
 pub use teeth::{TeethError, TeethParameters};
 pub use tool::{Tool, ToolKind};

@@ -6,7 +6,7 @@ use super::{
     rolling::Member,
 };
 
-/// A measuring pin laid into every space of a gear: what a workshop checks tooth thickness with.
+/// Measuring pins laid into every space of a gear, by which a workshop checks tooth thickness.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OverPins {
     /// Diameter of the pin, mm.
@@ -20,23 +20,23 @@ pub struct OverPins {
 pub struct Pin {
     /// Center of the pin in the gear's own frame, mm.
     pub center: Point,
-    /// Where it touches the flanks, clockwise side first.
+    /// Contact points on the flanks, clockwise side first.
     pub contacts: [Point; 2],
     /// Measure over the pin: from the gear's axis to the far side of the pin, `|center| + diameter / 2`, mm.
     pub radial: f64,
 }
 
-/// Why a space cannot be measured with this pin.
+/// Reason why a space cannot be measured with this pin.
 #[derive(Clone, Copy, Debug, Eq, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum PinFault {
     /// The pin is too small: it goes down past the flanks.
     #[error("the pin is too small for this space: it rests on the fillet or the root")]
     TooSmall,
-    /// The pin is too large: it stands on the tips, or above them on nothing.
+    /// The pin is too large: it rests on the tips, or above them on nothing.
     #[error("the pin is too large for this space: it stands on the tips of the teeth")]
     TooLarge,
-    /// Something else is in the way before the pin touches both flanks.
+    /// The gear is in the way before the pin touches both flanks.
     #[error("the pin does not get to the flanks of this space: another tooth is in its way")]
     Blocked,
     /// There is no space: a tooth beside it has been cut off or has no flank.
@@ -45,7 +45,7 @@ pub enum PinFault {
 }
 
 impl OverPins {
-    /// The space whose pin lies most nearly opposite that of space `k`, and the measure over both pins,
+    /// Space whose pin lies most nearly opposite that of space `k`, and the measure over both pins,
     /// `|c_k - c_j| + diameter`, mm. `None` where either cannot be measured.
     #[must_use]
     pub fn across(&self, k: usize) -> Option<(usize, f64)> {
@@ -111,7 +111,7 @@ impl Gear {
         }
     }
 
-    /// The flanks on both sides of every space, in the order of the teeth.
+    /// Flanks on both sides of every space, in the order of the teeth.
     fn spaces(&self) -> Vec<Option<Walls<'_>>> {
         let teeth = self.tooth_count() as usize;
         let mut flanks: Vec<[Vec<&Segment>; 2]> = vec![Default::default(); teeth];
@@ -119,7 +119,7 @@ impl Gear {
         let count = segments.len();
         for (k, sides) in flanks.iter_mut().enumerate() {
             checkpoint();
-            // The segments of one tooth stand together: from the first that does not follow one of its own.
+            // The segments of one tooth are contiguous, from the first that does not follow one of its own.
             let own = |i: usize| self.owners()[i % count] as usize == k;
             let Some(first) = (0..count).find(|&i| own(i) && !own(i + count - 1)) else {
                 continue;
@@ -170,7 +170,7 @@ impl Gear {
     }
 }
 
-/// Where in a tooth's run of segments its first flank ends: at the tip, or at the sharpest corner of a
+/// Index in a tooth's run of segments at which its first flank ends: at the tip, or at the sharpest corner of a
 /// pointed tooth.
 fn crest(run: &[usize], segments: &[Segment], roles: &[Role]) -> usize {
     if let Some(tip) = run.iter().position(|&i| roles[i] == Role::Tip) {
@@ -194,7 +194,7 @@ struct Walls<'a> {
     up: Vec<&'a Segment>,
 }
 
-/// Points a segment where signs are looked for.
+/// Points a segment at which signs are sampled.
 const SAMPLES: u32 = 12;
 
 impl Walls<'_> {
@@ -226,7 +226,7 @@ impl Walls<'_> {
 
     fn resting(&self, center: Point, touched: Point, u: f64, radius: f64) -> Result<Pin, PinFault> {
         let (other, jet) = along(&self.up, u);
-        // At an end of the flank the pin stands on its corner, not on the flank.
+        // At an end of the flank the pin rests on its corner, not on the flank.
         let slant = (center - other).dot(&jet) / (radius * jet.norm());
         if slant.abs() > 1e-6 {
             return Err(if u > 0.5 * self.up.len() as f64 {
@@ -257,7 +257,7 @@ fn offset(chain: &[&Segment], t: f64, radius: f64) -> (Point, Point) {
     (point, point + outward * radius)
 }
 
-/// Place on a chain and distance of its nearest point.
+/// Parameter and distance of a chain's nearest point.
 fn distance(chain: &[&Segment], from: Point) -> (f64, f64) {
     let f = |t: f64| (along(chain, t).0 - from).norm();
     let count = SAMPLES * chain.len() as u32;
@@ -294,7 +294,7 @@ mod tests {
         GearPair::resolve(&design).expect("a sound pair")
     }
 
-    /// The angle whose involute function tan x - x has this value.
+    /// Inverse involute function: the angle x with tan x - x = `value`.
     fn involute_angle(value: f64) -> f64 {
         let f = |x: f64| x.tan() - x - value;
         bracketed_root(f, 0.0, 1.2, f(0.0), f(1.2))

@@ -1,6 +1,6 @@
 use std::f64::consts::{PI, TAU};
 
-use centrode_geometry::{Outline, Segment, Spline, Tolerance};
+use centrode_geometry::{Outline, PolySegment, Segment, Tolerance};
 
 use crate::bore;
 
@@ -15,7 +15,7 @@ use super::{
     tool::{Tool, ToolKind},
 };
 
-/// How far a stored outline may be from the exact curve, as a share of the module.
+/// Greatest distance of a stored outline from the exact curve, as a share of the module.
 const OUTLINE_TOLERANCE: f64 = 1e-10;
 
 /// A non-circular gear pair, resolved: exact pitch curves, finished teeth.
@@ -50,7 +50,7 @@ pub struct Gear {
     body: BodySpec,
 }
 
-/// Why a design gives no gear pair.
+/// Reason why a design gives no gear pair.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum GearPairError {
@@ -85,12 +85,12 @@ pub enum GearPairError {
     /// The pitch curve's law and the written mean ratio disagree.
     #[error("mean_ratio is {}:{} but the pitch curve's law makes it {}:{}", written.0, written.1, implied.0, implied.1)]
     MeanRatio {
-        /// As written.
+        /// Ratio as written.
         written: (u32, u32),
-        /// As the law has it.
+        /// Ratio of the law.
         implied: (u32, u32),
     },
-    /// The pitch curve has a corner, where no tooth can stand.
+    /// The pitch curve has a corner, where there can be no tooth.
     #[error(
         "the pitch curve has a corner of {turn} rad at a polar angle of {angle} rad; a toothed curve must be smooth"
     )]
@@ -105,15 +105,15 @@ pub enum GearPairError {
         "center_distance is {wanted} mm, but this pitch curve rolls on a closed conjugate only at {needed} mm"
     )]
     CenterDistance {
-        /// As written, mm.
+        /// Distance as written, mm.
         wanted: f64,
-        /// As the closure asks, mm.
+        /// Distance that closes the driven curve, mm.
         needed: f64,
     },
     /// The bore, with its keyway, cuts into the teeth.
     #[error("the {}'s bore reaches {reach} mm from the axis, but its teeth leave only {root} mm", .member.name())]
     Bore {
-        /// Which gear.
+        /// Gear at fault.
         member: Member,
         /// Radius reached by bore and keyway, mm.
         reach: f64,
@@ -246,7 +246,7 @@ impl GearPair {
         Ok((pitch.definition, rolling))
     }
 
-    /// The same pair with another body of the driver.
+    /// Makes the pair with another body of the driver.
     ///
     /// # Errors
     /// [`GearPairError::Bore`] where its bore cuts into the teeth, [`GearPairError::Spec`] for a bad value.
@@ -259,7 +259,7 @@ impl GearPair {
         Ok(pair)
     }
 
-    /// The design it was made from.
+    /// Design of the pair.
     #[must_use]
     pub fn design(&self) -> &GearPairDesign {
         &self.design
@@ -301,7 +301,7 @@ impl GearPair {
         self.module
     }
 
-    /// Greatest distance of the stored outlines from the exact ones, mm: no finer tolerance has a meaning.
+    /// Greatest distance of the stored outlines from the exact ones, mm: no finer tolerance is meaningful.
     #[must_use]
     pub fn accuracy(&self) -> f64 {
         OUTLINE_TOLERANCE * self.module
@@ -325,7 +325,7 @@ impl GearPair {
         self.phase
     }
 
-    /// Play along the common normal, mm.
+    /// Normal backlash, mm.
     #[must_use]
     pub fn backlash(&self) -> f64 {
         self.backlash
@@ -355,7 +355,7 @@ impl GearPair {
         self.rolling.ratio_slope(phi)
     }
 
-    /// What the drawing sheets are to say and look like.
+    /// Entries and layout of the drawing sheets.
     #[must_use]
     pub fn drawing(&self) -> &DrawingSpec {
         &self.design.drawing
@@ -386,7 +386,7 @@ impl GearPair {
         }
     }
 
-    /// Driver angle of a whole cycle, after which both gears stand as they did, rad.
+    /// Driver angle of a whole cycle, after which both gears are as they were, rad.
     #[must_use]
     pub fn cycle(&self) -> f64 {
         TAU * f64::from(self.mean_ratio().0)
@@ -460,13 +460,13 @@ impl Gear {
         &self.outline
     }
 
-    /// What each segment of the outline is.
+    /// Role of each segment of the outline.
     #[must_use]
     pub fn roles(&self) -> &[Role] {
         &self.roles
     }
 
-    /// Which tooth each segment of the outline belongs to; a space belongs to the tooth before it.
+    /// Tooth that each segment of the outline belongs to; a space belongs to the tooth before it.
     #[must_use]
     pub fn owners(&self) -> &[u32] {
         &self.owners
@@ -563,21 +563,21 @@ fn pitch_curve(
     let mut ends = vec![from];
     ends.extend(rolling.breaks_between(from, to));
     ends.push(to);
-    let mut splines: Vec<Spline> = Vec::new();
+    let mut polys: Vec<PolySegment> = Vec::new();
     for pair in ends.windows(2) {
-        splines.extend(Spline::fit(
+        polys.extend(PolySegment::fit(
             |t| rolling.frame(member, t).point,
             pair[0],
             pair[1],
             tolerance,
         ));
     }
-    for i in 0..splines.len() {
-        let end = splines[i].end();
-        let next = (i + 1) % splines.len();
-        splines[next] = splines[next].pinned(end, splines[next].end());
+    for i in 0..polys.len() {
+        let end = polys[i].end();
+        let next = (i + 1) % polys.len();
+        polys[next] = polys[next].pinned(end, polys[next].end());
     }
-    let mut segments: Vec<Segment> = splines.into_iter().map(Segment::Spline).collect();
+    let mut segments: Vec<Segment> = polys.into_iter().map(Segment::Poly).collect();
     if member == Member::Driven {
         segments = segments.iter().rev().map(Segment::reversed).collect();
     }

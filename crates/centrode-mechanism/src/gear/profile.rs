@@ -1,5 +1,5 @@
 use centrode_geometry::{
-    Kept, LoopError, OpenOutline, Outline, Point, Segment, Spline, Tolerance, checkpoint,
+    Kept, LoopError, OpenOutline, Outline, Point, PolySegment, Segment, Tolerance, checkpoint,
     without_loops,
 };
 
@@ -9,12 +9,12 @@ use super::{
     tool::{Corner, Tool},
 };
 
-/// What a part of a gear's profile is.
+/// Role of a part of a gear's profile.
 #[derive(Clone, Copy, Debug, Eq, Hash, PartialEq)]
 pub enum Role {
     /// Top of a tooth.
     Tip,
-    /// Side of a tooth: what transmits the motion.
+    /// Side of a tooth, which transmits the motion.
     Flank,
     /// Curve from a flank to the root, cut by the tool's rounded corner.
     Fillet,
@@ -23,7 +23,7 @@ pub enum Role {
 }
 
 impl Role {
-    /// The name used in files.
+    /// Name used in files.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -35,27 +35,27 @@ impl Role {
     }
 }
 
-/// How far a flank reaches up, and what ends it below.
+/// Upper limit of a flank, and its end below.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct FlankPlan {
     /// Arc length where the flank crosses the pitch curve.
     pub(crate) crossing: f64,
     pub(crate) top: Top,
     pub(crate) corner: Corner,
-    /// Arc length of roll below the crossing down to which the mate needs the flank.
+    /// Active depth: arc length of roll below the crossing down to which the mate needs the flank.
     pub(crate) needed: f64,
 }
 
-/// Where a flank ends at the tip.
+/// End of a flank at the tip.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Top {
-    /// At this normal distance from the pitch curve.
+    /// At a normal distance from the pitch curve.
     Height(f64),
-    /// Where it is generated this far, in arc length, from its crossing.
+    /// At the point generated this far, in arc length, from its crossing.
     Reach(f64),
 }
 
-/// The two flanks of a tooth as they are to be cut.
+/// Plan of the two flanks of a tooth.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ToothPlan {
     pub(crate) leading: FlankPlan,
@@ -69,16 +69,17 @@ pub struct ToothSide {
     pub crossing: f64,
     /// Height of the tip corner above the pitch curve, mm.
     pub tip_height: f64,
-    /// How much lower the tip corner is than asked for, mm: the pitch curve or the tool allows no more flank.
+    /// Tip shortening, mm: by how much the tip corner is lower than asked for, since the pitch curve or the tool
+    /// allows no more flank.
     pub shortened: f64,
-    /// Depth below the pitch curve, as the tool stands, that the tool's straight flank reaches, mm.
+    /// Form depth: depth below the pitch curve, at the tool's pose, that the tool's straight flank reaches, mm.
     pub form_depth: f64,
-    /// Arc length of roll below the crossing down to which the flank is needed, mm: as far as the tool
+    /// Active depth: arc length of roll below the crossing down to which the flank is needed, mm, as far as the tool
     /// reaches, or the mate where addenda are fitted.
     pub needed: f64,
-    /// Length of needed flank lost to undercut, in arc length of roll, mm; zero for a sound tooth.
+    /// Length of active flank lost to undercut, in arc length of roll, mm; zero for a tooth without undercut.
     pub undercut: f64,
-    /// Arc lengths of roll between which flank is left; `None` when nothing is.
+    /// Arc lengths of roll between which flank remains; `None` where nothing does.
     pub active: Option<(f64, f64)>,
     /// Least radius of curvature of the fillet, mm.
     pub fillet_radius: f64,
@@ -93,11 +94,11 @@ pub struct Tooth {
     pub trailing: ToothSide,
     /// Width of the top land, mm; zero for a pointed or missing tooth.
     pub tip_width: f64,
-    /// True when undercut from both sides has cut the tooth off.
+    /// Whether undercut from both sides has cut the tooth off.
     pub severed: bool,
 }
 
-/// The profile of one gear: its outline, what each segment of it is, and its teeth.
+/// Profile of one gear: its outline, the role of each segment of it, and its teeth.
 #[derive(Clone, Debug)]
 pub(crate) struct Profile {
     pub(crate) outline: Outline,
@@ -107,7 +108,7 @@ pub(crate) struct Profile {
 }
 
 struct Piece {
-    spline: Spline,
+    poly: PolySegment,
     role: Role,
     tooth: u32,
     /// Pitch-curve parameters at the ends.
@@ -115,7 +116,7 @@ struct Piece {
     side: Side,
 }
 
-/// The fillet's own parameter w, with roll = depth of the rounding's centre x sinh w: the distance
+/// Fillet parameter w, with roll = depth of the rounding's centre x sinh w: the distance
 /// from the pitch point to that centre is then entire, and the fillet far smoother than in the roll,
 /// which moves it slowly at the root and fast at the flank.
 struct Swing {
@@ -150,7 +151,7 @@ impl Swing {
 /// flank curls up on itself.
 const BLUNT: f64 = 0.02;
 
-/// The tips and ends of one flank, found.
+/// Tip and ends of one flank, as found.
 struct Ends {
     /// Parameter at the tip corner.
     tip: f64,
@@ -160,22 +161,22 @@ struct Ends {
     shortened: f64,
 }
 
-/// Why a gear has no profile.
+/// Reason why a gear has no profile.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ProfileError {
     /// The pitch curve is too sharp for any tooth.
     #[error("the {} has no profile: every part of its contour lies in a loop, so the teeth are too large for the pitch curve", .member.name())]
     Looped {
-        /// Which gear.
+        /// Gear at fault.
         member: Member,
     },
-    /// It cannot be told where the contour crosses itself.
+    /// The crossings of the contour with itself cannot be determined.
     #[error("the {} has no profile: {cause}", .member.name())]
     Unresolved {
-        /// Which gear.
+        /// Gear at fault.
         member: Member,
-        /// Where and why.
+        /// Place and cause.
         cause: LoopError,
     },
     /// The contour does not close: a coordinate is not a number.
@@ -221,9 +222,9 @@ impl Cutter<'_> {
         self.join(&pieces, &kept, teeth)
     }
 
-    /// What is left of the pieces without their loops.
+    /// Parts of the pieces without their loops.
     fn without_loops(&self, pieces: &[Piece], teeth: u32) -> Result<Vec<Kept>, ProfileError> {
-        let segments: Vec<Segment> = pieces.iter().map(|p| p.spline.into()).collect();
+        let segments: Vec<Segment> = pieces.iter().map(|p| p.poly.into()).collect();
         // Up to the end of the next tooth: a longer detour is not one tooth's own.
         let near = |i: usize, j: usize| (pieces[j].tooth + teeth - pieces[i].tooth) % teeth <= 1;
         without_loops(&segments, near, self.tolerance).map_err(|cause| match cause {
@@ -413,10 +414,10 @@ impl Cutter<'_> {
             if (pair[1] - pair[0]).abs() <= 1e-14 * pair[0].abs().max(pair[1].abs()) {
                 continue;
             }
-            let fitted = Spline::fit_spans(curve, pair[0], pair[1], self.tolerance);
-            for (spline, t0, t1) in fitted {
+            let fitted = PolySegment::fit_spans(curve, pair[0], pair[1], self.tolerance);
+            for (poly, t0, t1) in fitted {
                 pieces.push(Piece {
-                    spline,
+                    poly,
                     role,
                     tooth,
                     span: (t0, t1),
@@ -432,22 +433,22 @@ impl Cutter<'_> {
         kept: &[Kept],
         mut teeth: Vec<Tooth>,
     ) -> Result<Profile, ProfileError> {
-        let mut splines: Vec<Spline> = kept
+        let mut polys: Vec<PolySegment> = kept
             .iter()
-            .map(|k| pieces[k.index].spline.part(k.from, k.to))
+            .map(|k| pieces[k.index].poly.part(k.from, k.to))
             .collect();
-        let count = splines.len();
+        let count = polys.len();
         for i in 0..count {
             checkpoint();
-            let end = splines[i].end();
+            let end = polys[i].end();
             let next = (i + 1) % count;
-            if splines[next].start() != end {
-                splines[next] = splines[next].pinned(end, splines[next].end());
+            if polys[next].start() != end {
+                polys[next] = polys[next].pinned(end, polys[next].end());
             }
         }
         let mut roles = Vec::with_capacity(count);
         let mut owners = Vec::with_capacity(count);
-        for (k, spline) in kept.iter().zip(&splines) {
+        for (k, poly) in kept.iter().zip(&polys) {
             let piece = &pieces[k.index];
             roles.push(piece.role);
             owners.push(piece.tooth);
@@ -466,7 +467,7 @@ impl Cutter<'_> {
                 }
                 Role::Fillet => {
                     for i in 0..=4 {
-                        let jet = spline.at(-1.0 + 0.5 * f64::from(i));
+                        let jet = poly.at(-1.0 + 0.5 * f64::from(i));
                         let turn = jet.first.perp(&jet.second).abs();
                         side.fillet_radius =
                             side.fillet_radius.min(jet.first.norm().powi(3) / turn);
@@ -474,7 +475,7 @@ impl Cutter<'_> {
                 }
                 Role::Tip => {
                     tooth.severed = false;
-                    tooth.tip_width += spline.chords(8);
+                    tooth.tip_width += poly.chords(8);
                 }
                 Role::Root => {}
             }
@@ -491,11 +492,11 @@ impl Cutter<'_> {
                     }
                 });
                 let lost = side.needed - left;
-                // What rounding of a crossing can hide is not undercut.
+                // A loss within the rounding of a crossing is not undercut.
                 side.undercut = if lost > 1e-7 * side.needed { lost } else { 0.0 };
             }
         }
-        let mut segments: Vec<Segment> = splines.into_iter().map(Segment::Spline).collect();
+        let mut segments: Vec<Segment> = polys.into_iter().map(Segment::Poly).collect();
         if self.member == Member::Driven {
             // Rolled clockwise: turn the contour round.
             segments = segments.iter().rev().map(Segment::reversed).collect();

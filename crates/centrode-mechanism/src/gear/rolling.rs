@@ -1,12 +1,12 @@
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
-use centrode_geometry::{Curve, Jet, Point, Primitive, Vector, bracketed_root, pieces};
+use centrode_geometry::{Antiderivative, Curve, Jet, Point, Vector, bracketed_root, pieces};
 
 /// Even parts of a turn in each of which a pitch curve has few extremes.
 const PIECES: u32 = 8;
 
-/// Which gear of a pair.
+/// Gear of a pair.
 #[derive(Clone, Copy, Debug, Eq, Hash, PartialEq)]
 pub enum Member {
     /// The gear that is turned; centred at the origin.
@@ -35,7 +35,7 @@ impl Member {
     }
 }
 
-/// A point of a pitch curve while it rolls: the moving frame both tools and mates are seen in.
+/// Moving frame at a point of a rolling pitch curve, in which both tools and mates are seen.
 #[derive(Clone, Copy, Debug)]
 pub struct Frame {
     /// The point, in the gear's own body frame, mm.
@@ -69,8 +69,8 @@ pub struct Rolling {
     half: f64,
     /// The curve's breaks in `[start, start + period)`.
     jumps: Vec<f64>,
-    arc: Primitive,
-    driven: Primitive,
+    arc: Antiderivative,
+    driven: Antiderivative,
     center_distance: f64,
     mean_ratio: (u32, u32),
     least: Extreme,
@@ -87,11 +87,11 @@ struct Extreme {
     radius: f64,
 }
 
-/// Why two pitch curves cannot roll on each other.
+/// Reason why two pitch curves cannot roll on each other.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum RollingError {
-    /// The pitch curve does not go once around the shaft.
+    /// The pitch curve does not wind once around the shaft.
     #[error(
         "the pitch curve turns by {turned} rad about the shaft in one round; it must turn by 2 pi, always forward"
     )]
@@ -122,7 +122,7 @@ pub enum RollingError {
         center_distance: f64,
         /// Driven angle of one driver turn, rad.
         turned: f64,
-        /// What it should be, rad.
+        /// Angle it should be, rad.
         wanted: f64,
     },
 }
@@ -154,7 +154,7 @@ impl Rolling {
         breaks.extend(jumps.iter().copied().filter(|&b| b > start));
         breaks.push(start + period);
 
-        let arc = Primitive::of(|t| curve.at(t).first.norm(), &breaks);
+        let arc = Antiderivative::of(|t| curve.at(t).first.norm(), &breaks);
         let nodes: Vec<(f64, f64)> = arc
             .nodes()
             .map(|(t, weight)| {
@@ -213,7 +213,7 @@ impl Rolling {
         Ok(rolling)
     }
 
-    /// A driver must repeat n2 times a turn, or the driven curve would not close after its own turn.
+    /// Checks that a driver repeats n2 times a turn, without which the driven curve would not close after its own turn.
     fn check_repeats(&self) -> Result<(), RollingError> {
         let repeats = self.mean_ratio.1;
         if repeats == 1 {
@@ -299,7 +299,7 @@ impl Rolling {
         (sharpest.0.abs() > 1e-7).then_some(sharpest)
     }
 
-    /// Driven angle of one driver turn less 2 pi n2/n1, rad: how well the cycle closes.
+    /// Closure error of the cycle, rad: driven angle of one driver turn less 2 pi n2/n1.
     #[must_use]
     pub fn closure_error(&self) -> f64 {
         self.driven.total() - TAU * f64::from(self.mean_ratio.1) / f64::from(self.mean_ratio.0)
@@ -546,7 +546,7 @@ fn axis_crossings(curve: &dyn Curve, period: f64) -> Result<(f64, f64), RollingE
 }
 
 /// Least and greatest radius, sharpened from the samples of the arc-length panels.
-fn extremes(curve: &dyn Curve, arc: &Primitive) -> (Extreme, Extreme) {
+fn extremes(curve: &dyn Curve, arc: &Antiderivative) -> (Extreme, Extreme) {
     let slope = |t: f64| {
         let jet = curve.at(t);
         jet.point.coords.dot(&jet.first)
@@ -626,8 +626,8 @@ fn closure(nodes: &[(f64, f64)], greatest: f64, wanted: f64) -> f64 {
     a
 }
 
-fn driven_angle(curve: &dyn Curve, breaks: &[f64], a: f64) -> Primitive {
-    Primitive::of(
+fn driven_angle(curve: &dyn Curve, breaks: &[f64], a: f64) -> Antiderivative {
+    Antiderivative::of(
         |t| {
             let jet = curve.at(t);
             let r = jet.point.coords.norm();

@@ -58,7 +58,7 @@ impl Rolling {
     }
 }
 
-/// From the driver's polar angle to the driven angle.
+/// The transmission from the driver's polar angle to the driven angle.
 impl Transmission for Rolling {
     fn at(&self, input: f64) -> MotionJet {
         self.driven_jet(input)

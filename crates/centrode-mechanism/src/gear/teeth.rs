@@ -9,18 +9,18 @@ use super::{
     tool::Tool,
 };
 
-/// What the teeth of a pair are to be like.
+/// Parameters of the teeth of a pair.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TeethParameters {
     /// The generating tool.
     pub tool: Tool,
-    /// How high the teeth stand.
+    /// Height of the teeth.
     pub addendum: Addendum,
-    /// Where they sit.
+    /// Position of the teeth.
     pub phase: Phase,
-    /// Play between mating flanks along their common normal, mm.
+    /// Normal backlash: play between mating flanks along their common normal, mm.
     pub backlash: f64,
-    /// Greatest play of the driven gear with the driver held, rad; replaces `backlash`.
+    /// Greatest angular backlash of the driven gear with the driver held, rad; replaces `backlash`.
     pub backlash_angle: Option<f64>,
     /// The driver's share of the pitch, tooth against space; 0.5 for equal teeth.
     pub thickness_split: f64,
@@ -28,14 +28,14 @@ pub struct TeethParameters {
     pub least_tip_width: f64,
 }
 
-/// Why no teeth can be laid out.
+/// Reason why no teeth can be laid out.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum TeethError {
     /// The tool's tip has no room for its rounding.
     #[error("tip radius {radius} mm does not fit the tool: a space {space} mm wide and {depth} mm deep on the {} takes at most {greatest} mm", .member.name())]
     TipRadius {
-        /// Which gear's space.
+        /// Gear of the space.
         member: Member,
         /// Radius asked for, mm.
         radius: f64,
@@ -49,11 +49,11 @@ pub enum TeethError {
     /// A tooth or a space is left with no width.
     #[error("the {} is left with a tooth {width} mm wide on a pitch of {pitch} mm; the play takes {play} mm of it", .member.name())]
     NoWidth {
-        /// Which gear.
+        /// Gear at fault.
         member: Member,
         /// Width of the tooth on the pitch curve, mm.
         width: f64,
-        /// What it is thinned by, mm.
+        /// Thinning, mm.
         play: f64,
         /// Pitch, mm.
         pitch: f64,
@@ -68,7 +68,7 @@ pub enum TeethError {
     },
 }
 
-/// The teeth of both gears as they are to be cut.
+/// Layout of the teeth of both gears.
 #[derive(Clone, Debug)]
 pub(crate) struct Layout {
     pub(crate) driver: Vec<ToothPlan>,
@@ -188,8 +188,8 @@ pub(crate) fn layout(
     })
 }
 
-/// The length that turns play along the normal into the greatest play in angle over the cycle, mm: the
-/// least harmonic mean of the driven shaft's distances from the two common normals.
+/// Length that turns normal backlash into the greatest angular backlash over the cycle, mm: the least harmonic mean
+/// of the driven shaft's distances from the two common normals.
 fn least_lever(rolling: &Rolling, pressure_angle: f64) -> f64 {
     let (sin, cos) = pressure_angle.sin_cos();
     let lever = |t: f64| {
@@ -237,7 +237,7 @@ fn phase(
     }
 }
 
-/// The mirror s* for which r(s) + r(s* - s) comes nearest to a, and by how much it misses.
+/// Mirror s* for which r(s) + r(s* - s) comes nearest to a, and the greatest deviation left.
 fn self_mating_difference(rolling: &Rolling, pitch: f64) -> Option<(f64, f64)> {
     const SAMPLES: u32 = 96;
     if rolling.mean_ratio() != (1, 1) {

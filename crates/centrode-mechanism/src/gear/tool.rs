@@ -20,7 +20,7 @@ pub struct Tool {
     pub kind: ToolKind,
 }
 
-/// What the tool is.
+/// Kind of tool.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ToolKind {
     /// A rack: hob, rack cutter, or the basic rack itself.
@@ -32,15 +32,15 @@ pub enum ToolKind {
     },
 }
 
-/// Where a tool's tip rounding sits against the flank it ends, and where the flank ends.
+/// Position of a tool's tip rounding against the flank it ends, and the end of the flank.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Corner {
     /// Depth of the root below the pitch curve.
     pub(crate) depth: f64,
     /// Radius of the rounding.
     pub(crate) radius: f64,
-    /// Arc length from the flank's crossing of the pitch curve to where the rounding's centre
-    /// stands square below the pitch point.
+    /// Arc length from the flank's crossing of the pitch curve to where the rounding's centre is square below the
+    /// pitch point.
     pub(crate) center: f64,
     /// Arc length from the crossing to where the flank's generation ends.
     pub(crate) end: f64,

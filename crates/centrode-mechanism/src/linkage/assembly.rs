@@ -62,7 +62,7 @@ pub(super) enum Step {
 #[derive(Clone, Debug, Default)]
 pub struct Linkage {
     pub(super) steps: Vec<Step>,
-    /// The link each joint belongs to.
+    /// Link of each joint.
     pub(super) owners: Vec<usize>,
     pub(super) links: usize,
     crank: Option<Link>,
@@ -86,7 +86,7 @@ fn length(name: &'static str, value: f64) -> Result<(), LinkageError> {
 }
 
 impl Linkage {
-    /// A frame alone.
+    /// Makes a frame alone.
     #[must_use]
     pub fn new() -> Self {
         Self {
@@ -319,7 +319,7 @@ impl Linkage {
         Ok(SliderDyad { block, link, joint })
     }
 
-    /// What the linkage is made of.
+    /// Parts of the linkage.
     #[must_use]
     pub fn parts(&self) -> LinkageParts {
         LinkageParts {

@@ -7,13 +7,13 @@ use super::error::LinkageError;
 use super::parts::Link;
 use crate::transmission::{MotionJet, Transmission};
 
-/// Looks over a turn of the input for where dyads cease to close.
+/// Samples over a turn of the input in the search for where dyads cease to close.
 const LOOKS: u32 = 720;
 /// Halvings of a step over which a link turns too far to be followed.
 const DEEPEST: u32 = 30;
 
 impl Linkage {
-    /// The inputs in `[0, 2 pi]` at which the linkage closes, as intervals, ascending; `[(0, 2 pi)]` for
+    /// Inputs in `[0, 2 pi]` at which the linkage closes, as intervals, ascending; `[(0, 2 pi)]` for
     /// a crank that turns.
     ///
     /// An end that is a limit of the crank is exact to the float limit. Gaps and islands narrower than
@@ -22,7 +22,7 @@ impl Linkage {
     pub fn closing_inputs(&self) -> Vec<(f64, f64)> {
         let mut open = vec![(0.0, TAU)];
         for dyad in 0..self.series::<1>(0.0).room.len() {
-            // Dyads before this one close on the open intervals, so what this one stands on is known.
+            // Dyads before this one close on the open intervals, so the joints of this one are known.
             let room = |input: f64| self.series::<1>(input).room[dyad];
             open = open
                 .into_iter()
@@ -32,7 +32,7 @@ impl Linkage {
         open
     }
 
-    /// The input nearest to zero, going up, at which the linkage does not close, and the dyad at fault.
+    /// First input above zero at which the linkage does not close, and the dyad at fault.
     fn limit(&self) -> Option<LinkageError> {
         let open = self.closing_inputs();
         let input = match open.first() {
@@ -73,7 +73,7 @@ impl Linkage {
             let ([_, v0], [to, v1]) = (angle(before), angle(input));
             let step = input - before;
             let change = wrapped(to - turned);
-            // Followed only where the velocities at both ends account for the change.
+            // A step is followed only where the velocities at both ends account for the change.
             let expected = 0.5 * (v0 + v1) * step;
             if change.abs() < FRAC_PI_2 && (change - expected).abs() < 0.3 {
                 knots.push((input, turned + change));
@@ -107,7 +107,7 @@ fn positive(room: &dyn Fn(f64) -> f64, (low, high): (f64, f64)) -> Vec<(f64, f64
     let count = (f64::from(LOOKS) * (high - low) / TAU).ceil().max(4.0) as u32;
     let even = |i: u32| low + (high - low) * f64::from(i) / f64::from(count);
     let mut looks: Vec<(f64, f64)> = (0..=count).map(|i| (even(i), room(even(i)))).collect();
-    // A gap or an island between two looks shows as an extreme with a change of sign.
+    // A gap or an island between two samples shows as an extreme with a change of sign.
     for i in 1..count as usize {
         let [a, b, c] = [looks[i - 1], looks[i], looks[i + 1]];
         let sign = if b.1 > 0.0 { 1.0 } else { -1.0 };

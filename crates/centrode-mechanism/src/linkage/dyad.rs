@@ -3,22 +3,22 @@ use serde::{Deserialize, Serialize};
 use super::point_series::PointSeries;
 use crate::formula::{Number, Taylor};
 
-/// Which of its two ways a dyad is assembled.
+/// Assembly branch of a dyad.
 #[derive(
     Clone, Copy, Debug, Default, Deserialize, Eq, PartialEq, Serialize, schemars::JsonSchema,
 )]
 #[serde(rename_all = "lowercase")]
 pub enum Branch {
-    /// Two bars: their common joint lies left of the way from the first outer joint to the second. A
-    /// bar and a slider: the slider lies forward along its line.
+    /// Upper branch. Two bars: their common joint lies to the left of the way from the first outer joint to the
+    /// second. A bar and a slider: the slider lies forward along its line.
     #[default]
     Upper,
-    /// The other one.
+    /// Lower branch: the other assembly.
     Lower,
 }
 
 impl Branch {
-    /// +1 for the upper branch, -1 for the lower.
+    /// Sign: +1 for the upper branch, -1 for the lower.
     #[must_use]
     pub fn sign(self) -> f64 {
         match self {
@@ -27,7 +27,7 @@ impl Branch {
         }
     }
 
-    /// The other way.
+    /// Opposite branch.
     #[must_use]
     pub fn other(self) -> Self {
         match self {
@@ -37,16 +37,16 @@ impl Branch {
     }
 }
 
-/// A dyad's closed form.
+/// Closed form of a dyad.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Closed<const N: usize, T = f64> {
     pub(crate) at: PointSeries<N, T>,
-    /// Above zero where the dyad closes with room, zero where it is stretched or folded, below where it
+    /// Discriminant: above zero where the dyad closes with room, zero where it is stretched or folded, below where it
     /// cannot close: in mm⁴ (two bars) or mm² (the others).
     pub(crate) room: T,
 }
 
-/// A length that is a plain number, or a series where its own influence is asked for.
+/// Length that is a plain number, or a series where its own influence is asked for.
 pub(crate) trait Length<const N: usize, T>: Copy {
     fn value(self) -> T;
 
@@ -139,8 +139,8 @@ pub(crate) fn rrr<const N: usize, T: Number, L: Length<N, T>>(
     Closed { at, room }
 }
 
-/// What the component along a bar of its far end's coefficient `order` must be, times the bar's length: `bar` is the
-/// bar's way from `start`, known below that order.
+/// Right-hand side of the rigidity condition at Taylor order `order`: required projection of the far end's
+/// coefficient on the bar, times its length. `bar` is the bar's vector from `start`, known below that order.
 #[inline(always)]
 fn along<const N: usize, T: Number, L: Length<N, T>>(
     bar: PointSeries<N, T>,
@@ -151,7 +151,7 @@ fn along<const N: usize, T: Number, L: Length<N, T>>(
     let with =
         |v: PointSeries<N, T>, i: usize, k: usize| bar.x.0[i] * v.x.0[k] + bar.y.0[i] * v.y.0[k];
     let mut sum = with(start, 0, order);
-    // Half the square of the way's known part, each product of two orders once.
+    // Half the square of the vector's known part, each product of two orders once.
     for i in 1..order.div_ceil(2) {
         sum = sum - with(bar, i, order - i);
     }

@@ -1,31 +1,31 @@
-/// Why a linkage cannot be built or posed.
+/// Reason why a linkage cannot be built or posed.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum LinkageError {
     /// A length that is not above zero.
     #[error("{name} is {value} mm; it must be finite and above zero")]
     Length {
-        /// Which one.
+        /// Name of the length.
         name: &'static str,
-        /// As given, mm.
+        /// Length as given, mm.
         value: f64,
     },
     /// A number that is not finite.
     #[error("{name} is {value}; it must be finite")]
     NotFinite {
-        /// Which one.
+        /// Name of the number.
         name: &'static str,
-        /// As given.
+        /// Number as given.
         value: f64,
     },
     /// A joint or link of another linkage.
     #[error("{what} {index} is not of this linkage, which has {count} of them")]
     Unknown {
-        /// `joint` or `link`.
+        /// Kind of item: `joint` or `link`.
         what: &'static str,
         /// Its number.
         index: usize,
-        /// How many this linkage has.
+        /// Number of such items in this linkage.
         count: usize,
     },
     /// A second crank.
@@ -38,10 +38,10 @@ pub enum LinkageError {
         dyad: usize,
         /// The input, rad.
         input: f64,
-        /// How far its ends stay apart, mm; for two parallel guides not finite.
+        /// Distance between its ends, mm; for two parallel guides not finite.
         missing: f64,
     },
-    /// A dyad closes just so, and velocities have no finite value.
+    /// A dyad only just closes, and velocities have no finite value.
     #[error(
         "dyad {dyad} is stretched or folded flat at the input {input} rad: velocities are not finite there"
     )]

@@ -7,7 +7,7 @@ use super::point_series::PointSeries;
 use crate::formula::{Number, Taylor};
 use crate::transmission::{MotionJet, Transmission};
 
-/// What turns in a four-bar, after Grashof (1883), named from the input crank.
+/// Kind of four-bar, after Grashof (1883), named from the input crank.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 #[non_exhaustive]
 pub enum Grashof {
@@ -27,13 +27,13 @@ pub enum Grashof {
 }
 
 impl Grashof {
-    /// True where the crank turns through and the branch never opens.
+    /// Whether the crank turns through and the branch never opens.
     #[must_use]
     pub fn crank_turns(self) -> bool {
         matches!(self, Self::CrankRocker | Self::DoubleCrank)
     }
 
-    /// For reports.
+    /// Name for reports.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -47,16 +47,16 @@ impl Grashof {
     }
 }
 
-/// Why there is no such four-bar, or no such position of it.
+/// Reason why there is no such four-bar, or no such position of it.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum FourBarError {
     /// A length that is not above zero.
     #[error("{name} is {value} mm; it must be finite and above zero")]
     Length {
-        /// Which one.
+        /// Name of the length.
         name: &'static str,
-        /// As given, mm.
+        /// Length as given, mm.
         value: f64,
     },
     /// Coupler and rocker do not reach each other.
@@ -98,7 +98,7 @@ pub struct FourBar {
 }
 
 impl FourBar {
-    /// A four-bar of these lengths, mm.
+    /// Makes a four-bar of these lengths, mm.
     ///
     /// # Errors
     /// [`FourBarError::Length`].
@@ -130,13 +130,13 @@ impl FourBar {
         [self.crank, self.coupler, self.rocker, self.frame]
     }
 
-    /// How it is assembled.
+    /// Assembly branch.
     #[must_use]
     pub fn branch(&self) -> Branch {
         self.branch
     }
 
-    /// What turns: the shortest link does against all others where shortest + longest < the other two
+    /// Grashof type: the shortest link turns against all others where shortest + longest < the other two
     /// together.
     #[must_use]
     pub fn grashof(&self) -> Grashof {
@@ -158,7 +158,7 @@ impl FourBar {
         }
     }
 
-    /// The two middle lengths less the shortest and the longest, mm: above zero where a link turns.
+    /// Grashof margin: the two middle lengths less the shortest and the longest, mm, above zero where a link turns.
     #[must_use]
     pub fn grashof_margin(&self) -> f64 {
         let mut sorted = self.lengths();
@@ -290,7 +290,7 @@ impl FourBar {
         near.min(PI - far).min(far).min(PI - near)
     }
 
-    /// Where crank and coupler lie in one line; none for what is not a crank-rocker.
+    /// Dead centres, where crank and coupler lie in one line; none unless it is a crank-rocker.
     #[must_use]
     pub fn dead_centers(&self) -> Option<DeadCenters> {
         if self.grashof() != Grashof::CrankRocker {

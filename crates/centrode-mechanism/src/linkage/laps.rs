@@ -2,8 +2,8 @@ use std::f64::consts::{PI, TAU};
 
 use crate::formula::{Number, Taylor};
 
-/// What unwraps directions that keep within half a turn of a middle: whole turns to add, by whether a direction, as
-/// given in [-pi, pi], lies before the cut.
+/// Unwraps principal angles into [middle - pi, middle + pi): adds `before` or `after`, multiples of 2 pi, by the side
+/// of `cut`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Laps {
     cut: f64,

@@ -1,7 +1,7 @@
 //! Planar linkages as compositions of Assur groups, in closed form with exact derivatives.
 //!
 //! A linkage of one input is a frame, a crank and dyads (groups of two links and three joints) added
-//! one after the other: each closes on what stands already. Every dyad has two assembly branches; the
+//! one after the other: each closes on the joints built before it. Every dyad has two assembly branches; the
 //! branch is a sign in its closed form, so it cannot jump along the cycle (Erdman and Sandor,
 //! *Mechanism Design*, 1984, chapter 3). Velocity, acceleration and jerk come from Taylor series of the
 //! same closed forms, not from differences.

@@ -9,7 +9,7 @@ pub struct Joint(pub(super) usize);
 pub struct Link(pub(super) usize);
 
 impl Link {
-    /// The link that stands still.
+    /// The fixed link.
     pub const FRAME: Self = Self(0);
 
     /// Position among the linkage's links; the frame is 0.
@@ -34,7 +34,7 @@ pub struct Line {
     pub link: Link,
     /// A point it passes through, in the link's axes, mm.
     pub through: Point,
-    /// Its direction against the link's first axis, rad.
+    /// Direction against the link's first axis, rad.
     pub angle: f64,
 }
 
@@ -56,23 +56,23 @@ pub struct SliderDyad {
     pub block: Link,
     /// The other link of the dyad.
     pub link: Link,
-    /// The joint of block and link, or of block and what drives it.
+    /// Joint of block and link, or of block and its driver.
     pub joint: Joint,
 }
 
-/// How two links of a linkage are held together.
+/// Joint that holds two links of a linkage together.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub enum Connection {
     /// A pin.
     Turning {
-        /// Where.
+        /// Joint of both.
         joint: Joint,
         /// The two links.
         links: (Link, Link),
     },
     /// A block in a straight guide.
     Sliding {
-        /// The middle of the block.
+        /// Centre of the block.
         joint: Joint,
         /// The block; its first axis points along the guide.
         block: Link,
@@ -81,7 +81,7 @@ pub enum Connection {
     },
 }
 
-/// What a linkage is made of, for those who ask about forces.
+/// Parts of a linkage, as an analysis of forces needs them.
 #[derive(Clone, Debug)]
 pub struct LinkageParts {
     /// The driven link.

@@ -8,15 +8,16 @@ use super::slider_arc::SliderArc;
 
 /// Points between which a curve is measured for each that is asked for, and the least number of them.
 const MEASURED: (usize, usize) = (4, 256);
-/// Greatest step between them over the mean one where they are even.
+/// Greatest ratio of a step to the mean one at which they count as even.
 const EVEN: f64 = 1.002;
-/// Times at most that these points are moved to equal lengths; near half a turn, where a ray hardly turns along most of
-/// the curve, it takes a dozen.
+/// Greatest number of passes that move these points to equal lengths; near half a turn, where a ray hardly turns
+/// along most of the curve, it takes a dozen.
 const PASSES: usize = 60;
 
 impl SixBar {
-    /// `count` places of the effector's pivot that all give this swing (rad), in order along a curve and evenly spaced
-    /// along its length; empty for a swing that is not between 0 and 2 pi, or for what is not a crank-rocker.
+    /// Positions of the effector's pivot, `count` of them, that all give this swing (rad), in order along a curve and
+    /// evenly spaced along its length; empty for a swing that is not between 0 and 2 pi, or for what is not a
+    /// crank-rocker.
     ///
     /// The slider runs on an arc about D. Half a turn is seen from the chord between its dead centres,
     /// and from nowhere else: from outside the circle the arc looks smaller, on the near side of the
@@ -94,7 +95,7 @@ fn even_knots(whole: f64, count: usize, place: impl Fn(f64) -> Option<Point>) ->
     knots
 }
 
-/// The parameter at a share of the length.
+/// Parameter at a share of the length.
 fn along(knots: &[(f64, f64)], share: f64) -> Option<f64> {
     let after = knots.partition_point(|knot| knot.0 < share).max(1);
     let (before, after) = (knots.get(after - 1)?, knots.get(after)?);

@@ -37,7 +37,7 @@ impl<const N: usize, T: Number> PointSeries<N, T> {
         Self { x, y }
     }
 
-    /// The unit vector in the direction of this one, at this moment.
+    /// Unit vector in the direction of this one, as a value without derivatives.
     #[inline(always)]
     pub(super) fn unit_now(self) -> PointSeries<1, T> {
         let (x, y) = (self.x.0[0], self.y.0[0]);
@@ -56,7 +56,7 @@ impl<const N: usize, T: Number> PointSeries<N, T> {
         Self { x, y }
     }
 
-    /// Its motion, one of those side by side.
+    /// Motion of one lane.
     #[inline(always)]
     pub(super) fn jet_of(self, lane: usize) -> Jet {
         let (x, y) = (self.x.derivatives(), self.y.derivatives());
@@ -70,7 +70,7 @@ impl<const N: usize, T: Number> PointSeries<N, T> {
         }
     }
 
-    /// Where it is, one of those side by side.
+    /// Position of one lane.
     #[inline(always)]
     pub(super) fn value_of(self, lane: usize) -> Point {
         Point::new(self.x.0[0].lane(lane), self.y.0[0].lane(lane))
@@ -108,13 +108,13 @@ impl<const N: usize, T: Number> PointSeries<N, T> {
         self.x * b.x + self.y * b.y
     }
 
-    /// Positive where `b` lies to the left of this vector.
+    /// Cross product, positive where `b` lies to the left of this vector.
     #[inline(always)]
     pub(crate) fn cross(self, b: Self) -> Taylor<N, T> {
         self.x * b.y - self.y * b.x
     }
 
-    /// Turned a quarter turn counter-clockwise.
+    /// Vector turned a quarter turn counter-clockwise.
     #[inline(always)]
     pub(crate) fn left(self) -> Self {
         Self {
@@ -123,7 +123,7 @@ impl<const N: usize, T: Number> PointSeries<N, T> {
         }
     }
 
-    /// `v` in the frame whose first axis is this unit vector, brought into the frame of this vector.
+    /// Rotated `v`: given in the frame whose first axis is this unit vector, brought into the frame of this vector.
     #[inline(always)]
     pub(crate) fn turned(self, v: Vector) -> Self {
         self.times(v.x).plus(self.left().times(v.y))

@@ -5,7 +5,7 @@ use super::point_series::PointSeries;
 use crate::formula::Taylor;
 use crate::transmission::MotionJet;
 
-/// Where all joints and links are, and how they move.
+/// Position and motion of all joints and links.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pose {
     pub(super) joints: Vec<Jet>,

@@ -8,12 +8,12 @@ use super::point_series::PointSeries;
 use super::pose::{Body, Pose};
 use crate::transmission::MotionJet;
 
-/// Joints and links while a pose is worked out.
+/// Joints and links while a pose is computed.
 pub(super) struct Series<const N: usize> {
     joints: Vec<PointSeries<N>>,
     /// Origin and first axis.
     frames: Vec<(PointSeries<N>, PointSeries<N>)>,
-    /// What is left to every dyad before it no longer closes.
+    /// Discriminant of every dyad: its room before it no longer closes.
     pub(super) room: Vec<f64>,
 }
 
@@ -77,7 +77,7 @@ impl Linkage {
         )
     }
 
-    /// How far the ends of a dyad that does not close stay apart, mm.
+    /// Distance between the ends of a dyad that does not close, mm.
     pub(super) fn missing(&self, dyad: usize, input: f64) -> f64 {
         let series = self.series::<1>(input);
         let between =
@@ -98,7 +98,7 @@ impl Linkage {
         }
     }
 
-    /// The pose as series of order N - 1; where a dyad does not close, what follows is not a number.
+    /// Pose as series of order N - 1; where a dyad does not close, the joints after it are not numbers.
     pub(super) fn series<const N: usize>(&self, input: f64) -> Series<N> {
         let still = PointSeries::fixed(Point::origin());
         let mut s = Series {

@@ -9,7 +9,7 @@ use super::slider_arc::SliderArc;
 use crate::formula::Taylor;
 use crate::transmission::{FromFn, Transmission};
 
-/// Why there is no such six-bar.
+/// Reason why there is no such six-bar.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SixBarError {
@@ -18,9 +18,9 @@ pub enum SixBarError {
         "the four-bar must be a crank-rocker, but it is a {}: the crank must be the shortest, and shortest and longest together must stay below the two others (here by {margin} mm)", .class.name()
     )]
     NotCrankRocker {
-        /// What it is.
+        /// Its Grashof type.
         class: Grashof,
-        /// The two others less shortest and longest, mm.
+        /// Grashof margin: the two other lengths less shortest and longest, mm.
         margin: f64,
     },
     /// The effector's pivot lies on the path of the slider.
@@ -28,17 +28,17 @@ pub enum SixBarError {
         "the effector's pivot ({x}, {y}) mm lies on the path of the slider: its angle has no value there"
     )]
     PivotOnPath {
-        /// Of the pivot, mm.
+        /// X coordinate of the pivot, mm.
         x: f64,
-        /// Of the pivot, mm.
+        /// Y coordinate of the pivot, mm.
         y: f64,
     },
     /// A number that is not finite.
     #[error("{name} is {value}; it must be finite, and a length above zero")]
     Value {
-        /// Which one.
+        /// Name of the number.
         name: &'static str,
-        /// As given.
+        /// Number as given.
         value: f64,
     },
 }
@@ -52,12 +52,12 @@ pub struct EffectorExtremes {
     pub high: (f64, f64),
 }
 
-/// How the swing changes with each dimension: rad/mm.
+/// Sensitivity of the swing to each dimension, rad/mm.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SwingSensitivity {
-    /// With the lengths of crank, coupler, rocker and frame.
+    /// Sensitivity to the lengths of crank, coupler, rocker and frame.
     pub lengths: [f64; 4],
-    /// With the place of the effector's pivot.
+    /// Sensitivity to the position of the effector's pivot.
     pub pivot: Vector,
 }
 
@@ -78,7 +78,7 @@ pub struct SixBar {
 }
 
 impl SixBar {
-    /// A six-bar on a crank-rocker.
+    /// Makes a six-bar on a crank-rocker.
     ///
     /// # Errors
     /// [`SixBarError`].
@@ -153,9 +153,9 @@ impl SixBar {
         self.extremes.high.1 - self.extremes.low.1
     }
 
-    /// How the swing changes with each dimension, exact.
+    /// Exact sensitivity of the swing to each dimension.
     ///
-    /// At an end of the swing the effector stands still, so the end's own shift along the cycle does not
+    /// At an end of the swing the effector is at rest, so the end's own shift along the cycle does not
     /// count: the change of the swing is that of the effector's angle at the two crank angles.
     #[must_use]
     pub fn swing_sensitivity(&self) -> SwingSensitivity {

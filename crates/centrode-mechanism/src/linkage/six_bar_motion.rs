@@ -6,7 +6,7 @@ use super::six_bar::SixBar;
 use crate::formula::{LANES, Lanes, Number, Taylor};
 use crate::transmission::MotionJet;
 
-/// All of a six-bar at one crank angle, per radian of crank angle.
+/// Positions and motion of a six-bar at one crank angle, per radian of crank angle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SixBarPosition {
     /// Joint of crank and coupler.
@@ -19,7 +19,7 @@ pub struct SixBarPosition {
     pub effector: MotionJet,
 }
 
-/// Everything that moves, at one input or at several side by side.
+/// Moving quantities at one input or at several side by side.
 struct Moving<T> {
     b: PointSeries<4, T>,
     c: PointSeries<4, T>,
@@ -39,7 +39,7 @@ impl<T: Number> Moving<T> {
     }
 }
 
-/// The answers at each of many inputs, worked out side by side; the last input stands in for one that is missing.
+/// Results at each of many inputs, computed side by side; the last input pads an incomplete group.
 #[inline(always)]
 fn each<R>(inputs: &[f64], at: impl Fn(Lanes) -> [R; LANES]) -> Vec<R> {
     let chunks = 0..inputs.len().div_ceil(LANES);
@@ -60,7 +60,7 @@ impl SixBar {
         [b, c.at]
     }
 
-    /// The way from the effector's pivot to the slider.
+    /// Vector from the effector's pivot to the slider.
     #[inline(always)]
     fn way<const N: usize, T: Number>(&self, slider: PointSeries<N, T>) -> PointSeries<N, T> {
         slider.minus(PointSeries::fixed(self.pivot()))
@@ -89,8 +89,8 @@ impl SixBar {
         self.moving(input).position(0)
     }
 
-    /// Every joint at each of many crank angles: what [`at`](Self::at) says but for a few units in the last place,
-    /// worked out side by side in half its time.
+    /// Every joint at each of many crank angles: equal to [`at`](Self::at) but for a few units in the last place,
+    /// computed side by side in half its time.
     #[must_use]
     pub fn at_each(&self, inputs: &[f64]) -> Vec<SixBarPosition> {
         each(inputs, |input| {
@@ -112,7 +112,7 @@ impl SixBar {
         self.places(input).map(PointSeries::value)
     }
 
-    /// B, C and E at each of many crank angles, without derivatives, as [`at_each`](Self::at_each).
+    /// B, C and E at each of many crank angles, without derivatives, computed like [`at_each`](Self::at_each).
     #[must_use]
     pub fn joints_each(&self, inputs: &[f64]) -> Vec<[Point; 3]> {
         each(inputs, |input| {
@@ -134,7 +134,7 @@ impl SixBar {
         MotionJet::of(&self.effector(input))
     }
 
-    /// The effector's angle at each of many crank angles, as [`at_each`](Self::at_each).
+    /// Angle of the effector at each of many crank angles, computed like [`at_each`](Self::at_each).
     #[must_use]
     pub fn effector_angle_each(&self, inputs: &[f64]) -> Vec<MotionJet> {
         each(inputs, |input| {

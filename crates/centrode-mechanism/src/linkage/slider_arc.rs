@@ -40,7 +40,7 @@ impl SliderArc {
         self.ends.map(|(rocker, _)| self.at(rocker))
     }
 
-    /// The angle in the arc's range of angles, or none.
+    /// Angle within the arc's range of angles, or none.
     fn within(&self, rocker: f64) -> Option<f64> {
         let [low, high] = self.ends.map(|e| e.0);
         let angle = low + (rocker - low).rem_euclid(TAU);
@@ -83,7 +83,7 @@ impl SliderArc {
         }
     }
 
-    /// A crank angle at which the slider is at a rocker angle.
+    /// Crank angle at which the slider is at a rocker angle.
     fn crank(&self, rocker: f64) -> f64 {
         for (end, crank) in self.ends {
             if rocker == end {
@@ -102,7 +102,7 @@ impl SliderArc {
         let way = from - self.center;
         let distance = way.norm();
         if distance > self.radius {
-            // The tangents from outside touch where the radius stands square to them.
+            // The tangents from outside touch where the radius is square to them.
             let (towards, half) = (way.y.atan2(way.x), (self.radius / distance).acos());
             let touching = [towards + half, towards - half];
             rockers.extend(touching.into_iter().filter_map(|t| self.within(t)));
@@ -137,7 +137,7 @@ impl SliderArc {
         across * across.dot(&(self.at(half) - middle)).signum()
     }
 
-    /// The point on a ray from the chord's middle from which the arc is seen at an angle.
+    /// Point on a ray from the chord's middle from which the arc is seen at an angle.
     pub(super) fn seen_at(&self, middle: Point, ray: Vector, swing: f64) -> Option<Point> {
         // Where the ray crosses the circle, on the far side of the middle.
         let way = middle - self.center;

@@ -19,7 +19,7 @@ pub struct SliderCrank {
 }
 
 impl SliderCrank {
-    /// A slider-crank of these lengths, mm.
+    /// Makes a slider-crank of these lengths, mm.
     ///
     /// # Errors
     /// [`FourBarError::Length`].
@@ -41,10 +41,10 @@ impl SliderCrank {
         })
     }
 
-    /// The slider's place along its line, mm, per radian of crank angle.
+    /// Position of the slider along its line, mm, with derivatives per radian of crank angle.
     ///
     /// # Errors
-    /// [`FourBarError::DoesNotClose`] with the crank angle at which the rod stands square to the line.
+    /// [`FourBarError::DoesNotClose`] with the crank angle at which the rod is square to the line.
     pub fn slider(&self, input: f64) -> Result<MotionJet, FourBarError> {
         let b = PointSeries::<4>::turning(input).times(self.crank);
         let line = PointSeries::fixed(Point::new(0.0, self.offset));
@@ -59,8 +59,7 @@ impl SliderCrank {
         Err(FourBarError::DoesNotClose { input, limit })
     }
 
-    /// Way of the slider between its ends, mm: sqrt((b + a)² - e²) - sqrt((b - a)² - e²); none where
-    /// the crank cannot turn.
+    /// Stroke of the slider, mm: sqrt((b + a)² - e²) - sqrt((b - a)² - e²); none where the crank cannot turn.
     #[must_use]
     pub fn stroke(&self) -> Option<f64> {
         let (a, b, e) = (self.crank, self.rod, self.offset);

@@ -283,7 +283,7 @@ fn grashof_names_what_turns() {
     }
 }
 
-/// A double crank winds: its rocker goes round with the crank, without a jump.
+/// A double crank winds: its rocker turns with the crank, without a jump.
 #[test]
 fn a_double_crank_advances_a_turn_a_turn() {
     let bar = four_bar([105.0, 147.0, 127.0, 77.0], Branch::Lower);

@@ -4,7 +4,7 @@ use std::fmt::Display;
 use std::sync::Arc;
 
 use centrode_geometry::{
-    Arc as Bow, MassProperties, Mesh, Opening, Outline, Point, Segment, Solid, Spline, Vector,
+    Arc as Bow, MassProperties, Mesh, Opening, Outline, Point, PolySegment, Segment, Solid, Vector,
 };
 use nalgebra::Matrix3;
 use schemars::JsonSchema;
@@ -61,7 +61,7 @@ fn contour(outline: &Outline) -> Contour {
             to: at(end),
             bulge: *bulge,
         },
-        Segment::Spline(spline) => Edge::Curve {
+        Segment::Poly(spline) => Edge::Curve {
             from: at(&spline.start()),
             to: at(&spline.end()),
             coefficients: spline.coefficients().iter().map(|c| [c.x, c.y]).collect(),
@@ -89,7 +89,7 @@ fn outline(contour: Contour) -> Result<Outline, String> {
                 let coefficients = coefficients
                     .try_into()
                     .map_err(|_| format!("a curve has 14 coefficients, not {count}"))?;
-                Segment::Spline(Spline::new(from.into(), to.into(), coefficients))
+                Segment::Poly(PolySegment::new(from.into(), to.into(), coefficients))
             }
         })
     };

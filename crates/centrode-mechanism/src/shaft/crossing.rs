@@ -5,14 +5,14 @@ use centrode_geometry::bracketed_root;
 use super::{Groove, Reversal, ShaftError, Traverse};
 use crate::transmission::Transmission;
 
-/// A place where the groove runs through itself.
+/// Point where the groove crosses itself.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Crossing {
     /// Shaft angle at which the slider passes it on the way out, rad.
     pub out: f64,
     /// Shaft angle at which it passes on the way back, rad.
     pub back: f64,
-    /// Place along the shaft, mm.
+    /// Position along the shaft, mm.
     pub position: f64,
     /// Angle between both ways, rad: the sum of their lead angles.
     pub angle: f64,
@@ -29,15 +29,15 @@ pub struct ClearOffset {
     pub return_offset: f64,
     /// Least length of a slider that bridges every crossing of the strokes then, mm.
     pub slider_length: f64,
-    /// How far each pick then misses its hole, mm: half of the offset.
+    /// Distance, mm, by which each pick then misses its hole: half of the offset.
     pub misplacement: f64,
 }
 
-/// Offsets tried before one is refined.
+/// Number of offsets tried before one is refined.
 const TRIED: u32 = 64;
 
 impl Groove {
-    /// Every place where the groove runs through itself, in the order the slider passes on its way out.
+    /// Crossings of the groove with itself, in the order the slider passes them on its way out.
     ///
     /// One for every turn of the cycle but one: going out and coming back the slider takes every place
     /// once each, so at the same angle of the shaft the two meet exactly once a turn between them.
@@ -83,7 +83,7 @@ impl Groove {
         longest(&self.crossings(), false)
     }
 
-    /// The least shift of the return stroke with which a slider of this length (mm) bridges every crossing
+    /// Least shift of the return stroke with which a slider of this length (mm) bridges every crossing
     /// of the two strokes, or the best there is if none is enough.
     ///
     /// Picking the same hole at the same angle of the shaft on both ways puts a crossing there, whatever

@@ -7,7 +7,9 @@ use super::{AmplitudeFor, Load, Mill, Reversal, ShaftBody, ShaftError, SliderSpe
 use crate::degrees;
 use crate::design::{DesignSpec, DrawingSpec, Tagged};
 use crate::gear::design::SpecError;
-use crate::gear::design::rule::{Rule, between, broken, finite, line, name, positive, within};
+use crate::gear::design::rule::{
+    Rule, broken, count_in_range, file_name, finite, in_range, positive, single_line,
+};
 
 /// A variable-speed spiral shaft as written: the same words in the file, in Rust and in Python.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
@@ -37,12 +39,12 @@ pub struct SpiralShaftDesign {
     pub pick: f64,
     /// Width of a pot, mm: the box may move by a sixth of it while a seedling is picked.
     pub pot_width: f64,
-    /// How far the return groove runs beside the forward one, mm: brings the slow places off the crossings
-    /// at the price of missing each hole by half of it.
+    /// Shift of the return groove beside the forward one, mm: brings the slow places off the crossings at the price
+    /// of missing each hole by half of it.
     pub return_offset: f64,
     /// Speed along the shaft.
     pub law: SpeedLaw,
-    /// How the slider turns round at both ends.
+    /// Reversal of the slider at both ends.
     pub reversal: Reversal,
     /// The groove.
     pub groove: GrooveSpec,
@@ -50,9 +52,9 @@ pub struct SpiralShaftDesign {
     pub slider: SliderSpec,
     /// The body of the shaft.
     pub body: ShaftBody,
-    /// What cuts the groove.
+    /// Mill that cuts the groove.
     pub mill: Mill,
-    /// What is moved, and how fast.
+    /// Load that is moved, and its speed.
     pub load: Load,
     /// The drawing sheets.
     #[serde(skip_serializing_if = "DrawingSpec::is_default")]
@@ -122,17 +124,17 @@ impl DesignSpec for SpiralShaftDesign {
 }
 
 impl SpiralShaftDesign {
-    /// The rules that need no geometry.
+    /// Checks the rules that need no geometry.
     ///
     /// # Errors
     /// [`SpecError`] with the key at fault.
     pub fn validate(&self) -> Result<(), SpecError> {
-        name("name", &self.name)?;
-        line("title", &self.title)?;
+        file_name("name", &self.name)?;
+        single_line("title", &self.title)?;
         positive("lead", self.lead)?;
-        within("holes", self.holes, 2, 1000)?;
+        count_in_range("holes", self.holes, 2, 1000)?;
         positive("radius", self.radius)?;
-        between(
+        in_range(
             "window_deg",
             self.window.to_degrees(),
             [1e-6, 360.0],
@@ -159,7 +161,7 @@ impl SpiralShaftDesign {
         }
     }
 
-    /// The law, its amplitude solved for the wanted distance where one is given.
+    /// Law with its amplitude solved for the wanted distance where one is given.
     ///
     /// # Errors
     /// [`ShaftError`] where no amplitude gives it.

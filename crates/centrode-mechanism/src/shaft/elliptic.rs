@@ -1,7 +1,7 @@
 use std::f64::consts::TAU;
 
 use super::ShaftError;
-use crate::gear::design::rule::{between, finite, positive};
+use crate::gear::design::rule::{finite, in_range, positive};
 use crate::transmission::{MotionJet, Transmission};
 
 /// The turn of a shaft driven by a pair of focal ellipses: `x - 2 atan2(k sin x, 1 + k cos x)`,
@@ -18,7 +18,7 @@ pub struct EllipticDrive {
 }
 
 impl EllipticDrive {
-    /// The pair that lets a plain shaft of this lead (mm a turn) move the slider by `moved` (mm) in the
+    /// Elliptic pair that lets a plain shaft of this lead (mm a turn) move the slider by `moved` (mm) in the
     /// window (rad) around the slow place: `k = t / (sin h - t cos h)`, `h = W / 2`,
     /// `t = tan((W - 2 pi d / p) / 4)`.
     ///
@@ -27,7 +27,7 @@ impl EllipticDrive {
     pub fn for_moved_distance(moved: f64, window: f64, lead: f64) -> Result<Self, ShaftError> {
         positive("lead", lead)?;
         finite("moved_distance", moved)?;
-        between("window_deg", window.to_degrees(), [1e-6, 359.0], " deg")?;
+        in_range("window_deg", window.to_degrees(), [1e-6, 359.0], " deg")?;
         let half = 0.5 * window;
         let t = (0.25 * (window - TAU * moved / lead)).tan();
         let eccentricity = t / (half.sin() - t * half.cos());
@@ -45,12 +45,12 @@ impl EllipticDrive {
         }
     }
 
-    /// The pair whose greatest speed is `ratio` times its least: `k = (sqrt q - 1)/(sqrt q + 1)`.
+    /// Elliptic pair whose greatest speed is `ratio` times its least: `k = (sqrt q - 1)/(sqrt q + 1)`.
     ///
     /// # Errors
     /// [`ShaftError::Spec`] unless `ratio` is at least 1.
     pub fn for_speed_ratio(ratio: f64) -> Result<Self, ShaftError> {
-        between("speed_ratio", ratio, [1.0, 1e6], "")?;
+        in_range("speed_ratio", ratio, [1.0, 1e6], "")?;
         let root = ratio.sqrt();
         Ok(Self {
             eccentricity: (root - 1.0) / (root + 1.0),

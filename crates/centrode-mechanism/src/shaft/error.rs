@@ -4,7 +4,7 @@ use crate::design::MechanismError;
 use crate::gear::design::SpecError;
 use crate::gear::pitch::PitchError;
 
-/// Why a spiral shaft does not exist.
+/// Reason why a spiral shaft does not exist.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum ShaftError {
@@ -14,7 +14,7 @@ pub enum ShaftError {
     /// A table or formula of the speed cannot be read.
     #[error(transparent)]
     Speed(#[from] PitchError),
-    /// The slider would stand still or run back on the way.
+    /// The slider would stop or run back on the way.
     #[error(
         "amplitude is {amplitude} mm, but with the harmonic {harmonic} and a lead of {lead} mm the slider only keeps moving one way below {limit:.6} mm"
     )]
@@ -43,11 +43,11 @@ pub enum ShaftError {
         "moved_distance must lie between {least:.6} mm, where the slider stands still, and {greatest:.6} mm, where its speed is constant, not {wanted}"
     )]
     MovedDistance {
-        /// What was asked for, mm.
+        /// Distance asked for, mm.
         wanted: f64,
-        /// Bound below, mm.
+        /// Lower bound, mm.
         least: f64,
-        /// Bound above, mm.
+        /// Upper bound, mm.
         greatest: f64,
     },
     /// A window that holds whole waves, over which no amplitude changes the distance.
@@ -73,7 +73,7 @@ pub enum ShaftError {
         /// Name of the law.
         law: &'static str,
     },
-    /// A slider that turns round more than once in a reversal.
+    /// A slider that reverses more than once in a reversal.
     #[error("the slider turns round {0} times in one reversal: take a larger reversal angle")]
     TurnsRound(usize),
     /// A groove that leaves no land to the next turn of itself.
@@ -93,7 +93,7 @@ pub enum ShaftError {
         depth: f64,
         /// Radius of the shaft, mm.
         radius: f64,
-        /// What is in the way.
+        /// Part in the way.
         limit: &'static str,
     },
     /// A slider of the groove's width cannot follow the bend.
@@ -103,7 +103,7 @@ pub enum ShaftError {
     Bend {
         /// Least radius of curvature on the development, mm.
         radius: f64,
-        /// Where, deg of shaft turn.
+        /// Position, deg of shaft turn.
         angle_deg: f64,
         /// Width of the groove, mm.
         width: f64,
@@ -118,13 +118,13 @@ pub enum ShaftError {
     Inside {
         /// The table.
         table: &'static str,
-        /// What is wrong there.
+        /// Error there.
         error: Box<ShaftError>,
     },
 }
 
 impl ShaftError {
-    /// The same error seen from outside a table.
+    /// Error with its key seen from outside a table.
     #[must_use]
     pub(super) fn inside(self, table: &'static str) -> Self {
         match self {
@@ -136,7 +136,7 @@ impl ShaftError {
         }
     }
 
-    /// The key of the design to blame.
+    /// Key of the design to blame.
     #[must_use]
     pub fn key(&self) -> String {
         match self {

@@ -9,10 +9,10 @@ use crate::gear::design::SpecError;
 use crate::gear::design::rule::{not_negative, positive};
 use crate::transmission::{MotionJet, Transmission};
 
-/// Acceleration of free fall, m/s^2, as the paper has it.
+/// Acceleration of free fall, m/s^2, as used in the paper.
 pub const GRAVITY: f64 = 9.81;
 
-/// What the slider moves, and how fast.
+/// Load that the slider moves, and its speed.
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Load {
@@ -53,7 +53,7 @@ pub struct SliderForce {
 }
 
 impl Load {
-    /// Ranges.
+    /// Checks the ranges.
     ///
     /// # Errors
     /// [`SpecError`] with the key at fault.
@@ -115,7 +115,7 @@ impl Load {
     }
 }
 
-/// Way the box goes, or is about to go.
+/// Sign of the way the box moves, or is about to move.
 fn way(motion: &MotionJet) -> f64 {
     if motion.velocity == 0.0 {
         motion.acceleration.signum()
@@ -135,7 +135,7 @@ pub struct ForceRange {
     pub torque: [Extreme; 2],
     /// Greatest deceleration along the way on the strokes, mm/rad^2.
     pub deceleration: Extreme,
-    /// The same over the whole cycle, with the reversals.
+    /// Greatest deceleration over the whole cycle, with the reversals, mm/rad^2.
     pub deceleration_of_cycle: Extreme,
 }
 

@@ -4,7 +4,7 @@ use super::{ShaftError, Traverse};
 use crate::gear::design::rule::positive;
 use crate::transmission::Transmission;
 
-/// One of the two walls of the groove.
+/// Wall of the groove, by its side.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub enum Wall {
     /// Left of the way the slider goes, seen on the development.
@@ -14,7 +14,7 @@ pub enum Wall {
 }
 
 impl Wall {
-    /// Both.
+    /// Both walls.
     pub const BOTH: [Self; 2] = [Self::Left, Self::Right];
 
     pub(crate) fn sign(self) -> f64 {
@@ -28,7 +28,7 @@ impl Wall {
 /// The closed groove on the shaft, out and back.
 ///
 /// The development of the shaft's surface has the arc `R theta` along x and the shaft's axis along y: the
-/// centre line is `(R theta, s(theta))`. On the shaft itself the groove point of `theta` stands at the
+/// centre line is `(R theta, s(theta))`. On the shaft itself the groove point of `theta` is at the
 /// angle `theta` about z; the shaft turns by `-theta` and brings it before the slider, which keeps the
 /// angle 0.
 #[derive(Clone, Debug)]
@@ -41,7 +41,7 @@ pub struct Groove {
 }
 
 impl Groove {
-    /// A groove of a width and depth (mm) in a shaft of the radius `radius` (mm).
+    /// Makes a groove of a width and depth (mm) in a shaft of the radius `radius` (mm).
     ///
     /// # Errors
     /// [`ShaftError`] where neighbouring turns run into one another, the groove reaches the axis, or a bend
@@ -127,8 +127,8 @@ impl Groove {
         ends
     }
 
-    /// The same between two shaft angles counted from the start of the forward stroke, both of them included, as
-    /// shaft angles from [`Traverse::start`] on.
+    /// Ends of the smooth and short parts between two shaft angles counted from the start of the forward stroke, both
+    /// of them included, as shaft angles from [`Traverse::start`] on.
     pub(super) fn ends_between(&self, low: f64, high: f64) -> Vec<f64> {
         let slack = 1e-12 * self.traverse.period();
         let inside = self
@@ -163,7 +163,7 @@ impl Groove {
         self.lead_angle(theta).abs()
     }
 
-    /// Where the pressure angle is greatest, and its value there, rad.
+    /// Greatest pressure angle, rad, and the shaft angle of it.
     #[must_use]
     pub fn steepest(&self) -> Extreme {
         greatest(|theta| self.pressure_angle(theta), &self.ends())
@@ -201,13 +201,13 @@ impl Groove {
         r * (v * v + r * r + a * a).sqrt() / speed.powf(1.5)
     }
 
-    /// Where the development bends most, and the curvature's size there, 1/mm.
+    /// Greatest curvature of the development, 1/mm, without sign, and the shaft angle of it.
     #[must_use]
     pub fn tightest(&self) -> Extreme {
         self.tightest
     }
 
-    /// Where the strokes, without the reversals, bend most, and the curvature's size there, 1/mm.
+    /// Greatest curvature of the strokes without the reversals, 1/mm, without sign, and the shaft angle of it.
     #[must_use]
     pub fn tightest_of_stroke(&self) -> Extreme {
         let ends = self.ends_between(0.0, self.traverse.stroke());
@@ -221,8 +221,7 @@ impl Groove {
         [radius * cos, radius * sin, point.y]
     }
 
-    /// The point of the development that a point of the shaft comes from, on the turn around `near` (mm
-    /// along x).
+    /// Point of the development that a point of the shaft comes from, on the turn around `near` (mm along x).
     #[must_use]
     pub fn unwrapped(&self, [x, y, z]: [f64; 3], near: f64) -> Point {
         let turn = std::f64::consts::TAU;

@@ -9,7 +9,9 @@ use super::{
     EllipticDrive, Load, Schedule, ShaftError, SliderForce, SpiralShaft, SpiralShaftDesign,
 };
 use crate::design::DesignSpec;
-use crate::gear::design::rule::{Rule, between, broken, line, name, positive, within};
+use crate::gear::design::rule::{
+    Rule, broken, count_in_range, file_name, in_range, positive, single_line,
+};
 use crate::gear::design::{BodySpec, GearPairDesign, Keyway, SpecError, TeethSpec, ToolSpec};
 use crate::gear::pitch::{Ellipse, PitchSpec};
 use crate::transmission::{MotionJet, Transmission};
@@ -17,20 +19,20 @@ use crate::transmission::{MotionJet, Transmission};
 /// Even parts of a turn in each of which a stroke has few extremes.
 const PARTS: u32 = 16;
 
-/// What slows the box down while a seedling is picked.
+/// Scheme by which the box is slowed down while a seedling is picked.
 #[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Scheme {
     /// The shaft's groove.
     #[default]
     Shaft,
-    /// A pair of elliptic gears before a plain shaft.
+    /// Pair of elliptic gears that drives a plain shaft.
     EllipticGear,
-    /// Elliptic gears before a variable shaft.
+    /// Pair of elliptic gears that drives a variable shaft.
     Both,
 }
 
-/// The pair of elliptic gears before the shaft, ratio 1.
+/// Pair of elliptic gears that drives the shaft, ratio 1.
 ///
 /// Of `eccentricity`, `speed_ratio` and `moved_distance` exactly one is given.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
@@ -73,16 +75,16 @@ impl Default for EllipticGears {
 }
 
 impl EllipticGears {
-    /// Ranges, and that the eccentricity is given once.
+    /// Checks the ranges, and that the eccentricity is given once.
     ///
     /// # Errors
     /// [`SpecError`] with the key at fault.
     pub fn validate(&self) -> Result<(), SpecError> {
         if let Some(k) = self.eccentricity {
-            between("eccentricity", k, [0.0, 0.95], "")?;
+            in_range("eccentricity", k, [0.0, 0.95], "")?;
         }
         if let Some(ratio) = self.speed_ratio {
-            between("speed_ratio", ratio, [1.0, 100.0], "")?;
+            in_range("speed_ratio", ratio, [1.0, 100.0], "")?;
         }
         if let Some(moved) = self.moved_distance {
             positive("moved_distance", moved)?;
@@ -102,13 +104,13 @@ impl EllipticGears {
             _ => {}
         }
         positive("module", self.module)?;
-        within("tooth_count", self.tooth_count, 3, 10_000)?;
+        count_in_range("tooth_count", self.tooth_count, 3, 10_000)?;
         self.tool.validate().map_err(|e| e.inside("tool"))?;
         self.teeth.validate().map_err(|e| e.inside("teeth"))?;
         self.body.validate().map_err(|e| e.inside("body"))
     }
 
-    /// The turn of the shaft, slowest at `pick` (rad).
+    /// Drive of the shaft, slowest at `pick` (rad).
     fn drive(&self, shaft: &SpiralShaftDesign) -> Result<EllipticDrive, ShaftError> {
         let drive = match (self.eccentricity, self.speed_ratio, self.moved_distance) {
             (Some(eccentricity), ..) => EllipticDrive {
@@ -137,7 +139,7 @@ pub struct MovingBoxDesign {
     /// One line for drawings and reports.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub title: String,
-    /// What slows the box down.
+    /// Scheme that slows the box down.
     pub scheme: Scheme,
     /// The elliptic gears, for the schemes that have them.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -174,13 +176,13 @@ impl DesignSpec for MovingBoxDesign {
 }
 
 impl MovingBoxDesign {
-    /// The rules that need no geometry.
+    /// Checks the rules that need no geometry.
     ///
     /// # Errors
     /// [`SpecError`] with the key at fault.
     pub fn validate(&self) -> Result<(), SpecError> {
-        name("name", &self.name)?;
-        line("title", &self.title)?;
+        file_name("name", &self.name)?;
+        single_line("title", &self.title)?;
         match (self.scheme, &self.gears) {
             (Scheme::Shaft, Some(_)) => {
                 return broken("gears", Rule::Excludes("scheme = \"shaft\""));
@@ -226,7 +228,7 @@ impl MovingBoxDesign {
     }
 }
 
-/// A moving box: the shaft, what drives it, and the box's motion as a function of the machine's input.
+/// A moving box: the shaft, its drive, and the box's motion as a function of the machine's input.
 #[derive(Clone, Debug)]
 pub struct MovingBox {
     design: MovingBoxDesign,
@@ -317,7 +319,7 @@ impl MovingBox {
             .moved(turn(middle - half), turn(middle + half))
     }
 
-    /// Which hole is picked when, by the machine's input.
+    /// Hole picked at each pick, by the machine's input.
     #[must_use]
     pub fn schedule(&self) -> Schedule {
         let design = self.shaft.design();
@@ -357,7 +359,7 @@ impl MovingBox {
     }
 }
 
-/// A way out and back driven by gears.
+/// Traverse driven by gears.
 #[derive(Debug)]
 struct Driven {
     drive: EllipticDrive,

@@ -1,4 +1,4 @@
-//! Equations (14) to (18) of Zhou et al. 2018 as printed, to be shown beside what holds.
+//! Equations (14) to (18) of Zhou et al. 2018 as printed, for comparison with the derived ones.
 
 use super::{GRAVITY, Load, SpeedLaw, SpiralShaft};
 use crate::transmission::Transmission;
@@ -43,7 +43,7 @@ impl SpiralShaft {
     /// law that is no sine.
     ///
     /// (16) differentiates `kappa sin` as if it were the speed. It is the place, so a factor `n w` is missing
-    /// and the unit is m/s. A sine along the shaft of amplitude `B` stands for `kappa = B sin b`, with `tan b =
+    /// and the unit is m/s. A sine along the shaft of amplitude `B` corresponds to `kappa = B sin b`, with `tan b =
     /// 2 pi R / p`.
     #[must_use]
     pub fn published_acceleration(&self, theta: f64, load: &Load) -> Option<f64> {

@@ -1,16 +1,16 @@
 use std::f64::consts::{PI, TAU};
 
-use centrode_geometry::Primitive;
+use centrode_geometry::Antiderivative;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::ShaftError;
 use crate::cam::law::{Law, LawSpec};
 use crate::degrees;
-use crate::gear::design::rule::between;
+use crate::gear::design::rule::in_range;
 use crate::transmission::MotionJet;
 
-/// How the slider turns round at an end: its speed goes from `v0` to `-v0` by a motion law.
+/// Reversal of the slider at an end: its speed goes from `v0` to `-v0` by a motion law.
 ///
 /// `s' = v0 (1 - 2 L(x))` over the angle `T`, `x` from 0 to 1. The harmonic law overshoots by `v0 T / pi`
 /// and reaches `|s''| = pi v0 / T`. Where the shaft's law is accelerated at the joint, a cubic carries
@@ -23,7 +23,7 @@ pub struct Reversal {
     #[serde(rename = "angle_deg", with = "degrees")]
     #[schemars(with = "f64")]
     pub angle: f64,
-    /// How the speed changes sign.
+    /// Motion law of the change of sign.
     pub law: LawSpec,
 }
 
@@ -42,7 +42,7 @@ const LONGEST: f64 = 40.0 * PI;
 impl Reversal {
     pub(super) fn resolve(&self) -> Result<Turnaround, ShaftError> {
         let degrees = self.angle.to_degrees();
-        between(
+        in_range(
             "reversal.angle_deg",
             degrees,
             [1e-6, LONGEST.to_degrees()],
@@ -56,7 +56,7 @@ impl Reversal {
         let mut ends = vec![0.0];
         ends.extend(law.breaks());
         ends.push(1.0);
-        let area = Primitive::of(|x| law.at(x).position, &ends);
+        let area = Antiderivative::of(|x| law.at(x).position, &ends);
         let slope = |x: f64| law.at(x).velocity.abs();
         if (area.total() - 0.5).abs() > 1e-12 || slope(0.0) > 1e-9 || slope(1.0) > 1e-9 {
             return Err(ShaftError::ReversalLaw { law: law.name() });
@@ -74,17 +74,17 @@ impl Reversal {
 pub(super) struct Turnaround {
     pub(super) angle: f64,
     law: Law,
-    area: Primitive,
+    area: Antiderivative,
 }
 
-/// What a reversal joins.
+/// Conditions at the ends of a reversal.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Ends {
     /// Speed at its start, the opposite of that at its end, mm/rad.
     pub(super) speed: f64,
     /// Acceleration at both, mm/rad^2.
     pub(super) acceleration: f64,
-    /// Place of the end over that of the start, mm.
+    /// Position of the end over that of the start, mm.
     pub(super) shift: f64,
 }
 
@@ -122,7 +122,7 @@ impl Turnaround {
         }
     }
 
-    /// Shares of the reversal where a derivative may jump.
+    /// Shares of the reversal at which a derivative may jump.
     pub(super) fn breaks(&self) -> Vec<f64> {
         self.law.breaks()
     }

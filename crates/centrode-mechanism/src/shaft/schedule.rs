@@ -3,19 +3,19 @@ use std::f64::consts::TAU;
 use super::Traverse;
 use crate::transmission::Transmission;
 
-/// Which way the box runs while a hole is picked.
+/// Way of the box while a hole is picked.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub enum Way {
-    /// On the forward stroke.
+    /// Forward stroke.
     Forward,
-    /// While turning round.
+    /// Reversal.
     Reversing,
-    /// On the return stroke.
+    /// Return stroke.
     Return,
 }
 
 impl Way {
-    /// The word for it.
+    /// Word for the way.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -35,27 +35,27 @@ pub struct Pick {
     pub theta: f64,
     /// Way of the box.
     pub way: Way,
-    /// Place of the box, mm.
+    /// Position of the box, mm.
     pub position: f64,
     /// Number of the nearest hole, from 0.
     pub hole: u32,
-    /// Place of the box over that of the nearest hole, mm.
+    /// Position of the box over that of the nearest hole, mm.
     pub misplacement: f64,
     /// Distance the box sweeps in the window, mm.
     pub swept: f64,
 }
 
-/// Which hole is picked at which turn over a whole way out and back, one pick a turn.
+/// Holes picked at each turn over a whole way out and back, one pick a turn.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Schedule {
     /// The picks in order.
     pub picks: Vec<Pick>,
-    /// How often each hole is picked.
+    /// Number of picks of each hole.
     pub visits: Vec<u32>,
 }
 
 impl Schedule {
-    /// Picks at `pick + 2 pi k`, each in a window (rad) around that angle.
+    /// Schedule of picks at `pick + 2 pi k`, each in a window (rad) around that angle.
     ///
     /// The holes lie a lead apart, the first where the box is at the first pick; with a return offset
     /// they are half of it nearer, so that both ways miss them alike.
@@ -64,7 +64,7 @@ impl Schedule {
         Self::driven(traverse, pick, window, |input| input)
     }
 
-    /// The picks of a shaft that a drive turns: angles and windows are those of the drive's input, which has
+    /// Schedule of a shaft that a drive turns: angles and windows are those of the drive's input, which has
     /// turned the shaft to `shaft_turn(input)` and turns it once a turn.
     pub(super) fn driven(
         traverse: &Traverse,

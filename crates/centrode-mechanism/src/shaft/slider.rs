@@ -12,9 +12,9 @@ use crate::gear::design::rule::{Rule, broken, not_negative, positive};
 pub struct SliderSpec {
     /// Length over both round ends, mm.
     pub length: f64,
-    /// How much narrower than the groove it is, mm.
+    /// Difference of the groove's width and its own, mm.
     pub clearance: f64,
-    /// How deep it reaches into the groove, mm.
+    /// Depth to which it reaches into the groove, mm.
     pub reach: f64,
     /// Diameter of the bore for the pin it turns on, mm.
     pub pin_diameter: f64,
@@ -35,7 +35,7 @@ impl Default for SliderSpec {
 }
 
 impl SliderSpec {
-    /// Ranges, for a groove of this width and depth (mm).
+    /// Checks the ranges, for a groove of this width and depth (mm).
     ///
     /// # Errors
     /// [`SpecError`] with the key at fault.
@@ -115,8 +115,8 @@ impl SliderSpec {
         chord.min(self.length)
     }
 
-    /// Clearance a straight slider of this length needs where the groove bends most, mm: the height of the
-    /// bend over the chord between the centres of its round ends.
+    /// Clearance a straight slider of this length needs where the groove's curvature is greatest, mm: the height of
+    /// the bend over the chord between the centres of its round ends.
     ///
     /// `rho - sqrt(rho^2 - l^2 / 4)` with `l` the length less the groove's width; infinite where the bend
     /// is shorter than the slider.

@@ -64,7 +64,7 @@ impl SpiralShaft {
         &self.design.title
     }
 
-    /// The law with the amplitude it has.
+    /// Law with its amplitude.
     #[must_use]
     pub fn speed_law(&self) -> &SpeedLaw {
         &self.law
@@ -110,19 +110,19 @@ impl SpiralShaft {
         &self.design.body
     }
 
-    /// What is moved, and how fast.
+    /// Load that is moved, and its speed.
     #[must_use]
     pub fn load(&self) -> &Load {
         &self.design.load
     }
 
-    /// What the drawing sheets say and how they are laid out, as in the design.
+    /// Entries and layout of the drawing sheets, as in the design.
     #[must_use]
     pub fn drawing(&self) -> &DrawingSpec {
         &self.design.drawing
     }
 
-    /// Which hole is picked when.
+    /// Hole picked at each pick.
     #[must_use]
     pub fn schedule(&self) -> Schedule {
         Schedule::of(self.traverse(), self.design.pick, self.design.window)
@@ -176,8 +176,8 @@ impl SpiralShaft {
         Solid::new(outline, vec![bore], 0.0, slider.reach)
     }
 
-    /// Upper edges of the groove's walls as far as they stand, on the development, mm; each broken where
-    /// the angle round the shaft starts anew.
+    /// Upper edges of the groove's walls as far as they remain, on the development, mm; each broken where the angle
+    /// round the shaft starts anew.
     ///
     /// # Errors
     /// [`ShaftError`] where body and groove do not go together.

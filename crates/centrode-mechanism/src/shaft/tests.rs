@@ -251,7 +251,7 @@ fn wherever_a_shaft_is_first_picked_the_same_holes_are_met_out_and_back() {
             assert!((here.swept - there.swept).abs() < 1e-9, "{pick}: {here:?}");
             assert_eq!((here.way, here.hole), (there.way, there.hole));
         }
-        // The same groove, turned on the shaft.
+        // The usual groove, turned on the shaft.
         let (a, b) = (shaft.groove(), usual.groove());
         for i in 0..200 {
             let theta = 0.37 * f64::from(i);
@@ -448,7 +448,7 @@ fn both_schemes_together_are_their_chain() {
     assert!(ShaftLaw::new(plain).is_ok());
 }
 
-/// What a template says, without the family.
+/// Content of a template, without the family.
 fn template<T: serde::de::DeserializeOwned>(text: &str) -> T {
     let mut table: toml::Table = text.parse().expect("TOML");
     table.remove("family").expect("names its family");

@@ -31,7 +31,7 @@ impl Default for Mill {
 }
 
 impl Mill {
-    /// Ranges, for a groove of this width (mm).
+    /// Checks the ranges, for a groove of this width (mm).
     ///
     /// # Errors
     /// [`SpecError`] with the key at fault.
@@ -64,10 +64,10 @@ impl Mill {
             .collect()
     }
 
-    /// Closed ways of the mill's axis on the development, mm, each ending where it began but whole turns
+    /// Closed paths of the mill's axis on the development, mm, each ending where it began but whole turns
     /// on: one along the middle, or one beside each wall.
     ///
-    /// Between two points the axes move in proportion, and the way is within the tolerance of the exact one.
+    /// Between two points the axes move in proportion, and the path is within the tolerance of the exact one.
     #[must_use]
     pub fn ways(&self, groove: &Groove, tolerance: Tolerance) -> Vec<Vec<Point>> {
         let beside = 0.5 * (groove.width() - self.diameter.unwrap_or(groove.width()));
@@ -90,7 +90,7 @@ impl Groove {
     pub fn way(&self, beside: f64, tolerance: Tolerance) -> Vec<Point> {
         let mut points = vec![self.beside(0.0, beside)];
         for pair in self.ends().windows(2) {
-            // A chord over the length l misses a bend of the curvature k by k l^2 / 8.
+            // A chord over the length l leaves a curve of the curvature k by k l^2 / 8.
             let looks = (0..=8).map(|i| pair[0] + (pair[1] - pair[0]) * f64::from(i) / 8.0);
             let bend = looks
                 .map(|theta| {
@@ -99,7 +99,7 @@ impl Groove {
                 })
                 .fold(0.0, f64::max);
             let length = (self.beside(pair[1], beside) - self.beside(pair[0], beside)).norm();
-            // A little room for what the bend is between the looks.
+            // A margin for the curvature between the samples.
             let steps = (length * (1.1 * bend / (8.0 * tolerance.mm())).sqrt()).ceil();
             let steps = steps.clamp(1.0, 1e5) as u32;
             points.extend((1..=steps).map(|i| {
@@ -110,7 +110,7 @@ impl Groove {
         points
     }
 
-    /// A wall over the whole cycle, as [`way`](Self::way).
+    /// Path along a wall over the whole cycle, like [`way`](Self::way).
     #[must_use]
     pub fn wall_way(&self, wall: Wall, tolerance: Tolerance) -> Vec<Point> {
         self.way(0.5 * self.width() * wall.sign(), tolerance)

@@ -4,10 +4,10 @@ use centrode_geometry::bracketed_root;
 
 use super::reversal::{Ends, Turnaround};
 use super::{Reversal, ShaftError, ShaftLaw};
-use crate::gear::design::rule::{finite, within};
+use crate::gear::design::rule::{count_in_range, finite};
 use crate::transmission::{MotionJet, Transmission};
 
-/// Looks for places where the slider turns round, a reversal.
+/// Number of samples of a reversal in the search for where the slider turns round.
 const LOOKS: u32 = 512;
 
 /// The slider's whole way out and back: forward stroke, reversal, return stroke, reversal.
@@ -24,12 +24,12 @@ pub struct Traverse {
     /// Shaft angle at which the forward stroke starts, rad, and the law's motion there.
     start: f64,
     origin: MotionJet,
-    /// Places where the slider stands, at the far end and at the near one, rad.
+    /// Shaft angles at which the slider rests, at the far end and at the near one, rad.
     tips: [f64; 2],
 }
 
 impl Traverse {
-    /// The cycle over `holes` places a lead apart, from the shaft angle 0.
+    /// Makes the cycle over `holes` places a lead apart, from the shaft angle 0.
     ///
     /// # Errors
     /// [`ShaftError`] naming the violated rule and its numbers.
@@ -42,7 +42,7 @@ impl Traverse {
         Self::starting_at(0.0, law, holes, reversal, return_offset)
     }
 
-    /// The cycle over `holes` places a lead apart, its forward stroke from the shaft angle `start` (rad).
+    /// Makes the cycle over `holes` places a lead apart, its forward stroke from the shaft angle `start` (rad).
     ///
     /// A shaft that picks at `start` and at every turn from there picks the first and the last hole where the
     /// strokes begin and end, and with a reversal of whole turns the same holes on the way back.
@@ -56,7 +56,7 @@ impl Traverse {
         reversal: &Reversal,
         return_offset: f64,
     ) -> Result<Self, ShaftError> {
-        within("holes", holes, 2, 1000)?;
+        count_in_range("holes", holes, 2, 1000)?;
         finite("start", start)?;
         finite("return_offset", return_offset)?;
         let turnaround = reversal.resolve()?;
@@ -77,7 +77,7 @@ impl Traverse {
         Ok(traverse)
     }
 
-    /// The place in a reversal where the slider stands.
+    /// Shaft angle in a reversal at which the slider rests.
     fn tip(&self, from: f64) -> Result<f64, ShaftError> {
         let speed = |theta: f64| self.at(theta).velocity;
         let at = |i: u32| from + self.reversal() * f64::from(i) / f64::from(LOOKS);
@@ -125,7 +125,7 @@ impl Traverse {
         self.turnaround.angle
     }
 
-    /// How far the return stroke runs beside the forward one, mm towards the near end.
+    /// Distance of the return stroke from the forward one, mm towards the near end.
     #[must_use]
     pub fn return_offset(&self) -> f64 {
         self.return_offset
@@ -137,20 +137,20 @@ impl Traverse {
         (self.period() / TAU).round() as u32
     }
 
-    /// Shaft angles at which the slider stands: at the far end, and at the near one.
+    /// Shaft angles at which the slider rests: at the far end, and at the near one.
     #[must_use]
     pub fn tips(&self) -> [f64; 2] {
         self.tips
     }
 
-    /// Least and greatest place of the slider, mm.
+    /// Least and greatest position of the slider, mm.
     #[must_use]
     pub fn reach(&self) -> (f64, f64) {
         let [far, near] = self.tips.map(|theta| self.at(theta).position);
         (near, far)
     }
 
-    /// How far the slider runs beyond the ends of the strokes, mm: at the far end and at the near one.
+    /// Distance the slider runs beyond the ends of the strokes, mm: at the far end and at the near one.
     #[must_use]
     pub fn overshoot(&self) -> [f64; 2] {
         let (near, far) = self.reach();

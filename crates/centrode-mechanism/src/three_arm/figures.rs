@@ -5,7 +5,7 @@ use centrode_geometry::Vector;
 use super::ThreeArm;
 use crate::gear::Member;
 
-/// The figures that the goals of a mechanism are about; angles in rad, lengths in mm.
+/// Figures that the goals of a mechanism bound; angles in rad, lengths in mm.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Figures {
     /// Elevation of the clamp above the horizontal at picking, seen from the machine towards the tray.
@@ -42,7 +42,7 @@ impl ThreeArm {
         Vector::new(-self.train().sign() * cos, sin)
     }
 
-    /// Depth of the tip's loop beyond where it picks, mm, in the direction in which arms enter the tray.
+    /// Depth of the tip's loop beyond the point of picking, mm, in the direction in which arms enter the tray.
     #[must_use]
     pub fn picking_depth(&self) -> f64 {
         let picked = self.tip(self.picking(0), 0).position.coords;
@@ -61,7 +61,7 @@ impl ThreeArm {
             + design.gearbox.housing_offset
     }
 
-    /// The figures that the goals are about.
+    /// Figures that the goals bound.
     #[must_use]
     pub fn figures(&self) -> Figures {
         let pick_angle = self.clamp_elevation(self.picking(0), 0);
@@ -77,7 +77,7 @@ impl ThreeArm {
     }
 }
 
-/// A direction's angle above the horizontal, seen towards -sign x.
+/// Elevation of a direction above the horizontal, seen towards -sign x.
 pub(super) fn elevation(direction: f64, sign: f64) -> f64 {
     let seen = if sign > 0.0 {
         PI - direction

@@ -4,7 +4,7 @@ use nalgebra::Rotation2;
 use super::{Link, ThreeArm};
 use crate::gear::Member;
 
-/// The carrier as a body: a plate on either side of the gears, with a hole at every axis.
+/// Body of the carrier: a plate on either side of the gears, with a hole at every axis.
 #[derive(Clone, Debug)]
 pub struct GearboxBody {
     /// Contour, counter-clockwise, in the carrier's frame.
@@ -17,7 +17,7 @@ pub struct GearboxBody {
 }
 
 impl ThreeArm {
-    /// A link's axis in the carrier's frame, mm: where it stays.
+    /// Position of a link's axis in the carrier's frame, where it is fixed, mm.
     #[must_use]
     pub fn on_carrier(&self, link: Link) -> Point {
         let carrier = self.link(Link::Carrier, 0.0).angle.position;
@@ -58,8 +58,8 @@ impl ThreeArm {
         })
     }
 
-    /// Distance of the middle of the arms' housings from the rear faces of the gears, mm: behind them the
-    /// gearbox's front plate and a play as that of the gears.
+    /// Distance of the middle of the arms' housings from the rear faces of the gears, mm: behind them are the
+    /// gearbox's front plate and a clearance equal to that of the gears.
     #[must_use]
     pub fn arm_level(&self) -> f64 {
         let design = self.design();

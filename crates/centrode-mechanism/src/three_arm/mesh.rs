@@ -2,29 +2,29 @@ use super::{Link, ThreeArm};
 
 /// Two gears of a chain in mesh.
 #[derive(Clone, Copy, Debug, Eq, Hash, PartialEq)]
-pub enum Mesh {
+pub enum GearMesh {
     /// The sun and the intermediate gear of a chain.
     Sun(u32),
     /// The planet and the intermediate gear of a chain.
     Planet(u32),
 }
 
-/// Where two gears in mesh stand to the line from the sun's or planet's axis to the intermediate gear's.
+/// Pose of two gears in mesh against the line from the sun's or planet's axis to the intermediate gear's.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MeshPose {
-    /// Polar angle of the sun or planet on that line, rad: what a pair's driver angle is.
+    /// Polar angle of the sun or planet on that line, rad: the driver angle of the pair.
     pub driver: f64,
-    /// How far the intermediate gear is turned from that line, rad: what a pair's driven angle is.
+    /// Turn of the intermediate gear from that line, rad: the driven angle of the pair.
     pub driven: f64,
 }
 
 impl ThreeArm {
     /// Every mesh, chain by chain.
-    pub fn meshes(&self) -> impl Iterator<Item = Mesh> + use<> {
-        (0..self.arms()).flat_map(|k| [Mesh::Sun(k), Mesh::Planet(k)])
+    pub fn meshes(&self) -> impl Iterator<Item = GearMesh> + use<> {
+        (0..self.arms()).flat_map(|k| [GearMesh::Sun(k), GearMesh::Planet(k)])
     }
 
-    /// Where the gears of a mesh stand at a carrier turn, read from the links alone.
+    /// Pose of the gears of a mesh at a carrier turn, read from the links alone.
     ///
     /// Teeth laid out once for the pair of sun and intermediate gear fit every mesh at every input if, and
     /// only if, this is a pose of that pair: the driven angle that goes with the driver angle. It is, for
@@ -32,10 +32,10 @@ impl ThreeArm {
     /// another space; chains repeat the first one; and a planet is the sun's part, set by the train so that
     /// it meets the intermediate gear at the polar angle where the sun would.
     #[must_use]
-    pub fn mesh_pose(&self, mesh: Mesh, input: f64) -> MeshPose {
+    pub fn mesh_pose(&self, mesh: GearMesh, input: f64) -> MeshPose {
         let (driver, driven) = match mesh {
-            Mesh::Sun(k) => (Link::Sun, Link::Intermediate(k)),
-            Mesh::Planet(k) => (Link::Planet(k), Link::Intermediate(k)),
+            GearMesh::Sun(k) => (Link::Sun, Link::Intermediate(k)),
+            GearMesh::Planet(k) => (Link::Planet(k), Link::Intermediate(k)),
         };
         let (driver, driven) = (self.link(driver, input), self.link(driven, input));
         let line = driven.origin.position - driver.origin.position;

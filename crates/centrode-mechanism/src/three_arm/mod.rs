@@ -18,7 +18,7 @@ mod tray;
 
 pub use figures::Figures;
 pub use gearbox::GearboxBody;
-pub use mesh::{Mesh, MeshPose};
+pub use mesh::{GearMesh, MeshPose};
 pub use parameter::{Parameter, UnknownParameter};
 pub use pose::{Chain, Link, LinkMotion, PointMotion};
 pub use pusher::{Pusher, PusherError};
@@ -30,7 +30,7 @@ pub use tray::TrayBody;
 
 use crate::design::MechanismError;
 use crate::gear::design::SpecError;
-use crate::gear::{GearPair, GearPairError, Member, Rolling, Soundness};
+use crate::gear::{FlankCount, GearPair, GearPairError, Member, Rolling};
 use design::ThreeArmDesign;
 
 /// A three-arm transplanting mechanism, resolved: exact pitch curves, exact motion of every link.
@@ -45,7 +45,7 @@ pub struct ThreeArm {
     trajectory: Trajectory,
 }
 
-/// Why a design gives no three-arm mechanism.
+/// Reason why a design gives no three-arm mechanism.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ThreeArmError {
@@ -57,7 +57,7 @@ pub enum ThreeArmError {
         "tray.distance is {distance} mm, but the arms reach only from {least} to {greatest} mm in that direction"
     )]
     TrayOutOfReach {
-        /// As written, mm.
+        /// Distance as written, mm.
         distance: f64,
         /// Least reach of the tip, mm.
         least: f64,
@@ -93,7 +93,7 @@ impl From<ThreeArmError> for MechanismError {
 }
 
 impl ThreeArm {
-    /// Rolls the pitch curves and finds where the arms pick and plant. No tooth is cut.
+    /// Rolls the pitch curves and finds the inputs at which the arms pick and plant. No tooth is cut.
     ///
     /// # Errors
     /// [`ThreeArmError`] naming the rule broken and its numbers.
@@ -111,7 +111,7 @@ impl ThreeArm {
         Ok(mechanism)
     }
 
-    /// The design it was made from.
+    /// Design of the mechanism.
     #[must_use]
     pub fn design(&self) -> &ThreeArmDesign {
         &self.design
@@ -155,7 +155,7 @@ impl ThreeArm {
         teeth.map(|z| length / (PI * f64::from(z)))
     }
 
-    /// Extremes of the tip's path in the machine's frame, and where the arms pick and plant.
+    /// Extremes of the tip's path in the machine's frame, and the working points of the arms.
     #[must_use]
     pub fn trajectory(&self) -> &Trajectory {
         &self.trajectory
@@ -194,12 +194,12 @@ impl ThreeArm {
         GearPair::resolve(&self.design.pair())
     }
 
-    /// How many flanks of the sun (and so of each planet) and of each intermediate gear are sound at full height.
+    /// Counts the sound flanks of the sun (and so of each planet) and of each intermediate gear at full height.
     ///
     /// # Errors
     /// [`GearPairError`] without a tooth count, or where no teeth can be laid out.
-    pub fn soundness(&self) -> Result<[Soundness; 2], GearPairError> {
-        Soundness::of(&self.design.pair(), self.rolling())
+    pub fn flank_counts(&self) -> Result<[FlankCount; 2], GearPairError> {
+        FlankCount::of(&self.design.pair(), self.rolling())
     }
 
     /// Direction of the clamp from the arm's zero, rad: that of the tip turned by asin(H/S).
@@ -219,7 +219,7 @@ impl ThreeArm {
         Ok([sun, planet])
     }
 
-    /// The first arm's input at which it stands as the given arm does now.
+    /// Input of the first arm at which its pose is that of the given arm now.
     #[must_use]
     pub fn own_input(&self, input: f64, arm: u32) -> f64 {
         input - TAU * f64::from(arm) / f64::from(self.arms())

@@ -41,7 +41,7 @@ pub enum Parameter {
     Planting,
 }
 
-/// A word that names no parameter.
+/// Error of a word that names no parameter.
 #[derive(Clone, Debug, Eq, PartialEq, thiserror::Error)]
 #[error(
     "`{0}` is no parameter: they are r1, r2, ..., theta1, theta2, ..., carrier_start, bend, mounting_angle, tip_distance, pusher_offset, planet_reference, picking and planting"
@@ -119,7 +119,7 @@ impl Parameter {
         )
     }
 
-    /// Its value in a design, rad or mm; none where the design does not write it.
+    /// Value in a design, rad or mm; none where the design does not write it.
     #[must_use]
     pub fn of(self, design: &ThreeArmDesign) -> Option<f64> {
         let spline = || match &design.pitch {
@@ -140,7 +140,7 @@ impl Parameter {
         }
     }
 
-    /// Sets it in a design, rad or mm; a control point that is not there is let be.
+    /// Sets the value in a design, rad or mm; does nothing for a control point that is not there.
     pub fn set(self, design: &mut ThreeArmDesign, value: f64) {
         fn put(list: Option<&mut Vec<f64>>, index: u8, value: f64) {
             if let Some(place) = list.and_then(|list| list.get_mut(usize::from(index))) {

@@ -14,7 +14,7 @@ use crate::transmission::MotionJet;
 pub enum Link {
     /// The gear fixed to the frame.
     Sun,
-    /// What carries all other gears.
+    /// The carrier of all other gears.
     Carrier,
     /// The gear between sun and planet of a chain.
     Intermediate(u32),
@@ -24,10 +24,10 @@ pub enum Link {
     Arm(u32),
 }
 
-/// A point on its way: position (mm), with derivatives by carrier turn (mm/rad, mm/rad^2).
+/// Motion of a point: position (mm), with derivatives by carrier turn (mm/rad, mm/rad^2).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PointMotion {
-    /// Where it is.
+    /// Position.
     pub position: Point,
     /// First derivative.
     pub velocity: Vector,
@@ -36,7 +36,7 @@ pub struct PointMotion {
 }
 
 impl PointMotion {
-    /// The same with derivatives by time for a carrier that turns at `speed` rad/s: mm/s and mm/s^2.
+    /// Motion with derivatives by time for a carrier that turns at `speed` rad/s: mm/s and mm/s^2.
     #[must_use]
     pub fn at_speed(&self, speed: f64) -> Self {
         Self {
@@ -57,7 +57,7 @@ impl PointMotion {
         }
     }
 
-    /// The origin, standing still.
+    /// Motion of a fixed origin.
     #[must_use]
     pub fn at_rest() -> Self {
         Self {
@@ -68,7 +68,7 @@ impl PointMotion {
     }
 }
 
-/// Where one link stands: its axis and the turn of its frame, with derivatives by carrier turn.
+/// Motion of one link: its axis and the turn of its frame, with derivatives by carrier turn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LinkMotion {
     /// The link's own origin.
@@ -94,13 +94,13 @@ pub struct Chain<'a> {
 }
 
 impl Chain<'_> {
-    /// The angles they follow from.
+    /// Angles of the train from which they follow.
     #[must_use]
     pub fn train(&self) -> &TrainJet {
         &self.jet
     }
 
-    /// Intermediate gear, planet and arm, as [`ThreeArm::link`] has them.
+    /// Motion of intermediate gear, planet and arm, equal to that of [`ThreeArm::link`].
     #[must_use]
     pub fn links(&self) -> [LinkMotion; 3] {
         let center_distance = self.mechanism.center_distance();
@@ -143,7 +143,7 @@ impl Chain<'_> {
 }
 
 impl ThreeArm {
-    /// Where a link stands at a carrier turn; any real input. Chains beyond the last wrap round.
+    /// Motion of a link at a carrier turn; any real input. Chains beyond the last wrap round.
     #[must_use]
     pub fn link(&self, link: Link, input: f64) -> LinkMotion {
         let rest = PointMotion::at_rest();
@@ -165,7 +165,7 @@ impl ThreeArm {
         }
     }
 
-    /// A chain at a carrier turn: one solution of the train for whatever is asked of it. Chains beyond the last wrap
+    /// Chain at a carrier turn: the train is solved once for all its links. Chains beyond the last wrap
     /// round.
     #[must_use]
     pub fn chain(&self, chain: u32, input: f64) -> Chain<'_> {
@@ -187,7 +187,7 @@ impl ThreeArm {
         self.chain(arm, input).clamp()
     }
 
-    /// A motion in the machine's frame as it is over ground, for a machine that has travelled from zero at input zero.
+    /// Motion over ground, for a machine that has travelled from zero at input zero, of a point in the machine's frame.
     #[must_use]
     pub fn over_ground(&self, motion: &PointMotion, input: f64) -> PointMotion {
         let travel = Vector::new(-self.train().sign() * self.advance(), 0.0);

@@ -12,10 +12,10 @@ use crate::cam::{Cam, CamError, Fork, Lever, Motion, RodJoint};
 use crate::gear::design::SpecError;
 use crate::transmission::{MotionJet, Transmission};
 
-/// What moves the push rod of an arm: the cam on the carrier, the fork on the arm.
+/// Drive of an arm's push rod: the cam on the carrier, the fork on the arm.
 ///
 /// The fork's pivot is on the line from the planet's axis square to the pusher's axis, so the lever on the
-/// rod is as long as the pivot is from that axis, and stands half its swing either side of the square.
+/// rod is as long as the pivot is from that axis, and swings equally to either side of the square.
 #[derive(Clone, Debug)]
 pub struct Pusher {
     cam: Cam,
@@ -23,20 +23,20 @@ pub struct Pusher {
     spec: ForkSpec,
     motion: Arc<Motion>,
     stroke: f64,
-    /// 1 where the pusher's axis passes on the right of the planet's, seen along the clamp.
+    /// Sign: 1 where the pusher's axis passes on the right of the planet's, seen along the clamp.
     side: f64,
     cam_angle: f64,
     spans: Spans,
 }
 
-/// Where the parts lie along the planet's axis, mm, from the middle of the arm's housing.
+/// Extents of the parts along the planet's axis, mm, from the middle of the arm's housing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Spans {
     cam: [f64; 2],
     fork: [f64; 2],
 }
 
-/// Why an arm's push rod cannot be moved.
+/// Reason why an arm's push rod cannot be moved.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum PusherError {
@@ -56,9 +56,9 @@ pub enum PusherError {
     NoRest {
         /// Carrier turn over which the rod is drawn back, deg.
         closing: f64,
-        /// From picking to planting, deg.
+        /// Carrier turn from picking to planting, deg.
         hold: f64,
-        /// Over which it is thrown out, deg.
+        /// Carrier turn over which the rod is thrown out, deg.
         release: f64,
     },
     /// The pivot is not between the planet's axis and the pusher's.
@@ -81,12 +81,12 @@ pub enum PusherError {
         /// Half of both diameters together, mm.
         needed: f64,
     },
-    /// Cam, fork and rod find no room side by side.
+    /// Cam, fork and rod do not fit side by side.
     #[error(
         "rod, fork and cam reach {needed} mm to the rear of the middle of the housing, which leaves {room} mm"
     )]
     Depth {
-        /// How far they reach, mm.
+        /// Width they need, mm.
         needed: f64,
         /// The room inside the rear cover, mm.
         room: f64,
@@ -96,9 +96,9 @@ pub enum PusherError {
         "thrown out, the fork's pin is {pin} mm before the planet's axis, but the rod begins at {rod} mm: lengthen arm.body.housing.tube_back or shorten the stroke"
     )]
     RodEnd {
-        /// Where the pin is along the pusher's axis, mm.
+        /// Position of the pin along the pusher's axis, mm.
         pin: f64,
-        /// Where the rod begins, with room for the pin's hole, mm.
+        /// Position at which the rod begins, with room for the pin's hole, mm.
         rod: f64,
     },
     /// The roller at its highest strikes the housing's drum.
@@ -106,7 +106,7 @@ pub enum PusherError {
         "the roller reaches {reach} mm from the planet's axis, but the housing leaves {room} mm"
     )]
     Roller {
-        /// How far it reaches, mm.
+        /// Greatest distance it reaches, mm.
         reach: f64,
         /// Inner radius of the drum, mm.
         room: f64,
@@ -139,7 +139,7 @@ impl PusherError {
 }
 
 impl ThreeArm {
-    /// Sizes of the arms: those written, or the usual ones, as [`UsualArm`](crate::arm::UsualArm) has them.
+    /// Sizes of the arms: those written, or the usual ones of [`UsualArm`](crate::arm::UsualArm).
     #[must_use]
     pub fn arm_sizes(&self) -> ArmBodySpec {
         let arm = &self.design().arm;
@@ -261,13 +261,13 @@ impl Pusher {
         &self.spec
     }
 
-    /// How far the rod is drawn back at most, mm.
+    /// Stroke of the rod, mm.
     #[must_use]
     pub fn stroke(&self) -> f64 {
         self.stroke
     }
 
-    /// How far the first arm's rod is drawn back at a carrier turn, mm; zero thrown out.
+    /// Retraction of the first arm's rod at a carrier turn, mm; zero thrown out.
     #[must_use]
     pub fn retraction(&self, input: f64) -> MotionJet {
         self.motion.at(input)
@@ -316,7 +316,7 @@ impl Pusher {
         self.pivot() + Vector::new(cos, sin) * self.spec.arm_length
     }
 
-    /// How far the roller reaches from the planet's axis with the rod drawn back, mm.
+    /// Greatest distance of the roller from the planet's axis with the rod drawn back, mm.
     #[must_use]
     pub fn reach(&self) -> f64 {
         self.roller(self.stroke).coords.norm() + self.spec.roller_radius
@@ -351,13 +351,13 @@ impl Pusher {
         Some((Outline::hull(&around)?, holes))
     }
 
-    /// From where to where the cam lies along the planet's axis, mm, from the middle of the arm's housing.
+    /// Extent of the cam along the planet's axis, mm, from the middle of the arm's housing.
     #[must_use]
     pub fn cam_span(&self) -> [f64; 2] {
         self.spans.cam
     }
 
-    /// The same of the fork.
+    /// Extent of the fork along the planet's axis, mm, from the middle of the arm's housing.
     #[must_use]
     pub fn fork_span(&self) -> [f64; 2] {
         self.spans.fork
@@ -365,7 +365,7 @@ impl Pusher {
 }
 
 impl Spans {
-    /// Rod in the middle, the fork behind it, the cam with the roller behind the fork.
+    /// Extents with the rod in the middle, the fork behind it, the cam with the roller behind the fork.
     fn of(cam: &PusherCamSpec, fork: &ForkSpec, sizes: &ArmBodySpec) -> Result<Self, PusherError> {
         let rod = &sizes.push_rod;
         let gap = 0.1 * rod.diameter;

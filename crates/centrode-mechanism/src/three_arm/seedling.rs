@@ -4,14 +4,14 @@ use centrode_geometry::{Extreme, Outline, Point, least, pieces};
 
 use super::ThreeArm;
 
-/// How near an arm's clamp comes to pushing a planted seedling over.
+/// Least clearance of an arm's clamp from pushing a planted seedling over.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SeedlingClearance {
     /// Least clearance, mm; negative by as much as a stem is pushed.
     pub value: f64,
     /// Carrier turn of the planting arm at which it is least, rad.
     pub input: f64,
-    /// Which seedling is nearest there: 0 the one just planted, 1 the one before it in the row.
+    /// Nearest seedling there: 0 the one just planted, 1 the one before it in the row.
     pub seedling: u32,
 }
 
@@ -21,7 +21,7 @@ const PARTS: u32 = 15;
 impl ThreeArm {
     /// Least clearance of an arm's clamp from the seedlings it has planted and finds planted, over a whole cycle.
     ///
-    /// Model: over ground, each arm leaves a stem upright where its tip is at planting, as wide and as high as the
+    /// Model: over ground, each arm leaves a vertical stem where its tip is at planting, as wide and as high as the
     /// design says, one every `plant_spacing`. The clamp is the line back from the tip along the pusher's axis. From
     /// the release on it must stay behind the far side of the stem just planted, through which its open flakes may
     /// draw back, and at all times in front of the stem before it. Only what is below the stems' top
@@ -48,7 +48,7 @@ impl ThreeArm {
         }
     }
 
-    /// Feet of the seedlings planted last, the newest first, where they stand in the machine's frame at an input, mm.
+    /// Feet of the seedlings planted last, the newest first, in the machine's frame at an input, mm.
     #[must_use]
     pub fn planted(&self, input: f64, count: u32) -> Vec<Point> {
         let apart = TAU / f64::from(self.arms());

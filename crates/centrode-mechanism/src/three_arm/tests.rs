@@ -28,7 +28,7 @@ fn resolved(design: &ThreeArmDesign) -> ThreeArm {
     ThreeArm::resolve(design).expect("a mechanism")
 }
 
-/// Of circles the intermediate turns twice as fast as the carrier and the planet not at all.
+/// With circular gears the intermediate turns twice as fast as the carrier and the planet not at all.
 #[test]
 fn circular_gears_move_the_arm_in_a_circle_without_turning_it() {
     let mut design = published();
@@ -229,7 +229,7 @@ fn working_points_are_where_their_rules_say() {
         assert!(tip.y > path.lowest.reach - 1e-9 && tip.y < path.highest.reach + 1e-9);
         assert!(tip.x < path.farthest.reach + 1e-9);
     }
-    // The published picking input is where the tip enters a tray upright at that tip.
+    // The published picking input is where the tip enters a vertical tray at that tip.
     design.tray.distance = Some(243.621_054);
     let mechanism = resolved(&design);
     assert_eq!(mechanism.trajectory().picking_rule, PickingRule::EntersTray);

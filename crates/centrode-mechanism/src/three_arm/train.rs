@@ -7,14 +7,14 @@ use crate::transmission::{MotionJet, Transmission};
 
 /// The gear train of one arm: the fixed sun, an intermediate gear and a planet on the turning carrier.
 ///
-/// At the input theta, the carrier's turn, the carrier stands at phi = `carrier_start` -+ theta and meets the sun at
+/// At the input theta, the carrier's turn, the carrier is at phi = `carrier_start` -+ theta and meets the sun at
 /// the sun's polar angle psi = -+ theta (upper sign clockwise). With f the pair's transmission function, the
-/// intermediate stands at phi + f(psi). It meets the planet at the planet's polar angle
-/// chi = f^-1(f(psi) - bend - pi), where the planet, a gear like the sun, stands at phi + bend + pi - chi, and the arm's
+/// intermediate is at phi + f(psi). It meets the planet at the planet's polar angle
+/// chi = f^-1(f(psi) - bend - pi), where the planet, a gear like the sun, is at phi + bend + pi - chi, and the arm's
 /// zero at phi + bend - reference + chi(0) - chi.
 ///
 /// Both stages are the same exact integral, read forwards and backwards. The mean ratios are 1, so after one carrier
-/// turn every gear stands as it did.
+/// turn every gear is in its first position again.
 ///
 /// Source: Yin et al. 2021, DOI 10.25165/j.ijabe.20211405.6844, eqs. (4) to (10), derived again: the printed limits of
 /// (9) leave out the pi, and (10) as printed does not give the published angles.
@@ -25,11 +25,11 @@ pub struct Train {
     carrier_start: f64,
     bend: f64,
     reference: f64,
-    /// The planet's polar angle in mesh at the start.
+    /// Polar angle of the planet in mesh at the start.
     chi: f64,
 }
 
-/// Where the links of one chain stand, with their derivatives by carrier turn; angles from the x axis, rad.
+/// Angles of the links of one chain, with their derivatives by carrier turn; from the x axis, rad.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TrainJet {
     /// Direction of the intermediate gear's axis from the sun's.
@@ -42,7 +42,7 @@ pub struct TrainJet {
     pub arm: MotionJet,
 }
 
-/// A jet and a number: the position moved, the derivatives kept.
+/// Adds a number to a jet: the position is moved, the derivatives are kept.
 pub(super) fn moved(jet: MotionJet, by: f64) -> MotionJet {
     MotionJet {
         position: jet.position + by,
@@ -73,7 +73,7 @@ impl Train {
         &self.rolling
     }
 
-    /// Which way the carrier turns.
+    /// Sense in which the carrier turns.
     #[must_use]
     pub fn direction(&self) -> Direction {
         if self.sign > 0.0 {
@@ -83,12 +83,12 @@ impl Train {
         }
     }
 
-    /// 1 for a carrier that turns counter-clockwise, -1 for clockwise.
+    /// Sign: 1 for a carrier that turns counter-clockwise, -1 for clockwise.
     pub(super) fn sign(&self) -> f64 {
         self.sign
     }
 
-    /// Direction of the intermediate gear's axis at the start, which is also how the sun stands, rad.
+    /// Direction of the intermediate gear's axis at the start, which is also the sun's zero, rad.
     #[must_use]
     pub fn carrier_start(&self) -> f64 {
         self.carrier_start
@@ -112,7 +112,7 @@ impl Train {
         self.chi - self.reference - PI
     }
 
-    /// Where the links stand at a carrier turn; any real input.
+    /// Angles of the links at a carrier turn; any real input.
     #[must_use]
     pub fn at(&self, input: f64) -> TrainJet {
         let carrier = MotionJet {
@@ -137,7 +137,7 @@ impl Train {
         }
     }
 
-    /// The arm's turn against the carrier as a function of the carrier's: what a cam fixed to the carrier sees.
+    /// Turn of the arm against the carrier as a function of the carrier's: the input of a cam fixed to the carrier.
     #[must_use]
     pub fn arm_on_carrier(&self) -> ArmOnCarrier {
         ArmOnCarrier {

@@ -4,7 +4,7 @@ use centrode_geometry::{Vector, bracketed_root};
 
 use super::{PointMotion, ThreeArm, ThreeArmError};
 
-/// Where and how far the tip's path reaches in some direction.
+/// Extreme of the tip's path in some direction, and its input.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Extreme {
     /// Carrier turn of the first arm, rad.
@@ -13,22 +13,22 @@ pub struct Extreme {
     pub reach: f64,
 }
 
-/// How the picking input was found.
+/// Rule by which the picking input was found.
 #[derive(Clone, Copy, Debug, Default, Eq, PartialEq)]
 pub enum PickingRule {
-    /// Where the tip reaches farthest in the direction in which arms enter the tray.
+    /// Input at which the tip reaches farthest in the direction in which arms enter the tray.
     #[default]
     Farthest,
-    /// Where the tip passes the tray's surface on its way to the farthest reach.
+    /// Input at which the tip passes the tray's surface on its way to the farthest reach.
     EntersTray,
     /// Written in the design.
     Given,
 }
 
-/// How the planting input was found.
+/// Rule by which the planting input was found.
 #[derive(Clone, Copy, Debug, Default, Eq, PartialEq)]
 pub enum PlantingRule {
-    /// Where the tip is lowest.
+    /// Input at which the tip is lowest.
     #[default]
     Lowest,
     /// Written in the design.
@@ -38,33 +38,33 @@ pub enum PlantingRule {
 /// The tip's path in the machine's frame (the static trajectory): extremes and working points.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Trajectory {
-    /// Where the tip is lowest; its reach is the y coordinate.
+    /// Lowest point of the tip; its reach is the y coordinate.
     pub lowest: Extreme,
-    /// Where it is highest.
+    /// Highest point of the tip.
     pub highest: Extreme,
-    /// Where it reaches farthest in the direction in which arms enter the tray.
+    /// Farthest reach in the direction in which arms enter the tray.
     pub farthest: Extreme,
     /// Input at which the first arm picks, in `[0, 2 pi)`.
     pub picking: f64,
-    /// How it was found.
+    /// Rule by which it was found.
     pub picking_rule: PickingRule,
     /// Input at which the first arm plants, in `[0, 2 pi)`.
     pub planting: f64,
-    /// How it was found.
+    /// Rule by which it was found.
     pub planting_rule: PlantingRule,
 }
 
-/// Inputs at which extremes are looked for before they are sharpened to the float limit.
+/// Number of inputs at which extremes are sampled before they are refined to the float limit.
 const LOOKS: u32 = 720;
 
-/// The tip's path, looked at evenly: input, reach in a direction, reach by input.
+/// Even samples of the tip's path: input, reach in a direction, reach by input.
 struct Looks<'a> {
     mechanism: &'a ThreeArm,
     direction: Vector,
     list: Vec<[f64; 3]>,
 }
 
-/// The tip at each input that is looked at.
+/// Motion of the tip at each sampled input.
 fn tips(mechanism: &ThreeArm) -> Vec<(f64, PointMotion)> {
     let input = |i: u32| TAU * f64::from(i) / f64::from(LOOKS);
     let look = |i| (input(i), mechanism.tip(input(i), 0));
@@ -88,7 +88,7 @@ impl<'a> Looks<'a> {
         reach(&self.mechanism.tip(input, 0), &self.direction)
     }
 
-    /// The greatest reach with sign 1, the least with sign -1.
+    /// Greatest reach for sign 1, least for sign -1.
     fn extreme(&self, sign: f64) -> Extreme {
         let mut best = Extreme {
             input: 0.0,
@@ -111,7 +111,7 @@ impl<'a> Looks<'a> {
         best
     }
 
-    /// Where the reach last grows past a value before the given input.
+    /// Input before the given one at which the reach last grows past a value.
     fn entering(&self, value: f64, before: f64) -> Option<f64> {
         let count = self.list.len() - 1;
         let start = (before / TAU * count as f64).ceil() as usize;
@@ -133,7 +133,7 @@ impl<'a> Looks<'a> {
     }
 }
 
-/// How far a point is in a direction, and its speed that way.
+/// Reach of a point in a direction, and its speed that way.
 fn reach(tip: &PointMotion, direction: &Vector) -> [f64; 2] {
     [
         tip.position.coords.dot(direction),

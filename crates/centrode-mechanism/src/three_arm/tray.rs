@@ -4,16 +4,16 @@ use nalgebra::Isometry2;
 use super::ThreeArm;
 use super::design::Unpicked;
 
-/// Depth of the plate that stands for a tray, in distances of its holes.
+/// Depth of the plate that models a tray, in distances of its holes.
 const DEPTH: f64 = 2.0;
 
-/// The tray from the side, with the seedlings that are still in it.
+/// Side view of the tray, with the seedlings that are still in it.
 ///
 /// Its frame has its origin in the tray's surface at the hole that is picked from; x points the way the arms enter, y
 /// along the rows.
 #[derive(Clone, Debug)]
 pub struct TrayBody {
-    /// The tray's frame in the machine's.
+    /// Pose of the tray's frame in the machine's.
     pub place: Isometry2<f64>,
     /// The plate behind the surface, counter-clockwise, in the tray's frame.
     pub plate: Outline,
@@ -22,7 +22,7 @@ pub struct TrayBody {
 }
 
 impl TrayBody {
-    /// A contour of the tray in the machine's frame.
+    /// Contour of the tray moved into the machine's frame.
     #[must_use]
     pub fn placed(&self, outline: &Outline) -> Outline {
         outline.transformed(&self.place)
@@ -30,9 +30,9 @@ impl TrayBody {
 }
 
 impl ThreeArm {
-    /// The tray as the arms find it: as many rows as it has, the hole that is picked from in the middle.
+    /// Tray in the pose in which the arms meet it: as many rows as it has, the hole that is picked from in the middle.
     ///
-    /// The stems of unpicked rows stand square out of its surface; those beside the picked one, in its row, do not count.
+    /// The stems of unpicked rows are square to its surface; those beside the picked one, in its row, do not count.
     #[must_use]
     pub fn tray_body(&self) -> TrayBody {
         let spec = &self.design().tray;

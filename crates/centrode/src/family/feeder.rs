@@ -14,7 +14,7 @@ use serde_json::json;
 
 use super::{Mechanism, Resolved, Widening, WideningError};
 
-/// Places of a cycle at which the torque is worked out.
+/// Points of a cycle at which the torque is computed.
 const LOOKS: u32 = 360;
 
 /// Tolerance of the picture, as a share of the frame.
@@ -49,8 +49,8 @@ impl Mechanism for Feeder {
         feeder::curves(self)
     }
 
-    /// The six-bar as it moves, with the path of its tip. The gears are plain: cutting their teeth takes longer than an
-    /// eye waits.
+    /// Picture of the moving six-bar, with the path of its tip. The gears are plain: cutting their teeth takes longer
+    /// than an eye waits.
     fn picture(&self) -> Picture {
         drawn(self, Teeth::Plain)
     }
@@ -153,7 +153,7 @@ fn drawn(machine: &Feeder, teeth: Teeth<'_>) -> Picture {
     picture
 }
 
-/// A point of each part that stands for one of the linkage's numbers.
+/// Handle on each part, a point that sets one of the linkage's numbers.
 fn joints(machine: &Feeder) -> [(Part, Handle); 6] {
     let spec = &machine.design().linkage;
     let handle = |name: &str, plane, keys: [&str; 2], values, scale| Handle {
@@ -169,7 +169,7 @@ fn joints(machine: &Feeder) -> [(Part, Handle); 6] {
         origin: [0.0; 2],
         chained: false,
     };
-    // A length reaches along its own link, at whatever angle that stands.
+    // A length reaches along its own link, at whatever angle that is.
     let reach = |name, key, length, scale| {
         handle(name, HandlePlane::Polar, [key, ""], [length, 0.0], scale)
     };

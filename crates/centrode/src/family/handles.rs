@@ -3,10 +3,10 @@ use std::f64::consts::{PI, TAU};
 use centrode_export::page::{Handle, HandlePlane};
 use centrode_mechanism::gear::pitch::{PitchSpec, Plane};
 
-/// Most points of a pitch curve that get a handle each: more would hide the curve.
+/// Greatest number of points of a pitch curve that get a handle each: more would hide the curve.
 const MOST_HANDLES: usize = 60;
 
-/// The points of a pitch curve whose length is `length` mm in the picture, on a link.
+/// Handles at the points of a pitch curve whose length is `length` mm in the picture, on a link.
 pub(super) fn handles(pitch: &PitchSpec, length: f64, link: usize) -> Vec<Handle> {
     let (plane, first, second): (_, &[f64], &[f64]) = match pitch {
         PitchSpec::Bspline(s) if s.plane == Plane::Polar => {
@@ -61,7 +61,7 @@ pub(super) fn degrees(radians: f64) -> f64 {
     (radians.to_degrees() * 1e10).round() / 1e10
 }
 
-/// By how much module and tooth count scale the curve as written.
+/// Factor by which module and tooth count scale the curve as written.
 fn scale(pitch: &PitchSpec, length: f64) -> f64 {
     let mut unscaled = pitch.clone();
     let (module, tooth_count) = match &mut unscaled {

@@ -10,66 +10,66 @@ use centrode_mechanism::machine::Machine;
 
 /// A resolved mechanism of whatever family.
 pub trait Mechanism: Any + Debug + Send + Sync {
-    /// The design it was made from.
+    /// Design of the mechanism.
     fn design(&self) -> &dyn Design;
 
-    /// The machine in one line.
+    /// Definition of the machine in one line.
     fn definition(&self) -> String;
 
-    /// Checks all there is to check.
+    /// Checks everything.
     fn check(&self) -> Report;
 
-    /// Goals, figures and findings of the motion, without what every tooth and cam is asked for: some ten times sooner.
+    /// Checks the motion alone: goals, figures and findings without any tooth or cam, some ten times quicker.
     fn check_motion(&self) -> Report {
         self.check()
     }
 
-    /// The report of [`Mechanism::check`] with the curves along the cycle that it leaves.
+    /// Report of [`Mechanism::check`] with the curves along the cycle that it yields.
     fn check_with_curves(&self) -> (Report, Vec<Curve>) {
         (self.check(), Vec::new())
     }
 
-    /// The curves that are there at once.
+    /// Curves that are available at once.
     fn curves(&self) -> Vec<Curve>;
 
-    /// The picture that is there at once, with the points that can be drawn aside.
+    /// Picture that is available at once, with the handles of its numbers.
     fn picture(&self) -> Picture;
 
-    /// Whether that lacks what takes longer to make.
+    /// Whether that picture lacks details that take longer to make.
     fn is_coarse(&self) -> bool {
         false
     }
 
-    /// The picture with what takes longer to make; none where nothing is left out at first, or nothing can be made.
+    /// Picture with details that take longer to make; none where nothing is left out at first, or nothing can be made.
     fn detailed(&self) -> Option<Picture> {
         None
     }
 
-    /// The machine as links and joints.
+    /// Model of the machine as links and joints.
     ///
     /// # Errors
     /// [`ExportError`] where a part cannot be made.
     fn machine(&self) -> Result<Machine, ExportError>;
 
-    /// The files in the formats asked for, not yet on disk.
+    /// Makes the files in the formats asked for, not yet on disk.
     ///
     /// # Errors
     /// [`ExportError`], for instance where the tolerance is too coarse.
     fn files(&self, formats: &[Format], options: &Options) -> Result<Bundle, ExportError>;
 }
 
-/// How much is asked of a mechanism.
+/// Depth of a check.
 #[derive(Clone, Copy, Debug, Default, Eq, PartialEq)]
 pub enum Depth {
-    /// The answer of [`Mechanism::check_motion`]: all goals.
+    /// Depth of [`Mechanism::check_motion`]: all goals.
     #[default]
     Motion,
-    /// The answer of [`Mechanism::check`].
+    /// Depth of [`Mechanism::check`].
     Whole,
 }
 
 impl dyn Mechanism {
-    /// Checks as much as is asked.
+    /// Checks to a depth.
     #[must_use]
     pub fn report(&self, depth: Depth) -> Report {
         match depth {
@@ -78,7 +78,7 @@ impl dyn Mechanism {
         }
     }
 
-    /// The mechanism of a family, where it is of that.
+    /// Casts to the mechanism of a family; none for another family.
     #[must_use]
     pub fn downcast<M: Mechanism>(self: Arc<Self>) -> Option<Arc<M>> {
         let any: Arc<dyn Any + Send + Sync> = self;

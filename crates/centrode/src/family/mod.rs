@@ -1,4 +1,4 @@
-//! Families of machine: the one list of them, and what each binds of the lower crates.
+//! Families of machine: the one list of them, and the parts of the lower crates that each binds.
 
 mod contact;
 mod feeder;

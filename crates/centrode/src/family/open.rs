@@ -4,7 +4,7 @@ use centrode_mechanism::design::{Design, DesignError, DesignFile};
 
 use super::{Family, Mechanism};
 
-/// A design file that has been read, and the family it is of.
+/// Design file that has been read, and its family.
 #[derive(Clone, Debug)]
 pub struct OpenDesign {
     family: Family,
@@ -16,7 +16,7 @@ impl OpenDesign {
         Self { family, file }
     }
 
-    /// Its family.
+    /// Family of the design.
     #[must_use]
     pub fn family(&self) -> &Family {
         &self.family
@@ -28,7 +28,7 @@ impl OpenDesign {
         self.file.design().as_ref()
     }
 
-    /// The mechanism of the design.
+    /// Mechanism of the design.
     ///
     /// # Errors
     /// [`DesignError`] at the key to blame.

@@ -8,9 +8,9 @@ use centrode_mechanism::design::{
 
 use super::{Depth, Mechanism, OpenDesign, Widening, WideningError};
 
-/// A mechanism of one family: all that the registry reads of it beside the mechanism itself.
+/// Mechanism of one family: all that the registry reads of it beside the mechanism itself.
 pub trait Resolved: Mechanism + Sized {
-    /// Its design.
+    /// Design of the family.
     type Design: DesignSpec;
 
     /// One machine of the family in a sentence, `a gear pair`.
@@ -25,15 +25,15 @@ pub trait Resolved: Mechanism + Sized {
     /// [`MechanismError`] naming the key at fault.
     fn resolve(design: &Self::Design) -> Result<Self, MechanismError>;
 
-    /// The search problem around a design.
+    /// Search problem around a design.
     ///
     /// # Errors
-    /// [`NotSearched`] for a design that no search knows.
+    /// [`NotSearched`] for a design that no search accepts.
     fn problem(_design: &Self::Design) -> Result<Box<dyn DesignProblem + Send>, NotSearched> {
         Err(NotSearched::Family)
     }
 
-    /// The least widening of a design's bounds that lets all its goals be reached.
+    /// Least widening of a design's bounds that lets all its goals be reached.
     ///
     /// # Errors
     /// A sentence that says why there is none.
@@ -45,9 +45,9 @@ pub trait Resolved: Mechanism + Sized {
 /// A part of a machine, or all in place, by its name.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub struct PartName {
-    /// The name, which its files have too.
+    /// Name, which its files have too.
     pub name: &'static str,
-    /// The part in words.
+    /// Description in words.
     pub about: &'static str,
 }
 
@@ -55,7 +55,7 @@ impl PartName {
     /// The whole machine, as drawings show it.
     pub const ASSEMBLY: Self = Self::new("assembly", "Everything in place");
 
-    /// A part by its name, and in words.
+    /// Makes a part by its name, and in words.
     #[must_use]
     pub const fn new(name: &'static str, about: &'static str) -> Self {
         Self { name, about }
@@ -68,7 +68,7 @@ type SetProblem = fn(&dyn Design) -> Result<Box<dyn DesignProblem + Send>, NotSe
 /// One family of machine.
 #[derive(Clone, Copy, Debug)]
 pub struct Family {
-    /// Its design files.
+    /// Design files of the family.
     pub design: DesignFamily,
     /// One machine of the family in a sentence, `a gear pair`.
     pub noun: &'static str,
@@ -104,10 +104,10 @@ impl Family {
         (self.resolve)(design)
     }
 
-    /// The search problem around a design.
+    /// Search problem around a design.
     ///
     /// # Errors
-    /// [`NotSearched`] for a design that no search knows.
+    /// [`NotSearched`] for a design that no search accepts.
     pub fn problem(
         &self,
         design: &dyn Design,
@@ -115,7 +115,7 @@ impl Family {
         (self.problem)(design)
     }
 
-    /// The least widening of a design's bounds that lets all its goals be reached.
+    /// Least widening of a design's bounds that lets all its goals be reached.
     ///
     /// # Errors
     /// A sentence that says why there is none.
@@ -123,7 +123,7 @@ impl Family {
         (self.widen)(design)
     }
 
-    /// How the figures of a design answer one of its numbers, at values in the file's unit.
+    /// Response of the figures of a design to one of its numbers, at values in the file's unit.
     ///
     /// # Errors
     /// [`DesignError`] where the key is no number of the design.
@@ -146,7 +146,7 @@ impl AsRef<DesignFamily> for Family {
     }
 }
 
-/// The design as one of its own family.
+/// Casts to a design of its own family.
 fn own<D: DesignSpec>(design: &dyn Design) -> Result<&D, MechanismError> {
     design.downcast_ref().ok_or_else(|| MechanismError {
         key: "family".into(),
@@ -163,7 +163,7 @@ fn own<D: DesignSpec>(design: &dyn Design) -> Result<&D, MechanismError> {
 pub struct Families(pub &'static [Family]);
 
 impl Families {
-    /// The words that name them.
+    /// Words that name the families.
     #[must_use]
     pub fn words(&self) -> Vec<&'static str> {
         self.0.iter().map(|family| family.design.word).collect()

@@ -65,12 +65,12 @@ impl Resolved for SpiralShaft {
     }
 }
 
-/// How exactly a shaft is drawn.
+/// Tolerance with which a shaft is drawn.
 pub(super) fn tolerance(shaft: &SpiralShaft) -> Option<Tolerance> {
     Tolerance::new(DRAWN * shaft.groove().width()).ok()
 }
 
-/// A shaft in one line.
+/// Description of a shaft in one line.
 pub(super) fn in_words(shaft: &SpiralShaft) -> String {
     let design = shaft.design();
     format!(

@@ -56,7 +56,7 @@ impl Mechanism for ThreeArm {
         three_arm::curves(self)
     }
 
-    /// The mechanism with plain gears: cutting teeth takes longer than an eye waits.
+    /// Picture of the mechanism with plain gears: cutting teeth takes longer than an eye waits.
     fn picture(&self) -> Picture {
         drawn(self, Teeth::Plain)
     }
@@ -118,7 +118,7 @@ impl Resolved for ThreeArm {
     }
 }
 
-/// How clear the arms keep, and what the flanks of sun and first intermediate gear do, by the carrier's turn.
+/// Clearances of the arms, and contact of the flanks of sun and first intermediate gear, by the carrier's turn.
 fn checked_curves(mechanism: &ThreeArm, teeth: Option<&TrainTeeth>) -> Vec<Curve> {
     let mut curves = Vec::new();
     if let Some(course) = arm_clearance_course(mechanism, PARTS) {

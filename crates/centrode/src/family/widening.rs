@@ -2,7 +2,7 @@ use std::error::Error;
 
 use serde_json::Value;
 
-/// Why there is no widening, in a sentence.
+/// Reason why there is no widening, in a sentence.
 pub type WideningError = Box<dyn Error + Send + Sync>;
 
 /// A design whose bounds have been widened by as little as lets all its goals be reached.
@@ -10,7 +10,7 @@ pub type WideningError = Box<dyn Error + Send + Sync>;
 pub struct Widening {
     /// Share by which the bounds were widened.
     pub share: f64,
-    /// Tables of the design that hold something new, whole, as programs read them.
+    /// Tables of the design with new content, whole, as programs read them.
     pub tables: Vec<(&'static str, Value)>,
     /// New numbers, each by its key in the file.
     pub numbers: Vec<(String, f64)>,

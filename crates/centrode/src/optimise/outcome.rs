@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use crate::report::goal_words;
 
-/// What a search has come to.
+/// Result of a search.
 #[derive(Serialize)]
 pub(super) struct Outcome<'a> {
     ended: Ended,
@@ -20,14 +20,14 @@ pub(super) struct Outcome<'a> {
     remark: Option<String>,
 }
 
-/// A parameter's way, in the file's unit.
+/// Change of a parameter, in the file's unit.
 #[derive(Serialize)]
 struct Moved {
     name: String,
     key: String,
     before: f64,
     after: f64,
-    /// The move as a share of the bounds.
+    /// Share of the bounds that it moved.
     share: f64,
 }
 

@@ -7,7 +7,7 @@ use serde::Deserialize;
 
 use crate::failure::Failure;
 
-/// The better design's file, and its search beside it.
+/// File of the better design, and its search beside it.
 pub(super) struct Stored {
     folder: PathBuf,
     design: String,
@@ -65,7 +65,7 @@ impl Stored {
         self.put(&self.design, text.to_owned())
     }
 
-    /// Whole or not at all.
+    /// Writes a file, whole or not at all.
     fn put(&self, name: &str, text: String) -> Result<(), Failure> {
         let mut bundle = Bundle::default();
         bundle.add(name, text.into_bytes())?;
@@ -74,7 +74,7 @@ impl Stored {
     }
 }
 
-/// What a stored search has beside the search.
+/// Content of a stored search's file.
 #[derive(Deserialize)]
 struct Sealed {
     seal: String,
@@ -90,7 +90,7 @@ fn seal(problem: &dyn DesignProblem, search: &str) -> Result<String, Failure> {
     let middle: Vec<f64> = bounds.iter().map(|b| 0.5 * (b.0 + b.1)).collect();
     let design = problem.design(&middle).to_toml();
     let design = design.map_err(|error| Failure::Usage(error.to_string()))?;
-    // FNV-1a: the same on every machine and in every version.
+    // FNV-1a: equal on every machine and in every version.
     let bytes = design.bytes().chain([0]).chain(search.bytes());
     let hash = bytes.fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
         (hash ^ u64::from(byte)).wrapping_mul(0x100_0000_01b3)

@@ -10,7 +10,7 @@ use super::kind::switched;
 pub(crate) struct Edit {
     /// Path of the key, `teeth.backlash`, `pitch.radius[3]`.
     key: String,
-    /// The value; null takes the key out.
+    /// New value; null removes the key.
     value: Json,
 }
 
@@ -45,7 +45,7 @@ impl Edit {
     }
 }
 
-/// Why an edit cannot be made.
+/// Reason why an edit cannot be made.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum EditError {
     #[error("the text is not TOML: {0}")]
@@ -69,7 +69,7 @@ impl Step {
         Self::Name(name.into())
     }
 
-    /// Its name; none for the place in a list.
+    /// Name of the key; none for the index in a list.
     pub(super) fn name(&self) -> Option<&str> {
         match self {
             Self::Name(name) => Some(name),
@@ -78,10 +78,10 @@ impl Step {
     }
 }
 
-/// The text with the edits made; comments, order and all other values stay as they are.
+/// Text with the edits made; comments, order and all other values stay as they are.
 ///
-/// A new `kind` changes its table so that the design stays a mechanism; a table that is new gets what it cannot be
-/// without, as it holds where the table is left out.
+/// A new `kind` changes its table so that the design stays a mechanism; a table that is new gets its required keys,
+/// with the values that hold while the table is left out.
 pub(crate) fn edited(text: &str, edits: &[Edit]) -> Result<String, EditError> {
     let mut document: DocumentMut = text.parse()?;
     for edit in edits {
@@ -119,7 +119,7 @@ pub(crate) fn edited(text: &str, edits: &[Edit]) -> Result<String, EditError> {
     Ok(document.to_string())
 }
 
-/// The steps of a path; `None` where it is none.
+/// Steps of a path; `None` for a text that is no path.
 fn steps(path: &str) -> Option<Vec<Step>> {
     let mut steps = Vec::new();
     for part in path.split('.') {
@@ -150,7 +150,7 @@ fn complete(document: &mut DocumentMut, steps: &[Step]) {
         }
         let text = document.to_string();
         if let Some(value) = list(&text, &path).and_then(|list| written(&list)) {
-            // A number of a list that holds though it is not written.
+            // A number of a list that is in force though it is not written.
             if let Some(parent) = container(document.as_item_mut(), &steps[..depth - 1], true) {
                 let _ = set(parent, step, value);
             }
@@ -162,7 +162,7 @@ fn complete(document: &mut DocumentMut, steps: &[Step]) {
         };
         for (name, value) in needed {
             if let Some(value) = written(&value) {
-                // A path that leads nowhere is told by who sets the value.
+                // A path that leads nowhere is reported by the function that sets the value.
                 let _ = set(table, &Step::Name(name), value);
             }
         }
@@ -249,7 +249,7 @@ pub(super) fn replace(old: &mut Value, mut new: Value) {
     *old = new;
 }
 
-/// A value as it is written in a design file; none for a table and for what is not finite.
+/// Value as it is written in a design file; none for a table and for numbers that are not finite.
 pub(super) fn written(value: &Json) -> Option<Value> {
     Some(match value {
         Json::Bool(b) => (*b).into(),

@@ -6,10 +6,10 @@ use serde_json::{Map, Value};
 
 use super::schema::{Shape, described, shape};
 
-/// A table of the design file as a form: one field a key.
+/// Table of the design file as a form: one field a key.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub(crate) struct Table {
-    /// Path of the table, `driver.keyway`; empty for what stands before the first table.
+    /// Path of the table, `driver.keyway`; empty for the keys before the first table.
     pub(crate) key: String,
     doc: String,
     /// Whether it may be left out as a whole.
@@ -28,11 +28,11 @@ pub(crate) struct Field {
     /// The words to choose from, where there are any.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     choices: Vec<Choice>,
-    /// As written, else the default; null where there is neither.
+    /// Value as written, else the default; null where there is neither.
     pub(crate) value: Value,
-    /// Whether it is written in the file.
+    /// Whether the key is written in the file.
     written: bool,
-    /// Whether it may be left out.
+    /// Whether the key may be left out.
     optional: bool,
     #[serde(skip_serializing_if = "Option::is_none")]
     least: Option<f64>,
@@ -41,7 +41,7 @@ pub(crate) struct Field {
 }
 
 impl Field {
-    /// Whether it stands in the file and may be left out.
+    /// Whether the key is in the file and may be left out.
     pub(crate) fn may_go(&self) -> bool {
         self.written && self.optional
     }
@@ -56,7 +56,7 @@ impl Field {
     }
 }
 
-/// What a field takes.
+/// Kind of value of a field.
 #[derive(Clone, Copy, Debug, Eq, PartialEq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub(crate) enum Kind {
@@ -82,7 +82,7 @@ pub(crate) struct Choice {
     pub(crate) doc: String,
 }
 
-/// The tables of a design file, from the schema of its family and what is written; none where the text is
+/// Tables of a design file, from the schema of its family and the text; none where the text is
 /// not TOML.
 pub(crate) fn tables(text: &str) -> Vec<Table> {
     let Ok(written) = text.parse::<toml::Table>() else {
@@ -104,7 +104,7 @@ pub(crate) fn tables(text: &str) -> Vec<Table> {
     out
 }
 
-/// The keys that may stand in a table beside a tag of the given word, with their defaults, null where there is none;
+/// Keys allowed in a table beside a tag of the given word, with their defaults, null where there is none;
 /// `None` where the table has no such tag.
 pub(crate) fn keys_beside(text: &str, table: &str, word: &str) -> Option<Map<String, Value>> {
     let written = serde_json::to_value(text.parse::<toml::Table>().ok()?).ok()?;
@@ -132,7 +132,7 @@ pub(crate) fn keys_beside(text: &str, table: &str, word: &str) -> Option<Map<Str
     }
 }
 
-/// What a table that is not written cannot be without: name and value of each key, as they hold now.
+/// Required keys of a table absent from the file, with their effective defaults.
 pub(crate) fn required(text: &str, table: &str) -> Vec<(String, Value)> {
     let tables = tables(text);
     let fields = tables.into_iter().filter(|t| t.key == table);
@@ -147,7 +147,7 @@ pub(crate) fn required(text: &str, table: &str) -> Vec<(String, Value)> {
         .collect()
 }
 
-/// The list of a key, as it holds now; none for any other key.
+/// Effective list of a key; none for any other key.
 pub(crate) fn list(text: &str, key: &str) -> Option<Value> {
     let mut fields = tables(text).into_iter().flat_map(|table| table.fields);
     let field = fields.find(|field| field.key == key)?;
@@ -177,7 +177,7 @@ fn add(
             properties,
             required,
         } => (tag, words, properties, required),
-        // A word that is none of the tags: the choice is all there is to show.
+        // A word that is none of the tags: only the choice can be shown.
         Shape::Tagged { tag, words } => (Some(tag), words, &none, Vec::new()),
         Shape::Leaf(_) => return,
     };
@@ -251,7 +251,7 @@ fn add(
     out[at].fields = fields;
 }
 
-/// The unit in which a key is written: that of its name, else that of its description.
+/// Unit in which a key is written: that of its name, else that of its description.
 fn unit(name: &str, doc: &str) -> &'static str {
     if name.ends_with("_deg") {
         return "°";

@@ -7,13 +7,13 @@ use super::edit::{Step, container, written};
 use super::field::{Field, keys_beside, tables};
 use super::start::{Measures, starts};
 
-/// Most keys of other tables that give way to a new kind.
+/// Greatest number of keys of other tables that give way to a new kind.
 const MOST: usize = 3;
 
-/// The document with the table at a path become another kind; none where the table has no kinds, or not this one.
+/// Changes the kind of the table at a path; none where the table has no kinds, or not this one.
 ///
-/// Keys that the new kind knows stay, others go, and what it cannot be without gets a value, so that the design
-/// is a mechanism: kept keys give way to that, then keys outside the table that may be left out.
+/// Keys that the new kind has too stay, others go, and its required keys get a value, so that the design is a
+/// mechanism: kept keys give way to that, then keys outside the table that may be left out.
 pub(super) fn switched(document: &DocumentMut, steps: &[Step], kind: &str) -> Option<DocumentMut> {
     let text = document.to_string();
     let names: Vec<&str> = steps.iter().filter_map(Step::name).collect();
@@ -47,11 +47,11 @@ pub(super) fn switched(document: &DocumentMut, steps: &[Step], kind: &str) -> Op
             }
         }
     }
-    // The fault lies elsewhere.
+    // The fault is elsewhere.
     Some(first)
 }
 
-/// A table that is to become another kind.
+/// Change of a table to another kind.
 struct Switch<'a> {
     document: &'a DocumentMut,
     steps: &'a [Step],
@@ -59,7 +59,7 @@ struct Switch<'a> {
 }
 
 impl Switch<'_> {
-    /// The design that is a mechanism with as many of the shared keys as can be.
+    /// Finds the design that is a mechanism with as many of the shared keys as can be.
     fn search(
         &self,
         shared: &[&str],
@@ -93,7 +93,7 @@ impl Switch<'_> {
         Some(found)
     }
 
-    /// The design with these keys of the old table, and of the start what they leave open.
+    /// Design with these keys of the old table, and all others of the start.
     fn with(&self, kept: &[&str], start: &Map<String, Json>) -> Option<DocumentMut> {
         let mut made = self.document.clone();
         let table = container(made.as_item_mut(), self.steps, true)?.as_table_like_mut()?;
@@ -127,7 +127,7 @@ fn fresh(value: &Json) -> Option<Value> {
     Some(Value::InlineTable(pairs.collect::<Option<InlineTable>>()?))
 }
 
-/// The design if it is a mechanism, at the price of so many keys outside a table that may be left out and stand against it.
+/// Returns the design if it is a mechanism, at the price of so many optional keys outside a table that contradict it.
 fn sound(mut document: DocumentMut, table: &str, sacrifice: usize) -> Option<DocumentMut> {
     for left in (0..=sacrifice).rev() {
         let text = document.to_string();
@@ -208,7 +208,7 @@ mod tests {
         Some(here)
     }
 
-    /// From every kind to every other, of one table of a design; how many ways there are.
+    /// Changes one table of a design from every kind to every other; returns the number of ways.
     fn every_way(name: &str, text: &str, key: &str) -> usize {
         let words = kind_of(text, key).expect("a kind").words();
         let table = key.trim_end_matches("kind");
@@ -219,7 +219,7 @@ mod tests {
                 let second = changed(&first, key, to);
                 let found = mechanism(&second);
                 if key.ends_with("reversal.law.kind") && to == "constant-velocity" {
-                    // A speed that jumps turns no slider round: there is no such mechanism.
+                    // A speed that jumps reverses no slider: there is no such mechanism.
                     assert!(found.is_err_and(|error| key.starts_with(&error.key)));
                     ways += 1;
                     continue;

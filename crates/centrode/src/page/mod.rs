@@ -1,4 +1,4 @@
-//! What the page shows of a design: its numbers, picture, curves, figures and findings, as one JSON value.
+//! Snapshot of a design for the page: its numbers, picture, curves, figures and findings, as one JSON value.
 
 mod edit;
 mod field;

@@ -2,7 +2,7 @@ use serde_json::{Map, Value};
 
 use super::field::{Choice, Kind};
 
-/// What a part of the JSON schema asks for, for the value that is there.
+/// Requirements of a part of the JSON schema, for the value that is there.
 pub(super) enum Shape<'a> {
     /// A table with known keys; the tag among them, if it has one, has chosen them.
     Table {
@@ -25,7 +25,7 @@ pub(super) struct Leaf {
     pub(super) greatest: Option<f64>,
 }
 
-/// What the schema `sub`, a part of `root`, asks for where `value` is written.
+/// Requirements of the schema `sub`, a part of `root`, where `value` is written.
 pub(super) fn shape<'a>(root: &'a Value, sub: &'a Value, value: &Value) -> Shape<'a> {
     let sub = followed(root, sub);
     let options = ["oneOf", "anyOf"]
@@ -53,7 +53,7 @@ pub(super) fn shape<'a>(root: &'a Value, sub: &'a Value, value: &Value) -> Shape
     Shape::Leaf(leaf(root, sub))
 }
 
-/// The schema a reference leads to.
+/// Schema that a reference leads to.
 fn followed<'a>(root: &'a Value, sub: &'a Value) -> &'a Value {
     let mut here = sub;
     while let Some(target) = here.get("$ref").and_then(Value::as_str) {
@@ -65,7 +65,7 @@ fn followed<'a>(root: &'a Value, sub: &'a Value) -> &'a Value {
     here
 }
 
-/// The key whose single allowed word tells an alternative from the others.
+/// Key whose single allowed word distinguishes an alternative from the others.
 fn tag_of(option: &Value) -> Option<&str> {
     let properties = option.get("properties")?.as_object()?;
     properties

@@ -9,21 +9,21 @@ use serde::Serialize;
 use super::field::{Table, tables};
 use crate::report;
 
-/// What the page shows of one design state.
+/// Snapshot of one design state for the page.
 #[derive(Clone, Debug, Default, Serialize)]
 pub(crate) struct Snapshot {
-    /// The design file.
+    /// Text of the design file.
     text: String,
     name: String,
     title: String,
-    /// What it is, in a line.
+    /// Definition of the mechanism, in a line.
     definition: String,
     /// The numbers of the design, table by table.
     tables: Vec<Table>,
-    /// Why there is no mechanism.
+    /// Reason why there is no mechanism.
     error: Option<Fault>,
     picture: Option<Picture>,
-    /// Whether the picture lacks what takes longer to make.
+    /// Whether the picture lacks details that take longer to make.
     coarse: bool,
     curves: Vec<Curve>,
     verdict: Option<Verdict>,
@@ -33,13 +33,13 @@ pub(crate) struct Snapshot {
 #[derive(Clone, Debug, Serialize)]
 pub(crate) struct Fault {
     key: String,
-    /// From one; zero where no place in the file is to blame.
+    /// Line from one; zero where no place in the file is to blame.
     line: usize,
     column: usize,
     message: String,
 }
 
-/// What the checks say.
+/// Results of the checks.
 #[derive(Clone, Debug, Serialize)]
 pub(crate) struct Verdict {
     ok: bool,
@@ -72,14 +72,14 @@ impl Verdict {
     }
 }
 
-/// A design that has become a mechanism.
+/// Design that has become a mechanism.
 pub(crate) struct Subject {
     snapshot: Snapshot,
     mechanism: Arc<dyn Mechanism>,
 }
 
 impl Snapshot {
-    /// The design alone: its text and numbers.
+    /// Snapshot of the design alone: its text and numbers.
     pub(crate) fn of_text(text: String) -> Self {
         Self {
             tables: tables(&text),
@@ -88,13 +88,13 @@ impl Snapshot {
         }
     }
 
-    /// The same with the reason why there is no mechanism.
+    /// Snapshot with the reason why there is no mechanism.
     pub(crate) fn with_error(mut self, error: &DesignError) -> Self {
         self.error = Some(error.into());
         self
     }
 
-    /// A design whose solving was cancelled: its numbers, so that they can be changed.
+    /// Snapshot of a design whose solving was cancelled: its numbers, so that they can be changed.
     pub(crate) fn cancelled(text: String) -> Self {
         Self {
             error: Some(Fault {
@@ -121,7 +121,7 @@ impl Snapshot {
         self.verdict.as_ref().is_some_and(|verdict| verdict.ok)
     }
 
-    /// As JSON; what is not finite is null.
+    /// Snapshot as JSON; numbers that are not finite are null.
     pub(crate) fn json(&self) -> serde_json::Result<String> {
         serde_json::to_string(self)
     }
@@ -153,12 +153,12 @@ impl Subject {
         self.snapshot.text == text
     }
 
-    /// The picture without what the checks say.
+    /// Snapshot with the picture but without the results of the checks.
     pub(crate) fn drawn(&self) -> Snapshot {
         self.snapshot.clone()
     }
 
-    /// The picture with all that belongs to it.
+    /// Snapshot with the picture in detail.
     pub(crate) fn detailed(&self) -> Snapshot {
         let mut snapshot = self.snapshot.clone();
         snapshot.coarse = false;
@@ -168,7 +168,7 @@ impl Subject {
         snapshot
     }
 
-    /// The same with what the checks say.
+    /// Snapshot with the results of the checks.
     pub(crate) fn checked(&self) -> Snapshot {
         let mut snapshot = self.detailed();
         let (found, curves) = self.mechanism.check_with_curves();

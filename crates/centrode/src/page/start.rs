@@ -1,6 +1,6 @@
 use std::f64::consts::TAU;
 
-use centrode::geometry::Primitive;
+use centrode::geometry::Antiderivative;
 use centrode::mechanism::cam::law::{LawSpec, Polynomial};
 use centrode::mechanism::gear::design::{Rack, Shaper, ToolSpec};
 use centrode::mechanism::gear::pitch::{
@@ -12,7 +12,7 @@ use centrode::mechanism::shaft::{
 };
 use serde_json::{Map, Value};
 
-/// What a table that changes its kind is measured by.
+/// Measures of the design for a table that changes its kind.
 pub(super) struct Measures {
     /// Mean radius of the pitch curve, mm.
     radius: f64,
@@ -29,7 +29,7 @@ pub(super) struct Measures {
 }
 
 impl Measures {
-    /// Of a table of the design, both as written.
+    /// Measures of a table of the design, both as written.
     pub(super) fn of(design: &Value, path: &[&str], old: &Value) -> Self {
         let ratio_in = |table: &Value| {
             let pair = table.get("mean_ratio")?.as_array()?;
@@ -67,10 +67,10 @@ fn mean_radius(pitch: &Value) -> Option<f64> {
     ends.retain(|&t| t > 0.0);
     ends.insert(0, 0.0);
     ends.push(pitch.curve.period());
-    Some(Primitive::of(|t| pitch.curve.at(t).first.norm(), &ends).total() / TAU)
+    Some(Antiderivative::of(|t| pitch.curve.at(t).first.norm(), &ends).total() / TAU)
 }
 
-/// The tables a kind can start from, the first to be preferred: each holds what it needs besides the defaults.
+/// Tables from which a kind can start, the preferred one first: each holds the keys it needs besides the defaults.
 pub(super) fn starts(kind: &str, about: &Measures) -> Vec<Map<String, Value>> {
     // A curve that does not repeat as often as the ratio asks gives no pair unless it is round.
     let swings = [0.2 / (1.0 + f64::from(about.repeats).powi(2)), 0.0];
@@ -93,7 +93,7 @@ pub(super) fn starts(kind: &str, about: &Measures) -> Vec<Map<String, Value>> {
     tables.collect()
 }
 
-/// To a thousandth: what is written is to be read.
+/// Rounds to a thousandth: numbers in the file are to be read.
 fn short(value: f64) -> f64 {
     (value * 1e3).round() / 1e3
 }

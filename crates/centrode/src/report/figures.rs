@@ -34,9 +34,9 @@ pub(crate) struct Line {
 pub(crate) struct Cell {
     /// Its key in the report.
     key: String,
-    /// As the command line shows it.
+    /// Figure as the command line shows it.
     shown: String,
-    /// As the JSON report has it, to the last digit.
+    /// Figure as in the JSON report, to the last digit.
     exact: String,
 }
 
@@ -51,7 +51,7 @@ impl Cell {
     }
 }
 
-/// A figure as the writer of the JSON report has it.
+/// Figure as the writer of the JSON report writes it.
 pub(super) fn exact(value: f64) -> String {
     serde_json::to_string(&Figure(value)).unwrap_or_default()
 }

@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use super::unit::figure;
 
-/// Writes how many findings there are, then each: severity, rule, where, what, by how much, what helps.
+/// Writes the number of findings, then each: severity, rule, place, figures, remedy.
 pub(super) fn write(report: &Report, out: &mut impl Write) -> Result<()> {
     writeln!(out, "{}", summary(report))?;
     for finding in &report.findings {
@@ -15,7 +15,7 @@ pub(super) fn write(report: &Report, out: &mut impl Write) -> Result<()> {
     Ok(())
 }
 
-/// How many findings of each severity there are, in words.
+/// Number of findings of each severity, in words.
 pub(crate) fn summary(report: &Report) -> String {
     let counts = [
         (Severity::Error, "error", "errors"),
@@ -53,7 +53,7 @@ pub(crate) struct Words {
     figures: String,
     #[serde(skip_serializing_if = "Option::is_none")]
     remedy: Option<&'static str>,
-    /// Keys of the design it hangs on.
+    /// Keys of the design that the finding depends on.
     causes: &'static [&'static str],
     part: Option<String>,
     input: Option<f64>,
@@ -128,7 +128,7 @@ fn one(finding: &Finding, out: &mut impl Write) -> Result<()> {
     Ok(())
 }
 
-/// The keys of the design a finding hangs on most.
+/// Keys of the design on which a finding depends most.
 fn causes(rule: &str) -> &'static [&'static str] {
     match rule {
         "severed" | "undercut" | "short-tooth" => &[

@@ -10,7 +10,7 @@ use super::unit::figure;
 /// Characters of a progress bar.
 const BAR: usize = 12;
 
-/// Writes each goal in a row: number, what it is, figure, range, progress, met or by how much not.
+/// Writes each goal in a row: number, title, figure, range, progress, met or by how much not.
 pub(super) fn write(report: &Report, out: &mut impl Write) -> Result<()> {
     if report.goals.is_empty() {
         return Ok(());
@@ -41,7 +41,7 @@ pub(crate) struct GoalWords {
     name: &'static str,
     title: &'static str,
     value: String,
-    /// The figure as the JSON report has it, to the last digit.
+    /// Figure as in the JSON report, to the last digit.
     exact: Option<String>,
     unit: &'static str,
     /// The range it is wanted in.

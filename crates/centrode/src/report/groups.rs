@@ -1,13 +1,13 @@
 use super::unit::Unit;
 
-/// A line of the table: what it is called, the figures on it, their unit.
+/// Row of the table: its title, its figures, their unit.
 pub(super) struct Row(
     pub(super) &'static str,
     pub(super) &'static [&'static str],
     pub(super) Unit,
 );
 
-/// A part of the table: its heading, the columns, the rows.
+/// Group of the table: its heading, the columns, the rows.
 pub(super) struct Group(
     pub(super) &'static str,
     pub(super) &'static [&'static str],

@@ -1,13 +1,13 @@
-/// What a figure is measured in, which settles how it is shown.
+/// Unit of a figure, which decides the form in which it is shown.
 #[derive(Clone, Copy)]
 pub(super) enum Unit {
     Count,
     Number,
     Millimetre,
     PerMillimetre,
-    /// Kept in rad, shown in degrees.
+    /// Degrees shown, rad kept.
     Degree,
-    /// Kept and shown in rad: errors too small for degrees.
+    /// Radians kept and shown: errors too small for degrees.
     Radian,
     RadianPerSecond,
     MillimetrePerSecond,
@@ -20,7 +20,7 @@ pub(super) enum Unit {
 }
 
 impl Unit {
-    /// Its symbol; empty for a plain number.
+    /// Symbol; empty for a plain number.
     pub(super) fn name(self) -> &'static str {
         match self {
             Self::Count | Self::Number => "",
@@ -38,7 +38,7 @@ impl Unit {
         }
     }
 
-    /// The figure in few enough digits to read; what is smaller keeps its leading digits.
+    /// Figure in few enough digits to read; a smaller one keeps its leading digits.
     pub(super) fn show(self, value: f64) -> String {
         match self {
             Self::Count => format!("{value:.0}"),

@@ -10,24 +10,24 @@ use serde::Serialize;
 use crate::failure::Failure;
 use crate::input::Source;
 
-/// The design file the page was started with, and its autosaves beside it: all that is ever written.
+/// Design file that the page was started with, and its autosaves beside it: nothing else is ever written.
 pub(crate) struct Document {
     folder: PathBuf,
     name: String,
-    /// What the file held when it was last read or written here.
+    /// Text of the file when it was last read or written here.
     known: Mutex<String>,
-    /// Whether the autosave holds work of the page that is open now: what earlier work left is not
+    /// Whether the autosave holds work of the page that is open now: earlier work is not
     /// written over.
     own: AtomicBool,
 }
 
-/// What is in the file's place.
+/// State of the file on disk.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub(crate) enum Disk {
-    /// Its text.
+    /// Text of the file.
     Text(String),
-    /// Why there is none, after the file's name.
+    /// Reason why there is none, after the file's name.
     Missing(String),
 }
 
@@ -38,7 +38,7 @@ pub(crate) struct Recovered {
     file: String,
 }
 
-/// Why the file is not saved.
+/// Reason why the file is not saved.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum SaveError {
     #[error("{name} has been changed on disk since it was opened here")]
@@ -86,12 +86,12 @@ impl Document {
         &self.name
     }
 
-    /// What the file held when it was last read or written here.
+    /// Text of the file when it was last read or written here.
     pub(crate) fn text(&self) -> String {
         self.known().clone()
     }
 
-    /// Takes what the file holds now as read.
+    /// Reads the file as it is now.
     pub(crate) fn reread(&self) -> Result<String, SaveError> {
         let mut known = self.known();
         *known = self.found(self.disk())?;
@@ -127,9 +127,9 @@ impl Document {
         Ok(())
     }
 
-    /// Writes what is not saved yet beside the file; takes it away once it is what the file holds.
+    /// Writes unsaved work beside the file; removes it once the file holds it.
     ///
-    /// What earlier work left there gets a name of its own first.
+    /// An autosave of earlier work there gets a name of its own first.
     pub(crate) fn keep(&self, text: &str) -> Result<(), SaveError> {
         if text.len() > DesignFile::LARGEST {
             return Err(SaveError::TooLarge { bytes: text.len() });
@@ -154,7 +154,7 @@ impl Document {
         Ok(write(&self.folder, &self.autosave(), text)?)
     }
 
-    /// What autosaves hold, if it is not what the file holds; none of them is written over from now on.
+    /// Contents of the autosaves that differ from the file; none of them is written over from now on.
     pub(crate) fn recovered(&self) -> Vec<Recovered> {
         let known = self.known();
         self.own.store(false, Ordering::Relaxed);
@@ -172,7 +172,7 @@ impl Document {
             .collect()
     }
 
-    /// Takes an autosave away; any other file stays.
+    /// Removes an autosave; any other file stays.
     pub(crate) fn forget(&self, file: &str) {
         if self.is_autosave(file) {
             // Usually there is none.
@@ -184,7 +184,7 @@ impl Document {
         format!("{}.autosave", self.name)
     }
 
-    /// What the autosave holds, if there is one.
+    /// Content of the autosave, if there is one.
     fn kept(&self) -> Option<Vec<u8>> {
         fs::read(self.folder.join(self.autosave())).ok()
     }
@@ -198,7 +198,7 @@ impl Document {
         })
     }
 
-    /// Gives the autosave that was found a name that nothing writes to.
+    /// Renames the autosave that was found to a name that nothing writes to.
     fn set_aside(&self) -> Result<(), BundleError> {
         let found = self.folder.join(self.autosave());
         let place = |number: u32| {
@@ -216,7 +216,7 @@ impl Document {
         })
     }
 
-    /// The file as it is now.
+    /// State of the file now.
     pub(crate) fn disk(&self) -> Disk {
         let path = self.folder.join(&self.name);
         let most = DesignFile::LARGEST;
@@ -272,7 +272,7 @@ mod tests {
         fs::write(&path, "a = 4\n").expect("written");
         assert_eq!(document.reread().expect("read"), "a = 4\n");
         document.save("a = 5\n", "a = 4\n", false).expect("saved");
-        // Another window has not seen that.
+        // Another window has not read that.
         let refused = document.save("a = 6\n", "a = 4\n", false);
         assert!(matches!(refused, Err(SaveError::Changed { .. })));
         fs::remove_file(&path).expect("gone");
@@ -314,14 +314,14 @@ mod tests {
         let (folder, path, document) = opened();
         document.keep("a = 2\n").expect("kept");
         let again = Document::open(&path).expect("opened");
-        // Nobody says what is to be done with it, and work goes on.
+        // Nobody decides about it, and work goes on.
         again.keep("a = 3\n").expect("kept");
         again.keep("a = 4\n").expect("kept");
         again.keep("a = 1\n").expect("back to the file");
         assert_eq!(texts(&again), ["a = 2\n"]);
         again.keep("a = 5\n").expect("kept");
         assert_eq!(texts(&again), ["a = 5\n", "a = 2\n"]);
-        // After a reload the same holds for this page's own work.
+        // After a reload this page's own work is treated likewise.
         again.keep("a = 6\n").expect("kept");
         assert_eq!(texts(&again), ["a = 6\n", "a = 2\n", "a = 5\n"]);
         again.save("a = 7\n", "a = 1\n", false).expect("saved");

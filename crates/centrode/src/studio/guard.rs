@@ -7,18 +7,18 @@ use axum::http::{HeaderMap, HeaderName, HeaderValue, Method, StatusCode, header}
 use axum::middleware::Next;
 use axum::response::{IntoResponse, Response};
 
-/// Who may ask: this page, by its secret address, through this computer's own name.
+/// Guard that lets only this page ask, by its secret address, through this computer's own name.
 #[derive(Clone)]
 pub(crate) struct Guard {
     port: u16,
     token: Arc<str>,
 }
 
-/// Set once a connection has shown that it knows the secret.
+/// Flag set once a connection has shown that it knows the secret.
 #[derive(Clone, Default)]
 pub(crate) struct Known(pub(crate) Arc<AtomicBool>);
 
-/// Nothing from elsewhere, nothing written into the page, no frame around it.
+/// Content-Security-Policy of every answer.
 const POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob: data:; \
                       connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 
@@ -38,7 +38,7 @@ const HEADERS: [(HeaderName, &str); 6] = [
 ];
 
 impl Guard {
-    /// A guard with a new secret of 128 random bits.
+    /// Makes a guard with a new secret of 128 random bits.
     pub(crate) fn new(port: u16) -> io::Result<Self> {
         let mut bytes = [0_u8; 16];
         getrandom::fill(&mut bytes).map_err(|error| io::Error::other(error.to_string()))?;
@@ -59,11 +59,11 @@ impl Guard {
         format!("http://127.0.0.1:{}/{}/", self.port, self.token)
     }
 
-    /// Why a request is refused, if it is.
+    /// Reason why a request is refused, if it is.
     fn refusal(&self, method: &Method, path: &str, headers: &HeaderMap) -> Option<&'static str> {
         let names = ["127.0.0.1", "localhost"].map(|name| format!("{name}:{}", self.port));
         let host = headers.get(header::HOST).and_then(|h| h.to_str().ok());
-        // A foreign name that leads here is how a foreign page would reach us.
+        // A foreign page would reach us through a foreign name that leads here.
         if !host.is_some_and(|host| names.iter().any(|name| name == host)) {
             return Some("this is not a name of the page");
         }
@@ -73,7 +73,7 @@ impl Guard {
         };
         match headers.get(header::ORIGIN) {
             Some(origin) if !own(origin) => return Some("another site must not ask"),
-            // Browsers name the origin of everything that is not a plain read.
+            // Browsers name the origin of every request that is not a plain read.
             None if *method != Method::GET => return Some("the origin is missing"),
             _ => {}
         }
@@ -88,12 +88,12 @@ impl Guard {
     }
 }
 
-/// Compares without telling by its time where two texts differ.
+/// Compares in constant time, so that it does not leak where two texts differ.
 fn same(a: &[u8], b: &[u8]) -> bool {
     a.len() == b.len() && a.iter().zip(b).fold(0, |found, (x, y)| found | (x ^ y)) == 0
 }
 
-/// Lets a request through, or not; puts the policy on every answer.
+/// Lets a request through, or refuses it; puts the policy on every answer.
 pub(crate) async fn pass(State(guard): State<Guard>, request: Request, next: Next) -> Response {
     let refusal = guard.refusal(request.method(), request.uri().path(), request.headers());
     let mut response = match refusal {

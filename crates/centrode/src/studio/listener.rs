@@ -10,10 +10,10 @@ use tokio::task::AbortHandle;
 
 use super::guard::Known;
 
-/// Time a client has to say what it wants.
+/// Time a client has to send its request.
 const PATIENCE: Duration = Duration::from_secs(5);
 
-/// Most connections that have not shown the secret yet.
+/// Greatest number of connections that have not shown the secret yet.
 const STRANGERS: usize = 128;
 
 /// Answers connections for ever.
@@ -53,7 +53,7 @@ async fn connection(stream: TcpStream, page: Router, known: Known) {
         .max_headers(64)
         .serve_connection(TokioIo::new(stream), service)
         .await;
-    // A client that breaks off is its own affair.
+    // A client may break off at any time.
     drop(served);
 }
 

@@ -25,8 +25,8 @@ use search::Searching;
 use solver::Solver;
 use watch::Watch;
 
-/// What every request works on.
-pub(crate) struct Desk {
+/// Shared state of all requests.
+pub(crate) struct StudioState {
     document: Document,
     solver: Arc<Solver>,
     searching: Searching,
@@ -53,26 +53,26 @@ pub(crate) fn run(command: &Studio, out: &mut impl Write) -> Result<ExitCode, Fa
         open(&guard.url());
     }
     runtime.block_on(async {
-        let desk = Arc::new(Desk {
+        let state = Arc::new(StudioState {
             watch: Watch::default(),
             searching: Searching::default(),
             solver: Arc::default(),
             document,
         });
-        let page = routes::router(Arc::clone(&desk), guard);
+        let page = routes::router(Arc::clone(&state), guard);
         tokio::select! {
             () = listener::serve(listener, page) => {}
-            () = watch::disk(&desk) => {}
+            () = watch::disk(&state) => {}
             stopped = tokio::signal::ctrl_c() => stopped.map_err(Failure::Serve)?,
         }
         Ok::<(), Failure>(())
     })?;
-    // A solve under way is of no use to anyone now.
+    // Nobody needs a solve under way any more.
     runtime.shutdown_timeout(Duration::from_millis(100));
     Ok(ExitCode::SUCCESS)
 }
 
-/// Shows an address in the browser; where there is none, the printed address is still there.
+/// Opens an address in the browser; where there is none, the printed address remains.
 fn open(url: &str) {
     let opener = if cfg!(target_os = "macos") {
         "open"

@@ -2,13 +2,13 @@ use centrode::analysis::Goal;
 use centrode::family::{Depth, FAMILIES};
 use serde::{Deserialize, Serialize};
 
-/// Values at which the design is checked.
+/// Number of values at which the design is checked.
 const COUNT: u32 = 13;
 
-/// Most charts of a family without goals.
+/// Greatest number of charts of a family without goals.
 const MOST: usize = 12;
 
-/// What the page asks for: one number of the design, between two values in the file's unit.
+/// Request of the page: one number of the design, between two values in the file's unit.
 #[derive(Deserialize)]
 pub(crate) struct Ask {
     text: String,
@@ -17,7 +17,7 @@ pub(crate) struct Ask {
     to: f64,
 }
 
-/// How the figures answer.
+/// Responses of the figures.
 #[derive(Debug, Serialize)]
 pub(crate) struct Answers {
     values: Vec<f64>,
@@ -29,7 +29,7 @@ pub(crate) struct Answers {
 struct Chart {
     title: String,
     unit: String,
-    /// None where there is no mechanism.
+    /// Figures; none where there is no mechanism.
     figures: Vec<Option<f64>>,
     /// Least and greatest figure wanted.
     wanted: [Option<f64>; 2],
@@ -90,7 +90,7 @@ pub(crate) fn answers(ask: &Ask) -> Result<Answers, String> {
     Ok(Answers { values, charts })
 }
 
-/// Whether a figure is more than a setting: it changes.
+/// Whether a figure changes, so that it is more than a setting.
 fn moves(figures: &[Option<f64>]) -> bool {
     let mut known = figures.iter().flatten();
     let first = known.next();

@@ -17,7 +17,7 @@ use serde_json::json;
 use tower_http::limit::RequestBodyLimitLayer;
 use tower_http::timeout::RequestBodyTimeoutLayer;
 
-use super::Desk;
+use super::StudioState;
 use super::document::SaveError;
 use super::guard::{self, Guard};
 use super::solver::{Depth, Unsolved};
@@ -32,16 +32,16 @@ const LARGEST: usize = 4 << 20;
 /// Time between two parts of a body.
 const PATIENCE: Duration = Duration::from_secs(10);
 
-type Shared = State<Arc<Desk>>;
+type Shared = State<Arc<StudioState>>;
 
 /// Every address of the page.
-pub(crate) fn router(desk: Arc<Desk>, guard: Guard) -> Router {
+pub(crate) fn router(state: Arc<StudioState>, guard: Guard) -> Router {
     let page = Router::new()
         .route("/{asset}", get(asset))
         .route("/design", get(design))
         .route(
             "/events",
-            get(async |State(desk): Shared| desk.watch.events()),
+            get(async |State(state): Shared| state.watch.events()),
         )
         .route("/solve", post(solve))
         .route("/fault", post(fault))
@@ -53,7 +53,7 @@ pub(crate) fn router(desk: Arc<Desk>, guard: Guard) -> Router {
         .route("/response", post(respond))
         .layer(RequestBodyTimeoutLayer::new(PATIENCE))
         .layer(RequestBodyLimitLayer::new(LARGEST))
-        .with_state(desk);
+        .with_state(state);
     let base = guard.base();
     Router::new()
         // A nest has no place for the bare slash that the page's own address ends with.
@@ -62,7 +62,7 @@ pub(crate) fn router(desk: Arc<Desk>, guard: Guard) -> Router {
         .layer(axum::middleware::from_fn_with_state(guard, guard::pass))
 }
 
-/// Something a request asks for in vain.
+/// Answer to a request that is refused.
 struct Refused(StatusCode, serde_json::Value);
 
 impl Refused {
@@ -90,7 +90,7 @@ impl From<SaveError> for Refused {
     }
 }
 
-/// JSON text as it is.
+/// Answer of JSON text as it is.
 fn as_json(text: String) -> Response {
     ([(header::CONTENT_TYPE, "application/json")], text).into_response()
 }
@@ -102,8 +102,8 @@ async fn asset(Path(name): Path<String>) -> Response {
     }
 }
 
-async fn design(State(desk): Shared) -> Response {
-    let document = &desk.document;
+async fn design(State(state): Shared) -> Response {
+    let document = &state.document;
     Json(json!({
         "file": document.name(),
         "text": document.text(),
@@ -115,7 +115,7 @@ async fn design(State(desk): Shared) -> Response {
     .into_response()
 }
 
-/// Why there is no search for designs of this family; null where there is one.
+/// Reason why there is no search for designs of this family; null where there is one.
 fn unsearchable(text: &str) -> Option<String> {
     let file = FAMILIES.read(text.as_bytes()).ok()?;
     match file.family().problem(file.design()) {
@@ -124,7 +124,7 @@ fn unsearchable(text: &str) -> Option<String> {
     }
 }
 
-/// Kinds of file that can be exported: the word for each, and what it is.
+/// Kinds of file that can be exported: the word for each, and its description.
 fn formats() -> Vec<[String; 2]> {
     let values = File::value_variants()
         .iter()
@@ -139,7 +139,7 @@ fn formats() -> Vec<[String; 2]> {
 
 #[derive(Deserialize)]
 struct Solve {
-    /// Which of the pages that are open asks: its next request takes the place of this one.
+    /// Page, of those that are open, that asks: its next request takes the place of this one.
     #[serde(default)]
     page: String,
     /// How many requests the page has made before.
@@ -151,21 +151,21 @@ struct Solve {
     depth: Depth,
 }
 
-async fn solve(State(desk): Shared, Json(ask): Json<Solve>) -> Result<Response, Refused> {
+async fn solve(State(state): Shared, Json(ask): Json<Solve>) -> Result<Response, Refused> {
     let text = if ask.edits.is_empty() {
         ask.text
     } else {
-        // A new kind is tried out.
+        // A new kind is tested.
         let made = apart(move || edited(&ask.text, &ask.edits)).await?;
         made.map_err(|error| Refused::because(StatusCode::UNPROCESSABLE_ENTITY, error))?
     };
-    match desk
+    match state
         .solver
         .solve(&ask.page, ask.turn, text, ask.depth)
         .await
     {
         Ok(snapshot) => Ok(as_json(snapshot)),
-        // To be overtaken is no failure: browsers would log it as one.
+        // Being overtaken is no failure: browsers would log it as one.
         Err(Unsolved::Overtaken) => Ok(Json(json!({ "overtaken": true })).into_response()),
         Err(fault) => Err(Refused::because(StatusCode::INTERNAL_SERVER_ERROR, fault)),
     }
@@ -176,7 +176,7 @@ struct Text {
     text: String,
 }
 
-/// Why a text does not read as a design; null where it does.
+/// Reason why a text does not read as a design; null where it does.
 async fn fault(Json(ask): Json<Text>) -> Response {
     let fault = FAMILIES.read(ask.text.as_bytes()).err();
     Json(json!({ "fault": fault.as_ref().map(Fault::from) })).into_response()
@@ -185,15 +185,15 @@ async fn fault(Json(ask): Json<Text>) -> Response {
 #[derive(Deserialize)]
 struct Save {
     text: String,
-    /// What the page believes the file holds.
+    /// Text that the page believes to be in the file.
     base: String,
-    /// Whether a file that holds something else is written over.
+    /// Whether a file with another text is written over.
     #[serde(default)]
     over: bool,
 }
 
-async fn save(State(desk): Shared, Json(ask): Json<Save>) -> Result<Response, Refused> {
-    match apart(move || desk.document.save(&ask.text, &ask.base, ask.over)).await? {
+async fn save(State(state): Shared, Json(ask): Json<Save>) -> Result<Response, Refused> {
+    match apart(move || state.document.save(&ask.text, &ask.base, ask.over)).await? {
         Ok(()) => Ok(Json(json!({ "saved": true })).into_response()),
         // A question to the user, no failure.
         Err(error @ (SaveError::Changed { .. } | SaveError::Missing { .. })) => {
@@ -206,26 +206,26 @@ async fn save(State(desk): Shared, Json(ask): Json<Save>) -> Result<Response, Re
     }
 }
 
-async fn keep(State(desk): Shared, Json(ask): Json<Text>) -> Result<Response, Refused> {
-    on_disk(move || desk.document.keep(&ask.text)).await
+async fn keep(State(state): Shared, Json(ask): Json<Text>) -> Result<Response, Refused> {
+    on_disk(move || state.document.keep(&ask.text)).await
 }
 
 #[derive(Deserialize)]
 struct Forget {
-    /// An autosave, as `design` names it.
+    /// Name of an autosave, as `design` gives it.
     file: String,
 }
 
-async fn forget(State(desk): Shared, Json(ask): Json<Forget>) -> Result<Response, Refused> {
+async fn forget(State(state): Shared, Json(ask): Json<Forget>) -> Result<Response, Refused> {
     on_disk(move || {
-        desk.document.forget(&ask.file);
+        state.document.forget(&ask.file);
         Ok(())
     })
     .await
 }
 
-async fn reread(State(desk): Shared) -> Result<Response, Refused> {
-    let text = apart(move || desk.document.reread()).await??;
+async fn reread(State(state): Shared) -> Result<Response, Refused> {
+    let text = apart(move || state.document.reread()).await??;
     Ok(Json(json!({ "text": text })).into_response())
 }
 
@@ -242,7 +242,7 @@ async fn apart<T: Send + 'static>(job: impl FnOnce() -> T + Send + 'static) -> R
     done.map_err(|error| Refused::because(StatusCode::INTERNAL_SERVER_ERROR, error))
 }
 
-/// Cancels when it is dropped: nobody waits for the answer any more.
+/// Guard that cancels when it is dropped: nobody waits for the answer any more.
 struct Wait(Cancel);
 
 impl Drop for Wait {
@@ -262,23 +262,26 @@ async fn computed<T: Send + 'static>(
 }
 
 /// Starts a search for a better design.
-async fn searching(State(desk): Shared, Json(ask): Json<search::Ask>) -> Result<Response, Refused> {
-    let started = computed(move || desk.searching.start(ask)).await?;
+async fn searching(
+    State(state): Shared,
+    Json(ask): Json<search::Ask>,
+) -> Result<Response, Refused> {
+    let started = computed(move || state.searching.start(ask)).await?;
     started.map_err(|reason| Refused::because(StatusCode::UNPROCESSABLE_ENTITY, reason))?;
     Ok(Json(json!({})).into_response())
 }
 
-/// How far it is; null before the first.
-async fn searched(State(desk): Shared) -> Response {
-    Json(desk.searching.state()).into_response()
+/// Progress of the search; null before the first.
+async fn searched(State(state): Shared) -> Response {
+    Json(state.searching.state()).into_response()
 }
 
-async fn unsearched(State(desk): Shared) -> Response {
-    desk.searching.dismiss();
+async fn unsearched(State(state): Shared) -> Response {
+    state.searching.dismiss();
     Json(json!({})).into_response()
 }
 
-/// How the goals answer one number.
+/// Response of the goals to one number.
 async fn respond(Json(ask): Json<response::Ask>) -> Result<Response, Refused> {
     let answers = computed(move || response::answers(&ask)).await?;
     let answers =
@@ -296,7 +299,7 @@ struct Files {
 }
 
 impl Files {
-    /// The same as on the command line; the folder is not used.
+    /// Export command with these options; the folder is not used.
     fn command(&self) -> Result<Export, String> {
         let (formats, tolerance, dxf) = (
             format!("--format={}", self.formats.join(",")),

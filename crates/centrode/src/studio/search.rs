@@ -13,17 +13,17 @@ use serde::{Deserialize, Serialize};
 use crate::optimise::better;
 use crate::report::{GoalWords, goal_words};
 
-/// How often the best design so far is written out for the page.
+/// Interval at which the best design so far is written out for the page.
 const SHOW: Duration = Duration::from_millis(400);
 
-/// Most points of the history that the page draws.
+/// Greatest number of points of the history that the page draws.
 const DRAWN: usize = 400;
 
-/// The search for a better design, on a thread of its own; there is one at a time.
+/// Search for a better design, on a thread of its own; there is one at a time.
 #[derive(Default)]
 pub(crate) struct Searching(Mutex<Option<Arc<Run>>>);
 
-/// What the page asks for.
+/// Request of the page.
 #[derive(Deserialize)]
 pub(crate) struct Ask {
     text: String,
@@ -32,21 +32,21 @@ pub(crate) struct Ask {
     evaluations: u64,
 }
 
-/// How far a search is.
+/// Progress of a search.
 #[derive(Clone, Debug, Serialize)]
 pub(crate) struct State {
     method: String,
-    /// Most evaluations.
+    /// Greatest number of evaluations.
     evaluations: u64,
     running: bool,
     ended: Option<Ended>,
-    /// What the problem says of where it ended.
+    /// Remark of the problem on the point where it ended.
     remark: Option<String>,
     /// The best at the ends of its generations, thinned out.
     history: Vec<Progress>,
     /// The best design so far, as a file.
     text: String,
-    /// Its goals.
+    /// Goals of that design.
     goals: Vec<GoalWords>,
 }
 
@@ -82,7 +82,7 @@ impl Searching {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Starts a search; one under way is stopped. The reason where there is none to start.
+    /// Starts a search; one under way is stopped. The error is the reason where there is none to start.
     pub(crate) fn start(&self, ask: Ask) -> Result<(), String> {
         let file = FAMILIES
             .read(ask.text.as_bytes())
@@ -123,7 +123,7 @@ impl Searching {
         Ok(())
     }
 
-    /// How far the last search is; none before the first.
+    /// Progress of the last search; none before the first.
     pub(crate) fn state(&self) -> Option<State> {
         self.run().as_ref().map(|run| run.state().clone())
     }

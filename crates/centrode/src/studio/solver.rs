@@ -11,27 +11,27 @@ use crate::page::{Snapshot, Subject};
 /// A solve ends early once its page asks for another, or nobody waits for its answer any more.
 #[derive(Default)]
 pub(crate) struct Solver {
-    /// The request being solved for each page: its turn, and what ends it.
+    /// Request being solved for each page: its turn, and what ends it.
     under_way: Mutex<HashMap<String, (u64, Cancel)>>,
-    /// The last design solved: after its picture its checks are asked for.
+    /// Last design solved: after its picture its checks are asked for.
     last: Mutex<Option<Arc<Subject>>>,
 }
 
-/// How much of a design is asked for.
+/// Depth to which a design is solved.
 #[derive(Clone, Copy, Debug, Deserialize, Eq, PartialEq)]
 #[serde(rename_all = "lowercase")]
 pub(crate) enum Depth {
-    /// Its numbers alone: solving it was cancelled.
+    /// Numbers alone: solving it was cancelled.
     Numbers,
-    /// What is drawn at once.
+    /// Picture that is available at once.
     Picture,
-    /// The picture with what takes longer to make.
+    /// Picture with details that take longer to make.
     Detail,
-    /// What the checks say, too.
+    /// Results of the checks, too.
     Checks,
 }
 
-/// Why a design has no answer.
+/// Reason why a design has no answer.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum Unsolved {
     #[error("a later change has taken the place of this one")]
@@ -40,7 +40,7 @@ pub(crate) enum Unsolved {
     Fault(String),
 }
 
-/// A solve that somebody waits for; dropped, it is cancelled.
+/// Guard of a solve that somebody waits for; dropped, it cancels the solve.
 struct Wait<'a> {
     solver: &'a Solver,
     page: &'a str,
@@ -79,7 +79,7 @@ impl Drop for Wait<'_> {
 }
 
 impl Solver {
-    /// The snapshot of a design as JSON. Dropped before its end, the solve is cancelled.
+    /// Snapshot of a design as JSON. Dropped before its end, the solve is cancelled.
     ///
     /// A page numbers its requests by `turn`: on their way one can be overtaken by the next.
     pub(crate) async fn solve(

@@ -6,13 +6,13 @@ use futures_util::stream::{Stream, unfold};
 use serde_json::json;
 use tokio::sync::watch::{Receiver, Sender};
 
-use super::Desk;
+use super::StudioState;
 use super::document::Disk;
 
-/// Time between two looks at the file.
+/// Time between two reads of the file.
 const PERIOD: Duration = Duration::from_millis(500);
 
-/// What happens without the page asking: the file changes on disk.
+/// Watch over the file: it reports changes on disk without a request of the page.
 pub(crate) struct Watch(Sender<Option<Disk>>);
 
 impl Default for Watch {
@@ -22,7 +22,7 @@ impl Default for Watch {
 }
 
 impl Watch {
-    /// The events from now on; the first says how things stand.
+    /// Events from now on; the first gives the present state.
     pub(crate) fn events(&self) -> Sse<impl Stream<Item = Result<Event, Infallible>> + use<>> {
         let mut receiver = self.0.subscribe();
         receiver.mark_changed();
@@ -39,13 +39,13 @@ impl Watch {
     }
 }
 
-/// Looks at the file for ever, and tells what it holds whenever that is something else.
-pub(crate) async fn disk(desk: &Desk) {
+/// Reads the file for ever, and reports its text whenever that has changed.
+pub(crate) async fn disk(state: &StudioState) {
     loop {
-        let now = Some(desk.document.disk());
-        desk.watch.0.send_if_modified(|told| {
-            let news = *told != now;
-            *told = now;
+        let now = Some(state.document.disk());
+        state.watch.0.send_if_modified(|last| {
+            let news = *last != now;
+            *last = now;
             news
         });
         tokio::time::sleep(PERIOD).await;

@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use crate::{centrode, text};
 
-/// What the message must contain, and the line it must point to, for a design.
+/// Guards the words the message must contain, and the line it must point to, for a design.
 fn refused(design: &[u8], words: &[&str], line: usize) {
     let folder = tempfile::tempdir().expect("a place to write");
     let file = folder.path().join("pair.toml");

@@ -1,4 +1,4 @@
-//! The program as its user meets it: output, errors, exit status.
+//! Tests of the program as its user meets it: output, errors, exit status.
 #![cfg(feature = "cli")]
 
 mod bad_designs;

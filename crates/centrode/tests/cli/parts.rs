@@ -10,7 +10,7 @@ fn export(to: &Path, more: &[&str]) -> std::process::Output {
     centrode(&[&["export", &design, "--to", &to], more].concat())
 }
 
-/// Names of what stands in a folder, in order.
+/// Names of the files in a folder, in order.
 fn names(folder: &Path) -> Vec<String> {
     let listed = fs::read_dir(folder).expect("a folder");
     let mut names: Vec<String> = listed

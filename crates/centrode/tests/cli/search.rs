@@ -48,7 +48,7 @@ fn a_better_design_is_written_with_its_comments_and_its_search() {
         text(&check.stdout)
     );
     assert!(folder.path().join("better.search.json").exists());
-    // The same again is the same file.
+    // A second run gives an equal file.
     centrode(&run);
     assert_eq!(fs::read_to_string(&better).expect("written"), written);
 }
@@ -356,7 +356,7 @@ fn ctrl_c_ends_a_search_and_keeps_the_best_so_far() {
         told.contains("; stopped") && told.contains("infeasible"),
         "{told}"
     );
-    // What is kept is better than the start, a design, and a search to go on with.
+    // The best so far is better than the start, a design, and a search to go on with.
     let json = centrode(&["check", &to, "--json"]);
     let report: serde_json::Value = serde_json::from_slice(&json.stdout).expect("JSON");
     let angle = report["values"]["transmission_angle_min"]

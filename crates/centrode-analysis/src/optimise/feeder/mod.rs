@@ -1,4 +1,4 @@
-//! The search for a feeder whose effector swings by the angle wanted.
+//! Search for a feeder whose effector swings by the angle wanted.
 
 mod widened;
 
@@ -16,10 +16,10 @@ use super::{DesignProblem, Evaluation, Problem, Variable};
 use crate::Goal;
 use crate::feeder::{Attainable, feed_stroke, goals};
 
-/// The feeder as a problem: its free dimensions, the miss of its swing as objective, and as constraints that the crank
+/// Feeder as a problem: its free dimensions, the deviation of its swing as objective, and as constraints that the crank
 /// turns, the least transmission angle and the quick return.
 ///
-/// A pivot that moves is paid for by its way. Motor, gears and dwell have no part in it.
+/// The displacement of a free pivot is penalised. Motor, gears and dwell have no part in it.
 ///
 /// Source: Ye et al. 2022, DOI 10.6041/j.issn.1000-1298.2022.05.010, (14) to (18).
 #[derive(Clone, Debug)]
@@ -33,7 +33,7 @@ pub struct FeederProblem {
 }
 
 impl FeederProblem {
-    /// The problem around a design.
+    /// Makes the problem around a design.
     #[must_use]
     pub fn new(design: &FeederDesign) -> Self {
         let free = design.free_dimensions();
@@ -77,7 +77,7 @@ impl FeederProblem {
         }
     }
 
-    /// How far the pivot was moved, mm.
+    /// Displacement of the pivot, mm.
     fn moved(&self, linkage: &LinkageSpec) -> f64 {
         (Point::from(linkage.pivot) - self.wanted.pivot).norm()
     }
@@ -94,7 +94,7 @@ impl Problem for FeederProblem {
         Some(self.dimensions.iter().map(value).collect())
     }
 
-    /// The objective is the swing's distance from the wanted one, and the pivot's way by its weight, rad.
+    /// Evaluates a point: the objective is the swing's deviation, and the pivot's displacement by its weight, rad.
     fn evaluate(&self, point: &[f64]) -> Evaluation {
         let linkage = self.at(point);
         let lengths = [

@@ -44,7 +44,7 @@ fn without_the_transmission_angle_half_a_turn_is_reached_by_every_method() {
         for seed in [1, 2, 3] {
             let (ended, best, problem) = searched(&design, method, seed);
             assert_eq!(ended, Ended::Target, "{name} {seed}");
-            // What the file will hold, not what the search thought.
+            // The values in the file, not those of the search.
             let found = Feeder::resolve(&problem.design_at(&best)).expect("a feeder");
             let miss = (found.six_bar().swing() - PI).abs().to_degrees();
             assert!(miss < 1e-6, "{name} {seed}: {miss:e}");

@@ -4,12 +4,12 @@ use centrode_mechanism::linkage::{FourBar, Grashof, SixBar};
 
 use crate::feeder::Attainable;
 
-/// Steps of a millimetre to which bounds and lengths are written: what a machinist reads.
+/// Steps of a millimetre to which bounds and lengths are written, as a machinist reads them.
 const STEPS: f64 = 1e3;
-/// Most steps by which rounded bounds are moved outwards again.
+/// Greatest number of steps by which rounded bounds are moved outwards again.
 const MOST: u32 = 10;
 
-/// A feeder's design with its bounds widened by as little as lets a crank-rocker within them have the least transmission
+/// Feeder's design with its bounds widened by as little as lets a crank-rocker within them have the least transmission
 /// angle wanted, its lengths there, and its pivot in the middle of the places that give the swing wanted.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Widened {
@@ -19,36 +19,36 @@ pub struct Widened {
     pub design: FeederDesign,
 }
 
-/// Why the bounds are not widened.
+/// Reason why the bounds are not widened.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum NotWidened {
-    /// They hold what is wanted.
+    /// The bounds hold the angle wanted.
     #[error(
         "the bounds hold lengths with a least transmission angle of {:.4} deg, and {:.4} deg is wanted: they need not be widened", .attainable.to_degrees(), .wanted.to_degrees()
     )]
     Needless {
         /// Greatest least transmission angle within the bounds, rad.
         attainable: f64,
-        /// What is wanted, rad.
+        /// Angle wanted, rad.
         wanted: f64,
     },
     /// No widening below nine tenths helps.
     #[error("bounds widened by 90 % hold no crank-rocker with a least transmission angle of {:.4} deg", .wanted.to_degrees())]
     NoUse {
-        /// What is wanted, rad.
+        /// Angle wanted, rad.
         wanted: f64,
     },
-    /// The slider's arc is seen under the angle wanted from nowhere.
+    /// The slider's arc is seen under the angle wanted from no point.
     #[error("the lengths found have no place of the pivot that gives a swing of {:.4} deg", .swing.to_degrees())]
     NoPivot {
-        /// What is wanted, rad.
+        /// Angle wanted, rad.
         swing: f64,
     },
 }
 
 impl Widened {
-    /// Widens the bounds of a design, the same ones always alike.
+    /// Widens the bounds of a design; equal designs give equal results.
     ///
     /// # Errors
     /// [`NotWidened`].
@@ -95,7 +95,7 @@ fn nearest(value: f64) -> f64 {
     (value * STEPS).round() / STEPS
 }
 
-/// Bounds widened by a share, rounded outwards, and then by so much more.
+/// Widens bounds by a share, rounds them outwards, and widens them then by so much more.
 fn outwards(bounds: &BoundsSpec, share: f64, more: f64) -> BoundsSpec {
     let out = |[low, high]: [f64; 2]| {
         [

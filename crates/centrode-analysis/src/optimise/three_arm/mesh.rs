@@ -8,11 +8,11 @@ use crate::{Goal, Severity};
 /// Transmission error of half the progress, rad.
 const ERROR: f64 = 1e-3;
 
-/// How a mechanism's full teeth mesh, over a whole cycle, as goals of number zero: that flanks carry the motion, and that
-/// nothing is found against the teeth. None where no teeth can be cut.
+/// Goals of number zero for a mechanism's full teeth in mesh, over a whole cycle: that flanks carry the motion, and
+/// that there is no finding against the teeth. None where no teeth can be cut.
 ///
 /// Planets are the sun's part again, and the mesh of intermediate and planet is that of sun and intermediate turned
-/// round: one pair tells of all six meshes.
+/// round: one pair represents all six meshes.
 pub(super) fn mesh(design: &ThreeArmDesign) -> Option<[Goal; 2]> {
     let pair = design.pair();
     let full = GearPairDesign {

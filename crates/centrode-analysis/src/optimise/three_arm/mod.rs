@@ -1,4 +1,4 @@
-//! The search for a three-arm mechanism that reaches its goals.
+//! Search for a three-arm mechanism that reaches its goals.
 
 mod mesh;
 
@@ -13,21 +13,21 @@ use super::{DesignProblem, Evaluation, Problem, Variable};
 use crate::three_arm::{goals, reached};
 use crate::{ArmClearance, Goal};
 
-/// Decimals of the parameters found, degrees or mm: what a machinist reads.
+/// Decimals of the parameters found, degrees or mm, as a machinist reads them.
 const DECIMALS: u32 = 3;
-/// Inputs at which the tip's path is looked at before its extremes are sharpened.
+/// Inputs at which the tip's path is sampled before its extremes are refined.
 const INPUTS: usize = 120;
-/// What an unsound flank adds to the violation.
+/// Violation charged for each undercut or short flank.
 const FLANK: f64 = 1e-3;
-/// What a goal adds to the violation that is not looked at since a quicker one is missed.
+/// Violation charged for each goal skipped because a cheaper one already failed.
 const UNSEEN: f64 = 1.0;
 
-/// The three-arm mechanism as a problem: its free parameters, its goals as constraints, and the design's objective.
+/// Three-arm mechanism as a problem: its free parameters, its goals as constraints, and the design's objective.
 ///
-/// A point is looked at in two steps. The figures of a [`Sweep`], in some microseconds: angles, heights, and the curvatures
-/// of the pitch curves, which tell the module they bear. Only where those are met the exact mechanism is resolved, and
-/// clearances and flanks are told as a check does; and only where those are met, too, full teeth are cut and their contact
-/// is followed over a cycle. What is met so is met in the check.
+/// A point is evaluated in steps. The figures of a [`Sweep`], in some microseconds: angles, heights, and the curvatures
+/// of the pitch curves, which give the module they bear. Only where those are met the exact mechanism is resolved, and
+/// clearances and flanks are computed as in a check; and only where those are met, too, full teeth are cut and their contact
+/// is followed over a cycle. Goals met so are met in the check.
 #[derive(Debug)]
 pub struct ThreeArmProblem {
     start: ThreeArmDesign,
@@ -37,7 +37,7 @@ pub struct ThreeArmProblem {
     template: Sweep,
 }
 
-/// What the quick look at a point tells.
+/// Quick evaluation of a point.
 struct Quick {
     design: ThreeArmDesign,
     goals: Vec<Goal>,
@@ -46,7 +46,7 @@ struct Quick {
 }
 
 impl ThreeArmProblem {
-    /// The problem around a design, which must be of the kind a [`Sweep`] knows.
+    /// Makes the problem around a design, which must be of the kind a [`Sweep`] accepts.
     ///
     /// # Errors
     /// [`SweepError`] where its pitch curve is of another kind.
@@ -119,7 +119,7 @@ impl ThreeArmProblem {
         Goal::new(about, Some(depth), [Some(wanted), None], "mm", 20.0)
     }
 
-    /// What must be kept besides the goals, as goals of number zero.
+    /// Constraints besides the goals, as goals of number zero.
     fn kept(&self, mechanism: &ThreeArm, arms: Option<&ArmClearance>) -> Vec<Goal> {
         let spec = &self.start.optimise;
         let least = |least: f64| [Some(least), None];
@@ -192,12 +192,12 @@ fn follow(design: &mut ThreeArmDesign, length: f64) {
     }
 }
 
-/// Share of its scale by which a goal is missed; zero where it is reached.
+/// Miss of a goal as a share of its scale; zero where it is reached.
 fn miss(goal: &Goal) -> Option<f64> {
     goal.margin.map(|margin| (-margin / goal.scale).max(0.0))
 }
 
-/// The same below one, however far the miss.
+/// Miss bounded below one, however great it is.
 fn bounded(miss: f64) -> f64 {
     miss / (1.0 + miss)
 }
@@ -216,7 +216,7 @@ impl Problem for ThreeArmProblem {
     }
 
     fn evaluate(&self, point: &[f64]) -> Evaluation {
-        // Quick figures first; what is looked at only later counts as missed until then.
+        // Quick figures first; goals evaluated only later count as missed until then.
         let nothing = || Evaluation {
             objective: self.moved(point),
             constraints: vec![1e3],
@@ -235,13 +235,13 @@ impl Problem for ThreeArmProblem {
         let seen = constraints.len();
         constraints.push(quick.overload.max(0.0));
         if constraints.iter().sum::<f64>() > 0.0 {
-            // What will be looked at only later.
+            // Goals evaluated only later.
             return unseen(constraints, 7.0);
         }
         let Ok(mechanism) = ThreeArm::resolve(&quick.design) else {
             return nothing();
         };
-        let Ok(teeth) = mechanism.soundness() else {
+        let Ok(teeth) = mechanism.flank_counts() else {
             return nothing();
         };
         let unsound: u32 = teeth.iter().map(|gear| gear.unsound).sum();

@@ -138,7 +138,7 @@ fn the_shipped_design_is_feasible_and_the_published_one_is_not() {
     let start = problem.start().expect("a start");
     assert!(problem.evaluate(&start).feasible());
     let goals = problem.goals(&start).expect("a mechanism");
-    // Every goal was looked at, those of arms, tray and stems, too.
+    // Every goal was evaluated, those of arms, tray and stems, too.
     assert_eq!(goals.len(), 14);
     assert!(
         goals.iter().all(|goal| goal.met() == Some(true)),
@@ -152,7 +152,7 @@ fn the_shipped_design_is_feasible_and_the_published_one_is_not() {
     );
 }
 
-/// The same tilted by as much as one parameter mends.
+/// Shipped design tilted by an angle that one parameter corrects.
 fn tilted() -> ThreeArmDesign {
     let mut design = shipped();
     design.carrier_start += 20.0_f64.to_radians();
@@ -186,7 +186,7 @@ fn the_guide_mends_what_one_parameter_spoils_and_says_so() {
     }
     let goals = problem.goals(&search.best()).expect("a mechanism");
     assert!(goals.iter().all(|goal| goal.met() == Some(true)));
-    // Without chance: again, the same steps.
+    // Deterministic: a second run makes the same steps.
     let mut again = DesignSearch::new(&problem, Strategy::Guided, settings).expect("variables");
     again.run(&problem, &mut |_| ControlFlow::Continue(()));
     assert_eq!(again.log(), log);

@@ -163,7 +163,7 @@ fn edge(draft: &mut Draft, pen: Pen, segment: &Segment) {
     match segment {
         Segment::Line(a, b) => draft.line(pen, *a, *b),
         Segment::Arc(arc) => draft.draw(pen, Shape::Arc(*arc)),
-        Segment::Spline(_) => {}
+        Segment::Poly(_) => {}
     }
 }
 

@@ -4,19 +4,19 @@ use serde::{Deserialize, Serialize};
 use crate::gear::design::SpecError;
 use crate::gear::design::rule::{finite, not_negative, positive};
 
-/// A sense of turning.
+/// Sense of rotation.
 #[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Turn {
-    /// Against the clock, the positive sense.
+    /// Counter-clockwise, the positive sense.
     #[default]
     CounterClockwise,
-    /// With the clock.
+    /// Clockwise, the negative sense.
     Clockwise,
 }
 
 impl Turn {
-    /// 1 counter-clockwise, -1 clockwise.
+    /// Sign: 1 counter-clockwise, -1 clockwise.
     #[must_use]
     pub fn sign(self) -> f64 {
         match self {
@@ -25,7 +25,7 @@ impl Turn {
         }
     }
 
-    /// The other one.
+    /// Opposite sense.
     #[must_use]
     pub fn opposite(self) -> Self {
         match self {
@@ -35,7 +35,7 @@ impl Turn {
     }
 }
 
-/// What rides on the cam and how it is guided, by the key `kind`.
+/// Follower of a cam and its guidance, by the key `kind`.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(tag = "kind", rename_all = "kebab-case")]
 #[non_exhaustive]
@@ -76,7 +76,7 @@ pub struct SwingingRoller {
     pub center_distance: f64,
     /// Distance of the roller's centre from the pivot, mm.
     pub arm_length: f64,
-    /// Which way the arm turns when the cam lifts it.
+    /// Sense in which the arm turns when the cam lifts it.
     #[serde(default)]
     pub lifts: Turn,
 }
@@ -87,10 +87,10 @@ pub struct SwingingRoller {
 pub struct SwingingFlat {
     /// Distance of the arm's pivot from the cam's axis, mm.
     pub center_distance: f64,
-    /// How far the face stands before the pivot, towards the cam, mm; may be negative.
+    /// Distance of the face before the pivot, towards the cam, mm; may be negative.
     #[serde(default)]
     pub face_offset: f64,
-    /// Which way the arm turns when the cam lifts it.
+    /// Sense in which the arm turns when the cam lifts it.
     #[serde(default)]
     pub lifts: Turn,
 }
@@ -112,7 +112,7 @@ impl Follower {
         }
     }
 
-    /// Ranges.
+    /// Checks the ranges.
     ///
     /// # Errors
     /// [`SpecError`] with the key at fault.

@@ -26,12 +26,12 @@ pub struct CamSpec {
     pub title: String,
     /// Radius of the base circle, mm: the largest about the axis that fits in a cam without undercut.
     pub base_radius: f64,
-    /// Which way the cam turns, seen from the follower.
+    /// Sense in which the cam turns, seen from the follower.
     #[serde(default)]
     pub rotation: Turn,
-    /// What rides on the cam.
+    /// Follower that rides on the cam.
     pub follower: Follower,
-    /// What the follower does.
+    /// Motion of the follower.
     pub motion: MotionSpec,
     /// Width, bore and material.
     #[serde(default)]
@@ -57,7 +57,7 @@ impl CamSpec {
         }
     }
 
-    /// The rules that need no geometry: ranges, and keys that contradict each other.
+    /// Checks the rules that need no geometry: ranges, and keys that contradict each other.
     ///
     /// # Errors
     /// [`SpecError`] with the key at fault and the rule it breaks.

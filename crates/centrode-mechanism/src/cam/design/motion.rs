@@ -4,11 +4,11 @@ use serde::{Deserialize, Serialize};
 use crate::cam::law::LawSpec;
 use crate::degrees;
 use crate::gear::design::SpecError;
-use crate::gear::design::rule::{Rule, between, broken, finite, positive};
+use crate::gear::design::rule::{Rule, broken, finite, in_range, positive};
 
-/// What a follower does in one turn of the cam: segments one after the other.
+/// Motion of a follower in one turn of the cam: segments one after the other.
 ///
-/// Zero is the lowest level at which a segment begins: the follower then stands on the base circle.
+/// Zero is the lowest level at which a segment begins: the follower is then on the base circle.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct MotionSpec {
@@ -31,7 +31,7 @@ pub enum SegmentSpec {
     Dwell(Dwell),
     /// Towards the cam's axis.
     Return(Travel),
-    /// From one velocity and acceleration to another.
+    /// Transition from one velocity and acceleration to another.
     Transition(Transition),
 }
 
@@ -54,7 +54,7 @@ pub struct Travel {
     )]
     #[schemars(with = "Option<f64>")]
     pub swing: Option<f64>,
-    /// How it is covered.
+    /// Motion law over the span.
     pub law: LawSpec,
 }
 
@@ -133,7 +133,7 @@ impl SegmentSpec {
     fn validate(&self) -> Result<(), SpecError> {
         let degrees = (self.span().to_degrees() * 1e9).round() / 1e9;
         positive("span_deg", degrees)?;
-        between("span_deg", degrees, [0.0, 360.0], " deg")?;
+        in_range("span_deg", degrees, [0.0, 360.0], " deg")?;
         match self.strokes() {
             None => return Ok(()),
             Some((Some(_), Some(_))) => return broken("swing_deg", Rule::Excludes("lift")),
@@ -177,13 +177,13 @@ impl Travel {
 }
 
 impl MotionSpec {
-    /// Ranges, and strokes that are all lengths or all angles.
+    /// Checks the ranges, and that strokes are all lengths or all angles.
     ///
     /// # Errors
     /// [`SpecError`] with the key at fault, `segments.2.span_deg` for the third segment.
     pub fn validate(&self) -> Result<(), SpecError> {
         finite("start_deg", self.start)?;
-        between(
+        in_range(
             "segments",
             self.segments.len() as f64,
             [1.0, 360.0],

@@ -1,6 +1,6 @@
-//! Motion laws: how a follower gets from rest at 0 to rest at 1 while its input goes from 0 to 1.
+//! Motion laws of a follower from rest at 0 to rest at 1 while its input goes from 0 to 1.
 //!
-//! Names and characteristic values as in VDI 2143 part 1 (1980); the German name stands beside each.
+//! Names and characteristic values as in VDI 2143 part 1 (1980); the German name is given beside each.
 
 use std::fmt;
 use std::sync::Arc;
@@ -96,7 +96,7 @@ impl LawSpec {
         found.map_or("polynomial", |(name, _)| name)
     }
 
-    /// The rules of a law's own figures.
+    /// Checks the rules of a law's own figures.
     ///
     /// # Errors
     /// [`SpecError`] with the key at fault.
@@ -129,7 +129,7 @@ impl LawSpec {
     }
 }
 
-/// What may stand beside `kind`; a derived reader would look over stray keys beside the plain kinds.
+/// Keys that may be given beside `kind`; a derived reader would overlook stray keys beside the plain kinds.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Written {
@@ -159,7 +159,7 @@ impl<'de> Deserialize<'de> for LawSpec {
 
 /// A law's own formula.
 trait Form: fmt::Debug + Send + Sync {
-    /// The law of a series: the law's derivatives are exact by the rules of Taylor arithmetic.
+    /// Taylor series of the law: derivatives are exact by Taylor arithmetic.
     fn of(&self, x: Taylor) -> Taylor;
 
     /// Places inside (0, 1) where a derivative jumps, ascending.
@@ -167,7 +167,7 @@ trait Form: fmt::Debug + Send + Sync {
         Vec::new()
     }
 
-    /// Whether the acceleration jumps at one of them.
+    /// Whether the acceleration jumps at a break.
     fn jerks(&self) -> bool {
         false
     }
@@ -180,7 +180,7 @@ pub struct Law {
     name: &'static str,
 }
 
-/// How hard a law is on a machine: peaks of its derivatives.
+/// Characteristic values of a law: peaks of its derivatives.
 ///
 /// A follower with the lift h over the cam angle B has the peak velocity `Cv h / B`, the peak
 /// acceleration `Ca h / B^2` and the peak jerk `Cj h / B^3` per radian of cam angle.
@@ -237,7 +237,7 @@ impl Law {
         }
     }
 
-    /// The law of a series.
+    /// Taylor series of the law.
     pub(super) fn of(&self, x: Taylor) -> Taylor {
         self.form.of(x)
     }

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 use super::Form;
 use crate::formula::Taylor;
 use crate::gear::design::SpecError;
-use crate::gear::design::rule::{between, finite};
+use crate::gear::design::rule::{finite, in_range};
 
 /// Derivatives that can be asked for at one end: velocity, acceleration, jerk and the next.
 const MOST: usize = 4;
@@ -18,15 +18,15 @@ const MOST: usize = 4;
 pub struct Polynomial {
     /// Velocity, acceleration and so on at the start, per unit of the law's own input and lift.
     pub start: Vec<f64>,
-    /// The same at the end.
+    /// Velocity, acceleration and so on at the end.
     pub end: Vec<f64>,
 }
 
 impl Polynomial {
-    /// The coefficients must be finite, at most four at each end.
+    /// Checks that the coefficients are finite and at most four at each end.
     pub(super) fn validate(&self) -> Result<(), SpecError> {
         for (key, list) in [("start", &self.start), ("end", &self.end)] {
-            between(key, list.len() as f64, [0.0, MOST as f64], " values")?;
+            in_range(key, list.len() as f64, [0.0, MOST as f64], " values")?;
             list.iter().try_for_each(|&d| finite(key, d))?;
         }
         Ok(())
@@ -82,7 +82,7 @@ impl Coefficients {
         Self(p)
     }
 
-    /// The polynomial of a series.
+    /// Taylor series of the polynomial.
     pub(in crate::cam) fn of(&self, x: Taylor) -> Taylor {
         let mut sum = Taylor::constant(0.0);
         for &c in self.0.iter().rev() {

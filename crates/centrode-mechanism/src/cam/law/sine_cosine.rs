@@ -19,7 +19,7 @@ pub(super) struct SineCosine {
 }
 
 impl SineCosine {
-    /// `ramp + fall` must be at most 1.
+    /// Makes a law; `ramp + fall` must be at most 1.
     pub(super) fn new(ramp: f64, fall: f64) -> Self {
         let (b, d) = (ramp / PI, fall / PI);
         let flat = 0.5 * (1.0 - ramp - fall);

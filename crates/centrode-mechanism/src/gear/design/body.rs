@@ -1,10 +1,10 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::rule::{Rule, SpecError, between, broken, line, not_negative, positive};
+use super::rule::{Rule, SpecError, broken, in_range, not_negative, positive, single_line};
 use crate::degrees;
 
-/// The body of a gear: what is not teeth.
+/// Body of a gear: all but its teeth.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct BodySpec {
@@ -46,7 +46,7 @@ pub struct Keyway {
     pub depth: f64,
 }
 
-/// Serde's own way of asking.
+/// Whether a keyway's angle is zero and need not be written.
 fn is_along_x(angle: &f64) -> bool {
     *angle == 0.0
 }
@@ -102,7 +102,7 @@ impl Default for BodySpec {
 }
 
 impl BodySpec {
-    /// Ranges, and a keyway that fits the bore.
+    /// Checks the ranges, and that the keyway fits the bore.
     ///
     /// # Errors
     /// [`SpecError`] with the key at fault.
@@ -111,7 +111,7 @@ impl BodySpec {
         not_negative("bore", self.bore)?;
         positive("density", self.density)?;
         let angle = self.keyway_angle.to_degrees();
-        between("keyway_angle_deg", angle, [-360.0, 360.0], " deg")?;
+        in_range("keyway_angle_deg", angle, [-360.0, 360.0], " deg")?;
         let words = [
             ("material", &self.material),
             ("bore_fit", &self.bore_fit),
@@ -120,7 +120,7 @@ impl BodySpec {
             ("accuracy", &self.accuracy),
         ];
         for (key, word) in words {
-            line(key, word)?;
+            single_line(key, word)?;
         }
         let Some(Keyway { width, depth }) = self.keyway else {
             return Ok(());

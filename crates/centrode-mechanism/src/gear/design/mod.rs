@@ -16,7 +16,7 @@ pub use rule::{Rule, SpecError};
 pub use teeth::{Addendum, Phase, TeethSpec};
 pub use tool::{Rack, Shaper, ToolSpec};
 
-use rule::{broken, line, name, positive, within};
+use rule::{broken, count_in_range, file_name, positive, single_line};
 
 /// A non-circular gear pair.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
@@ -104,24 +104,24 @@ impl GearPairDesign {
         }
     }
 
-    /// The rules that need no geometry: ranges, and keys that contradict each other.
+    /// Checks the rules that need no geometry: ranges, and keys that contradict each other.
     ///
     /// # Errors
     /// [`SpecError`] with the key at fault and the rule it breaks. The pitch curve's own rules are
     /// those of [`PitchSpec::resolve`].
     pub fn validate(&self) -> Result<(), SpecError> {
-        name("name", &self.name)?;
-        line("title", &self.title)?;
+        file_name("name", &self.name)?;
+        single_line("title", &self.title)?;
         let [n1, n2] = self.mean_ratio;
-        within("mean_ratio", n1, 1, MOST_TURNS)?;
-        within("mean_ratio", n2, 1, MOST_TURNS)?;
+        count_in_range("mean_ratio", n1, 1, MOST_TURNS)?;
+        count_in_range("mean_ratio", n2, 1, MOST_TURNS)?;
         let divisor = greatest_common_divisor(n1, n2);
         if divisor > 1 {
             let rule = Rule::LowestTerms([n1, n2], [n1 / divisor, n2 / divisor]);
             return broken("mean_ratio", rule);
         }
         if let Some(z) = self.tooth_count {
-            within("tooth_count", z, 3, 10_000)?;
+            count_in_range("tooth_count", z, 3, 10_000)?;
         }
         if let (Some(z), Some(of_pitch)) = (self.tooth_count, self.pitch.tooth_count())
             && z != of_pitch

@@ -10,7 +10,7 @@ pub struct SpecError {
     pub rule: Rule,
 }
 
-/// What a value must be, and what it is.
+/// Rule that a value breaks, with the value.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum Rule {
@@ -26,7 +26,7 @@ pub enum Rule {
     /// Outside a range.
     #[error("must be {least} to {greatest}{unit}, not {value}{unit}")]
     OutOfRange {
-        /// What was given.
+        /// Value given.
         value: f64,
         /// Least value allowed.
         least: f64,
@@ -60,7 +60,7 @@ pub enum Rule {
     Line {
         /// Characters given.
         count: usize,
-        /// Of which line ends, tabs and the like.
+        /// Control characters among them: line ends, tabs and the like.
         controls: usize,
         /// Most characters allowed.
         most: usize,
@@ -85,7 +85,7 @@ pub enum Rule {
         "is {value}, but at this pressure angle and addendum at most {greatest:.6} fits the tip of the tool"
     )]
     TipRadius {
-        /// What was given.
+        /// Value given.
         value: f64,
         /// Greatest that fits.
         greatest: f64,
@@ -93,7 +93,7 @@ pub enum Rule {
 }
 
 impl SpecError {
-    /// The same error seen from outside the table `table`.
+    /// Error with its key seen from outside the table `table`.
     #[must_use]
     pub(crate) fn inside(mut self, table: &str) -> Self {
         self.key = format!("{table}.{}", self.key);
@@ -134,8 +134,8 @@ pub(crate) fn not_negative(key: &str, value: f64) -> Result<(), SpecError> {
     }
 }
 
-/// A name that can name a file.
-pub(crate) fn name(key: &str, name: &str) -> Result<(), SpecError> {
+/// Checks a name that can name a file.
+pub(crate) fn file_name(key: &str, name: &str) -> Result<(), SpecError> {
     let safe = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
     if name.is_empty() || name.len() > 64 || !name.chars().all(safe) {
         return broken(key, Rule::Name(name.chars().take(80).collect()));
@@ -143,8 +143,8 @@ pub(crate) fn name(key: &str, name: &str) -> Result<(), SpecError> {
     Ok(())
 }
 
-/// Words for a drawing: one line, not endless.
-pub(crate) fn line(key: &str, words: &str) -> Result<(), SpecError> {
+/// Checks words for a drawing: one line, not endless.
+pub(crate) fn single_line(key: &str, words: &str) -> Result<(), SpecError> {
     const MOST: usize = 80;
     let count = words.chars().count();
     let controls = words.chars().filter(|c| c.is_control()).count();
@@ -159,11 +159,16 @@ pub(crate) fn line(key: &str, words: &str) -> Result<(), SpecError> {
     broken(key, rule)
 }
 
-pub(crate) fn within(key: &str, value: u32, least: u32, greatest: u32) -> Result<(), SpecError> {
-    between(key, value.into(), [least.into(), greatest.into()], "")
+pub(crate) fn count_in_range(
+    key: &str,
+    value: u32,
+    least: u32,
+    greatest: u32,
+) -> Result<(), SpecError> {
+    in_range(key, value.into(), [least.into(), greatest.into()], "")
 }
 
-pub(crate) fn between(
+pub(crate) fn in_range(
     key: &str,
     value: f64,
     [least, greatest]: [f64; 2],

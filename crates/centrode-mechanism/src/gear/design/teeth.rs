@@ -3,16 +3,16 @@ use std::fmt;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
 
-use super::rule::{Rule, SpecError, between, broken, finite, not_negative, positive};
+use super::rule::{Rule, SpecError, broken, finite, in_range, not_negative, positive};
 use crate::degrees;
 
 /// The teeth of both gears.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct TeethSpec {
-    /// "full": every tooth as high as the tool asks. "fitted": each as high as works.
+    /// Height of the teeth: "full", as high as the tool asks, or "fitted", each as high as works.
     pub addendum: Addendum,
-    /// Where the teeth sit on the driver's pitch curve.
+    /// Position of the teeth on the driver's pitch curve.
     pub phase: Phase,
     /// Total backlash of the pair along the normal, mm.
     pub backlash: f64,
@@ -47,18 +47,18 @@ impl Default for TeethSpec {
     }
 }
 
-/// How high the teeth are.
+/// Height of the teeth.
 #[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Addendum {
-    /// As high as the tool's data asks.
+    /// Full height, as the tool's data asks.
     #[default]
     Full,
     /// Trimmed tooth by tooth to what works.
     Fitted,
 }
 
-/// Where the teeth sit on the driver's pitch curve.
+/// Position of the teeth on the driver's pitch curve.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Phase {
     /// Congruent where both gears are the same curve, else a tooth at the polar angle zero.
@@ -68,7 +68,7 @@ pub enum Phase {
     Tooth,
     /// The middle of a space at the polar angle zero.
     Space,
-    /// So that driver and driven gear come out the same part.
+    /// Chosen so that driver and driven gear come out the same part.
     Congruent,
     /// The middle of a tooth this many pitches after the polar angle zero.
     Pitches(f64),
@@ -143,14 +143,14 @@ impl JsonSchema for Phase {
 }
 
 impl TeethSpec {
-    /// Ranges, and backlash given in one way only.
+    /// Checks the ranges, and that backlash is given in one way only.
     ///
     /// # Errors
     /// [`SpecError`] with the key at fault.
     pub fn validate(&self) -> Result<(), SpecError> {
         if let Phase::Pitches(p) = self.phase {
             finite("phase", p)?;
-            between("phase", p, [-1.0, 1.0], "")?;
+            in_range("phase", p, [-1.0, 1.0], "")?;
         }
         not_negative("backlash", self.backlash)?;
         if let Some(angle) = self.backlash_angle {
@@ -162,7 +162,7 @@ impl TeethSpec {
         if let Some(diameter) = self.pin_diameter {
             positive("pin_diameter", diameter)?;
         }
-        between("thickness_split", self.thickness_split, [0.2, 0.8], "")?;
+        in_range("thickness_split", self.thickness_split, [0.2, 0.8], "")?;
         not_negative(
             "least_tip_width_coefficient",
             self.least_tip_width_coefficient,

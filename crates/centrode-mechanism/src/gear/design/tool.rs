@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize};
 
-use super::rule::{Rule, SpecError, between, broken, not_negative, positive, within};
+use super::rule::{Rule, SpecError, broken, count_in_range, in_range, not_negative, positive};
 use crate::degrees;
 use crate::design::Tagged;
 
@@ -95,7 +95,7 @@ fn dedendum_coefficient() -> f64 {
     Rack::default().dedendum_coefficient
 }
 
-/// A cutter's teeth are narrower at the tip than a rack's.
+/// Default tip radius of a shaper, whose teeth are narrower at the tip than a rack's.
 fn shaper_tip_radius_coefficient() -> f64 {
     0.2
 }
@@ -124,7 +124,7 @@ impl ToolSpec {
         read: |kind, table| Self::of_kind(kind, table).map(drop),
     };
 
-    /// Reads what stands beside the key `kind`.
+    /// Reads the keys beside `kind`.
     pub(crate) fn of_kind<'de, D: Deserializer<'de>>(kind: &str, d: D) -> Result<Self, D::Error> {
         match kind {
             "rack" => Rack::deserialize(d).map(Self::Rack),
@@ -133,7 +133,7 @@ impl ToolSpec {
         }
     }
 
-    /// Ranges, and a tip rounding that fits the tool.
+    /// Checks the ranges, and that the tip rounding fits the tool.
     ///
     /// # Errors
     /// [`SpecError`] with the key at fault.
@@ -172,7 +172,7 @@ impl Rack {
         if half_land < 0.0 {
             let greatest = 0.25 * PI * cos / sin;
             let key = "dedendum_coefficient";
-            return between(key, self.dedendum_coefficient, [0.0, greatest], "");
+            return in_range(key, self.dedendum_coefficient, [0.0, greatest], "");
         }
         let greatest = (half_land * cos / (1.0 - sin)).min(self.dedendum_coefficient / (1.0 - sin));
         if value > greatest {
@@ -184,7 +184,7 @@ impl Rack {
 
 impl Shaper {
     fn validate(&self) -> Result<(), SpecError> {
-        within("tooth_count", self.tooth_count, 3, 1000)?;
+        count_in_range("tooth_count", self.tooth_count, 3, 1000)?;
         heights(
             self.pressure_angle,
             self.addendum_coefficient,
@@ -196,15 +196,15 @@ impl Shaper {
 }
 
 fn heights(angle: f64, addendum: f64, dedendum: f64, shift: f64) -> Result<(), SpecError> {
-    between(
+    in_range(
         "pressure_angle_deg",
         (angle.to_degrees() * 1e9).round() / 1e9,
         [5.0, 40.0],
         " deg",
     )?;
     positive("addendum_coefficient", addendum)?;
-    between("addendum_coefficient", addendum, [0.0, 3.0], "")?;
+    in_range("addendum_coefficient", addendum, [0.0, 3.0], "")?;
     positive("dedendum_coefficient", dedendum)?;
-    between("dedendum_coefficient", dedendum, [0.0, 3.0], "")?;
-    between("profile_shift_coefficient", shift, [-2.0, 2.0], "")
+    in_range("dedendum_coefficient", dedendum, [0.0, 3.0], "")?;
+    in_range("profile_shift_coefficient", shift, [-2.0, 2.0], "")
 }

@@ -2,14 +2,14 @@ use std::f64::consts::TAU;
 
 use crate::transmission::{FromFn, MotionJet, Transmission};
 
-/// Why there is no intermittent drive.
+/// Reason why there is no intermittent drive.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum IncompleteError {
     /// A count of zero.
     #[error("{name} is 0; it must be at least 1")]
     NoTeeth {
-        /// Which count.
+        /// Name of the count.
         name: &'static str,
     },
     /// The toothed arc leaves no room for a dwell.
@@ -32,15 +32,15 @@ pub enum IncompleteError {
         /// Pitches round the driven gear.
         driven: u32,
     },
-    /// The ramp angle makes no sense.
+    /// The entry angle is out of range.
     #[error("the entry angle is {angle} rad; it must be finite and at least 0")]
     Entry {
-        /// As given, rad.
+        /// Angle as given, rad.
         angle: f64,
     },
 }
 
-/// The motion of an incomplete gear pair with circular pitch curves: a toothed arc of the driver turns
+/// Motion of an intermittent gear pair with circular pitch curves: a toothed arc of the driver turns
 /// the driven gear at the arc's own ratio, the rest of its turn holds it locked.
 ///
 /// Both counts are of pitches all round. N teeth kept turn the driven gear by N of its pitches while
@@ -61,7 +61,7 @@ pub struct IncompleteDrive {
 }
 
 impl IncompleteDrive {
-    /// A driver with `kept` teeth in a row on `driver_pitches` pitches, a driven gear of
+    /// Makes the drive of a driver with `kept` teeth in a row on `driver_pitches` pitches, a driven gear of
     /// `driven_pitches`, and entry and exit of the driver angle `entry` each, rad.
     ///
     /// # Errors
@@ -123,13 +123,13 @@ impl IncompleteDrive {
         TAU - self.motion_angle()
     }
 
-    /// What the driven gear turns in one driver turn, rad.
+    /// Angle through which the driven gear turns in one driver turn, rad.
     #[must_use]
     pub fn driven_angle(&self) -> f64 {
         TAU * f64::from(self.kept) / f64::from(self.driven_pitches)
     }
 
-    /// Places at which the driven gear stops, and locking arcs on it.
+    /// Number of positions at which the driven gear stops, and of locking arcs on it.
     #[must_use]
     pub fn stops(&self) -> u32 {
         (self.driven_pitches / self.kept).max(1)

@@ -1,4 +1,4 @@
-//! Incomplete gears: a driver with teeth on an arc alone, and the motion and rest it gives its mate.
+//! Intermittent (incomplete) gears: a driver with teeth on an arc alone, and the motion and rest it gives its mate.
 
 mod drive;
 mod pair;

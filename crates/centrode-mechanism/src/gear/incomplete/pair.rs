@@ -12,20 +12,20 @@ use crate::transmission::{MotionJet, Transmission};
 
 /// Steps of one driver turn while the driven gear passes through the driver's blank: a twentieth of a degree.
 const STEPS: u32 = 7200;
-/// Greatest distance of a written contour from the one worked out, in modules.
+/// Greatest distance of a written contour from the computed one, in modules.
 const ACCURACY: f64 = 1e-4;
 /// Corners of a pin.
 const PIN_CORNERS: u32 = 96;
-/// Teeth lower than this above the locking arc, in modules, are not counted.
+/// Least height of a tooth above the locking arc, in modules, for it to count.
 const TOOTH: f64 = 0.2;
 
-/// A pair of gears of which the driver has teeth on an arc alone, and holds the driven gear with a locking arc over
-/// the rest of its turn.
+/// Intermittent gear pair: the driver has teeth on an arc alone, and holds the driven gear with a locking arc for the
+/// rest of its turn.
 ///
-/// The driven gear keeps the teeth its tool cuts, less a notch for the driver's locking arc at each stop. The driver
-/// is what the driven gear, led through its law, leaves of a complete one: the tips of its first and last teeth and
-/// the ends of its locking arc are cut back by just as much as entry and exit would clash. Pins of the driven gear on
-/// two cams beside the teeth, one for entry and one for exit, bring it to speed and to rest: teeth alone strike it.
+/// The driven gear keeps the teeth its tool cuts, less a notch for the driver's locking arc at each stop. The driver is
+/// the rest of a complete one after the driven gear has been led through its law: the tips of its first and last teeth
+/// and the ends of its locking arc are cut back by just as much as entry and exit would clash. Pins of the driven gear
+/// on two cams beside the teeth, one for entry and one for exit, bring it to speed and to rest: teeth alone strike it.
 ///
 /// The driver turns clockwise about the origin by the input, the driven gear counter-clockwise about (centre
 /// distance, 0). Contours are polygons within a ten-thousandth of the module.
@@ -43,7 +43,7 @@ pub struct IncompletePair {
     accuracy: Tolerance,
 }
 
-/// A cam beside the driver's teeth, and the pins it holds the driven gear by while it starts or stops.
+/// Cam beside the driver's teeth, and the pins by which it holds the driven gear while that starts or stops.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Cam {
     /// The cam in the driver's axes.
@@ -72,7 +72,7 @@ impl IncompleteLaw {
         self.arc + self.entry
     }
 
-    /// How far the pitch curves have rolled, rad of the driver, within one turn.
+    /// Roll of the pitch curves within one turn, rad of the driver.
     fn rolled(&self, input: f64) -> MotionJet {
         let (entry, motion) = (self.entry, self.motion_angle());
         let ease = |input: f64| {
@@ -249,7 +249,7 @@ impl IncompletePair {
         Ok(radius)
     }
 
-    /// The driven gear with a notch for a locking arc of a radius at each stop.
+    /// Driven gear with a notch for a locking arc of a radius at each stop.
     fn notched(&self, whole: &Radial, radius: f64) -> Radial {
         let mut notched = whole.clone();
         for stop in 0..self.stops {
@@ -264,7 +264,7 @@ impl IncompletePair {
         Rotation2::new(-turned) * Point::new(-self.pair.center_distance(), 0.0)
     }
 
-    /// Base radius of the driven gear: play along the normal is play in angle times this.
+    /// Base radius of the driven gear: normal backlash is angular backlash times this.
     fn base_radius(&self) -> f64 {
         let mean = self.pair.rolling().pitch_length(Member::Driven) / TAU;
         mean * self.pair.teeth().tool.pressure_angle.cos()
@@ -281,14 +281,14 @@ impl IncompletePair {
         blank
     }
 
-    /// The driven gear's place when the driver has turned by `input`, in the driver's axes.
+    /// Pose of the driven gear when the driver has turned by `input`, in the driver's axes.
     fn mate(&self, input: f64, driven: f64) -> Isometry2<f64> {
         let placed = Isometry2::new(Vector::new(self.pair.center_distance(), 0.0), driven);
         Isometry2::rotation(input) * placed
     }
 
-    /// What bodies of the driven gear leave of a blank in one turn, with a play of the driven gear either way while
-    /// it moves, or always.
+    /// The `blank` less the region swept by `bodies` over one driver turn, with the driven gear offset by +-`play`
+    /// while it moves (throughout if `always`).
     fn swept(&self, mut blank: Radial, bodies: &[Vec<Point>], play: f64, always: bool) -> Radial {
         let reach = blank.greatest();
         let motion = self.law.motion_angle();
@@ -321,7 +321,7 @@ impl IncompletePair {
         blank
     }
 
-    /// The cams of entry and exit, one on each side of the teeth: on one the pins of the other would be in the way.
+    /// Cuts the cams of entry and exit, one on each side of the teeth: on one the pins of the other would be in the way.
     fn cut_cams(
         &self,
         pins: &Pins,
@@ -337,7 +337,7 @@ impl IncompletePair {
             return Err(IncompletePairError::PinMeetsHub { nearest, hub });
         }
         let (entry, motion) = (self.law.entry, self.law.motion_angle());
-        // Entry pins stand below the line of centres, where the driver's surface comes from; exit pins above.
+        // Entry pins lie below the line of centres, where the driver's surface comes from; exit pins above.
         let ends = [(1.0, entry), (-1.0, motion - entry)];
         let cam = |(side, handed_over): (f64, f64)| {
             let places: Vec<Point> = (0..self.stops)
@@ -362,7 +362,7 @@ impl IncompletePair {
         Ok(ends.map(cam).into())
     }
 
-    /// The complete pair it is made from.
+    /// Complete pair from which the gears are cut.
     #[must_use]
     pub fn pair(&self) -> &GearPair {
         &self.pair
@@ -398,7 +398,7 @@ impl IncompletePair {
         &self.driven
     }
 
-    /// Greatest distance of the contours' polygons from the curves they stand for.
+    /// Greatest distance of the contours' polygons from the exact curves.
     #[must_use]
     pub fn accuracy(&self) -> Tolerance {
         self.accuracy
@@ -416,7 +416,7 @@ impl IncompletePair {
         self.teeth
     }
 
-    /// Places at which the driven gear stops in one of its turns.
+    /// Number of positions at which the driven gear stops in one of its turns.
     #[must_use]
     pub fn stops(&self) -> u32 {
         self.stops
@@ -438,15 +438,16 @@ impl IncompletePair {
         }
     }
 
-    /// How far the driven gear can turn either way, rad, held by the locking arc alone: where that is before the whole
-    /// notch, in the middle of the dwell. Pins on cams hold it closer.
+    /// Angle, rad, by which the driven gear can turn either way when the locking arc alone holds it: where the arc
+    /// faces the whole notch, in the middle of the dwell. Pins on cams hold it closer.
     #[must_use]
     pub fn locked_play(&self) -> f64 {
         self.locked_play
     }
 
-    /// The same on the finished contour: a corner of the driven gear at the distance p from its axis meets the locking arc
-    /// where the cosine of its angle from the line of centres is (a² + p² - r²)/(2 a p).
+    /// Angle of [`locked_play`](Self::locked_play) on the finished contour: a corner of the driven gear at the
+    /// distance p from its axis meets the locking arc where the cosine of its angle from the line of centres is (a² +
+    /// p² - r²)/(2 a p).
     fn worked_locked_play(&self, accuracy: Tolerance) -> f64 {
         let (a, r) = (self.center_distance(), self.lock_radius);
         let corners = self.driven.flatten(accuracy);
@@ -473,7 +474,7 @@ impl IncompletePair {
     }
 }
 
-/// How often a contour rises above a radius.
+/// Number of times a contour rises above a radius.
 fn teeth(radial: &Radial, radius: f64) -> u32 {
     let count = 16_384_u32;
     let above = |i: u32| radial.at(TAU * f64::from(i) / f64::from(count)) > radius;
@@ -482,7 +483,7 @@ fn teeth(radial: &Radial, radius: f64) -> u32 {
         .count() as u32
 }
 
-/// The corners of a pin, which lie a little outside it.
+/// Corners of a pin, which lie a little outside it.
 fn pin(center: Point, radius: f64) -> Vec<Point> {
     let radius = radius / (PI / f64::from(PIN_CORNERS)).cos();
     let corner = |i: u32| {

@@ -5,7 +5,7 @@ use centrode_geometry::{Point, Tolerance};
 /// Directions in which a contour's radius is kept.
 const DIRECTIONS: usize = 32_768;
 
-/// A contour around the origin that every ray from there meets once, by its radius in even directions.
+/// Contour around the origin that every ray from there meets once, by its radius in even directions.
 ///
 /// Made smaller by what passes through it: a blank from which a moving mate takes all it touches.
 #[derive(Clone, Debug)]
@@ -14,14 +14,14 @@ pub(super) struct Radial {
 }
 
 impl Radial {
-    /// A contour of no bound, to be cut.
+    /// Unbounded contour, to be cut.
     pub(super) fn unbounded() -> Self {
         Self {
             radius: vec![f64::INFINITY; DIRECTIONS],
         }
     }
 
-    /// The closed polygon around the origin.
+    /// Contour of a closed polygon around the origin.
     pub(super) fn of(polygon: &[Point]) -> Self {
         let mut radial = Self::unbounded();
         radial.cut_polygon(polygon);
@@ -42,7 +42,7 @@ impl Radial {
         self.radius[index as usize % DIRECTIONS]
     }
 
-    /// Nowhere farther out than a circle about any point.
+    /// Cuts away everything beyond a circle about any point.
     pub(super) fn cut_circle(&mut self, center: Point, radius: f64) {
         for (index, kept) in self.radius.iter_mut().enumerate() {
             let (sin, cos) = Self::direction(index).sin_cos();
@@ -57,14 +57,14 @@ impl Radial {
         }
     }
 
-    /// Nowhere farther out than a circle about the origin.
+    /// Cuts away everything beyond a circle about the origin.
     pub(super) fn limit(&mut self, radius: f64) {
         for kept in &mut self.radius {
             *kept = kept.min(radius);
         }
     }
 
-    /// Nowhere nearer than a circle about the origin between two directions.
+    /// Fills a circle about the origin between two directions.
     pub(super) fn fill(&mut self, from: f64, to: f64, radius: f64) {
         for (index, kept) in self.radius.iter_mut().enumerate() {
             if (from..=to).contains(&Self::direction(index)) {
@@ -73,15 +73,15 @@ impl Radial {
         }
     }
 
-    /// Nowhere farther out than a closed polygon.
+    /// Cuts away everything beyond a closed polygon.
     pub(super) fn cut_polygon(&mut self, polygon: &[Point]) {
         for (index, &from) in polygon.iter().enumerate() {
             self.cut(from, polygon[(index + 1) % polygon.len()]);
         }
     }
 
-    /// Nowhere farther out than what a polygon passes through between two places: its edges and the ways of its
-    /// corners. Corners beyond `reach` are passed over.
+    /// Cuts away everything beyond the region swept by a polygon between two poses: its edges and the paths of its
+    /// corners. Corners beyond `reach` are skipped.
     pub(super) fn cut_moving(&mut self, before: &[Point], now: &[Point], reach: f64) {
         let near = |p: &Point| p.coords.norm_squared() <= reach * reach;
         let count = now.len();
@@ -97,7 +97,7 @@ impl Radial {
         }
     }
 
-    /// Nowhere farther out than a segment, seen from the origin.
+    /// Cuts away everything beyond a segment, seen from the origin.
     fn cut(&mut self, from: Point, to: Point) {
         let (mut from, mut to) = (from.coords, to.coords);
         let mut turn = from.perp(&to).atan2(from.dot(&to));
@@ -126,7 +126,7 @@ impl Radial {
         }
     }
 
-    /// The corners of a polygon nowhere farther from the contour than the tolerance, counter-clockwise.
+    /// Corners of a polygon nowhere farther from the contour than the tolerance, counter-clockwise.
     pub(super) fn polygon(&self, tolerance: Tolerance) -> Vec<Point> {
         let place = |index: usize| {
             let (sin, cos) = Self::direction(index % DIRECTIONS).sin_cos();

@@ -1,10 +1,10 @@
 use std::f64::consts::FRAC_PI_4;
 
 use crate::gear::GearPairError;
-use crate::gear::design::rule::{between, not_negative, positive, within};
+use crate::gear::design::rule::{count_in_range, in_range, not_negative, positive};
 use crate::gear::design::{GearPairDesign, SpecError};
 
-/// An incomplete gear pair as asked for.
+/// Intermittent gear pair as asked for.
 #[derive(Clone, Debug, PartialEq)]
 pub struct IncompletePairSpec {
     /// The complete pair: any pitch curve, the mean ratio that of all pitches round both gears.
@@ -15,9 +15,9 @@ pub struct IncompletePairSpec {
     pub entry: f64,
     /// Radius of the locking arc, mm; left out, that of the driver's pitch point at rest.
     pub lock_radius: Option<f64>,
-    /// Play between locking arc and notch, mm.
+    /// Clearance between locking arc and notch, mm.
     pub lock_play: f64,
-    /// Play of the teeth along their normal, mm.
+    /// Normal backlash of the teeth, mm.
     pub backlash: f64,
     /// The pins of the entry cam.
     pub pins: Pins,
@@ -28,7 +28,7 @@ pub struct IncompletePairSpec {
 pub struct Pins {
     /// Diameter, mm; left out, two and a half modules.
     pub diameter: Option<f64>,
-    /// Diameter of the circle they stand on, mm; left out, three quarters of the pitch circle's.
+    /// Diameter of the circle through their centres, mm; left out, three quarters of the pitch circle's.
     pub circle: Option<f64>,
     /// Angle of each from the line of centres at rest, rad.
     pub angle: f64,
@@ -45,7 +45,7 @@ impl Default for Pins {
 }
 
 impl IncompletePairSpec {
-    /// An incomplete pair with every other value at its default.
+    /// Makes an intermittent pair with every other value at its default.
     #[must_use]
     pub fn new(pair: GearPairDesign, teeth: u32, entry: f64) -> Self {
         Self {
@@ -59,14 +59,14 @@ impl IncompletePairSpec {
         }
     }
 
-    /// The rules that need no geometry.
+    /// Checks the rules that need no geometry.
     ///
     /// # Errors
     /// [`SpecError`] with the key at fault.
     pub fn validate(&self) -> Result<(), SpecError> {
         self.pair.validate()?;
-        within("teeth", self.teeth, 1, 10_000)?;
-        between("entry_deg", self.entry.to_degrees(), [0.0, 180.0], " deg")?;
+        count_in_range("teeth", self.teeth, 1, 10_000)?;
+        in_range("entry_deg", self.entry.to_degrees(), [0.0, 180.0], " deg")?;
         if let Some(radius) = self.lock_radius {
             positive("lock_radius", radius)?;
         }
@@ -80,7 +80,7 @@ impl IncompletePairSpec {
                 positive(key, value)?;
             }
         }
-        between(
+        in_range(
             "pin_angle_deg",
             self.pins.angle.to_degrees(),
             [5.0, 85.0],
@@ -89,7 +89,7 @@ impl IncompletePairSpec {
     }
 }
 
-/// Why there is no incomplete gear pair.
+/// Reason why there is no intermittent gear pair.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum IncompletePairError {
@@ -132,7 +132,7 @@ pub enum IncompletePairError {
     /// Entry and exit are longer than the motion.
     #[error("entry and exit of {entry} rad each do not fit into the {motion} rad of the motion")]
     Entry {
-        /// As given, rad.
+        /// Angle as given, rad.
         entry: f64,
         /// Driver angle of the motion, rad.
         motion: f64,
@@ -144,7 +144,7 @@ pub enum IncompletePairError {
     LockTooSmall {
         /// Its radius, mm.
         radius: f64,
-        /// Where the driven gear begins, mm.
+        /// Distance at which the driven gear begins, mm.
         least: f64,
     },
     /// A locking arc that overlaps the hub of the driven gear.
@@ -154,10 +154,10 @@ pub enum IncompletePairError {
     LockOverlaps {
         /// Its radius, mm.
         radius: f64,
-        /// Where the bore begins, mm.
+        /// Distance at which the bore begins, mm.
         greatest: f64,
     },
-    /// No tooth stands above the locking arc.
+    /// No tooth reaches above the locking arc.
     #[error(
         "of {kept} teeth none is left above the locking arc of radius {lock_radius} mm: take more of them, or a smaller arc"
     )]

@@ -1,7 +1,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::error::within;
+use super::error::in_range;
 use super::piecewise::{HIGHEST_DEGREE, PiecewiseCurve, Polynomial};
 use super::points::{Lists, Plane, Points};
 use super::size::{OwnSize, Size};
@@ -61,7 +61,7 @@ impl Default for Bezier {
 
 impl Bezier {
     pub(crate) fn draft(&self) -> Result<Draft, PitchError> {
-        let degree = within("degree", self.degree, 1, HIGHEST_DEGREE as u32)?;
+        let degree = in_range("degree", self.degree, 1, HIGHEST_DEGREE as u32)?;
         let lists = Lists {
             plane: self.plane,
             radius: &self.radius,

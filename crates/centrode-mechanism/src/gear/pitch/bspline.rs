@@ -1,7 +1,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::error::within;
+use super::error::in_range;
 use super::piecewise::{HIGHEST_DEGREE, PiecewiseCurve, Polynomial};
 use super::points::{Lists, Plane, Points};
 use super::size::{OwnSize, Size};
@@ -16,7 +16,7 @@ pub struct Bspline {
     pub plane: Plane,
     /// Degree, 1 to 5.
     pub degree: u32,
-    /// True: the curve passes through the points (at equal parameter steps). False: they are control points.
+    /// Whether the curve passes through the points (at equal parameter steps); else they are control points.
     pub interpolate: bool,
     /// Radii, mm (plane "polar").
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -61,7 +61,7 @@ impl Default for Bspline {
 
 impl Bspline {
     pub(crate) fn draft(&self) -> Result<Draft, PitchError> {
-        let degree = within("degree", self.degree, 1, HIGHEST_DEGREE as u32)? as usize;
+        let degree = in_range("degree", self.degree, 1, HIGHEST_DEGREE as u32)? as usize;
         let lists = Lists {
             plane: self.plane,
             radius: &self.radius,
@@ -96,7 +96,7 @@ impl Bspline {
     }
 }
 
-/// The polynomials on the unit interval that the `degree + 1` active control points are weighted with.
+/// Polynomials on the unit interval that weight the `degree + 1` active control points.
 pub(crate) fn basis(degree: usize) -> Vec<Polynomial> {
     let mut basis = vec![[0.0; HIGHEST_DEGREE + 1]];
     basis[0][0] = 1.0;
@@ -141,7 +141,7 @@ fn pieces(points: &Points, degree: usize) -> Vec<[Polynomial; 2]> {
         .collect()
 }
 
-/// The periodic control values whose spline takes the given values where their control point pulls most.
+/// Periodic control values whose spline takes the given values where their control point pulls most.
 ///
 /// The matrix is a positive definite circulant with few distinct eigenvalues near its ends:
 /// conjugate gradients reach rounding in some tens of steps.

@@ -7,10 +7,10 @@ use super::size::{OwnSize, Size};
 use super::{Draft, PitchError, PitchSpec};
 use crate::gear::{self, Rolling};
 
-/// Conjugates of conjugates are followed this deep.
+/// Greatest depth of conjugates of conjugates.
 const DEEPEST: usize = 4;
 
-/// The curve that rolls on another: the driven curve of one pair as the driver of the next.
+/// Curve that rolls on another: the driven curve of one pair as the driver of the next.
 ///
 /// Its point in mesh at phi = 0 lies on the x axis; the conjugate of this curve, at the mean ratio
 /// turned round, is `of`.
@@ -52,7 +52,7 @@ impl Conjugate {
             .map_err(|reason| PitchError::NoConjugate(Box::new(reason)))?;
         let definition = format!("conjugate, {n1}:{n2}, of {}", of.definition);
         let curve = Rolled {
-            curve: gear::Conjugate::of(rolling),
+            curve: gear::ConjugateCurve::of(rolling),
             scale: 1.0,
         };
         Draft::new("of", curve, size, definition)
@@ -69,10 +69,10 @@ impl Conjugate {
     }
 }
 
-/// A driven curve whose size can still be changed.
+/// Driven curve whose size can still be changed.
 #[derive(Debug)]
 struct Rolled {
-    curve: gear::Conjugate,
+    curve: gear::ConjugateCurve,
     scale: f64,
 }
 

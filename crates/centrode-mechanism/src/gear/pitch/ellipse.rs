@@ -74,7 +74,7 @@ impl Ellipse {
 
 impl LobedEllipse {
     pub(crate) fn draft(&self) -> Result<Draft, PitchError> {
-        super::error::within("lobes", self.lobes, 1, 60)?;
+        super::error::in_range("lobes", self.lobes, 1, 60)?;
         let definition = format!(
             "lobed ellipse, r = A (1 - k^2) / (1 - k cos {} phi), k = {}",
             self.lobes, self.eccentricity

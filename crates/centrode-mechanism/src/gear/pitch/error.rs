@@ -2,7 +2,7 @@ use thiserror::Error;
 
 use crate::gear::RollingError;
 
-/// Why a pitch curve does not exist.
+/// Reason why a pitch curve does not exist.
 ///
 /// Angles are polar angles around the shaft axis, degrees.
 #[derive(Clone, Debug, Error, PartialEq)]
@@ -13,7 +13,7 @@ pub enum PitchError {
     NotFinite {
         /// Key of the number.
         key: &'static str,
-        /// What was given.
+        /// Value given.
         value: f64,
     },
     /// A length, module or ratio is zero or negative.
@@ -21,7 +21,7 @@ pub enum PitchError {
     NotPositive {
         /// Key of the number.
         key: &'static str,
-        /// What was given.
+        /// Value given.
         value: f64,
     },
     /// An eccentricity outside its range.
@@ -32,7 +32,7 @@ pub enum PitchError {
     OutOfRange {
         /// Key of the number.
         key: &'static str,
-        /// What was given.
+        /// Value given.
         value: u64,
         /// Least value allowed.
         least: u64,
@@ -119,10 +119,10 @@ pub enum PitchError {
     Key {
         /// The key.
         key: &'static str,
-        /// What is wrong with it.
+        /// Rule it breaks.
         rule: &'static str,
     },
-    /// Listed polar angles do not go once round in order.
+    /// Listed polar angles do not pass once round in order.
     #[error(
         "angle_deg must increase, within one turn: value {index} is {value} deg after {before} deg, so the control polygon crosses itself"
     )]
@@ -156,13 +156,13 @@ pub enum PitchError {
         /// Radius there, mm.
         radius: f64,
     },
-    /// The curve goes round the shaft axis clockwise.
+    /// The curve turns clockwise about the shaft axis.
     #[error("the points run clockwise round the shaft axis: list them counter-clockwise")]
     Clockwise {
         /// Key of the shape.
         key: &'static str,
     },
-    /// The curve does not go round the shaft axis exactly once.
+    /// The curve does not wind exactly once about the shaft axis.
     #[error(
         "the curve goes {turns} times round the shaft axis at the origin; it must go round once"
     )]
@@ -196,7 +196,7 @@ pub enum PitchError {
         /// The value.
         value: f64,
     },
-    /// The driven gear stands still or turns back.
+    /// The driven gear stops or turns back.
     #[error(
         "d driven / d driver falls to {ratio:.6} at phi = {angle:.3} deg; it must stay above 0"
     )]
@@ -220,7 +220,7 @@ pub enum PitchError {
         /// Largest whole number tried.
         limit: u32,
     },
-    /// The curve changes so fast that no sampling can vouch for it.
+    /// The curve changes so fast that no sampling can guarantee it.
     #[error("the curve changes too fast near {angle:.3} deg to be followed")]
     TooRough {
         /// Key of the shape.
@@ -239,7 +239,7 @@ pub enum PitchError {
     Expression {
         /// Key of the formula.
         key: &'static str,
-        /// What is wrong.
+        /// Reason.
         reason: String,
         /// Position in the formula, from one.
         column: usize,
@@ -247,7 +247,7 @@ pub enum PitchError {
 }
 
 impl PitchError {
-    /// The key of the pitch curve's description that is at fault.
+    /// Key of the pitch curve's description that is at fault.
     #[must_use]
     pub fn key(&self) -> &'static str {
         match self {
@@ -281,7 +281,7 @@ impl PitchError {
     }
 }
 
-/// `value`, if finite.
+/// Returns `value`, if finite.
 pub(crate) fn finite(key: &'static str, value: f64) -> Result<f64, PitchError> {
     if value.is_finite() {
         Ok(value)
@@ -290,7 +290,7 @@ pub(crate) fn finite(key: &'static str, value: f64) -> Result<f64, PitchError> {
     }
 }
 
-/// `value`, if finite and greater than zero.
+/// Returns `value`, if finite and greater than zero.
 pub(crate) fn positive(key: &'static str, value: f64) -> Result<f64, PitchError> {
     if finite(key, value)? > 0.0 {
         Ok(value)
@@ -299,7 +299,7 @@ pub(crate) fn positive(key: &'static str, value: f64) -> Result<f64, PitchError>
     }
 }
 
-/// `value`, if in `[0, 1)`.
+/// Returns `value`, if in `[0, 1)`.
 pub(crate) fn eccentricity(value: f64) -> Result<f64, PitchError> {
     if (0.0..1.0).contains(&finite("eccentricity", value)?) {
         Ok(value)
@@ -308,8 +308,8 @@ pub(crate) fn eccentricity(value: f64) -> Result<f64, PitchError> {
     }
 }
 
-/// `value`, if in `least..=greatest`.
-pub(crate) fn within(
+/// Returns `value`, if in `least..=greatest`.
+pub(crate) fn in_range(
     key: &'static str,
     value: u32,
     least: u32,

@@ -1,7 +1,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::error::{finite, positive, within};
+use super::error::{finite, in_range, positive};
 use super::plane::{Derivatives, Direction, PolarCurve, RadiusLaw};
 use super::size::{OwnSize, Size};
 use super::{Draft, PitchError};
@@ -46,7 +46,7 @@ impl Limacon {
         let law = Cosine {
             mean: positive("mean_radius", self.mean_radius)?,
             amplitude: finite("amplitude", self.amplitude)?,
-            lobes: within("lobes", self.lobes, 1, 60)?.into(),
+            lobes: in_range("lobes", self.lobes, 1, 60)?.into(),
         };
         let size = Size {
             module: self.module,

@@ -1,11 +1,11 @@
-//! Pitch curves: how each kind is described, and the exact curve it means.
+//! Pitch curves: the description of each kind, and the exact curve it means.
 //!
 //! A description scaled by `module` and `tooth_count` has the length `pi * module * tooth_count`.
 
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-use centrode_geometry::{Curve, Primitive};
+use centrode_geometry::{Antiderivative, Curve};
 use schemars::JsonSchema;
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize};
@@ -84,7 +84,7 @@ pub struct Pitch {
     pub tooth_count: Option<u32>,
     /// Module, mm, if the tooth count is given: the length of the curve is `pi * module * tooth_count`.
     pub module: Option<f64>,
-    /// What the curve is, in one line, for reports and drawings.
+    /// Definition of the curve in one line, for reports and drawings.
     pub definition: String,
     /// Turns of driver and driven gear that the description asks for, in lowest terms.
     pub implied_ratio: Option<(u32, u32)>,
@@ -113,7 +113,7 @@ impl PitchSpec {
         read: |kind, table| Self::of_kind(kind, table).map(drop),
     };
 
-    /// Reads what stands beside the key `kind`.
+    /// Reads the keys beside `kind`.
     pub(crate) fn of_kind<'de, D: Deserializer<'de>>(kind: &str, d: D) -> Result<Self, D::Error> {
         match kind {
             "circle" => Circle::deserialize(d).map(Self::Circle),
@@ -131,7 +131,7 @@ impl PitchSpec {
         }
     }
 
-    /// The exact curve, proved to go round the shaft axis once, in order.
+    /// Exact curve, proved to wind once round the shaft axis, in order.
     ///
     /// # Errors
     /// [`PitchError`] naming the violated rule and its numbers.
@@ -174,7 +174,7 @@ impl PitchSpec {
     }
 }
 
-/// A proved shape, before scaling.
+/// Proved shape, before scaling.
 #[derive(Debug)]
 pub(crate) struct Draft {
     /// Key of the shape.
@@ -229,7 +229,7 @@ impl Draft {
 /// Least and greatest length of a pitch curve, mm: its moments, up to the fourth power, are normal numbers.
 const LENGTHS: [f64; 2] = [1e-50, 1e50];
 
-/// The length of a pitch curve, if it is one that can be computed with.
+/// Checks that the length of a pitch curve can be computed with.
 fn sized(key: &'static str, length: f64) -> Result<f64, PitchError> {
     let [least, greatest] = LENGTHS;
     if (least..=greatest).contains(&length) {
@@ -245,7 +245,7 @@ fn sized(key: &'static str, length: f64) -> Result<f64, PitchError> {
 
 /// Length of one turn of a curve, mm.
 fn perimeter(curve: &dyn Curve) -> f64 {
-    Primitive::of(|t| curve.at(t).first.norm(), &proof::piece_ends(curve)).total()
+    Antiderivative::of(|t| curve.at(t).first.norm(), &proof::piece_ends(curve)).total()
 }
 
 #[cfg(test)]

@@ -10,7 +10,7 @@ use super::bspline::{basis, controls_through};
 use super::points::{angles_in_order, count};
 use crate::formula::Taylor;
 
-/// How a function is continued between its samples.
+/// Interpolation of a function between its samples.
 #[derive(Clone, Copy, Debug, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Interpolation {
@@ -22,7 +22,7 @@ pub enum Interpolation {
     Trigonometric,
 }
 
-/// Most samples of a trigonometric polynomial: every evaluation visits them all.
+/// Greatest number of harmonics of a trigonometric polynomial: every evaluation visits them all.
 const MOST_HARMONICS: usize = 500;
 
 /// A function of period one turn.
@@ -85,7 +85,7 @@ impl Periodic {
         }
     }
 
-    /// Where a derivative may jump, in `[0, TAU)`, ascending.
+    /// Arguments at which a derivative may jump, in `[0, TAU)`, ascending.
     pub(crate) fn breaks(&self) -> Vec<f64> {
         match self {
             Self::Fourier(_) => Vec::new(),
@@ -94,7 +94,7 @@ impl Periodic {
     }
 }
 
-/// `mean + sum over n of cos[n-1] cos(n phi) + sin[n-1] sin(n phi)`.
+/// Fourier series `mean + sum over n of cos[n-1] cos(n phi) + sin[n-1] sin(n phi)`.
 #[derive(Debug)]
 pub(crate) struct Fourier {
     mean: f64,

@@ -27,7 +27,7 @@ impl Direction {
     }
 }
 
-/// The jet of a curve given in polar coordinates: direction with the derivatives of its
+/// Jet of a curve given in polar coordinates: direction with the derivatives of its
 /// angle, and radius, as functions of the parameter.
 ///
 /// With `z = r e^(i theta)` the derivatives are `w_k e^(i theta)` where `w_0 = r` and
@@ -61,7 +61,7 @@ pub(crate) trait Shape: Curve {
         1.0
     }
 
-    /// Whether the curve goes round the axis once by its own form, so that nothing needs proving.
+    /// Whether the curve winds once round the axis by its own form, so that nothing needs proving.
     fn goes_round_by_form(&self) -> bool {
         false
     }

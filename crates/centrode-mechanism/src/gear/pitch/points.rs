@@ -5,7 +5,7 @@ use super::PitchError;
 use super::error::{finite, positive};
 use super::piecewise::Coordinates;
 
-/// Most points of one curve.
+/// Greatest number of points of one curve.
 pub(crate) const MOST_POINTS: usize = 10_000;
 
 /// The plane control points are drawn in.
@@ -37,7 +37,7 @@ pub(crate) struct Points {
 }
 
 impl Lists<'_> {
-    /// The key an error of the whole curve is reported at.
+    /// Key at which an error of the whole curve is reported.
     pub(crate) fn key(&self) -> &'static str {
         match self.plane {
             Plane::Polar => "radius",
@@ -45,7 +45,7 @@ impl Lists<'_> {
         }
     }
 
-    /// The points, checked: as many as needed, finite, in the polar plane in order round the axis.
+    /// Checks the points: as many as needed, finite, in the polar plane in order round the axis.
     pub(crate) fn points(&self, least: usize) -> Result<Points, PitchError> {
         let stray = |key, list: &[f64], rule| {
             if list.is_empty() {
@@ -154,7 +154,7 @@ impl Points {
         }
     }
 
-    /// The part of the coordinates that repeats: in the polar plane without the even turn.
+    /// Part of the coordinates that repeats: in the polar plane without the even turn.
     pub(crate) fn periodic(&self) -> [Vec<f64>; 2] {
         let step = self.even_turn();
         let first = self.list.iter().enumerate();

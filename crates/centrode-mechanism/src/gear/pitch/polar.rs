@@ -33,7 +33,7 @@ pub struct Polar {
     )]
     #[schemars(with = "Vec<f64>")]
     pub angle: Vec<f64>,
-    /// Between the radii; left out, "quintic" over equal steps, "cubic" with `angle_deg`.
+    /// Interpolation between the radii; left out, "quintic" over equal steps, "cubic" with `angle_deg`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub interpolation: Option<Interpolation>,
     /// Mean radius of a Fourier series, mm.
@@ -54,7 +54,7 @@ pub struct Polar {
 }
 
 impl Polar {
-    /// The curve of a formula for the radius.
+    /// Curve of a formula for the radius.
     #[must_use]
     pub fn expression(formula: impl Into<String>) -> Self {
         Self {
@@ -153,7 +153,7 @@ impl Interpolation {
     }
 }
 
-/// The formula, or where it cannot be read.
+/// Reads a formula; the error says where it cannot be read.
 pub(crate) fn read_formula(key: &'static str, text: &str) -> Result<Formula, PitchError> {
     Formula::read(text).map_err(|FormulaError { reason, column }| PitchError::Expression {
         key,

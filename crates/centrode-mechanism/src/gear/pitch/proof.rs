@@ -1,4 +1,4 @@
-//! Proof that a curve goes round the shaft axis once, in order, without touching it.
+//! Proof that a curve winds once round the shaft axis, in order, without touching it.
 
 use std::f64::consts::{PI, TAU};
 
@@ -112,20 +112,20 @@ fn sample(curve: &dyn Shape, key: &'static str, t: f64) -> Result<Sample, PitchE
     })
 }
 
-/// What a walk along the curve has found so far.
+/// State of a walk along the curve.
 struct Walk<'a> {
     curve: &'a dyn Shape,
     key: &'static str,
     turn: f64,
     halvings: u32,
-    /// Where the radius is least.
+    /// Sample of the least radius.
     nearest: Sample,
-    /// Where the polar angle advances least.
+    /// Sample of the least advance of the polar angle.
     slowest: Sample,
 }
 
 impl Walk<'_> {
-    /// Walks one interval, halving it until cubic Hermite interpolation foretells its middle.
+    /// Walks one interval, halving it until cubic Hermite interpolation predicts its middle.
     fn interval(&mut self, low: Sample, high: Sample, depth: u32) -> Result<(), PitchError> {
         let middle = sample(self.curve, self.key, 0.5 * (low.t + high.t))?;
         let step = high.t - low.t;
@@ -152,7 +152,7 @@ impl Walk<'_> {
         Ok(())
     }
 
-    /// The sample where the figure is least: the one known, or one in the interval.
+    /// Sample where the figure is least: the known one, or one in the interval.
     fn least(
         &self,
         known: Sample,
@@ -162,8 +162,8 @@ impl Walk<'_> {
         let lower = |a: Sample, b: Sample| if figure(&b)[0] < figure(&a)[0] { b } else { a };
         let least = interval.into_iter().fold(known, lower);
         let [low, _, high] = interval;
-        // Inside, a minimum can hide only where the slope changes from falling to rising, and matters
-        // only where it may be lower than what is known.
+        // Inside, a minimum can hide only where the slope changes from falling to rising, and it matters
+        // only where it may be below the known least.
         let dips = figure(&low)[1] < 0.0 && figure(&high)[1] > 0.0;
         let reach = 0.25 * (high.t - low.t) * (figure(&high)[1] - figure(&low)[1]);
         if !dips || figure(&low)[0].min(figure(&high)[0]) - reach > figure(&least)[0] {

@@ -1,23 +1,23 @@
 use super::PitchError;
 use super::error::positive;
 
-/// What a description says about the size of its curve.
+/// Size of a curve as its description gives it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Size {
     pub(crate) module: Option<f64>,
     pub(crate) tooth_count: Option<u32>,
-    /// Where the lengths of the shape come from.
+    /// Source of the lengths of the shape.
     pub(crate) own: OwnSize,
 }
 
-/// The size of a shape as written, before module and tooth count.
+/// Size of a shape as written, before module and tooth count.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum OwnSize {
     /// The shape has none; the key is the one that could set it.
     Missing(&'static str),
     /// The key fixes it: a module beside it would contradict.
     Fixed(&'static str),
-    /// As written, unless module and tooth count scale it.
+    /// Lengths as written, unless module and tooth count scale it.
     Written,
 }
 

@@ -1,6 +1,6 @@
 use std::f64::consts::TAU;
 
-use centrode_geometry::Primitive;
+use centrode_geometry::Antiderivative;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -35,7 +35,7 @@ pub struct Transmission {
     )]
     #[schemars(with = "Vec<f64>")]
     pub driven_angle: Vec<f64>,
-    /// Between the samples; left out, "quintic".
+    /// Interpolation between the samples; left out, "quintic".
     #[serde(skip_serializing_if = "Option::is_none")]
     pub interpolation: Option<Interpolation>,
     /// Centre distance `a`, mm; or leave it out and give module and `tooth_count`.
@@ -61,7 +61,7 @@ pub struct Ratio {
     /// Ratios over equal steps of one driver turn, without the repeated end.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub ratio: Vec<f64>,
-    /// Between the samples; left out, "quintic".
+    /// Interpolation between the samples; left out, "quintic".
     #[serde(skip_serializing_if = "Option::is_none")]
     pub interpolation: Option<Interpolation>,
     /// Centre distance `a`, mm; or leave it out and give module and `tooth_count`.
@@ -76,7 +76,7 @@ pub struct Ratio {
 }
 
 impl Transmission {
-    /// The curve of a formula for the driven angle.
+    /// Curve of a formula for the driven angle.
     #[must_use]
     pub fn expression(formula: impl Into<String>) -> Self {
         Self {
@@ -140,7 +140,7 @@ impl Transmission {
 }
 
 impl Ratio {
-    /// The curve of a formula for the ratio.
+    /// Curve of a formula for the ratio.
     #[must_use]
     pub fn expression(formula: impl Into<String>) -> Self {
         Self {
@@ -269,7 +269,7 @@ fn draft(
             let radius = draft.curve.at(t).point.coords.norm();
             radius / (a - radius)
         };
-        Primitive::of(q, &ends).total()
+        Antiderivative::of(q, &ends).total()
     });
     draft.implied_ratio = Some(turns(key, total / TAU)?);
     Ok(draft)

@@ -1,6 +1,6 @@
 use std::f64::consts::TAU;
 
-use centrode_geometry::Primitive;
+use centrode_geometry::Antiderivative;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -27,7 +27,7 @@ pub struct SpeedKnots {
     pub angle: Vec<f64>,
     /// Speed at each angle, in any unit.
     pub speed: Vec<f64>,
-    /// How the speed goes from each knot to the next.
+    /// Motion law of the speed from each knot to the next.
     pub law: LawSpec,
 }
 
@@ -37,7 +37,7 @@ pub struct SpeedKnots {
 pub struct SpeedTable {
     /// The speeds, in any unit.
     pub speed: Vec<f64>,
-    /// Between the samples; left out, "quintic".
+    /// Interpolation between the samples; left out, "quintic".
     #[serde(skip_serializing_if = "Option::is_none")]
     pub interpolation: Option<Interpolation>,
 }
@@ -106,12 +106,12 @@ impl Speed {
     }
 }
 
-/// A law given by its speed.
+/// Law given by its speed.
 #[derive(Debug)]
 pub(super) struct Resolved {
     speed: Speed,
-    way: Primitive,
-    /// From the integral's unit to mm.
+    way: Antiderivative,
+    /// Factor from the integral's unit to mm.
     scale: f64,
     lead: f64,
 }
@@ -122,7 +122,7 @@ impl Resolved {
         ends.retain(|&t| t > 0.0);
         ends.insert(0, 0.0);
         ends.push(TAU);
-        let way = Primitive::of(|t| speed.at(t).0[0], &ends);
+        let way = Antiderivative::of(|t| speed.at(t).0[0], &ends);
         let total = way.total();
         if total > 0.0 && total.is_finite() {
             let scale = lead / total;

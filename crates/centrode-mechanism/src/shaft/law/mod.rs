@@ -1,4 +1,4 @@
-//! The slider's place along the shaft as a function of the shaft's angle.
+//! Law along the shaft: the slider's position as a function of the shaft's angle.
 
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -39,7 +39,7 @@ pub enum SpeedLaw {
 }
 
 impl SpeedLaw {
-    /// The word for it in a design file.
+    /// Word for the kind in a design file.
     #[must_use]
     pub fn kind(&self) -> &'static str {
         match self {
@@ -70,7 +70,7 @@ impl SpeedLaw {
         read: |kind, table| Self::of_kind(kind, table).map(drop),
     };
 
-    /// Reads what stands beside the key `kind`.
+    /// Reads the keys beside `kind`.
     pub(crate) fn of_kind<'de, D: Deserializer<'de>>(kind: &str, d: D) -> Result<Self, D::Error> {
         match kind {
             "sine" => Sine::deserialize(d).map(Self::Sine),
@@ -101,7 +101,7 @@ impl SpeedLaw {
     }
 }
 
-/// A law along the shaft: `s(theta + one turn) = s(theta) + lead`, never standing still.
+/// Law along the shaft: `s(theta + one turn) = s(theta) + lead`, always advancing.
 #[derive(Clone, Debug)]
 pub struct ShaftLaw {
     form: Arc<dyn Transmission>,
@@ -113,7 +113,7 @@ impl ShaftLaw {
     /// Takes a transmission that advances by the lead in one turn.
     ///
     /// # Errors
-    /// [`ShaftError::SpeedNotPositive`] where it stands still or runs back.
+    /// [`ShaftError::SpeedNotPositive`] where it stops or runs back.
     pub fn new(form: Arc<dyn Transmission>) -> Result<Self, ShaftError> {
         let ends = turn_pieces(form.as_ref(), 0.0);
         let [slowest, fastest] = extremes(|theta| form.at(theta).velocity, &ends);
@@ -144,13 +144,13 @@ impl ShaftLaw {
         self.lead() / TAU
     }
 
-    /// Where in a turn the slider is slowest, and its speed there, mm/rad.
+    /// Shaft angle in a turn at which the slider is slowest, and its speed there, mm/rad.
     #[must_use]
     pub fn slowest(&self) -> Extreme {
         self.slowest
     }
 
-    /// Where in a turn the slider is fastest, and its speed there, mm/rad.
+    /// Shaft angle in a turn at which the slider is fastest, and its speed there, mm/rad.
     #[must_use]
     pub fn fastest(&self) -> Extreme {
         self.fastest
@@ -204,5 +204,5 @@ impl Transmission for ShaftLaw {
     }
 }
 
-/// Most waves a turn.
+/// Greatest number of waves a turn.
 const MOST_HARMONICS: u32 = 60;

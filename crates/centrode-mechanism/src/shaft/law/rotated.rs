@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::MOST_HARMONICS;
 use crate::degrees;
-use crate::gear::design::rule::{finite, within};
+use crate::gear::design::rule::{count_in_range, finite};
 use crate::shaft::ShaftError;
 use crate::transmission::{MotionJet, Transmission};
 
@@ -40,9 +40,9 @@ impl Default for RotatedSine {
 #[derive(Debug)]
 pub(super) struct Resolved {
     mean: f64,
-    /// `e`.
+    /// Relative amplitude `e`.
     share: f64,
-    /// `kappa / sin b`.
+    /// Amplitude along the shaft, `kappa / sin b`.
     along: f64,
     harmonic: f64,
     phase: f64,
@@ -52,7 +52,7 @@ impl RotatedSine {
     pub(super) fn resolve(&self, lead: f64, radius: f64) -> Result<Resolved, ShaftError> {
         finite("law.amplitude", self.amplitude)?;
         finite("law.phase_deg", self.phase.to_degrees())?;
-        within("law.harmonic", self.harmonic, 1, MOST_HARMONICS)?;
+        count_in_range("law.harmonic", self.harmonic, 1, MOST_HARMONICS)?;
         let (mean, n) = (lead / TAU, f64::from(self.harmonic));
         let turn = radius.hypot(mean);
         // cos b = mean / turn, sin b = radius / turn. The angle must not turn back, nor the speed.
@@ -77,7 +77,7 @@ impl RotatedSine {
         })
     }
 
-    /// The running angle of the sine that belongs to a shaft angle counted from the phase.
+    /// Running angle `E` of the sine at a shaft angle counted from the phase.
     fn running(share: f64, n: f64, theta: f64) -> f64 {
         let mut running = theta - share * (n * theta).sin() / (1.0 + n * share * (n * theta).cos());
         for _ in 0..50 {

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::MOST_HARMONICS;
 use crate::degrees;
-use crate::gear::design::rule::{finite, positive, within};
+use crate::gear::design::rule::{count_in_range, finite, positive};
 use crate::shaft::ShaftError;
 use crate::transmission::{MotionJet, Transmission};
 
@@ -36,7 +36,7 @@ impl Default for Sine {
     }
 }
 
-/// A wanted distance in a window around a slow place.
+/// Problem of a wanted distance in a window around a slow place.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AmplitudeFor {
     /// Distance the slider shall move in the window, mm.
@@ -50,16 +50,16 @@ pub struct AmplitudeFor {
 }
 
 impl AmplitudeFor {
-    /// The amplitude, mm: `B = (p W / (2 pi) - d) / (2 sin(n W / 2))`, for the distance `d` in the window `W`.
+    /// Solves for the amplitude, mm: `B = (p W / (2 pi) - d) / (2 sin(n W / 2))`, for the distance `d` in the window `W`.
     ///
     /// # Errors
-    /// [`ShaftError::MovedDistance`] where the slider would have to stand still or a plain shaft is slower;
+    /// [`ShaftError::MovedDistance`] where the slider would have to stop or a plain shaft is slower;
     /// [`ShaftError::Window`] for a window of whole waves.
     pub fn solve(self) -> Result<f64, ShaftError> {
         positive("lead", self.lead)?;
         finite("moved_distance", self.moved_distance)?;
         positive("window_deg", self.window.to_degrees())?;
-        within("law.harmonic", self.harmonic, 1, MOST_HARMONICS)?;
+        count_in_range("law.harmonic", self.harmonic, 1, MOST_HARMONICS)?;
         let n = f64::from(self.harmonic);
         let sin = (0.5 * n * self.window).sin();
         let mean = self.lead / TAU;
@@ -98,7 +98,7 @@ impl Sine {
     pub(super) fn resolve(&self, lead: f64) -> Result<Resolved, ShaftError> {
         finite("law.amplitude", self.amplitude)?;
         finite("law.phase_deg", self.phase.to_degrees())?;
-        within("law.harmonic", self.harmonic, 1, MOST_HARMONICS)?;
+        count_in_range("law.harmonic", self.harmonic, 1, MOST_HARMONICS)?;
         let (mean, n) = (lead / TAU, f64::from(self.harmonic));
         if n * self.amplitude.abs() >= mean {
             return Err(ShaftError::Amplitude {

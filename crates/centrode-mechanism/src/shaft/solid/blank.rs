@@ -5,11 +5,11 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::plan::columns;
-use crate::gear::design::rule::{Rule, broken, line, not_negative, positive};
+use crate::gear::design::rule::{Rule, broken, not_negative, positive, single_line};
 use crate::gear::design::{Keyway, SpecError};
 use crate::shaft::{Groove, ShaftError};
 
-/// The body of the shaft: what is not groove.
+/// Body of the shaft, apart from its groove.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct ShaftBody {
@@ -54,7 +54,7 @@ impl Default for ShaftBody {
 }
 
 impl ShaftBody {
-    /// Ranges, and that everything fits the groove's shaft.
+    /// Checks the ranges, and that everything fits the groove's shaft.
     ///
     /// # Errors
     /// [`ShaftError`] naming the violated rule and its numbers.
@@ -69,7 +69,7 @@ impl ShaftBody {
         positive("journal_length", self.journal_length)?;
         not_negative("chamfer", self.chamfer)?;
         positive("density", self.density)?;
-        line("material", &self.material)?;
+        single_line("material", &self.material)?;
         let below = |key: &str, value: f64, limit: f64| {
             if value < limit {
                 return Ok(());
@@ -106,7 +106,7 @@ impl ShaftBody {
     }
 }
 
-/// What closes the ends of the grooved surface.
+/// Shoulders and journals that close the ends of the grooved surface.
 #[derive(Debug)]
 pub(super) struct Rings<'a> {
     body: &'a ShaftBody,
@@ -197,7 +197,7 @@ impl<'a> Rings<'a> {
         let mut before: Vec<u32> = full[..open].to_vec();
         let at_start = feet(mesh, start);
         before.extend(at_start);
-        // The wall at the slot's inner end, over the arc that the slot takes away.
+        // The wall at the slot's inner end, over the arc that the slot removes.
         let mut arc: Vec<u32> = full[open - 1..].to_vec();
         arc.push(full[0]);
         for pair in arc.windows(2) {
@@ -276,7 +276,7 @@ fn push(mesh: &mut Mesh, vertex: [f64; 3]) -> u32 {
     (mesh.vertices.len() - 1) as u32
 }
 
-/// A triangle counter-clockwise seen from above, turned over where the surface looks down.
+/// A triangle counter-clockwise seen from above, turned over where the surface faces down.
 fn face(mesh: &mut Mesh, [a, b, c]: [u32; 3], way: f64) {
     mesh.faces
         .push(if way > 0.0 { [a, b, c] } else { [a, c, b] });

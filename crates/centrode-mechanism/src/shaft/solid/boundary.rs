@@ -13,14 +13,14 @@ use crate::shaft::{Groove, Wall};
 
 /// Degree of the walls' edges.
 const DEGREE: usize = 9;
-/// Even lines tried, until every edge is met.
+/// Numbers of even lines tried, until every edge is met.
 const LINES: [u32; 4] = [8, 16, 32, MOST_LINES];
-/// The most of them.
+/// Greatest number of even lines.
 pub(super) const MOST_LINES: u32 = 64;
-/// How near an edge must be met, mm: below what CAD kernels tell apart from nothing.
+/// Distance within which an edge must be met, mm: below the resolution of CAD kernels.
 const MET: f64 = 1e-7;
 
-/// A shell as it grows; vertices and edges are shared.
+/// Shell under construction; vertices and edges are shared.
 #[derive(Debug, Default)]
 pub(super) struct Boundary {
     shell: Shell,
@@ -28,7 +28,7 @@ pub(super) struct Boundary {
     edges: HashMap<(usize, usize, u8), usize>,
 }
 
-/// Kinds of curves, to tell edges between the same ends apart.
+/// Kinds of curves, to distinguish edges between the same ends.
 const STRAIGHT: u8 = 0;
 const ROUND: u8 = 1;
 const FREE: u8 = 2;
@@ -60,7 +60,7 @@ impl Boundary {
         (edge, true)
     }
 
-    /// Where a vertex is.
+    /// Position of a vertex.
     pub(super) fn place(&self, vertex: usize) -> [f64; 3] {
         self.shell.vertices[vertex]
     }
@@ -97,12 +97,12 @@ impl Boundary {
     }
 }
 
-/// A side walked the other way.
+/// Reverses a side.
 pub(super) fn back((edge, forward): (usize, bool)) -> (usize, bool) {
     (edge, !forward)
 }
 
-/// The whole boundary; `None` where the edges are too wild to be met by smooth pieces.
+/// Builds the whole boundary; `None` where the edges are too wild to be met by smooth pieces.
 pub(super) fn shell(groove: &Groove, body: &ShaftBody, thick: [f64; 2]) -> Option<Shell> {
     let fit = Fit::new();
     LINES.iter().find_map(|&count| {
@@ -118,7 +118,7 @@ pub(super) fn shell(groove: &Groove, body: &ShaftBody, thick: [f64; 2]) -> Optio
     })
 }
 
-/// The grooved length: land, floor and walls. `None` where a piece misses its edge.
+/// Adds the grooved length: land, floor and walls. `None` where a piece misses its edge.
 fn grooved(
     boundary: &mut Boundary,
     fit: &Fit,
@@ -183,7 +183,7 @@ fn grooved(
     Some(())
 }
 
-/// One wall: straight from the foot outwards. `raised` where the land is above it.
+/// Adds one wall: straight from the foot outwards. `raised` where the land is above it.
 fn wall(
     boundary: &mut Boundary,
     points: [Vec<[f64; 3]>; 2],
@@ -206,11 +206,11 @@ fn wall(
     boundary.face(surface, vec![bound]);
 }
 
-/// Bézier points from places on a curve.
+/// Fit of Bézier points to points on a curve.
 struct Fit {
-    /// Parameters of the places, 0 to 1.
+    /// Parameters of the points on the curve, 0 to 1.
     nodes: Vec<f64>,
-    /// From the places to the points.
+    /// Map from points on the curve to Bézier points.
     inverse: DMatrix<f64>,
 }
 
@@ -277,7 +277,7 @@ fn bernstein(x: f64) -> [f64; DEGREE + 1] {
     weights
 }
 
-/// The Bézier points of a curve in space that a polynomial of the walls' degree meets.
+/// Bézier points of a curve in space that a polynomial of the walls' degree meets.
 pub(super) fn bezier(place: &dyn Fn(f64) -> [f64; 3]) -> Vec<[f64; 3]> {
     let fit = Fit::new();
     let places: Vec<[f64; 3]> = fit.nodes.iter().map(|&x| place(x)).collect();

@@ -47,7 +47,7 @@ impl Ring {
     }
 }
 
-/// Both ends beyond the thick part, whose rims have vertices at the angles `lines`.
+/// Closes both ends beyond the thick part, whose rims have vertices at the angles `lines`.
 pub(super) fn close(
     boundary: &mut Boundary,
     body: &ShaftBody,
@@ -219,7 +219,7 @@ fn slot(boundary: &mut Boundary, key: Keyway, foot: f64, stations: &[Ring], way:
     let feet =
         [first.height, last.height].map(|height| sides.map(|y| boundary.vertex([foot, y, height])));
     let (wall, tip) = (feet[0], feet[1]);
-    // The slot's inner end, over the arc it takes away, and the journal's end with the slot in it.
+    // The slot's inner end, over the arc it removes, and the journal's end with the slot in it.
     let mut bound = vec![
         boundary.line(wall[0], first.at(count)),
         first.arc(boundary, count),

@@ -17,7 +17,7 @@ use plan::Plan;
 
 /// The shaft with its groove: a cylinder, the groove's radial walls and its floor, journals and a keyway.
 ///
-/// The walls stand on the exact offset of the centre line on the shaft's surface and run straight towards
+/// The walls lie on the exact offset of the centre line on the shaft's surface and run straight towards
 /// the axis, as a mill slightly thinner than the groove leaves them when it follows both walls.
 /// [`Groove::wall_deviation`] says how far the walls of a mill as wide as the groove differ.
 #[derive(Clone, Debug)]
@@ -29,7 +29,7 @@ pub struct ShaftSolid<'a> {
 }
 
 impl<'a> ShaftSolid<'a> {
-    /// The solid of a groove in a body.
+    /// Makes the solid of a groove in a body.
     ///
     /// # Errors
     /// [`ShaftError`] where body and groove do not go together.
@@ -88,8 +88,8 @@ impl<'a> ShaftSolid<'a> {
         shell.ok_or(ShaftError::Boundary(boundary::MOST_LINES))
     }
 
-    /// Upper edges of the groove's walls as far as they stand, on the development, mm: `(R phi, z)`, the
-    /// angle `phi` from 0 to one turn, each broken where it starts anew.
+    /// Upper edges of the groove's walls as far as they remain, on the development, mm: `(R phi, z)`, the angle `phi`
+    /// from 0 to one turn, each broken where it starts anew.
     #[must_use]
     pub fn wall_edges(&self, tolerance: Tolerance) -> Vec<Vec<Point>> {
         let plan = Plan::new(self.groove, 0.0, tolerance);

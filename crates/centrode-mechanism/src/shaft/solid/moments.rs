@@ -2,7 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-use centrode_geometry::{Primitive, VolumeMoments};
+use centrode_geometry::{Antiderivative, VolumeMoments};
 use nalgebra::Vector3;
 
 use super::ShaftBody;
@@ -19,7 +19,7 @@ const RULE: [(f64, f64); 3] = [
 ];
 /// Parts of the keyway's width and of its chamfer, on each of which the rule is exact to rounding.
 const PARTS: u32 = 32;
-/// Parts of the fillet, down which the groove's width and what it opens change smoothly.
+/// Parts of the fillet, down which the groove's width and the section it opens change smoothly.
 const FILLET: u32 = 4;
 /// Even lines round the shaft between which the walls are integrated: those tried first, and the most.
 const LINES: [u32; 2] = [8, 512];
@@ -73,7 +73,7 @@ fn revolved(sum: &mut VolumeMoments, ends: [f64; 2], radii: [f64; 2]) {
     }
 }
 
-/// Takes away a keyway along x between two heights, given the radius of the surface at both.
+/// Subtracts a keyway along x between two heights, given the radius of the surface at both.
 fn slot(sum: &mut VolumeMoments, key: Keyway, foot: f64, ends: [f64; 2], radii: [f64; 2]) {
     let length = (ends[1] - ends[0]).abs();
     let parts = if radii[0] == radii[1] { 1 } else { PARTS };
@@ -94,7 +94,7 @@ fn slot(sum: &mut VolumeMoments, key: Keyway, foot: f64, ends: [f64; 2], radii: 
     }
 }
 
-/// Takes away the groove: its radial walls, and below them the fillet down to the floor.
+/// Subtracts the groove: its radial walls, and below them the fillet down to the floor.
 fn grooved(sum: &mut VolumeMoments, groove: &Groove, fillet: f64) {
     let (half, floor) = (0.5 * groove.width(), groove.radius() - groove.depth());
     let foot = floor + fillet;
@@ -125,7 +125,7 @@ fn grooved(sum: &mut VolumeMoments, groove: &Groove, fillet: f64) {
     }
 }
 
-/// Moments of what the groove opens at some radii, given with their weights, where it is `half` wide to each side.
+/// Moments of the region the groove opens at some radii, given with their weights, where it is `half` wide to each side.
 fn opened(groove: &Groove, half: f64, radii: &[(f64, f64)], even: u32) -> VolumeMoments {
     let level = Level {
         half,
@@ -136,7 +136,7 @@ fn opened(groove: &Groove, half: f64, radii: &[(f64, f64)], even: u32) -> Volume
     lines.push(TAU);
     let mut sum = VolumeMoments::default();
     // Sixteen nodes between two lines: a constant needs no more panels.
-    for (angle, turned) in Primitive::of(|_| 1.0, &lines).nodes() {
+    for (angle, turned) in Antiderivative::of(|_| 1.0, &lines).nodes() {
         let heights = plan.heights_at(angle);
         for [low, high] in plan.open(0, |edge| heights[edge]) {
             for (z, along) in nodes([heights[low], heights[high]], 1) {

@@ -5,16 +5,16 @@ use centrode_geometry::{Tolerance, bracketed_root, checkpoint};
 use crate::shaft::{Groove, Wall};
 use crate::transmission::Transmission;
 
-/// Angles nearer than this are one, rad.
+/// Distance, rad, within which angles are one.
 const SAME: f64 = 1e-9;
 
 /// Share of the tolerance by which an edge may be bent between two lines; the rest is for the walls' twist.
 const BENT: f64 = 0.25;
 
-/// Halvings of the angle between two lines at most.
+/// Greatest number of halvings of the angle between two lines.
 const DEEPEST: u32 = 12;
 
-/// Lines looked at for edges that meet.
+/// Number of lines sampled for edges that meet.
 const LOOKS: u32 = 360;
 
 /// A wall of one turn of the groove, at one level below the surface: a height over the angle round the
@@ -53,7 +53,7 @@ struct Event {
     phi: f64,
     /// Edges that meet there.
     pairs: Vec<[usize; 2]>,
-    /// Heights of all edges there, where they are known already.
+    /// Heights of all edges there, if already computed.
     heights: Option<Vec<f64>>,
 }
 
@@ -72,7 +72,7 @@ impl Event {
 pub(super) struct Plan<'a> {
     groove: &'a Groove,
     pub(super) turns: usize,
-    /// By how much each turn of the groove lies above the one before, mm, where both are the same.
+    /// Height, mm, by which each turn of the groove lies above the one before, where both are the same.
     rises: Vec<Option<f64>>,
     /// Foot of the wall first, then the fillet down to the floor.
     pub(super) levels: Vec<Level>,
@@ -103,7 +103,7 @@ impl<'a> Plan<'a> {
         plan
     }
 
-    /// A plan of one level whose edges are smooth between its lines: `count` even ones, those where edges meet,
+    /// Plan of one level whose edges are smooth between its lines: `count` even ones, those where edges meet,
     /// and those where the law breaks.
     pub(super) fn smooth(groove: &'a Groove, level: Level, count: u32) -> Self {
         let mut plan = Self::empty(groove, vec![level]);
@@ -174,12 +174,12 @@ impl<'a> Plan<'a> {
             .collect()
     }
 
-    /// Sorts the angles, makes those that are nearly one into one, and lets edges that meet there meet.
+    /// Sorts the angles, joins those that are nearly one, and makes edges that meet there equal.
     fn set_lines(&mut self, mut events: Vec<Event>) {
         for event in &mut events {
             if event.phi >= TAU - SAME {
                 event.phi = 0.0;
-                // The same edges, a turn later.
+                // Those edges a turn later.
                 let next = |edge: usize| self.edge_after(edge);
                 event.pairs = event
                     .pairs
@@ -252,7 +252,7 @@ impl<'a> Plan<'a> {
         (twist / limit).ceil().clamp(1.0, 1e3) as u32
     }
 
-    /// Where the walls of two turns meet at an angle round the shaft below the level at which they do not yet, and
+    /// Crest of two turns whose walls meet at an angle round the shaft below the level at which they do not yet, and
     /// above the next: between `above` and `above + 1`. `low` is a left edge, `high` a right one, both of the latter
     /// level. Height and radius; none where they do not meet.
     pub(super) fn ridge(&self, [low, high]: [usize; 2], line: usize) -> Option<(f64, f64)> {
@@ -278,7 +278,7 @@ impl<'a> Plan<'a> {
         Some((self.found(low, level.half, phi, None).0, level.radius))
     }
 
-    /// How far down the fillet a level lies: 0 at the foot of the wall, a quarter turn at the floor.
+    /// Angle down the fillet at which a level lies: 0 at the foot of the wall, a quarter turn at the floor.
     fn fillet_angle(&self, level: usize) -> f64 {
         FRAC_PI_2 * level as f64 / (self.levels.len() - 1) as f64
     }
@@ -310,11 +310,11 @@ impl<'a> Plan<'a> {
         })
     }
 
-    /// Lower and upper edges of the groove at a level, upwards: turns that overlap are open together. `height`
-    /// tells how high an edge is.
+    /// Lower and upper edges of the groove at a level, upwards: turns that overlap are open together. `height` gives
+    /// the height of an edge.
     pub(super) fn open(&self, level: usize, height: impl Fn(usize) -> f64) -> Vec<[usize; 2]> {
         let row = 2 * self.turns;
-        // Left and right wall of a turn stand side by side in the numbering.
+        // Left and right wall of a turn are adjacent in the numbering.
         let mut turns: Vec<[usize; 2]> = (level * row..(level + 1) * row)
             .step_by(2)
             .map(|left| [left + 1, left])
@@ -376,7 +376,7 @@ impl<'a> Plan<'a> {
     }
 
     /// Height of an edge, if the groove were `half` wide to each side, at an angle round the shaft, and the shaft
-    /// angle of the groove it belongs to, looked for from a near one.
+    /// angle of the groove it belongs to, sought from a near one.
     fn found(&self, edge: usize, half: f64, phi: f64, near: Option<f64>) -> (f64, f64) {
         checkpoint();
         let Edge { turn, wall, .. } = self.edge(edge);
@@ -436,7 +436,7 @@ impl<'a> Plan<'a> {
     }
 }
 
-/// Which turns of the groove repeat the one before them: on a stroke every turn has the same law.
+/// Turns of the groove that repeat the one before them: on a stroke every turn has the same law.
 fn rises(groove: &Groove) -> Vec<Option<f64>> {
     let traverse = groove.traverse();
     let (stroke, reversal) = (traverse.stroke(), traverse.reversal());
@@ -463,7 +463,7 @@ fn even(count: u32) -> impl Iterator<Item = Event> {
     (0..count).map(move |i| Event::at(TAU * f64::from(i) / f64::from(count)))
 }
 
-/// Columns round the shaft so that a chord is within `limit` (mm) of its arc.
+/// Number of columns round the shaft with which a chord is within `limit` (mm) of its arc.
 pub(super) fn columns(radius: f64, limit: f64) -> u32 {
     let half = (1.0 - (limit / radius).min(0.5)).acos();
     ((FRAC_PI_2 * 2.0 / half).ceil().min(1e5) as u32).max(16)

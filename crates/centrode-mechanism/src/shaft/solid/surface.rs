@@ -7,13 +7,13 @@ use centrode_geometry::{Mesh, Point, checkpoint};
 use super::plan::Plan;
 use crate::shaft::Wall;
 
-/// Which surface a vertex belongs to: the shaft's, or a level of the groove.
+/// Mark of a vertex on the shaft's surface, in place of a level of the groove.
 const LAND: usize = usize::MAX;
-/// The same for the crest between two grooves' fillets, and from here on for rows of the walls.
+/// Mark of a vertex on the crest between two grooves' fillets; from here on, of rows of the walls.
 const RIDGE: usize = usize::MAX / 4;
 const WALL: usize = usize::MAX / 2;
 
-/// A height as a key that sorts as the number does.
+/// Key of a height that sorts as the number does.
 fn key(z: f64) -> u64 {
     let bits = (z + 0.0).to_bits();
     if bits >> 63 == 0 {
@@ -23,7 +23,7 @@ fn key(z: f64) -> u64 {
     }
 }
 
-/// The height of a key.
+/// Height of a key.
 fn height(key: u64) -> f64 {
     if key >> 63 == 1 {
         f64::from_bits(key ^ 1 << 63)
@@ -35,7 +35,7 @@ fn height(key: u64) -> f64 {
 /// Part of the surface between two lines and two edges.
 #[derive(Debug)]
 struct Cell {
-    /// The first of its two lines.
+    /// First of its two lines.
     line: usize,
     low: Rim,
     high: Rim,
@@ -113,7 +113,7 @@ impl<'a> Surface<'a> {
         }
     }
 
-    /// The cells between a line and the next, and the walls between them.
+    /// Adds the cells between a line and the next, and the walls between them.
     fn strip(&mut self, line: usize, here: &[f64], next: &[f64]) {
         let middle = |edge: usize| here[edge] + next[edge];
         let levels = 0..self.plan.levels.len();
@@ -208,7 +208,7 @@ impl<'a> Surface<'a> {
         self.cells.push(cell);
     }
 
-    /// The upright wall along an edge between a line and the next.
+    /// Adds the axial wall along an edge between a line and the next.
     fn upright(&mut self, line: usize, heights: [f64; 2], wall: Wall) {
         let next = (line + 1) % self.plan.lines.len();
         let rows = self.plan.rows as usize;
@@ -308,7 +308,7 @@ impl<'a> Surface<'a> {
         lines
     }
 
-    /// Heights at which something stands on a line, on the shaft's surface or in the groove, ascending.
+    /// Heights of the vertices on a line, on the shaft's surface or in the groove, ascending.
     pub(super) fn heights_on(&self, line: usize, land: bool) -> Vec<f64> {
         let on_line = self.on_line[line].keys();
         let mut keys: Vec<u64> = on_line
@@ -319,7 +319,7 @@ impl<'a> Surface<'a> {
         keys.into_iter().map(height).collect()
     }
 
-    /// The tops of the walls on the development, each as far as it stands within one turn.
+    /// Tops of the walls on the development, each as far as it remains within one turn.
     pub(super) fn wall_edges(mut self) -> Vec<Vec<Point>> {
         let angle = |line: usize| self.plan.lines.get(line).copied().unwrap_or(TAU);
         let at = |line: usize, z: f64| Point::new(self.radius * angle(line), z);

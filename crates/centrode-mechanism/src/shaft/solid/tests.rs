@@ -218,7 +218,7 @@ fn enclosed(shell: &centrode_geometry::Shell) -> f64 {
                         let turn = (q[1] * p[0] - q[0] * p[1]).atan2(q[0] * p[0] + q[1] * p[1]);
                         volume -= 0.5 * radius * radius * turn * middle[2];
                     }
-                    // The same with the radius at each height.
+                    // With the radius at each height.
                     ShellSurface::Cone {
                         height,
                         radius,
@@ -229,7 +229,7 @@ fn enclosed(shell: &centrode_geometry::Shell) -> f64 {
                         let r = radius + way * (middle[2] - height);
                         volume -= turn * way * r * r * r / 6.0;
                     }
-                    // Planes square to x: x / 2 over dy dz. Those square to y and z: the same with y, none.
+                    // Planes square to x: x / 2 over dy dz. Those square to y and z: likewise with y, none.
                     ShellSurface::Plane { point, normal } => {
                         let along = normal[0] * point[0] * (middle[1] * (q[2] - p[2]));
                         let across = normal[1] * point[1] * (middle[2] * (q[0] - p[0]));

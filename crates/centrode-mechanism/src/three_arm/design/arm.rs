@@ -5,7 +5,7 @@ use super::angle;
 use crate::arm::{ArmBodySpec, UsualArm};
 use crate::degrees;
 use crate::gear::design::SpecError;
-use crate::gear::design::rule::{between, not_negative, positive};
+use crate::gear::design::rule::{in_range, not_negative, positive};
 
 /// An arm, fixed to its planet.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
@@ -20,7 +20,7 @@ pub struct ArmSpec {
     /// Distance of the pusher's axis, which ends at the tip, from the planet's axis, mm: positive where the clamp
     /// points more counter-clockwise than the tip lies.
     pub pusher_offset: f64,
-    /// Length of the clamp back from the tip along the pusher's axis, mm: what passes between seedlings.
+    /// Length of the clamp back from the tip along the pusher's axis, mm: the part that passes between seedlings.
     #[serde(default = "default_clamp_length")]
     pub clamp_length: f64,
     /// Housing, clamp, push rod and spring; left out, the usual sizes in proportion to `tip_distance`, or smaller
@@ -34,7 +34,7 @@ fn default_clamp_length() -> f64 {
 }
 
 impl ArmSpec {
-    /// An arm with a clamp of ordinary length.
+    /// Makes an arm with a clamp of ordinary length.
     #[must_use]
     pub fn new(mounting_angle: f64, tip_distance: f64, pusher_offset: f64) -> Self {
         Self {
@@ -52,7 +52,7 @@ impl ArmSpec {
         UsualArm::new(self.tip_distance, self.pusher_offset, self.clamp_length)
     }
 
-    /// Ranges, and a pusher's axis that reaches the tip.
+    /// Checks the ranges, and that the pusher's axis reaches the tip.
     ///
     /// # Errors
     /// [`SpecError`] with the key at fault.
@@ -60,7 +60,7 @@ impl ArmSpec {
         angle("mounting_angle_deg", self.mounting_angle)?;
         positive("tip_distance", self.tip_distance)?;
         let reach = self.tip_distance;
-        between("pusher_offset", self.pusher_offset, [-reach, reach], " mm")?;
+        in_range("pusher_offset", self.pusher_offset, [-reach, reach], " mm")?;
         positive("clamp_length", self.clamp_length)?;
         let body = self.body.as_ref();
         body.map_or(Ok(()), ArmBodySpec::validate)
@@ -76,7 +76,7 @@ pub struct GearboxSpec {
     pub housing_offset: f64,
     /// Thickness of its plates, mm.
     pub wall: f64,
-    /// Distance of the gears' faces from the plates, mm.
+    /// Clearance between the gears' faces and the plates, mm.
     pub play: f64,
 }
 
@@ -91,7 +91,7 @@ impl Default for GearboxSpec {
 }
 
 impl GearboxSpec {
-    /// Ranges.
+    /// Checks the ranges.
     ///
     /// # Errors
     /// [`SpecError`] with the key at fault.

@@ -6,7 +6,7 @@ use crate::degrees;
 use crate::gear::design::SpecError;
 use crate::gear::design::rule::finite;
 
-/// What a good mechanism reaches; the defaults are the eight goals of the 2021 machine.
+/// Goals of a good mechanism; the defaults are the eight goals of the 2021 machine.
 ///
 /// Source: Yin et al., Int J Agric & Biol Eng 14(5), 2021, section 4.1, DOI 10.25165/j.ijabe.20211405.6844. The paper
 /// names the first and the fifth without a figure; theirs are clearances of zero.
@@ -54,7 +54,7 @@ impl Default for GoalsSpec {
 }
 
 impl GoalsSpec {
-    /// Ranges in order, and finite numbers.
+    /// Checks that the ranges are in order and the numbers finite.
     ///
     /// # Errors
     /// [`SpecError`] with the key at fault.

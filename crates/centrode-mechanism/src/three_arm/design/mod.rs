@@ -6,7 +6,9 @@ use serde::{Deserialize, Serialize};
 use super::Parameter;
 use crate::degrees;
 use crate::design::{DesignSpec, DrawingSpec, Tagged};
-use crate::gear::design::rule::{between, broken, finite, line, name, positive, within};
+use crate::gear::design::rule::{
+    broken, count_in_range, file_name, finite, in_range, positive, single_line,
+};
 use crate::gear::design::{BodySpec, GearPairDesign, Rule, SpecError, TeethSpec, ToolSpec};
 use crate::gear::pitch::PitchSpec;
 
@@ -36,7 +38,7 @@ pub struct ThreeArmDesign {
     /// Number of arms, 1 to 6.
     #[serde(default = "default_arms")]
     pub arms: u32,
-    /// Which way the carrier turns.
+    /// Sense in which the carrier turns.
     #[serde(default)]
     pub direction: Direction,
     /// Direction of the first intermediate gear's axis from the sun's at the start, rad (degrees in the file).
@@ -58,7 +60,7 @@ pub struct ThreeArmDesign {
     )]
     #[schemars(with = "Option<f64>")]
     pub planet_reference: Option<f64>,
-    /// Teeth of every gear; left out, there are no teeth to judge.
+    /// Teeth of every gear; left out, there are no teeth to check.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tooth_count: Option<u32>,
     /// Centre distance of each mesh, mm; left out, it follows from the pitch curve.
@@ -93,10 +95,10 @@ pub struct ThreeArmDesign {
     /// The seedlings.
     #[serde(default)]
     pub seedling: SeedlingSpec,
-    /// What a good mechanism reaches.
+    /// Goals of a good mechanism.
     #[serde(default)]
     pub goals: GoalsSpec,
-    /// What a search may move, and what it looks for.
+    /// Variables and objective of a search.
     #[serde(default, skip_serializing_if = "OptimiseSpec::is_default")]
     pub optimise: OptimiseSpec,
     /// Body of the sun.
@@ -113,19 +115,19 @@ pub struct ThreeArmDesign {
     pub drawing: DrawingSpec,
 }
 
-/// Which way a shaft turns, seen from the side the drawing shows.
+/// Sense in which a shaft turns, seen from the side the drawing shows.
 #[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Direction {
-    /// With the hands of a clock.
+    /// Clockwise.
     #[default]
     Clockwise,
-    /// Against them.
+    /// Counter-clockwise.
     CounterClockwise,
 }
 
 impl Direction {
-    /// 1 counter-clockwise, -1 clockwise.
+    /// Sign: 1 counter-clockwise, -1 clockwise.
     #[must_use]
     pub fn sign(self) -> f64 {
         match self {
@@ -181,10 +183,10 @@ impl DesignSpec for ThreeArmDesign {
 }
 
 impl ThreeArmDesign {
-    /// Most arms of one carrier.
+    /// Greatest number of arms of one carrier.
     pub const MOST_ARMS: u32 = 6;
 
-    /// A mechanism with the given sun, chain and arm, and every other value at its default.
+    /// Makes a mechanism with the given sun, chain and arm, and every other value at its default.
     #[must_use]
     pub fn new(pitch: PitchSpec, carrier_start: f64, bend: f64, arm: ArmSpec) -> Self {
         Self {
@@ -239,24 +241,24 @@ impl ThreeArmDesign {
         }
     }
 
-    /// The rules that need no geometry: ranges, and keys that contradict each other.
+    /// Checks the rules that need no geometry: ranges, and keys that contradict each other.
     ///
     /// # Errors
     /// [`SpecError`] with the key at fault and the rule it breaks. The pitch curve's own rules are
     /// those of [`PitchSpec::resolve`].
     pub fn validate(&self) -> Result<(), SpecError> {
-        name("name", &self.name)?;
-        line("title", &self.title)?;
-        within("arms", self.arms, 1, Self::MOST_ARMS)?;
+        file_name("name", &self.name)?;
+        single_line("title", &self.title)?;
+        count_in_range("arms", self.arms, 1, Self::MOST_ARMS)?;
         angle("carrier_start_deg", self.carrier_start)?;
         // A chain folded back on itself puts the planet on the sun's axis.
         let bend = rounded_degrees(self.bend);
-        between("bend_deg", bend, [-175.0, 175.0], " deg")?;
+        in_range("bend_deg", bend, [-175.0, 175.0], " deg")?;
         if let Some(reference) = self.planet_reference {
             angle("planet_reference_deg", reference)?;
         }
         if let Some(z) = self.tooth_count {
-            within("tooth_count", z, 3, 10_000)?;
+            count_in_range("tooth_count", z, 3, 10_000)?;
             if let Some(of_pitch) = self.pitch.tooth_count()
                 && z != of_pitch
             {
@@ -290,18 +292,18 @@ impl ThreeArmDesign {
     }
 }
 
-/// Degrees, without the last digits that the way through radians has cost.
+/// Rounds degrees, to drop the last digits that the way through radians has cost.
 fn rounded_degrees(radians: f64) -> f64 {
     (radians.to_degrees() * 1e9).round() / 1e9
 }
 
-/// An angle within a turn either way.
+/// Checks an angle within a turn either way.
 fn angle(key: &str, radians: f64) -> Result<(), SpecError> {
     finite(key, radians)?;
-    between(key, rounded_degrees(radians), [-360.0, 360.0], " deg")
+    in_range(key, rounded_degrees(radians), [-360.0, 360.0], " deg")
 }
 
-/// A range with its ends in order.
+/// Checks a range with its ends in order.
 fn ordered(key: &str, [least, greatest]: [f64; 2]) -> Result<(), SpecError> {
     finite(key, least)?;
     finite(key, greatest)?;

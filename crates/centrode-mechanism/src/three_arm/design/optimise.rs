@@ -9,11 +9,11 @@ use crate::gear::design::{Rule, SpecError};
 use crate::gear::pitch::PitchSpec;
 use crate::three_arm::Parameter;
 
-/// What a search may move, how far, and what it looks for beyond the goals.
+/// Variables of a search, their bounds, and the objective beyond the goals.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct OptimiseSpec {
-    /// What is made best among the designs that reach every goal.
+    /// Objective among the designs that reach every goal.
     pub objective: Objective,
     /// Parameters that stay as they are; else the control points, carrier start, bend, and the arm's three sizes move, and
     /// the working points that are given.
@@ -25,25 +25,25 @@ pub struct OptimiseSpec {
     #[serde(with = "bounds", skip_serializing_if = "BTreeMap::is_empty")]
     #[schemars(with = "BTreeMap<Parameter, [f64; 2]>")]
     pub bounds: BTreeMap<Parameter, [f64; 2]>,
-    /// True: gears keep their tooth count. False: they have as many teeth as leave the module wanted.
+    /// Whether gears keep their tooth count; else they have as many teeth as leave the module wanted.
     pub hold_tooth_count: bool,
-    /// Least depth of the tip's loop beyond where it picks, into the tray, mm.
+    /// Least depth of the tip's loop beyond the point of picking, into the tray, mm.
     pub picking_depth: f64,
     /// Least clearance of the arm's housing from the tray, mm.
     pub tray_clearance: f64,
 }
 
-/// What is made best among the designs that reach every goal.
+/// Objective among the designs that reach every goal.
 #[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum Objective {
-    /// The parameters move as little as can be: root mean square of their moves as shares of their bounds.
+    /// Least change of the parameters: root mean square of their moves as shares of their bounds.
     #[default]
     LeastChange,
-    /// The tip is as slow as can be at picking.
+    /// Least speed of the tip at picking.
     PickingSpeed,
-    /// The goal reached most narrowly is reached as well as can be.
+    /// Greatest margin of the goal reached most narrowly.
     Margin,
 }
 
@@ -51,12 +51,12 @@ pub enum Objective {
 const LEAST_RADIUS: f64 = 0.2;
 
 impl OptimiseSpec {
-    /// True where nothing is asked for.
+    /// Whether the table is left at its defaults.
     pub(super) fn is_default(&self) -> bool {
         *self == Self::default()
     }
 
-    /// Ranges in order, and parameters the design has.
+    /// Checks that the ranges are in order, and that the design has the parameters.
     ///
     /// # Errors
     /// [`SpecError`] with the key at fault.
@@ -74,7 +74,7 @@ impl OptimiseSpec {
 }
 
 impl ThreeArmDesign {
-    /// The parameters a search moves, with their least and greatest value (rad, mm).
+    /// Variables of a search, with their least and greatest value (rad, mm).
     #[must_use]
     pub fn free_parameters(&self) -> Vec<(Parameter, [f64; 2])> {
         let radii: &[f64] = match &self.pitch {
@@ -118,7 +118,7 @@ impl ThreeArmDesign {
     }
 }
 
-/// Angles are degrees in the file.
+/// Conversion of the bounds: angles are degrees in the file.
 mod bounds {
     use std::collections::BTreeMap;
 

@@ -3,7 +3,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::cam::law::LawSpec;
 use crate::degrees;
-use crate::gear::design::rule::{between, positive};
+use crate::gear::design::rule::{in_range, positive};
 use crate::gear::design::{BodySpec, SpecError};
 
 /// The cam, fixed to the carrier about a planet's axis, that draws the push rod back and lets it go.
@@ -13,7 +13,7 @@ use crate::gear::design::{BodySpec, SpecError};
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct PusherCamSpec {
-    /// Radius of the base circle, on which the roller stands with the rod thrown out, mm.
+    /// Radius of the base circle, on which the roller lies with the rod thrown out, mm.
     pub base_radius: f64,
     /// Carrier turn over which the rod is drawn back, up to picking, rad (degrees in the file).
     #[serde(rename = "closing_deg", with = "degrees")]
@@ -49,7 +49,7 @@ impl Default for PusherCamSpec {
 }
 
 impl PusherCamSpec {
-    /// Ranges.
+    /// Checks the ranges.
     ///
     /// # Errors
     /// [`SpecError`] with the key at fault.
@@ -57,7 +57,7 @@ impl PusherCamSpec {
         positive("base_radius", self.base_radius)?;
         for (key, span) in [("closing_deg", self.closing), ("release_deg", self.release)] {
             positive(key, span)?;
-            between(key, span.to_degrees(), [0.1, 359.0], " deg")?;
+            in_range(key, span.to_degrees(), [0.1, 359.0], " deg")?;
         }
         self.closing_law
             .validate()
@@ -125,7 +125,7 @@ impl Default for ForkSpec {
 }
 
 impl ForkSpec {
-    /// Ranges.
+    /// Checks the ranges.
     ///
     /// # Errors
     /// [`SpecError`] with the key at fault.
@@ -142,7 +142,7 @@ impl ForkSpec {
         ] {
             positive(key, size)?;
         }
-        between(
+        in_range(
             "roller_bore",
             self.roller_bore,
             [0.0, 2.0 * self.roller_radius],

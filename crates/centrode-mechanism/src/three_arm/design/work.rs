@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 use super::angle;
 use crate::degrees;
 use crate::gear::design::SpecError;
-use crate::gear::design::rule::{between, finite, not_negative, positive, within};
+use crate::gear::design::rule::{count_in_range, finite, in_range, not_negative, positive};
 
 /// Picking, planting and travel.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
@@ -49,7 +49,7 @@ impl Default for WorkSpec {
 }
 
 impl WorkSpec {
-    /// Ranges.
+    /// Checks the ranges.
     ///
     /// # Errors
     /// [`SpecError`] with the key at fault.
@@ -87,7 +87,7 @@ pub struct TraySpec {
     pub hole_spacing: f64,
     /// Rows that are still full, as seen from the one that is picked.
     pub unpicked: Unpicked,
-    /// How far an unpicked seedling's stem stands out of the tray's surface, mm; it is as wide as a planted one.
+    /// Length by which an unpicked seedling's stem projects from the tray's surface, mm; it is as wide as a planted one.
     pub stem_length: f64,
 }
 
@@ -121,7 +121,7 @@ impl Default for TraySpec {
 }
 
 impl TraySpec {
-    /// Ranges.
+    /// Checks the ranges.
     ///
     /// # Errors
     /// [`SpecError`] with the key at fault.
@@ -130,15 +130,15 @@ impl TraySpec {
             finite("distance", distance)?;
         }
         let inclination = self.inclination.to_degrees();
-        between("inclination_deg", inclination, [-89.0, 89.0], " deg")?;
-        within("columns", self.columns, 1, 1000)?;
-        within("rows", self.rows, 1, 1000)?;
+        in_range("inclination_deg", inclination, [-89.0, 89.0], " deg")?;
+        count_in_range("columns", self.columns, 1, 1000)?;
+        count_in_range("rows", self.rows, 1, 1000)?;
         positive("hole_spacing", self.hole_spacing)?;
         not_negative("stem_length", self.stem_length)
     }
 }
 
-/// A seedling, once planted: an upright stem.
+/// A planted seedling: a vertical stem.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct SeedlingSpec {
@@ -158,7 +158,7 @@ impl Default for SeedlingSpec {
 }
 
 impl SeedlingSpec {
-    /// Ranges.
+    /// Checks the ranges.
     ///
     /// # Errors
     /// [`SpecError`] with the key at fault.

@@ -15,7 +15,7 @@ fn with(change: impl Fn(&mut ThreeArmDesign)) -> ThreeArm {
     ThreeArm::resolve(&design).expect("a mechanism")
 }
 
-/// The roller, placed by the fork on the arm, stands on the cam, placed on the carrier, and the rod's pin is
+/// The roller, placed by the fork on the arm, is on the cam, placed on the carrier, and the rod's pin is
 /// where the slot of the fork is.
 fn stands(mechanism: &ThreeArm) {
     let pusher = mechanism.pusher().expect("a pusher");
@@ -232,7 +232,7 @@ fn the_usual_arm_fits_every_tip_and_offset_that_leave_a_clamp_its_room() {
                 let (arm, pusher) = (mechanism.arm_body(), mechanism.pusher());
                 let arm = arm.unwrap_or_else(|e| panic!("{tip} {offset}: {e}"));
                 let pusher = pusher.unwrap_or_else(|e| panic!("{tip} {offset}: {e}"));
-                // What the spring pushes is not where the fork's pin goes.
+                // The part that the spring pushes is clear of the fork's pin.
                 let part = |name: &str| arm.parts().iter().find(|p| p.name == name);
                 let spring = part("spring").expect("a spring").outline.bounds();
                 assert!(spring.min.x > 0.5 * pusher.stroke(), "{tip} {offset}");

@@ -1,10 +1,10 @@
 use std::f64::consts::TAU;
 
-/// Cosines and sines from a table of a turn: the rest of an angle is so small that a few terms give it to 1e-14.
+/// Table of cosines and sines of a turn: the rest of an angle is so small that a few terms give it to 1e-14.
 #[derive(Clone, Debug)]
 pub(super) struct Circle(Vec<[f64; 2]>);
 
-/// Places of the table.
+/// Number of entries of the table.
 const COUNT: usize = 256;
 
 impl Circle {

@@ -1,4 +1,4 @@
-//! Many designs of one kind, quickly: what optimisers ask.
+//! Fast evaluation of many designs of one kind, for optimisers.
 
 use std::f64::consts::{PI, TAU};
 
@@ -18,13 +18,14 @@ use path::Path;
 use spline::SplinePair;
 use stage::Stage;
 
-/// The figures of many three-arm designs with the same kind of pitch curve, each in a few microseconds.
+/// Evaluates many three-arm designs with the same kind of pitch curve, each in a few microseconds.
 ///
 /// For a sun that is a closed B-spline with control points in the plane of polar angle and radius: the
 /// transmission function is integrated on fixed panels of the curve's own pieces, where it is analytic, and both stages
 /// are solved by Newton's method from input to input. Nothing is allocated for a design. The figures agree with
 /// those of [`ThreeArm::figures`](super::ThreeArm::figures) to 1e-9 of the size of the machine, or rad, for designs like
-/// the published one, and to 1e-7 where the radii of the pitch curve differ tenfold; that the pitch curve goes round its axis is only looked at where it is integrated. Not for a pitch curve scaled by a module.
+/// the published one, and to 1e-7 where the radii of the pitch curve differ tenfold; that the pitch curve
+/// winds round its axis is only checked at the nodes of the integration. Not for a pitch curve scaled by a module.
 ///
 /// ```
 /// use centrode_mechanism::design::DesignSpec;
@@ -44,7 +45,7 @@ pub struct Sweep {
     path: Path,
 }
 
-/// Why a sweep gives no figures of a design.
+/// Reason why a sweep gives no figures of a design.
 #[derive(Clone, Copy, Debug, Eq, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SweepError {
@@ -56,12 +57,12 @@ pub enum SweepError {
     /// Fewer points than the spline's degree needs, or other lists of points than the sweep was made for.
     #[error("a sweep of {wanted} points got {found}")]
     Points {
-        /// What it was made for.
+        /// Number the sweep was made for.
         wanted: usize,
-        /// What the design has.
+        /// Number in the design.
         found: usize,
     },
-    /// The pitch curve does not go once round the sun's axis.
+    /// The pitch curve does not wind once round the sun's axis.
     #[error("the pitch curve does not go round the axis once, in order")]
     NotAroundAxis,
     /// No centre distance closes the driven curve.
@@ -72,7 +73,7 @@ pub enum SweepError {
     TrayOutOfReach,
 }
 
-/// The spline of a design, if it is of the kind.
+/// Returns the spline of a design, if it is of the kind.
 fn spline_of(design: &ThreeArmDesign) -> Result<&Bspline, SweepError> {
     match &design.pitch {
         PitchSpec::Bspline(spline)
@@ -85,7 +86,7 @@ fn spline_of(design: &ThreeArmDesign) -> Result<&Bspline, SweepError> {
 }
 
 impl Sweep {
-    /// A sweep for designs like this one: as many points, the same degree. The tip's path is looked at for so many
+    /// Makes a sweep for designs like this one: as many points, the same degree. The tip's path is sampled at so many
     /// inputs a turn, at least 32, rounded up to a multiple of four.
     ///
     /// # Errors
@@ -135,33 +136,33 @@ impl Sweep {
         })
     }
 
-    /// Control points of the pitch curves it is for.
+    /// Number of control points of the pitch curves it is made for.
     #[must_use]
     pub fn control_points(&self) -> usize {
         self.stage.control_points()
     }
 
-    /// Centre distance of the design looked at last, mm.
+    /// Centre distance of the last design, mm.
     #[must_use]
     pub fn center_distance(&self) -> f64 {
         self.stage.center_distance()
     }
 
-    /// Length of the pitch curves of the design looked at last, mm.
+    /// Length of the pitch curves of the last design, mm.
     #[must_use]
     pub fn pitch_length(&self) -> f64 {
         self.stage.length()
     }
 
-    /// Greatest curvature where either pitch curve of the design looked at last is convex, and where either is
-    /// concave, 1/mm: at twelve places on each third of a piece, so a little less than the true ones.
+    /// Greatest convex and concave curvature (1/mm) of both pitch curves of the last design, sampled 12 times a panel
+    /// (slightly low).
     #[must_use]
     pub fn curvatures(&self) -> [f64; 2] {
         self.stage.curvatures()
     }
 
-    /// Depth of the tip's loop beyond where it picks, mm, as [`ThreeArm::picking_depth`](super::ThreeArm::picking_depth),
-    /// of the design looked at last, which is given again.
+    /// Depth of the tip's loop beyond the point of picking, mm, equal to
+    /// [`ThreeArm::picking_depth`](super::ThreeArm::picking_depth), of the last design, which is given again.
     #[must_use]
     pub fn picking_depth(&self, design: &ThreeArmDesign) -> f64 {
         let machine = path::Machine::of(design, &self.stage);
@@ -179,7 +180,7 @@ impl Sweep {
         farthest.reach - picked
     }
 
-    /// Points of the tip's path of the design looked at last, evenly in carrier turn from the start.
+    /// Points of the tip's path of the last design, evenly in carrier turn from the start.
     pub fn tips(&self) -> impl ExactSizeIterator<Item = [f64; 2]> + '_ {
         self.path.points()
     }

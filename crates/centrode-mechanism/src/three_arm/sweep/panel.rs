@@ -10,10 +10,10 @@ use crate::gear::pitch::HIGHEST_DEGREE;
 pub(super) const NODES: usize = 10;
 pub(super) const COEFFICIENTS: usize = NODES + 1;
 
-/// Places worked on side by side.
+/// Number of parameters evaluated side by side.
 pub(super) const LANES: usize = 4;
 
-/// One place, or [`LANES`] side by side.
+/// One parameter, or [`LANES`] side by side.
 pub(super) trait Places:
     Copy + From<f64> + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self>
 {
@@ -30,15 +30,15 @@ pub(super) struct Panel {
     pub(super) radius: Polynomial,
 }
 
-/// A function at a place, with its derivatives by s.
+/// Value of a function at a parameter, with its derivatives by s.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Look<T = f64> {
+pub(super) struct Evaluation<T = f64> {
     pub(super) value: T,
     pub(super) rate: T,
     pub(super) change: T,
 }
 
-impl<T: Places> Look<T> {
+impl<T: Places> Evaluation<T> {
     /// Step towards a value by Halley's method.
     #[inline]
     pub(super) fn step(&self, to: T) -> T {
@@ -56,10 +56,10 @@ impl Panel {
     };
 }
 
-/// What grows along the pitch curve.
+/// Function that grows along the pitch curve.
 pub(super) trait Growing: Copy {
-    /// It, in a panel; `C` coefficients of the panel's polynomials are not zero.
-    fn look<const C: usize, T: Places>(self, panel: &Panel, s: T) -> Look<T>;
+    /// Evaluates it in a panel; `C` coefficients of the panel's polynomials are not zero.
+    fn evaluate<const C: usize, T: Places>(self, panel: &Panel, s: T) -> Evaluation<T>;
 }
 
 /// The polar angle.
@@ -74,9 +74,9 @@ pub(super) struct DrivenAngle {
 
 impl Growing for PolarAngle {
     #[inline]
-    fn look<const C: usize, T: Places>(self, panel: &Panel, s: T) -> Look<T> {
+    fn evaluate<const C: usize, T: Places>(self, panel: &Panel, s: T) -> Evaluation<T> {
         let (value, rate, change) = twice(&panel.angle[..C], s);
-        Look {
+        Evaluation {
             value,
             rate,
             change,
@@ -86,7 +86,7 @@ impl Growing for PolarAngle {
 
 impl Growing for DrivenAngle {
     #[inline]
-    fn look<const C: usize, T: Places>(self, panel: &Panel, s: T) -> Look<T> {
+    fn evaluate<const C: usize, T: Places>(self, panel: &Panel, s: T) -> Evaluation<T> {
         let a = T::from(self.center_distance);
         let c = panel.driven.map(T::from);
         // Even and odd powers apart: two short chains instead of a long one.
@@ -103,7 +103,7 @@ impl Growing for DrivenAngle {
         let (r, slope, _) = twice(&panel.radius[..C], s);
         let rest = T::from(1.0) / (a - r);
         let ratio = r * rest;
-        Look {
+        Evaluation {
             value: even + odd * s,
             rate: turn * ratio,
             change: turn_change * ratio + turn * slope * a * rest * rest,
@@ -111,7 +111,7 @@ impl Growing for DrivenAngle {
     }
 }
 
-/// The quintic that is -1 and 1 at the ends of [0, 1], with the first and second derivatives of an inverse function there.
+/// Quintic that is -1 and 1 at the ends of [0, 1], with the first and second derivatives of an inverse function there.
 #[inline]
 pub(super) fn inverse_quintic([[d0, e0], [d1, e1]]: [[f64; 2]; 2]) -> [f64; 6] {
     [

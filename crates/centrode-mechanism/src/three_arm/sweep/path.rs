@@ -5,13 +5,13 @@ use wide::f64x4;
 use super::SweepError;
 use super::circle::Circle;
 use super::panel::LANES;
-use super::stage::{Spot, Stage, settled};
+use super::stage::{Param, Stage, settled};
 use super::track::{Track, lanes};
 use crate::gear::pitch::HIGHEST_DEGREE;
 use crate::three_arm::Extreme;
 use crate::three_arm::design::ThreeArmDesign;
 
-/// What of a design, beside its pitch curve, moves the tip.
+/// Dimensions, apart from the pitch curve, on which the tip's path depends.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Machine {
     sign: f64,
@@ -22,11 +22,11 @@ pub(super) struct Machine {
     mounting: f64,
     pub(super) clamp_mounting: f64,
     tip_distance: f64,
-    /// Distance and direction of the planet's axis, from the carrier's direction.
+    /// Distance of the planet's axis from the carrier's, mm.
     leg: f64,
 }
 
-/// Where the tip is at a polar angle of the sun, and its velocity per radian of that.
+/// Position of the tip at a polar angle of the sun, and its velocity per radian of that.
 #[derive(Clone, Copy, Debug)]
 struct Tip {
     position: [f64; 2],
@@ -54,7 +54,7 @@ impl Machine {
         }
     }
 
-    /// Driven angle of the intermediate on the planet's side where it has turned so far on the sun's.
+    /// Driven angle of the intermediate gear on the planet's side, from the one on the sun's side.
     fn met(&self, driven: f64) -> f64 {
         driven - self.bend - PI
     }
@@ -64,23 +64,23 @@ impl Machine {
         self.carrier_start + psi + self.bend + self.zero - chi
     }
 
-    /// Spots in mesh at a polar angle of the sun, from spots nearby.
-    fn mesh(&self, stage: &Stage, psi: f64, sun: Spot, planet: Spot) -> (Spot, Spot) {
-        let closer = |mut spot: Spot, nearer: &dyn Fn(Spot) -> (Spot, f64)| {
+    /// Parameters in mesh at a polar angle of the sun, from parameters nearby.
+    fn mesh(&self, stage: &Stage, psi: f64, sun: Param, planet: Param) -> (Param, Param) {
+        let closer = |mut param: Param, nearer: &dyn Fn(Param) -> (Param, f64)| {
             (0..6).find_map(|_| {
-                let (next, step) = nearer(spot);
-                spot = next;
-                settled(step).then_some(spot)
+                let (next, step) = nearer(param);
+                param = next;
+                settled(step).then_some(param)
             })
         };
-        let sun = closer(sun, &|spot| stage.nearer_angle(spot, psi));
+        let sun = closer(sun, &|param| stage.nearer_angle(param, psi));
         let sun = sun.unwrap_or_else(|| stage.at_angle(psi));
         let met = self.met(stage.driven(sun).value);
-        let planet = closer(planet, &|spot| stage.nearer_driven(spot, met));
+        let planet = closer(planet, &|param| stage.nearer_driven(param, met));
         (sun, planet.unwrap_or_else(|| stage.at_driven(met)))
     }
 
-    fn tip(&self, stage: &Stage, psi: f64, sun: Spot, planet: Spot) -> Tip {
+    fn tip(&self, stage: &Stage, psi: f64, sun: Param, planet: Param) -> Tip {
         let chi = stage.angle(planet);
         let forward = stage.driven(sun).rate / stage.angle(sun).rate;
         let backward = chi.rate / stage.driven(planet).rate;
@@ -106,7 +106,7 @@ pub(super) struct Path {
     /// Polar angles of the sun, with room for the lanes beyond the last, and their cosines and sines.
     angles: Vec<f64>,
     turns: Vec<[f64; 2]>,
-    /// Spots in mesh, of sun and planet; driven angles there; polar angles of the planet.
+    /// Parameters in mesh, of sun and planet; driven angles there; polar angles of the planet.
     sun: Track,
     planet: Track,
     met: Vec<f64>,
@@ -167,7 +167,7 @@ impl Path {
         }
     }
 
-    /// Solves both meshes at every polar angle of the sun. Whether there was a solution.
+    /// Solves both meshes at every polar angle of the sun; returns whether there was a solution.
     fn mesh_round<const C: usize>(&mut self, stage: &Stage, machine: &Machine) -> bool {
         let (angle, driven) = (stage.angle_growth(), stage.driven_growth());
         if !self.sun.find::<C, _>(angle, &self.angles) {
@@ -202,13 +202,13 @@ impl Path {
     /// Direction of the arm's zero at an input.
     pub(super) fn arm(&self, stage: &Stage, machine: &Machine, input: f64) -> f64 {
         let (psi, place) = self.place(input);
-        let (_, planet) = machine.mesh(stage, psi, self.sun.spot(place), self.planet.spot(place));
+        let (_, planet) = machine.mesh(stage, psi, self.sun.param(place), self.planet.param(place));
         machine.arm(psi, stage.angle(planet).value)
     }
 
     /// The tip near a known place of the path.
     fn near(&self, stage: &Stage, machine: &Machine, place: usize, psi: f64) -> Tip {
-        let (sun, planet) = (self.sun.spot(place), self.planet.spot(place));
+        let (sun, planet) = (self.sun.param(place), self.planet.param(place));
         let (sun, planet) = machine.mesh(stage, psi, sun, planet);
         machine.tip(stage, psi, sun, planet)
     }
@@ -219,7 +219,7 @@ impl Path {
         self.near(stage, machine, place, psi).position
     }
 
-    /// Where the path reaches farthest in a direction.
+    /// Greatest reach of the path in a direction, and its input.
     pub(super) fn farthest(
         &self,
         stage: &Stage,
@@ -248,7 +248,7 @@ impl Path {
             if here < around[0] || here < around[1] {
                 continue;
             }
-            // A crest stands above the greatest of three points by about an eighth of their second difference.
+            // A crest is above the greatest of three points by about an eighth of their second difference.
             let bend = 2.0 * here - around[0] - around[1];
             if here + 0.5 * bend < best {
                 continue;
@@ -276,7 +276,7 @@ impl Path {
     ) -> Extreme {
         let step = self.step();
         let middle = step * index as f64;
-        let look = |input: f64| {
+        let reach_at = |input: f64| {
             let tip = self.near(stage, machine, index, input);
             let along = |v: [f64; 2]| v[0] * direction[0] + v[1] * direction[1];
             (along(tip.position), along(tip.velocity))
@@ -293,7 +293,7 @@ impl Path {
             if !inside {
                 input = middle;
             }
-            let (reach, slope) = look(input);
+            let (reach, slope) = reach_at(input);
             if reach >= best.reach {
                 best = Extreme { input, reach };
             }
@@ -314,7 +314,7 @@ impl Path {
         best
     }
 
-    /// Where the reach in a direction last grows past a distance before an input.
+    /// Input at which the reach in a direction last grows past a distance before an input.
     pub(super) fn entering(
         &self,
         stage: &Stage,

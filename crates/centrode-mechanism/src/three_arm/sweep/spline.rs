@@ -13,7 +13,7 @@ pub(super) struct SplinePair {
     pieces: Vec<[Polynomial; 2]>,
 }
 
-/// In powers, constant first.
+/// Polynomial by its coefficients in powers, constant first.
 pub(super) type Polynomial = [f64; HIGHEST_DEGREE + 1];
 
 impl SplinePair {

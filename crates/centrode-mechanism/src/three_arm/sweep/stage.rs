@@ -4,7 +4,7 @@ use centrode_geometry::bracketed_root;
 
 use super::SweepError;
 use super::panel::{
-    COEFFICIENTS, DrivenAngle, Growing, Look, NODES, Panel, PolarAngle, horner, twice,
+    COEFFICIENTS, DrivenAngle, Evaluation, Growing, NODES, Panel, PolarAngle, horner, twice,
 };
 use super::spline::SplinePair;
 use super::track::Growth;
@@ -12,12 +12,12 @@ use crate::gear::pitch::{Bspline, HIGHEST_DEGREE};
 
 /// Panels of a piece.
 const PANELS: usize = 3;
-/// Greatest step of Halley's method that is the last; what is left is below a hundredth of its cube.
+/// Halley step at which iteration stops; the remaining error is below step^3/100.
 pub(super) const LAST: f64 = 1e-3;
 
-/// A place on the pitch curve: panel, place in it, and whole turns before.
+/// Parameter on the pitch curve: panel, place in it, and whole turns before.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Spot {
+pub(super) struct Param {
     pub(super) panel: usize,
     pub(super) s: f64,
     pub(super) turns: f64,
@@ -30,13 +30,13 @@ pub(super) struct Stage {
     /// Nodes of a panel and Fejér's weights of them.
     nodes: [f64; NODES],
     weights: [f64; NODES],
-    /// From values at the nodes to the coefficients of the primitive in powers, zero at the panel's start.
-    primitive: [[f64; COEFFICIENTS]; NODES],
+    /// Map from values at the nodes to the coefficients of the antiderivative in powers, zero at the panel's start.
+    antiderivative: [[f64; COEFFICIENTS]; NODES],
     panels: Vec<Panel>,
     /// Polar angle, and driven angle from parameter zero, at the start of each panel and the end of the last.
     angles: Vec<f64>,
     before: Vec<f64>,
-    /// At every node: radius, angle rate, and their product with the weight.
+    /// Values at every node: radius, angle rate, and their product with the weight.
     radii: Vec<f64>,
     turns: Vec<f64>,
     parts: Vec<f64>,
@@ -67,14 +67,14 @@ impl Stage {
             }
             c
         };
-        let mut primitive = [[0.0; COEFFICIENTS]; NODES];
+        let mut antiderivative = [[0.0; COEFFICIENTS]; NODES];
         let mut weights = [0.0; NODES];
         for j in 0..NODES {
             for (power, c) in through(j).into_iter().enumerate() {
                 let part = c / (power + 1) as f64;
-                primitive[j][power + 1] = part;
+                antiderivative[j][power + 1] = part;
                 let sign = if power % 2 == 0 { 1.0 } else { -1.0 };
-                primitive[j][0] += sign * part;
+                antiderivative[j][0] += sign * part;
                 weights[j] += part + sign * part;
             }
         }
@@ -83,7 +83,7 @@ impl Stage {
             spline,
             nodes,
             weights,
-            primitive,
+            antiderivative,
             panels: vec![Panel::EMPTY; count],
             angles: vec![0.0; count + 1],
             before: vec![0.0; count + 1],
@@ -98,7 +98,7 @@ impl Stage {
         }
     }
 
-    /// Takes a pitch curve: closes it, integrates it.
+    /// Loads a pitch curve: closes it, integrates it.
     pub(super) fn load(&mut self, spline: &Bspline) -> Result<(), SweepError> {
         self.spline.load(spline)?;
         let half = 0.5 / PANELS as f64;
@@ -107,9 +107,9 @@ impl Stage {
             [panel.angle, panel.radius] = self.spline.part(index / PANELS, middle, half);
         }
         if self.coefficients() <= 3 {
-            self.look_round::<3>()?;
+            self.evaluate_round::<3>()?;
         } else {
-            self.look_round::<{ HIGHEST_DEGREE + 1 }>()?;
+            self.evaluate_round::<{ HIGHEST_DEGREE + 1 }>()?;
         }
         self.find_extremes();
         self.center_distance = self.closure()?;
@@ -120,7 +120,7 @@ impl Stage {
     }
 
     /// Evaluates every panel, whose polynomials have `C` coefficients, at its nodes.
-    fn look_round<const C: usize>(&mut self) -> Result<(), SweepError> {
+    fn evaluate_round<const C: usize>(&mut self) -> Result<(), SweepError> {
         let (mut length, mut first, mut second) = ([0.0; NODES], [0.0; NODES], [0.0; NODES]);
         let mut good = true;
         let nodes = self
@@ -164,7 +164,7 @@ impl Stage {
         }
     }
 
-    /// Least and greatest radius, exactly: where the radius stands still inside a panel, or at its start.
+    /// Finds the least and greatest radius, exactly: inside a panel where the radius is stationary, or at its start.
     fn find_extremes(&mut self) {
         let (mut least, mut greatest) = (f64::INFINITY, 0.0_f64);
         for panel in &self.panels {
@@ -183,7 +183,7 @@ impl Stage {
         self.extremes = (least, greatest);
     }
 
-    /// The centre distance a at which one driver turn is one driven turn, by Newton's method on the driven turn's
+    /// Centre distance a at which one driver turn is one driven turn, by Newton's method on the driven turn's
     /// reciprocal, which for a circle is a straight line.
     fn closure(&self) -> Result<f64, SweepError> {
         let greatest = self.extremes.1;
@@ -227,7 +227,7 @@ impl Stage {
             let mut out = [0.0; COEFFICIENTS];
             for j in 0..NODES {
                 let value = turns[j] * radii[j] / (a - radii[j]);
-                for (c, m) in out.iter_mut().zip(&self.primitive[j]) {
+                for (c, m) in out.iter_mut().zip(&self.antiderivative[j]) {
                     *c += m * value;
                 }
             }
@@ -282,39 +282,39 @@ impl Stage {
         [convex, concave]
     }
 
-    /// The spot so much further on.
+    /// Parameter moved on by a step.
     #[inline]
-    pub(super) fn moved(&self, from: Spot, by: f64) -> Spot {
-        let mut spot = from;
+    pub(super) fn moved(&self, from: Param, by: f64) -> Param {
+        let mut param = from;
         // No step is longer than a turn, whatever a curve that turns back may ask for.
         let most = 2.0 * self.panels.len() as f64;
-        spot.s += by.clamp(-most, most);
-        while spot.s > 1.0 {
-            spot.s -= 2.0;
-            spot.panel += 1;
-            if spot.panel == self.panels.len() {
-                spot.panel = 0;
-                spot.turns += 1.0;
+        param.s += by.clamp(-most, most);
+        while param.s > 1.0 {
+            param.s -= 2.0;
+            param.panel += 1;
+            if param.panel == self.panels.len() {
+                param.panel = 0;
+                param.turns += 1.0;
             }
         }
-        while spot.s < -1.0 {
-            spot.s += 2.0;
-            if spot.panel == 0 {
-                spot.panel = self.panels.len();
-                spot.turns -= 1.0;
+        while param.s < -1.0 {
+            param.s += 2.0;
+            if param.panel == 0 {
+                param.panel = self.panels.len();
+                param.turns -= 1.0;
             }
-            spot.panel -= 1;
+            param.panel -= 1;
         }
-        spot
+        param
     }
 
-    /// Degree of the spline, as the number of coefficients to reckon with: the sums of a low degree are those of any,
-    /// with the zeros left out.
+    /// Number of coefficients to compute with, from the degree of the spline: the sums of a low degree are those of
+    /// any, with the zeros left out.
     pub(super) fn coefficients(&self) -> usize {
         self.spline.degree() + 1
     }
 
-    /// How the polar angle grows along the panels.
+    /// Growth of the polar angle along the panels.
     pub(super) fn angle_growth(&self) -> Growth<'_, PolarAngle> {
         Growth {
             of: PolarAngle,
@@ -323,7 +323,7 @@ impl Stage {
         }
     }
 
-    /// How the driven angle grows along the panels, from parameter zero.
+    /// Growth of the driven angle along the panels, from parameter zero.
     pub(super) fn driven_growth(&self) -> Growth<'_, DrivenAngle> {
         Growth {
             of: DrivenAngle {
@@ -334,59 +334,61 @@ impl Stage {
         }
     }
 
-    /// Polar angle at a spot.
+    /// Polar angle at a parameter.
     #[inline]
-    pub(super) fn angle(&self, spot: Spot) -> Look {
-        self.look(self.angle_growth(), spot)
+    pub(super) fn angle(&self, param: Param) -> Evaluation {
+        self.evaluate(self.angle_growth(), param)
     }
 
-    /// Driven angle since polar angle zero at a spot.
+    /// Driven angle since polar angle zero at a parameter.
     #[inline]
-    pub(super) fn driven(&self, spot: Spot) -> Look {
-        let mut look = self.look(self.driven_growth(), spot);
-        look.value -= self.offset;
-        look
+    pub(super) fn driven(&self, param: Param) -> Evaluation {
+        let mut evaluation = self.evaluate(self.driven_growth(), param);
+        evaluation.value -= self.offset;
+        evaluation
     }
 
     #[inline]
-    fn look<G: Growing>(&self, growth: Growth<'_, G>, spot: Spot) -> Look {
-        let panel = &self.panels[spot.panel];
-        let mut look = if self.coefficients() <= 3 {
-            growth.of.look::<3, _>(panel, spot.s)
+    fn evaluate<G: Growing>(&self, growth: Growth<'_, G>, param: Param) -> Evaluation {
+        let panel = &self.panels[param.panel];
+        let mut evaluation = if self.coefficients() <= 3 {
+            growth.of.evaluate::<3, _>(panel, param.s)
         } else {
-            growth.of.look::<{ HIGHEST_DEGREE + 1 }, _>(panel, spot.s)
+            growth
+                .of
+                .evaluate::<{ HIGHEST_DEGREE + 1 }, _>(panel, param.s)
         };
-        look.value += spot.turns * growth.whole();
-        look
+        evaluation.value += param.turns * growth.whole();
+        evaluation
     }
 
-    /// Spot at a polar angle, from anywhere.
-    pub(super) fn at_angle(&self, angle: f64) -> Spot {
-        self.angle_growth().spot::<{ HIGHEST_DEGREE + 1 }>(angle)
+    /// Parameter at a polar angle, from anywhere.
+    pub(super) fn at_angle(&self, angle: f64) -> Param {
+        self.angle_growth().param::<{ HIGHEST_DEGREE + 1 }>(angle)
     }
 
-    /// Spot at a driven angle since polar angle zero, from anywhere.
-    pub(super) fn at_driven(&self, driven: f64) -> Spot {
+    /// Parameter at a driven angle since polar angle zero, from anywhere.
+    pub(super) fn at_driven(&self, driven: f64) -> Param {
         let growth = self.driven_growth();
-        growth.spot::<{ HIGHEST_DEGREE + 1 }>(driven + self.offset)
+        growth.param::<{ HIGHEST_DEGREE + 1 }>(driven + self.offset)
     }
 
-    /// One step towards a polar angle from a spot nearby: where it leads, and how long it was.
+    /// One Halley step towards a polar angle from a parameter nearby: the new parameter, and the step's length.
     #[inline]
-    pub(super) fn nearer_angle(&self, spot: Spot, angle: f64) -> (Spot, f64) {
-        let step = self.angle(spot).step(angle);
-        (self.moved(spot, step), step)
+    pub(super) fn nearer_angle(&self, param: Param, angle: f64) -> (Param, f64) {
+        let step = self.angle(param).step(angle);
+        (self.moved(param, step), step)
     }
 
-    /// One step towards a driven angle from a spot nearby.
+    /// One Halley step towards a driven angle from a parameter nearby.
     #[inline]
-    pub(super) fn nearer_driven(&self, spot: Spot, driven: f64) -> (Spot, f64) {
-        let step = self.driven(spot).step(driven);
-        (self.moved(spot, step), step)
+    pub(super) fn nearer_driven(&self, param: Param, driven: f64) -> (Param, f64) {
+        let step = self.driven(param).step(driven);
+        (self.moved(param, step), step)
     }
 }
 
-/// Whether a step was the last that is needed.
+/// Whether a step is the last that is needed.
 #[inline]
 pub(super) fn settled(step: f64) -> bool {
     step.abs() < LAST

@@ -114,7 +114,7 @@ fn what_is_no_mechanism_is_refused() {
     assert_eq!(sweep.figures(&design), Err(SweepError::TrayOutOfReach));
     design.tray.distance = Some(-900.0);
     assert_eq!(sweep.figures(&design), Err(SweepError::TrayOutOfReach));
-    // What failed before leaves no trace.
+    // A design that failed before leaves no trace.
     agree(&good, &mut sweep, 1e-9);
 }
 

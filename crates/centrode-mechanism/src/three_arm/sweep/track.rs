@@ -4,13 +4,13 @@ use centrode_geometry::bracketed_root;
 use wide::f64x4;
 
 use super::panel::{Growing, LANES, Panel, inverse_quintic};
-use super::stage::{LAST, Spot, settled};
+use super::stage::{LAST, Param, settled};
 
-/// Spots of growing targets along the pitch curve, over one turn of it: a run of targets to each panel, so that
+/// Parameters of growing targets along the pitch curve, over one turn of it: a run of targets to each panel, so that
 /// the targets of a run are solved side by side.
 #[derive(Clone, Debug)]
 pub(super) struct Track {
-    /// Place in its panel of each target, with room for the lanes beyond the last.
+    /// Position in its panel of each target, with room for the lanes beyond the last.
     places: Vec<f64>,
     runs: Vec<Run>,
     count: usize,
@@ -24,7 +24,7 @@ struct Run {
     targets: Range<usize>,
 }
 
-/// What grows along the pitch curve: its values at the panels' ends over a turn.
+/// Function that grows along the pitch curve: its values at the panels' ends over a turn.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Growth<'a, G> {
     pub(super) of: G,
@@ -33,7 +33,7 @@ pub(super) struct Growth<'a, G> {
 }
 
 impl<G: Growing> Growth<'_, G> {
-    /// How much it grows in a turn.
+    /// Growth in a turn.
     pub(super) fn whole(&self) -> f64 {
         self.ends[self.panels.len()] - self.ends[0]
     }
@@ -46,26 +46,26 @@ impl<G: Growing> Growth<'_, G> {
         (after.clamp(1, self.panels.len()) - 1, turns)
     }
 
-    /// The spot at a value, from anywhere.
-    pub(super) fn spot<const C: usize>(&self, value: f64) -> Spot {
+    /// Parameter at a value, from anywhere.
+    pub(super) fn param<const C: usize>(&self, value: f64) -> Param {
         let (panel, turns) = self.start(value);
         let s = self.place::<C>(panel, value - turns * self.whole());
-        Spot { panel, s, turns }
+        Param { panel, s, turns }
     }
 
-    /// The place of a value in a panel.
+    /// Position of a value in a panel.
     fn place<const C: usize>(&self, index: usize, value: f64) -> f64 {
-        let look = |s: f64| self.of.look::<C, _>(&self.panels[index], s);
+        let evaluate = |s: f64| self.of.evaluate::<C, _>(&self.panels[index], s);
         let (low, high) = (self.ends[index], self.ends[index + 1]);
         let mut s = 2.0 * (value - low) / (high - low) - 1.0;
         for _ in 0..8 {
-            let step = look(s).step(value);
+            let step = evaluate(s).step(value);
             s = (s + step).clamp(-1.0, 1.0);
             if settled(step) {
                 return s;
             }
         }
-        let off = |s: f64| look(s).value - value;
+        let off = |s: f64| evaluate(s).value - value;
         let ends = (off(-1.0).min(0.0), off(1.0).max(0.0));
         bracketed_root(off, -1.0, 1.0, ends.0, ends.1)
     }
@@ -81,7 +81,7 @@ impl Track {
     }
 
     /// Finds the targets, which grow by no more than a turn from the first to the last and have [`LANES`] numbers
-    /// more behind them. Whether all were found.
+    /// more behind them; returns whether all were found.
     #[inline]
     pub(super) fn find<const C: usize, G: Growing>(
         &mut self,
@@ -119,8 +119,8 @@ impl Track {
         false
     }
 
-    /// One step of Halley's method for each target of the last run, from the quintic that has the values and two
-    /// derivatives of the inverse function at the panel's ends; more steps where one was too long to be the last.
+    /// Solves by one step of Halley's method for each target of the last run, from the quintic that has the values
+    /// and two derivatives of the inverse function at the panel's ends; more steps where one was too long to be the last.
     #[inline]
     fn solve<const C: usize, G: Growing>(&mut self, growth: Growth<'_, G>, targets: &[f64]) {
         let Some(run) = self.runs.last() else { return };
@@ -129,21 +129,21 @@ impl Track {
         let (low, high) = (growth.ends[run.panel], growth.ends[run.panel + 1]);
         let width = high - low;
         let guess = inverse_quintic([-1.0, 1.0].map(|end| {
-            let look = growth.of.look::<C, _>(panel, end);
-            let slope = width / look.rate;
-            [slope, -slope * slope * look.change / look.rate]
+            let evaluation = growth.of.evaluate::<C, _>(panel, end);
+            let slope = width / evaluation.rate;
+            [slope, -slope * slope * evaluation.change / evaluation.rate]
         }));
         let scale = f64x4::from(1.0 / width);
         let mut long = f64x4::from(0.0);
         for start in run.targets.clone().step_by(LANES) {
-            // Lanes beyond the run's last target look for the panel's end.
+            // Lanes beyond the run's last target are set to the panel's end.
             let target = (lanes(targets, start) - f64x4::from(shift)).fast_min(f64x4::from(high));
             let u = (target - f64x4::from(low)) * scale;
             let s = guess
                 .into_iter()
                 .rev()
                 .fold(f64x4::ZERO, |s, c| s * u + f64x4::from(c));
-            let step = growth.of.look::<C, _>(panel, s).step(target);
+            let step = growth.of.evaluate::<C, _>(panel, s).step(target);
             long |= !step.abs().simd_lt(f64x4::from(LAST));
             self.places[start..start + LANES].copy_from_slice((s + step).as_array());
         }
@@ -154,7 +154,7 @@ impl Track {
         }
     }
 
-    /// Writes what something that grows is at every target, with so much added at first and for every turn.
+    /// Evaluates a monotone function at every target, adding `first` and the growth of every whole turn.
     #[inline]
     pub(super) fn map<const C: usize, G: Growing>(
         &self,
@@ -167,17 +167,17 @@ impl Track {
             let added = f64x4::from(first + run.turns * growth.whole());
             for start in run.targets.clone().step_by(LANES) {
                 let places = lanes(&self.places, start);
-                let value = growth.of.look::<C, _>(panel, places).value + added;
+                let value = growth.of.evaluate::<C, _>(panel, places).value + added;
                 out[start..start + LANES].copy_from_slice(value.as_array());
             }
         }
     }
 
-    /// The spot of a target.
-    pub(super) fn spot(&self, index: usize) -> Spot {
+    /// The parameter of a target.
+    pub(super) fn param(&self, index: usize) -> Param {
         let after = self.runs.partition_point(|run| run.targets.start <= index);
         let run = &self.runs[after.max(1) - 1];
-        Spot {
+        Param {
             panel: run.panel,
             s: self.places[index],
             turns: run.turns,
@@ -185,7 +185,7 @@ impl Track {
     }
 }
 
-/// So many numbers from a place on, side by side.
+/// Loads [`LANES`] numbers from an index on.
 #[inline]
 pub(super) fn lanes(all: &[f64], start: usize) -> f64x4 {
     f64x4::from(std::array::from_fn::<_, LANES, _>(|lane| all[start + lane]))

@@ -1,4 +1,4 @@
-//! A family of machine in a list of its own: all that one costs.
+//! Family of machine in a list of its own: the whole cost of a new one.
 
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -130,7 +130,7 @@ impl Resolved for Disc {
     }
 }
 
-/// The one line.
+/// List of the one family.
 static DISCS: Families = Families(&[Family::of::<Disc>()]);
 
 #[test]

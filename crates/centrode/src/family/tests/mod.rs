@@ -8,7 +8,7 @@ mod disc;
 mod response;
 mod rooms;
 
-/// Where templates and schemas are checked in.
+/// Folder of the templates and schemas.
 const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../centrode-mechanism/design");
 
 fn shipped() -> Vec<(String, String)> {

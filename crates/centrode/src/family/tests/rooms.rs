@@ -1,11 +1,11 @@
-//! Families stay in rooms of their own.
+//! Guards that families stay in rooms of their own.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::FAMILIES;
 
-/// Names of files and folders that are a family's own, wherever they stand.
+/// Names of files and folders that are a family's own, wherever they are.
 const OWN: [&str; 7] = [
     "gear",
     "gear_pair",

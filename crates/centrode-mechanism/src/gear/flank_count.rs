@@ -11,12 +11,12 @@ use super::{
     tool::Tool,
 };
 
-/// How many flanks of a gear stay sound when every tooth is cut to the tool's full height.
+/// Flank count of a gear with every tooth cut to the tool's full height: all, undercut and short ones.
 #[derive(Clone, Copy, Debug, Default, Eq, PartialEq)]
-pub struct Soundness {
+pub struct FlankCount {
     /// Flanks of the gear, two a tooth.
     pub flanks: u32,
-    /// Flanks of which undercut takes a part.
+    /// Flanks that undercut shortens.
     pub undercut: u32,
     /// Flanks that cannot be cut up to the full addendum.
     pub short: u32,
@@ -24,8 +24,9 @@ pub struct Soundness {
     pub unsound: u32,
 }
 
-impl Soundness {
-    /// Of both members of a pair without cutting its teeth; the addendum is taken as full whatever is written.
+impl FlankCount {
+    /// Counts the flanks of both members of a pair without cutting its teeth; the addendum is taken as full whatever
+    /// is written.
     ///
     /// A flank is undercut where its speed of generation falls to zero on the way down to where the tool's straight
     /// side ends, and short where that happens on the way up to the addendum.
@@ -103,10 +104,10 @@ mod tests {
     use crate::gear::pitch::{Circle, Ellipse, PitchSpec};
     use crate::gear::{GearPair, Limits};
 
-    fn counted(pitch: PitchSpec) -> (GearPair, Limits, [Soundness; 2]) {
+    fn counted(pitch: PitchSpec) -> (GearPair, Limits, [FlankCount; 2]) {
         let design = GearPairDesign::new(pitch);
         let pair = GearPair::resolve(&design).expect("a pair");
-        let sound = Soundness::of(&design, pair.rolling()).expect("teeth");
+        let sound = FlankCount::of(&design, pair.rolling()).expect("teeth");
         let limits = pair.limits();
         (pair, limits, sound)
     }

@@ -1,4 +1,4 @@
-//! Teeth that run into each other away from their contact, where a pitch curve is concave.
+//! Interference of teeth away from their contact, where a pitch curve is concave.
 
 use centrode_geometry::Point;
 
@@ -10,39 +10,39 @@ use super::{
 
 /// Poses a pitch at which two teeth are held against each other.
 const POSES: u32 = 20;
-/// Chords, each with its bulge, that stand for a flank, and for a tip.
+/// Number of chords, each with its bulge, that approximate a flank, and a tip.
 const FLANK_CHORDS: u32 = 24;
 const TIP_CHORDS: u32 = 6;
-/// Overlap that may be the approximation's own, as a share of the pitch.
-const OVERLAP: f64 = 3e-5;
-/// Share of a limiting reach that is kept, so that what passes between places and poses stays clear too.
+/// Penetration that may be the approximation's own, as a share of the pitch.
+const PENETRATION: f64 = 3e-5;
+/// Safety factor on a limiting reach; covers what lies between sampled poses.
 const KEPT: f64 = 0.95;
 
-/// How far up, in roll, the leading and the trailing flank of a tooth go.
+/// Roll lengths to the tip of the leading and the trailing flank of a tooth.
 pub(crate) type Reaches = [f64; 2];
 
 /// A tooth whose reaches are being settled.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Trial {
+pub(crate) struct Candidate {
     pub(crate) member: Member,
     /// Crossings of the leading and the trailing flank.
     pub(crate) crossings: [f64; 2],
     pub(crate) reaches: Reaches,
-    /// How far down the flanks are needed by the mates.
+    /// Roll lengths down to which the mates need the flanks.
     pub(crate) depths: [f64; 2],
 }
 
 /// A driver tooth and a driven tooth that pass near each other.
 #[derive(Debug)]
-pub(crate) struct Passing<'a> {
+pub(crate) struct ToothPassage<'a> {
     rolling: &'a Rolling,
     tool: &'a Tool,
     pitch: f64,
     poses: Vec<(Frame, Frame)>,
 }
 
-impl<'a> Passing<'a> {
-    /// The passing of two teeth about the arc length `middle`, or nothing where both pitch curves are
+impl<'a> ToothPassage<'a> {
+    /// Sets up the passage of two teeth about the arc length `middle`, or nothing where both pitch curves are
     /// convex for a pitch and a half around: the rack's straight flank then keeps the teeth apart.
     pub(crate) fn about(
         rolling: &'a Rolling,
@@ -71,13 +71,13 @@ impl<'a> Passing<'a> {
         })
     }
 
-    /// Shortens one tooth or the other, whichever costs less, or both, until they overlap nowhere.
-    pub(crate) fn clear(&self, driver: &Trial, driven: &Trial) -> (Reaches, Reaches) {
-        let cut = |trial: &Trial, share: f64| Trial {
-            reaches: trial.reaches.map(|r| r * share),
-            ..*trial
+    /// Shortens one tooth or the other, whichever costs less, or both, until they penetrate nowhere.
+    pub(crate) fn clear(&self, driver: &Candidate, driven: &Candidate) -> (Reaches, Reaches) {
+        let cut = |candidate: &Candidate, share: f64| Candidate {
+            reaches: candidate.reaches.map(|r| r * share),
+            ..*candidate
         };
-        if !self.overlap(driver, driven) {
+        if !self.penetrate(driver, driven) {
             return (driver.reaches, driven.reaches);
         }
         let ways = [(true, false), (false, true), (true, true)];
@@ -90,10 +90,10 @@ impl<'a> Passing<'a> {
             };
             let share = longest(|share| {
                 let (a, b) = pair(share);
-                self.overlap(&a, &b)
+                self.penetrate(&a, &b)
             });
             let (a, b) = pair(share);
-            let foul = share == 0.0 && self.overlap(&a, &b);
+            let foul = share == 0.0 && self.penetrate(&a, &b);
             let kept: f64 = a.reaches.iter().chain(&b.reaches).sum();
             (if foul { -1.0 } else { kept }, a.reaches, b.reaches)
         });
@@ -101,7 +101,7 @@ impl<'a> Passing<'a> {
         best.map_or((driver.reaches, driven.reaches), |(_, a, b)| (a, b))
     }
 
-    fn overlap(&self, driver: &Trial, driven: &Trial) -> bool {
+    fn penetrate(&self, driver: &Candidate, driven: &Candidate) -> bool {
         let (one, two) = (Shape::of(self, driver), Shape::of(self, driven));
         let deep = |points: &[Point], carried: &dyn Fn(&Point) -> Point, shape: &Shape| {
             points.iter().any(|p| {
@@ -109,7 +109,7 @@ impl<'a> Passing<'a> {
                 (there - shape.middle).norm() < shape.radius
                     && shape
                         .depth(&there)
-                        .is_some_and(|d| d > OVERLAP * self.pitch && d < 0.5 * self.pitch)
+                        .is_some_and(|d| d > PENETRATION * self.pitch && d < 0.5 * self.pitch)
             })
         };
         self.poses.iter().any(|(a, b)| {
@@ -123,12 +123,12 @@ impl<'a> Passing<'a> {
     }
 }
 
-/// The greatest share, found by halving, at which nothing overlaps, less a margin; zero if none.
-fn longest(overlap: impl Fn(f64) -> bool) -> f64 {
+/// Greatest share, found by bisection, at which nothing penetrates, less a margin; zero if none.
+fn longest(penetrates: impl Fn(f64) -> bool) -> f64 {
     let (mut clear, mut foul) = (0.0, 1.0);
     for _ in 0..10 {
         let middle = 0.5 * (clear + foul);
-        if overlap(middle) {
+        if penetrates(middle) {
             foul = middle;
         } else {
             clear = middle;
@@ -147,35 +147,35 @@ fn carry(from: &Frame, to: &Frame, p: &Point) -> Point {
 /// The working part of a tooth as chords: leading flank upwards, tip, trailing flank downwards.
 struct Shape {
     places: Vec<Point>,
-    /// How far the curve stands out of the material beyond the middle of each chord.
+    /// Height of the curve above the middle of each chord, out of the material.
     bulges: Vec<f64>,
-    /// +1 where the material lies left of the walk.
+    /// Sign: +1 where the material lies to the left of the walk.
     material: f64,
     middle: Point,
     radius: f64,
 }
 
 impl Shape {
-    fn of(passing: &Passing<'_>, trial: &Trial) -> Self {
-        let (rolling, tool) = (passing.rolling, passing.tool);
+    fn of(passage: &ToothPassage<'_>, candidate: &Candidate) -> Self {
+        let (rolling, tool) = (passage.rolling, passage.tool);
         let flank = |side: Side| Flank {
             rolling,
-            member: trial.member,
+            member: candidate.member,
             tool,
             side,
-            crossing: trial.crossings[side as usize],
+            crossing: candidate.crossings[side as usize],
         };
         let (leading, trailing) = (flank(Side::Leading), flank(Side::Trailing));
         let top = |flank: &Flank<'_>| {
-            let arc = flank.crossing - flank.side.sign() * trial.reaches[flank.side as usize];
+            let arc = flank.crossing - flank.side.sign() * candidate.reaches[flank.side as usize];
             flank.foot(rolling.parameter(arc))
         };
         let ((foot_a, high_a), (foot_b, high_b)) = (top(&leading), top(&trailing));
         // Along a flank, from its lowest needed place up.
         let along = |flank: &Flank<'_>, share: f64| {
             let (up, down) = (
-                trial.reaches[flank.side as usize],
-                trial.depths[flank.side as usize],
+                candidate.reaches[flank.side as usize],
+                candidate.depths[flank.side as usize],
             );
             let roll = share * (up + down) - down;
             flank.point(rolling.parameter(flank.crossing - flank.side.sign() * roll))
@@ -186,7 +186,7 @@ impl Shape {
         };
         let shares = |count: u32| (0..=count).map(move |i| f64::from(i) / f64::from(count));
         // The driver is walked counter-clockwise, the driven gear clockwise.
-        let material = if trial.member == Member::Driver {
+        let material = if candidate.member == Member::Driver {
             1.0
         } else {
             -1.0
@@ -215,7 +215,7 @@ impl Shape {
         }
     }
 
-    /// How deep a point lies behind the nearest chord; nothing where an end of the tooth is nearest.
+    /// Depth of a point below the nearest chord; nothing where an end of the tooth is nearest.
     fn depth(&self, point: &Point) -> Option<f64> {
         let mut nearest = f64::INFINITY;
         let mut depth = None;
@@ -256,7 +256,7 @@ fn bulges(places: &[Point], material: f64) -> Vec<f64> {
         if length == 0.0 {
             return 0.0;
         }
-        // Turning towards the material means standing out of the chord.
+        // A curve that turns towards the material bulges out of its chord.
         0.0625 * material * chord.perp(&(second(k) + second(k + 1))) / length
     };
     (0..places.len() - 1).map(bulge).collect()

@@ -7,13 +7,13 @@ const NOISE: f64 = 3e-14;
 /// Halvings after which a panel is accepted as it is: the integrand is then not analytic there.
 const DEEPEST: u32 = 12;
 
-/// The integral of a function from the start of an interval, to the float limit.
+/// Antiderivative of a function from the start of an interval, to the float limit, by Chebyshev series.
 ///
 /// The interval is cut at the function's breaks and then halved until the Chebyshev series of the
 /// integrand on every panel has decayed to rounding; the series is integrated term by term. Cost:
 /// one binary search and one seventeen-term Clenshaw sum an evaluation.
 #[derive(Clone, Debug)]
-pub struct Primitive {
+pub struct Antiderivative {
     /// Panel ends; one more than there are panels.
     ends: Vec<f64>,
     panels: Vec<Panel>,
@@ -28,7 +28,7 @@ struct Panel {
     integral: [f64; NODES + 1],
 }
 
-impl Primitive {
+impl Antiderivative {
     /// Integrates `f` over the interval from the first to the last of `breaks` (ascending, at least two).
     ///
     /// Inside two neighbouring breaks `f` must be analytic for the promised accuracy; it is never
@@ -106,8 +106,8 @@ impl Primitive {
         self.total
     }
 
-    /// Quadrature points and weights of the panels: what integrates `f`, and functions like it, to the
-    /// float limit over the whole interval (Fejér's first rule on every panel).
+    /// Nodes and weights of Fejér's first rule on every panel: they integrate `f`, and functions like it, to the
+    /// float limit over the whole interval.
     pub fn nodes(&self) -> impl Iterator<Item = (f64, f64)> + '_ {
         let tables = tables();
         self.ends.windows(2).flat_map(move |end| {
@@ -134,7 +134,7 @@ impl Primitive {
         panel.before + (u * d - dd + panel.integral[0])
     }
 
-    /// Where the integral of a positive function reaches `value`, for `value` between zero and the total.
+    /// Argument at which the integral of a positive function reaches `value`, between zero and the total.
     #[must_use]
     pub fn inverse(&self, value: f64) -> f64 {
         let after = self.panels.partition_point(|panel| panel.before <= value);
@@ -190,7 +190,7 @@ mod tests {
 
     #[test]
     fn integrals_match_closed_forms_to_the_float_limit() {
-        let p = Primitive::of(|t| 1.0 / (1.0 + 25.0 * t * t), &[-1.0, 1.0]);
+        let p = Antiderivative::of(|t| 1.0 / (1.0 + 25.0 * t * t), &[-1.0, 1.0]);
         for i in 0..=200 {
             let t = -1.0 + f64::from(i) / 100.0;
             let exact = ((5.0 * t).atan() + 5.0_f64.atan()) / 5.0;
@@ -204,7 +204,7 @@ mod tests {
     #[test]
     fn a_break_given_twice_changes_nothing() {
         let ends = [0.0, 0.0, 1.0, 1.0, 2.0, 2.0];
-        let p = Primitive::of(|t| t, &ends);
+        let p = Antiderivative::of(|t| t, &ends);
         for t in [0.0, 1.0, 2.0] {
             assert!((p.at(t) - 0.5 * t * t).abs() < 1e-15, "{t}: {}", p.at(t));
             assert!((p.inverse(p.at(t)) - t).abs() < 1e-15);
@@ -213,7 +213,7 @@ mod tests {
 
     #[test]
     fn a_jump_at_a_break_costs_nothing() {
-        let p = Primitive::of(|t| if t < 1.0 { 1.0 } else { 3.0 }, &[0.0, 1.0, 2.0]);
+        let p = Antiderivative::of(|t| if t < 1.0 { 1.0 } else { 3.0 }, &[0.0, 1.0, 2.0]);
         assert_eq!(p.panels.len(), 2);
         assert!((p.at(1.5) - 2.5).abs() < 1e-15 && (p.total() - 4.0).abs() < 1e-15);
     }

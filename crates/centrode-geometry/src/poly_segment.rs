@@ -1,6 +1,6 @@
 use crate::{Point, Tolerance, Vector};
 
-/// Number of interpolation nodes of a [`Spline`]: degree thirteen.
+/// Number of interpolation nodes of a [`PolySegment`]: degree thirteen.
 pub(crate) const NODES: usize = 14;
 
 /// A polynomial curve segment of degree thirteen on the parameter interval `[-1, 1]`.
@@ -8,7 +8,7 @@ pub(crate) const NODES: usize = 14;
 /// Interpolates an exact curve at Chebyshev–Lobatto nodes, so both ends lie on it to rounding and the
 /// error between them falls with the fourteenth power of the length of the segment.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Spline {
+pub struct PolySegment {
     start: Point,
     end: Point,
     /// Monomial coefficients in `u`, constant first.
@@ -26,7 +26,7 @@ pub struct SegmentJet {
     pub second: Vector,
 }
 
-impl Spline {
+impl PolySegment {
     /// Interpolates `curve` over `[t0, t1]` and estimates the greatest distance from it, in the
     /// curve's units, by the decay of the Chebyshev coefficients.
     pub(crate) fn interpolate(
@@ -62,12 +62,12 @@ impl Spline {
                 coefficients[power] += c * *weight;
             }
         }
-        let spline = Self {
+        let poly = Self {
             start: values[NODES - 1],
             end: values[0],
             coefficients,
         };
-        (spline, error)
+        (poly, error)
     }
 
     /// Splits `[t0, t1]` until every segment's estimated error is below the tolerance.
@@ -82,10 +82,10 @@ impl Spline {
         tolerance: Tolerance,
     ) -> Vec<Self> {
         let spans = Self::fit_spans(curve, t0, t1, tolerance);
-        spans.into_iter().map(|(spline, ..)| spline).collect()
+        spans.into_iter().map(|(poly, ..)| poly).collect()
     }
 
-    /// As [`fit`](Self::fit), each segment with the parameters of the curve it stands for.
+    /// Splits `[t0, t1]` like [`fit`](Self::fit), each segment with its interval of the curve's parameter.
     #[must_use]
     pub fn fit_spans(
         mut curve: impl FnMut(f64) -> Point,
@@ -97,15 +97,15 @@ impl Spline {
         let mut stack = vec![(t0, t1, 0_u32)];
         while let Some((a, b, depth)) = stack.pop() {
             crate::checkpoint();
-            let (mut spline, error) = Self::interpolate(&mut curve, a, b);
+            let (mut poly, error) = Self::interpolate(&mut curve, a, b);
             // Below the rounding of the points no halving helps; nor does it at a jump.
             let rounding =
-                32.0 * f64::EPSILON * spline.start.coords.amax().max(spline.end.coords.amax());
+                32.0 * f64::EPSILON * poly.start.coords.amax().max(poly.end.coords.amax());
             if error <= tolerance.mm().max(rounding) || depth >= 16 || error.is_nan() {
                 if let Some((last, ..)) = out.last() {
-                    spline.start = last.end;
+                    poly.start = last.end;
                 }
-                out.push((spline, a, b));
+                out.push((poly, a, b));
             } else {
                 let middle = 0.5 * (a + b);
                 stack.push((middle, b, depth + 1));
@@ -115,7 +115,7 @@ impl Spline {
         out
     }
 
-    /// Length of the chain of `count` chords of equal parameter.
+    /// Length of the polygon of `count` chords of equal parameter.
     #[must_use]
     pub fn chords(&self, count: u32) -> f64 {
         let point = |i: u32| self.at(-1.0 + 2.0 * f64::from(i) / f64::from(count)).point;
@@ -169,7 +169,7 @@ impl Spline {
         }
     }
 
-    /// The same curve walked the other way.
+    /// The segment with its direction of travel reversed.
     #[must_use]
     pub fn reversed(&self) -> Self {
         let mut coefficients = self.coefficients;
@@ -213,17 +213,17 @@ impl Spline {
         for (value, &node) in values.iter_mut().zip(&tables().nodes) {
             *value = self.at(middle + half * node).point;
         }
-        let mut spline = Self::through(&values, tables()).0;
+        let mut poly = Self::through(&values, tables()).0;
         if u0 == -1.0 {
-            spline.start = self.start;
+            poly.start = self.start;
         }
         if u1 == 1.0 {
-            spline.end = self.end;
+            poly.end = self.end;
         }
-        spline
+        poly
     }
 
-    /// The same curve moved so that it starts and ends exactly at the given points.
+    /// The segment moved so that it starts and ends exactly at the given points.
     ///
     /// The correction is linear in the parameter: meant for end points that differ by rounding.
     #[must_use]
@@ -295,20 +295,20 @@ mod tests {
     fn fit_stays_within_each_tolerance() {
         for exponent in 2..12 {
             let tolerance = Tolerance::new(10_f64.powi(-exponent)).expect("positive");
-            let splines = Spline::fit(circle, 0.0, 6.0, tolerance);
-            for s in &splines {
+            let polys = PolySegment::fit(circle, 0.0, 6.0, tolerance);
+            for s in &polys {
                 for i in 0..=50 {
                     let p = s.at(-1.0 + f64::from(i) / 25.0).point;
                     assert!((p.coords.norm() - 10.0).abs() < tolerance.mm().max(1e-13));
                 }
             }
-            assert!(splines.windows(2).all(|w| w[0].end() == w[1].start()));
+            assert!(polys.windows(2).all(|w| w[0].end() == w[1].start()));
         }
     }
 
     #[test]
     fn parts_reversal_and_derivatives_agree_with_the_circle() {
-        let (s, _) = Spline::interpolate(&mut circle, 0.2, 0.9);
+        let (s, _) = PolySegment::interpolate(&mut circle, 0.2, 0.9);
         let jet = s.at(0.3);
         let t = 0.55_f64 + 0.35 * 0.3;
         assert!((jet.first - Vector::new(-t.sin(), t.cos()) * 3.5).norm() < 1e-9);

@@ -1,0 +1,80 @@
+//! Summary lines of doc comments stand alone in an index: they begin with a noun or a verb.
+
+use std::{
+    fs, io,
+    path::{Path, PathBuf},
+};
+
+/// First words that say nothing without the item, or the neighbour, they refer to.
+const VAGUE: [&str; 3] = ["What ", "The same", "As "];
+
+/// Folders and files whose comments are not clean yet.
+const EXCEPTED: [&str; 10] = [
+    "crates/centrode-mechanism/src/machine/",
+    "crates/centrode-export/src/cam/",
+    "crates/centrode-export/src/drawing.rs",
+    "crates/centrode-export/src/feeder/",
+    "crates/centrode-export/src/gear_pair/",
+    "crates/centrode-export/src/machine/",
+    "crates/centrode-export/src/model.rs",
+    "crates/centrode-export/src/page/",
+    "crates/centrode-export/src/shaft/",
+    "crates/centrode-export/src/three_arm/",
+];
+
+/// Rust files below a folder, sorted.
+fn rust_files(folder: &Path, out: &mut Vec<PathBuf>) -> io::Result<()> {
+    let mut entries = fs::read_dir(folder)?
+        .map(|entry| entry.map(|entry| entry.path()))
+        .collect::<io::Result<Vec<_>>>()?;
+    entries.sort();
+    for path in entries {
+        if path.is_dir() {
+            rust_files(&path, out)?;
+        } else if path.extension().is_some_and(|ending| ending == "rs") {
+            out.push(path);
+        }
+    }
+    Ok(())
+}
+
+/// Line number and text of the first line of each doc comment.
+fn summaries(text: &str) -> impl Iterator<Item = (usize, &str)> {
+    let doc = |line: &'_ str| line.starts_with("///") || line.starts_with("//!");
+    let mut inside = false;
+    text.lines().enumerate().filter_map(move |(index, line)| {
+        let line = line.trim_start();
+        let first = doc(line) && !inside;
+        inside = doc(line);
+        first.then(|| (index + 1, line[3..].trim_start()))
+    })
+}
+
+#[test]
+fn summary_lines_stand_alone() -> io::Result<()> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let mut files = Vec::new();
+    for folder in ["crates", "python/src"] {
+        rust_files(&root.join(folder), &mut files)?;
+    }
+    assert!(files.len() > 100, "only {} files found", files.len());
+    let mut found = Vec::new();
+    for path in files {
+        let name = path.strip_prefix(&root).unwrap_or(&path).display();
+        let name = name.to_string().replace('\\', "/");
+        if EXCEPTED.iter().any(|room| name.starts_with(room)) {
+            continue;
+        }
+        for (line, summary) in summaries(&fs::read_to_string(&path)?) {
+            if VAGUE.iter().any(|word| summary.starts_with(word)) {
+                found.push(format!("{name}:{line}: {summary}"));
+            }
+        }
+    }
+    assert!(
+        found.is_empty(),
+        "begin with a noun or a verb:\n{}",
+        found.join("\n")
+    );
+    Ok(())
+}
