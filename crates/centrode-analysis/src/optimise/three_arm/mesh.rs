@@ -2,7 +2,7 @@ use centrode_mechanism::gear::GearPair;
 use centrode_mechanism::gear::design::{Addendum, GearPairDesign, TeethSpec};
 use centrode_mechanism::three_arm::design::ThreeArmDesign;
 
-use crate::check::{allowed_error, check};
+use crate::gear_pair::{allowed_error, check};
 use crate::{Goal, Severity};
 
 /// Transmission error of half the progress, rad.

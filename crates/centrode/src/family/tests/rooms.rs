@@ -17,11 +17,7 @@ const OWN: [&str; 7] = [
 ];
 
 /// Other files of one family, and the lists: that of the families and that of their Python classes.
-const OTHERS: [&str; 9] = [
-    "centrode-analysis/src/arm_clearance.rs",
-    "centrode-analysis/src/gear_train.rs",
-    "centrode-analysis/src/pusher.rs",
-    "centrode-analysis/src/variants.rs",
+const OTHERS: [&str; 5] = [
     "centrode/src/family/mod.rs",
     "python/src/design.rs",
     "python/src/lib.rs",

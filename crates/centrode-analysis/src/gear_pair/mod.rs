@@ -1,8 +1,12 @@
+//! Check of a gear pair.
+
+mod remedy;
+
 use std::f64::consts::PI;
 
 use centrode_mechanism::gear::{Gear, GearPair, Limits, Member, ToolKind, Tooth};
 
-use crate::remedy::remedy;
+use self::remedy::remedy;
 use crate::{Contact, Finding, Place, Report, Severity};
 
 /// Penetration, in modules, above which two outlines are reported to interfere.

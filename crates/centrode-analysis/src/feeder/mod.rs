@@ -5,6 +5,7 @@ mod forces;
 mod gears;
 mod goals;
 mod plates;
+mod swing_spread;
 #[cfg(test)]
 mod tests;
 
@@ -16,8 +17,9 @@ use centrode_mechanism::transmission::Transmission;
 pub use attainable::Attainable;
 pub use forces::{FeederForces, FeederForcesError};
 pub(crate) use goals::{feed_stroke, goals};
+pub use swing_spread::{SixBarTolerances, SwingSpread};
 
-use crate::{Finding, Place, Report, Severity, SixBarTolerances, SwingSpread, Table};
+use crate::{Finding, Place, Report, Severity, Table};
 
 /// Number of random six-bars, Monte Carlo samples within the tolerances.
 const MADE: u32 = 2000;

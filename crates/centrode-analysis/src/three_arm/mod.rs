@@ -1,3 +1,10 @@
+//! Check of a three-arm mechanism.
+
+mod arm_clearance;
+mod gear_train;
+mod pusher;
+mod variants;
+
 use std::f64::consts::TAU;
 
 use centrode_geometry::Tolerance;
@@ -5,9 +12,13 @@ use centrode_mechanism::gear::{FlankCount, GearPairError, Member};
 use centrode_mechanism::three_arm::design::GoalsSpec;
 use centrode_mechanism::three_arm::{Figures, PickingRule, PlantingRule, ThreeArm};
 
-use crate::gear_train::{TrainTeeth, check_gear_train};
-use crate::pusher::check_pusher;
-use crate::{ArmClearance, ArmClearanceCourse, Finding, Goal, Place, Report, Severity, Table};
+use self::gear_train::check_gear_train;
+use self::pusher::check_pusher;
+use crate::{Finding, Goal, Place, Report, Severity, Table};
+
+pub use arm_clearance::{ArmClearance, ArmClearanceCourse, ArmClearanceError, between_arms};
+pub use gear_train::{TrainTeeth, carrier_turn};
+pub use variants::{Variants, VariantsError};
 
 /// Tolerance of the arms' clearances, as a share of the tip's distance from the planet's axis.
 const ARM_TOLERANCE: f64 = 1e-4;
