@@ -36,7 +36,7 @@ class Finding:
     required: float | None
     """The figure it is held against, in `unit`."""
     unit: str
-    """"mm", "rad", or empty for a plain number."""
+    """Unit of both figures, such as "mm" or "rad"; empty for a plain number."""
     remedy: str | None
     """What usually helps."""
     place: Place
@@ -58,7 +58,7 @@ class Table:
     title: str
     """What the figures are."""
     unit: str
-    """"mm", "rad", or empty for plain numbers."""
+    """Unit of every figure, such as "mm" or "rad"; empty for plain numbers."""
     columns: tuple[str, ...]
     """What each column is of."""
     rows: Mapping[str, tuple[float, ...]]
@@ -76,7 +76,9 @@ class Report:
     findings: tuple[Finding, ...]
     """What is wrong or worth knowing, worst first."""
     values: Mapping[str, float]
-    """Figures by name: lengths in mm, angles in rad."""
+    """Figures by name."""
+    units: Mapping[str, str]
+    """Unit of each figure, such as "mm" or "rad"; empty for a plain number."""
     goals: tuple[Goal, ...] = ()
     """What it is to reach, if its design says."""
     tables: tuple[Table, ...] = ()
@@ -85,5 +87,5 @@ class Report:
     def __str__(self) -> str:
         """Every figure, every goal and every finding, a line each."""
         width = max(map(len, self.values), default=0)
-        figures = [f"{name:{width}}  {value:.6g}" for name, value in self.values.items()]
+        figures = [f"{name:{width}}  {value:.6g} {self.units[name]}".rstrip() for name, value in self.values.items()]
         return "\n".join([*figures, *map(str, self.goals), *map(str, self.findings)])

@@ -1,8 +1,10 @@
 //! Results of many parts, handed over as the records of the Python part of the package.
 
+use std::collections::BTreeMap;
+
 use centrode_analysis::interference::Clearance;
 use centrode_analysis::optimise::{Ended, Progress};
-use centrode_analysis::{Contact, Finding, Goal, Report, Severity, Table};
+use centrode_analysis::{Contact, Finding, Goal, Report, Severity, Table, Unit};
 use centrode_mechanism::gear::{OverPins, Pin, Tooth, ToothSide};
 use centrode_mechanism::linkage;
 use numpy::{IntoPyArray, PyArrayMethods};
@@ -89,10 +91,15 @@ pub(crate) fn clearance<'py>(py: Python<'py>, found: &Clearance) -> PyResult<Bou
 pub(crate) fn report<'py>(py: Python<'py>, report: &Report) -> PyResult<Bound<'py, PyAny>> {
     static CLASS: Class = Class::new("centrode._report", "Report");
     let findings = tuple(py, report.findings.iter().map(|f| finding(py, f)))?;
+    let units = report.values.keys().map(|key| {
+        let symbol = report.unit(key).map_or("", Unit::symbol);
+        (*key, symbol)
+    });
     let keywords = Keywords::new(py)
         .with("ok", report.ok())?
         .with("findings", findings)?
         .with("values", report.values.clone())?
+        .with("units", units.collect::<BTreeMap<_, _>>())?
         .with("goals", goals(py, &report.goals)?)?
         .with(
             "tables",
@@ -138,7 +145,7 @@ pub(crate) fn goals<'py>(py: Python<'py>, goals: &[Goal]) -> PyResult<Bound<'py,
             .with("title", goal.title)?
             .with("value", goal.value)?
             .with("wanted", PyTuple::new(py, goal.wanted)?)?
-            .with("unit", goal.unit)?
+            .with("unit", goal.unit.symbol())?
             .with("scale", goal.scale)?
             .with("margin", goal.margin)?
             .with("progress", goal.progress)?
@@ -157,7 +164,7 @@ fn table<'py>(py: Python<'py>, table: &Table) -> PyResult<Bound<'py, PyAny>> {
     let keywords = Keywords::new(py)
         .with("name", table.name)?
         .with("title", table.title)?
-        .with("unit", table.unit)?
+        .with("unit", table.unit.symbol())?
         .with("columns", PyTuple::new(py, &table.columns)?)?
         .with("rows", rows)?;
     CLASS.make(&keywords.0)
@@ -181,7 +188,7 @@ fn finding<'py>(py: Python<'py>, finding: &Finding) -> PyResult<Bound<'py, PyAny
         .with("message", finding.message.as_str())?
         .with("measured", finding.measured)?
         .with("required", finding.required)?
-        .with("unit", finding.unit)?
+        .with("unit", finding.unit.symbol())?
         .with("remedy", finding.remedy)?
         .with("place", PLACE.make(&place.0)?)?;
     CLASS.make(&keywords.0)

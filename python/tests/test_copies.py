@@ -92,7 +92,7 @@ def objects():
         ct.MovingBox(moved_distance=2.05),
         report,
         report.goals[0],
-        ct.Report(ok=True, findings=(), values={}),
+        ct.Report(ok=True, findings=(), values={}, units={}),
         ct.Finding("a", "note", "b", 1.0, None, "mm", None, ct.Place("driver", (1,), 0.5)),
         ct.Place("driver", (1,), 0.5),
         ct.Table("a", "b", "mm", ("c",), {"d": (1.0,)}),

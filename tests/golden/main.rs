@@ -51,6 +51,11 @@ fn outcome(name: &str) -> Value {
         .iter()
         .map(|f| json!({"rule": f.rule, "severity": f.severity, "part": f.place.part, "teeth": f.place.teeth}))
         .collect();
+    for key in report.values.keys() {
+        let titled = report.groups.iter().flat_map(|group| group.rows);
+        let places = titled.filter(|row| row.keys.contains(key)).count();
+        assert_eq!(places, 1, "{name}: titles of the figure {key}");
+    }
     let figures = json!(report);
     let mut outcome = json!({"values": figures["values"], "findings": findings, "files": written(mechanism.as_ref())});
     for (i, goal) in report.goals.iter().enumerate() {

@@ -1,6 +1,6 @@
 use std::fmt::Write as _;
 
-use centrode_analysis::{Goal, check_three_arm};
+use centrode_analysis::{Goal, Unit, check_three_arm};
 use centrode_mechanism::design::DesignSpec as _;
 use centrode_mechanism::gear::design::Phase;
 use centrode_mechanism::gear::pitch::{PitchSpec, Plane};
@@ -158,8 +158,8 @@ fn miss(goal: &Goal) -> String {
     match (goal.value, goal.margin) {
         (Some(value), Some(margin)) => {
             let (factor, unit, places) = match goal.unit {
-                "rad" => (180.0 / std::f64::consts::PI, "°", 2),
-                "" => (1.0, "", 0),
+                Unit::Angle => (180.0 / std::f64::consts::PI, "°", 2),
+                Unit::Count => (1.0, "", 0),
                 _ => (1.0, "", 2),
             };
             let shown = format!("{:.places$}{unit}", value * factor);

@@ -2,12 +2,44 @@ use std::collections::BTreeMap;
 
 use serde::{Serialize, Serializer};
 
-/// A figure in JSON: a number or, for those JSON has no number for, one of the strings `"Infinity"`, `"-Infinity"` and
+use crate::Unit;
+
+/// Figures that are shown together, as rows and columns.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FigureGroup {
+    /// Heading of the rows.
+    pub heading: &'static str,
+    /// Headings of the columns; empty for a single column that needs none.
+    pub columns: &'static [&'static str],
+    /// The rows.
+    pub rows: &'static [FigureRow],
+}
+
+/// Figures of one kind in a row: a figure a column.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FigureRow {
+    /// Title for a person.
+    pub title: &'static str,
+    /// Keys of the figures in [`Report::values`](crate::Report::values); empty where a column has none.
+    pub keys: &'static [&'static str],
+    /// Unit of the figures.
+    pub unit: Unit,
+}
+
+pub(crate) const fn row(
+    title: &'static str,
+    keys: &'static [&'static str],
+    unit: Unit,
+) -> FigureRow {
+    FigureRow { title, keys, unit }
+}
+
+/// Number in JSON, or, for those JSON has no number for, one of the strings `"Infinity"`, `"-Infinity"` and
 /// `"NaN"`, which `float` of Python and `Number` of JavaScript read.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Figure(pub f64);
+pub struct JsonNumber(pub f64);
 
-impl Serialize for Figure {
+impl Serialize for JsonNumber {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         match self.0 {
             value if value.is_finite() => serializer.serialize_f64(value),
@@ -20,7 +52,7 @@ impl Serialize for Figure {
 
 /// Writes a figure that may be absent.
 pub(crate) fn option<S: Serializer>(value: &Option<f64>, serializer: S) -> Result<S::Ok, S::Error> {
-    value.map(Figure).serialize(serializer)
+    value.map(JsonNumber).serialize(serializer)
 }
 
 /// Writes a list of figures that may be absent.
@@ -28,7 +60,7 @@ pub(crate) fn options<S: Serializer>(
     values: &[Option<f64>],
     serializer: S,
 ) -> Result<S::Ok, S::Error> {
-    serializer.collect_seq(values.iter().map(|value| value.map(Figure)))
+    serializer.collect_seq(values.iter().map(|value| value.map(JsonNumber)))
 }
 
 /// Writes figures by name.
@@ -36,7 +68,11 @@ pub(crate) fn values<S: Serializer>(
     values: &BTreeMap<&'static str, f64>,
     serializer: S,
 ) -> Result<S::Ok, S::Error> {
-    serializer.collect_map(values.iter().map(|(name, &value)| (name, Figure(value))))
+    serializer.collect_map(
+        values
+            .iter()
+            .map(|(name, &value)| (name, JsonNumber(value))),
+    )
 }
 
 /// Writes rows of figures, each with its name.
@@ -44,6 +80,17 @@ pub(crate) fn rows<S: Serializer>(
     rows: &[(String, Vec<f64>)],
     serializer: S,
 ) -> Result<S::Ok, S::Error> {
-    let figures = |row: &[f64]| row.iter().copied().map(Figure).collect::<Vec<_>>();
+    let figures = |row: &[f64]| row.iter().copied().map(JsonNumber).collect::<Vec<_>>();
     serializer.collect_seq(rows.iter().map(|(name, row)| (name, figures(row))))
+}
+
+/// Writes the unit of each figure by its key.
+pub(crate) fn units<S: Serializer>(
+    groups: &[FigureGroup],
+    serializer: S,
+) -> Result<S::Ok, S::Error> {
+    let rows = groups.iter().flat_map(|group| group.rows);
+    let keys = rows.flat_map(|row| row.keys.iter().map(|key| (*key, row.unit)));
+    let named: BTreeMap<&str, Unit> = keys.filter(|(key, _)| !key.is_empty()).collect();
+    serializer.collect_map(named)
 }

@@ -1,6 +1,6 @@
 use serde::Serialize;
 
-use crate::figure;
+use crate::{Unit, figure};
 
 /// Goal of a mechanism: a figure and the range in which it is wanted.
 ///
@@ -19,8 +19,8 @@ pub struct Goal {
     pub value: Option<f64>,
     /// Least and greatest figure wanted; none where it is open.
     pub wanted: [Option<f64>; 2],
-    /// Unit of the figures: `mm`, `rad`, or empty for a plain number.
-    pub unit: &'static str,
+    /// Unit of the figures.
+    pub unit: Unit,
     /// Size of a miss that leaves half the progress, in `unit`.
     pub scale: f64,
     /// Distance of the figure from the nearest end of its range: positive inside, negative outside.
@@ -38,7 +38,7 @@ impl Goal {
         (number, name, title): (u32, &'static str, &'static str),
         value: Option<f64>,
         wanted: [Option<f64>; 2],
-        unit: &'static str,
+        unit: Unit,
         scale: f64,
     ) -> Self {
         let goal = Self {
@@ -86,7 +86,13 @@ mod tests {
 
     fn goal(value: f64) -> Goal {
         let about = (2, "pick-angle", "pick angle");
-        Goal::new(about, Some(value), [Some(-5.0), Some(15.0)], "", 20.0)
+        Goal::new(
+            about,
+            Some(value),
+            [Some(-5.0), Some(15.0)],
+            Unit::Count,
+            20.0,
+        )
     }
 
     #[test]
@@ -117,7 +123,7 @@ mod tests {
     #[test]
     fn what_was_not_looked_at_has_no_figure() {
         let about = (1, "arm-clearance", "arms clear of each other");
-        let unknown = Goal::new(about, None, [Some(0.0), None], "mm", 1.0);
+        let unknown = Goal::new(about, None, [Some(0.0), None], Unit::Millimetre, 1.0);
         assert_eq!(
             (unknown.met(), unknown.margin, unknown.progress),
             (None, None, None)

@@ -13,13 +13,14 @@ mod report;
 mod response;
 mod shaft;
 mod three_arm;
+mod unit;
 
 pub use contact::Contact;
 pub use feeder::{
     Attainable, FeederForces, FeederForcesError, SixBarTolerances, SwingSpread, check_feeder,
     check_strokes,
 };
-pub use figure::Figure;
+pub use figure::{FigureGroup, FigureRow, JsonNumber};
 pub use gear_pair::{check, check_contact};
 pub use goal::Goal;
 pub use incomplete_contact::IncompleteContact;
@@ -32,3 +33,4 @@ pub use three_arm::{
     arm_clearance_course, between_arms, carrier_turn, check_arms, check_three_arm,
     check_three_arm_teeth, goals,
 };
+pub use unit::Unit;

@@ -2,7 +2,7 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
-use crate::{Goal, figure};
+use crate::{FigureGroup, Goal, Unit, figure};
 
 /// Severity of a finding.
 #[derive(Clone, Copy, Debug, Eq, Ord, PartialEq, PartialOrd, Serialize)]
@@ -51,8 +51,8 @@ pub struct Finding {
         serialize_with = "figure::option"
     )]
     pub required: Option<f64>,
-    /// Unit of both figures: `mm`, `rad`, or empty for a plain number.
-    pub unit: &'static str,
+    /// Unit of both figures.
+    pub unit: Unit,
     /// Usual remedy.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub remedy: Option<&'static str>,
@@ -67,8 +67,8 @@ pub struct Table {
     pub name: &'static str,
     /// Title of the table.
     pub title: &'static str,
-    /// Unit of every figure: `mm`, `rad`, `N`, or empty for a plain number.
-    pub unit: &'static str,
+    /// Unit of every figure.
+    pub unit: Unit,
     /// Headings of the columns.
     pub columns: Vec<String>,
     /// Rows, each with its heading and its figures.
@@ -78,14 +78,17 @@ pub struct Table {
 
 /// All findings and figures of one mechanism.
 ///
-/// In JSON an infinite figure is a string, as [`Figure`](crate::Figure) says.
+/// In JSON an infinite figure is a string, as [`JsonNumber`](crate::JsonNumber) says.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Report {
     /// Findings, worst first.
     pub findings: Vec<Finding>,
-    /// Figures by name; the unit is in the documentation of the check that makes them.
+    /// Figures by key.
     #[serde(serialize_with = "figure::values")]
     pub values: BTreeMap<&'static str, f64>,
+    /// Titles and units of the figures, in the order in which they are shown; in JSON the unit of each figure.
+    #[serde(rename = "units", serialize_with = "figure::units")]
+    pub groups: Vec<FigureGroup>,
     /// Goals, if its design has any.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub goals: Vec<Goal>,
@@ -100,6 +103,72 @@ impl Report {
     pub fn ok(&self) -> bool {
         self.findings.iter().all(|f| f.severity < Severity::Error)
     }
+
+    /// Unit of a figure of `values`; none for a key that is in no group.
+    #[must_use]
+    pub fn unit(&self, key: &str) -> Option<Unit> {
+        let mut rows = self.groups.iter().flat_map(|group| group.rows);
+        let found = rows.find(|row| !key.is_empty() && row.keys.contains(&key));
+        found.map(|row| row.unit)
+    }
+
+    /// Puts the worst findings first.
+    pub(crate) fn worst_first(&mut self) {
+        let severity = |finding: &Finding| std::cmp::Reverse(finding.severity);
+        self.findings.sort_by_key(severity);
+    }
+
+    /// A finding for each goal that is missed: the mechanism does not do what it is asked to. `about` has the place, the
+    /// remedy and what else there is to say of a goal.
+    pub(crate) fn blame_goals(&mut self, about: impl Fn(&Goal) -> Missed) {
+        let missed = self.goals.iter().filter(|goal| goal.met() == Some(false));
+        let findings = missed.filter_map(|goal| {
+            let (value, margin) = (goal.value?, goal.margin?);
+            let Missed {
+                input,
+                remedy,
+                words,
+            } = about(goal);
+            let Goal {
+                number,
+                title,
+                unit,
+                ..
+            } = goal;
+            let [value_told, margin_told] = [value, -margin].map(|figure| unit.tell(figure));
+            Some(Finding {
+                rule: goal.name,
+                severity: Severity::Error,
+                message: format!(
+                    "goal {number}, {title}: {value_told}, missed by {margin_told}{words}"
+                ),
+                measured: Some(value),
+                required: match goal.wanted {
+                    [Some(least), _] if value < least => Some(least),
+                    [_, greatest] => greatest,
+                },
+                unit: *unit,
+                remedy,
+                place: Place {
+                    input,
+                    ..Place::default()
+                },
+            })
+        });
+        let findings: Vec<Finding> = findings.collect();
+        self.findings.extend(findings);
+    }
+}
+
+/// Words of a goal that is missed, beside its figures.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Missed {
+    /// Input angle at which the figure is found, rad.
+    pub(crate) input: Option<f64>,
+    /// Usual remedy.
+    pub(crate) remedy: Option<&'static str>,
+    /// What else there is to say, after the miss.
+    pub(crate) words: String,
 }
 
 #[cfg(test)]
@@ -112,12 +181,18 @@ mod tests {
         report.values.insert("limit", f64::INFINITY);
         report.values.insert("least", f64::NEG_INFINITY);
         report.values.insert("module", 2.25);
-        let goal = Goal::new((1, "a", "a"), Some(f64::INFINITY), [None; 2], "", 1.0);
+        let goal = Goal::new(
+            (1, "a", "a"),
+            Some(f64::INFINITY),
+            [None; 2],
+            Unit::Count,
+            1.0,
+        );
         report.goals.push(goal);
         report.tables.push(Table {
             name: "t",
             title: "t",
-            unit: "",
+            unit: Unit::Count,
             columns: vec!["a".into(), "b".into()],
             rows: vec![("row".into(), vec![1.0, f64::INFINITY])],
         });

@@ -3,7 +3,7 @@ use centrode_mechanism::design::{Design, DesignError};
 use rayon::prelude::{IntoParallelIterator, ParallelIterator};
 use serde::Serialize;
 
-use crate::{Report, figure};
+use crate::{Report, Unit, figure};
 
 /// Response of the figures of a mechanism to one number of its design: the parameter response of Yin et al. 2021,
 /// Figure 5, DOI 10.25165/j.ijabe.20211405.6844, for any number of any family.
@@ -22,8 +22,8 @@ pub struct Response {
 pub struct Answer {
     /// Name of the goal or figure.
     pub name: &'static str,
-    /// Unit: `mm`, `rad`, or empty for a plain number or a unit that the name holds.
-    pub unit: &'static str,
+    /// Unit of the figures.
+    pub unit: Unit,
     /// The figure at each value; none where there is none.
     #[serde(serialize_with = "figure::options")]
     pub figures: Vec<Option<f64>>,
@@ -78,13 +78,15 @@ impl Response {
             }
         }
         for (at, report) in self.reports.iter().enumerate() {
-            for (name, value) in report.iter().flat_map(|report| &report.values) {
+            let Some(report) = report else { continue };
+            for (name, value) in &report.values {
                 // A goal's own figure has been listed.
                 if !found
                     .iter()
                     .any(|a| a.name == *name && a.figures[at].is_some())
                 {
-                    add(&mut found, name, "", at, Some(*value));
+                    let unit = report.unit(name).unwrap_or(Unit::Number);
+                    add(&mut found, name, unit, at, Some(*value));
                 }
             }
         }

@@ -1,8 +1,6 @@
 mod figures;
 mod findings;
 mod goals;
-mod groups;
-mod unit;
 
 use std::io::Write;
 

@@ -86,21 +86,12 @@ fn asked<'a>(
 
 /// A figure as a person reads it: degrees for radians.
 fn shown(answer: &Answer, at: usize) -> String {
-    let factor = if answer.unit == "rad" {
-        1.0_f64.to_degrees()
-    } else {
-        1.0
-    };
-    answer.figures[at].map_or("-".into(), |figure| format!("{:.4}", figure * factor))
+    answer.figures[at].map_or("-".into(), |figure| answer.unit.show(figure))
 }
 
 fn write_table(response: &Found, answers: &[&Answer], out: &mut impl Write) -> Result<(), Failure> {
     let head = |answer: &&Answer| {
-        let unit = if answer.unit == "rad" {
-            "deg"
-        } else {
-            answer.unit
-        };
+        let unit = answer.unit.shown();
         format!("{} {unit}", answer.name).trim_end().to_owned()
     };
     let heads: Vec<String> = answers.iter().map(head).collect();

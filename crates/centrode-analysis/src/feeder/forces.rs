@@ -4,7 +4,7 @@ use centrode_geometry::{Extreme, Point, SolidError, Vector, greatest_each};
 use centrode_mechanism::feeder::{Feeder, FeederError, Part};
 use centrode_mechanism::linkage::{Branch, Link, Linkage, LinkageError};
 
-use crate::{CrankMotion, ForceError, Forces, Kinetostatics, LinkMass, Report, Table};
+use crate::{CrankMotion, ForceError, Forces, Kinetostatics, LinkMass, Report, Table, Unit};
 
 /// Standard acceleration of free fall, down the y axis, mm/s².
 const GRAVITY: Vector = Vector::new(0.0, -9806.65);
@@ -165,7 +165,7 @@ pub(super) fn forces(feeder: &Feeder, report: &mut Report) {
     report.tables.push(Table {
         name: "joint_forces",
         title: "Greatest force in a joint",
-        unit: "N",
+        unit: Unit::Newton,
         columns: vec!["held still".into(), "moving".into()],
         rows: rows.map(|(name, row)| ((*name).into(), row)).collect(),
     });

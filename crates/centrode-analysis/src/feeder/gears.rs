@@ -1,7 +1,7 @@
 use centrode_geometry::Tolerance;
 use centrode_mechanism::feeder::Feeder;
 
-use crate::{Finding, IncompleteContact, Place, Report, Severity};
+use crate::{Finding, IncompleteContact, Place, Report, Severity, Unit};
 
 /// Number of inputs at which the intermittent gears are held against each other.
 const GEAR_LOOKS: u32 = 240;
@@ -36,7 +36,7 @@ pub(super) fn gears(feeder: &Feeder, report: &mut Report) {
         Err(error) => {
             let message = error.to_string();
             let none = [None, None];
-            let finding = about_gears("no-gears", Severity::Error, message, none, "");
+            let finding = about_gears("no-gears", Severity::Error, message, none, Unit::Count);
             report.findings.push(finding);
             return;
         }
@@ -68,7 +68,7 @@ pub(super) fn gears(feeder: &Feeder, report: &mut Report) {
             Severity::Error,
             message,
             figures,
-            "mm",
+            Unit::Millimetre,
         ));
     }
     let loose = moving.max(resting);
@@ -87,7 +87,13 @@ pub(super) fn gears(feeder: &Feeder, report: &mut Report) {
             loose.to_degrees()
         );
         let figures = [Some(loose), Some(allowed)];
-        let mut finding = about_gears("gears-loose", Severity::Warning, message, figures, "rad");
+        let mut finding = about_gears(
+            "gears-loose",
+            Severity::Warning,
+            message,
+            figures,
+            Unit::Angle,
+        );
         finding.remedy =
             Some("an entry angle, for which cams are made, or pins nearer the line of centres");
         report.findings.push(finding);

@@ -4,7 +4,8 @@ use centrode_mechanism::feeder::{Feeder, FeederGoals};
 use centrode_mechanism::linkage::SixBar;
 
 use super::Attainable;
-use crate::{Finding, Goal, Place, Report, Severity};
+use crate::report::Missed;
+use crate::{Goal, Report, Unit};
 
 /// Crank angle of the feed stroke, rad.
 pub(crate) fn feed_stroke(six_bar: &SixBar) -> f64 {
@@ -33,21 +34,21 @@ pub(crate) fn goals(feeder: &Feeder) -> Vec<Goal> {
             (1, "swing", "swing of the effector"),
             Some(six_bar.swing()),
             [Some(swing - swing_tolerance), Some(swing + swing_tolerance)],
-            "rad",
+            Unit::Angle,
             swing_tolerance,
         ),
         least(
             (2, "crank-rocker", "crank turns: Grashof's margin"),
             bar.grashof_margin(),
             0.0,
-            "mm",
+            Unit::Millimetre,
             bar.lengths()[0],
         ),
         least(
             (3, "transmission-angle", "least transmission angle"),
             bar.least_transmission_angle(),
             transmission_angle,
-            "rad",
+            Unit::Angle,
             size(transmission_angle),
         ),
     ];
@@ -62,7 +63,13 @@ pub(crate) fn goals(feeder: &Feeder) -> Vec<Goal> {
         bar.lengths().into_iter().zip(bounds).zip(names)
     {
         let wanted = [Some(low), Some(high)];
-        let goal = Goal::new((4, name, title), Some(length), wanted, "mm", high - low);
+        let goal = Goal::new(
+            (4, name, title),
+            Some(length),
+            wanted,
+            Unit::Millimetre,
+            high - low,
+        );
         goals.push(goal);
     }
     goals.extend([
@@ -70,21 +77,21 @@ pub(crate) fn goals(feeder: &Feeder) -> Vec<Goal> {
             (5, "quick-return", "crank turns for the feed stroke"),
             feed_stroke(six_bar),
             TAU * quick_return / (1.0 + quick_return),
-            "rad",
+            Unit::Angle,
             PI,
         ),
         least(
             (6, "feed-rate", "cuttings a minute"),
             feeder.feed_rate(),
             feed_rate,
-            "1/min",
+            Unit::PerMinute,
             size(feed_rate),
         ),
         least(
             (7, "dwell", "effector rests while it is filled"),
             feeder.dwell_time(),
             pushing_time,
-            "s",
+            Unit::Second,
             size(pushing_time),
         ),
     ]);
@@ -93,48 +100,18 @@ pub(crate) fn goals(feeder: &Feeder) -> Vec<Goal> {
 
 /// A finding for each goal that is missed.
 pub(super) fn unmet(feeder: &Feeder, report: &mut Report) {
-    let missed: Vec<Goal> = report
-        .goals
-        .iter()
-        .filter(|goal| goal.met() == Some(false))
-        .cloned()
-        .collect();
-    for goal in missed {
-        let (Some(value), Some(margin)) = (goal.value, goal.margin) else {
-            continue;
-        };
-        let shown = |x: f64| match goal.unit {
-            "rad" => format!("{:.4} deg", x.to_degrees()),
-            unit => format!("{x:.4} {unit}"),
-        };
-        let mut message = format!(
-            "{}: {}, missed by {}",
-            goal.title,
-            shown(value),
-            shown(-margin)
-        );
-        if goal.name == "transmission-angle" {
-            message += &attainable(feeder, report);
-        }
-        let required = match goal.wanted {
-            [Some(least), _] if value < least => Some(least),
-            [_, greatest] => greatest,
-        };
-        report.findings.push(Finding {
-            rule: goal.name,
-            severity: Severity::Error,
-            message,
-            measured: Some(value),
-            required,
-            unit: if matches!(goal.unit, "rad" | "mm") {
-                goal.unit
-            } else {
-                ""
-            },
-            remedy: remedy(goal.name),
-            place: Place::default(),
-        });
-    }
+    let attainable = match report.goals.iter().find(|g| g.name == "transmission-angle") {
+        Some(goal) if goal.met() == Some(false) => attainable(feeder, report),
+        _ => String::new(),
+    };
+    report.blame_goals(|goal| Missed {
+        remedy: remedy(goal.name),
+        words: match goal.name {
+            "transmission-angle" => attainable.clone(),
+            _ => String::new(),
+        },
+        ..Missed::default()
+    });
 }
 
 /// Limit that the bounds set to the transmission angle, in words.

@@ -1,6 +1,7 @@
 //! Check of a feeder.
 
 mod attainable;
+mod figures;
 mod forces;
 mod gears;
 mod goals;
@@ -19,7 +20,8 @@ pub use forces::{FeederForces, FeederForcesError};
 pub(crate) use goals::{feed_stroke, goals};
 pub use swing_spread::{SixBarTolerances, SwingSpread};
 
-use crate::{Finding, Place, Report, Severity, Table};
+use self::figures::FIGURES;
+use crate::{Finding, Place, Report, Severity, Table, Unit};
 
 /// Number of random six-bars, Monte Carlo samples within the tolerances.
 const MADE: u32 = 2000;
@@ -33,9 +35,7 @@ const ON_CHORD: f64 = 1e-3;
 pub fn check_feeder(feeder: &Feeder) -> Report {
     let mut report = check_strokes(feeder);
     gears::gears(feeder, &mut report);
-    report
-        .findings
-        .sort_by_key(|f| std::cmp::Reverse(f.severity));
+    report.worst_first();
     report
 }
 
@@ -44,6 +44,7 @@ pub fn check_feeder(feeder: &Feeder) -> Report {
 pub fn check_strokes(feeder: &Feeder) -> Report {
     let mut report = Report {
         goals: goals(feeder),
+        groups: FIGURES.to_vec(),
         ..Report::default()
     };
     linkage(feeder, &mut report);
@@ -53,9 +54,7 @@ pub fn check_strokes(feeder: &Feeder) -> Report {
     goals::unmet(feeder, &mut report);
     vacuous(feeder, &mut report);
     plates::plates(feeder, &mut report);
-    report
-        .findings
-        .sort_by_key(|f| std::cmp::Reverse(f.severity));
+    report.worst_first();
     report
 }
 
@@ -101,7 +100,7 @@ fn linkage(feeder: &Feeder, report: &mut Report) {
     report.tables.push(Table {
         name: "sensitivities",
         title: "Change of the swing by a millimetre of",
-        unit: "rad",
+        unit: Unit::Angle,
         columns: vec!["swing".into()],
         rows: rows.map(|(name, by)| (name.into(), vec![by])).into(),
     });
@@ -169,7 +168,7 @@ fn spread(feeder: &Feeder, report: &mut Report) {
             ),
             measured: Some(miss),
             required: Some(goals.swing_tolerance),
-            unit: "rad",
+            unit: Unit::Angle,
             remedy: Some("closer tolerances, or a pivot nearer the middle of the chord"),
             place: Place::default(),
         });
@@ -193,7 +192,7 @@ fn vacuous(feeder: &Feeder, report: &mut Report) {
         ),
         measured: Some(distance),
         required: None,
-        unit: "mm",
+        unit: Unit::Millimetre,
         remedy: None,
         place: Place::default(),
     });

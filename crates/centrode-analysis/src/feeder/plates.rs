@@ -1,7 +1,7 @@
 use centrode_geometry::{Extreme, least};
 use centrode_mechanism::feeder::{Feeder, Part};
 
-use crate::{Finding, Place, Report, Severity};
+use crate::{Finding, Place, Report, Severity, Unit};
 
 /// Checks that the links can be cut from plate, and run clear of the shaft that passes them.
 pub(super) fn plates(feeder: &Feeder, report: &mut Report) {
@@ -14,7 +14,7 @@ pub(super) fn plates(feeder: &Feeder, report: &mut Report) {
             message: error.to_string(),
             measured: None,
             required: None,
-            unit: "mm",
+            unit: Unit::Millimetre,
             remedy: None,
             place: Place {
                 part: Some(part.name().into()),
@@ -35,7 +35,7 @@ pub(super) fn plates(feeder: &Feeder, report: &mut Report) {
             ),
             measured: Some(value),
             required: Some(0.0),
-            unit: "mm",
+            unit: Unit::Millimetre,
             remedy: Some(
                 "narrower plates, a thinner pin, or the pivot farther from the rocker's shaft",
             ),

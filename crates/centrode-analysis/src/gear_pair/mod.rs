@@ -1,5 +1,6 @@
 //! Check of a gear pair.
 
+mod figures;
 mod remedy;
 
 use std::f64::consts::PI;
@@ -7,7 +8,9 @@ use std::f64::consts::PI;
 use centrode_mechanism::gear::{Gear, GearPair, Limits, Member, ToolKind, Tooth};
 
 use self::remedy::remedy;
-use crate::{Contact, Finding, Place, Report, Severity};
+use crate::{Contact, Finding, Place, Report, Severity, Unit};
+
+pub(crate) use figures::FIGURES;
 
 /// Penetration, in modules, above which two outlines are reported to interfere.
 const OVERLAP: f64 = 1e-6;
@@ -26,16 +29,17 @@ pub fn check(pair: &GearPair) -> Report {
 /// Checks a gear pair like [`check`], with a contact analysis made before.
 #[must_use]
 pub fn check_contact(pair: &GearPair, contact: &Contact) -> Report {
-    let mut report = Report::default();
+    let mut report = Report {
+        groups: FIGURES.to_vec(),
+        ..Report::default()
+    };
     let limits = pair.limits();
     pitch_curves(pair, &limits, &mut report);
     for gear in [pair.driver(), pair.driven()] {
         teeth(pair, gear, &limits, &mut report);
     }
     mesh(pair, contact, &mut report);
-    report
-        .findings
-        .sort_by_key(|f| std::cmp::Reverse(f.severity));
+    report.worst_first();
     report
 }
 
@@ -99,7 +103,7 @@ fn pitch_curves(pair: &GearPair, limits: &Limits, report: &mut Report) {
                 ),
                 measured: Some(radius),
                 required: Some(1.0 / concave),
-                unit: "mm",
+                unit: Unit::Millimetre,
                 place: Place { part: Some(member.name().into()), ..Place::default() },
             });
         }
@@ -117,7 +121,7 @@ fn pitch_curves(pair: &GearPair, limits: &Limits, report: &mut Report) {
             ),
             measured: Some(steepest),
             required: Some(PRESSURE_ANGLE),
-            unit: "rad",
+            unit: Unit::Angle,
             place: Place {
                 input: Some(input),
                 ..Place::default()
@@ -200,12 +204,19 @@ fn teeth(pair: &GearPair, gear: &Gear, limits: &Limits, report: &mut Report) {
         });
     };
     let severed = collect(&|t| t.severed.then_some(1.0));
-    add("severed", Severity::Error, severed, None, "", &|who, _| {
-        format!(
-            "{who} are cut off at the root by undercut from both sides; {}",
-            largest
-        )
-    });
+    add(
+        "severed",
+        Severity::Error,
+        severed,
+        None,
+        Unit::Count,
+        &|who, _| {
+            format!(
+                "{who} are cut off at the root by undercut from both sides; {}",
+                largest
+            )
+        },
+    );
     let undercut = collect(&|t| {
         let worst = sides(t).iter().map(|s| s.undercut).fold(0.0, f64::max);
         (worst > 0.0 && !t.severed).then_some(worst)
@@ -215,7 +226,7 @@ fn teeth(pair: &GearPair, gear: &Gear, limits: &Limits, report: &mut Report) {
         Severity::Warning,
         undercut,
         Some(0.0),
-        "mm",
+        Unit::Millimetre,
         &|who, worst| {
             format!(
                 "{who} are undercut, up to {worst:.4} mm of roll; {}",
@@ -232,7 +243,7 @@ fn teeth(pair: &GearPair, gear: &Gear, limits: &Limits, report: &mut Report) {
         Severity::Warning,
         short,
         Some(0.0),
-        "mm",
+        Unit::Millimetre,
         &|who, worst| {
             format!(
                 "{who} cannot be cut to full height, up to {worst:.4} mm is missing: the pitch curve is concave there, or the shaper ends"
@@ -245,7 +256,7 @@ fn teeth(pair: &GearPair, gear: &Gear, limits: &Limits, report: &mut Report) {
         Severity::Warning,
         pointed,
         Some(least),
-        "mm",
+        Unit::Millimetre,
         &|who, _| format!("{who} are pointed: their flanks meet below the tip"),
     );
     let thin = collect(&|t| {
@@ -256,16 +267,21 @@ fn teeth(pair: &GearPair, gear: &Gear, limits: &Limits, report: &mut Report) {
         Severity::Warning,
         thin,
         Some(least),
-        "mm",
+        Unit::Millimetre,
         &|who, worst| {
             format!("{who} are thinner at the tip than {least:.4} mm, by up to {worst:.4} mm")
         },
     );
     let dead =
         collect(&|t| (!t.severed && sides(t).iter().any(|s| s.active.is_none())).then_some(1.0));
-    add("no-flank", Severity::Warning, dead, None, "", &|who, _| {
-        format!("{who} have a side without any working flank")
-    });
+    add(
+        "no-flank",
+        Severity::Warning,
+        dead,
+        None,
+        Unit::Count,
+        &|who, _| format!("{who} have a side without any working flank"),
+    );
     let present = gear.teeth().iter().filter(|t| !t.severed);
     let width = present
         .clone()
@@ -363,7 +379,7 @@ fn mesh(pair: &GearPair, contact: &Contact, report: &mut Report) {
             message: "nothing holds the driven gear: no tooth of one gear reaches the other".into(),
             measured: None,
             required: None,
-            unit: "",
+            unit: Unit::Count,
             place: place(input),
         });
     }
@@ -384,7 +400,7 @@ fn mesh(pair: &GearPair, contact: &Contact, report: &mut Report) {
             message: format!("the gears overlap by up to {:.3e} mm", deepest.0),
             measured: Some(deepest.0),
             required: Some(0.0),
-            unit: "mm",
+            unit: Unit::Millimetre,
             place: place(deepest.1),
         });
     }
@@ -409,7 +425,7 @@ fn mesh(pair: &GearPair, contact: &Contact, report: &mut Report) {
             ),
             measured: Some(worst.0),
             required: Some(allowed),
-            unit: "rad",
+            unit: Unit::Angle,
             place: place(worst.1),
         });
     }

@@ -1,3 +1,4 @@
+mod figures;
 mod tables;
 
 use std::f64::consts::{FRAC_PI_6, TAU};
@@ -8,7 +9,8 @@ use centrode_mechanism::shaft::{
 };
 use centrode_mechanism::transmission::Transmission;
 
-use crate::{Finding, Place, Report, Severity};
+use self::figures::FIGURES;
+use crate::{Finding, Place, Report, Severity, Unit};
 
 /// Pressure angle, rad, above which a follower moved along its guide runs badly: 30 deg.
 const PRESSURE_ANGLE: f64 = FRAC_PI_6;
@@ -22,7 +24,10 @@ const MET: f64 = 1e-6;
 /// whole cycle, those of the speed over the strokes.
 #[must_use]
 pub fn check_shaft(shaft: &SpiralShaft) -> Report {
-    let mut report = Report::default();
+    let mut report = Report {
+        groups: FIGURES.to_vec(),
+        ..Report::default()
+    };
     let picks = shaft.schedule();
     moved(shaft, shaft.moved_in_window(), &picks, &mut report);
     motion(shaft, &mut report);
@@ -32,7 +37,7 @@ pub fn check_shaft(shaft: &SpiralShaft) -> Report {
     slider(shaft, &mut report);
     forces(shaft, &mut report);
     report.tables = tables::published(shaft);
-    sort(&mut report);
+    report.worst_first();
     report
 }
 
@@ -48,7 +53,7 @@ pub fn check_moving_box(machine: &MovingBox) -> Report {
     let (moves, picks) = (machine.moved_in_window(), machine.schedule());
     moved(machine.shaft(), moves, &picks, &mut report);
     let Some(drive) = machine.drive() else {
-        sort(&mut report);
+        report.worst_first();
         return report;
     };
     seat(machine, &mut report);
@@ -81,7 +86,7 @@ pub fn check_moving_box(machine: &MovingBox) -> Report {
     values.insert("box_normal_force_max", greatest);
     report.findings.retain(|f| f.rule != "contact-lost");
     contact(limit, load.speed_rpm, &mut report);
-    sort(&mut report);
+    report.worst_first();
     report
 }
 
@@ -102,19 +107,13 @@ fn seat(machine: &MovingBox, report: &mut Report) {
         ),
         measured: Some(bore),
         required: Some(journal),
-        unit: "mm",
+        unit: Unit::Millimetre,
         remedy: Some("leave gears.body.bore out, or change shaft.body.journal_diameter"),
         place: Place {
             part: Some("gears".into()),
             ..Place::default()
         },
     });
-}
-
-fn sort(report: &mut Report) {
-    report
-        .findings
-        .sort_by_key(|f| std::cmp::Reverse(f.severity));
 }
 
 fn at(theta: f64) -> Place {
@@ -146,7 +145,7 @@ fn moved(shaft: &SpiralShaft, moved: f64, picks: &Schedule, report: &mut Report)
             ),
             measured: Some(most),
             required: Some(limit),
-            unit: "mm",
+            unit: Unit::Millimetre,
             remedy: Some("a larger amplitude, moved_distance to solve for it, or a slow place where the picks are"),
             place: at(theta),
         });
@@ -204,7 +203,7 @@ fn schedule(shaft: &SpiralShaft, schedule: &Schedule, report: &mut Report) {
             ),
             measured: Some(misplacement.abs()),
             required: Some(limit),
-            unit: "mm",
+            unit: Unit::Millimetre,
             remedy: Some("a reversal of 360 deg, and no more return_offset than needed"),
             place: at(*theta),
         });
@@ -225,7 +224,7 @@ fn schedule(shaft: &SpiralShaft, schedule: &Schedule, report: &mut Report) {
             ),
             measured: Some(f64::from(schedule.visits[*first as usize])),
             required: Some(2.0),
-            unit: "",
+            unit: Unit::Count,
             remedy: Some("a reversal of 360 deg"),
             place: at(shaft.design().pick),
         });
@@ -252,7 +251,7 @@ fn groove(shaft: &SpiralShaft, report: &mut Report) {
             ),
             measured: Some(steepest.value),
             required: Some(PRESSURE_ANGLE),
-            unit: "rad",
+            unit: Unit::Angle,
             remedy: Some("a larger radius, or a smaller lead or amplitude"),
             place: at(steepest.input),
         });
@@ -285,7 +284,7 @@ fn crossings(shaft: &SpiralShaft, report: &mut Report) {
             ),
             measured: Some(length),
             required: Some(longest),
-            unit: "mm",
+            unit: Unit::Millimetre,
             remedy: Some("a longer slider, a narrower groove, or a return_offset"),
             place: Place {
                 part: Some("slider".into()),
@@ -318,7 +317,7 @@ fn crossings(shaft: &SpiralShaft, report: &mut Report) {
         ),
         measured: Some(first.gap),
         required: Some(length),
-        unit: "mm",
+        unit: Unit::Millimetre,
         remedy: Some("a slider longer than the gap, or a return_offset"),
         place: at(first.out),
     });
@@ -344,7 +343,7 @@ fn tilt(shaft: &SpiralShaft, gap: f64, report: &mut Report) {
         ),
         measured: Some(length),
         required: Some(2.0 * gap),
-        unit: "mm",
+        unit: Unit::Millimetre,
         remedy: Some("a narrower groove, a longer slider, or a pin that does not turn freely"),
         place: Place {
             part: Some("slider".into()),
@@ -390,7 +389,7 @@ fn slider(shaft: &SpiralShaft, report: &mut Report) {
             ),
             measured: Some(slider.clearance),
             required: Some(needed),
-            unit: "mm",
+            unit: Unit::Millimetre,
             remedy: Some("more clearance, a shorter slider, or a larger radius"),
             place: at(shaft.groove().tightest().input),
         });
@@ -409,7 +408,7 @@ fn slider(shaft: &SpiralShaft, report: &mut Report) {
             ),
             measured: Some(guided),
             required: Some(longest),
-            unit: "mm",
+            unit: Unit::Millimetre,
             remedy: Some("a thicker shaft, or a slider bent round it"),
             place: Place {
                 part: Some("slider".into()),
@@ -451,7 +450,7 @@ fn forces(shaft: &SpiralShaft, report: &mut Report) {
             ),
             measured: Some(steepest.value),
             required: Some(load.jamming_angle()),
-            unit: "rad",
+            unit: Unit::Angle,
             remedy: Some("a larger radius, or less friction in the groove"),
             place: at(steepest.input),
         });
@@ -468,7 +467,7 @@ fn contact(limit: f64, speed: f64, report: &mut Report) {
             ),
             measured: Some(speed),
             required: Some(limit),
-            unit: "",
+            unit: Unit::TurnsPerMinute,
             remedy: Some("a lower speed, a smaller amplitude, or fewer waves a turn"),
             place: Place {
                 part: Some("slider".into()),

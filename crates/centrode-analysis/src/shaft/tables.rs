@@ -4,7 +4,7 @@ use centrode_geometry::{extremes, pieces};
 use centrode_mechanism::shaft::{MovingBox, SpiralShaft};
 use centrode_mechanism::transmission::{MotionJet, Transmission};
 
-use crate::Table;
+use crate::{Table, Unit};
 
 /// Scheme that moves the box on a stroke: its motion by the input, and the lead angle under the slider.
 struct Way<'a> {
@@ -72,7 +72,7 @@ pub(super) fn schemes(machine: &MovingBox) -> Vec<Table> {
         table(
             "schemes",
             "Box while a seedling is picked",
-            "mm",
+            Unit::Millimetre,
             &["moves", "may move"],
             &|way| {
                 let place = |input: f64| (way.at)(input).0.position;
@@ -85,21 +85,21 @@ pub(super) fn schemes(machine: &MovingBox) -> Vec<Table> {
         table(
             "scheme-speeds",
             "Speed over its mean",
-            "",
+            Unit::Number,
             &["least", "greatest"],
             &|way| range(&|input| (way.at)(input).0.velocity / mean),
         ),
         table(
             "scheme-accelerations",
             "Acceleration on a stroke",
-            "m/s^2",
+            Unit::MetrePerSecondSquared,
             &["least", "greatest"],
             &|way| range(&|input| metres * (way.at)(input).0.acceleration),
         ),
         table(
             "scheme-forces",
             "Normal force on the slider",
-            "N",
+            Unit::Newton,
             &["least", "greatest"],
             &|way| {
                 range(&|input| {
@@ -157,14 +157,14 @@ pub(super) fn published(shaft: &SpiralShaft) -> Vec<Table> {
         table(
             "normal-forces",
             "Normal force beside the paper's",
-            "N",
+            Unit::Newton,
             &["normal", "by (14)", "by (17)"][..columns],
             of(0),
         ),
         table(
             "transverse-forces",
             "Transverse force beside the paper's",
-            "N",
+            Unit::Newton,
             &["transverse", "by (15)", "by (18)"][..columns],
             of(1),
         ),
@@ -177,7 +177,7 @@ pub(super) fn published(shaft: &SpiralShaft) -> Vec<Table> {
         tables.push(table(
             "accelerations",
             "Acceleration beside the paper's",
-            "m/s^2",
+            Unit::MetrePerSecondSquared,
             &["acceleration", "by (16)"],
             eighths(accelerations),
         ));

@@ -1,6 +1,7 @@
 //! Check of a three-arm mechanism.
 
 mod arm_clearance;
+mod figures;
 mod gear_train;
 mod pusher;
 mod variants;
@@ -12,9 +13,11 @@ use centrode_mechanism::gear::{FlankCount, GearPairError, Member};
 use centrode_mechanism::three_arm::design::GoalsSpec;
 use centrode_mechanism::three_arm::{Figures, PickingRule, PlantingRule, ThreeArm};
 
+use self::figures::FIGURES;
 use self::gear_train::check_gear_train;
 use self::pusher::check_pusher;
-use crate::{Finding, Goal, Place, Report, Severity, Table};
+use crate::report::Missed;
+use crate::{Finding, Goal, Place, Report, Severity, Table, Unit, gear_pair};
 
 pub use arm_clearance::{ArmClearance, ArmClearanceCourse, ArmClearanceError, between_arms};
 pub use gear_train::{TrainTeeth, carrier_turn};
@@ -38,21 +41,18 @@ pub fn check_three_arm_teeth(
     let mut report = check_arms(mechanism);
     check_teeth(mechanism, teeth, &mut report);
     check_pusher(mechanism, &mut report);
-    worst_first(&mut report);
+    report.worst_first();
     report
-}
-
-fn worst_first(report: &mut Report) {
-    report
-        .findings
-        .sort_by_key(|finding| std::cmp::Reverse(finding.severity));
 }
 
 /// Checks goals, working points and arms alone: the part of [`check_three_arm`] that needs no tooth and no cam, some
 /// ten times quicker.
 #[must_use]
 pub fn check_arms(mechanism: &ThreeArm) -> Report {
-    let mut report = Report::default();
+    let mut report = Report {
+        groups: [gear_pair::FIGURES, FIGURES].concat(),
+        ..Report::default()
+    };
     let teeth = mechanism.flank_counts().ok();
     let arms = match arm_clearance(mechanism) {
         Ok(arms) => arms,
@@ -74,7 +74,7 @@ pub fn check_arms(mechanism: &ThreeArm) -> Report {
     if let Some(teeth) = teeth {
         tooth_findings(&teeth, &mut report);
     }
-    worst_first(&mut report);
+    report.worst_first();
     report
 }
 
@@ -130,7 +130,7 @@ fn check_teeth(
             message: format!("no teeth can be cut: {}: {error}", error.key()),
             measured: None,
             required: None,
-            unit: "",
+            unit: Unit::Count,
             remedy: None,
             place: Place::default(),
         }),
@@ -145,7 +145,7 @@ fn arm_clearance(mechanism: &ThreeArm) -> Result<Option<ArmClearance>, Box<Findi
         message: format!("there is no such arm: {error}"),
         measured: None,
         required: None,
-        unit: "",
+        unit: Unit::Count,
         place: Place {
             part: Some("arm.body".into()),
             ..Place::default()
@@ -178,14 +178,15 @@ pub fn goals(figures: &Figures, wanted: &GoalsSpec) -> Vec<Goal> {
             about,
             Some(value),
             range(wanted),
-            "rad",
+            Unit::Angle,
             wanted[1] - wanted[0],
         )
     };
     // A clearance of 20 mm is the paper's own; it is the scale where any clearance will do.
     let size = |wanted: f64| if wanted > 0.0 { wanted } else { 20.0 };
-    let length =
-        |about, value, wanted: f64| Goal::new(about, value, least(wanted), "mm", size(wanted));
+    let length = |about, value, wanted: f64| {
+        Goal::new(about, value, least(wanted), Unit::Millimetre, size(wanted))
+    };
     vec![
         length(
             (1, "arm-clearance", "arms clear of each other"),
@@ -227,7 +228,7 @@ pub fn goals(figures: &Figures, wanted: &GoalsSpec) -> Vec<Goal> {
             (8, "sound-teeth", "flanks unsound at full height"),
             None,
             [None, Some(0.0)],
-            "",
+            Unit::Count,
             10.0,
         ),
     ]
@@ -287,7 +288,7 @@ fn crowded(arms: Option<&ArmClearance>, report: &mut Report) {
         message: "an arm bends stems of the rows still in the tray".into(),
         measured: Some(found.least),
         required: Some(0.0),
-        unit: "mm",
+        unit: Unit::Millimetre,
         remedy: None,
         place: Place {
             part: Some("tray".into()),
@@ -306,7 +307,7 @@ fn working_points(mechanism: &ThreeArm) -> Table {
     Table {
         name: "working-points",
         title: "Carrier turn",
-        unit: "rad",
+        unit: Unit::Angle,
         columns: arms
             .iter()
             .map(|&arm| format!("arm {}", numeral(arm)))
@@ -334,26 +335,12 @@ fn unmet(mechanism: &ThreeArm, arms: Option<&ArmClearance>, report: &mut Report)
         "gearbox-clearance" => Some(path.lowest.input),
         _ => None,
     };
-    let missed = report.goals.iter().filter(|goal| goal.met() == Some(false));
-    let findings: Vec<Finding> = missed
-        .map(|goal| Finding {
-            rule: "goal",
-            severity: Severity::Warning,
-            message: format!("goal {} is not reached: {}", goal.number, goal.title),
-            measured: goal.value,
-            required: match (goal.value, goal.wanted) {
-                (Some(value), [Some(least), _]) if value < least => Some(least),
-                (_, [_, greatest]) => greatest,
-            },
-            unit: goal.unit,
-            remedy: None,
-            place: Place {
-                input: input(goal),
-                ..Place::default()
-            },
-        })
-        .collect();
-    report.findings.extend(findings);
+    report.blame_goals(|goal| Missed {
+        input: input(goal),
+        remedy: (goal.name == "sound-teeth")
+            .then_some("a pitch curve of gentler curvature, or more teeth of a smaller module"),
+        ..Missed::default()
+    });
     let mut note = |rule, message: &str, input: f64| {
         report.findings.push(Finding {
             rule,
@@ -361,7 +348,7 @@ fn unmet(mechanism: &ThreeArm, arms: Option<&ArmClearance>, report: &mut Report)
             message: message.into(),
             measured: Some(input.rem_euclid(TAU)),
             required: None,
-            unit: "rad",
+            unit: Unit::Angle,
             remedy: None,
             place: Place {
                 input: Some(input),
@@ -435,7 +422,7 @@ fn tooth_findings(teeth: &[FlankCount; 2], report: &mut Report) {
             ),
             measured: Some(f64::from(sound.unsound)),
             required: Some(0.0),
-            unit: "",
+            unit: Unit::Count,
             remedy: None,
             place: Place {
                 part: Some(part.into()),

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use centrode_mechanism::three_arm::ThreeArm;
 
-use crate::{Finding, Place, Report, Severity};
+use crate::{Finding, Place, Report, Severity, Unit};
 
 /// Pressure angle, rad, up to which a swinging follower runs well while it is lifted. VDI 2142 part 2.
 const PRESSURE_ANGLE: f64 = PI / 4.0;
@@ -26,7 +26,7 @@ pub(crate) fn check_pusher(mechanism: &ThreeArm, report: &mut Report) {
                 message: format!("nothing moves the push rods: {}: {error}", error.key()),
                 measured: None,
                 required: None,
-                unit: "",
+                unit: Unit::Count,
                 remedy: None,
                 place: place(None),
             });
@@ -46,7 +46,7 @@ pub(crate) fn check_pusher(mechanism: &ThreeArm, report: &mut Report) {
             message: "the cam is undercut: the rod cannot follow its motion there".into(),
             measured: Some(limits.least_radius.value),
             required: Some(0.0),
-            unit: "mm",
+            unit: Unit::Millimetre,
             remedy: Some("a longer cam.closing_deg or cam.release_deg, a larger cam.base_radius, or a smaller roller"),
             place: place(Some(limits.regularity.input)),
         });
@@ -61,7 +61,7 @@ pub(crate) fn check_pusher(mechanism: &ThreeArm, report: &mut Report) {
             ),
             measured: Some(limits.rise_pressure_angle.value),
             required: Some(PRESSURE_ANGLE),
-            unit: "rad",
+            unit: Unit::Angle,
             remedy: Some("a longer cam.closing_deg or a larger cam.base_radius"),
             place: place(Some(limits.rise_pressure_angle.input)),
         });

@@ -4,8 +4,6 @@ use anstyle::{AnsiColor, Style};
 use centrode::analysis::{Finding, Report, Severity};
 use serde::Serialize;
 
-use super::unit::figure;
-
 /// Writes the number of findings, then each: severity, rule, place, figures, remedy.
 pub(super) fn write(report: &Report, out: &mut impl Write) -> Result<()> {
     writeln!(out, "{}", summary(report))?;
@@ -74,13 +72,8 @@ pub(crate) fn words(finding: &Finding) -> Words {
         about.push(format!("input at {:.2} deg", input.to_degrees()));
     }
     let figures = finding.measured.map_or_else(String::new, |measured| {
-        let (factor, unit) = match finding.unit {
-            "rad" if measured.abs() > 1e-3 => (180.0 / std::f64::consts::PI, " deg"),
-            "rad" => (1.0, " rad"),
-            "" => (1.0, ""),
-            _ => (1.0, " mm"),
-        };
-        let show = |value: f64| format!("{}{unit}", figure(value * factor, 4));
+        let unit = finding.unit.for_size(measured);
+        let show = |value: f64| unit.tell(value);
         let required = finding
             .required
             .map(|required| format!(", required {}", show(required)));
@@ -167,7 +160,7 @@ fn ranges(teeth: &[u32]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use centrode::analysis::Place;
+    use centrode::analysis::{Place, Unit};
 
     #[test]
     fn runs_of_teeth_are_short() {
@@ -186,7 +179,7 @@ mod tests {
                 message: "3 of 23 teeth of the driver are undercut".into(),
                 measured: Some(0.0312),
                 required: Some(0.0),
-                unit: "mm",
+                unit: Unit::Millimetre,
                 remedy: Some("fewer teeth of a larger module"),
                 place: Place {
                     part: Some("driver".into()),

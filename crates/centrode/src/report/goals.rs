@@ -5,7 +5,6 @@ use centrode::analysis::{Goal, Report};
 use serde::Serialize;
 
 use super::figures::{HEADING, exact};
-use super::unit::figure;
 
 /// Characters of a progress bar.
 const BAR: usize = 12;
@@ -75,17 +74,8 @@ impl GoalWords {
 
 /// The words for a goal.
 pub(crate) fn goal_words(goal: &Goal) -> GoalWords {
-    let (factor, unit, decimals) = match goal.unit {
-        "rad" => (180.0 / std::f64::consts::PI, "deg", 4),
-        "" => (1.0, "", 0),
-        unit => (1.0, unit, 4),
-    };
-    let show = |value: f64| match decimals {
-        0 => format!("{value:.0}"),
-        decimals => figure(value * factor, decimals),
-    };
     let short = |value: f64| {
-        let value = value * factor;
+        let value = value * goal.unit.factor();
         format!("{}", (value * 1e6).round() / 1e6)
     };
     let wanted = match goal.wanted {
@@ -97,8 +87,7 @@ pub(crate) fn goal_words(goal: &Goal) -> GoalWords {
     let verdict = match (goal.met(), goal.margin) {
         (Some(true), _) => "met".into(),
         (Some(false), Some(margin)) => {
-            let missed = format!("missed by {} {unit}", show(-margin));
-            missed.trim_end().to_owned()
+            format!("missed by {}", goal.unit.tell(-margin))
         }
         _ => "not checked".into(),
     };
@@ -106,9 +95,9 @@ pub(crate) fn goal_words(goal: &Goal) -> GoalWords {
         number: goal.number,
         name: goal.name,
         title: goal.title,
-        value: goal.value.map_or("-".into(), show),
+        value: goal.value.map_or("-".into(), |value| goal.unit.show(value)),
         exact: goal.value.map(exact),
-        unit,
+        unit: goal.unit.shown(),
         wanted,
         verdict,
         met: goal.met(),
@@ -146,6 +135,7 @@ fn bar(progress: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use centrode::analysis::Unit;
 
     #[test]
     fn a_bar_is_full_only_when_the_goal_is_reached() {
@@ -158,7 +148,13 @@ mod tests {
     #[test]
     fn a_row_says_figure_range_and_miss() {
         let length = |number, name, title, value| {
-            Goal::new((number, name, title), value, [Some(20.0), None], "mm", 20.0)
+            Goal::new(
+                (number, name, title),
+                value,
+                [Some(20.0), None],
+                Unit::Millimetre,
+                20.0,
+            )
         };
         let report = Report {
             goals: vec![

@@ -1,4 +1,4 @@
-use centrode::analysis::Goal;
+use centrode::analysis::{Goal, Unit};
 use centrode::family::{Depth, FAMILIES};
 use serde::{Deserialize, Serialize};
 
@@ -28,7 +28,7 @@ pub(crate) struct Answers {
 #[derive(Debug, Serialize)]
 struct Chart {
     title: String,
-    unit: String,
+    unit: &'static str,
     /// Figures; none where there is no mechanism.
     figures: Vec<Option<f64>>,
     /// Least and greatest figure wanted.
@@ -65,29 +65,32 @@ pub(crate) fn answers(ask: &Ask) -> Result<Answers, String> {
             .take(MOST)
             .map(|answer| Chart {
                 title: answer.name.replace('_', " "),
-                unit: answer.unit.to_owned(),
-                figures: answer.figures.clone(),
+                unit: answer.unit.shown(),
+                figures: scaled(answer.unit, &answer.figures),
                 wanted: [None, None],
             })
             .collect()
     } else {
         let chart = |goal: &&Goal| {
             let answer = answers.iter().find(|answer| answer.name == goal.name)?;
-            let (factor, unit) = match goal.unit {
-                "rad" => (1.0_f64.to_degrees(), "deg"),
-                unit => (1.0, unit),
-            };
-            let scaled = |figure: &Option<f64>| figure.map(|figure| figure * factor);
             Some(Chart {
                 title: format!("{}. {}", goal.number, goal.title),
-                unit: unit.to_owned(),
-                figures: answer.figures.iter().map(scaled).collect(),
-                wanted: goal.wanted.map(|end| scaled(&end)),
+                unit: goal.unit.shown(),
+                figures: scaled(goal.unit, &answer.figures),
+                wanted: goal
+                    .wanted
+                    .map(|end| end.map(|end| end * goal.unit.factor())),
             })
         };
         goals.iter().filter_map(chart).collect()
     };
     Ok(Answers { values, charts })
+}
+
+/// Figures in the unit in which they are shown.
+fn scaled(unit: Unit, figures: &[Option<f64>]) -> Vec<Option<f64>> {
+    let one = |figure: &Option<f64>| figure.map(|figure| figure * unit.factor());
+    figures.iter().map(one).collect()
 }
 
 /// Whether a figure changes, so that it is more than a setting.

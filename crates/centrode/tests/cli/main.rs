@@ -46,11 +46,11 @@ fn a_new_design_checks() {
 }
 
 #[test]
-fn a_new_three_arm_mechanism_checks() {
+fn a_new_three_arm_mechanism_is_checked_and_a_missed_goal_is_an_error() {
     let new = centrode(&["new", "three-arm"]);
     assert_eq!(new.status.code(), Some(0));
     let check = fed(&["check", "-"], &new.stdout);
-    assert_eq!(check.status.code(), Some(0), "{}", text(&check.stderr));
+    assert_eq!(check.status.code(), Some(1), "{}", text(&check.stderr));
     let report = text(&check.stdout);
     for line in [
         "Goals: 8 of 9 reached",

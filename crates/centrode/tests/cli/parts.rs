@@ -44,7 +44,8 @@ fn the_parts_asked_for_and_no_others_are_written() {
         let folder = tempfile::tempdir().expect("a place to write");
         let done = export(folder.path(), more);
         let message = text(&done.stderr);
-        assert_eq!(done.status.code(), Some(0), "{more:?}: {message}");
+        // The published mechanism misses a goal; its files are written all the same.
+        assert_eq!(done.status.code(), Some(1), "{more:?}: {message}");
         assert_eq!(names(folder.path()), expected, "{more:?}");
         // Every file is named on a line of its own.
         assert_eq!(text(&done.stdout).lines().count(), expected.len());

@@ -3,7 +3,7 @@ use centrode_mechanism::gear::design::{Addendum, GearPairDesign, TeethSpec};
 use centrode_mechanism::three_arm::design::ThreeArmDesign;
 
 use crate::gear_pair::{allowed_error, check};
-use crate::{Goal, Severity};
+use crate::{Goal, Severity, Unit};
 
 /// Transmission error of half the progress, rad.
 const ERROR: f64 = 1e-3;
@@ -36,14 +36,14 @@ pub(super) fn mesh(design: &ThreeArmDesign) -> Option<[Goal; 2]> {
             (0, "transmission-error", "transmission error of full teeth"),
             error.filter(|error| error.is_finite()).or(Some(1.0)),
             [None, Some(allowed_error(&pair))],
-            "rad",
+            Unit::Angle,
             ERROR,
         ),
         Goal::new(
             (0, "tooth-findings", "findings against full teeth"),
             Some(against as f64),
             [None, Some(0.0)],
-            "",
+            Unit::Count,
             10.0,
         ),
     ])

@@ -11,7 +11,7 @@ use centrode_mechanism::three_arm::{Parameter, Sweep, SweepError, ThreeArm};
 
 use super::{DesignProblem, Evaluation, Problem, Variable};
 use crate::three_arm::{goals, reached};
-use crate::{ArmClearance, Goal};
+use crate::{ArmClearance, Goal, Unit};
 
 /// Decimals of the parameters found, degrees or mm, as a machinist reads them.
 const DECIMALS: u32 = 3;
@@ -116,7 +116,13 @@ impl ThreeArmProblem {
     fn picking_depth(&self, depth: f64) -> Goal {
         let wanted = self.start.optimise.picking_depth;
         let about = (0, "picking-depth", "depth of the picking loop");
-        Goal::new(about, Some(depth), [Some(wanted), None], "mm", 20.0)
+        Goal::new(
+            about,
+            Some(depth),
+            [Some(wanted), None],
+            Unit::Millimetre,
+            20.0,
+        )
     }
 
     /// Constraints besides the goals, as goals of number zero.
@@ -130,14 +136,14 @@ impl ThreeArmProblem {
                 (0, "tray-clearance", "arm's housing clear of the tray"),
                 arms.and_then(|a| clearance(a.tray)),
                 least(spec.tray_clearance),
-                "mm",
+                Unit::Millimetre,
                 20.0,
             ),
             Goal::new(
                 (0, "stem-clearance", "arm clear of stems planted before"),
                 arms.and_then(|a| clearance(a.seedlings)),
                 least(0.0),
-                "mm",
+                Unit::Millimetre,
                 20.0,
             ),
         ]
@@ -304,7 +310,7 @@ impl DesignProblem for ThreeArmProblem {
                     about,
                     Some(1.0 + quick.overload.max(1e-3)),
                     [None, Some(1.0)],
-                    "",
+                    Unit::Count,
                     1.0,
                 );
             }

@@ -7,7 +7,7 @@ use centrode_mechanism::gear::{GearPair, GearPairError, Member};
 use centrode_mechanism::three_arm::{Link, ThreeArm};
 
 use crate::interference::{Clearance, Motion, Moving, PoseJet, Shares};
-use crate::{ArmClearanceError, Contact};
+use crate::{ArmClearanceError, Contact, Unit};
 use crate::{Finding, Place, Report, Severity, check_contact};
 
 /// Number of carrier turns at which each mesh is checked.
@@ -65,7 +65,7 @@ pub(crate) fn check_gear_train(mechanism: &ThreeArm, teeth: &TrainTeeth, report:
             message: "the teeth of a mesh do not meet those of its mate".into(),
             measured: Some(off),
             required: Some(PHASE),
-            unit: "rad",
+            unit: Unit::Angle,
             remedy: None,
             place: Place {
                 input: Some(input),
@@ -147,7 +147,7 @@ fn apart(mechanism: &ThreeArm, pair: &GearPair, report: &mut Report) {
         ),
         measured: Some(found.least),
         required: Some(0.0),
-        unit: "mm",
+        unit: Unit::Millimetre,
         remedy: Some("a smaller bend, fewer arms, or a pitch curve of a smaller greatest radius"),
         place: Place {
             part: Some("gears".into()),

@@ -1,0 +1,70 @@
+use crate::figure::{FigureGroup, row};
+use crate::unit::Unit::{
+    Angle, Count, Millimetre, MillimetrePerSecond, NewtonMillimetre, Number, PerMinute,
+    RadianPerSecond, RadianPerSecondSquared, Second, TurnsPerMinute,
+};
+
+/// Figures of a feeder, in the order in which they are shown.
+#[rustfmt::skip]
+pub(crate) const FIGURES: &[FigureGroup] = &[
+    FigureGroup {
+        heading: "Strokes of the effector",
+        columns: &["feed", "return", "rest"],
+        rows: &[
+            row("time", &["feed_time", "return_time", "dwell_time"], Second),
+            row("greatest speed of the tip", &["tip_speed_feed_max", "tip_speed_return_max"], MillimetrePerSecond),
+            row("tip at the ends", &["tip_speed_ends_max"], MillimetrePerSecond),
+            row("feed time over return time", &["quick_return"], Number),
+        ],
+    },
+    FigureGroup {
+        heading: "Crank-rocker",
+        columns: &["least", "greatest"],
+        rows: &[
+            row("angle of coupler and rocker", &["coupler_rocker_angle_min", "coupler_rocker_angle_max"], Angle),
+            row("angle of the effector", &["effector_angle_min", "effector_angle_max"], Angle),
+            row("swing, as made", &["swing_made_min", "swing_made_max"], Angle),
+            row("swing of the rocker", &["", "rocker_swing"], Angle),
+            row("dead centres, folded, stretched", &["dead_center_folded", "dead_center_stretched"], Angle),
+            row("slider folded: x, y", &["slider_folded_x", "slider_folded_y"], Millimetre),
+            row("slider stretched: x, y", &["slider_stretched_x", "slider_stretched_y"], Millimetre),
+            row("slider from the pivot", &["slider_distance_min"], Millimetre),
+        ],
+    },
+    FigureGroup {
+        heading: "Swing of the effector",
+        columns: &[],
+        rows: &[
+            row("swing", &["swing"], Angle),
+            row("its standard deviation, as made", &["swing_made_deviation"], Angle),
+            row("most off, to first order", &["swing_first_order_max"], Angle),
+            row("least transmission angle", &["transmission_angle_min"], Angle),
+            row("the best within the bounds", &["attainable_transmission_angle"], Angle),
+            row("bounds to widen by, as a share", &["least_widening"], Number),
+            row("pivot from the chord", &["pivot_from_chord"], Millimetre),
+            row("links from the shafts", &["shaft_clearance_min"], Millimetre),
+        ],
+    },
+    FigureGroup {
+        heading: "Drive of the crank",
+        columns: &["driven", "at rest"],
+        rows: &[
+            row("driver turns", &["motion_angle", "dwell_angle"], Angle),
+            row("crank free by", &["gear_play_moving_max", "gear_play_resting_max"], Angle),
+            row("ratio", &["arc_ratio"], Number),
+            row("crank", &["crank_rpm_driven"], TurnsPerMinute),
+            row("driver", &["driver_rpm"], TurnsPerMinute),
+            row("feed rate, cuttings", &["feed_rate"], PerMinute),
+            row("crank turns a cycle", &["crank_turns_a_cycle"], Number),
+            row("crank turns for the feed", &["feed_crank_angle"], Angle),
+            row("the same over the return", &["crank_quick_return"], Number),
+            row("torque of the crank, at most", &["crank_torque_moving_max", "crank_torque_still_max"], NewtonMillimetre),
+            row("jump of the crank's speed", &["crank_speed_jump"], RadianPerSecond),
+            row("crank's acceleration", &["crank_acceleration_max"], RadianPerSecondSquared),
+            row("teeth left on the driver", &["gear_teeth"], Count),
+            row("centre distance", &["gear_center_distance"], Millimetre),
+            row("radius of the locking arc", &["gear_lock_radius"], Millimetre),
+            row("overlap", &["gear_overlap_max"], Millimetre),
+        ],
+    },
+];

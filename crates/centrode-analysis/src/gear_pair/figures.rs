@@ -1,0 +1,59 @@
+use crate::figure::{FigureGroup, row};
+use crate::unit::Unit::{Angle, Count, Millimetre, Number, PerMillimetre, Pitch, Radian};
+
+/// Figures of a gear pair, in the order in which they are shown.
+#[rustfmt::skip]
+pub(crate) const FIGURES: &[FigureGroup] = &[
+    FigureGroup {
+        heading: "Pitch curves",
+        columns: &["driver", "driven"],
+        rows: &[
+            row("teeth", &["driver_tooth_count", "driven_tooth_count"], Count),
+            row("length", &["driver_pitch_length", "driven_pitch_length"], Millimetre),
+            row("least radius", &["driver_radius_min", "driven_radius_min"], Millimetre),
+            row("greatest radius", &["driver_radius_max", "driven_radius_max"], Millimetre),
+            row("least curvature", &["driver_curvature_min", "driven_curvature_min"], PerMillimetre),
+            row("greatest curvature", &["driver_curvature_max", "driven_curvature_max"], PerMillimetre),
+        ],
+    },
+    FigureGroup {
+        heading: "Teeth",
+        columns: &["driver", "driven"],
+        rows: &[
+            row("tip radius, greatest", &["driver_tip_radius_max", "driven_tip_radius_max"], Millimetre),
+            row("root radius, least", &["driver_root_radius_min", "driven_root_radius_min"], Millimetre),
+            row("tip width, least", &["driver_tip_width_min", "driven_tip_width_min"], Millimetre),
+            row("fillet radius, least", &["driver_fillet_radius_min", "driven_fillet_radius_min"], Millimetre),
+        ],
+    },
+    FigureGroup {
+        heading: "Mesh, over the whole cycle",
+        columns: &["least", "greatest"],
+        rows: &[
+            row("ratio, driven to driver", &["ratio_min", "ratio_max"], Number),
+            row("contacts at once", &["contact_ratio_min", "contact_ratio_max"], Count),
+            row("contact ratio, mean", &["contact_ratio_mean"], Number),
+            row("backlash of the driven gear", &["backlash_min", "backlash_max"], Angle),
+            row("backlash, normal", &["normal_backlash_min", "normal_backlash_max"], Millimetre),
+            row("transmission error", &["", "transmission_error_max"], Radian),
+            row("overlap", &["", "overlap_max"], Millimetre),
+            row("pressure angle", &["", "pressure_angle_max"], Angle),
+            row("sliding a rad of the driver", &["", "sliding_max"], Millimetre),
+            row("clearance, tip to root", &["clearance_min"], Millimetre),
+            row("clearance, tip to fillet", &["fillet_clearance_min"], Millimetre),
+        ],
+    },
+    FigureGroup {
+        heading: "Limits and settings",
+        columns: &[],
+        rows: &[
+            row("centre distance", &["center_distance"], Millimetre),
+            row("module", &["module"], Millimetre),
+            row("largest wheel to grind it", &["cam_hollow_radius_min"], Millimetre),
+            row("largest module, no undercut", &["largest_module"], Millimetre),
+            row("largest addendum, no undercut", &["largest_addendum"], Millimetre),
+            row("phase of the first tooth", &["phase"], Pitch),
+            row("closure error", &["closure_error"], Radian),
+        ],
+    },
+];

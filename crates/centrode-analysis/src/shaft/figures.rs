@@ -1,0 +1,76 @@
+use crate::figure::{FigureGroup, row};
+use crate::unit::Unit::{
+    Angle, Count, MetrePerSecondSquared, Millimetre, Newton, NewtonMillimetre, Number,
+    TurnsPerMinute,
+};
+
+/// Figures of a spiral shaft and its moving box, in the order in which they are shown.
+#[rustfmt::skip]
+pub(crate) const FIGURES: &[FigureGroup] = &[
+    FigureGroup {
+        heading: "Box and groove",
+        columns: &[],
+        rows: &[
+            row("moves while picking", &["moved_distance"], Millimetre),
+            row("limit, a sixth of the pot", &["moved_distance_limit"], Millimetre),
+            row("with a plain shaft", &["moved_distance_plain"], Millimetre),
+            row("the most of any pick", &["moved_distance_of_cycle_max"], Millimetre),
+            row("lead", &["lead"], Millimetre),
+            row("amplitude", &["amplitude"], Millimetre),
+            row("least speed over the mean", &["speed_ratio_min"], Number),
+            row("greatest speed over the mean", &["speed_ratio_max"], Number),
+            row("least speed a rad of the shaft", &["speed_min"], Millimetre),
+            row("greatest speed a rad of the shaft", &["speed_max"], Millimetre),
+            row("greatest braking a rad squared", &["deceleration_max"], Millimetre),
+            row("greatest braking", &["deceleration_max_m_s2"], MetrePerSecondSquared),
+            row("run out at the far end", &["overshoot_far"], Millimetre),
+            row("run out at the near end", &["overshoot_near"], Millimetre),
+            row("turns out and back", &["cycle_turns"], Count),
+            row("worst miss of a hole", &["misplacement_max"], Millimetre),
+            row("least lead angle", &["lead_angle_min"], Angle),
+            row("greatest lead angle", &["lead_angle_max"], Angle),
+            row("greatest pressure angle", &["pressure_angle_max"], Angle),
+            row("tightest bend", &["bend_radius_min"], Millimetre),
+            row("crossings", &["crossing_count"], Count),
+            row("of them passed while picking", &["crossings_while_picking"], Count),
+            row("shortest gap at a crossing", &["crossing_gap_min"], Millimetre),
+            row("longest gap at a crossing", &["crossing_gap_max"], Millimetre),
+            row("slider in the groove, if flat", &["slider_guided_length"], Millimetre),
+            row("slider that turns on its pin", &["slider_length_free_on_pin"], Millimetre),
+            row("walls off the slider's sides", &["wall_deviation_max"], Millimetre),
+            row("clearance the slider needs", &["slider_clearance_min"], Millimetre),
+        ],
+    },
+    FigureGroup {
+        heading: "Forces on the slider",
+        columns: &[],
+        rows: &[
+            row("least on the strokes", &["normal_force_min"], Newton),
+            row("greatest on the strokes", &["normal_force_max"], Newton),
+            row("while picking", &["normal_force_picking"], Newton),
+            row("greatest in a reversal", &["normal_force_reversal_max"], Newton),
+            row("least torque", &["torque_min"], NewtonMillimetre),
+            row("greatest torque", &["torque_max"], NewtonMillimetre),
+            row("speed", &["speed_rpm"], TurnsPerMinute),
+            row("stays on one wall up to", &["contact_limit_rpm"], TurnsPerMinute),
+            row("the same, reversals too", &["contact_limit_cycle_rpm"], TurnsPerMinute),
+            row("jams at a lead angle of", &["jamming_angle"], Angle),
+        ],
+    },
+    FigureGroup {
+        heading: "Box by the turn of the gears",
+        columns: &[],
+        rows: &[
+            row("moves while picking", &["box_moved_distance"], Millimetre),
+            row("shaft's speed over its mean", &["shaft_speed_ratio_min", "shaft_speed_ratio_max"], Number),
+            row("eccentricity", &["gear_eccentricity"], Number),
+            row("least speed over the mean", &["box_speed_ratio_min"], Number),
+            row("greatest speed over the mean", &["box_speed_ratio_max"], Number),
+            row("greatest acceleration a rad squared", &["box_acceleration_max"], Millimetre),
+            row("greatest acceleration", &["box_acceleration_max_m_s2"], MetrePerSecondSquared),
+            row("least normal force", &["box_normal_force_min"], Newton),
+            row("greatest normal force", &["box_normal_force_max"], Newton),
+            row("stays on one wall up to", &["box_contact_limit_rpm"], TurnsPerMinute),
+        ],
+    },
+];

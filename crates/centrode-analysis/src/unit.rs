@@ -1,0 +1,166 @@
+use std::f64::consts::PI;
+use std::fmt;
+
+use serde::{Serialize, Serializer};
+
+/// Unit of a figure, which settles how the figure is shown.
+///
+/// Figures are kept in mm, rad, s and N; [`Unit::symbol`] names that unit, and JSON has it. A person reads angles in
+/// degrees: [`Unit::shown`] and [`Unit::show`].
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+#[non_exhaustive]
+pub enum Unit {
+    /// A whole number of things.
+    Count,
+    /// A plain number.
+    Number,
+    /// Length, mm.
+    Millimetre,
+    /// Curvature, 1/mm.
+    PerMillimetre,
+    /// Angle, kept in rad and shown in degrees.
+    Angle,
+    /// Angle kept and shown in rad: errors too small for degrees.
+    Radian,
+    /// Angular speed, rad/s.
+    RadianPerSecond,
+    /// Angular acceleration, rad/s².
+    RadianPerSecondSquared,
+    /// Speed, mm/s.
+    MillimetrePerSecond,
+    /// Acceleration, m/s².
+    MetrePerSecondSquared,
+    /// Force, N.
+    Newton,
+    /// Torque, N·mm.
+    NewtonMillimetre,
+    /// Speed of a shaft, r/min.
+    TurnsPerMinute,
+    /// Rate of work, 1/min.
+    PerMinute,
+    /// Time, s.
+    Second,
+    /// Length along a pitch curve in pitches of its teeth.
+    Pitch,
+}
+
+impl Unit {
+    /// Symbol of the unit that figures are kept in; empty for a plain number.
+    #[must_use]
+    pub fn symbol(self) -> &'static str {
+        match self {
+            Self::Count | Self::Number => "",
+            Self::Millimetre => "mm",
+            Self::PerMillimetre => "1/mm",
+            Self::Angle | Self::Radian => "rad",
+            Self::RadianPerSecond => "rad/s",
+            Self::RadianPerSecondSquared => "rad/s²",
+            Self::MillimetrePerSecond => "mm/s",
+            Self::MetrePerSecondSquared => "m/s²",
+            Self::Newton => "N",
+            Self::NewtonMillimetre => "N·mm",
+            Self::TurnsPerMinute => "r/min",
+            Self::PerMinute => "1/min",
+            Self::Second => "s",
+            Self::Pitch => "pitches",
+        }
+    }
+
+    /// Symbol of the unit that a person reads the figure in.
+    #[must_use]
+    pub fn shown(self) -> &'static str {
+        match self {
+            Self::Angle => "deg",
+            other => other.symbol(),
+        }
+    }
+
+    /// Factor from the unit kept to the unit shown.
+    #[must_use]
+    pub fn factor(self) -> f64 {
+        match self {
+            Self::Angle => 180.0 / PI,
+            _ => 1.0,
+        }
+    }
+
+    /// The figure in the unit shown, in few enough digits to read; a small one keeps its leading digits.
+    #[must_use]
+    pub fn show(self, value: f64) -> String {
+        let decimals = match self {
+            Self::Count => return format!("{value:.0}"),
+            Self::Number | Self::PerMillimetre => 6,
+            Self::RadianPerSecond | Self::RadianPerSecondSquared => 6,
+            Self::MetrePerSecondSquared => 6,
+            Self::MillimetrePerSecond | Self::Newton => 2,
+            Self::NewtonMillimetre | Self::TurnsPerMinute => 2,
+            Self::Second | Self::Millimetre | Self::Pitch | Self::Angle | Self::PerMinute => 4,
+            Self::Radian => 0,
+        };
+        decimal(value * self.factor(), decimals)
+    }
+
+    /// The figure as [`Unit::show`] has it, with its unit.
+    #[must_use]
+    pub fn tell(self, value: f64) -> String {
+        format!("{} {}", self.show(value), self.shown())
+            .trim_end()
+            .to_owned()
+    }
+
+    /// The unit in which an angle so small still has digits: rad below 1e-3.
+    #[must_use]
+    pub fn for_size(self, value: f64) -> Self {
+        match self {
+            Self::Angle if value.abs() <= 1e-3 => Self::Radian,
+            other => other,
+        }
+    }
+}
+
+impl fmt::Display for Unit {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.symbol())
+    }
+}
+
+impl Serialize for Unit {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(self.symbol())
+    }
+}
+
+/// Number with so many decimals, or in powers of ten where they would hide it; without decimals, always in powers of
+/// ten.
+fn decimal(value: f64, decimals: i32) -> String {
+    let hidden = 50.0 * 0.1_f64.powi(decimals);
+    if value == 0.0 {
+        "0".into()
+    } else if value.is_infinite() {
+        if value > 0.0 { "infinite" } else { "-infinite" }.into()
+    } else if value.is_nan() {
+        "none".into()
+    } else if value.abs() < hidden || value.abs() >= 1e9 {
+        format!("{value:.1e}")
+    } else {
+        format!("{value:.0$}", usize::try_from(decimals).unwrap_or(0))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn figures_keep_what_matters() {
+        assert_eq!(Unit::Millimetre.show(52.709_221), "52.7092");
+        assert_eq!(Unit::Millimetre.show(-3.2e-7), "-3.2e-7");
+        assert_eq!(Unit::Angle.show(PI), "180.0000");
+        assert_eq!(Unit::Count.show(23.0), "23");
+        assert_eq!(Unit::Radian.show(f64::INFINITY), "infinite");
+        assert_eq!(Unit::Radian.show(-0.0), "0");
+        assert_eq!(Unit::Radian.show(2.489e-7), "2.5e-7");
+        assert_eq!(Unit::Angle.tell(PI), "180.0000 deg");
+        assert_eq!(Unit::Count.tell(3.0), "3");
+    }
+}
