@@ -18,10 +18,13 @@ pub(super) struct CmaEs {
     count: usize,
     generation: u32,
     mean: Vec<f64>,
+    /// Step size, sigma.
     step: f64,
     /// Covariance matrix, row by row.
     covariance: Vec<f64>,
+    /// Evolution path of the step size, `p_sigma`.
     step_path: Vec<f64>,
+    /// Evolution path of the covariance, `p_c`.
     path: Vec<f64>,
     /// The steps of this generation's points, in units of `step`.
     #[serde(skip)]
@@ -88,6 +91,7 @@ impl CmaEs {
         self.steps.iter().map(point).collect()
     }
 
+    /// Moves the distribution on by the points evaluated; names of the rates are Hansen's symbols.
     pub(super) fn update(&mut self, points: &[Candidate]) {
         let n = self.mean.len();
         let dimension = n as f64;
@@ -100,16 +104,16 @@ impl CmaEs {
             .collect();
         let sum: f64 = raw.iter().sum();
         let weights: Vec<f64> = raw.iter().map(|w| w / sum).collect();
-        let mass = 1.0 / weights.iter().map(|w| w * w).sum::<f64>();
+        let mu_eff = 1.0 / weights.iter().map(|w| w * w).sum::<f64>();
 
-        let step_rate = (mass + 2.0) / (dimension + mass + 5.0);
-        let path_rate = (4.0 + mass / dimension) / (dimension + 4.0 + 2.0 * mass / dimension);
-        let rank_one = 2.0 / ((dimension + 1.3).powi(2) + mass);
-        let rank_mu = (2.0 * (mass - 2.0 + 1.0 / mass) / ((dimension + 2.0).powi(2) + mass))
-            .min(1.0 - rank_one);
-        let damping =
-            1.0 + 2.0 * (((mass - 1.0) / (dimension + 1.0)).sqrt() - 1.0).max(0.0) + step_rate;
-        let expected =
+        let c_sigma = (mu_eff + 2.0) / (dimension + mu_eff + 5.0);
+        let c_c = (4.0 + mu_eff / dimension) / (dimension + 4.0 + 2.0 * mu_eff / dimension);
+        let c_1 = 2.0 / ((dimension + 1.3).powi(2) + mu_eff);
+        let c_mu = (2.0 * (mu_eff - 2.0 + 1.0 / mu_eff) / ((dimension + 2.0).powi(2) + mu_eff))
+            .min(1.0 - c_1);
+        let d_sigma =
+            1.0 + 2.0 * (((mu_eff - 1.0) / (dimension + 1.0)).sqrt() - 1.0).max(0.0) + c_sigma;
+        let chi_n =
             dimension.sqrt() * (1.0 - 0.25 / dimension + 1.0 / (21.0 * dimension * dimension));
 
         let mut mean_step = DVector::zeros(n);
@@ -121,26 +125,22 @@ impl CmaEs {
         let whitened = &axes * (axes.transpose() * &mean_step).component_mul(&inverse);
         for k in 0..n {
             self.mean[k] += self.step * mean_step[k];
-            self.step_path[k] = (1.0 - step_rate) * self.step_path[k]
-                + (step_rate * (2.0 - step_rate) * mass).sqrt() * whitened[k];
+            self.step_path[k] = (1.0 - c_sigma) * self.step_path[k]
+                + (c_sigma * (2.0 - c_sigma) * mu_eff).sqrt() * whitened[k];
         }
         self.generation += 1;
         let length = self.step_path.iter().map(|p| p * p).sum::<f64>().sqrt();
-        let settled = (1.0 - (1.0 - step_rate).powf(2.0 * f64::from(self.generation))).sqrt();
-        let moving = length / settled < (1.4 + 2.0 / (dimension + 1.0)) * expected;
-        let gain = if moving {
-            (path_rate * (2.0 - path_rate) * mass).sqrt()
+        let settled = (1.0 - (1.0 - c_sigma).powf(2.0 * f64::from(self.generation))).sqrt();
+        let h_sigma = length / settled < (1.4 + 2.0 / (dimension + 1.0)) * chi_n;
+        let path_gain = if h_sigma {
+            (c_c * (2.0 - c_c) * mu_eff).sqrt()
         } else {
             0.0
         };
         for k in 0..n {
-            self.path[k] = (1.0 - path_rate) * self.path[k] + gain * mean_step[k];
+            self.path[k] = (1.0 - c_c) * self.path[k] + path_gain * mean_step[k];
         }
-        let lost = if moving {
-            0.0
-        } else {
-            path_rate * (2.0 - path_rate)
-        };
+        let delta = if h_sigma { 0.0 } else { c_c * (2.0 - c_c) };
         for i in 0..n {
             for j in 0..n {
                 let mut spread = 0.0;
@@ -148,11 +148,11 @@ impl CmaEs {
                     spread += weight * self.steps[k][i] * self.steps[k][j];
                 }
                 let old = self.covariance[i * n + j];
-                self.covariance[i * n + j] = (1.0 - rank_one - rank_mu + rank_one * lost) * old
-                    + rank_one * self.path[i] * self.path[j]
-                    + rank_mu * spread;
+                self.covariance[i * n + j] = (1.0 - c_1 - c_mu + c_1 * delta) * old
+                    + c_1 * self.path[i] * self.path[j]
+                    + c_mu * spread;
             }
         }
-        self.step *= ((step_rate / damping) * (length / expected - 1.0)).exp();
+        self.step *= ((c_sigma / d_sigma) * (length / chi_n - 1.0)).exp();
     }
 }
