@@ -13,17 +13,16 @@ from . import cam, pitch, plot
 from ._centrode import (
     Body,
     DiscCam,
-    Drawing,
     DrawingSpec,
     Feeder,
     Gear,
     GearPair,
     Keyway,
+    Mechanism,
     MovingBox,
     Pitch,
     Rack,
     Shaper,
-    Sheets,
     SixBar,
     SpiralShaft,
     ThreeArm,
@@ -38,6 +37,7 @@ from ._goal import Goal
 from ._optimised import Optimised
 from ._over_pins import OverPins
 from ._report import Finding, Place, Report, Table
+from ._sheet import Drawing, Sheets
 from ._six_bar import DeadCenters
 from ._slider_force import SliderForce
 from ._sweep import sweep
@@ -63,6 +63,7 @@ __all__ = [
     "Goal",
     "Keyway",
     "LinkageError",
+    "Mechanism",
     "MechanismError",
     "MovingBox",
     "Optimised",

@@ -4,17 +4,17 @@ use pyo3::prelude::pymodule;
 
 mod array;
 mod body;
-mod bundle;
 mod cam;
 mod count;
 mod design;
 mod drawing;
 mod error;
 mod feeder;
-mod format;
+mod files;
 mod gear;
 mod gear_pair;
 mod made;
+mod mechanism;
 mod moving_box;
 mod pitch;
 mod place;
@@ -23,10 +23,12 @@ mod search;
 mod sheet;
 mod six_bar;
 mod spiral_shaft;
+mod table;
 mod three_arm;
 mod tool;
 mod variants;
 mod wait;
+mod word;
 
 /// Native part of the `centrode` package.
 #[pymodule]
@@ -47,9 +49,13 @@ mod _centrode {
     #[pymodule_export]
     use crate::feeder::Feeder;
     #[pymodule_export]
+    use crate::files::_write;
+    #[pymodule_export]
     use crate::gear::Gear;
     #[pymodule_export]
     use crate::gear_pair::GearPair;
+    #[pymodule_export]
+    use crate::mechanism::Mechanism;
     #[pymodule_export]
     use crate::moving_box::MovingBox;
     #[pymodule_export]
@@ -59,8 +65,6 @@ mod _centrode {
     };
     #[pymodule_export]
     use crate::pitch::{_pitch_from_toml, Pitch};
-    #[pymodule_export]
-    use crate::sheet::{_drawing, _sheets, Drawing, Sheets};
     #[pymodule_export]
     use crate::six_bar::SixBar;
     #[pymodule_export]

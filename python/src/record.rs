@@ -9,8 +9,9 @@ use numpy::{IntoPyArray, PyArrayMethods};
 use pyo3::IntoPyObjectExt;
 use pyo3::prelude::{Bound, IntoPyObject, Py, PyAny, PyAnyMethods, PyResult, Python};
 use pyo3::sync::PyOnceLock;
-use pyo3::types::{PyDict, PyDictMethods, PyTuple, PyType};
+use pyo3::types::{PyBytes, PyDict, PyDictMethods, PyTuple, PyType};
 
+use crate::array::Course;
 use crate::search::Found;
 
 /// A Python class, looked up once.
@@ -57,12 +58,21 @@ impl<'py> Keywords<'py> {
         self.0.set_item(name, value)?;
         Ok(self)
     }
+
+    /// The call that they belong to, as it is written.
+    pub(crate) fn call(&self, name: &str) -> PyResult<String> {
+        let mut given = Vec::with_capacity(self.0.len());
+        for (key, value) in &self.0 {
+            given.push(format!("{key}={}", value.repr()?));
+        }
+        Ok(format!("{name}({})", given.join(", ")))
+    }
 }
 
 /// Forces on a slider: normal, transverse, torque and push.
 pub(crate) fn slider_force<'py>(
     py: Python<'py>,
-    parts: [Bound<'py, PyAny>; 4],
+    parts: [Course; 4],
 ) -> PyResult<Bound<'py, PyAny>> {
     static CLASS: Class = Class::new("centrode._slider_force", "SliderForce");
     let [normal, transverse, torque, push] = parts;
@@ -278,6 +288,34 @@ fn side<'py>(py: Python<'py>, side: &ToothSide) -> PyResult<Bound<'py, PyAny>> {
         .with("undercut", side.undercut)?
         .with("active", side.active)?
         .with("fillet_radius", side.fillet_radius)?;
+    CLASS.make(&keywords.0)
+}
+
+/// Drawing sheets of a size: their files in DXF, SVG and PDF.
+pub(crate) fn sheets<'py>(
+    py: Python<'py>,
+    size: &str,
+    [dxf, svg, pdf]: &[Vec<Vec<u8>>; 3],
+) -> PyResult<Bound<'py, PyAny>> {
+    static CLASS: Class = Class::new("centrode._sheet", "Sheets");
+    let files = |all: &[Vec<u8>]| PyTuple::new(py, all.iter().map(|file| PyBytes::new(py, file)));
+    let keywords = Keywords::new(py)
+        .with("size", size)?
+        .with("dxf", files(dxf)?)?
+        .with("svg", files(svg)?)?
+        .with("pdf", PyBytes::new(py, &pdf.concat()))?;
+    CLASS.make(&keywords.0)
+}
+
+/// A cutting drawing: its files in DXF and SVG.
+pub(crate) fn drawing<'py>(
+    py: Python<'py>,
+    [dxf, svg]: &[Vec<Vec<u8>>; 2],
+) -> PyResult<Bound<'py, PyAny>> {
+    static CLASS: Class = Class::new("centrode._sheet", "Drawing");
+    let keywords = Keywords::new(py)
+        .with("dxf", PyBytes::new(py, &dxf.concat()))?
+        .with("svg", PyBytes::new(py, &svg.concat()))?;
     CLASS.make(&keywords.0)
 }
 

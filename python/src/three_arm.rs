@@ -1,43 +1,35 @@
 use std::collections::BTreeMap;
-use std::path::PathBuf;
 use std::sync::Arc;
 
-use centrode_analysis::optimise::Settings;
-use centrode_analysis::{between_arms, check_three_arm};
-use centrode_export::Bundle;
-use centrode_export::three_arm as files;
-use centrode_mechanism::design::Design as _;
-use centrode_mechanism::gear::design::{BodySpec, TeethSpec};
+use centrode_analysis::between_arms;
+use centrode_mechanism::gear::design::TeethSpec;
 use centrode_mechanism::three_arm as mechanism;
 use centrode_mechanism::three_arm::design::{
-    ArmSpec, Direction, GearboxSpec, SeedlingSpec, ThreeArmDesign, TraySpec, WorkSpec,
+    ArmSpec, GearboxSpec, SeedlingSpec, ThreeArmDesign, TraySpec, WorkSpec,
 };
 use centrode_mechanism::three_arm::{Link, PointMotion};
 use numpy::PyArray2;
 use pyo3::exceptions::PyIndexError;
-use pyo3::prelude::{Bound, PyAny, PyDictMethods, PyRef, PyResult, Python, pyclass, pymethods};
-use pyo3::types::{PyDict, PyTuple};
+use pyo3::prelude::{
+    Bound, Py, PyAny, PyClassInitializer, PyDictMethods, PyRef, Python, pyclass, pymethods,
+};
+use pyo3::types::PyDict;
 
-use crate::array::{Values, each, each_row, points};
-use crate::body::Body;
-use crate::bundle;
+use crate::array::{Course, Values, points};
+use crate::body::{Body, spec_of};
 use crate::cam::{DiscCam, Fork};
 use crate::count::{Count, optional};
-use crate::design::{Class, path_loaded};
-use crate::error::{
-    not_of_family, of_arm, of_design, of_files, of_pair, of_pusher, of_three_arm, plain_tolerance,
-    unknown_word,
-};
-use crate::format;
+use crate::design::Class;
+use crate::error::{Answer, plain_tolerance};
 use crate::gear_pair::GearPair;
-use crate::made::{Made, Reduced, by_design};
+use crate::made::Made;
+use crate::mechanism::Mechanism;
 use crate::pitch::Pitch;
-use crate::place::addendum as addendum_of;
 use crate::record;
-use crate::search;
 use crate::tool::Tool;
 use crate::variants;
 use crate::wait::wait;
+use crate::word::Word;
 
 /// A three-arm transplanting mechanism: fixed sun, turning carrier, arms on the planets of bent chains.
 ///
@@ -95,93 +87,50 @@ use crate::wait::wait;
 /// 82.04634
 /// >>> round(math.degrees(arms.clamp_angle(math.radians(20))), 6)
 /// 0.616147
-#[pyclass(frozen, eq, module = "centrode")]
+#[pyclass(frozen, extends = Mechanism, module = "centrode")]
 #[derive(Debug)]
-pub(crate) struct ThreeArm(pub(crate) Arc<mechanism::ThreeArm>);
+pub(crate) struct ThreeArm(Arc<mechanism::ThreeArm>);
 
 impl Class for ThreeArm {
-    type Mechanism = mechanism::ThreeArm;
+    type Machine = mechanism::ThreeArm;
 
     fn of(arms: Arc<mechanism::ThreeArm>) -> Self {
         Self(arms)
     }
-}
 
-impl PartialEq for ThreeArm {
-    fn eq(&self, other: &Self) -> bool {
-        self.0.design() == other.0.design()
+    fn machine(&self) -> &Arc<mechanism::ThreeArm> {
+        &self.0
     }
 }
 
 impl ThreeArm {
     /// An arm that is there.
-    fn arm(&self, arm: u32) -> PyResult<u32> {
+    fn arm(&self, arm: u32) -> Answer<u32> {
         let arms = self.0.arms();
         if arm < arms {
             Ok(arm)
         } else {
-            Err(PyIndexError::new_err(format!(
-                "arm {arm} of {arms}, counted from 0"
-            )))
+            let message = format!("arm {arm} of {arms}, counted from 0");
+            Err(PyIndexError::new_err(message).into())
         }
     }
 
-    fn bundle(
+    fn of_tip(
         &self,
-        py: Python<'_>,
-        formats: Option<Vec<String>>,
-        parts: Option<Vec<String>>,
-        tolerance: f64,
-        (dxf_version, dxf_curves): (&str, &str),
-    ) -> PyResult<Bundle> {
-        let tolerance = plain_tolerance(tolerance)?;
-        let (formats, mut options) = format::within(tolerance, formats, dxf_version, dxf_curves)?;
-        let known = files::Part::ALL.map(files::Part::name);
-        if let Some(word) = parts
-            .iter()
-            .flatten()
-            .find(|word| !known.contains(&word.as_str()))
-        {
-            return Err(unknown_word("parts", word, &known));
-        }
-        options.parts = parts;
-        let arms = Arc::clone(&self.0);
-        wait(py, move || files::files(&arms, &formats, &options))?.map_err(|e| of_files(&e))
-    }
-
-    fn of_tip<'py>(
-        &self,
-        py: Python<'py>,
         theta: Values,
         arm: u32,
         over_ground: bool,
         part: fn(&PointMotion) -> [f64; 2],
-    ) -> PyResult<Bound<'py, PyAny>> {
+    ) -> Answer<Course> {
         let arm = self.arm(arm)?;
-        let arms = Arc::clone(&self.0);
-        each_row(py, theta, move |theta| {
+        Ok(self.rows(theta, move |arms, theta| {
             let tip = arms.tip(theta, arm);
             if over_ground {
                 part(&arms.over_ground(&tip, theta))
             } else {
                 part(&tip)
             }
-        })
-    }
-}
-
-fn body(body: Option<PyRef<'_, Body>>) -> BodySpec {
-    body.map_or_else(BodySpec::default, |b| b.0.clone())
-}
-
-fn direction(word: &str) -> PyResult<Direction> {
-    match word {
-        "clockwise" => Ok(Direction::Clockwise),
-        "counter-clockwise" => Ok(Direction::CounterClockwise),
-        _ => {
-            let known = ["clockwise", "counter-clockwise"];
-            Err(unknown_word("direction", word, &known))
-        }
+        }))
     }
 }
 
@@ -214,7 +163,7 @@ impl ThreeArm {
         seedling_width: f64,
         clamp_length: f64,
         housing_offset: f64,
-        tool: Option<Tool<'_>>,
+        tool: Option<Tool>,
         addendum: &str,
         backlash: f64,
         sun: Option<PyRef<'_, Body>>,
@@ -222,7 +171,7 @@ impl ThreeArm {
         planet: Option<PyRef<'_, Body>>,
         name: &str,
         title: &str,
-    ) -> PyResult<Self> {
+    ) -> Answer<PyClassInitializer<Self>> {
         let arm = ArmSpec {
             clamp_length,
             ..ArmSpec::new(arm_mounting_angle, tip_distance, pusher_offset)
@@ -231,13 +180,13 @@ impl ThreeArm {
             name: name.into(),
             title: title.into(),
             arms: arms.of("arms")?,
-            direction: self::direction(direction)?,
+            direction: Word::of("direction", direction)?,
             planet_reference,
             tooth_count: optional("tooth_count", tooth_count)?,
             center_distance,
-            tool: tool.map(|t| t.spec()).unwrap_or_default(),
+            tool: tool.map(|tool| tool.0).unwrap_or_default(),
             teeth: TeethSpec {
-                addendum: addendum_of(addendum)?,
+                addendum: Word::of("teeth.addendum", addendum)?,
                 backlash,
                 ..TeethSpec::default()
             },
@@ -261,53 +210,12 @@ impl ThreeArm {
                 height: seedling_height,
                 width: seedling_width,
             },
-            sun: body(sun),
-            intermediate: body(intermediate),
-            planet: body(planet),
+            sun: spec_of(sun),
+            intermediate: spec_of(intermediate),
+            planet: spec_of(planet),
             ..ThreeArmDesign::new(pitch.spec.clone(), carrier_start, bend, arm)
         };
-        let mechanism = wait(py, move || mechanism::ThreeArm::resolve(&design))?;
-        Ok(Self(Arc::new(mechanism.map_err(|e| of_three_arm(&e))?)))
-    }
-
-    /// The mechanism of a design file.
-    ///
-    /// Raises:
-    ///     DesignError: The design breaks a rule, or is of another family.
-    ///     OSError: The file cannot be read.
-    #[staticmethod]
-    fn load(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
-        let loaded = path_loaded(py, path)?;
-        let arms = loaded.cast::<Self>();
-        let arms = arms.map_err(|_| not_of_family::<Self>())?;
-        Ok(Self(Arc::clone(&arms.get().0)))
-    }
-
-    /// The mechanism of a design file's text.
-    ///
-    /// >>> import centrode as ct
-    /// >>> ct.ThreeArm.from_toml(ct.template("three-arm")).arms
-    /// 3
-    #[staticmethod]
-    fn from_toml(py: Python<'_>, text: &str) -> PyResult<Self> {
-        Class::read(py, text)
-    }
-
-    /// The design file of the mechanism; `from_toml` reads it back.
-    fn to_toml(&self) -> PyResult<String> {
-        self.0.design().to_toml().map_err(|e| of_design(&e))
-    }
-
-    /// Name, as written in the design.
-    #[getter]
-    fn name(&self) -> &str {
-        &self.0.design().name
-    }
-
-    /// Title, as written in the design.
-    #[getter]
-    fn title(&self) -> &str {
-        &self.0.design().title
+        Self::made(py, design)
     }
 
     /// Number of arms.
@@ -318,7 +226,7 @@ impl ThreeArm {
 
     /// Pitch curve of the sun.
     #[getter]
-    fn pitch(&self) -> PyResult<Pitch> {
+    fn pitch(&self) -> Answer<Pitch> {
         Pitch::resolve(self.0.design().pitch.clone())
     }
 
@@ -360,13 +268,13 @@ impl ThreeArm {
 
     /// Carrier turn at which an arm picks, rad.
     #[pyo3(signature = (arm=0))]
-    fn picking(&self, arm: u32) -> PyResult<f64> {
+    fn picking(&self, arm: u32) -> Answer<f64> {
         Ok(self.0.picking(self.arm(arm)?))
     }
 
     /// Carrier turn at which an arm plants, rad.
     #[pyo3(signature = (arm=0))]
-    fn planting(&self, arm: u32) -> PyResult<f64> {
+    fn planting(&self, arm: u32) -> Answer<f64> {
         Ok(self.0.planting(self.arm(arm)?))
     }
 
@@ -378,50 +286,27 @@ impl ThreeArm {
     /// array([[ 243.621,   29.807],
     ///        [ -68.003, -251.994]])
     #[pyo3(signature = (theta, arm=0, *, over_ground=false))]
-    fn tip<'py>(
-        &self,
-        py: Python<'py>,
-        theta: Values,
-        arm: u32,
-        over_ground: bool,
-    ) -> PyResult<Bound<'py, PyAny>> {
-        self.of_tip(py, theta, arm, over_ground, |m| m.position.coords.into())
+    fn tip(&self, theta: Values, arm: u32, over_ground: bool) -> Answer<Course> {
+        self.of_tip(theta, arm, over_ground, |m| m.position.coords.into())
     }
 
     /// Velocity of an arm's tip, (N, 2), mm for a radian of carrier turn; times `carrier_speed` it is mm/s.
     #[pyo3(signature = (theta, arm=0, *, over_ground=false))]
-    fn tip_velocity<'py>(
-        &self,
-        py: Python<'py>,
-        theta: Values,
-        arm: u32,
-        over_ground: bool,
-    ) -> PyResult<Bound<'py, PyAny>> {
-        self.of_tip(py, theta, arm, over_ground, |m| m.velocity.into())
+    fn tip_velocity(&self, theta: Values, arm: u32, over_ground: bool) -> Answer<Course> {
+        self.of_tip(theta, arm, over_ground, |m| m.velocity.into())
     }
 
     /// Acceleration of an arm's tip, (N, 2), mm for a radian of carrier turn squared.
     #[pyo3(signature = (theta, arm=0))]
-    fn tip_acceleration<'py>(
-        &self,
-        py: Python<'py>,
-        theta: Values,
-        arm: u32,
-    ) -> PyResult<Bound<'py, PyAny>> {
-        self.of_tip(py, theta, arm, false, |m| m.acceleration.into())
+    fn tip_acceleration(&self, theta: Values, arm: u32) -> Answer<Course> {
+        self.of_tip(theta, arm, false, |m| m.acceleration.into())
     }
 
     /// Elevation of an arm's clamp above the horizontal, seen towards the tray, in (-pi, pi], rad.
     #[pyo3(signature = (theta, arm=0))]
-    fn clamp_angle<'py>(
-        &self,
-        py: Python<'py>,
-        theta: Values,
-        arm: u32,
-    ) -> PyResult<Bound<'py, PyAny>> {
+    fn clamp_angle(&self, theta: Values, arm: u32) -> Answer<Course> {
         let arm = self.arm(arm)?;
-        let arms = Arc::clone(&self.0);
-        each(py, theta, move |theta| arms.clamp_elevation(theta, arm))
+        Ok(self.each(theta, move |arms, theta| arms.clamp_elevation(theta, arm)))
     }
 
     /// Where every link stands: by name x, y (mm) and turn (rad) of its frame, (N, 3).
@@ -432,7 +317,7 @@ impl ThreeArm {
     /// >>> arms = ct.ThreeArm.from_toml(ct.template("three-arm"))
     /// >>> sorted(arms.pose(0.0))[:4]
     /// ['arm-0', 'arm-1', 'arm-2', 'carrier']
-    fn pose<'py>(&self, py: Python<'py>, theta: Values) -> PyResult<Bound<'py, PyDict>> {
+    fn pose<'py>(&self, py: Python<'py>, theta: Values) -> Answer<Bound<'py, PyDict>> {
         let mut links = vec![
             ("sun".to_owned(), Link::Sun),
             ("carrier".into(), Link::Carrier),
@@ -444,12 +329,11 @@ impl ThreeArm {
         }
         let poses = PyDict::new(py);
         for (name, link) in links {
-            let arms = Arc::clone(&self.0);
-            let rows = each_row(py, theta.clone(), move |theta| {
+            let rows = self.rows(theta.clone(), move |arms, theta| {
                 let stands = arms.link(link, theta);
                 let at = stands.origin.position;
                 [at.x, at.y, stands.angle.position]
-            })?;
+            });
             poses.set_item(name, rows)?;
         }
         Ok(poses)
@@ -462,8 +346,8 @@ impl ThreeArm {
     /// Raises:
     ///     MechanismError: Cam and fork cannot be.
     #[getter]
-    fn cam(slf: &Bound<'_, Self>) -> PyResult<DiscCam> {
-        let pusher = slf.get().0.pusher().map_err(|e| of_pusher(&e))?;
+    fn cam(slf: &Bound<'_, Self>) -> Answer<DiscCam> {
+        let pusher = slf.get().0.pusher()?;
         let made = Made::part_of(slf.clone().into_any(), "cam")?;
         Ok(DiscCam::new(pusher.cam().clone(), made))
     }
@@ -478,8 +362,8 @@ impl ThreeArm {
     /// >>> fork.joint, round(fork.retraction(fork.swing(25.0)), 9)
     /// ('pin-on-rod', 25.0)
     #[getter]
-    fn fork(&self) -> PyResult<Fork> {
-        let pusher = self.0.pusher().map_err(|e| of_pusher(&e))?;
+    fn fork(&self) -> Answer<Fork> {
+        let pusher = self.0.pusher()?;
         Ok(Fork(pusher.fork().clone()))
     }
 
@@ -493,10 +377,10 @@ impl ThreeArm {
         &self,
         py: Python<'py>,
         tolerance: f64,
-    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    ) -> Answer<Bound<'py, PyArray2<f64>>> {
         let tolerance = plain_tolerance(tolerance)?;
-        let arm = self.0.arm_body().map_err(|e| of_arm(&e))?;
-        points(py, &arm.outline().flatten(tolerance))
+        let arm = self.0.arm_body()?;
+        Ok(points(py, &arm.outline().flatten(tolerance))?)
     }
 
     /// How close arms come over a whole turn, proven between samples to within `tolerance` (mm); None for one arm.
@@ -513,86 +397,13 @@ impl ThreeArm {
         &self,
         py: Python<'py>,
         tolerance: f64,
-    ) -> PyResult<Option<Bound<'py, PyAny>>> {
+    ) -> Answer<Option<Bound<'py, PyAny>>> {
         let tolerance = plain_tolerance(tolerance)?;
-        let arm = self.0.arm_body().map_err(|e| of_arm(&e))?;
+        let arm = self.0.arm_body()?;
         let arms = Arc::clone(&self.0);
         let found = wait(py, move || between_arms(&arms, &arm, tolerance))?;
-        let found = found.map_err(|e| of_arm(&e))?;
-        found.map(|found| record::clearance(py, &found)).transpose()
-    }
-
-    /// The goals: figure, range, margin and progress of each.
-    ///
-    /// >>> import centrode as ct
-    /// >>> goals = ct.ThreeArm.from_toml(ct.template("three-arm")).goals()
-    /// >>> print(goals[1])
-    /// goal 2: clamp above horizontal at picking 0.0107538 rad, met
-    fn goals<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
-        let arms = Arc::clone(&self.0);
-        let report = wait(py, move || check_three_arm(&arms))?;
-        record::goals(py, &report.goals)
-    }
-
-    /// Checks the goals, where the arms work, and what teeth the pitch curves can bear.
-    fn check<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let arms = Arc::clone(&self.0);
-        let report = wait(py, move || check_three_arm(&arms))?;
-        record::report(py, &report)
-    }
-
-    /// Searches for a better mechanism around this one; the table [optimise] of its design says what may move.
-    ///
-    /// Args:
-    ///     method: "guided", "cma-es", "de" or "ga".
-    ///     seed: Same seed, same answer, on any number of cores.
-    ///     evaluations: Most points looked at; the generation under way is finished.
-    ///     population: Points a generation; by the method if left out.
-    ///     progress: Called with evaluations, violation and objective of the best so far; False ends the search.
-    ///
-    /// Raises:
-    ///     MechanismError: There is no search for such a design.
-    #[pyo3(signature = (method="guided", *, seed=1, evaluations=20_000, population=None, progress=None))]
-    fn optimise<'py>(
-        &self,
-        py: Python<'py>,
-        method: &str,
-        seed: u64,
-        evaluations: u64,
-        population: Option<usize>,
-        progress: Option<Bound<'py, PyAny>>,
-    ) -> PyResult<Bound<'py, PyAny>> {
-        let settings = Settings {
-            seed,
-            population,
-            evaluations,
-            ..Settings::default()
-        };
-        let design = self.0.design();
-        search::optimised::<Self>(py, design, method, settings, progress.as_ref())
-    }
-
-    /// How goals and figures answer one number of the design: by name, a figure at each value, NaN where there is no
-    /// mechanism.
-    ///
-    /// Args:
-    ///     parameter: Key of the design file, "arm.tip_distance", or a parameter's name, "r1".
-    ///     values: In the file's unit: mm, degrees.
-    ///     whole: Ask for the teeth and the cam, too, which takes some ten times as long.
-    ///
-    /// >>> import centrode as ct
-    /// >>> arms = ct.ThreeArm.from_toml(ct.template("three-arm"))
-    /// >>> arms.response("r1", [15, 21, 27])["trajectory-height"].round(1).tolist()
-    /// [377.8, 370.8, 363.1]
-    #[pyo3(signature = (parameter, values, *, whole=false))]
-    fn response<'py>(
-        &self,
-        py: Python<'py>,
-        parameter: &str,
-        values: Vec<f64>,
-        whole: bool,
-    ) -> PyResult<Bound<'py, PyDict>> {
-        search::response::<Self>(py, self.0.design(), parameter, values, whole)
+        let found = found?.map(|found| record::clearance(py, &found));
+        Ok(found.transpose()?)
     }
 
     /// Figures of many variants of this mechanism, about twenty microseconds each: goals 2 to 4 and 6 to 8, centre distance and
@@ -622,7 +433,7 @@ impl ThreeArm {
         py: Python<'py>,
         parameters: BTreeMap<String, Values>,
         inputs: usize,
-    ) -> PyResult<Bound<'py, PyDict>> {
+    ) -> Answer<Bound<'py, PyDict>> {
         variants::sweep(py, self.0.design(), parameters, inputs)
     }
 
@@ -630,12 +441,9 @@ impl ThreeArm {
     ///
     /// Raises:
     ///     GearPairError: No teeth can be laid out or cut, or the tooth count is missing.
-    fn gear_pair(&self, py: Python<'_>) -> PyResult<GearPair> {
+    fn gear_pair(&self, py: Python<'_>) -> Answer<Py<GearPair>> {
         let arms = Arc::clone(&self.0);
-        let pair = wait(py, move || arms.pair())?.map_err(|e| of_pair(&e))?;
-        Ok(GearPair {
-            pair: Arc::new(pair),
-        })
+        GearPair::object(py, wait(py, move || arms.pair())??)
     }
 
     /// How far an arm's push rod is drawn back at carrier turns (rad), mm: 0 thrown out.
@@ -648,92 +456,11 @@ impl ThreeArm {
     /// >>> arms.push_rod(np.radians([20, 191, 206, 221])).round(6) + 0.0
     /// array([25. , 25. , 12.5,  0. ])
     #[pyo3(signature = (theta, arm=0))]
-    fn push_rod<'py>(
-        &self,
-        py: Python<'py>,
-        theta: Values,
-        arm: u32,
-    ) -> PyResult<Bound<'py, PyAny>> {
+    fn push_rod(&self, theta: Values, arm: u32) -> Answer<Course> {
         let arm = self.arm(arm)?;
-        let arms = Arc::clone(&self.0);
-        let pusher = arms.pusher().map_err(|e| of_pusher(&e))?;
-        each(py, theta, move |theta| {
+        let pusher = self.0.pusher()?;
+        Ok(self.each(theta, move |arms, theta| {
             pusher.retraction(arms.own_input(theta, arm)).position
-        })
-    }
-
-    /// The files of the mechanism, name to contents, without writing them; `export` writes them.
-    ///
-    /// >>> import centrode as ct
-    /// >>> arms = ct.ThreeArm.from_toml(ct.template("three-arm"))
-    /// >>> list(arms.files(formats=["dxf"], parts=["sun", "cam"]))
-    /// ['sun.dxf', 'cam.dxf']
-    #[pyo3(signature = (*, formats=None, parts=None, tolerance=1e-3, dxf_version="R2010", dxf_curves="arcs"))]
-    fn files<'py>(
-        &self,
-        py: Python<'py>,
-        formats: Option<Vec<String>>,
-        parts: Option<Vec<String>>,
-        tolerance: f64,
-        dxf_version: &str,
-        dxf_curves: &str,
-    ) -> PyResult<Bound<'py, PyDict>> {
-        let written = (dxf_version, dxf_curves);
-        let bundle = self.bundle(py, formats, parts, tolerance, written)?;
-        bundle::contents(py, &bundle)
-    }
-
-    /// Writes the mechanism's files into a directory, which is made if it is missing; gives their paths.
-    ///
-    /// Every part is written once, however many there are; every file whole or not at all, the same from run to run.
-    ///
-    /// Args:
-    ///     directory: Where to.
-    ///     formats: Any of "dxf", "svg", "sheet", "pdf", "stl", "step", "3mf", "csv", "urdf" and "mjcf"; all if left out.
-    ///     parts: Any of "sun", "intermediate", "planet", "cam", "fork", "roller", "carrier", "housing", "cover-rear",
-    ///         "cover-front", "clamp", "push-rod" and "assembly"; all if left out. Motion and models are of the whole.
-    ///     tolerance: Greatest distance of every arc, point sequence and mesh from the exact curve, mm.
-    ///     dxf_version: "R2010" or "R12".
-    ///     dxf_curves: "arcs" or "splines".
-    ///
-    /// Raises:
-    ///     ExportError: A part does not exist, or a file cannot be made or written.
-    #[pyo3(signature = (directory, *, formats=None, parts=None, tolerance=1e-3, dxf_version="R2010", dxf_curves="arcs"))]
-    #[expect(clippy::too_many_arguments, reason = "keyword arguments")]
-    fn export(
-        &self,
-        py: Python<'_>,
-        directory: PathBuf,
-        formats: Option<Vec<String>>,
-        parts: Option<Vec<String>>,
-        tolerance: f64,
-        dxf_version: &str,
-        dxf_curves: &str,
-    ) -> PyResult<Vec<PathBuf>> {
-        let written = (dxf_version, dxf_curves);
-        let bundle = self.bundle(py, formats, parts, tolerance, written)?;
-        bundle::written(py, bundle, directory)
-    }
-
-    fn __repr__(&self) -> String {
-        format!(
-            "ThreeArm({:?}, {} arms, {}, center_distance={:?})",
-            self.name(),
-            self.arms(),
-            self.0.definition(),
-            self.center_distance(),
-        )
-    }
-
-    fn __copy__(slf: Bound<'_, Self>) -> Bound<'_, Self> {
-        slf
-    }
-
-    fn __deepcopy__<'py>(slf: Bound<'py, Self>, _memo: &Bound<'py, PyAny>) -> Bound<'py, Self> {
-        slf
-    }
-
-    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
-        by_design(py, self.0.design())
+        }))
     }
 }

@@ -1,23 +1,23 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+use centrode_export::Options;
 use centrode_export::cam as export;
-use centrode_export::{Format, Options};
-use centrode_geometry::{Point, Tolerance};
+use centrode_geometry::Point;
 use centrode_mechanism::cam::{Cam, Contact, Extreme, design as spec};
 use numpy::{IntoPyArray, PyArray1, PyArray2};
 use pyo3::prelude::{Bound, PyRef, PyResult, Python, pyclass, pymethods};
 use pyo3::types::PyDict;
 
 use super::parts::{Follower, Segment};
-use super::{row, turn};
-use crate::array::{Numbers, points, rows};
+use crate::array::{Numbers, points, row, rows};
 use crate::body::Body;
-use crate::bundle;
-use crate::error::{design_error, of_cam, of_files, unknown_word};
+use crate::error::{Answer, plain_tolerance};
+use crate::files;
 use crate::made::{Made, Reduced, native};
 use crate::record::Keywords;
 use crate::wait::wait;
+use crate::word::Word;
 
 /// An extreme as the pair of cam angle and value.
 type Peak = (f64, f64);
@@ -77,10 +77,6 @@ impl DiscCam {
     }
 }
 
-fn tolerance(mm: f64) -> PyResult<Tolerance> {
-    Tolerance::new(mm).map_err(|e| design_error("tolerance", &e.to_string()))
-}
-
 fn peak(extreme: Extreme) -> Peak {
     (extreme.input, extreme.value)
 }
@@ -101,7 +97,7 @@ impl DiscCam {
         body: Option<PyRef<'py, Body>>,
         name: &str,
         title: &str,
-    ) -> PyResult<Self> {
+    ) -> Answer<Self> {
         let again = Keywords::new(py)
             .with("follower", &follower)?
             .with("segments", &segments)?
@@ -117,13 +113,13 @@ impl DiscCam {
             segments: segments.iter().map(|segment| segment.0.clone()).collect(),
         };
         let mut design = spec::CamSpec::new(base_radius, follower.0.clone(), motion);
-        design.rotation = turn("rotation", rotation)?;
+        design.rotation = Word::of("rotation", rotation)?;
         design.name = name.to_owned();
         design.title = title.to_owned();
         if let Some(body) = body {
             design.body = body.0.clone();
         }
-        let cam = wait(py, move || Cam::resolve(&design))?.map_err(|e| of_cam(&e))?;
+        let cam = wait(py, move || Cam::resolve(&design))??;
         Ok(Self::new(cam, made))
     }
 
@@ -193,9 +189,10 @@ impl DiscCam {
 
     /// Corners of a polygon within the tolerance of the profile, (N, 2), mm, counter-clockwise.
     #[pyo3(signature = (tolerance=1e-3))]
-    fn profile<'py>(&self, py: Python<'py>, tolerance: f64) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let tolerance = self::tolerance(tolerance)?;
-        points(py, &self.cam.profile().outline().flatten(tolerance))
+    fn profile<'py>(&self, py: Python<'py>, tolerance: f64) -> Answer<Bound<'py, PyArray2<f64>>> {
+        let tolerance = plain_tolerance(tolerance)?;
+        let outline = self.cam.profile().outline();
+        Ok(points(py, &outline.flatten(tolerance))?)
     }
 
     /// The same of the path of the roller's centre; None for a flat face.
@@ -204,12 +201,12 @@ impl DiscCam {
         &self,
         py: Python<'py>,
         tolerance: f64,
-    ) -> PyResult<Option<Bound<'py, PyArray2<f64>>>> {
-        let tolerance = self::tolerance(tolerance)?;
+    ) -> Answer<Option<Bound<'py, PyArray2<f64>>>> {
+        let tolerance = plain_tolerance(tolerance)?;
         let exact = tolerance.scaled(1e-3);
-        let path = self.cam.disc().pitch_curve(exact).map_err(|e| of_cam(&e))?;
-        path.map(|path| points(py, &path.flatten(tolerance)))
-            .transpose()
+        let path = self.cam.disc().pitch_curve(exact)?;
+        let path = path.map(|path| points(py, &path.flatten(tolerance)));
+        Ok(path.transpose()?)
     }
 
     /// Ranges of the cam angle whose contact is cut off by undercut, rad; none for a sound cam.
@@ -275,22 +272,12 @@ impl DiscCam {
         py: Python<'py>,
         formats: Option<Vec<String>>,
         tolerance: f64,
-    ) -> PyResult<Bound<'py, PyDict>> {
-        let known = export::FORMATS.map(Format::name);
-        let formats: Vec<Format> = match formats {
-            None => export::FORMATS.to_vec(),
-            Some(words) => words
-                .iter()
-                .map(|word| {
-                    word.parse()
-                        .map_err(|_| unknown_word("formats", word, &known))
-                })
-                .collect::<PyResult<_>>()?,
-        };
-        let options = Options::new(self::tolerance(tolerance)?);
+    ) -> Answer<Bound<'py, PyDict>> {
+        let formats = files::formats(formats, &export::FORMATS)?;
+        let options = Options::new(plain_tolerance(tolerance)?);
         let cam = self.cam.clone();
-        let bundle = wait(py, move || export::files(&cam, &formats, &options))?;
-        bundle::contents(py, &bundle.map_err(|e| of_files(&e))?)
+        let bundle = wait(py, move || export::files(&cam, &formats, &options))??;
+        Ok(files::contents(py, &bundle)?)
     }
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> Reduced<'py> {

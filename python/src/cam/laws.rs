@@ -5,9 +5,8 @@ use numpy::PyArray2;
 use pyo3::prelude::{Bound, PyResult, Python, pyclass, pyfunction, pymethods};
 use pyo3::types::PyTuple;
 
-use super::row;
-use crate::array::{Numbers, list, rows};
-use crate::error::{of_spec, unknown_word};
+use crate::array::{Numbers, list, row, rows};
+use crate::error::{Answer, Raised};
 use crate::made::{Reduced, by, native};
 use crate::record::Keywords;
 
@@ -32,8 +31,8 @@ impl PartialEq for Law {
 }
 
 impl Law {
-    pub(super) fn resolve(spec: mechanism::LawSpec) -> PyResult<Self> {
-        let law = spec.resolve().map_err(|e| of_spec(&e))?;
+    pub(super) fn resolve(spec: mechanism::LawSpec) -> Answer<Self> {
+        let law = spec.resolve()?;
         Ok(Self { spec, law })
     }
 }
@@ -46,10 +45,10 @@ impl Law {
 /// 5.528
 #[pyfunction]
 #[pyo3(signature = (name, /))]
-pub(crate) fn law(name: &str) -> PyResult<Law> {
+pub(crate) fn law(name: &str) -> Answer<Law> {
     let known = mechanism::LawSpec::NAMED.map(|(name, _)| name);
     let spec = mechanism::LawSpec::named(name);
-    Law::resolve(spec.ok_or_else(|| unknown_word("law.kind", name, &known))?)
+    Law::resolve(spec.ok_or_else(|| Raised::word("law.kind", name, &known))?)
 }
 
 /// The polynomial of least degree from 0 to 1 with the derivatives asked for at both ends: velocity,
@@ -60,7 +59,7 @@ pub(crate) fn law(name: &str) -> PyResult<Law> {
 /// array([[  1.,   2.,   0., -12.]])
 #[pyfunction]
 #[pyo3(name = "polynomial", signature = (*, start=None, end=None))]
-pub(crate) fn law_of_polynomial(start: Option<Numbers>, end: Option<Numbers>) -> PyResult<Law> {
+pub(crate) fn law_of_polynomial(start: Option<Numbers>, end: Option<Numbers>) -> Answer<Law> {
     Law::resolve(mechanism::LawSpec::Polynomial(mechanism::Polynomial {
         start: list(start),
         end: list(end),

@@ -10,7 +10,7 @@ use pyo3::prelude::{
 };
 
 use crate::array::{Numbers, points};
-use crate::error::{of_design, of_pitch};
+use crate::error::Answer;
 
 /// A pitch curve around the shaft axis at the origin, proved to go round it exactly once.
 ///
@@ -34,8 +34,8 @@ impl PartialEq for Pitch {
 
 impl Pitch {
     /// The exact curve of a description.
-    pub(crate) fn resolve(spec: spec::PitchSpec) -> PyResult<Self> {
-        let resolved = spec.resolve().map_err(|e| of_pitch(&e))?;
+    pub(crate) fn resolve(spec: spec::PitchSpec) -> Answer<Self> {
+        let resolved = spec.resolve()?;
         Ok(Self { spec, resolved })
     }
 
@@ -118,10 +118,8 @@ impl Pitch {
         slf
     }
 
-    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, (String,))> {
-        let text = GearPairDesign::new(self.spec.clone())
-            .to_toml()
-            .map_err(|e| of_design(&e))?;
+    fn __reduce__<'py>(&self, py: Python<'py>) -> Answer<(Bound<'py, PyAny>, (String,))> {
+        let text = GearPairDesign::new(self.spec.clone()).to_toml()?;
         let module = PyModule::import(py, "centrode._centrode")?;
         Ok((module.getattr("_pitch_from_toml")?, (text,)))
     }
@@ -129,7 +127,7 @@ impl Pitch {
 
 /// The pitch curve of a design file: how a pitch curve is unpickled.
 #[pyfunction]
-pub(crate) fn _pitch_from_toml(text: &str) -> PyResult<Pitch> {
-    let design = GearPairDesign::from_toml(text).map_err(|e| of_design(&e))?;
+pub(crate) fn _pitch_from_toml(text: &str) -> Answer<Pitch> {
+    let design = GearPairDesign::from_toml(text)?;
     Pitch::resolve(design.pitch)
 }
