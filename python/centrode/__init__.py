@@ -12,6 +12,7 @@ True
 from . import cam, pitch, plot
 from ._centrode import (
     Body,
+    BoxDrive,
     DiscCam,
     DrawingSpec,
     Feeder,
@@ -45,6 +46,7 @@ from ._tooth import Tooth, ToothSide
 
 __all__ = [
     "Body",
+    "BoxDrive",
     "CamError",
     "Clearance",
     "Contact",

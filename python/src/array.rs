@@ -3,7 +3,7 @@
 use centrode_geometry::{Mesh, Point};
 use centrode_mechanism::transmission::MotionJet;
 use numpy::ndarray::{Array2, ArrayD};
-use numpy::{IntoPyArray, PyArray2, PyArrayDyn, PyArrayMethods};
+use numpy::{Element, IntoPyArray, PyArray2, PyArrayDyn, PyArrayMethods};
 use pyo3::IntoPyObjectExt;
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::{
@@ -173,34 +173,32 @@ pub(crate) fn row(jet: &MotionJet) -> [f64; 4] {
     [jet.position, jet.velocity, jet.acceleration, jet.jerk]
 }
 
+/// Rows of numbers, handed over as an (N, COLUMNS) array.
+pub(crate) struct Rows<const COLUMNS: usize, T = f64>(pub(crate) Vec<[T; COLUMNS]>);
+
+impl Rows<2> {
+    pub(crate) fn of(points: &[Point]) -> Self {
+        Self(points.iter().map(|p| [p.x, p.y]).collect())
+    }
+}
+
+impl<'py, const COLUMNS: usize, T: Element> IntoPyObject<'py> for Rows<COLUMNS, T> {
+    type Target = PyArray2<T>;
+    type Output = Bound<'py, PyArray2<T>>;
+    type Error = PyErr;
+
+    fn into_pyobject(self, py: Python<'py>) -> PyResult<Self::Output> {
+        let shape = [self.0.len(), COLUMNS];
+        let array = Array2::from_shape_vec(shape, self.0.into_flattened());
+        let array = array.map_err(|error| PyValueError::new_err(error.to_string()))?;
+        Ok(array.into_pyarray(py))
+    }
+}
+
 /// Vertices of a mesh, (V, 3), and its faces, (F, 3).
-pub(crate) type MeshArrays<'py> = (Bound<'py, PyArray2<f64>>, Bound<'py, PyArray2<u32>>);
+pub(crate) type MeshRows = (Rows<3>, Rows<3, u32>);
 
 /// A mesh as two arrays.
-pub(crate) fn mesh(py: Python<'_>, mesh: Mesh) -> PyResult<MeshArrays<'_>> {
-    Ok((
-        rows(py, mesh.vertices.into_iter())?,
-        rows(py, mesh.faces.into_iter())?,
-    ))
-}
-
-/// Rows of numbers as an (N, COLUMNS) array.
-pub(crate) fn rows<'py, T: numpy::Element, const COLUMNS: usize>(
-    py: Python<'py>,
-    rows: impl ExactSizeIterator<Item = [T; COLUMNS]>,
-) -> PyResult<Bound<'py, PyArray2<T>>> {
-    let count = rows.len();
-    let numbers: Vec<T> = rows.flatten().collect();
-    let array = Array2::from_shape_vec([count, COLUMNS], numbers);
-    Ok(array
-        .map_err(|error| PyValueError::new_err(error.to_string()))?
-        .into_pyarray(py))
-}
-
-/// Points as an (N, 2) array.
-pub(crate) fn points<'py>(
-    py: Python<'py>,
-    points: &[Point],
-) -> PyResult<Bound<'py, PyArray2<f64>>> {
-    rows(py, points.iter().map(|p| [p.x, p.y]))
+pub(crate) fn mesh(mesh: Mesh) -> MeshRows {
+    (Rows(mesh.vertices), Rows(mesh.faces))
 }

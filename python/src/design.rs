@@ -15,7 +15,6 @@ use crate::array::{Course, Values};
 use crate::error::{Answer, Raised};
 use crate::feeder::Feeder;
 use crate::gear_pair::GearPair;
-use crate::mechanism::Mechanism;
 use crate::moving_box::MovingBox;
 use crate::spiral_shaft::SpiralShaft;
 use crate::three_arm::ThreeArm;
@@ -25,11 +24,12 @@ use crate::wait::wait;
 pub(crate) const LARGEST: usize = DesignFile::LARGEST + 1;
 
 /// The class of one family's machines.
-pub(crate) trait Class: PyClass<BaseType = Mechanism> {
+pub(crate) trait Class: PyClass {
     /// A machine of the family.
     type Machine: Resolved;
 
-    fn of(machine: Arc<Self::Machine>) -> Self;
+    /// The machine as what a new object of the class is made of.
+    fn start(machine: Arc<Self::Machine>) -> PyClassInitializer<Self>;
 
     fn machine(&self) -> &Arc<Self::Machine>;
 
@@ -51,12 +51,6 @@ pub(crate) trait Class: PyClass<BaseType = Mechanism> {
     ) -> Course {
         let machine = Arc::clone(self.machine());
         Course::arrays(inputs, &[COUNT], move |input| f(&machine, input))
-    }
-
-    /// The machine as what a new object of the class is made of.
-    fn start(machine: Arc<Self::Machine>) -> PyClassInitializer<Self> {
-        let every = Mechanism::new(Arc::clone(&machine) as Arc<dyn family::Mechanism>);
-        PyClassInitializer::from(every).add_subclass(Self::of(machine))
     }
 
     /// The machine of a design as what a new object of the class is made of.

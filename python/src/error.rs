@@ -47,29 +47,44 @@ impl From<PyErr> for Raised {
     }
 }
 
-/// Errors that become an exception of a class, each with the key of the design that is to blame.
+/// Exceptions of errors: for each case the class, and the key of the design that is to blame, empty for none.
 macro_rules! raised {
-    ($($error:ty => $class:ident, $key:expr;)*) => {
+    ($($error:ty { $($case:pat => $class:ident($key:expr),)* })*) => {
         $(impl From<$error> for Raised {
             fn from(error: $error) -> Self {
-                let key: fn(&$error) -> String = $key;
-                Self(class::$class::new_err((error.to_string(), key(&error))))
+                let message = error.to_string();
+                Self(match error {
+                    $($case => class::$class::new_err((message, String::from($key))),)*
+                })
             }
         })*
     };
 }
 
 raised! {
-    SpecError => DesignError, |error| error.key.clone();
-    BadTolerance => DesignError, |_| "tolerance".into();
-    PitchError => PitchError, |error| format!("pitch.{}", error.key());
-    PusherError => MechanismError, |error| error.key().into();
-    ArmError => MechanismError, |_| "arm.body".into();
-    ArmClearanceError => MechanismError, |_| "arm.body".into();
-    FeederForcesError => MechanismError, |_| "plates".into();
-    NotSearched => MechanismError, |_| "optimise".into();
-    NotWidened => MechanismError, |_| "optimise".into();
-    SearchError => MechanismError, |_| "optimise".into();
+    SpecError { error => DesignError(error.key), }
+    BadTolerance { _ => DesignError("tolerance"), }
+    PitchError { error => PitchError(format!("pitch.{}", error.key())), }
+    PusherError { error => MechanismError(error.key()), }
+    ArmError { _ => MechanismError("arm.body"), }
+    ArmClearanceError { _ => MechanismError("arm.body"), }
+    FeederForcesError { _ => MechanismError("plates"), }
+    NotSearched { _ => MechanismError("optimise"), }
+    NotWidened { _ => MechanismError("optimise"), }
+    SearchError { _ => MechanismError("optimise"), }
+    CamError {
+        CamError::Spec(error) => DesignError(error.key),
+        error => CamError(error.key()),
+    }
+    FourBarError {
+        FourBarError::Length { name, .. } => DesignError(name),
+        _ => LinkageError(""),
+    }
+    SixBarError {
+        SixBarError::Value { .. } => DesignError(""),
+        SixBarError::PivotOnPath { .. } => LinkageError("pivot"),
+        _ => LinkageError(""),
+    }
 }
 
 /// Errors whose rule at fault is told by their mechanism's.
@@ -100,36 +115,6 @@ impl From<DesignError> for Raised {
         let message = error.to_string();
         let place = (Some(error.line), Some(error.column));
         Self::of_fault(&error.fault, (message, error.key, place.0, place.1))
-    }
-}
-
-impl From<CamError> for Raised {
-    fn from(error: CamError) -> Self {
-        match error {
-            CamError::Spec(error) => error.into(),
-            _ => Self(class::CamError::new_err((error.to_string(), error.key()))),
-        }
-    }
-}
-
-impl From<FourBarError> for Raised {
-    fn from(error: FourBarError) -> Self {
-        let message = error.to_string();
-        Self(match error {
-            FourBarError::Length { name, .. } => class::DesignError::new_err((message, name)),
-            _ => class::LinkageError::new_err(message),
-        })
-    }
-}
-
-impl From<SixBarError> for Raised {
-    fn from(error: SixBarError) -> Self {
-        let message = error.to_string();
-        Self(match error {
-            SixBarError::Value { .. } => class::DesignError::new_err(message),
-            SixBarError::PivotOnPath { .. } => class::LinkageError::new_err((message, "pivot")),
-            _ => class::LinkageError::new_err(message),
-        })
     }
 }
 

@@ -3,7 +3,7 @@ use std::sync::Arc;
 use centrode_analysis::optimise::feeder::Widened;
 use centrode_analysis::{FeederForces, Forces};
 use centrode_mechanism::feeder as mechanism;
-use pyo3::prelude::{Py, Python, pyclass, pymethods};
+use pyo3::prelude::{Py, PyClassInitializer, Python, pyclass, pymethods};
 
 use crate::array::{Course, Values, row};
 use crate::design::Class;
@@ -40,8 +40,8 @@ pub(crate) struct Feeder(Arc<mechanism::Feeder>);
 impl Class for Feeder {
     type Machine = mechanism::Feeder;
 
-    fn of(feeder: Arc<mechanism::Feeder>) -> Self {
-        Self(feeder)
+    fn start(feeder: Arc<mechanism::Feeder>) -> PyClassInitializer<Self> {
+        Mechanism::start(&feeder).add_subclass(Self(feeder))
     }
 
     fn machine(&self) -> &Arc<mechanism::Feeder> {

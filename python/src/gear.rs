@@ -6,11 +6,11 @@ use centrode_export::{Format, Options};
 use centrode_geometry::{Solid, Tolerance};
 use centrode_mechanism::gear as mechanism;
 use centrode_mechanism::gear::Member;
-use numpy::{IntoPyArray, PyArray1, PyArray2, PyFixedUnicode};
+use numpy::{IntoPyArray, PyArray1, PyFixedUnicode};
 use pyo3::prelude::{Bound, PyAny, PyDictMethods, PyResult, Python, pyclass, pymethods};
 use pyo3::types::{PyDict, PyTuple};
 
-use crate::array::{MeshArrays, mesh, points, rows};
+use crate::array::{MeshRows, Rows, mesh};
 use crate::body::Body;
 use crate::error::{Answer, positive, tolerance as within};
 use crate::files::_write;
@@ -143,35 +143,26 @@ impl Gear {
     /// >>> pair.driver.outline(tolerance=0.01).shape[1]
     /// 2
     #[pyo3(signature = (tolerance=1e-3))]
-    fn outline<'py>(&self, py: Python<'py>, tolerance: f64) -> Answer<Bound<'py, PyArray2<f64>>> {
+    fn outline(&self, py: Python<'_>, tolerance: f64) -> Answer<Rows<2>> {
         let tolerance = self.within(tolerance)?;
         let along = self.ask(py, move |gear| gear.outline().flatten(tolerance))?;
-        Ok(points(py, &along)?)
+        Ok(Rows::of(&along))
     }
 
     /// The pitch curve, (N, 2), mm: closed and counter-clockwise as `outline`.
     #[pyo3(signature = (tolerance=1e-3))]
-    fn pitch_curve<'py>(
-        &self,
-        py: Python<'py>,
-        tolerance: f64,
-    ) -> Answer<Bound<'py, PyArray2<f64>>> {
+    fn pitch_curve(&self, py: Python<'_>, tolerance: f64) -> Answer<Rows<2>> {
         let tolerance = self.within(tolerance)?;
         let along = self.ask(py, move |gear| gear.pitch_curve().flatten(tolerance))?;
-        Ok(points(py, &along)?)
+        Ok(Rows::of(&along))
     }
 
     /// The bore with its keyway, (N, 2), mm, counter-clockwise; None for a gear without one.
     #[pyo3(signature = (tolerance=1e-3))]
-    fn bore<'py>(
-        &self,
-        py: Python<'py>,
-        tolerance: f64,
-    ) -> Answer<Option<Bound<'py, PyArray2<f64>>>> {
+    fn bore(&self, tolerance: f64) -> Answer<Option<Rows<2>>> {
         let tolerance = self.within(tolerance)?;
         let bore = self.inner().bore();
-        let bore = bore.map(|bore| points(py, &bore.flatten(tolerance)));
-        Ok(bore.transpose()?)
+        Ok(bore.map(|bore| Rows::of(&bore.flatten(tolerance))))
     }
 
     /// The points of `outline` with what is known of each, in a dictionary of arrays.
@@ -197,9 +188,9 @@ impl Gear {
             .map(|s| fixed(gear.roles()[s.segment].name()));
         let dictionary = PyDict::new(py);
         let along = samples.iter().map(|s| [s.point.x, s.point.y]);
-        dictionary.set_item("points", rows(py, along)?)?;
+        dictionary.set_item("points", Rows(along.collect()))?;
         let along = samples.iter().map(|s| [s.normal.x, s.normal.y]);
-        dictionary.set_item("normals", rows(py, along)?)?;
+        dictionary.set_item("normals", Rows(along.collect()))?;
         let along: Vec<f64> = samples.iter().map(|s| s.curvature).collect();
         dictionary.set_item("curvature", along.into_pyarray(py))?;
         let roles: Bound<'py, PyArray1<_>> = roles.collect::<Vec<_>>().into_pyarray(py);
@@ -219,18 +210,13 @@ impl Gear {
     /// >>> float(vertices[:, 2].max())
     /// 5.0
     #[pyo3(signature = (tolerance=1e-3, width=None))]
-    fn mesh<'py>(
-        &self,
-        py: Python<'py>,
-        tolerance: f64,
-        width: Option<f64>,
-    ) -> Answer<MeshArrays<'py>> {
+    fn mesh(&self, py: Python<'_>, tolerance: f64, width: Option<f64>) -> Answer<MeshRows> {
         let tolerance = self.within(tolerance)?;
         let gear = self.inner();
         let holes = gear.bore().into_iter().collect();
         let width = width.unwrap_or(gear.body().width);
         let solid = Solid::new(gear.outline().clone(), holes, 0.0, width)?;
-        Ok(mesh(py, wait(py, move || solid.mesh(tolerance))??)?)
+        Ok(mesh(wait(py, move || solid.mesh(tolerance))??))
     }
 
     /// Writes the gear as an exact STEP solid (AP214, mm), named after it; gives the path.

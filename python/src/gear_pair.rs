@@ -72,8 +72,8 @@ pub(crate) struct GearPair(pub(crate) Arc<mechanism::GearPair>);
 impl Class for GearPair {
     type Machine = mechanism::GearPair;
 
-    fn of(pair: Arc<mechanism::GearPair>) -> Self {
-        Self(pair)
+    fn start(pair: Arc<mechanism::GearPair>) -> PyClassInitializer<Self> {
+        Mechanism::start(&pair).add_subclass(Self(pair))
     }
 
     fn machine(&self) -> &Arc<mechanism::GearPair> {

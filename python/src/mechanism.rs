@@ -9,7 +9,8 @@ use centrode_analysis::optimise::Settings;
 use centrode_export::{Bundle, Format};
 use centrode_mechanism::machine::{FrameJet, Machine};
 use pyo3::prelude::{
-    Bound, PyAny, PyAnyMethods, PyDictMethods, PyResult, PyTypeMethods, Python, pyclass, pymethods,
+    Bound, PyAny, PyAnyMethods, PyClassInitializer, PyDictMethods, PyResult, PyTypeMethods, Python,
+    pyclass, pymethods,
 };
 use pyo3::types::{PyDict, PyTuple, PyType};
 
@@ -44,8 +45,9 @@ impl PartialEq for Mechanism {
 }
 
 impl Mechanism {
-    pub(crate) fn new(machine: Arc<dyn family::Mechanism>) -> Self {
-        Self(machine)
+    /// The machine as what a new object of a subclass begins with.
+    pub(crate) fn start<M: family::Mechanism>(machine: &Arc<M>) -> PyClassInitializer<Self> {
+        Self(Arc::clone(machine) as Arc<dyn family::Mechanism>).into()
     }
 
     fn family(&self) -> Answer<&'static Family> {

@@ -3,15 +3,15 @@ use std::sync::Arc;
 use centrode_mechanism::gear::GearPair as Gears;
 use centrode_mechanism::shaft as mechanism;
 use centrode_mechanism::shaft::{EllipticGears, MovingBoxDesign, Scheme};
-use pyo3::prelude::{Bound, Py, PyAny, PyClassInitializer, PyRef, Python, pyclass, pymethods};
+use pyo3::prelude::{Py, PyClassInitializer, PyRef, Python, pyclass, pymethods};
 
 use crate::array::{Course, Values};
+use crate::box_drive::BoxDrive;
 use crate::count::Count;
 use crate::design::Class;
-use crate::error::{Answer, finite};
+use crate::error::Answer;
 use crate::gear_pair::GearPair;
-use crate::mechanism::Mechanism;
-use crate::spiral_shaft::{SpiralShaft, forces};
+use crate::spiral_shaft::SpiralShaft;
 use crate::wait::wait;
 use crate::word::Word;
 
@@ -48,15 +48,15 @@ use crate::word::Word;
 /// >>> table = report.tables[0]
 /// >>> [(name, round(row[0], 4)) for name, row in table.rows.items()]
 /// [('plain shaft', 3.3333), ('the groove alone', 3.3333), ('the gears alone', 2.05), ('as designed', 2.05)]
-#[pyclass(frozen, extends = Mechanism, module = "centrode")]
+#[pyclass(frozen, extends = BoxDrive, module = "centrode")]
 #[derive(Debug)]
 pub(crate) struct MovingBox(Arc<mechanism::MovingBox>);
 
 impl Class for MovingBox {
     type Machine = mechanism::MovingBox;
 
-    fn of(machine: Arc<mechanism::MovingBox>) -> Self {
-        Self(machine)
+    fn start(machine: Arc<mechanism::MovingBox>) -> PyClassInitializer<Self> {
+        BoxDrive::start(&machine).add_subclass(Self(machine))
     }
 
     fn machine(&self) -> &Arc<mechanism::MovingBox> {
@@ -146,18 +146,6 @@ impl MovingBox {
         GearPair::object(py, pair).map(Some)
     }
 
-    /// Input turn of the whole way out and back, rad.
-    #[getter]
-    fn cycle(&self) -> f64 {
-        self.0.motion().period()
-    }
-
-    /// Distance the box moves while a seedling is picked on a stroke, mm.
-    #[getter]
-    fn moved_in_window(&self) -> f64 {
-        self.0.moved_in_window()
-    }
-
     /// Angle of the shaft, rad.
     fn shaft_angle(&self, phi: Values) -> Course {
         self.each(phi, |m, phi| m.shaft_turn(phi).position)
@@ -166,54 +154,5 @@ impl MovingBox {
     /// Turn of the shaft per turn of the input.
     fn shaft_speed(&self, phi: Values) -> Course {
         self.each(phi, |m, phi| m.shaft_turn(phi).velocity)
-    }
-
-    /// Place of the box, mm, over the whole way out and back.
-    fn position(&self, phi: Values) -> Course {
-        self.each(phi, |m, phi| m.motion().at(phi).position)
-    }
-
-    /// Speed of the box, mm/rad.
-    fn velocity(&self, phi: Values) -> Course {
-        self.each(phi, |m, phi| m.motion().at(phi).velocity)
-    }
-
-    /// Acceleration of the box, mm/rad^2.
-    fn acceleration(&self, phi: Values) -> Course {
-        self.each(phi, |m, phi| m.motion().at(phi).acceleration)
-    }
-
-    /// Jerk of the box, mm/rad^3.
-    fn jerk(&self, phi: Values) -> Course {
-        self.each(phi, |m, phi| m.motion().at(phi).jerk)
-    }
-
-    /// Distance a stroke moves the box from one input angle to another, mm, as if it had no end.
-    ///
-    /// >>> import centrode as ct, math
-    /// >>> machine = ct.MovingBox(speed_ratio=3)
-    /// >>> round(machine.moved(-math.pi / 6, math.pi / 6), 6)
-    /// 1.954217
-    fn moved(&self, start: f64, stop: f64) -> Answer<f64> {
-        let at = |phi: f64| self.0.stroke_at(phi).position;
-        Ok(at(finite("stop", stop)?) - at(finite("start", start)?))
-    }
-
-    /// Forces on the slider at the input angles `phi`; the input's speed, mass and frictions stand in for the
-    /// design's. The torque is the shaft's.
-    #[pyo3(signature = (phi, *, speed_rpm=None, mass=None, groove_friction=None, rail_friction=None))]
-    fn force<'py>(
-        &self,
-        py: Python<'py>,
-        phi: Values,
-        speed_rpm: Option<f64>,
-        mass: Option<f64>,
-        groove_friction: Option<f64>,
-        rail_friction: Option<f64>,
-    ) -> Answer<Bound<'py, PyAny>> {
-        let given = [speed_rpm, mass, groove_friction, rail_friction];
-        forces(py, self.0.shaft().load(), given, |load, part| {
-            self.each(phi.clone(), move |m, phi| part(m.force(phi, &load)))
-        })
     }
 }

@@ -2,10 +2,9 @@ use std::collections::BTreeMap;
 
 use centrode_geometry::Point;
 use centrode_mechanism::linkage::{self, FourBar};
-use numpy::PyArray2;
 use pyo3::prelude::{Bound, PyAny, PyResult, Python, pyclass, pymethods};
 
-use crate::array::{Course, Values, points, row};
+use crate::array::{Course, Rows, Values, row};
 use crate::error::Answer;
 use crate::made::{Reduced, by};
 use crate::record::{self, Keywords};
@@ -208,14 +207,9 @@ impl SixBar {
     /// array([[160.729,  65.584],
     ///        [ 52.929,  68.523]])
     #[pyo3(signature = (swing, count=100))]
-    fn pivots<'py>(
-        &self,
-        py: Python<'py>,
-        swing: f64,
-        count: usize,
-    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let places = linkage::SixBar::pivots(self.0.four_bar(), swing, count);
-        points(py, &places)
+    fn pivots(&self, swing: f64, count: usize) -> Rows<2> {
+        let four_bar = self.0.four_bar();
+        Rows::of(&linkage::SixBar::pivots(four_bar, swing, count))
     }
 
     fn __repr__(&self, py: Python<'_>) -> PyResult<String> {

@@ -3,28 +3,25 @@ use std::sync::Arc;
 use centrode_mechanism::cam::law::LawSpec;
 use centrode_mechanism::shaft as mechanism;
 use centrode_mechanism::shaft::{
-    GrooveSpec, Load, RotatedSine, Sine, SliderForce, SpeedFormula, SpeedLaw, SpeedTable,
-    SpiralShaftDesign, Wall,
+    GrooveSpec, Load, RotatedSine, Sine, SpeedFormula, SpeedLaw, SpeedTable, SpiralShaftDesign,
+    Wall,
 };
-use centrode_mechanism::transmission::Transmission;
-use numpy::PyArray2;
 use pyo3::prelude::{
     Bound, PyAny, PyAnyMethods, PyClassInitializer, PyDictMethods, PyResult, Python, pyclass,
     pymethods,
 };
 use pyo3::types::{PyDict, PyType};
 
-use crate::array::{Course, MeshArrays, Numbers, Values, mesh, points, rows};
+use crate::array::{Course, MeshRows, Numbers, Rows, Values, mesh};
+use crate::box_drive::BoxDrive;
 use crate::count::Count;
 use crate::design::Class;
-use crate::error::{Answer, Raised, finite, plain_tolerance};
-use crate::mechanism::Mechanism;
-use crate::record;
+use crate::error::{Answer, Raised, plain_tolerance};
 use crate::wait::wait;
 
 /// A variable-speed spiral shaft: the slider's law, the groove out and back, the forces on the slider.
 ///
-/// `theta` is the shaft's angle: 0 where the slider leaves the first hole. A whole way out and back takes
+/// The input is the shaft's angle: 0 where the slider leaves the first hole. A whole way out and back takes
 /// `cycle` radians.
 ///
 /// Args:
@@ -64,44 +61,20 @@ use crate::wait::wait;
 /// >>> shaft = ct.SpiralShaft(lead=20, holes=14, radius=15, amplitude=1.28, harmonic=1)
 /// >>> round(shaft.moved(-0.5236, 0.5236), 3)
 /// 2.053
-#[pyclass(frozen, extends = Mechanism, module = "centrode")]
+#[pyclass(frozen, extends = BoxDrive, module = "centrode")]
 #[derive(Debug)]
 pub(crate) struct SpiralShaft(pub(crate) Arc<mechanism::SpiralShaft>);
 
 impl Class for SpiralShaft {
     type Machine = mechanism::SpiralShaft;
 
-    fn of(shaft: Arc<mechanism::SpiralShaft>) -> Self {
-        Self(shaft)
+    fn start(shaft: Arc<mechanism::SpiralShaft>) -> PyClassInitializer<Self> {
+        BoxDrive::start(&shaft).add_subclass(Self(shaft))
     }
 
     fn machine(&self) -> &Arc<mechanism::SpiralShaft> {
         &self.0
     }
-}
-
-/// Forces on a slider under a load of which some is given, part by part.
-pub(crate) fn forces<'py>(
-    py: Python<'py>,
-    usual: &Load,
-    given: [Option<f64>; 4],
-    of: impl Fn(Load, fn(SliderForce) -> f64) -> Course,
-) -> Answer<Bound<'py, PyAny>> {
-    let [speed_rpm, mass, groove_friction, rail_friction] = given;
-    let load = Load {
-        speed_rpm: speed_rpm.unwrap_or(usual.speed_rpm),
-        mass: mass.unwrap_or(usual.mass),
-        groove_friction: groove_friction.unwrap_or(usual.groove_friction),
-        rail_friction: rail_friction.unwrap_or(usual.rail_friction),
-    };
-    load.validate()?;
-    let parts = [
-        of(load, |f| f.normal),
-        of(load, |f| f.transverse),
-        of(load, |f| f.torque),
-        of(load, |f| f.push),
-    ];
-    Ok(record::slider_force(py, parts)?)
 }
 
 #[pymethods]
@@ -240,53 +213,10 @@ impl SpiralShaft {
         self.0.amplitude()
     }
 
-    /// Shaft turn of the whole way out and back, rad.
-    #[getter]
-    fn cycle(&self) -> f64 {
-        self.0.cycle()
-    }
-
     /// Least and greatest speed of the strokes over their mean.
     #[getter]
     fn speed_ratio(&self) -> (f64, f64) {
         self.0.speed_ratio()
-    }
-
-    /// Distance the box moves while a seedling is picked on a stroke, mm.
-    #[getter]
-    fn moved_in_window(&self) -> f64 {
-        self.0.moved_in_window()
-    }
-
-    /// Place of the slider, mm, over the whole way out and back.
-    ///
-    /// >>> import centrode as ct, numpy as np
-    /// >>> shaft = ct.SpiralShaft(amplitude=1.28)
-    /// >>> shaft.position(2 * np.pi * np.arange(3)).round(9).tolist()
-    /// [0.0, 20.0, 40.0]
-    fn position(&self, theta: Values) -> Course {
-        self.each(theta, |s, t| s.traverse().at(t).position)
-    }
-
-    /// Speed of the slider, mm/rad.
-    fn velocity(&self, theta: Values) -> Course {
-        self.each(theta, |s, t| s.traverse().at(t).velocity)
-    }
-
-    /// Acceleration of the slider, mm/rad^2.
-    fn acceleration(&self, theta: Values) -> Course {
-        self.each(theta, |s, t| s.traverse().at(t).acceleration)
-    }
-
-    /// Jerk of the slider, mm/rad^3.
-    fn jerk(&self, theta: Values) -> Course {
-        self.each(theta, |s, t| s.traverse().at(t).jerk)
-    }
-
-    /// Distance moved by a stroke from one shaft angle to another, mm, as if the stroke had no end.
-    fn moved(&self, start: f64, stop: f64) -> Answer<f64> {
-        let (start, stop) = (finite("start", start)?, finite("stop", stop)?);
-        Ok(self.0.law().moved(start, stop))
     }
 
     /// Lead angle of the groove on the shaft's surface, rad; negative on the way back.
@@ -321,32 +251,9 @@ impl SpiralShaft {
         })?;
         let developed = PyDict::new(py);
         for (name, way) in ["center", "left", "right"].into_iter().zip(&ways) {
-            developed.set_item(name, points(py, way)?)?;
+            developed.set_item(name, Rows::of(way))?;
         }
         Ok(developed)
-    }
-
-    /// Forces on the slider at the shaft angles `theta`; speed, mass and frictions stand in for the design's.
-    ///
-    /// >>> import centrode as ct
-    /// >>> shaft = ct.SpiralShaft.for_moved_distance(2.05)
-    /// >>> force = shaft.force(0.0, speed_rpm=200, mass=10, groove_friction=0.10, rail_friction=0.15)
-    /// >>> round(force.normal, 6)
-    /// 15.022814
-    #[pyo3(signature = (theta, *, speed_rpm=None, mass=None, groove_friction=None, rail_friction=None))]
-    fn force<'py>(
-        &self,
-        py: Python<'py>,
-        theta: Values,
-        speed_rpm: Option<f64>,
-        mass: Option<f64>,
-        groove_friction: Option<f64>,
-        rail_friction: Option<f64>,
-    ) -> Answer<Bound<'py, PyAny>> {
-        let given = [speed_rpm, mass, groove_friction, rail_friction];
-        forces(py, self.0.load(), given, |load, part| {
-            self.each(theta.clone(), move |s, t| part(s.force(t, &load)))
-        })
     }
 
     /// Crossings of the groove with itself, (N, 4): shaft angle out, shaft angle back, place (mm), and the
@@ -356,21 +263,19 @@ impl SpiralShaft {
     /// >>> crossings = ct.SpiralShaft.for_moved_distance(2.05).crossings()
     /// >>> len(crossings), round(float(crossings[:, 3].max()), 1)
     /// (27, 40.1)
-    fn crossings<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    fn crossings(&self) -> Rows<4> {
         let crossings = self.0.groove().crossings();
-        rows(
-            py,
-            crossings.iter().map(|c| [c.out, c.back, c.position, c.gap]),
-        )
+        let rows = crossings.iter().map(|c| [c.out, c.back, c.position, c.gap]);
+        Rows(rows.collect())
     }
 
     /// The shaft as a closed triangle mesh: vertices (V, 3), mm, and faces (F, 3), counter-clockwise outside.
     ///
     /// The shaft lies along z; z = 0 is where the slider is at the first hole.
     #[pyo3(signature = (tolerance=1e-2))]
-    fn mesh<'py>(&self, py: Python<'py>, tolerance: f64) -> Answer<MeshArrays<'py>> {
+    fn mesh(&self, py: Python<'_>, tolerance: f64) -> Answer<MeshRows> {
         let tolerance = plain_tolerance(tolerance)?;
         let shaft = Arc::clone(&self.0);
-        Ok(mesh(py, wait(py, move || shaft.mesh(tolerance))??)?)
+        Ok(mesh(wait(py, move || shaft.mesh(tolerance))??))
     }
 }

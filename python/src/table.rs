@@ -20,18 +20,25 @@ pub(crate) trait Value: Sized {
     fn shown(&self) -> Self::Shown;
 }
 
-impl Value for f64 {
-    type Given = Self;
-    type Shown = Self;
+/// Values that are seen as they are given.
+macro_rules! plain {
+    ($($value:ty),*) => {
+        $(impl Value for $value {
+            type Given = Self;
+            type Shown = Self;
 
-    fn of(_key: &str, given: Self) -> Answer<Self> {
-        Ok(given)
-    }
+            fn of(_key: &str, given: Self) -> Answer<Self> {
+                Ok(given)
+            }
 
-    fn shown(&self) -> Self {
-        *self
-    }
+            fn shown(&self) -> Self {
+                self.clone()
+            }
+        })*
+    };
 }
+
+plain!(f64, String);
 
 impl Value for u32 {
     type Given = Count;
@@ -43,19 +50,6 @@ impl Value for u32 {
 
     fn shown(&self) -> Self {
         *self
-    }
-}
-
-impl Value for String {
-    type Given = Self;
-    type Shown = Self;
-
-    fn of(_key: &str, given: Self) -> Answer<Self> {
-        Ok(given)
-    }
-
-    fn shown(&self) -> Self {
-        self.clone()
     }
 }
 

@@ -3,14 +3,12 @@ use std::sync::Arc;
 
 use centrode_export::Options;
 use centrode_export::cam as export;
-use centrode_geometry::Point;
 use centrode_mechanism::cam::{Cam, Contact, Extreme, design as spec};
-use numpy::{IntoPyArray, PyArray1, PyArray2};
 use pyo3::prelude::{Bound, PyRef, PyResult, Python, pyclass, pymethods};
 use pyo3::types::PyDict;
 
 use super::parts::{Follower, Segment};
-use crate::array::{Numbers, points, row, rows};
+use crate::array::{Course, Rows, Values, row};
 use crate::body::Body;
 use crate::error::{Answer, plain_tolerance};
 use crate::files;
@@ -58,22 +56,17 @@ impl DiscCam {
         Self { cam, made }
     }
 
-    fn contacts(&self, theta: Numbers) -> impl ExactSizeIterator<Item = Contact> {
-        let cam = self.cam.clone();
-        theta
-            .into_vec()
-            .into_iter()
-            .map(move |input| cam.disc().contact(input))
+    /// A number of the contact at cam angles.
+    fn each(&self, theta: Values, of: fn(&Contact) -> f64) -> Course {
+        let cam = Arc::clone(&self.cam);
+        Course::each(theta, move |input| of(&cam.disc().contact(input)))
     }
 
-    fn column<'py>(
-        &self,
-        py: Python<'py>,
-        theta: Numbers,
-        of: impl Fn(&Contact) -> f64,
-    ) -> Bound<'py, PyArray1<f64>> {
-        let values: Vec<f64> = self.contacts(theta).map(|contact| of(&contact)).collect();
-        values.into_pyarray(py)
+    /// Numbers of the contact at cam angles.
+    fn rows<const COUNT: usize>(&self, theta: Values, of: fn(&Contact) -> [f64; COUNT]) -> Course {
+        let cam = Arc::clone(&self.cam);
+        let row = move |input| of(&cam.disc().contact(input));
+        Course::arrays(theta, &[COUNT], row)
     }
 }
 
@@ -149,64 +142,56 @@ impl DiscCam {
 
     /// The follower's position, velocity, acceleration and jerk at cam angles, (N, 4): mm or rad, and
     /// per radian.
-    fn motion<'py>(&self, py: Python<'py>, theta: Numbers) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        rows(py, self.contacts(theta).map(|contact| row(&contact.motion)))
+    fn motion(&self, theta: Values) -> Course {
+        self.rows(theta, |contact| row(&contact.motion))
     }
 
     /// Points of the profile that touch the follower at cam angles, (N, 2), mm.
-    fn points<'py>(&self, py: Python<'py>, theta: Numbers) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        rows(py, self.contacts(theta).map(|c| [c.point.x, c.point.y]))
+    fn points(&self, theta: Values) -> Course {
+        self.rows(theta, |contact| contact.point.coords.into())
     }
 
     /// Unit normals of the profile there, (N, 2), out of the cam.
-    fn normals<'py>(&self, py: Python<'py>, theta: Numbers) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        rows(py, self.contacts(theta).map(|c| [c.normal.x, c.normal.y]))
+    fn normals(&self, theta: Values) -> Course {
+        self.rows(theta, |contact| contact.normal.into())
     }
 
     /// Centres of the roller at cam angles, (N, 2), mm; not a number for a flat face.
-    fn roller<'py>(&self, py: Python<'py>, theta: Numbers) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let nowhere = Point::new(f64::NAN, f64::NAN);
-        let centers = self.contacts(theta).map(|c| c.roller.unwrap_or(nowhere));
-        rows(py, centers.map(|p| [p.x, p.y]))
+    fn roller(&self, theta: Values) -> Course {
+        self.rows(theta, |contact| {
+            contact.roller.map_or([f64::NAN; 2], |at| [at.x, at.y])
+        })
     }
 
     /// Angles from the direction of lift to the normal at cam angles, (N,), rad.
-    fn pressure_angle<'py>(&self, py: Python<'py>, theta: Numbers) -> Bound<'py, PyArray1<f64>> {
-        self.column(py, theta, |contact| contact.pressure_angle)
+    fn pressure_angle(&self, theta: Values) -> Course {
+        self.each(theta, |contact| contact.pressure_angle)
     }
 
     /// Curvature of the profile at cam angles, (N,), 1/mm: positive where it is convex.
-    fn curvature<'py>(&self, py: Python<'py>, theta: Numbers) -> Bound<'py, PyArray1<f64>> {
-        self.column(py, theta, |contact| contact.curvature)
+    fn curvature(&self, theta: Values) -> Course {
+        self.each(theta, |contact| contact.curvature)
     }
 
     /// Curvature of the path of the roller's centre, (N,), 1/mm; not a number for a flat face.
-    fn pitch_curvature<'py>(&self, py: Python<'py>, theta: Numbers) -> Bound<'py, PyArray1<f64>> {
-        self.column(py, theta, |contact| {
-            contact.pitch_curvature.unwrap_or(f64::NAN)
-        })
+    fn pitch_curvature(&self, theta: Values) -> Course {
+        self.each(theta, |contact| contact.pitch_curvature.unwrap_or(f64::NAN))
     }
 
     /// Corners of a polygon within the tolerance of the profile, (N, 2), mm, counter-clockwise.
     #[pyo3(signature = (tolerance=1e-3))]
-    fn profile<'py>(&self, py: Python<'py>, tolerance: f64) -> Answer<Bound<'py, PyArray2<f64>>> {
+    fn profile(&self, tolerance: f64) -> Answer<Rows<2>> {
         let tolerance = plain_tolerance(tolerance)?;
         let outline = self.cam.profile().outline();
-        Ok(points(py, &outline.flatten(tolerance))?)
+        Ok(Rows::of(&outline.flatten(tolerance)))
     }
 
     /// The same of the path of the roller's centre; None for a flat face.
     #[pyo3(signature = (tolerance=1e-3))]
-    fn pitch_curve<'py>(
-        &self,
-        py: Python<'py>,
-        tolerance: f64,
-    ) -> Answer<Option<Bound<'py, PyArray2<f64>>>> {
+    fn pitch_curve(&self, tolerance: f64) -> Answer<Option<Rows<2>>> {
         let tolerance = plain_tolerance(tolerance)?;
-        let exact = tolerance.scaled(1e-3);
-        let path = self.cam.disc().pitch_curve(exact)?;
-        let path = path.map(|path| points(py, &path.flatten(tolerance)));
-        Ok(path.transpose()?)
+        let path = self.cam.disc().pitch_curve(tolerance.scaled(1e-3))?;
+        Ok(path.map(|path| Rows::of(&path.flatten(tolerance))))
     }
 
     /// Ranges of the cam angle whose contact is cut off by undercut, rad; none for a sound cam.

@@ -1,11 +1,10 @@
 use std::collections::BTreeMap;
 
 use centrode_mechanism::cam::law as mechanism;
-use numpy::PyArray2;
-use pyo3::prelude::{Bound, PyResult, Python, pyclass, pyfunction, pymethods};
+use pyo3::prelude::{PyResult, Python, pyclass, pyfunction, pymethods};
 use pyo3::types::PyTuple;
 
-use crate::array::{Numbers, list, row, rows};
+use crate::array::{Numbers, Rows, list, row};
 use crate::error::{Answer, Raised};
 use crate::made::{Reduced, by, native};
 use crate::record::Keywords;
@@ -79,9 +78,9 @@ impl Law {
     /// >>> import centrode as ct
     /// >>> ct.cam.law("parabolic").at([0.25])
     /// array([[0.125, 1.   , 4.   , 0.   ]])
-    fn at<'py>(&self, py: Python<'py>, x: Numbers) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let jets: Vec<[f64; 4]> = x.into_vec().iter().map(|&x| row(&self.law.at(x))).collect();
-        rows(py, jets.into_iter())
+    fn at(&self, x: Numbers) -> Rows<4> {
+        let inputs = x.into_vec().into_iter();
+        Rows(inputs.map(|x| row(&self.law.at(x))).collect())
     }
 
     /// Peaks of the derivatives: "velocity" Cv, "acceleration" Ca, "jerk" Cj (infinite where the

@@ -4,12 +4,10 @@ use centrode_geometry::Jet;
 use centrode_mechanism::design::{Design as _, DesignSpec as _};
 use centrode_mechanism::gear::design::GearPairDesign;
 use centrode_mechanism::gear::pitch as spec;
-use numpy::{IntoPyArray, PyArray1, PyArray2};
-use pyo3::prelude::{
-    Bound, PyAny, PyAnyMethods, PyModule, PyResult, Python, pyclass, pyfunction, pymethods,
-};
+use numpy::{IntoPyArray, PyArray1};
+use pyo3::prelude::{Bound, PyAny, PyAnyMethods, PyModule, Python, pyclass, pyfunction, pymethods};
 
-use crate::array::{Numbers, points};
+use crate::array::{Numbers, Rows};
 use crate::error::Answer;
 
 /// A pitch curve around the shaft axis at the origin, proved to go round it exactly once.
@@ -82,13 +80,10 @@ impl Pitch {
     /// >>> import centrode as ct
     /// >>> ct.pitch.circle(radius=10).points([0.0])
     /// array([[10.,  0.]])
-    fn points<'py>(
-        &self,
-        py: Python<'py>,
-        parameters: Numbers,
-    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let along: Vec<_> = self.along(parameters).iter().map(|jet| jet.point).collect();
-        points(py, &along)
+    fn points(&self, parameters: Numbers) -> Rows<2> {
+        let along = self.along(parameters);
+        let points = along.iter().map(|jet| jet.point.coords.into());
+        Rows(points.collect())
     }
 
     /// Curvature at the given parameters, (N,), 1/mm: positive where the curve is convex.

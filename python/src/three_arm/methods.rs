@@ -2,20 +2,15 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use centrode_analysis::between_arms;
-use centrode_mechanism::gear::design::TeethSpec;
-use centrode_mechanism::three_arm as mechanism;
-use centrode_mechanism::three_arm::design::{
-    ArmSpec, GearboxSpec, SeedlingSpec, ThreeArmDesign, TraySpec, WorkSpec,
-};
-use centrode_mechanism::three_arm::{Link, PointMotion};
-use numpy::PyArray2;
-use pyo3::exceptions::PyIndexError;
+use centrode_mechanism::three_arm::Link;
+use centrode_mechanism::three_arm::design::{ArmSpec, ThreeArmDesign, WorkSpec};
 use pyo3::prelude::{
-    Bound, Py, PyAny, PyClassInitializer, PyDictMethods, PyRef, Python, pyclass, pymethods,
+    Bound, Py, PyAny, PyClassInitializer, PyDictMethods, PyRef, Python, pymethods,
 };
 use pyo3::types::PyDict;
 
-use crate::array::{Course, Values, points};
+use super::{ThreeArm, variants};
+use crate::array::{Course, Rows, Values};
 use crate::body::{Body, spec_of};
 use crate::cam::{DiscCam, Fork};
 use crate::count::{Count, optional};
@@ -23,116 +18,11 @@ use crate::design::Class;
 use crate::error::{Answer, plain_tolerance};
 use crate::gear_pair::GearPair;
 use crate::made::Made;
-use crate::mechanism::Mechanism;
 use crate::pitch::Pitch;
 use crate::record;
 use crate::tool::Tool;
-use crate::variants;
 use crate::wait::wait;
 use crate::word::Word;
-
-/// A three-arm transplanting mechanism: fixed sun, turning carrier, arms on the planets of bent chains.
-///
-/// The carrier's axis is the origin; theta is the carrier's turn from its start, positive whichever way it turns. Every
-/// arm does what the first does, later by its share of a turn; arms are counted from 0.
-///
-/// Args:
-///     pitch: Pitch curve of the sun; the planets are alike, the intermediate gears follow.
-///     carrier_start: Direction of the first intermediate gear's axis from the sun's at the start, rad.
-///     bend: From the leg sun - intermediate to the leg intermediate - planet, rad.
-///     arm_mounting_angle: Direction of the tip from the planet's zero, rad.
-///     tip_distance: Of the tip from the planet's axis, mm.
-///     pusher_offset: Distance of the pusher's axis, which ends at the tip, from the planet's axis, mm.
-///     planet_reference: The planet's zero behind the second leg at the start, rad; left out, the intermediate's turn
-///         over the first abs(bend) of carrier turn.
-///     arms: 1 to 6.
-///     direction: "clockwise" or "counter-clockwise".
-///     tooth_count: Of every gear; left out, there are no teeth to judge.
-///     center_distance: mm; it follows from the pitch curve, and is checked if given.
-///     picking: Carrier turn at which the first arm picks, rad; left out, where its tip enters the tray, or reaches
-///         farthest towards it.
-///     planting: Carrier turn at which the first arm plants, rad; left out, where its tip is lowest.
-///     rate_per_minute: Seedlings planted.
-///     plant_spacing: Distance of the plants along the row, mm.
-///     planting_depth: Of the lowest tip below the ground, mm.
-///     tray_distance: Of the tray's surface from the carrier's axis, mm.
-///     tray_inclination: Elevation of the direction in which the arms enter the tray, rad.
-///     seedling_height: Up to which a planted stem must not be pushed, mm.
-///     seedling_width: Of a planted stem, mm.
-///     clamp_length: Back from the tip, mm: what passes between seedlings.
-///     housing_offset: Of the gearbox from the largest pitch radius, mm.
-///     tool: What cuts the gears; the rack of ISO 53, profile A, if left out.
-///     addendum: "full" or "fitted".
-///     backlash: Play of each mesh along the normal, mm.
-///     sun: Body of the sun.
-///     intermediate: Body of the intermediate gears.
-///     planet: Body of the planets.
-///     name: Short name: letters, digits, "-" and "_".
-///     title: One line for drawings and reports.
-///
-/// Raises:
-///     DesignError: A value breaks a rule; PitchError, GearPairError and MechanismError where it cannot exist.
-///
-/// >>> import centrode as ct, math
-/// >>> pitch = ct.pitch.bspline(
-/// ...     degree=2,
-/// ...     radius=[21, 28, 50, 49, 58, 47, 18, 12, 28, 60, 48, 24],
-/// ...     angle=[math.radians(d) for d in (20, 45, 76, 105, 132, 165, 195, 225, 255, 285, 316, 345)],
-/// ... )
-/// >>> arms = ct.ThreeArm(
-/// ...     pitch, carrier_start=math.radians(86), bend=math.radians(-53), arm_mounting_angle=math.radians(-29),
-/// ...     tip_distance=145, pusher_offset=65, picking=math.radians(20), planting=math.radians(191),
-/// ... )
-/// >>> round(arms.center_distance, 6)
-/// 82.04634
-/// >>> round(math.degrees(arms.clamp_angle(math.radians(20))), 6)
-/// 0.616147
-#[pyclass(frozen, extends = Mechanism, module = "centrode")]
-#[derive(Debug)]
-pub(crate) struct ThreeArm(Arc<mechanism::ThreeArm>);
-
-impl Class for ThreeArm {
-    type Machine = mechanism::ThreeArm;
-
-    fn of(arms: Arc<mechanism::ThreeArm>) -> Self {
-        Self(arms)
-    }
-
-    fn machine(&self) -> &Arc<mechanism::ThreeArm> {
-        &self.0
-    }
-}
-
-impl ThreeArm {
-    /// An arm that is there.
-    fn arm(&self, arm: u32) -> Answer<u32> {
-        let arms = self.0.arms();
-        if arm < arms {
-            Ok(arm)
-        } else {
-            let message = format!("arm {arm} of {arms}, counted from 0");
-            Err(PyIndexError::new_err(message).into())
-        }
-    }
-
-    fn of_tip(
-        &self,
-        theta: Values,
-        arm: u32,
-        over_ground: bool,
-        part: fn(&PointMotion) -> [f64; 2],
-    ) -> Answer<Course> {
-        let arm = self.arm(arm)?;
-        Ok(self.rows(theta, move |arms, theta| {
-            let tip = arms.tip(theta, arm);
-            if over_ground {
-                part(&arms.over_ground(&tip, theta))
-            } else {
-                part(&tip)
-            }
-        }))
-    }
-}
 
 #[pymethods]
 impl ThreeArm {
@@ -172,49 +62,34 @@ impl ThreeArm {
         name: &str,
         title: &str,
     ) -> Answer<PyClassInitializer<Self>> {
-        let arm = ArmSpec {
-            clamp_length,
-            ..ArmSpec::new(arm_mounting_angle, tip_distance, pusher_offset)
+        let arm = ArmSpec::new(arm_mounting_angle, tip_distance, pusher_offset);
+        let mut design = ThreeArmDesign::new(pitch.spec.clone(), carrier_start, bend, arm);
+        design.name = name.into();
+        design.title = title.into();
+        design.arms = arms.of("arms")?;
+        design.direction = Word::of("direction", direction)?;
+        design.planet_reference = planet_reference;
+        design.tooth_count = optional("tooth_count", tooth_count)?;
+        design.center_distance = center_distance;
+        design.arm.clamp_length = clamp_length;
+        design.tool = tool.map(|tool| tool.0).unwrap_or_default();
+        design.teeth.addendum = Word::of("teeth.addendum", addendum)?;
+        design.teeth.backlash = backlash;
+        design.gearbox.housing_offset = housing_offset;
+        design.work = WorkSpec {
+            picking,
+            planting,
+            rate_per_minute,
+            plant_spacing,
+            planting_depth,
         };
-        let design = ThreeArmDesign {
-            name: name.into(),
-            title: title.into(),
-            arms: arms.of("arms")?,
-            direction: Word::of("direction", direction)?,
-            planet_reference,
-            tooth_count: optional("tooth_count", tooth_count)?,
-            center_distance,
-            tool: tool.map(|tool| tool.0).unwrap_or_default(),
-            teeth: TeethSpec {
-                addendum: Word::of("teeth.addendum", addendum)?,
-                backlash,
-                ..TeethSpec::default()
-            },
-            gearbox: GearboxSpec {
-                housing_offset,
-                ..GearboxSpec::default()
-            },
-            work: WorkSpec {
-                picking,
-                planting,
-                rate_per_minute,
-                plant_spacing,
-                planting_depth,
-            },
-            tray: TraySpec {
-                distance: tray_distance,
-                inclination: tray_inclination,
-                ..TraySpec::default()
-            },
-            seedling: SeedlingSpec {
-                height: seedling_height,
-                width: seedling_width,
-            },
-            sun: spec_of(sun),
-            intermediate: spec_of(intermediate),
-            planet: spec_of(planet),
-            ..ThreeArmDesign::new(pitch.spec.clone(), carrier_start, bend, arm)
-        };
+        design.tray.distance = tray_distance;
+        design.tray.inclination = tray_inclination;
+        design.seedling.height = seedling_height;
+        design.seedling.width = seedling_width;
+        design.sun = spec_of(sun);
+        design.intermediate = spec_of(intermediate);
+        design.planet = spec_of(planet);
         Self::made(py, design)
     }
 
@@ -373,14 +248,10 @@ impl ThreeArm {
     /// Raises:
     ///     MechanismError: The arm's parts do not fit each other.
     #[pyo3(signature = (tolerance=1e-3))]
-    fn arm_contour<'py>(
-        &self,
-        py: Python<'py>,
-        tolerance: f64,
-    ) -> Answer<Bound<'py, PyArray2<f64>>> {
+    fn arm_contour(&self, tolerance: f64) -> Answer<Rows<2>> {
         let tolerance = plain_tolerance(tolerance)?;
         let arm = self.0.arm_body()?;
-        Ok(points(py, &arm.outline().flatten(tolerance))?)
+        Ok(Rows::of(&arm.outline().flatten(tolerance)))
     }
 
     /// How close arms come over a whole turn, proven between samples to within `tolerance` (mm); None for one arm.
