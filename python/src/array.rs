@@ -103,12 +103,15 @@ pub(crate) fn list(numbers: Option<Numbers>) -> Vec<f64> {
     numbers.map_or_else(Vec::new, Numbers::into_vec)
 }
 
+/// Numbers of all answers, one after the other.
+type Answers = dyn FnOnce(&[f64]) -> Answer<Vec<f64>> + Send;
+
 /// Answers at numbers, worked out as they are handed to Python: of the shape of the numbers, and then of that of one
 /// answer.
 pub(crate) struct Course {
     values: Values,
     tail: Vec<usize>,
-    answers: Box<dyn FnOnce(&[f64]) -> Answer<Vec<f64>> + Send>,
+    answers: Box<Answers>,
 }
 
 impl Course {
