@@ -12,18 +12,18 @@ True
 from . import cam, pitch, plot
 from ._centrode import (
     Body,
+    BoxDrive,
     DiscCam,
-    Drawing,
     DrawingSpec,
     Feeder,
     Gear,
     GearPair,
     Keyway,
+    Mechanism,
     MovingBox,
     Pitch,
     Rack,
     Shaper,
-    Sheets,
     SixBar,
     SpiralShaft,
     ThreeArm,
@@ -38,6 +38,7 @@ from ._goal import Goal
 from ._optimised import Optimised
 from ._over_pins import OverPins
 from ._report import Finding, Place, Report, Table
+from ._sheet import Drawing, Sheets
 from ._six_bar import DeadCenters
 from ._slider_force import SliderForce
 from ._sweep import sweep
@@ -45,6 +46,7 @@ from ._tooth import Tooth, ToothSide
 
 __all__ = [
     "Body",
+    "BoxDrive",
     "CamError",
     "Clearance",
     "Contact",
@@ -63,6 +65,7 @@ __all__ = [
     "Goal",
     "Keyway",
     "LinkageError",
+    "Mechanism",
     "MechanismError",
     "MovingBox",
     "Optimised",

@@ -5,6 +5,7 @@ from typing import Any, ClassVar, Literal, SupportsFloat, SupportsIndex, TypeAli
 
 from numpy import float64, uint32
 from numpy.typing import ArrayLike, NDArray
+from typing_extensions import Self, disjoint_base
 
 from ._clearance import Clearance
 from ._contact import Contact
@@ -12,6 +13,7 @@ from ._goal import Goal
 from ._optimised import Optimised
 from ._over_pins import OverPins
 from ._report import Report
+from ._sheet import Drawing, Sheets
 from ._six_bar import DeadCenters
 from ._slider_force import SliderForce
 from ._tooth import Tooth
@@ -19,8 +21,8 @@ from ._tooth import Tooth
 __all__ = [
     "_LARGEST_DESIGN",
     "Body",
+    "BoxDrive",
     "DiscCam",
-    "Drawing",
     "DrawingSpec",
     "Feeder",
     "Follower",
@@ -29,21 +31,20 @@ __all__ = [
     "GearPair",
     "Keyway",
     "Law",
+    "Mechanism",
     "MovingBox",
     "Pitch",
     "Rack",
     "Segment",
     "Shaper",
-    "Sheets",
     "SixBar",
     "SpiralShaft",
     "ThreeArm",
     "__version__",
-    "_drawing",
     "_load",
     "_pitch_from_toml",
     "_schema",
-    "_sheets",
+    "_write",
     "bezier",
     "bspline",
     "circle",
@@ -129,7 +130,7 @@ class Rack:
     def profile_shift_coefficient(self) -> float: ...
     def __eq__(self, other: object, /) -> bool: ...
     def __ne__(self, other: object, /) -> bool: ...
-    def __getnewargs_ex__(self) -> tuple[tuple[()], dict[str, Any]]: ...
+    def __reduce__(self) -> tuple[Any, ...]: ...
 
 @final
 class Shaper:
@@ -158,7 +159,7 @@ class Shaper:
     def profile_shift_coefficient(self) -> float: ...
     def __eq__(self, other: object, /) -> bool: ...
     def __ne__(self, other: object, /) -> bool: ...
-    def __getnewargs_ex__(self) -> tuple[tuple[()], dict[str, Any]]: ...
+    def __reduce__(self) -> tuple[Any, ...]: ...
 
 @final
 class Keyway:
@@ -170,7 +171,7 @@ class Keyway:
     def depth(self) -> float: ...
     def __eq__(self, other: object, /) -> bool: ...
     def __ne__(self, other: object, /) -> bool: ...
-    def __getnewargs_ex__(self) -> tuple[tuple[()], dict[str, Any]]: ...
+    def __reduce__(self) -> tuple[Any, ...]: ...
 
 @final
 class Body:
@@ -185,9 +186,9 @@ class Body:
         material: str | None = None,
         bore_fit: str | None = None,
         keyway_fit: str | None = None,
-        heat_treatment: str = "",
-        accuracy: str = "",
-        keyway_angle: _Real = 0.0,
+        heat_treatment: str | None = None,
+        accuracy: str | None = None,
+        keyway_angle: _Real | None = None,
     ) -> Body: ...
     @property
     def width(self) -> float: ...
@@ -211,7 +212,7 @@ class Body:
     def accuracy(self) -> str: ...
     def __eq__(self, other: object, /) -> bool: ...
     def __ne__(self, other: object, /) -> bool: ...
-    def __getnewargs_ex__(self) -> tuple[tuple[()], dict[str, Any]]: ...
+    def __reduce__(self) -> tuple[Any, ...]: ...
 
 @final
 class DrawingSpec:
@@ -219,14 +220,14 @@ class DrawingSpec:
     def __new__(
         cls,
         *,
-        number: str = "",
-        revision: str = "",
-        date: str = "",
-        owner: str = "",
-        drawn_by: str = "",
-        approved_by: str = "",
+        number: str | None = None,
+        revision: str | None = None,
+        date: str | None = None,
+        owner: str | None = None,
+        drawn_by: str | None = None,
+        approved_by: str | None = None,
         sheet: _SheetSize | None = None,
-        projection: _Projection = "first-angle",
+        projection: _Projection | None = None,
         general_tolerance: str | None = None,
         edges: str | None = None,
         surface: str | None = None,
@@ -255,7 +256,7 @@ class DrawingSpec:
     def surface(self) -> str: ...
     def __eq__(self, other: object, /) -> bool: ...
     def __ne__(self, other: object, /) -> bool: ...
-    def __getnewargs_ex__(self) -> tuple[tuple[()], dict[str, Any]]: ...
+    def __reduce__(self) -> tuple[Any, ...]: ...
 
 @final
 class Law:
@@ -363,8 +364,17 @@ class DiscCam:
     def points(self, theta: ArrayLike) -> NDArray[float64]: ...
     def normals(self, theta: ArrayLike) -> NDArray[float64]: ...
     def roller(self, theta: ArrayLike) -> NDArray[float64]: ...
+    @overload
+    def pressure_angle(self, theta: _Real) -> float: ...
+    @overload
     def pressure_angle(self, theta: ArrayLike) -> NDArray[float64]: ...
+    @overload
+    def curvature(self, theta: _Real) -> float: ...
+    @overload
     def curvature(self, theta: ArrayLike) -> NDArray[float64]: ...
+    @overload
+    def pitch_curvature(self, theta: _Real) -> float: ...
+    @overload
     def pitch_curvature(self, theta: ArrayLike) -> NDArray[float64]: ...
     def profile(self, tolerance: _Real = 1e-3) -> NDArray[float64]: ...
     def pitch_curve(self, tolerance: _Real = 1e-3) -> NDArray[float64] | None: ...
@@ -416,150 +426,45 @@ class Gear:
         tolerance: _Real = 1e-3,
     ) -> Sheets: ...
 
-@final
-class Drawing:
-    @property
-    def dxf(self) -> bytes: ...
-    @property
-    def svg(self) -> bytes: ...
-    def write(self, path: str | PathLike[str]) -> Path: ...
-
-@final
-class Sheets:
-    @property
-    def size(self) -> _SheetSize: ...
-    @property
-    def dxf(self) -> tuple[bytes, ...]: ...
-    @property
-    def svg(self) -> tuple[bytes, ...]: ...
-    @property
-    def pdf(self) -> bytes: ...
-    def write(self, path: str | PathLike[str]) -> list[Path]: ...
-    def __len__(self) -> int: ...
-
-@final
-class SpiralShaft:
+@disjoint_base
+class Mechanism:
     __hash__: ClassVar[None]  # type: ignore[assignment]
-    def __new__(
-        cls,
-        *,
-        lead: _Real = 20.0,
-        holes: _Count = 14,
-        radius: _Real = 15.0,
-        amplitude: _Real = 0.0,
-        harmonic: _Count = 1,
-        phase: _Real = 0.0,
-        rotated: bool = False,
-        speed: ArrayLike | None = None,
-        expression: str | None = None,
-        window: _Real = 1.0471975511965976,
-        pick: _Real = 0.0,
-        pot_width: _Real = 18.0,
-        reversal_angle: _Real | None = None,
-        reversal_law: _MotionLaw = "harmonic",
-        return_offset: _Real = 0.0,
-        groove_width: _Real = 10.0,
-        groove_depth: _Real = 4.0,
-        slider_length: _Real | None = None,
-        slider_clearance: _Real | None = None,
-        speed_rpm: _Real = 200.0,
-        mass: _Real = 10.0,
-        groove_friction: _Real = 0.1,
-        rail_friction: _Real = 0.15,
-        name: str = "spiral-shaft",
-        title: str = "",
-    ) -> SpiralShaft: ...
-    @staticmethod
-    def for_moved_distance(
-        moved_distance: _Real,
-        *,
-        window: _Real = 1.0471975511965976,
-        lead: _Real = 20.0,
-        holes: _Count = 14,
-        radius: _Real = 15.0,
-        harmonic: _Count = 1,
-        pick: _Real = 0.0,
-        pot_width: _Real = 18.0,
-        reversal_angle: _Real | None = None,
-        reversal_law: _MotionLaw = "harmonic",
-        return_offset: _Real = 0.0,
-        groove_width: _Real = 10.0,
-        groove_depth: _Real = 4.0,
-        slider_length: _Real | None = None,
-        slider_clearance: _Real | None = None,
-        speed_rpm: _Real = 200.0,
-        mass: _Real = 10.0,
-        groove_friction: _Real = 0.1,
-        rail_friction: _Real = 0.15,
-        name: str = "spiral-shaft",
-        title: str = "",
-    ) -> SpiralShaft: ...
-    @staticmethod
-    def from_toml(text: str) -> SpiralShaft: ...
+    @classmethod
+    def from_toml(cls, text: str) -> Self: ...
+    @classmethod
+    def load(cls, path: str | PathLike[str]) -> Self: ...
     def to_toml(self) -> str: ...
-    def __eq__(self, value: object, /) -> bool: ...
-    def __ne__(self, value: object, /) -> bool: ...
     @property
     def name(self) -> str: ...
     @property
     def title(self) -> str: ...
     @property
-    def lead(self) -> float: ...
-    @property
-    def window(self) -> float: ...
-    @property
-    def pick(self) -> float: ...
-    @property
-    def amplitude(self) -> float | None: ...
-    @property
-    def cycle(self) -> float: ...
-    @property
-    def speed_ratio(self) -> tuple[float, float]: ...
-    @property
-    def moved_in_window(self) -> float: ...
-    @overload
-    def position(self, theta: _Real) -> float: ...
-    @overload
-    def position(self, theta: ArrayLike) -> float | NDArray[float64]: ...
-    @overload
-    def velocity(self, theta: _Real) -> float: ...
-    @overload
-    def velocity(self, theta: ArrayLike) -> float | NDArray[float64]: ...
-    @overload
-    def acceleration(self, theta: _Real) -> float: ...
-    @overload
-    def acceleration(self, theta: ArrayLike) -> float | NDArray[float64]: ...
-    @overload
-    def jerk(self, theta: _Real) -> float: ...
-    @overload
-    def jerk(self, theta: ArrayLike) -> float | NDArray[float64]: ...
-    @overload
-    def lead_angle(self, theta: _Real) -> float: ...
-    @overload
-    def lead_angle(self, theta: ArrayLike) -> float | NDArray[float64]: ...
-    @overload
-    def curvature(self, theta: _Real) -> float: ...
-    @overload
-    def curvature(self, theta: ArrayLike) -> float | NDArray[float64]: ...
-    def moved(self, start: _Real, stop: _Real) -> float: ...
-    def developed(self, tolerance: _Real = 1e-3) -> dict[str, NDArray[float64]]: ...
-    def force(
-        self,
-        theta: ArrayLike,
-        *,
-        speed_rpm: _Real | None = None,
-        mass: _Real | None = None,
-        groove_friction: _Real | None = None,
-        rail_friction: _Real | None = None,
-    ) -> SliderForce: ...
-    def crossings(self) -> NDArray[float64]: ...
-    def mesh(self, tolerance: _Real = 1e-2) -> tuple[NDArray[float64], NDArray[uint32]]: ...
+    def definition(self) -> str: ...
     def check(self) -> Report: ...
+    def goals(self) -> tuple[Goal, ...]: ...
+    @overload
+    def motion(self, phi: _Real) -> dict[str, float]: ...
+    @overload
+    def motion(self, phi: ArrayLike) -> dict[str, NDArray[float64]]: ...
+    def frames(self, phi: ArrayLike) -> dict[str, NDArray[float64]]: ...
+    def optimise(
+        self,
+        method: Literal["guided", "cma-es", "de", "ga"] = "guided",
+        *,
+        seed: int = 1,
+        evaluations: int = 20000,
+        population: int | None = None,
+        progress: Callable[[int, float, float], object] | None = None,
+    ) -> Optimised[Self]: ...
+    def response(
+        self, parameter: str, values: Sequence[float] | NDArray[float64], *, whole: bool = False
+    ) -> dict[str, NDArray[float64]]: ...
     def files(
         self,
         *,
         formats: Sequence[_Format] | None = None,
-        tolerance: _Real = 1e-2,
+        parts: Sequence[str] | None = None,
+        tolerance: _Real = 1e-3,
         dxf_version: _DxfVersion = "R2010",
         dxf_curves: _DxfCurves = "arcs",
     ) -> dict[str, bytes]: ...
@@ -568,55 +473,23 @@ class SpiralShaft:
         directory: str | PathLike[str],
         *,
         formats: Sequence[_Format] | None = None,
-        tolerance: _Real = 1e-2,
+        parts: Sequence[str] | None = None,
+        tolerance: _Real = 1e-3,
         dxf_version: _DxfVersion = "R2010",
         dxf_curves: _DxfCurves = "arcs",
     ) -> list[Path]: ...
+    def __eq__(self, other: object, /) -> bool: ...
+    def __ne__(self, other: object, /) -> bool: ...
+    def __copy__(self) -> Self: ...
+    def __deepcopy__(self, _memo: Any) -> Self: ...
+    def __reduce__(self) -> tuple[Any, ...]: ...
 
-@final
-class MovingBox:
-    __hash__: ClassVar[None]  # type: ignore[assignment]
-    def __new__(
-        cls,
-        shaft: SpiralShaft | None = None,
-        *,
-        scheme: Literal["shaft", "elliptic-gear", "both"] | None = None,
-        eccentricity: _Real | None = None,
-        speed_ratio: _Real | None = None,
-        moved_distance: _Real | None = None,
-        module: _Real = 2.25,
-        tooth_count: _Count = 23,
-        name: str = "moving-box",
-        title: str = "",
-    ) -> MovingBox: ...
-    @staticmethod
-    def from_toml(text: str) -> MovingBox: ...
-    def to_toml(self) -> str: ...
-    def __eq__(self, value: object, /) -> bool: ...
-    def __ne__(self, value: object, /) -> bool: ...
-    @property
-    def name(self) -> str: ...
-    @property
-    def title(self) -> str: ...
-    @property
-    def scheme(self) -> Literal["shaft", "elliptic-gear", "both"]: ...
-    @property
-    def shaft(self) -> SpiralShaft: ...
-    @property
-    def eccentricity(self) -> float | None: ...
-    def gear_pair(self) -> GearPair | None: ...
+@disjoint_base
+class BoxDrive(Mechanism):
     @property
     def cycle(self) -> float: ...
     @property
     def moved_in_window(self) -> float: ...
-    @overload
-    def shaft_angle(self, phi: _Real) -> float: ...
-    @overload
-    def shaft_angle(self, phi: ArrayLike) -> float | NDArray[float64]: ...
-    @overload
-    def shaft_speed(self, phi: _Real) -> float: ...
-    @overload
-    def shaft_speed(self, phi: ArrayLike) -> float | NDArray[float64]: ...
     @overload
     def position(self, phi: _Real) -> float: ...
     @overload
@@ -643,28 +516,120 @@ class MovingBox:
         groove_friction: _Real | None = None,
         rail_friction: _Real | None = None,
     ) -> SliderForce: ...
-    def check(self) -> Report: ...
-    def files(
-        self,
-        *,
-        formats: Sequence[_Format] | None = None,
-        tolerance: _Real = 1e-2,
-        dxf_version: _DxfVersion = "R2010",
-        dxf_curves: _DxfCurves = "arcs",
-    ) -> dict[str, bytes]: ...
-    def export(
-        self,
-        directory: str | PathLike[str],
-        *,
-        formats: Sequence[_Format] | None = None,
-        tolerance: _Real = 1e-2,
-        dxf_version: _DxfVersion = "R2010",
-        dxf_curves: _DxfCurves = "arcs",
-    ) -> list[Path]: ...
 
 @final
-class GearPair:
-    __hash__: ClassVar[None]  # type: ignore[assignment]
+class SpiralShaft(BoxDrive):
+    def __new__(
+        cls,
+        *,
+        lead: _Real = 20.0,
+        holes: _Count = 14,
+        radius: _Real = 15.0,
+        amplitude: _Real = 0.0,
+        harmonic: _Count = 1,
+        phase: _Real = 0.0,
+        rotated: bool = False,
+        speed: ArrayLike | None = None,
+        expression: str | None = None,
+        moved_distance: _Real | None = None,
+        window: _Real = 1.0471975511965976,
+        pick: _Real = 0.0,
+        pot_width: _Real = 18.0,
+        reversal_angle: _Real | None = None,
+        reversal_law: _MotionLaw = "harmonic",
+        return_offset: _Real = 0.0,
+        groove_width: _Real = 10.0,
+        groove_depth: _Real = 4.0,
+        slider_length: _Real | None = None,
+        slider_clearance: _Real | None = None,
+        speed_rpm: _Real = 200.0,
+        mass: _Real = 10.0,
+        groove_friction: _Real = 0.1,
+        rail_friction: _Real = 0.15,
+        name: str = "spiral-shaft",
+        title: str = "",
+    ) -> SpiralShaft: ...
+    @classmethod
+    def for_moved_distance(
+        cls,
+        moved_distance: _Real,
+        *,
+        window: _Real = 1.0471975511965976,
+        lead: _Real = 20.0,
+        holes: _Count = 14,
+        radius: _Real = 15.0,
+        harmonic: _Count = 1,
+        pick: _Real = 0.0,
+        pot_width: _Real = 18.0,
+        reversal_angle: _Real | None = None,
+        reversal_law: _MotionLaw = "harmonic",
+        return_offset: _Real = 0.0,
+        groove_width: _Real = 10.0,
+        groove_depth: _Real = 4.0,
+        slider_length: _Real | None = None,
+        slider_clearance: _Real | None = None,
+        speed_rpm: _Real = 200.0,
+        mass: _Real = 10.0,
+        groove_friction: _Real = 0.1,
+        rail_friction: _Real = 0.15,
+        name: str = "spiral-shaft",
+        title: str = "",
+    ) -> SpiralShaft: ...
+    @property
+    def lead(self) -> float: ...
+    @property
+    def window(self) -> float: ...
+    @property
+    def pick(self) -> float: ...
+    @property
+    def amplitude(self) -> float | None: ...
+    @property
+    def speed_ratio(self) -> tuple[float, float]: ...
+    @overload
+    def lead_angle(self, theta: _Real) -> float: ...
+    @overload
+    def lead_angle(self, theta: ArrayLike) -> float | NDArray[float64]: ...
+    @overload
+    def curvature(self, theta: _Real) -> float: ...
+    @overload
+    def curvature(self, theta: ArrayLike) -> float | NDArray[float64]: ...
+    def developed(self, tolerance: _Real = 1e-3) -> dict[str, NDArray[float64]]: ...
+    def crossings(self) -> NDArray[float64]: ...
+    def mesh(self, tolerance: _Real = 1e-2) -> tuple[NDArray[float64], NDArray[uint32]]: ...
+
+@final
+class MovingBox(BoxDrive):
+    def __new__(
+        cls,
+        shaft: SpiralShaft | None = None,
+        *,
+        scheme: Literal["shaft", "elliptic-gear", "both"] | None = None,
+        eccentricity: _Real | None = None,
+        speed_ratio: _Real | None = None,
+        moved_distance: _Real | None = None,
+        module: _Real = 2.25,
+        tooth_count: _Count = 23,
+        name: str = "moving-box",
+        title: str = "",
+    ) -> MovingBox: ...
+    @property
+    def scheme(self) -> Literal["shaft", "elliptic-gear", "both"]: ...
+    @property
+    def shaft(self) -> SpiralShaft: ...
+    @property
+    def eccentricity(self) -> float | None: ...
+    def gear_pair(self) -> GearPair | None: ...
+    @overload
+    def shaft_angle(self, phi: _Real) -> float: ...
+    @overload
+    def shaft_angle(self, phi: ArrayLike) -> float | NDArray[float64]: ...
+    @overload
+    def shaft_speed(self, phi: _Real) -> float: ...
+    @overload
+    def shaft_speed(self, phi: ArrayLike) -> float | NDArray[float64]: ...
+
+@final
+class GearPair(Mechanism):
     def __new__(
         cls,
         pitch: Pitch,
@@ -686,13 +651,6 @@ class GearPair:
         name: str = "gear-pair",
         title: str = "",
     ) -> GearPair: ...
-    @staticmethod
-    def from_toml(text: str) -> GearPair: ...
-    def to_toml(self) -> str: ...
-    @property
-    def name(self) -> str: ...
-    @property
-    def title(self) -> str: ...
     @property
     def pitch(self) -> Pitch: ...
     @property
@@ -749,7 +707,6 @@ class GearPair:
     def reverse_pressure_angle(self, phi: ArrayLike) -> NDArray[float64]: ...
     def conjugate(self) -> Pitch: ...
     def contact(self, per_pitch: _Count = 8, *, inputs: ArrayLike | None = None) -> Contact: ...
-    def check(self) -> Report: ...
     def sheet(
         self,
         size: _SheetSize | None = None,
@@ -757,28 +714,6 @@ class GearPair:
         projection: _Projection | None = None,
         tolerance: _Real = 1e-3,
     ) -> Sheets: ...
-    def files(
-        self,
-        *,
-        formats: Sequence[_Format] | None = None,
-        tolerance: _Real = 1e-3,
-        dxf_version: _DxfVersion = "R2010",
-        dxf_curves: _DxfCurves = "arcs",
-    ) -> dict[str, bytes]: ...
-    def export(
-        self,
-        directory: str | PathLike[str],
-        *,
-        formats: Sequence[_Format] | None = None,
-        tolerance: _Real = 1e-3,
-        dxf_version: _DxfVersion = "R2010",
-        dxf_curves: _DxfCurves = "arcs",
-    ) -> list[Path]: ...
-    def __eq__(self, other: object, /) -> bool: ...
-    def __ne__(self, other: object, /) -> bool: ...
-    def __copy__(self) -> GearPair: ...
-    def __deepcopy__(self, _memo: Any) -> GearPair: ...
-    def __reduce__(self) -> tuple[Any, ...]: ...
 
 @final
 class Pitch:
@@ -838,8 +773,7 @@ def bspline(
 ) -> Pitch: ...
 
 @final
-class ThreeArm:
-    __hash__: ClassVar[None]  # type: ignore[assignment]
+class ThreeArm(Mechanism):
     def __new__(
         cls,
         pitch: Pitch,
@@ -874,15 +808,6 @@ class ThreeArm:
         name: str = "three-arm",
         title: str = "",
     ) -> ThreeArm: ...
-    @staticmethod
-    def load(path: str | PathLike[str]) -> ThreeArm: ...
-    @staticmethod
-    def from_toml(text: str) -> ThreeArm: ...
-    def to_toml(self) -> str: ...
-    @property
-    def name(self) -> str: ...
-    @property
-    def title(self) -> str: ...
     @property
     def arms(self) -> int: ...
     @property
@@ -919,46 +844,8 @@ class ThreeArm:
     def fork(self) -> Fork: ...
     def arm_contour(self, tolerance: _Real = 1e-3) -> NDArray[float64]: ...
     def arm_clearance(self, tolerance: _Real = 1e-2) -> Clearance | None: ...
-    def goals(self) -> tuple[Goal, ...]: ...
-    def check(self) -> Report: ...
-    def optimise(
-        self,
-        method: Literal["guided", "cma-es", "de", "ga"] = "guided",
-        *,
-        seed: int = 1,
-        evaluations: int = 20000,
-        population: int | None = None,
-        progress: Callable[[int, float, float], object] | None = None,
-    ) -> Optimised[ThreeArm]: ...
-    def response(
-        self, parameter: str, values: Sequence[float] | NDArray[float64], *, whole: bool = False
-    ) -> dict[str, NDArray[float64]]: ...
     def sweep(self, parameters: Mapping[str, ArrayLike], *, inputs: int = 360) -> dict[str, NDArray[float64]]: ...
     def gear_pair(self) -> GearPair: ...
-    def files(
-        self,
-        *,
-        formats: Sequence[_Format] | None = None,
-        parts: Sequence[str] | None = None,
-        tolerance: _Real = 1e-3,
-        dxf_version: _DxfVersion = "R2010",
-        dxf_curves: _DxfCurves = "arcs",
-    ) -> dict[str, bytes]: ...
-    def export(
-        self,
-        directory: str | PathLike[str],
-        *,
-        formats: Sequence[_Format] | None = None,
-        parts: Sequence[str] | None = None,
-        tolerance: _Real = 1e-3,
-        dxf_version: _DxfVersion = "R2010",
-        dxf_curves: _DxfCurves = "arcs",
-    ) -> list[Path]: ...
-    def __eq__(self, other: object, /) -> bool: ...
-    def __ne__(self, other: object, /) -> bool: ...
-    def __copy__(self) -> ThreeArm: ...
-    def __deepcopy__(self, _memo: Any) -> ThreeArm: ...
-    def __reduce__(self) -> tuple[Any, ...]: ...
 
 def bezier(
     *,
@@ -1014,11 +901,10 @@ def conjugate(
     tooth_count: _Count | None = None,
 ) -> Pitch: ...
 def template(family: str = "gear-pair") -> str: ...
-def _drawing(dxf: bytes, svg: bytes) -> Drawing: ...
-def _load(contents: bytes) -> Feeder | GearPair | MovingBox | SpiralShaft | ThreeArm: ...
+def _load(contents: bytes) -> Mechanism: ...
 def _pitch_from_toml(text: str) -> Pitch: ...
+def _write(path: str | PathLike[str], contents: bytes) -> Path: ...
 def _schema(family: str | None = None) -> str: ...
-def _sheets(size: str, dxf: Sequence[bytes], svg: Sequence[bytes], pdf: bytes) -> Sheets: ...
 def law(name: _LawName, /) -> Law: ...
 def polynomial(*, start: ArrayLike | None = None, end: ArrayLike | None = None) -> Law: ...
 def rise(
@@ -1048,15 +934,7 @@ def swinging_flat(
 ) -> Follower: ...
 
 @final
-class Feeder:
-    __hash__: ClassVar[None]  # type: ignore[assignment]
-    @staticmethod
-    def from_toml(text: str) -> Feeder: ...
-    def to_toml(self) -> str: ...
-    @property
-    def name(self) -> str: ...
-    @property
-    def title(self) -> str: ...
+class Feeder(Mechanism):
     @property
     def six_bar(self) -> SixBar: ...
     @overload
@@ -1094,38 +972,7 @@ class Feeder:
     def speed(self) -> float: ...
     @property
     def feed_rate(self) -> float: ...
-    def check(self) -> Report: ...
-    def optimise(
-        self,
-        method: Literal["guided", "cma-es", "de", "ga"] = "guided",
-        *,
-        seed: int = 1,
-        evaluations: int = 20000,
-        population: int | None = None,
-        progress: Callable[[int, float, float], object] | None = None,
-    ) -> Optimised[Feeder]: ...
     def widened(self) -> tuple[Feeder, float]: ...
-    def response(self, parameter: str, values: Sequence[float] | NDArray[float64]) -> dict[str, NDArray[float64]]: ...
-    def files(
-        self,
-        *,
-        formats: Sequence[_Format] | None = None,
-        tolerance: _Real = 1e-3,
-        dxf_version: _DxfVersion = "R2010",
-        dxf_curves: _DxfCurves = "arcs",
-    ) -> dict[str, bytes]: ...
-    def export(
-        self,
-        directory: str | PathLike[str],
-        *,
-        formats: Sequence[_Format] | None = None,
-        tolerance: _Real = 1e-3,
-        dxf_version: _DxfVersion = "R2010",
-        dxf_curves: _DxfCurves = "arcs",
-    ) -> list[Path]: ...
-    def __eq__(self, value: object, /) -> bool: ...
-    def __ne__(self, value: object, /) -> bool: ...
-    def __reduce__(self) -> tuple[Any, ...]: ...
 
 @final
 class SixBar:

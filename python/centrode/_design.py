@@ -2,11 +2,11 @@ import json
 from os import PathLike, fspath
 from typing import Any
 
-from ._centrode import _LARGEST_DESIGN, Feeder, GearPair, MovingBox, SpiralShaft, ThreeArm, _load, _schema
+from ._centrode import _LARGEST_DESIGN, Mechanism, _load, _schema
 from ._error import DesignError
 
 
-def load(path: str | PathLike[str]) -> Feeder | GearPair | MovingBox | SpiralShaft | ThreeArm:
+def load(path: str | PathLike[str]) -> Mechanism:
     """Read a design file and make its mechanism: that of its family.
 
     Raises:

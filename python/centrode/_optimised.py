@@ -4,10 +4,10 @@ from typing import TYPE_CHECKING, Generic, TypeVar
 from ._goal import Goal
 
 if TYPE_CHECKING:
-    from . import Feeder, ThreeArm
+    from . import Mechanism
 
 
-M = TypeVar("M", "ThreeArm", "Feeder", covariant=True)
+M = TypeVar("M", bound="Mechanism", covariant=True)
 
 
 @dataclass(frozen=True, slots=True)

@@ -5,7 +5,7 @@ from typing import TypeAlias, TypeVar, overload
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ._centrode import Feeder, GearPair, MovingBox, SpiralShaft, ThreeArm, _load
+from ._centrode import Mechanism, ThreeArm, _load
 from ._error import Error
 
 Figures: TypeAlias = dict[str, float]
@@ -22,7 +22,7 @@ _VARIANTS = 4096
 
 @overload
 def sweep(
-    designs: Iterable[str | GearPair | ThreeArm | SpiralShaft | MovingBox | Feeder],
+    designs: Iterable[str | Mechanism],
     *,
     over: None = None,
     executor: Pool = None,
@@ -44,7 +44,7 @@ def sweep(
 
 
 def sweep(
-    designs: Iterable[str | GearPair | ThreeArm | SpiralShaft | MovingBox | Feeder] | str | ThreeArm,
+    designs: Iterable[str | Mechanism] | str | ThreeArm,
     *,
     over: Mapping[str, ArrayLike] | None = None,
     inputs: int = 360,

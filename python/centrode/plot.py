@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
-from ._centrode import Feeder, Gear, GearPair, MovingBox, SixBar, SpiralShaft, ThreeArm
+from ._centrode import Feeder, Gear, GearPair, Mechanism, MovingBox, SixBar, SpiralShaft
 from ._contact import Contact
 from ._goal import Goal
 from ._optimised import Optimised
@@ -224,14 +224,14 @@ def contact(of: GearPair | Contact, axes: NDArray[Any] | None = None) -> NDArray
     return axes
 
 
-def goals(of: ThreeArm | Sequence[Goal], ax: Axes | None = None) -> Axes:
+def goals(of: Mechanism | Sequence[Goal], ax: Axes | None = None) -> Axes:
     """Draw how far each goal is reached, a bar each, with its figure and the range it is wanted in.
 
     Args:
         of: A mechanism, or its goals.
         ax: Where to; new axes if left out.
     """
-    found = of.goals() if isinstance(of, ThreeArm) else tuple(of)
+    found = of.goals() if isinstance(of, Mechanism) else tuple(of)
     ax = ax or _axes((9.0, 0.45 * len(found) + 1.0))
     rows = np.arange(len(found))
     colors = [_MET if goal.met else _MISSED for goal in found]
@@ -247,7 +247,7 @@ def goals(of: ThreeArm | Sequence[Goal], ax: Axes | None = None) -> Axes:
 
 
 def response(
-    of: ThreeArm, parameter: str, values: Sequence[float] | NDArray[Any], axes: NDArray[Any] | None = None
+    of: Mechanism, parameter: str, values: Sequence[float] | NDArray[Any], axes: NDArray[Any] | None = None
 ) -> NDArray[Any]:
     """Draw how the goals answer one number of the design, a small picture each: Figure 5 of Yin et al. 2021.
 
@@ -351,7 +351,7 @@ def pivots(of: SixBar, swing: float = np.pi, ax: Axes | None = None) -> Axes:
     return ax
 
 
-def history(*searches: Optimised[Feeder] | Optimised[ThreeArm] | str | PathLike[str], ax: Axes | None = None) -> Axes:
+def history(*searches: Optimised[Mechanism] | str | PathLike[str], ax: Axes | None = None) -> Axes:
     """Draw how searches went: what the best so far misses its goals by, and, from where it misses none, its objective.
 
     Args:
@@ -375,7 +375,7 @@ def history(*searches: Optimised[Feeder] | Optimised[ThreeArm] | str | PathLike[
     return ax
 
 
-def _history(search: Optimised[Feeder] | Optimised[ThreeArm] | str | PathLike[str]) -> NDArray[Any]:
+def _history(search: Optimised[Mechanism] | str | PathLike[str]) -> NDArray[Any]:
     """Rows of evaluations, violation and objective."""
     if isinstance(search, Optimised):
         return np.array(search.history, dtype=float).reshape(-1, 3)

@@ -1,17 +1,18 @@
 //! `NumPy` arrays in and out.
 
-use centrode_geometry::Point;
+use centrode_geometry::{Mesh, Point};
+use centrode_mechanism::transmission::MotionJet;
 use numpy::ndarray::{Array2, ArrayD};
-use numpy::{IntoPyArray, PyArray2, PyArrayDyn, PyArrayMethods};
+use numpy::{Element, IntoPyArray, PyArray2, PyArrayDyn, PyArrayMethods};
 use pyo3::IntoPyObjectExt;
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::{
-    Borrowed, Bound, FromPyObject, Py, PyAny, PyAnyMethods, PyErr, PyResult, Python,
+    Borrowed, Bound, FromPyObject, IntoPyObject, Py, PyAny, PyAnyMethods, PyErr, PyResult, Python,
 };
 use pyo3::sync::PyOnceLock;
 use pyo3::types::{PyDict, PyDictMethods};
 
-use crate::error::finite;
+use crate::error::{Answer, finite};
 use crate::wait::wait;
 
 /// Numbers in an array of any shape, or a single one: whatever `NumPy` makes real numbers of.
@@ -79,7 +80,7 @@ impl Values {
     }
 
     /// The numbers, if all are finite: a function of an angle has no value anywhere else.
-    fn finite(self) -> PyResult<Self> {
+    fn finite(self) -> Answer<Self> {
         for &value in &self.0 {
             finite("every input", value)?;
         }
@@ -102,99 +103,105 @@ pub(crate) fn list(numbers: Option<Numbers>) -> Vec<f64> {
     numbers.map_or_else(Vec::new, Numbers::into_vec)
 }
 
-/// Applies a function to each number; the answer has the shape of the question.
-pub(crate) fn each(
-    py: Python<'_>,
+/// Numbers of all answers, one after the other.
+type Answers = dyn FnOnce(&[f64]) -> Answer<Vec<f64>> + Send;
+
+/// Answers at numbers, worked out as they are handed to Python: of the shape of the numbers, and then of that of one
+/// answer.
+pub(crate) struct Course {
     values: Values,
-    f: impl Fn(f64) -> f64 + Send + 'static,
-) -> PyResult<Bound<'_, PyAny>> {
-    let Values(mut values) = values.finite()?;
-    if let (0, Some(&value)) = (values.ndim(), values.first()) {
-        return f(value).into_bound_py_any(py);
+    tail: Vec<usize>,
+    answers: Box<Answers>,
+}
+
+impl Course {
+    /// A number for each.
+    pub(crate) fn each(values: Values, f: impl Fn(f64) -> f64 + Send + 'static) -> Self {
+        Self::together(values, &[], move |all| {
+            Ok(all.iter().map(|&value| f(value)).collect())
+        })
     }
-    let answer = wait(py, move || {
-        values.mapv_inplace(f);
-        values
-    })?;
-    Ok(answer.into_pyarray(py).into_any())
-}
 
-/// Applies a function to each number; the answer has the shape of the question and then that of one
-/// answer, `tail`.
-pub(crate) fn each_array<const COUNT: usize>(
-    py: Python<'_>,
-    values: Values,
-    tail: &[usize],
-    f: impl Fn(f64) -> [f64; COUNT] + Send + 'static,
-) -> PyResult<Py<PyAny>> {
-    let Values(values) = values.finite()?;
-    let shape = [values.shape(), tail].concat();
-    let answer: Vec<f64> = wait(py, move || values.iter().flat_map(|&v| f(v)).collect())?;
-    Ok(shaped(shape, answer)?.into_pyarray(py).into_any().unbind())
-}
-
-/// Applies a function of all numbers at once, like [`each`].
-pub(crate) fn together(
-    py: Python<'_>,
-    values: Values,
-    f: impl Fn(&[f64]) -> PyResult<Vec<f64>> + Send + 'static,
-) -> PyResult<Bound<'_, PyAny>> {
-    let Values(values) = values.finite()?;
-    let shape = values.shape().to_vec();
-    let answer = wait(py, move || f(&Values(values).into_flat()))??;
-    if let ([], &[number]) = (&shape[..], &answer[..]) {
-        return number.into_bound_py_any(py);
+    /// An array for each, its shape `tail`.
+    pub(crate) fn arrays<const COUNT: usize>(
+        values: Values,
+        tail: &[usize],
+        f: impl Fn(f64) -> [f64; COUNT] + Send + 'static,
+    ) -> Self {
+        Self::together(values, tail, move |all| {
+            Ok(all.iter().flat_map(|&value| f(value)).collect())
+        })
     }
-    Ok(shaped(shape, answer)?.into_pyarray(py).into_any())
+
+    /// Arrays of the shape `tail` that are worked out for all numbers at once.
+    pub(crate) fn together(
+        values: Values,
+        tail: &[usize],
+        f: impl FnOnce(&[f64]) -> Answer<Vec<f64>> + Send + 'static,
+    ) -> Self {
+        Self {
+            values,
+            tail: tail.to_vec(),
+            answers: Box::new(f),
+        }
+    }
 }
 
-/// Applies a function of all numbers at once, like [`each_array`].
-pub(crate) fn together_array<const COUNT: usize>(
-    py: Python<'_>,
-    values: Values,
-    tail: &[usize],
-    f: impl Fn(&[f64]) -> PyResult<Vec<[f64; COUNT]>> + Send + 'static,
-) -> PyResult<Py<PyAny>> {
-    let Values(values) = values.finite()?;
-    let shape = [values.shape(), tail].concat();
-    let answer = wait(py, move || f(&Values(values).into_flat()))??;
-    Ok(shaped(shape, answer.into_flattened())?
-        .into_pyarray(py)
-        .into_any()
-        .unbind())
+impl<'py> IntoPyObject<'py> for Course {
+    type Target = PyAny;
+    type Output = Bound<'py, PyAny>;
+    type Error = PyErr;
+
+    fn into_pyobject(self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let Values(values) = self.values.finite()?;
+        let shape = [values.shape(), &self.tail].concat();
+        let answers = self.answers;
+        let given = Values(values).into_flat();
+        let found = match given.as_slice() {
+            // Other threads are not worth waking for one number.
+            [_] => answers(&given)?,
+            _ => wait(py, move || answers(&given))??,
+        };
+        if let ([], &[number]) = (&shape[..], &found[..]) {
+            return number.into_bound_py_any(py);
+        }
+        let array = ArrayD::from_shape_vec(shape, found);
+        let array = array.map_err(|error| PyValueError::new_err(error.to_string()))?;
+        Ok(array.into_pyarray(py).into_any())
+    }
 }
 
-fn shaped(shape: Vec<usize>, numbers: Vec<f64>) -> PyResult<ArrayD<f64>> {
-    let array = ArrayD::from_shape_vec(shape, numbers);
-    array.map_err(|error| PyValueError::new_err(error.to_string()))
+/// A coordinate and its first three derivatives.
+pub(crate) fn row(jet: &MotionJet) -> [f64; 4] {
+    [jet.position, jet.velocity, jet.acceleration, jet.jerk]
 }
 
-/// Applies a function to each number, like [`each_array`], with one axis more.
-pub(crate) fn each_row<'py, const COLUMNS: usize>(
-    py: Python<'py>,
-    values: Values,
-    f: impl Fn(f64) -> [f64; COLUMNS] + Send + 'static,
-) -> PyResult<Bound<'py, PyAny>> {
-    Ok(each_array(py, values, &[COLUMNS], f)?.into_bound(py))
+/// Rows of numbers, handed over as an (N, COLUMNS) array.
+pub(crate) struct Rows<const COLUMNS: usize, T = f64>(pub(crate) Vec<[T; COLUMNS]>);
+
+impl Rows<2> {
+    pub(crate) fn of(points: &[Point]) -> Self {
+        Self(points.iter().map(|p| [p.x, p.y]).collect())
+    }
 }
 
-/// Rows of numbers as an (N, COLUMNS) array.
-pub(crate) fn rows<'py, T: numpy::Element, const COLUMNS: usize>(
-    py: Python<'py>,
-    rows: impl ExactSizeIterator<Item = [T; COLUMNS]>,
-) -> PyResult<Bound<'py, PyArray2<T>>> {
-    let count = rows.len();
-    let numbers: Vec<T> = rows.flatten().collect();
-    let array = Array2::from_shape_vec([count, COLUMNS], numbers);
-    Ok(array
-        .map_err(|error| PyValueError::new_err(error.to_string()))?
-        .into_pyarray(py))
+impl<'py, const COLUMNS: usize, T: Element> IntoPyObject<'py> for Rows<COLUMNS, T> {
+    type Target = PyArray2<T>;
+    type Output = Bound<'py, PyArray2<T>>;
+    type Error = PyErr;
+
+    fn into_pyobject(self, py: Python<'py>) -> PyResult<Self::Output> {
+        let shape = [self.0.len(), COLUMNS];
+        let array = Array2::from_shape_vec(shape, self.0.into_flattened());
+        let array = array.map_err(|error| PyValueError::new_err(error.to_string()))?;
+        Ok(array.into_pyarray(py))
+    }
 }
 
-/// Points as an (N, 2) array.
-pub(crate) fn points<'py>(
-    py: Python<'py>,
-    points: &[Point],
-) -> PyResult<Bound<'py, PyArray2<f64>>> {
-    rows(py, points.iter().map(|p| [p.x, p.y]))
+/// Vertices of a mesh, (V, 3), and its faces, (F, 3).
+pub(crate) type MeshRows = (Rows<3>, Rows<3, u32>);
+
+/// A mesh as two arrays.
+pub(crate) fn mesh(mesh: Mesh) -> MeshRows {
+    (Rows(mesh.vertices), Rows(mesh.faces))
 }

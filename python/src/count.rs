@@ -1,7 +1,7 @@
 use pyo3::exceptions::PyOverflowError;
 use pyo3::prelude::{Borrowed, FromPyObject, PyAny, PyAnyMethods, PyErr, PyResult};
 
-use crate::error::design_error;
+use crate::error::{Answer, Raised};
 
 /// A whole number as given, to be looked at once its key is known.
 #[derive(Debug)]
@@ -28,23 +28,23 @@ impl<'a, 'py> FromPyObject<'a, 'py> for Count {
 
 impl Count {
     /// The number, or an error that names the key.
-    pub(crate) fn of(self, key: &str) -> PyResult<u32> {
+    pub(crate) fn of(self, key: &str) -> Answer<u32> {
         self.within(key, 0, u32::MAX)
     }
 
     /// The number, or an error that names the key and its range.
-    pub(crate) fn within(self, key: &str, least: u32, greatest: u32) -> PyResult<u32> {
+    pub(crate) fn within(self, key: &str, least: u32, greatest: u32) -> Answer<u32> {
         let given = match self {
             Self::Fits(count) if (least..=greatest).contains(&count) => return Ok(count),
             Self::Fits(count) => count.to_string(),
             Self::Absurd(text) => text,
         };
         let rule = format!("must be a whole number from {least} to {greatest}, not {given}");
-        Err(design_error(key, &rule))
+        Err(Raised::rule(key, &rule))
     }
 }
 
 /// The number, if there is one.
-pub(crate) fn optional(key: &str, count: Option<Count>) -> PyResult<Option<u32>> {
+pub(crate) fn optional(key: &str, count: Option<Count>) -> Answer<Option<u32>> {
     count.map(|c| c.of(key)).transpose()
 }

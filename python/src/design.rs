@@ -2,14 +2,17 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use centrode::FAMILIES;
-use centrode::family::{Family, Mechanism, Resolved};
+use centrode::family::{self, Family, Resolved};
 use centrode_mechanism::design::DesignFile;
-use pyo3::IntoPyObjectExt;
+use pyo3::PyClass;
 use pyo3::prelude::{
-    Bound, IntoPyObject, PyAny, PyAnyMethods, PyModule, PyResult, Python, pyfunction,
+    Bound, Py, PyAny, PyAnyMethods, PyClassInitializer, PyModule, PyResult, PyTypeMethods, Python,
+    pyfunction,
 };
+use pyo3::types::PyType;
 
-use crate::error::{not_in_python, not_of_family, of_design, unknown_word};
+use crate::array::{Course, Values};
+use crate::error::{Answer, Raised};
 use crate::feeder::Feeder;
 use crate::gear_pair::GearPair;
 use crate::moving_box::MovingBox;
@@ -20,57 +23,118 @@ use crate::wait::wait;
 /// A design file is read no farther than this, bytes.
 pub(crate) const LARGEST: usize = DesignFile::LARGEST + 1;
 
-/// The class of one family's mechanisms.
-pub(crate) trait Class: for<'py> IntoPyObject<'py> {
-    /// A mechanism of the family.
-    type Mechanism: Resolved;
+/// The class of one family's machines.
+pub(crate) trait Class: PyClass {
+    /// A machine of the family.
+    type Machine: Resolved;
 
-    fn of(mechanism: Arc<Self::Mechanism>) -> Self;
+    /// The machine as what a new object of the class is made of.
+    fn start(machine: Arc<Self::Machine>) -> PyClassInitializer<Self>;
 
-    /// The mechanism of a design file's text, if it is of this family.
-    fn read(py: Python<'_>, text: &str) -> PyResult<Self> {
-        let mechanism = read(py, text.as_bytes())?.downcast().map(Self::of);
-        mechanism.ok_or_else(not_of_family::<Self>)
+    fn machine(&self) -> &Arc<Self::Machine>;
+
+    /// A number of the machine at each of many inputs.
+    fn each(
+        &self,
+        inputs: Values,
+        f: impl Fn(&Self::Machine, f64) -> f64 + Send + 'static,
+    ) -> Course {
+        let machine = Arc::clone(self.machine());
+        Course::each(inputs, move |input| f(&machine, input))
     }
 
-    /// Family of the class.
-    fn family() -> Family {
-        Family::of::<Self::Mechanism>()
+    /// Numbers of the machine at each of many inputs.
+    fn rows<const COUNT: usize>(
+        &self,
+        inputs: Values,
+        f: impl Fn(&Self::Machine, f64) -> [f64; COUNT] + Send + 'static,
+    ) -> Course {
+        let machine = Arc::clone(self.machine());
+        Course::arrays(inputs, &[COUNT], move |input| f(&machine, input))
+    }
+
+    /// The machine of a design as what a new object of the class is made of.
+    fn made(
+        py: Python<'_>,
+        design: <Self::Machine as Resolved>::Design,
+    ) -> Answer<PyClassInitializer<Self>> {
+        let machine = wait(py, move || <Self::Machine as Resolved>::resolve(&design))??;
+        Ok(Self::start(Arc::new(machine)))
+    }
+
+    /// The object of a machine.
+    fn object(py: Python<'_>, machine: Self::Machine) -> Answer<Py<Self>> {
+        Ok(Py::new(py, Self::start(Arc::new(machine)))?)
     }
 }
 
-/// Makes an object of a mechanism, if that is of its family.
-type Make = for<'py> fn(Python<'py>, &Arc<dyn Mechanism>) -> Option<PyResult<Bound<'py, PyAny>>>;
+/// A class among others.
+struct Kind {
+    word: &'static str,
+    class: for<'py> fn(Python<'py>) -> Bound<'py, PyType>,
+    make: for<'py> fn(Python<'py>, &Arc<dyn family::Mechanism>) -> Option<Made<'py>>,
+}
+
+type Made<'py> = PyResult<Bound<'py, PyAny>>;
+
+impl Kind {
+    const fn of<C: Class>() -> Self {
+        Self {
+            word: Family::of::<C::Machine>().design.word,
+            class: C::type_object,
+            make: |py, machine| {
+                let machine = Arc::clone(machine).downcast()?;
+                Some(Bound::new(py, C::start(machine)).map(Bound::into_any))
+            },
+        }
+    }
+}
 
 /// The classes of all families.
-const CLASSES: [Make; 5] = [
-    made::<GearPair>,
-    made::<ThreeArm>,
-    made::<SpiralShaft>,
-    made::<MovingBox>,
-    made::<Feeder>,
+const CLASSES: [Kind; 5] = [
+    Kind::of::<GearPair>(),
+    Kind::of::<ThreeArm>(),
+    Kind::of::<SpiralShaft>(),
+    Kind::of::<MovingBox>(),
+    Kind::of::<Feeder>(),
 ];
 
-/// The object of a mechanism, if that is of the class.
-pub(crate) fn made<'py, C: Class>(
+/// The object of a machine: one of the class of its family.
+pub(crate) fn object<'py>(
     py: Python<'py>,
-    mechanism: &Arc<dyn Mechanism>,
-) -> Option<PyResult<Bound<'py, PyAny>>> {
-    let mechanism = Arc::clone(mechanism).downcast()?;
-    Some(C::of(mechanism).into_bound_py_any(py))
+    machine: &Arc<dyn family::Mechanism>,
+) -> Answer<Bound<'py, PyAny>> {
+    let mut classes = CLASSES.iter();
+    let made = classes.find_map(|class| (class.make)(py, machine));
+    let word = machine.design().family().word;
+    Ok(made.ok_or_else(|| {
+        let sentence = format!("{word:?} has no class here: use the command line on it");
+        Raised::sentence("family", sentence)
+    })??)
 }
 
-fn read(py: Python<'_>, bytes: &[u8]) -> PyResult<Arc<dyn Mechanism>> {
-    let file = FAMILIES.read(bytes).map_err(|e| of_design(&e))?;
-    wait(py, move || file.mechanism())?.map_err(|e| of_design(&e))
+/// The exception of a machine that is not of a class.
+pub(crate) fn not_of_class(class: &Bound<'_, PyType>) -> PyResult<Raised> {
+    for kind in &CLASSES {
+        if class.is_subclass(&(kind.class)(class.py()))? {
+            let sentence = format!("family must be {:?}", kind.word);
+            return Ok(Raised::sentence("family", sentence));
+        }
+    }
+    let sentence = format!("no family is that of {}", class.name()?);
+    Ok(Raised::sentence("family", sentence))
 }
 
-/// The mechanism of a design file's bytes.
+/// The machine of a design file's bytes.
+pub(crate) fn read(py: Python<'_>, bytes: &[u8]) -> Answer<Arc<dyn family::Mechanism>> {
+    let file = FAMILIES.read(bytes)?;
+    Ok(wait(py, move || file.mechanism())??)
+}
+
+/// The object of a design file's bytes.
 #[pyfunction]
-pub(crate) fn _load<'py>(py: Python<'py>, contents: &[u8]) -> PyResult<Bound<'py, PyAny>> {
-    let mechanism = read(py, contents)?;
-    let made = CLASSES.iter().find_map(|make| make(py, &mechanism));
-    made.ok_or_else(|| not_in_python(mechanism.design().family().word))?
+pub(crate) fn _load<'py>(py: Python<'py>, contents: &[u8]) -> Answer<Bound<'py, PyAny>> {
+    object(py, &read(py, contents)?)
 }
 
 /// The object that the Python part of the package loads from a path: it names the path in its errors.
@@ -86,19 +150,23 @@ pub(crate) fn path_loaded(py: Python<'_>, path: PathBuf) -> PyResult<Bound<'_, P
 /// '# A non-circular gear pair. Lengths in millimetres, angles in degrees.'
 #[pyfunction]
 #[pyo3(signature = (family="gear-pair"))]
-pub(crate) fn template(family: &str) -> PyResult<&'static str> {
-    let template = FAMILIES.template(family);
-    template.ok_or_else(|| unknown_word("family", family, &FAMILIES.words()))
+pub(crate) fn template(family: &str) -> Answer<&'static str> {
+    Ok(named(family)?.design.template)
 }
 
 /// The JSON schema of the design files of a family, or of all, as text.
 #[pyfunction]
 #[pyo3(signature = (family=None))]
-pub(crate) fn _schema(family: Option<&str>) -> PyResult<String> {
-    let Some(word) = family else {
-        return Ok(FAMILIES.json_schema().to_string());
+pub(crate) fn _schema(family: Option<&str>) -> Answer<String> {
+    let schema = match family {
+        None => FAMILIES.json_schema(),
+        Some(word) => named(word)?.design.json_schema(),
     };
+    Ok(schema.to_string())
+}
+
+/// The family of a word.
+pub(crate) fn named(word: &str) -> Answer<&'static Family> {
     let family = FAMILIES.named(word);
-    let family = family.ok_or_else(|| unknown_word("family", word, &FAMILIES.words()))?;
-    Ok(family.design.json_schema().to_string())
+    family.ok_or_else(|| Raised::word("family", word, &FAMILIES.words()))
 }

@@ -1,18 +1,21 @@
 use std::error::Error;
 
+use centrode_analysis::optimise::feeder::NotWidened;
+use centrode_analysis::optimise::{NotSearched, SearchError};
+use centrode_analysis::{ArmClearanceError, FeederForcesError};
 use centrode_export::{BundleError, ExportError};
-use centrode_geometry::{SolidError, Tolerance};
-use centrode_mechanism::cam;
-use centrode_mechanism::design::{self, DesignFault};
+use centrode_geometry::{BadTolerance, SolidError, Tolerance};
+use centrode_mechanism::arm::ArmError;
+use centrode_mechanism::cam::CamError;
+use centrode_mechanism::design::{DesignError, DesignFault, MechanismError};
+use centrode_mechanism::gear::GearPairError;
 use centrode_mechanism::gear::design::SpecError;
-use centrode_mechanism::gear::{self, pitch};
+use centrode_mechanism::gear::pitch::PitchError;
 use centrode_mechanism::linkage::{FourBarError, SixBarError};
 use centrode_mechanism::shaft::ShaftError;
-use centrode_mechanism::three_arm::{PusherError, ThreeArmError};
+use centrode_mechanism::three_arm::PusherError;
 use pyo3::exceptions::PyOSError;
-use pyo3::prelude::{PyErr, PyResult, Python};
-
-use crate::design::Class;
+use pyo3::prelude::{PyErr, Python};
 
 /// The exceptions, as the Python part of the package defines them.
 mod class {
@@ -25,199 +28,195 @@ mod class {
     pyo3::import_exception!(centrode._error, ExportError);
 }
 
-/// A design that breaks a rule at a key.
-pub(crate) fn design_error(key: &str, rule: &str) -> PyErr {
-    class::DesignError::new_err((format!("{key} {rule}"), key.to_owned()))
-}
+/// An exception to raise: whatever goes wrong in the crates becomes one.
+#[derive(Debug)]
+pub(crate) struct Raised(PyErr);
 
-/// A word that is none of those allowed.
-pub(crate) fn unknown_word(key: &str, word: &str, known: &[&str]) -> PyErr {
-    let known = known.join(", ");
-    design_error(key, &format!("must be one of {known}, not {word:?}"))
-}
+/// Answer to a call from Python, or the exception it raises.
+pub(crate) type Answer<T> = Result<T, Raised>;
 
-/// The exception of a value that breaks a rule of its own.
-pub(crate) fn of_spec(error: &SpecError) -> PyErr {
-    class::DesignError::new_err((error.to_string(), error.key.clone()))
-}
-
-/// The exception of a pitch curve's error.
-pub(crate) fn of_pitch(error: &pitch::PitchError) -> PyErr {
-    class::PitchError::new_err((error.to_string(), format!("pitch.{}", error.key())))
-}
-
-/// The exception of a gear pair's error: the innermost rule broken.
-pub(crate) fn of_pair(error: &gear::GearPairError) -> PyErr {
-    match error {
-        gear::GearPairError::Spec(error) => of_spec(error),
-        gear::GearPairError::Pitch(error) => of_pitch(error),
-        _ => class::GearPairError::new_err((error.to_string(), error.key())),
+impl From<Raised> for PyErr {
+    fn from(Raised(exception): Raised) -> Self {
+        exception
     }
 }
 
-/// The exception of a design file's error, with its place.
-pub(crate) fn of_design(error: &design::DesignError) -> PyErr {
-    let arguments = (
-        error.to_string(),
-        error.key.clone(),
-        error.line,
-        error.column,
-    );
-    match &error.fault {
-        DesignFault::Mechanism(e) if e.is::<pitch::PitchError>() => {
-            class::PitchError::new_err(arguments)
+impl From<PyErr> for Raised {
+    fn from(exception: PyErr) -> Self {
+        Self(exception)
+    }
+}
+
+/// Exceptions of errors: for each case the class, and the key of the design that is to blame, empty for none.
+macro_rules! raised {
+    ($($error:ty { $($case:pat => $class:ident($key:expr),)* })*) => {
+        $(impl From<$error> for Raised {
+            fn from(error: $error) -> Self {
+                let message = error.to_string();
+                Self(match error {
+                    $($case => class::$class::new_err((message, String::from($key))),)*
+                })
+            }
+        })*
+    };
+}
+
+raised! {
+    SpecError { error => DesignError(error.key), }
+    BadTolerance { _ => DesignError("tolerance"), }
+    PitchError { error => PitchError(format!("pitch.{}", error.key())), }
+    PusherError { error => MechanismError(error.key()), }
+    ArmError { _ => MechanismError("arm.body"), }
+    ArmClearanceError { _ => MechanismError("arm.body"), }
+    FeederForcesError { _ => MechanismError("plates"), }
+    NotSearched { _ => MechanismError("optimise"), }
+    NotWidened { _ => MechanismError("optimise"), }
+    SearchError { _ => MechanismError("optimise"), }
+    CamError {
+        CamError::Spec(error) => DesignError(error.key),
+        error => CamError(error.key()),
+    }
+    FourBarError {
+        FourBarError::Length { name, .. } => DesignError(name),
+        _ => LinkageError(""),
+    }
+    SixBarError {
+        SixBarError::Value { .. } => DesignError(""),
+        SixBarError::PivotOnPath { .. } => LinkageError("pivot"),
+        _ => LinkageError(""),
+    }
+}
+
+/// Errors whose rule at fault is told by their mechanism's.
+macro_rules! of_mechanism {
+    ($($error:ty),*) => {
+        $(impl From<$error> for Raised {
+            fn from(error: $error) -> Self {
+                MechanismError::from(error).into()
+            }
+        })*
+    };
+}
+
+of_mechanism!(GearPairError, ShaftError);
+
+impl From<MechanismError> for Raised {
+    fn from(MechanismError { key, fault }: MechanismError) -> Self {
+        let message = match &fault {
+            DesignFault::Value(rule) => format!("{key} {rule}"),
+            fault => fault.to_string(),
+        };
+        Self::of_fault(&fault, (message, key, None, None))
+    }
+}
+
+impl From<DesignError> for Raised {
+    fn from(error: DesignError) -> Self {
+        let message = error.to_string();
+        let place = (Some(error.line), Some(error.column));
+        Self::of_fault(&error.fault, (message, error.key, place.0, place.1))
+    }
+}
+
+impl From<SolidError> for Raised {
+    fn from(error: SolidError) -> Self {
+        let message = error.to_string();
+        Self(match error {
+            SolidError::NoHeight { .. } => class::DesignError::new_err((message, "width")),
+            _ => class::ExportError::new_err(message),
+        })
+    }
+}
+
+impl From<ExportError> for Raised {
+    fn from(error: ExportError) -> Self {
+        Self(class::ExportError::new_err(error.to_string()))
+    }
+}
+
+impl From<BundleError> for Raised {
+    fn from(error: BundleError) -> Self {
+        let exception = class::ExportError::new_err(error.to_string());
+        let system = error.source();
+        if let Some(reason) = system.and_then(|e| e.downcast_ref::<std::io::Error>()) {
+            // Python picks the class, such as PermissionError, by the number.
+            let cause = PyOSError::new_err((reason.raw_os_error(), reason.to_string()));
+            Python::attach(|py| exception.set_cause(py, Some(cause)));
         }
-        DesignFault::Mechanism(e) if e.is::<gear::GearPairError>() => {
-            class::GearPairError::new_err(arguments)
-        }
-        DesignFault::Mechanism(_) => class::MechanismError::new_err(arguments),
-        _ => class::DesignError::new_err(arguments),
+        Self(exception)
     }
 }
 
-/// The exception of a cam's error: the innermost rule broken.
-pub(crate) fn of_cam(error: &cam::CamError) -> PyErr {
-    match error {
-        cam::CamError::Spec(error) => of_spec(error),
-        _ => class::CamError::new_err((error.to_string(), error.key())),
-    }
-}
+/// Message, key, line and column: the arguments of a design's exceptions.
+type Arguments = (String, String, Option<usize>, Option<usize>);
 
-/// The exception of a spiral shaft's error.
-pub(crate) fn of_shaft(error: &ShaftError) -> PyErr {
-    class::DesignError::new_err((error.to_string(), error.key()))
+impl Raised {
+    /// The exception of a design that cannot be, by what of it cannot.
+    fn of_fault(fault: &DesignFault, arguments: Arguments) -> Self {
+        Self(match fault {
+            DesignFault::Mechanism(e) if e.is::<PitchError>() => {
+                class::PitchError::new_err(arguments)
+            }
+            DesignFault::Mechanism(e) if e.is::<GearPairError>() => {
+                class::GearPairError::new_err(arguments)
+            }
+            DesignFault::Mechanism(_) => class::MechanismError::new_err(arguments),
+            _ => class::DesignError::new_err(arguments),
+        })
+    }
+
+    /// The exception of a value that breaks a rule at a key.
+    pub(crate) fn rule(key: &str, rule: &str) -> Self {
+        Self::sentence(key, format!("{key} {rule}"))
+    }
+
+    /// The exception of a key, in a sentence that names it or need not.
+    pub(crate) fn sentence(key: &str, sentence: String) -> Self {
+        Self(class::DesignError::new_err((sentence, key.to_owned())))
+    }
+
+    /// The exception of a word that is none of those allowed.
+    pub(crate) fn word(key: &str, word: &str, known: &[&str]) -> Self {
+        let known = known.join(", ");
+        Self::rule(key, &format!("must be one of {known}, not {word:?}"))
+    }
+
+    /// The exception of a search that has come to nothing.
+    pub(crate) fn no_search(reason: &str) -> Self {
+        let arguments = (reason.to_owned(), "optimise");
+        Self(class::MechanismError::new_err(arguments))
+    }
 }
 
 /// A number, if it is finite.
-pub(crate) fn finite(key: &str, value: f64) -> PyResult<f64> {
+pub(crate) fn finite(key: &str, value: f64) -> Answer<f64> {
     if value.is_finite() {
         return Ok(value);
     }
-    Err(design_error(
-        key,
-        &format!("must be a finite number, not {value}"),
-    ))
+    let rule = format!("must be a finite number, not {value}");
+    Err(Raised::rule(key, &rule))
 }
 
 /// A length, if it is finite and greater than zero.
-pub(crate) fn positive(key: &str, value: f64) -> PyResult<f64> {
+pub(crate) fn positive(key: &str, value: f64) -> Answer<f64> {
     if finite(key, value)? > 0.0 {
         return Ok(value);
     }
-    Err(design_error(
-        key,
-        &format!("must be greater than 0, not {value}"),
-    ))
+    let rule = format!("must be greater than 0, not {value}");
+    Err(Raised::rule(key, &rule))
 }
 
-/// A tolerance for what is exact at every one.
-pub(crate) fn plain_tolerance(mm: f64) -> PyResult<Tolerance> {
-    let finest = 1e-9;
+/// A tolerance of what is exact at every one that has a meaning.
+pub(crate) fn plain_tolerance(mm: f64) -> Answer<Tolerance> {
+    tolerance(mm, centrode::family::FINEST)
+}
+
+/// A tolerance, if it is a length and no finer than what it is of, mm.
+pub(crate) fn tolerance(mm: f64, finest: f64) -> Answer<Tolerance> {
+    let tolerance = Tolerance::new(mm)?;
     if mm < finest {
-        let message = format!("tolerance must be at least {finest:e} mm, not {mm:e}");
-        return Err(class::DesignError::new_err((message, "tolerance")));
-    }
-    Tolerance::new(mm).map_err(|e| class::DesignError::new_err((e.to_string(), "tolerance")))
-}
-
-/// The exception of files that cannot be made.
-pub(crate) fn of_files(error: &ExportError) -> PyErr {
-    class::ExportError::new_err(error.to_string())
-}
-
-/// The exception of files that cannot be written; its cause is the system's own.
-pub(crate) fn of_bundle(py: Python<'_>, error: &BundleError) -> PyErr {
-    let exception = class::ExportError::new_err(error.to_string());
-    let system = error
-        .source()
-        .and_then(|e| e.downcast_ref::<std::io::Error>());
-    if let Some(reason) = system {
-        // Python picks the class, such as PermissionError, by the number.
-        let cause = PyOSError::new_err((reason.raw_os_error(), reason.to_string()));
-        exception.set_cause(py, Some(cause));
-    }
-    exception
-}
-
-/// A tolerance, if it is a positive length and no finer than a pair's outlines are exact.
-pub(crate) fn tolerance(mm: f64, pair: &gear::GearPair) -> PyResult<Tolerance> {
-    let refused = |message: String| class::DesignError::new_err((message, "tolerance"));
-    let tolerance = Tolerance::new(mm).map_err(|e| refused(e.to_string()))?;
-    let accuracy = pair.accuracy();
-    if mm < accuracy {
-        let message = format!(
-            "tolerance must be at least {accuracy:e} mm, as exact as the outline is, not {mm:e}"
-        );
-        return Err(refused(message));
+        let sentence = format!("tolerance must be at least {finest:e} mm, not {mm:e}");
+        return Err(Raised::sentence("tolerance", sentence));
     }
     Ok(tolerance)
-}
-
-/// A family that only the command line knows.
-pub(crate) fn not_in_python(family: &str) -> PyErr {
-    let message = format!("{family:?} has no class here: use the command line on it");
-    class::DesignError::new_err((message, "family"))
-}
-
-/// A design of another family where one of this is wanted.
-pub(crate) fn not_of_family<C: Class>() -> PyErr {
-    let family = C::family().design.word;
-    class::DesignError::new_err((format!("family must be {family:?}"), "family"))
-}
-
-/// The exception of a three-arm mechanism's error: the innermost rule broken.
-pub(crate) fn of_three_arm(error: &ThreeArmError) -> PyErr {
-    match error {
-        ThreeArmError::Gears(error) => of_pair(error),
-        _ => class::MechanismError::new_err((error.to_string(), error.key())),
-    }
-}
-
-/// The exception of a push rod that cannot be moved.
-pub(crate) fn of_pusher(error: &PusherError) -> PyErr {
-    class::MechanismError::new_err((error.to_string(), error.key()))
-}
-
-/// The exception of links that are no plates, or have no balance.
-pub(crate) fn of_plates(error: &impl Error) -> PyErr {
-    class::MechanismError::new_err((error.to_string(), "plates"))
-}
-
-/// The exception of an arm that is no body.
-pub(crate) fn of_arm(error: &impl Error) -> PyErr {
-    class::MechanismError::new_err((error.to_string(), "arm.body"))
-}
-
-/// The exception of a search that cannot be made.
-pub(crate) fn no_search(reason: &str) -> PyErr {
-    class::MechanismError::new_err((reason.to_owned(), "optimise"))
-}
-
-/// The exception of a gear that is no solid.
-pub(crate) fn of_solid(error: &SolidError) -> PyErr {
-    match error {
-        SolidError::NoHeight { .. } => class::DesignError::new_err((error.to_string(), "width")),
-        _ => class::ExportError::new_err(error.to_string()),
-    }
-}
-
-/// The exception of lengths that make no four-bar.
-pub(crate) fn of_four_bar(error: &FourBarError) -> PyErr {
-    match error {
-        FourBarError::Length { name, .. } => {
-            class::DesignError::new_err((error.to_string(), *name))
-        }
-        _ => class::LinkageError::new_err(error.to_string()),
-    }
-}
-
-/// The exception of a six-bar that cannot turn.
-pub(crate) fn of_six_bar(error: &SixBarError) -> PyErr {
-    match error {
-        SixBarError::Value { .. } => class::DesignError::new_err(error.to_string()),
-        SixBarError::PivotOnPath { .. } => {
-            class::LinkageError::new_err((error.to_string(), "pivot"))
-        }
-        _ => class::LinkageError::new_err(error.to_string()),
-    }
 }

@@ -3,20 +3,20 @@ use std::sync::Arc;
 
 use centrode_export::gear_pair::subject_files;
 use centrode_export::{Format, Options};
-use centrode_geometry::Solid;
+use centrode_geometry::{Solid, Tolerance};
 use centrode_mechanism::gear as mechanism;
 use centrode_mechanism::gear::Member;
-use numpy::{IntoPyArray, PyArray1, PyArray2, PyFixedUnicode};
+use numpy::{IntoPyArray, PyArray1, PyFixedUnicode};
 use pyo3::prelude::{Bound, PyAny, PyDictMethods, PyResult, Python, pyclass, pymethods};
 use pyo3::types::{PyDict, PyTuple};
 
-use crate::array::{points, rows};
+use crate::array::{MeshRows, Rows, mesh};
 use crate::body::Body;
-use crate::bundle::written_file;
-use crate::error::{of_files, of_solid, positive, tolerance as within};
+use crate::error::{Answer, positive, tolerance as within};
+use crate::files::_write;
 use crate::made::{Made, Reduced};
 use crate::record;
-use crate::sheet::{Drawing, Sheets, layout};
+use crate::sheet::{drawing, sheet};
 use crate::wait::wait;
 
 /// One gear of a pair, in its own frame: axes parallel to the world's at phi = 0.
@@ -33,6 +33,20 @@ impl Gear {
         self.pair.gear(self.member)
     }
 
+    fn within(&self, tolerance: f64) -> Answer<Tolerance> {
+        within(tolerance, self.pair.accuracy())
+    }
+
+    /// Asks the gear something that may take long.
+    fn ask<T: Send + 'static>(
+        &self,
+        py: Python<'_>,
+        ask: impl FnOnce(&mechanism::Gear) -> T + Send + 'static,
+    ) -> PyResult<T> {
+        let (pair, member) = (Arc::clone(&self.pair), self.member);
+        wait(py, move || ask(pair.gear(member)))
+    }
+
     /// Makes the gear's file of a format and writes it whole or not at all.
     fn write(
         &self,
@@ -40,20 +54,16 @@ impl Gear {
         path: PathBuf,
         format: Format,
         tolerance: f64,
-    ) -> PyResult<PathBuf> {
+    ) -> Answer<PathBuf> {
         let (pair, member) = (Arc::clone(&self.pair), self.member);
-        let options = Options::new(within(tolerance, &self.pair)?);
+        let options = Options::new(self.within(tolerance)?);
         let made = wait(py, move || {
             subject_files(&pair, member.into(), &[format], &options)
-        })?;
-        let files = made.map_err(|e| of_files(&e))?.into_files();
-        let bytes = files.map(|(_, bytes)| bytes).next().unwrap_or_default();
-        written_file(py, path, bytes)
+        })??;
+        let mut files = made.into_files().map(|(_, bytes)| bytes);
+        _write(py, path, files.next().unwrap_or_default())
     }
 }
-
-/// A vertex of a mesh array, (V, 3), and a face of one, (F, 3).
-type Arrays<'py> = (Bound<'py, PyArray2<f64>>, Bound<'py, PyArray2<u32>>);
 
 /// A word in a fixed-width `NumPy` array; every role fits.
 fn fixed(word: &str) -> PyFixedUnicode<6> {
@@ -116,18 +126,11 @@ impl Gear {
     /// >>> print(f"{over.across[0]:.4f}")
     /// 52.9513
     #[pyo3(signature = (diameter=None))]
-    fn over_pins<'py>(
-        &self,
-        py: Python<'py>,
-        diameter: Option<f64>,
-    ) -> PyResult<Bound<'py, PyAny>> {
-        let diameter = diameter.map(|d| positive("diameter", d)).transpose()?;
-        let (pair, member) = (Arc::clone(&self.pair), self.member);
-        let over = wait(py, move || {
-            let diameter = diameter.unwrap_or_else(|| pair.pin_diameter(member));
-            pair.gear(member).over_pins(diameter)
-        })?;
-        record::over_pins(py, &over)
+    fn over_pins<'py>(&self, py: Python<'py>, diameter: Option<f64>) -> Answer<Bound<'py, PyAny>> {
+        let given = diameter.map(|d| positive("diameter", d)).transpose()?;
+        let diameter = given.unwrap_or_else(|| self.pair.pin_diameter(self.member));
+        let over = self.ask(py, move |gear| gear.over_pins(diameter))?;
+        Ok(record::over_pins(py, &over)?)
     }
 
     /// The toothed contour, (N, 2), mm: corners of a closed polygon, counter-clockwise.
@@ -140,39 +143,26 @@ impl Gear {
     /// >>> pair.driver.outline(tolerance=0.01).shape[1]
     /// 2
     #[pyo3(signature = (tolerance=1e-3))]
-    fn outline<'py>(&self, py: Python<'py>, tolerance: f64) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let (pair, member) = (Arc::clone(&self.pair), self.member);
-        let tolerance = within(tolerance, &self.pair)?;
-        let along = wait(py, move || pair.gear(member).outline().flatten(tolerance))?;
-        points(py, &along)
+    fn outline(&self, py: Python<'_>, tolerance: f64) -> Answer<Rows<2>> {
+        let tolerance = self.within(tolerance)?;
+        let along = self.ask(py, move |gear| gear.outline().flatten(tolerance))?;
+        Ok(Rows::of(&along))
     }
 
     /// The pitch curve, (N, 2), mm: closed and counter-clockwise as `outline`.
     #[pyo3(signature = (tolerance=1e-3))]
-    fn pitch_curve<'py>(
-        &self,
-        py: Python<'py>,
-        tolerance: f64,
-    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let (pair, member) = (Arc::clone(&self.pair), self.member);
-        let tolerance = within(tolerance, &self.pair)?;
-        let along = wait(py, move || {
-            pair.gear(member).pitch_curve().flatten(tolerance)
-        })?;
-        points(py, &along)
+    fn pitch_curve(&self, py: Python<'_>, tolerance: f64) -> Answer<Rows<2>> {
+        let tolerance = self.within(tolerance)?;
+        let along = self.ask(py, move |gear| gear.pitch_curve().flatten(tolerance))?;
+        Ok(Rows::of(&along))
     }
 
     /// The bore with its keyway, (N, 2), mm, counter-clockwise; None for a gear without one.
     #[pyo3(signature = (tolerance=1e-3))]
-    fn bore<'py>(
-        &self,
-        py: Python<'py>,
-        tolerance: f64,
-    ) -> PyResult<Option<Bound<'py, PyArray2<f64>>>> {
-        let tolerance = within(tolerance, &self.pair)?;
+    fn bore(&self, tolerance: f64) -> Answer<Option<Rows<2>>> {
+        let tolerance = self.within(tolerance)?;
         let bore = self.inner().bore();
-        bore.map(|bore| points(py, &bore.flatten(tolerance)))
-            .transpose()
+        Ok(bore.map(|bore| Rows::of(&bore.flatten(tolerance))))
     }
 
     /// The points of `outline` with what is known of each, in a dictionary of arrays.
@@ -188,10 +178,9 @@ impl Gear {
     /// >>> round(float((tips ** 2).sum(axis=1).max() ** 0.5), 9)  # half of m (z + 2)
     /// 22.0
     #[pyo3(signature = (tolerance=1e-3))]
-    fn samples<'py>(&self, py: Python<'py>, tolerance: f64) -> PyResult<Bound<'py, PyDict>> {
-        let (pair, member) = (Arc::clone(&self.pair), self.member);
-        let tolerance = within(tolerance, &self.pair)?;
-        let samples = wait(py, move || pair.gear(member).outline().samples(tolerance))?;
+    fn samples<'py>(&self, py: Python<'py>, tolerance: f64) -> Answer<Bound<'py, PyDict>> {
+        let tolerance = self.within(tolerance)?;
+        let samples = self.ask(py, move |gear| gear.outline().samples(tolerance))?;
         let gear = self.inner();
         let owned = samples.iter().map(|s| gear.owners()[s.segment]);
         let roles = samples
@@ -199,9 +188,9 @@ impl Gear {
             .map(|s| fixed(gear.roles()[s.segment].name()));
         let dictionary = PyDict::new(py);
         let along = samples.iter().map(|s| [s.point.x, s.point.y]);
-        dictionary.set_item("points", rows(py, along)?)?;
+        dictionary.set_item("points", Rows(along.collect()))?;
         let along = samples.iter().map(|s| [s.normal.x, s.normal.y]);
-        dictionary.set_item("normals", rows(py, along)?)?;
+        dictionary.set_item("normals", Rows(along.collect()))?;
         let along: Vec<f64> = samples.iter().map(|s| s.curvature).collect();
         dictionary.set_item("curvature", along.into_pyarray(py))?;
         let roles: Bound<'py, PyArray1<_>> = roles.collect::<Vec<_>>().into_pyarray(py);
@@ -221,23 +210,13 @@ impl Gear {
     /// >>> float(vertices[:, 2].max())
     /// 5.0
     #[pyo3(signature = (tolerance=1e-3, width=None))]
-    fn mesh<'py>(
-        &self,
-        py: Python<'py>,
-        tolerance: f64,
-        width: Option<f64>,
-    ) -> PyResult<Arrays<'py>> {
-        let tolerance = within(tolerance, &self.pair)?;
+    fn mesh(&self, py: Python<'_>, tolerance: f64, width: Option<f64>) -> Answer<MeshRows> {
+        let tolerance = self.within(tolerance)?;
         let gear = self.inner();
         let holes = gear.bore().into_iter().collect();
         let width = width.unwrap_or(gear.body().width);
-        let solid =
-            Solid::new(gear.outline().clone(), holes, 0.0, width).map_err(|e| of_solid(&e))?;
-        let mesh = wait(py, move || solid.mesh(tolerance))?.map_err(|e| of_solid(&e))?;
-        Ok((
-            rows(py, mesh.vertices.into_iter())?,
-            rows(py, mesh.faces.into_iter())?,
-        ))
+        let solid = Solid::new(gear.outline().clone(), holes, 0.0, width)?;
+        Ok(mesh(wait(py, move || solid.mesh(tolerance))??))
     }
 
     /// Writes the gear as an exact STEP solid (AP214, mm), named after it; gives the path.
@@ -249,7 +228,7 @@ impl Gear {
     /// >>> with tempfile.TemporaryDirectory() as directory:
     /// ...     gear.step(pathlib.Path(directory, "pinion.step")).read_text()[:13]
     /// 'ISO-10303-21;'
-    fn step(&self, py: Python<'_>, path: PathBuf) -> PyResult<PathBuf> {
+    fn step(&self, py: Python<'_>, path: PathBuf) -> Answer<PathBuf> {
         // An exact solid is the same at every tolerance.
         self.write(py, path, Format::Step, self.pair.accuracy())
     }
@@ -258,22 +237,20 @@ impl Gear {
     ///
     /// Written whole or not at all. The mesh is nowhere farther than `tolerance` (mm) from the exact solid.
     #[pyo3(signature = (path, tolerance=1e-3))]
-    fn stl(&self, py: Python<'_>, path: PathBuf, tolerance: f64) -> PyResult<PathBuf> {
+    fn stl(&self, py: Python<'_>, path: PathBuf, tolerance: f64) -> Answer<PathBuf> {
         self.write(py, path, Format::Stl, tolerance)
     }
 
     /// Writes the gear as a 3MF package, the mesh of `stl` with its unit and name; gives the path.
     #[pyo3(signature = (path, tolerance=1e-3))]
-    fn threemf(&self, py: Python<'_>, path: PathBuf, tolerance: f64) -> PyResult<PathBuf> {
+    fn threemf(&self, py: Python<'_>, path: PathBuf, tolerance: f64) -> Answer<PathBuf> {
         self.write(py, path, Format::ThreeMf, tolerance)
     }
 
     /// The cutting drawing of the gear, in its own frame.
     #[pyo3(signature = (tolerance=1e-3))]
-    fn drawing(&self, py: Python<'_>, tolerance: f64) -> PyResult<Drawing> {
-        let (pair, member) = (Arc::clone(&self.pair), self.member);
-        let tolerance = within(tolerance, &self.pair)?;
-        wait(py, move || Drawing::make(&pair, member, tolerance))?.map_err(|e| of_files(&e))
+    fn drawing<'py>(&self, py: Python<'py>, tolerance: f64) -> Answer<Bound<'py, PyAny>> {
+        drawing(py, &self.pair, self.member, tolerance)
     }
 
     /// The drawing sheets of the gear: views, dimensions, gear data, measures over pins, profile.
@@ -290,20 +267,15 @@ impl Gear {
     /// >>> ct.GearPair(ct.pitch.circle(module=2, tooth_count=20)).driver.sheet()
     /// Sheets(2 of A3)
     #[pyo3(signature = (size=None, *, projection=None, tolerance=1e-3))]
-    fn sheet(
+    fn sheet<'py>(
         &self,
-        py: Python<'_>,
+        py: Python<'py>,
         size: Option<&str>,
         projection: Option<&str>,
         tolerance: f64,
-    ) -> PyResult<Sheets> {
-        let (pair, member) = (Arc::clone(&self.pair), self.member);
-        let tolerance = within(tolerance, &self.pair)?;
-        let sheet = layout(size, projection)?;
-        wait(py, move || {
-            Sheets::make(&pair, member.into(), sheet, tolerance)
-        })?
-        .map_err(|e| of_files(&e))
+    ) -> Answer<Bound<'py, PyAny>> {
+        let layout = [size, projection];
+        sheet(py, &self.pair, self.member.into(), layout, tolerance)
     }
 
     fn __repr__(&self) -> String {
@@ -315,6 +287,7 @@ impl Gear {
             gear.pitch_length()
         )
     }
+
     fn __reduce__<'py>(&self, py: Python<'py>) -> Reduced<'py> {
         self.made.reduced(py)
     }

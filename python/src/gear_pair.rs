@@ -1,35 +1,31 @@
-use std::path::PathBuf;
 use std::sync::Arc;
 
-use centrode::meshing;
-use centrode_analysis::{Contact, check};
-use centrode_export::gear_pair as files;
+use centrode_analysis::Contact;
 use centrode_export::gear_pair::Subject;
-use centrode_export::{Bundle, Format};
-use centrode_mechanism::design::Design as _;
 use centrode_mechanism::gear as mechanism;
 use centrode_mechanism::gear::Member;
-use centrode_mechanism::gear::design::{Addendum, BodySpec, GearPairDesign, TeethSpec};
+use centrode_mechanism::gear::design::{GearPairDesign, Phase, TeethSpec};
 use centrode_mechanism::gear::pitch::{Conjugate, PitchSpec};
-use pyo3::prelude::{Bound, Py, PyAny, PyRef, PyResult, Python, pyclass, pymethods};
-use pyo3::types::PyDict;
+use pyo3::prelude::{
+    Bound, Py, PyAny, PyClassInitializer, PyRef, PyResult, Python, pyclass, pymethods,
+};
 
-use crate::array::{Numbers, Values, each};
-use crate::body::Body;
-use crate::bundle;
+use crate::array::{Course, Numbers, Values};
+use crate::body::{Body, spec_of};
 use crate::count::{Count, optional};
 use crate::design::Class;
 use crate::drawing::DrawingSpec;
-use crate::error::{of_design, of_files, of_pair, tolerance as within};
-use crate::format::options;
+use crate::error::Answer;
 use crate::gear::Gear;
-use crate::made::{Made, Reduced, by_design};
+use crate::made::Made;
+use crate::mechanism::Mechanism;
 use crate::pitch::Pitch;
-use crate::place::{Place, addendum};
+use crate::place::Place;
 use crate::record;
-use crate::sheet::{Sheets, layout};
+use crate::sheet::sheet;
 use crate::tool::{self, Tool};
 use crate::wait::wait;
+use crate::word::Word;
 
 /// Most inputs a pitch of a contact analysis.
 const MOST_PER_PITCH: u32 = 10_000;
@@ -69,64 +65,36 @@ const MOST_PER_PITCH: u32 = 10_000;
 /// 52.709221
 /// >>> pair.congruent
 /// True
-#[pyclass(frozen, eq, module = "centrode")]
+#[pyclass(frozen, extends = Mechanism, module = "centrode")]
 #[derive(Debug)]
-pub(crate) struct GearPair {
-    pub(crate) pair: Arc<mechanism::GearPair>,
-}
+pub(crate) struct GearPair(pub(crate) Arc<mechanism::GearPair>);
 
 impl Class for GearPair {
-    type Mechanism = mechanism::GearPair;
+    type Machine = mechanism::GearPair;
 
-    fn of(pair: Arc<mechanism::GearPair>) -> Self {
-        Self { pair }
+    fn start(pair: Arc<mechanism::GearPair>) -> PyClassInitializer<Self> {
+        Mechanism::start(&pair).add_subclass(Self(pair))
     }
-}
 
-impl PartialEq for GearPair {
-    fn eq(&self, other: &Self) -> bool {
-        self.pair.design() == other.pair.design()
+    fn machine(&self) -> &Arc<mechanism::GearPair> {
+        &self.0
     }
 }
 
 impl GearPair {
     fn gear(slf: &Bound<'_, Self>, member: Member) -> PyResult<Gear> {
         Ok(Gear {
-            pair: Arc::clone(&slf.get().pair),
+            pair: Arc::clone(&slf.get().0),
             member,
             made: Made::part_of(slf.clone().into_any(), member.name())?,
         })
     }
-
-    fn bundle(
-        &self,
-        py: Python<'_>,
-        formats: Option<Vec<String>>,
-        tolerance: f64,
-        dxf_version: &str,
-        dxf_curves: &str,
-    ) -> PyResult<Bundle> {
-        let (formats, options) = options(&self.pair, formats, tolerance, dxf_version, dxf_curves)?;
-        let pair = Arc::clone(&self.pair);
-        wait(py, move || {
-            let mut options = options;
-            if formats.contains(&Format::Sheet) || formats.contains(&Format::Pdf) {
-                options.sheet.meshing = meshing(&check(&pair));
-            }
-            files::files(&pair, &formats, &options)
-        })?
-        .map_err(|e| of_files(&e))
-    }
-}
-
-fn body(body: Option<PyRef<'_, Body>>) -> BodySpec {
-    body.map_or_else(BodySpec::default, |b| b.0.clone())
 }
 
 #[pymethods]
 impl GearPair {
     #[new]
-    #[pyo3(signature = (pitch, *, mean_ratio=[Count::Fits(1), Count::Fits(1)], tooth_count=None, center_distance=None, tool=None, addendum="full", phase=Place::Auto, backlash=0.0, backlash_angle=None, thickness_split=0.5, least_tip_width_coefficient=0.2, pin_diameter=None, driver=None, driven=None, drawing=None, name="gear-pair", title=""), text_signature = "(pitch, *, mean_ratio=(1, 1), tooth_count=None, center_distance=None, tool=None, addendum='full', phase='auto', backlash=0.0, backlash_angle=None, thickness_split=0.5, least_tip_width_coefficient=0.2, pin_diameter=None, driver=None, driven=None, drawing=None, name='gear-pair', title='')")]
+    #[pyo3(signature = (pitch, *, mean_ratio=[Count::Fits(1), Count::Fits(1)], tooth_count=None, center_distance=None, tool=None, addendum="full", phase=Place(Phase::Auto), backlash=0.0, backlash_angle=None, thickness_split=0.5, least_tip_width_coefficient=0.2, pin_diameter=None, driver=None, driven=None, drawing=None, name="gear-pair", title=""), text_signature = "(pitch, *, mean_ratio=(1, 1), tooth_count=None, center_distance=None, tool=None, addendum='full', phase='auto', backlash=0.0, backlash_angle=None, thickness_split=0.5, least_tip_width_coefficient=0.2, pin_diameter=None, driver=None, driven=None, drawing=None, name='gear-pair', title='')")]
     #[expect(clippy::too_many_arguments, reason = "keyword arguments")]
     fn new(
         py: Python<'_>,
@@ -134,7 +102,7 @@ impl GearPair {
         mean_ratio: [Count; 2],
         tooth_count: Option<Count>,
         center_distance: Option<f64>,
-        tool: Option<Tool<'_>>,
+        tool: Option<Tool>,
         addendum: &str,
         phase: Place,
         backlash: f64,
@@ -147,7 +115,7 @@ impl GearPair {
         drawing: Option<PyRef<'_, DrawingSpec>>,
         name: &str,
         title: &str,
-    ) -> PyResult<Self> {
+    ) -> Answer<PyClassInitializer<Self>> {
         let [driver_turns, driven_turns] = mean_ratio;
         let design = GearPairDesign {
             name: name.into(),
@@ -159,125 +127,87 @@ impl GearPair {
             tooth_count: optional("tooth_count", tooth_count)?,
             center_distance,
             pitch: pitch.spec.clone(),
-            tool: tool.map(|t| t.spec()).unwrap_or_default(),
+            tool: tool.map(|tool| tool.0).unwrap_or_default(),
             teeth: TeethSpec {
-                addendum: self::addendum(addendum)?,
-                phase: phase.phase()?,
+                addendum: Word::of("teeth.addendum", addendum)?,
+                phase: phase.0,
                 backlash,
                 backlash_angle,
                 thickness_split,
                 least_tip_width_coefficient,
                 pin_diameter,
             },
-            driver: body(driver),
-            driven: body(driven),
+            driver: spec_of(driver),
+            driven: spec_of(driven),
             drawing: drawing.map(|d| d.0.clone()).unwrap_or_default(),
         };
-        let pair = wait(py, move || mechanism::GearPair::resolve(&design))?;
-        let pair = Arc::new(pair.map_err(|e| of_pair(&e))?);
-        Ok(Self { pair })
-    }
-
-    /// The pair of a design file's text.
-    ///
-    /// >>> import centrode as ct
-    /// >>> ct.GearPair.from_toml(ct.template("gear-pair")).driver.tooth_count
-    /// 23
-    #[staticmethod]
-    fn from_toml(py: Python<'_>, text: &str) -> PyResult<Self> {
-        Class::read(py, text)
-    }
-
-    /// The design file of the pair; `from_toml` reads it back.
-    ///
-    /// >>> import centrode as ct
-    /// >>> pair = ct.GearPair(ct.pitch.circle(module=2, tooth_count=20))
-    /// >>> print(pair.to_toml()[:21])
-    /// family = "gear-pair"
-    /// <BLANKLINE>
-    fn to_toml(&self) -> PyResult<String> {
-        self.pair.design().to_toml().map_err(|e| of_design(&e))
-    }
-
-    /// Name, as written in the design.
-    #[getter]
-    fn name(&self) -> &str {
-        self.pair.name()
-    }
-
-    /// Title, as written in the design.
-    #[getter]
-    fn title(&self) -> &str {
-        self.pair.title()
+        Self::made(py, design)
     }
 
     /// Pitch curve of the driver.
     #[getter]
-    fn pitch(&self) -> PyResult<Pitch> {
-        Pitch::resolve(self.pair.design().pitch.clone())
+    fn pitch(&self) -> Answer<Pitch> {
+        Pitch::resolve(self.0.design().pitch.clone())
     }
 
     /// Tool that cuts both gears.
     #[getter]
     fn tool(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
-        tool::object(py, &self.pair.design().tool)
+        tool::object(py, &self.0.design().tool)
     }
 
     /// "full" or "fitted".
     #[getter]
     fn addendum(&self) -> &'static str {
-        match self.pair.design().teeth.addendum {
-            Addendum::Full => "full",
-            Addendum::Fitted => "fitted",
-        }
+        self.0.design().teeth.addendum.word()
     }
 
     /// Distance between the shafts, mm.
     #[getter]
     fn center_distance(&self) -> f64 {
-        self.pair.center_distance()
+        self.0.center_distance()
     }
 
     /// Module, mm: pitch length / (pi x tooth count).
     #[getter]
     fn module(&self) -> f64 {
-        self.pair.module()
+        self.0.module()
     }
 
     /// Turns of driver : turns of driven gear.
     #[getter]
     fn mean_ratio(&self) -> (u32, u32) {
-        self.pair.mean_ratio()
+        self.0.mean_ratio()
     }
 
     /// Pitches from the polar angle zero to the middle of the driver's tooth 0.
     #[getter]
     fn phase(&self) -> f64 {
-        self.pair.phase()
+        self.0.phase()
     }
 
     /// Entries and layout of the drawing sheets.
     #[getter]
     fn drawing(&self) -> DrawingSpec {
-        DrawingSpec(self.pair.drawing().clone())
+        DrawingSpec(self.0.drawing().clone())
     }
 
     /// Play along the common normal, mm.
     #[getter]
     fn backlash(&self) -> f64 {
-        self.pair.backlash()
+        self.0.backlash()
     }
 
     /// Whether both gears are the same part.
     #[getter]
     fn congruent(&self) -> bool {
-        self.pair.congruent()
+        self.0.congruent()
     }
 
     /// Driver angle after which both gears are as they were, rad.
     #[getter]
     fn cycle(&self) -> f64 {
-        self.pair.cycle()
+        self.0.cycle()
     }
 
     /// The gear that is turned, at the origin.
@@ -301,9 +231,8 @@ impl GearPair {
     /// >>> pair.driven_angle([[1, 2], [3, 4]]).round(12)
     /// array([[0.5, 1. ],
     ///        [1.5, 2. ]])
-    fn driven_angle<'py>(&self, py: Python<'py>, phi: Values) -> PyResult<Bound<'py, PyAny>> {
-        let pair = Arc::clone(&self.pair);
-        each(py, phi, move |phi| pair.driven_angle(phi))
+    fn driven_angle(&self, phi: Values) -> Course {
+        self.each(phi, |pair, phi| pair.driven_angle(phi))
     }
 
     /// Driven turn per driver turn at a driver angle, rad; of an array, an array of the same shape.
@@ -313,43 +242,33 @@ impl GearPair {
     /// >>> pair = ct.GearPair(pitch)
     /// >>> round(pair.ratio(0.0), 6)
     /// 1.732051
-    fn ratio<'py>(&self, py: Python<'py>, phi: Values) -> PyResult<Bound<'py, PyAny>> {
-        let pair = Arc::clone(&self.pair);
-        each(py, phi, move |phi| pair.ratio(phi))
+    fn ratio(&self, phi: Values) -> Course {
+        self.each(phi, |pair, phi| pair.ratio(phi))
     }
 
     /// Change of the ratio per radian of driver angle; of an array, an array of the same shape.
-    fn ratio_slope<'py>(&self, py: Python<'py>, phi: Values) -> PyResult<Bound<'py, PyAny>> {
-        let pair = Arc::clone(&self.pair);
-        each(py, phi, move |phi| pair.ratio_slope(phi))
+    fn ratio_slope(&self, phi: Values) -> Course {
+        self.each(phi, |pair, phi| pair.ratio_slope(phi))
     }
 
     /// Curvature (1/mm) of the driver's pitch curve where it touches at a driver angle; positive where convex.
-    fn driver_curvature<'py>(&self, py: Python<'py>, phi: Values) -> PyResult<Bound<'py, PyAny>> {
-        let pair = Arc::clone(&self.pair);
-        each(py, phi, move |phi| pair.pitch_point(phi).driver_curvature)
+    fn driver_curvature(&self, phi: Values) -> Course {
+        self.each(phi, |pair, phi| pair.pitch_point(phi).driver_curvature)
     }
 
     /// Curvature (1/mm) of the driven gear's pitch curve where it touches at a driver angle; positive where convex.
-    fn driven_curvature<'py>(&self, py: Python<'py>, phi: Values) -> PyResult<Bound<'py, PyAny>> {
-        let pair = Arc::clone(&self.pair);
-        each(py, phi, move |phi| pair.pitch_point(phi).driven_curvature)
+    fn driven_curvature(&self, phi: Values) -> Course {
+        self.each(phi, |pair, phi| pair.pitch_point(phi).driven_curvature)
     }
 
     /// Angle (rad) between the common normal and the driven gear's motion, the driver pushing it on: |alpha - mu|, tan mu = r'/r.
-    fn pressure_angle<'py>(&self, py: Python<'py>, phi: Values) -> PyResult<Bound<'py, PyAny>> {
-        let pair = Arc::clone(&self.pair);
-        each(py, phi, move |phi| pair.pitch_point(phi).pressure_angle)
+    fn pressure_angle(&self, phi: Values) -> Course {
+        self.each(phi, |pair, phi| pair.pitch_point(phi).pressure_angle)
     }
 
-    /// Angle (rad) between the common normal and the driven gear's motion, the driver pushing it back: |alpha + mu|.
-    fn reverse_pressure_angle<'py>(
-        &self,
-        py: Python<'py>,
-        phi: Values,
-    ) -> PyResult<Bound<'py, PyAny>> {
-        let pair = Arc::clone(&self.pair);
-        each(py, phi, move |phi| {
+    /// The same with the driver pushing it back: |alpha + mu|.
+    fn reverse_pressure_angle(&self, phi: Values) -> Course {
+        self.each(phi, |pair, phi| {
             pair.pitch_point(phi).reverse_pressure_angle
         })
     }
@@ -361,12 +280,12 @@ impl GearPair {
     /// >>> back = ct.GearPair(pair.conjugate(), mean_ratio=(1, 2))
     /// >>> back.driven.tooth_count
     /// 20
-    fn conjugate(&self) -> PyResult<Pitch> {
+    fn conjugate(&self) -> Answer<Pitch> {
         Pitch::resolve(PitchSpec::Conjugate(Conjugate {
-            mean_ratio: self.pair.design().mean_ratio,
+            mean_ratio: self.0.design().mean_ratio,
             module: None,
-            tooth_count: Some(self.pair.driven().tooth_count()),
-            of: Box::new(self.pair.design().pitch.clone()),
+            tooth_count: Some(self.0.driven().tooth_count()),
+            of: Box::new(self.0.design().pitch.clone()),
         }))
     }
 
@@ -386,9 +305,9 @@ impl GearPair {
         py: Python<'py>,
         per_pitch: Count,
         inputs: Option<Numbers>,
-    ) -> PyResult<Bound<'py, PyAny>> {
+    ) -> Answer<Bound<'py, PyAny>> {
         let per_pitch = per_pitch.within("per_pitch", 1, MOST_PER_PITCH)?;
-        let pair = Arc::clone(&self.pair);
+        let pair = Arc::clone(&self.0);
         let contact = match inputs {
             None => wait(py, move || Contact::sampled(&pair, per_pitch)),
             Some(inputs) => {
@@ -396,95 +315,24 @@ impl GearPair {
                 wait(py, move || Contact::at(&pair, &inputs))
             }
         };
-        record::contact(py, contact?)
-    }
-
-    /// Checks pitch curves, every tooth, and the mesh along one whole cycle.
-    ///
-    /// >>> import centrode as ct
-    /// >>> report = ct.GearPair(ct.pitch.ellipse(eccentricity=0.2, module=2, tooth_count=23)).check()
-    /// >>> report.ok
-    /// True
-    /// >>> report.values["transmission_error_max"] < 1e-8
-    /// True
-    fn check<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let pair = Arc::clone(&self.pair);
-        let report = wait(py, move || check(&pair))?;
-        record::report(py, &report)
+        Ok(record::contact(py, contact?)?)
     }
 
     /// The drawing sheets of both gears in place: centre distance, data, motion; as `Gear.sheet`.
     #[pyo3(signature = (size=None, *, projection=None, tolerance=1e-3))]
-    fn sheet(
+    fn sheet<'py>(
         &self,
-        py: Python<'_>,
+        py: Python<'py>,
         size: Option<&str>,
         projection: Option<&str>,
         tolerance: f64,
-    ) -> PyResult<Sheets> {
-        let pair = Arc::clone(&self.pair);
-        let tolerance = within(tolerance, &self.pair)?;
-        let sheet = layout(size, projection)?;
-        wait(py, move || {
-            Sheets::make(&pair, Subject::Assembly, sheet, tolerance)
-        })?
-        .map_err(|e| of_files(&e))
-    }
-
-    /// The files of the pair, name to contents, without writing them; `export` writes them.
-    ///
-    /// >>> import centrode as ct
-    /// >>> pair = ct.GearPair(ct.pitch.circle(module=2, tooth_count=20))
-    /// >>> sorted(pair.files(formats=["stl"]))
-    /// ['driven.stl', 'driver.stl']
-    #[pyo3(signature = (*, formats=None, tolerance=1e-3, dxf_version="R2010", dxf_curves="arcs"))]
-    fn files<'py>(
-        &self,
-        py: Python<'py>,
-        formats: Option<Vec<String>>,
-        tolerance: f64,
-        dxf_version: &str,
-        dxf_curves: &str,
-    ) -> PyResult<Bound<'py, PyDict>> {
-        let bundle = self.bundle(py, formats, tolerance, dxf_version, dxf_curves)?;
-        bundle::contents(py, &bundle)
-    }
-
-    /// Writes the pair's files into a directory, which is made if it is missing; gives their paths.
-    ///
-    /// Every file is written whole or not at all, and is the same from run to run.
-    ///
-    /// Args:
-    ///     directory: Where to.
-    ///     formats: Any of "dxf", "svg", "stl", "step", "3mf", "csv", "urdf" and "mjcf"; all if left out.
-    ///     tolerance: Greatest distance of every arc, point sequence and mesh from the exact curve, mm.
-    ///     dxf_version: "R2010" or "R12".
-    ///     dxf_curves: "arcs" or "splines".
-    ///
-    /// Raises:
-    ///     ExportError: A file cannot be made or written.
-    ///
-    /// >>> import centrode as ct, tempfile
-    /// >>> pair = ct.GearPair(ct.pitch.circle(module=2, tooth_count=20))
-    /// >>> with tempfile.TemporaryDirectory() as directory:
-    /// ...     [path.name for path in pair.export(directory, formats=["dxf"])]
-    /// ['driver.dxf', 'driven.dxf', 'assembly.dxf']
-    #[pyo3(signature = (directory, *, formats=None, tolerance=1e-3, dxf_version="R2010", dxf_curves="arcs"))]
-    fn export(
-        &self,
-        py: Python<'_>,
-        directory: PathBuf,
-        formats: Option<Vec<String>>,
-        tolerance: f64,
-        dxf_version: &str,
-        dxf_curves: &str,
-    ) -> PyResult<Vec<PathBuf>> {
-        let bundle = self.bundle(py, formats, tolerance, dxf_version, dxf_curves)?;
-        bundle::written(py, bundle, directory)
+    ) -> Answer<Bound<'py, PyAny>> {
+        let layout = [size, projection];
+        sheet(py, &self.0, Subject::Assembly, layout, tolerance)
     }
 
     fn __repr__(&self) -> String {
-        let pair = &self.pair;
+        let pair = &self.0;
         format!(
             "GearPair({:?}, {}, {}:{} teeth, module={:?}, center_distance={:?})",
             pair.name(),
@@ -494,17 +342,5 @@ impl GearPair {
             pair.module(),
             pair.center_distance(),
         )
-    }
-
-    fn __copy__(slf: Bound<'_, Self>) -> Bound<'_, Self> {
-        slf
-    }
-
-    fn __deepcopy__<'py>(slf: Bound<'py, Self>, _memo: &Bound<'py, PyAny>) -> Bound<'py, Self> {
-        slf
-    }
-
-    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
-        by_design(py, self.pair.design())
     }
 }

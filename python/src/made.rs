@@ -3,7 +3,7 @@ use pyo3::IntoPyObjectExt;
 use pyo3::prelude::{Bound, Py, PyAny, PyAnyMethods, PyModule, PyResult, Python};
 use pyo3::types::{PyBytes, PyTuple};
 
-use crate::error::of_design;
+use crate::error::Answer;
 use crate::record::Keywords;
 
 /// Call that makes an object, or its equal: what it is pickled and copied by.
@@ -52,8 +52,8 @@ pub(crate) fn by<'py>(name: &str, keywords: Keywords<'py>) -> PyResult<Reduced<'
 }
 
 /// Reduces to the file of a design.
-pub(crate) fn by_design<'py>(py: Python<'py>, design: &dyn Design) -> PyResult<Reduced<'py>> {
-    let text = design.to_toml().map_err(|e| of_design(&e))?;
+pub(crate) fn by_design<'py>(py: Python<'py>, design: &dyn Design) -> Answer<Reduced<'py>> {
+    let text = design.to_toml()?;
     let bytes = PyBytes::new(py, text.as_bytes());
     Ok((native(py, "_load")?, PyTuple::new(py, [bytes])?))
 }

@@ -1,15 +1,14 @@
 use std::collections::BTreeMap;
 
 use centrode_geometry::Point;
-use centrode_mechanism::linkage::{self, Branch, FourBar};
-use centrode_mechanism::transmission::MotionJet;
-use numpy::PyArray2;
-use pyo3::prelude::{Bound, Py, PyAny, PyResult, Python, pyclass, pymethods};
+use centrode_mechanism::linkage::{self, FourBar};
+use pyo3::prelude::{Bound, PyAny, PyResult, Python, pyclass, pymethods};
 
-use crate::array::{Values, each, points, together, together_array};
-use crate::error::{of_four_bar, of_six_bar, unknown_word};
+use crate::array::{Course, Rows, Values, row};
+use crate::error::Answer;
 use crate::made::{Reduced, by};
 use crate::record::{self, Keywords};
+use crate::word::Word;
 
 /// A crank-rocker that swings an end effector through a slider: the picking mechanism of 2022.
 ///
@@ -38,15 +37,6 @@ use crate::record::{self, Keywords};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct SixBar(pub(crate) linkage::SixBar);
 
-impl SixBar {
-    fn branch(&self) -> &'static str {
-        match self.0.four_bar().branch() {
-            Branch::Upper => "upper",
-            Branch::Lower => "lower",
-        }
-    }
-}
-
 #[pymethods]
 impl SixBar {
     #[new]
@@ -59,16 +49,14 @@ impl SixBar {
         pivot: (f64, f64),
         effector_length: f64,
         branch: &str,
-    ) -> PyResult<Self> {
-        let branch = match branch {
-            "upper" => Branch::Upper,
-            "lower" => Branch::Lower,
-            other => return Err(unknown_word("branch", other, &["upper", "lower"])),
-        };
-        let four_bar = FourBar::new(crank, coupler, rocker, frame, branch);
-        let four_bar = four_bar.map_err(|e| of_four_bar(&e))?;
-        let six_bar = linkage::SixBar::new(four_bar, Point::new(pivot.0, pivot.1), effector_length);
-        six_bar.map(Self).map_err(|e| of_six_bar(&e))
+    ) -> Answer<Self> {
+        let four_bar = FourBar::new(crank, coupler, rocker, frame, Word::of("branch", branch)?)?;
+        let pivot = Point::new(pivot.0, pivot.1);
+        Ok(Self(linkage::SixBar::new(
+            four_bar,
+            pivot,
+            effector_length,
+        )?))
     }
 
     /// The joints B and C and the tip E at a crank angle, mm: an array of the shape of `phi` and then (3, 2).
@@ -79,18 +67,18 @@ impl SixBar {
     /// array([[ 77.      ,   0.      ],
     ///        [188.857143,  95.378088],
     ///        [290.519775, 127.845833]])
-    fn position(&self, py: Python<'_>, phi: Values) -> PyResult<Py<PyAny>> {
+    fn position(&self, phi: Values) -> Course {
         let six_bar = self.0;
-        together_array(py, phi, &[3, 2], move |phi| {
-            let flat = |[b, c, e]: [Point; 3]| [b.x, b.y, c.x, c.y, e.x, e.y];
-            Ok(six_bar.joints_each(phi).into_iter().map(flat).collect())
+        Course::together(phi, &[3, 2], move |phi| {
+            let joints = six_bar.joints_each(phi).into_iter().flatten();
+            Ok(joints.flat_map(|joint| [joint.x, joint.y]).collect())
         })
     }
 
     /// The effector's angle at a crank angle, rad; of an array, an array of the same shape.
-    fn effector_angle<'py>(&self, py: Python<'py>, phi: Values) -> PyResult<Bound<'py, PyAny>> {
+    fn effector_angle(&self, phi: Values) -> Course {
         let six_bar = self.0;
-        together(py, phi, move |phi| {
+        Course::together(phi, &[], move |phi| {
             let angles = six_bar.effector_angle_each(phi).into_iter();
             Ok(angles.map(|jet| jet.position).collect())
         })
@@ -103,28 +91,27 @@ impl SixBar {
     /// >>> six = ct.SixBar(crank=77, coupler=147, rocker=127, frame=105, pivot=(100, 67), effector_length=200)
     /// >>> bool(abs(six.effector_motion(six.dead_centers.folded)[1]) < 1e-12)
     /// True
-    fn effector_motion(&self, py: Python<'_>, phi: Values) -> PyResult<Py<PyAny>> {
+    fn effector_motion(&self, phi: Values) -> Course {
         let six_bar = self.0;
-        together_array(py, phi, &[4], move |phi| {
-            let angles = six_bar.effector_angle_each(phi).into_iter();
-            let flat = |jet: MotionJet| [jet.position, jet.velocity, jet.acceleration, jet.jerk];
-            Ok(angles.map(flat).collect())
+        Course::together(phi, &[4], move |phi| {
+            let angles = six_bar.effector_angle_each(phi);
+            Ok(angles.iter().flat_map(row).collect())
         })
     }
 
     /// The effector's tip E at a crank angle, mm: an array of the shape of `phi` and then (2,).
-    fn effector_tip(&self, py: Python<'_>, phi: Values) -> PyResult<Py<PyAny>> {
+    fn effector_tip(&self, phi: Values) -> Course {
         let six_bar = self.0;
-        together_array(py, phi, &[2], move |phi| {
+        Course::together(phi, &[2], move |phi| {
             let joints = six_bar.joints_each(phi).into_iter();
-            Ok(joints.map(|[_, _, e]| [e.x, e.y]).collect())
+            Ok(joints.flat_map(|[_, _, e]| [e.x, e.y]).collect())
         })
     }
 
     /// The angle at C between coupler and rocker, in (0, pi), rad; of an array, an array of the same shape.
-    fn transmission_angle<'py>(&self, py: Python<'py>, phi: Values) -> PyResult<Bound<'py, PyAny>> {
+    fn transmission_angle(&self, phi: Values) -> Course {
         let four_bar = *self.0.four_bar();
-        each(py, phi, move |phi| four_bar.transmission_angle(phi))
+        Course::each(phi, move |phi| four_bar.transmission_angle(phi))
     }
 
     /// Lengths of crank, coupler, rocker and frame, mm.
@@ -220,35 +207,31 @@ impl SixBar {
     /// array([[160.729,  65.584],
     ///        [ 52.929,  68.523]])
     #[pyo3(signature = (swing, count=100))]
-    fn pivots<'py>(
-        &self,
-        py: Python<'py>,
-        swing: f64,
-        count: usize,
-    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let places = linkage::SixBar::pivots(self.0.four_bar(), swing, count);
-        points(py, &places)
+    fn pivots(&self, swing: f64, count: usize) -> Rows<2> {
+        let four_bar = self.0.four_bar();
+        Rows::of(&linkage::SixBar::pivots(four_bar, swing, count))
     }
-    fn __repr__(&self) -> String {
-        let [crank, coupler, rocker, frame] = self.lengths();
-        format!(
-            "SixBar(crank={crank:?}, coupler={coupler:?}, rocker={rocker:?}, frame={frame:?}, pivot={:?}, effector_length={:?}, branch={:?})",
-            self.pivot(),
-            self.effector_length(),
-            self.branch(),
-        )
+
+    fn __repr__(&self, py: Python<'_>) -> PyResult<String> {
+        self.keywords(py)?.call("SixBar")
     }
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
+        by("SixBar", self.keywords(py)?)
+    }
+}
+
+impl SixBar {
+    /// The keywords that make this one.
+    fn keywords<'py>(&self, py: Python<'py>) -> PyResult<Keywords<'py>> {
         let [crank, coupler, rocker, frame] = self.lengths();
-        let keywords = Keywords::new(py)
+        Keywords::new(py)
             .with("crank", crank)?
             .with("coupler", coupler)?
             .with("rocker", rocker)?
             .with("frame", frame)?
             .with("pivot", self.pivot())?
             .with("effector_length", self.effector_length())?
-            .with("branch", self.branch())?;
-        by("SixBar", keywords)
+            .with("branch", self.0.four_bar().branch().word())
     }
 }

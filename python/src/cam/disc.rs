@@ -1,23 +1,21 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+use centrode_export::Options;
 use centrode_export::cam as export;
-use centrode_export::{Format, Options};
-use centrode_geometry::{Point, Tolerance};
 use centrode_mechanism::cam::{Cam, Contact, Extreme, design as spec};
-use numpy::{IntoPyArray, PyArray1, PyArray2};
 use pyo3::prelude::{Bound, PyRef, PyResult, Python, pyclass, pymethods};
 use pyo3::types::PyDict;
 
 use super::parts::{Follower, Segment};
-use super::{row, turn};
-use crate::array::{Numbers, points, rows};
+use crate::array::{Course, Rows, Values, row};
 use crate::body::Body;
-use crate::bundle;
-use crate::error::{design_error, of_cam, of_files, unknown_word};
+use crate::error::{Answer, plain_tolerance};
+use crate::files;
 use crate::made::{Made, Reduced, native};
 use crate::record::Keywords;
 use crate::wait::wait;
+use crate::word::Word;
 
 /// An extreme as the pair of cam angle and value.
 type Peak = (f64, f64);
@@ -58,27 +56,18 @@ impl DiscCam {
         Self { cam, made }
     }
 
-    fn contacts(&self, theta: Numbers) -> impl ExactSizeIterator<Item = Contact> {
-        let cam = self.cam.clone();
-        theta
-            .into_vec()
-            .into_iter()
-            .map(move |input| cam.disc().contact(input))
+    /// A number of the contact at cam angles.
+    fn each(&self, theta: Values, of: fn(&Contact) -> f64) -> Course {
+        let cam = Arc::clone(&self.cam);
+        Course::each(theta, move |input| of(&cam.disc().contact(input)))
     }
 
-    fn column<'py>(
-        &self,
-        py: Python<'py>,
-        theta: Numbers,
-        of: impl Fn(&Contact) -> f64,
-    ) -> Bound<'py, PyArray1<f64>> {
-        let values: Vec<f64> = self.contacts(theta).map(|contact| of(&contact)).collect();
-        values.into_pyarray(py)
+    /// Numbers of the contact at cam angles.
+    fn rows<const COUNT: usize>(&self, theta: Values, of: fn(&Contact) -> [f64; COUNT]) -> Course {
+        let cam = Arc::clone(&self.cam);
+        let row = move |input| of(&cam.disc().contact(input));
+        Course::arrays(theta, &[COUNT], row)
     }
-}
-
-fn tolerance(mm: f64) -> PyResult<Tolerance> {
-    Tolerance::new(mm).map_err(|e| design_error("tolerance", &e.to_string()))
 }
 
 fn peak(extreme: Extreme) -> Peak {
@@ -101,7 +90,7 @@ impl DiscCam {
         body: Option<PyRef<'py, Body>>,
         name: &str,
         title: &str,
-    ) -> PyResult<Self> {
+    ) -> Answer<Self> {
         let again = Keywords::new(py)
             .with("follower", &follower)?
             .with("segments", &segments)?
@@ -117,13 +106,13 @@ impl DiscCam {
             segments: segments.iter().map(|segment| segment.0.clone()).collect(),
         };
         let mut design = spec::CamSpec::new(base_radius, follower.0.clone(), motion);
-        design.rotation = turn("rotation", rotation)?;
+        design.rotation = Word::of("rotation", rotation)?;
         design.name = name.to_owned();
         design.title = title.to_owned();
         if let Some(body) = body {
             design.body = body.0.clone();
         }
-        let cam = wait(py, move || Cam::resolve(&design))?.map_err(|e| of_cam(&e))?;
+        let cam = wait(py, move || Cam::resolve(&design))??;
         Ok(Self::new(cam, made))
     }
 
@@ -153,63 +142,56 @@ impl DiscCam {
 
     /// The follower's position, velocity, acceleration and jerk at cam angles, (N, 4): mm or rad, and
     /// per radian.
-    fn motion<'py>(&self, py: Python<'py>, theta: Numbers) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        rows(py, self.contacts(theta).map(|contact| row(&contact.motion)))
+    fn motion(&self, theta: Values) -> Course {
+        self.rows(theta, |contact| row(&contact.motion))
     }
 
     /// Points of the profile that touch the follower at cam angles, (N, 2), mm.
-    fn points<'py>(&self, py: Python<'py>, theta: Numbers) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        rows(py, self.contacts(theta).map(|c| [c.point.x, c.point.y]))
+    fn points(&self, theta: Values) -> Course {
+        self.rows(theta, |contact| contact.point.coords.into())
     }
 
     /// Unit normals of the profile there, (N, 2), out of the cam.
-    fn normals<'py>(&self, py: Python<'py>, theta: Numbers) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        rows(py, self.contacts(theta).map(|c| [c.normal.x, c.normal.y]))
+    fn normals(&self, theta: Values) -> Course {
+        self.rows(theta, |contact| contact.normal.into())
     }
 
     /// Centres of the roller at cam angles, (N, 2), mm; not a number for a flat face.
-    fn roller<'py>(&self, py: Python<'py>, theta: Numbers) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let nowhere = Point::new(f64::NAN, f64::NAN);
-        let centers = self.contacts(theta).map(|c| c.roller.unwrap_or(nowhere));
-        rows(py, centers.map(|p| [p.x, p.y]))
+    fn roller(&self, theta: Values) -> Course {
+        self.rows(theta, |contact| {
+            contact.roller.map_or([f64::NAN; 2], |at| [at.x, at.y])
+        })
     }
 
     /// Angles from the direction of lift to the normal at cam angles, (N,), rad.
-    fn pressure_angle<'py>(&self, py: Python<'py>, theta: Numbers) -> Bound<'py, PyArray1<f64>> {
-        self.column(py, theta, |contact| contact.pressure_angle)
+    fn pressure_angle(&self, theta: Values) -> Course {
+        self.each(theta, |contact| contact.pressure_angle)
     }
 
     /// Curvature of the profile at cam angles, (N,), 1/mm: positive where it is convex.
-    fn curvature<'py>(&self, py: Python<'py>, theta: Numbers) -> Bound<'py, PyArray1<f64>> {
-        self.column(py, theta, |contact| contact.curvature)
+    fn curvature(&self, theta: Values) -> Course {
+        self.each(theta, |contact| contact.curvature)
     }
 
     /// Curvature of the path of the roller's centre, (N,), 1/mm; not a number for a flat face.
-    fn pitch_curvature<'py>(&self, py: Python<'py>, theta: Numbers) -> Bound<'py, PyArray1<f64>> {
-        self.column(py, theta, |contact| {
-            contact.pitch_curvature.unwrap_or(f64::NAN)
-        })
+    fn pitch_curvature(&self, theta: Values) -> Course {
+        self.each(theta, |contact| contact.pitch_curvature.unwrap_or(f64::NAN))
     }
 
     /// Corners of a polygon within the tolerance of the profile, (N, 2), mm, counter-clockwise.
     #[pyo3(signature = (tolerance=1e-3))]
-    fn profile<'py>(&self, py: Python<'py>, tolerance: f64) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let tolerance = self::tolerance(tolerance)?;
-        points(py, &self.cam.profile().outline().flatten(tolerance))
+    fn profile(&self, tolerance: f64) -> Answer<Rows<2>> {
+        let tolerance = plain_tolerance(tolerance)?;
+        let outline = self.cam.profile().outline();
+        Ok(Rows::of(&outline.flatten(tolerance)))
     }
 
     /// Corners of a polygon within the tolerance of the path of the roller's centre; None for a flat face.
     #[pyo3(signature = (tolerance=1e-3))]
-    fn pitch_curve<'py>(
-        &self,
-        py: Python<'py>,
-        tolerance: f64,
-    ) -> PyResult<Option<Bound<'py, PyArray2<f64>>>> {
-        let tolerance = self::tolerance(tolerance)?;
-        let exact = tolerance.scaled(1e-3);
-        let path = self.cam.disc().pitch_curve(exact).map_err(|e| of_cam(&e))?;
-        path.map(|path| points(py, &path.flatten(tolerance)))
-            .transpose()
+    fn pitch_curve(&self, tolerance: f64) -> Answer<Option<Rows<2>>> {
+        let tolerance = plain_tolerance(tolerance)?;
+        let path = self.cam.disc().pitch_curve(tolerance.scaled(1e-3))?;
+        Ok(path.map(|path| Rows::of(&path.flatten(tolerance))))
     }
 
     /// Ranges of the cam angle whose contact is cut off by undercut, rad; none for a sound cam.
@@ -275,22 +257,12 @@ impl DiscCam {
         py: Python<'py>,
         formats: Option<Vec<String>>,
         tolerance: f64,
-    ) -> PyResult<Bound<'py, PyDict>> {
-        let known = export::FORMATS.map(Format::name);
-        let formats: Vec<Format> = match formats {
-            None => export::FORMATS.to_vec(),
-            Some(words) => words
-                .iter()
-                .map(|word| {
-                    word.parse()
-                        .map_err(|_| unknown_word("formats", word, &known))
-                })
-                .collect::<PyResult<_>>()?,
-        };
-        let options = Options::new(self::tolerance(tolerance)?);
+    ) -> Answer<Bound<'py, PyDict>> {
+        let formats = files::formats(formats, &export::FORMATS)?;
+        let options = Options::new(plain_tolerance(tolerance)?);
         let cam = self.cam.clone();
-        let bundle = wait(py, move || export::files(&cam, &formats, &options))?;
-        bundle::contents(py, &bundle.map_err(|e| of_files(&e))?)
+        let bundle = wait(py, move || export::files(&cam, &formats, &options))??;
+        Ok(files::contents(py, &bundle)?)
     }
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> Reduced<'py> {

@@ -5,17 +5,17 @@ use std::sync::Arc;
 use centrode_mechanism::cam::design::MotionSpec;
 use centrode_mechanism::cam::{Cam, CamError, Fork as Mechanism, Lever, Motion, RodJoint};
 use centrode_mechanism::transmission::MotionJet;
-use pyo3::prelude::{Bound, PyAny, PyAnyMethods, PyRef, PyResult, Python, pyclass, pymethods};
+use pyo3::prelude::{Bound, PyAnyMethods, PyRef, PyResult, Python, pyclass, pymethods};
 
 use super::disc::DiscCam;
 use super::parts::Segment;
-use super::{turn, word};
-use crate::array::{Values, each};
+use crate::array::{Course, Values};
 use crate::body::Body;
-use crate::error::{design_error, of_cam, of_spec, unknown_word};
+use crate::error::{Answer, Raised};
 use crate::made::{Made, Reduced, by};
 use crate::record::Keywords;
 use crate::wait::wait;
+use crate::word::Word;
 
 const JOINTS: [&str; 2] = ["pin-on-rod", "pin-on-fork"];
 
@@ -63,7 +63,7 @@ impl Fork {
         lever_start: f64,
         lifts: &str,
         joint: &str,
-    ) -> PyResult<Self> {
+    ) -> Answer<Self> {
         let lever = Lever {
             length: lever_length,
             start: lever_start,
@@ -72,14 +72,14 @@ impl Fork {
             roller_radius,
             center_distance,
             arm_length,
-            lifts: turn("lifts", lifts)?,
+            lifts: Word::of("lifts", lifts)?,
             rod: match joint {
                 "pin-on-rod" => RodJoint::PinOnRod(lever),
                 "pin-on-fork" => RodJoint::PinOnFork(lever),
-                _ => return Err(unknown_word("joint", joint, &JOINTS)),
+                _ => return Err(Raised::word("joint", joint, &JOINTS)),
             },
         };
-        fork.validate().map_err(|e| of_spec(&e))?;
+        fork.validate()?;
         Ok(Self(fork))
     }
 
@@ -116,7 +116,7 @@ impl Fork {
     /// Sense in which the fork turns when the cam lifts it.
     #[getter]
     fn lifts(&self) -> &'static str {
-        word(self.0.lifts)
+        self.0.lifts.word()
     }
 
     /// Joint of fork and rod, "pin-on-rod" or "pin-on-fork".
@@ -128,12 +128,10 @@ impl Fork {
         }
     }
 
-    /// Retraction of the rod, mm, when the fork has swung by angles, rad.
-    fn retraction<'py>(&self, py: Python<'py>, swing: Values) -> PyResult<Bound<'py, PyAny>> {
+    /// How far the rod is drawn back, mm, when the fork has swung by angles, rad.
+    fn retraction(&self, swing: Values) -> Course {
         let rod = self.0.rod;
-        each(py, swing, move |swing| {
-            rod.retraction(&at_rest(swing)).position
-        })
+        Course::each(swing, move |swing| rod.retraction(&at_rest(swing)).position)
     }
 
     /// Swing of the fork, rad, when the rod is drawn back by lengths, mm; not a number where a pin on the
@@ -143,9 +141,9 @@ impl Fork {
     /// >>> fork = ct.cam.Fork(roller_radius=5, center_distance=52, arm_length=45, lever_length=40)
     /// >>> round(fork.swing(40.0), 6)
     /// 0.785398
-    fn swing<'py>(&self, py: Python<'py>, retraction: Values) -> PyResult<Bound<'py, PyAny>> {
+    fn swing(&self, retraction: Values) -> Course {
         let rod = self.0.rod;
-        each(py, retraction, move |retraction| {
+        Course::each(retraction, move |retraction| {
             rod.swing(&at_rest(retraction)).position
         })
     }
@@ -181,7 +179,7 @@ impl Fork {
         start: f64,
         body: Option<PyRef<'py, Body>>,
         name: &str,
-    ) -> PyResult<DiscCam> {
+    ) -> Answer<DiscCam> {
         let again = Keywords::new(py)
             .with("segments", &segments)?
             .with("base_radius", base_radius)?
@@ -195,16 +193,16 @@ impl Fork {
             segments: segments.iter().map(|segment| segment.0.clone()).collect(),
         };
         if motion.swings() == Some(true) {
-            return Err(design_error("segments", "must have lifts: a rod slides"));
+            return Err(Raised::rule("segments", "must have lifts: a rod slides"));
         }
-        let (fork, rotation) = (slf.get().0.clone(), turn("rotation", rotation)?);
+        let (fork, rotation) = (slf.get().0.clone(), Word::of("rotation", rotation)?);
         let body = body.map(|body| body.0.clone()).unwrap_or_default();
         let name = name.to_owned();
         let cam = wait(py, move || -> Result<Cam, CamError> {
             let motion = Arc::new(Motion::resolve(&motion)?);
             Cam::new(fork.cam(motion, base_radius, rotation)?, &name, body)
         })?;
-        Ok(DiscCam::new(cam.map_err(|e| of_cam(&e))?, made))
+        Ok(DiscCam::new(cam?, made))
     }
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {

@@ -1,13 +1,11 @@
 use std::collections::BTreeMap;
 
 use centrode_mechanism::cam::law as mechanism;
-use numpy::PyArray2;
-use pyo3::prelude::{Bound, PyResult, Python, pyclass, pyfunction, pymethods};
+use pyo3::prelude::{PyResult, Python, pyclass, pyfunction, pymethods};
 use pyo3::types::PyTuple;
 
-use super::row;
-use crate::array::{Numbers, list, rows};
-use crate::error::{of_spec, unknown_word};
+use crate::array::{Numbers, Rows, list, row};
+use crate::error::{Answer, Raised};
 use crate::made::{Reduced, by, native};
 use crate::record::Keywords;
 
@@ -32,8 +30,8 @@ impl PartialEq for Law {
 }
 
 impl Law {
-    pub(super) fn resolve(spec: mechanism::LawSpec) -> PyResult<Self> {
-        let law = spec.resolve().map_err(|e| of_spec(&e))?;
+    pub(super) fn resolve(spec: mechanism::LawSpec) -> Answer<Self> {
+        let law = spec.resolve()?;
         Ok(Self { spec, law })
     }
 }
@@ -46,10 +44,10 @@ impl Law {
 /// 5.528
 #[pyfunction]
 #[pyo3(signature = (name, /))]
-pub(crate) fn law(name: &str) -> PyResult<Law> {
+pub(crate) fn law(name: &str) -> Answer<Law> {
     let known = mechanism::LawSpec::NAMED.map(|(name, _)| name);
     let spec = mechanism::LawSpec::named(name);
-    Law::resolve(spec.ok_or_else(|| unknown_word("law.kind", name, &known))?)
+    Law::resolve(spec.ok_or_else(|| Raised::word("law.kind", name, &known))?)
 }
 
 /// The polynomial of least degree from 0 to 1 with the derivatives asked for at both ends: velocity,
@@ -60,7 +58,7 @@ pub(crate) fn law(name: &str) -> PyResult<Law> {
 /// array([[  1.,   2.,   0., -12.]])
 #[pyfunction]
 #[pyo3(name = "polynomial", signature = (*, start=None, end=None))]
-pub(crate) fn law_of_polynomial(start: Option<Numbers>, end: Option<Numbers>) -> PyResult<Law> {
+pub(crate) fn law_of_polynomial(start: Option<Numbers>, end: Option<Numbers>) -> Answer<Law> {
     Law::resolve(mechanism::LawSpec::Polynomial(mechanism::Polynomial {
         start: list(start),
         end: list(end),
@@ -80,9 +78,9 @@ impl Law {
     /// >>> import centrode as ct
     /// >>> ct.cam.law("parabolic").at([0.25])
     /// array([[0.125, 1.   , 4.   , 0.   ]])
-    fn at<'py>(&self, py: Python<'py>, x: Numbers) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let jets: Vec<[f64; 4]> = x.into_vec().iter().map(|&x| row(&self.law.at(x))).collect();
-        rows(py, jets.into_iter())
+    fn at(&self, x: Numbers) -> Rows<4> {
+        let inputs = x.into_vec().into_iter();
+        Rows(inputs.map(|x| row(&self.law.at(x))).collect())
     }
 
     /// Peaks of the derivatives: "velocity" Cv, "acceleration" Ca, "jerk" Cj (infinite where the

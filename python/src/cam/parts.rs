@@ -8,10 +8,10 @@ use pyo3::prelude::{
 };
 
 use super::laws::{Law, law as named};
-use super::{turn, word};
-use crate::error::of_spec;
+use crate::error::Answer;
 use crate::made::{Reduced, by};
 use crate::record::Keywords;
+use crate::word::Word;
 
 /// One part of a follower's motion; made by the functions of ``centrode.cam``.
 #[pyclass(frozen, eq, module = "centrode.cam")]
@@ -32,7 +32,7 @@ impl<'a, 'py> FromPyObject<'a, 'py> for AnyLaw {
 
     fn extract(object: Borrowed<'a, 'py, PyAny>) -> PyResult<Self> {
         if let Ok(name) = object.extract::<String>() {
-            return named(&name).map(|law| Self(law.spec));
+            return Ok(Self(named(&name)?.spec));
         }
         let law: PyRef<'_, Law> = object.extract()?;
         Ok(Self(law.spec.clone()))
@@ -127,14 +127,14 @@ impl Follower {
                     .with("roller_radius", roller.roller_radius)?
                     .with("center_distance", roller.center_distance)?
                     .with("arm_length", roller.arm_length)?
-                    .with("lifts", word(roller.lifts))?;
+                    .with("lifts", roller.lifts.word())?;
                 by("swinging_roller", keywords)
             }
             spec::Follower::SwingingFlat(face) => {
                 let keywords = keywords
                     .with("center_distance", face.center_distance)?
                     .with("face_offset", face.face_offset)?
-                    .with("lifts", word(face.lifts))?;
+                    .with("lifts", face.lifts.word())?;
                 by("swinging_flat", keywords)
             }
             other => Err(unpickled(other)),
@@ -225,9 +225,9 @@ pub(crate) fn transition(
     }))
 }
 
-fn follower(follower: spec::Follower) -> PyResult<Follower> {
+fn follower(follower: spec::Follower) -> Answer<Follower> {
     let sound = follower.validate();
-    sound.map_err(|e| of_spec(&e))?;
+    sound?;
     Ok(Follower(follower))
 }
 
@@ -238,7 +238,7 @@ fn follower(follower: spec::Follower) -> PyResult<Follower> {
 /// False
 #[pyfunction]
 #[pyo3(signature = (*, roller_radius, offset=0.0))]
-pub(crate) fn translating_roller(roller_radius: f64, offset: f64) -> PyResult<Follower> {
+pub(crate) fn translating_roller(roller_radius: f64, offset: f64) -> Answer<Follower> {
     follower(spec::Follower::TranslatingRoller(spec::TranslatingRoller {
         roller_radius,
         offset,
@@ -247,7 +247,7 @@ pub(crate) fn translating_roller(roller_radius: f64, offset: f64) -> PyResult<Fo
 
 /// A flat face square to its slide.
 #[pyfunction]
-pub(crate) fn translating_flat() -> PyResult<Follower> {
+pub(crate) fn translating_flat() -> Answer<Follower> {
     follower(spec::Follower::TranslatingFlat(spec::TranslatingFlat {}))
 }
 
@@ -259,12 +259,12 @@ pub(crate) fn swinging_roller(
     center_distance: f64,
     arm_length: f64,
     lifts: &str,
-) -> PyResult<Follower> {
+) -> Answer<Follower> {
     follower(spec::Follower::SwingingRoller(spec::SwingingRoller {
         roller_radius,
         center_distance,
         arm_length,
-        lifts: turn("follower.lifts", lifts)?,
+        lifts: Word::of("follower.lifts", lifts)?,
     }))
 }
 
@@ -275,10 +275,10 @@ pub(crate) fn swinging_flat(
     center_distance: f64,
     face_offset: f64,
     lifts: &str,
-) -> PyResult<Follower> {
+) -> Answer<Follower> {
     follower(spec::Follower::SwingingFlat(spec::SwingingFlat {
         center_distance,
         face_offset,
-        lifts: turn("follower.lifts", lifts)?,
+        lifts: Word::of("follower.lifts", lifts)?,
     }))
 }

@@ -6,7 +6,8 @@ use pyo3::prelude::{Borrowed, FromPyObject, PyAny, PyErr, PyRef, PyResult, pyfun
 use super::Pitch;
 use crate::array::{Numbers, list};
 use crate::count::{Count, optional};
-use crate::error::unknown_word;
+use crate::error::Answer;
+use crate::word::Word;
 
 /// A function of one angle: a formula in `phi`, or values at equal steps of it.
 #[derive(Debug)]
@@ -39,29 +40,9 @@ impl Law {
     }
 }
 
-fn plane(word: &str) -> PyResult<spec::Plane> {
-    match word {
-        "polar" => Ok(spec::Plane::Polar),
-        "cartesian" => Ok(spec::Plane::Cartesian),
-        _ => Err(unknown_word("pitch.plane", word, &["polar", "cartesian"])),
-    }
-}
-
-fn interpolation(word: Option<&str>) -> PyResult<Option<spec::Interpolation>> {
-    let known = [
-        ("cubic", spec::Interpolation::Cubic),
-        ("quintic", spec::Interpolation::Quintic),
-        ("trigonometric", spec::Interpolation::Trigonometric),
-    ];
-    let Some(word) = word else {
-        return Ok(None);
-    };
-    let found = known.iter().find(|(name, _)| *name == word);
-    let found = found.map(|(_, interpolation)| *interpolation);
-    found.map(Some).ok_or_else(|| {
-        let known = known.map(|(name, _)| name);
-        unknown_word("pitch.interpolation", word, &known)
-    })
+fn interpolation(word: Option<&str>) -> Answer<Option<spec::Interpolation>> {
+    word.map(|word| Word::of("pitch.interpolation", word))
+        .transpose()
 }
 
 /// A circle around the shaft axis: an ordinary gear. Give `radius`, or `module` and `tooth_count`.
@@ -75,7 +56,7 @@ pub(crate) fn circle(
     radius: Option<f64>,
     module: Option<f64>,
     tooth_count: Option<Count>,
-) -> PyResult<Pitch> {
+) -> Answer<Pitch> {
     Pitch::resolve(spec::PitchSpec::Circle(spec::Circle {
         radius,
         module,
@@ -95,7 +76,7 @@ pub(crate) fn eccentric_circle(
     radius: Option<f64>,
     module: Option<f64>,
     tooth_count: Option<Count>,
-) -> PyResult<Pitch> {
+) -> Answer<Pitch> {
     Pitch::resolve(spec::PitchSpec::EccentricCircle(spec::EccentricCircle {
         eccentricity,
         radius,
@@ -118,7 +99,7 @@ pub(crate) fn ellipse(
     semi_major_axis: Option<f64>,
     module: Option<f64>,
     tooth_count: Option<Count>,
-) -> PyResult<Pitch> {
+) -> Answer<Pitch> {
     Pitch::resolve(spec::PitchSpec::Ellipse(spec::Ellipse {
         eccentricity,
         semi_major_axis,
@@ -140,7 +121,7 @@ pub(crate) fn lobed_ellipse(
     semi_major_axis: Option<f64>,
     module: Option<f64>,
     tooth_count: Option<Count>,
-) -> PyResult<Pitch> {
+) -> Answer<Pitch> {
     Pitch::resolve(spec::PitchSpec::LobedEllipse(spec::LobedEllipse {
         lobes: lobes.of("pitch.lobes")?,
         eccentricity,
@@ -172,9 +153,9 @@ pub(crate) fn bspline(
     interpolate: bool,
     module: Option<f64>,
     tooth_count: Option<Count>,
-) -> PyResult<Pitch> {
+) -> Answer<Pitch> {
     Pitch::resolve(spec::PitchSpec::Bspline(spec::Bspline {
-        plane: self::plane(plane)?,
+        plane: Word::of("pitch.plane", plane)?,
         degree: degree.of("pitch.degree")?,
         interpolate,
         radius: list(radius),
@@ -204,9 +185,9 @@ pub(crate) fn bezier(
     plane: &str,
     module: Option<f64>,
     tooth_count: Option<Count>,
-) -> PyResult<Pitch> {
+) -> Answer<Pitch> {
     Pitch::resolve(spec::PitchSpec::Bezier(spec::Bezier {
-        plane: self::plane(plane)?,
+        plane: Word::of("pitch.plane", plane)?,
         degree: degree.of("pitch.degree")?,
         radius: list(radius),
         angle: list(angle),
@@ -230,7 +211,7 @@ pub(crate) fn limacon(
     lobes: Count,
     module: Option<f64>,
     tooth_count: Option<Count>,
-) -> PyResult<Pitch> {
+) -> Answer<Pitch> {
     Pitch::resolve(spec::PitchSpec::Limacon(spec::Limacon {
         mean_radius,
         amplitude,
@@ -269,7 +250,7 @@ pub(crate) fn polar(
     sin: Option<Numbers>,
     module: Option<f64>,
     tooth_count: Option<Count>,
-) -> PyResult<Pitch> {
+) -> Answer<Pitch> {
     let (expression, radius) = Law::parts(radius);
     Pitch::resolve(spec::PitchSpec::Polar(spec::Polar {
         expression,
@@ -306,7 +287,7 @@ pub(crate) fn from_transmission(
     center_distance: Option<f64>,
     module: Option<f64>,
     tooth_count: Option<Count>,
-) -> PyResult<Pitch> {
+) -> Answer<Pitch> {
     let (expression, driven_angle) = Law::parts(Some(driven_angle));
     Pitch::resolve(spec::PitchSpec::Transmission(spec::Transmission {
         expression,
@@ -334,7 +315,7 @@ pub(crate) fn from_ratio(
     center_distance: Option<f64>,
     module: Option<f64>,
     tooth_count: Option<Count>,
-) -> PyResult<Pitch> {
+) -> Answer<Pitch> {
     let (expression, ratio) = Law::parts(Some(ratio));
     Pitch::resolve(spec::PitchSpec::Ratio(spec::Ratio {
         expression,
@@ -367,7 +348,7 @@ pub(crate) fn conjugate(
     mean_ratio: [Count; 2],
     module: Option<f64>,
     tooth_count: Option<Count>,
-) -> PyResult<Pitch> {
+) -> Answer<Pitch> {
     let [driver, driven] = mean_ratio;
     Pitch::resolve(spec::PitchSpec::Conjugate(spec::Conjugate {
         mean_ratio: [

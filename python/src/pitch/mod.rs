@@ -4,13 +4,11 @@ use centrode_geometry::Jet;
 use centrode_mechanism::design::{Design as _, DesignSpec as _};
 use centrode_mechanism::gear::design::GearPairDesign;
 use centrode_mechanism::gear::pitch as spec;
-use numpy::{IntoPyArray, PyArray1, PyArray2};
-use pyo3::prelude::{
-    Bound, PyAny, PyAnyMethods, PyModule, PyResult, Python, pyclass, pyfunction, pymethods,
-};
+use numpy::{IntoPyArray, PyArray1};
+use pyo3::prelude::{Bound, PyAny, PyAnyMethods, PyModule, Python, pyclass, pyfunction, pymethods};
 
-use crate::array::{Numbers, points};
-use crate::error::{of_design, of_pitch};
+use crate::array::{Numbers, Rows};
+use crate::error::Answer;
 
 /// A pitch curve around the shaft axis at the origin, proved to wind round it exactly once.
 ///
@@ -34,8 +32,8 @@ impl PartialEq for Pitch {
 
 impl Pitch {
     /// The exact curve of a description.
-    pub(crate) fn resolve(spec: spec::PitchSpec) -> PyResult<Self> {
-        let resolved = spec.resolve().map_err(|e| of_pitch(&e))?;
+    pub(crate) fn resolve(spec: spec::PitchSpec) -> Answer<Self> {
+        let resolved = spec.resolve()?;
         Ok(Self { spec, resolved })
     }
 
@@ -82,13 +80,10 @@ impl Pitch {
     /// >>> import centrode as ct
     /// >>> ct.pitch.circle(radius=10).points([0.0])
     /// array([[10.,  0.]])
-    fn points<'py>(
-        &self,
-        py: Python<'py>,
-        parameters: Numbers,
-    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let along: Vec<_> = self.along(parameters).iter().map(|jet| jet.point).collect();
-        points(py, &along)
+    fn points(&self, parameters: Numbers) -> Rows<2> {
+        let along = self.along(parameters);
+        let points = along.iter().map(|jet| jet.point.coords.into());
+        Rows(points.collect())
     }
 
     /// Curvature at the given parameters, (N,), 1/mm: positive where the curve is convex.
@@ -118,10 +113,8 @@ impl Pitch {
         slf
     }
 
-    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, (String,))> {
-        let text = GearPairDesign::new(self.spec.clone())
-            .to_toml()
-            .map_err(|e| of_design(&e))?;
+    fn __reduce__<'py>(&self, py: Python<'py>) -> Answer<(Bound<'py, PyAny>, (String,))> {
+        let text = GearPairDesign::new(self.spec.clone()).to_toml()?;
         let module = PyModule::import(py, "centrode._centrode")?;
         Ok((module.getattr("_pitch_from_toml")?, (text,)))
     }
@@ -129,7 +122,7 @@ impl Pitch {
 
 /// The pitch curve of a design file: how a pitch curve is unpickled.
 #[pyfunction]
-pub(crate) fn _pitch_from_toml(text: &str) -> PyResult<Pitch> {
-    let design = GearPairDesign::from_toml(text).map_err(|e| of_design(&e))?;
+pub(crate) fn _pitch_from_toml(text: &str) -> Answer<Pitch> {
+    let design = GearPairDesign::from_toml(text)?;
     Pitch::resolve(design.pitch)
 }

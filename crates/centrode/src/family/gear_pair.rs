@@ -55,6 +55,10 @@ impl Mechanism for GearPair {
         gear_pair::machine(self)
     }
 
+    fn accuracy(&self) -> f64 {
+        self.accuracy()
+    }
+
     fn files(&self, formats: &[Format], options: &Options) -> Result<Bundle, ExportError> {
         gear_pair::files(self, formats, options)
     }

@@ -8,6 +8,9 @@ use centrode_export::{Bundle, ExportError, Format, Options};
 use centrode_mechanism::design::Design;
 use centrode_mechanism::machine::Machine;
 
+/// Finest tolerance that has a meaning for curves without a step of their own, mm.
+pub const FINEST: f64 = 1e-9;
+
 /// A resolved mechanism of whatever family.
 pub trait Mechanism: Any + Debug + Send + Sync {
     /// Design of the mechanism.
@@ -51,7 +54,12 @@ pub trait Mechanism: Any + Debug + Send + Sync {
     /// [`ExportError`] where a part cannot be made.
     fn machine(&self) -> Result<Machine, ExportError>;
 
-    /// Makes the files in the formats asked for, not yet on disk.
+    /// Finest tolerance of its files that has a meaning, mm.
+    fn accuracy(&self) -> f64 {
+        FINEST
+    }
+
+    /// The files in the formats asked for, not yet on disk.
     ///
     /// # Errors
     /// [`ExportError`], for instance where the tolerance is too coarse.

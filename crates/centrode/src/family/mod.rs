@@ -14,7 +14,7 @@ mod tests;
 mod three_arm;
 mod widening;
 
-pub use mechanism::{Depth, Mechanism};
+pub use mechanism::{Depth, FINEST, Mechanism};
 pub use open::OpenDesign;
 pub use registry::{Families, Family, PartName, Resolved};
 pub use widening::{Widening, WideningError};

@@ -10,7 +10,7 @@ use pyo3::prelude::{Bound, PyResult, Python};
 use pyo3::types::{PyDict, PyDictMethods};
 
 use crate::array::Values;
-use crate::error::design_error;
+use crate::error::{Answer, Raised};
 use crate::wait::wait;
 
 /// Greatest number of variants and inputs that memory holds.
@@ -23,15 +23,14 @@ pub(crate) fn sweep<'py>(
     design: &ThreeArmDesign,
     parameters: BTreeMap<String, Values>,
     inputs: usize,
-) -> PyResult<Bound<'py, PyDict>> {
+) -> Answer<Bound<'py, PyDict>> {
     if !(1..=MOST_INPUTS).contains(&inputs) {
-        return Err(PyValueError::new_err(format!(
-            "inputs must be 1 to {MOST_INPUTS}, not {inputs}"
-        )));
+        let message = format!("inputs must be 1 to {MOST_INPUTS}, not {inputs}");
+        return Err(PyValueError::new_err(message).into());
     }
     let names: Vec<&String> = parameters.keys().collect();
     let variants = Variants::of(design, &names, inputs);
-    let variants = variants.map_err(|error| design_error(key(&error), &error.to_string()))?;
+    let variants = variants.map_err(|error| Raised::rule(key(&error), &error.to_string()))?;
     let count = count(&parameters)?;
     let columns: Vec<Vec<f64>> = parameters.into_values().map(Values::into_flat).collect();
     let figures = wait(py, move || {

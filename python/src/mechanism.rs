@@ -1,0 +1,396 @@
+//! All that machines of every family can do.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use centrode::family::{self, Depth, Family};
+use centrode::meshing;
+use centrode_analysis::optimise::Settings;
+use centrode_export::{Bundle, Format};
+use centrode_mechanism::machine::{FrameJet, Machine};
+use pyo3::prelude::{
+    Bound, PyAny, PyAnyMethods, PyClassInitializer, PyDictMethods, PyResult, PyTypeMethods, Python,
+    pyclass, pymethods,
+};
+use pyo3::types::{PyDict, PyTuple, PyType};
+
+use crate::array::{Course, Values};
+use crate::design::{named, not_of_class, object, path_loaded, read};
+use crate::error::{Answer, Raised, tolerance as within};
+use crate::files;
+use crate::made::{Reduced, by_design};
+use crate::record;
+use crate::search;
+use crate::wait::wait;
+use crate::word::Word;
+
+/// A machine of whatever family: what `load` gives is one of its subclasses.
+///
+/// Two are equal if their designs are.
+///
+/// >>> import centrode as ct
+/// >>> machine = ct.Mechanism.from_toml(ct.template("feeder"))
+/// >>> type(machine).__name__, machine.name
+/// ('Feeder', 'feeder')
+/// >>> machine.check().ok
+/// True
+#[pyclass(frozen, eq, subclass, module = "centrode")]
+#[derive(Debug)]
+pub(crate) struct Mechanism(Arc<dyn family::Mechanism>);
+
+impl PartialEq for Mechanism {
+    fn eq(&self, other: &Self) -> bool {
+        self.0.design() == other.0.design()
+    }
+}
+
+impl Mechanism {
+    /// The machine as what a new object of a subclass begins with.
+    pub(crate) fn start<M: family::Mechanism>(machine: &Arc<M>) -> PyClassInitializer<Self> {
+        Self(Arc::clone(machine) as Arc<dyn family::Mechanism>).into()
+    }
+
+    fn family(&self) -> Answer<&'static Family> {
+        named(self.0.design().family().word)
+    }
+
+    /// Asks the machine something that may take long.
+    fn ask<T: Send + 'static>(
+        &self,
+        py: Python<'_>,
+        ask: impl FnOnce(&dyn family::Mechanism) -> T + Send + 'static,
+    ) -> PyResult<T> {
+        let machine = Arc::clone(&self.0);
+        wait(py, move || ask(machine.as_ref()))
+    }
+
+    fn links(&self, py: Python<'_>) -> Answer<Arc<Machine>> {
+        Ok(Arc::new(self.ask(py, |machine| machine.machine())??))
+    }
+
+    fn bundle(
+        &self,
+        py: Python<'_>,
+        formats: Option<Vec<String>>,
+        parts: Option<Vec<String>>,
+        tolerance: f64,
+        [dxf_version, dxf_curves]: [&str; 2],
+    ) -> Answer<Bundle> {
+        let tolerance = within(tolerance, self.0.accuracy())?;
+        let formats = files::formats(formats, &Format::ALL)?;
+        let mut options = files::options(tolerance, dxf_version, dxf_curves)?;
+        let known: Vec<&str> = self.family()?.parts.iter().map(|part| part.name).collect();
+        let mut asked = parts.iter().flatten();
+        if let Some(word) = asked.find(|word| !known.contains(&word.as_str())) {
+            return Err(Raised::word("parts", word, &known));
+        }
+        options.parts = parts;
+        Ok(self.ask(py, move |machine| {
+            if formats.contains(&Format::Sheet) || formats.contains(&Format::Pdf) {
+                options.sheet.meshing = meshing(&machine.check());
+            }
+            machine.files(&formats, &options)
+        })??)
+    }
+}
+
+#[pymethods]
+impl Mechanism {
+    /// The machine of a design file's text, if it is of this class.
+    ///
+    /// Raises:
+    ///     DesignError: The design breaks a rule, or is of another family; its `key`, `line` and `column` say where.
+    ///
+    /// >>> import centrode as ct
+    /// >>> ct.GearPair.from_toml(ct.template("gear-pair")).driver.tooth_count
+    /// 23
+    /// >>> ct.ThreeArm.from_toml(ct.template("three-arm")).arms
+    /// 3
+    /// >>> ct.MovingBox.from_toml(ct.template("moving-box")).scheme
+    /// 'elliptic-gear'
+    #[classmethod]
+    fn from_toml<'py>(cls: &Bound<'py, PyType>, text: &str) -> Answer<Bound<'py, PyAny>> {
+        let py = cls.py();
+        let machine = object(py, &read(py, text.as_bytes())?)?;
+        of_class(cls, machine)
+    }
+
+    /// The machine of a design file, if it is of this class.
+    ///
+    /// Raises:
+    ///     DesignError: The design breaks a rule, or is of another family.
+    ///     OSError: The file cannot be read.
+    #[classmethod]
+    fn load<'py>(cls: &Bound<'py, PyType>, path: PathBuf) -> Answer<Bound<'py, PyAny>> {
+        of_class(cls, path_loaded(cls.py(), path)?)
+    }
+
+    /// The design file of the machine; `from_toml` reads it back.
+    ///
+    /// >>> import centrode as ct
+    /// >>> pair = ct.GearPair(ct.pitch.circle(module=2, tooth_count=20))
+    /// >>> print(pair.to_toml()[:21])
+    /// family = "gear-pair"
+    /// <BLANKLINE>
+    fn to_toml(&self) -> Answer<String> {
+        Ok(self.0.design().to_toml()?)
+    }
+
+    /// Name, as written in the design.
+    #[getter]
+    fn name(&self) -> &str {
+        self.0.design().name()
+    }
+
+    /// Title, as written in the design.
+    #[getter]
+    fn title(&self) -> &str {
+        self.0.design().title()
+    }
+
+    /// The machine in one line.
+    #[getter]
+    fn definition(&self) -> String {
+        self.0.definition()
+    }
+
+    /// Checks all there is to check of the machine: figures, findings, goals.
+    ///
+    /// >>> import centrode as ct
+    /// >>> report = ct.GearPair(ct.pitch.ellipse(eccentricity=0.2, module=2, tooth_count=23)).check()
+    /// >>> report.ok
+    /// True
+    /// >>> report.values["transmission_error_max"] < 1e-8
+    /// True
+    /// >>> report = ct.SpiralShaft.for_moved_distance(2.05).check()
+    /// >>> [finding.rule for finding in report.findings]
+    /// ['slider-tilts', 'crossing-while-picking', 'flat-slider']
+    /// >>> report = ct.Feeder.from_toml(ct.template("feeder")).check()
+    /// >>> report.ok, len(report.goals)
+    /// (True, 10)
+    fn check<'py>(&self, py: Python<'py>) -> Answer<Bound<'py, PyAny>> {
+        let report = self.ask(py, |machine| machine.check())?;
+        Ok(record::report(py, &report)?)
+    }
+
+    /// The goals: figure, range, margin and progress of each; none in a family without goals.
+    ///
+    /// >>> import centrode as ct
+    /// >>> goals = ct.ThreeArm.from_toml(ct.template("three-arm")).goals()
+    /// >>> print(goals[1])
+    /// goal 2: clamp above horizontal at picking 0.0107538 rad, met
+    fn goals<'py>(&self, py: Python<'py>) -> Answer<Bound<'py, PyTuple>> {
+        let report = self.ask(py, |machine| machine.check_motion())?;
+        Ok(record::goals(py, &report.goals)?)
+    }
+
+    /// The table of motion at inputs, rad: by its heading each column, of the shape of `phi`.
+    ///
+    /// >>> import centrode as ct
+    /// >>> pair = ct.GearPair(ct.pitch.circle(module=2, tooth_count=20), mean_ratio=(2, 1))
+    /// >>> pair.motion([1.0, 2.0])["driven_angle_rad"].round(12)
+    /// array([0.5, 1. ])
+    fn motion<'py>(&self, py: Python<'py>, phi: Values) -> Answer<Bound<'py, PyDict>> {
+        let machine = self.links(py)?;
+        let columns = PyDict::new(py);
+        for (index, column) in machine.columns.iter().enumerate() {
+            let machine = Arc::clone(&machine);
+            let value = move |phi| machine.value(&machine.columns[index].quantity, phi);
+            columns.set_item(&column.name, Course::each(phi.clone(), value))?;
+        }
+        Ok(columns)
+    }
+
+    /// Where every link stands at inputs, rad, in the frame of the first: by its name an array of the shape of `phi` and
+    /// then (4, 4), lengths in mm.
+    ///
+    /// >>> import centrode as ct
+    /// >>> pair = ct.GearPair(ct.pitch.circle(module=2, tooth_count=20))
+    /// >>> pair.frames(0.0)["driven"][:3, 3].round(9)
+    /// array([40.,  0.,  0.])
+    fn frames<'py>(&self, py: Python<'py>, phi: Values) -> Answer<Bound<'py, PyDict>> {
+        let machine = self.links(py)?;
+        let frames = PyDict::new(py);
+        for (index, link) in machine.links.iter().enumerate() {
+            let machine = Arc::clone(&machine);
+            let frame = move |phi| -> [f64; 16] {
+                let FrameJet([frame, ..]) = machine.link_frame(index, phi);
+                std::array::from_fn(|i| frame[(i / 4, i % 4)])
+            };
+            let frames_of = Course::arrays(phi.clone(), &[4, 4], frame);
+            frames.set_item(&link.name, frames_of)?;
+        }
+        Ok(frames)
+    }
+
+    /// Searches for a better machine around this one; the table [optimise] of its design says what may move, and a table
+    /// [bounds], where it has one, how far.
+    ///
+    /// Args:
+    ///     method: "guided", "cma-es", "de" or "ga".
+    ///     seed: Same seed, same answer, on any number of cores.
+    ///     evaluations: Most points looked at; the generation under way is finished.
+    ///     population: Points a generation; by the method if left out.
+    ///     progress: Called with evaluations, violation and objective of the best so far; False ends the search.
+    ///
+    /// Raises:
+    ///     MechanismError: There is no search for such a design.
+    ///
+    /// >>> import centrode as ct
+    /// >>> text = ct.template("feeder").replace("transmission_angle_deg = 40", "transmission_angle_deg = 39")
+    /// >>> found = ct.Feeder.from_toml(text).optimise("de")
+    /// >>> found.ended, abs(found.mechanism.six_bar.swing - 3.141592653589793) < 2e-8
+    /// ('target', True)
+    #[pyo3(signature = (method="guided", *, seed=1, evaluations=20_000, population=None, progress=None))]
+    fn optimise<'py>(
+        &self,
+        py: Python<'py>,
+        method: &str,
+        seed: u64,
+        evaluations: u64,
+        population: Option<usize>,
+        progress: Option<Bound<'py, PyAny>>,
+    ) -> Answer<Bound<'py, PyAny>> {
+        let settings = Settings {
+            seed,
+            population,
+            evaluations,
+            ..Settings::default()
+        };
+        let strategy = Word::of("method", method)?;
+        let (family, machine) = (*self.family()?, Arc::clone(&self.0));
+        search::optimised(py, family, machine, strategy, settings, progress.as_ref())
+    }
+
+    /// How goals and figures answer one number of the design: by name, a figure at each value, NaN where there is no
+    /// machine.
+    ///
+    /// Args:
+    ///     parameter: Key of the design file, "arm.tip_distance", or a parameter's name, "r1", "crank" or "pivot_x".
+    ///     values: In the file's unit: mm, degrees.
+    ///     whole: Ask for the teeth and the cam, too, which takes some ten times as long.
+    ///
+    /// >>> import centrode as ct, numpy as np
+    /// >>> arms = ct.ThreeArm.from_toml(ct.template("three-arm"))
+    /// >>> arms.response("r1", [15, 21, 27])["trajectory-height"].round(1).tolist()
+    /// [377.8, 370.8, 363.1]
+    /// >>> feeder = ct.Feeder.from_toml(ct.template("feeder"))
+    /// >>> np.degrees(feeder.response("frame", [129.5, 130])["swing"]).round(3).tolist()
+    /// [179.691, 180.225]
+    #[pyo3(signature = (parameter, values, *, whole=false))]
+    fn response<'py>(
+        &self,
+        py: Python<'py>,
+        parameter: &str,
+        values: Vec<f64>,
+        whole: bool,
+    ) -> Answer<Bound<'py, PyDict>> {
+        let family = *self.family()?;
+        let key = self.0.design().key_of(parameter);
+        let depth = if whole { Depth::Whole } else { Depth::Motion };
+        let found = self.ask(py, move |machine| {
+            family.response(machine.design(), &key, &values, depth)
+        })??;
+        let named = PyDict::new(py);
+        for answer in found.answers() {
+            let figures = answer.figures.iter().map(|f| f.unwrap_or(f64::NAN));
+            named.set_item(answer.name, numpy::PyArray1::from_iter(py, figures))?;
+        }
+        Ok(named)
+    }
+
+    /// The files of the machine, name to contents, without writing them; `export` writes them.
+    ///
+    /// >>> import centrode as ct
+    /// >>> pair = ct.GearPair(ct.pitch.circle(module=2, tooth_count=20))
+    /// >>> sorted(pair.files(formats=["stl"]))
+    /// ['driven.stl', 'driver.stl']
+    /// >>> arms = ct.ThreeArm.from_toml(ct.template("three-arm"))
+    /// >>> list(arms.files(formats=["dxf"], parts=["sun", "cam"]))
+    /// ['sun.dxf', 'cam.dxf']
+    /// >>> sorted(ct.SpiralShaft(amplitude=1.28).files(formats=["stl"], tolerance=0.1))
+    /// ['shaft.stl', 'slider.stl']
+    /// >>> sorted(ct.Feeder.from_toml(ct.template("feeder")).files(formats=["stl"]))[:2]
+    /// ['coupler.stl', 'crank.stl']
+    #[pyo3(signature = (*, formats=None, parts=None, tolerance=1e-3, dxf_version="R2010", dxf_curves="arcs"))]
+    fn files<'py>(
+        &self,
+        py: Python<'py>,
+        formats: Option<Vec<String>>,
+        parts: Option<Vec<String>>,
+        tolerance: f64,
+        dxf_version: &str,
+        dxf_curves: &str,
+    ) -> Answer<Bound<'py, PyDict>> {
+        let written = [dxf_version, dxf_curves];
+        let bundle = self.bundle(py, formats, parts, tolerance, written)?;
+        Ok(files::contents(py, &bundle)?)
+    }
+
+    /// Writes the machine's files into a directory, which is made if it is missing; gives their paths.
+    ///
+    /// Every part is written once, however many there are; every file whole or not at all, the same from run to run.
+    ///
+    /// Args:
+    ///     directory: Where to.
+    ///     formats: Any of "dxf", "svg", "sheet", "pdf", "stl", "step", "3mf", "csv", "urdf" and "mjcf"; all if left out.
+    ///     parts: Names of parts, as their files have them, or "assembly"; all if left out. Motion and models are of the
+    ///         whole. A family whose parts have no names takes none.
+    ///     tolerance: Greatest distance of every arc, point sequence and mesh from the exact curve or surface, mm.
+    ///     dxf_version: "R2010" or "R12".
+    ///     dxf_curves: "arcs" or "splines".
+    ///
+    /// Raises:
+    ///     ExportError: A part does not exist, or a file cannot be made or written.
+    ///
+    /// >>> import centrode as ct, tempfile
+    /// >>> pair = ct.GearPair(ct.pitch.circle(module=2, tooth_count=20))
+    /// >>> with tempfile.TemporaryDirectory() as directory:
+    /// ...     [path.name for path in pair.export(directory, formats=["dxf"])]
+    /// ['driver.dxf', 'driven.dxf', 'assembly.dxf']
+    #[pyo3(signature = (directory, *, formats=None, parts=None, tolerance=1e-3, dxf_version="R2010", dxf_curves="arcs"))]
+    #[expect(clippy::too_many_arguments, reason = "keyword arguments")]
+    fn export(
+        &self,
+        py: Python<'_>,
+        directory: PathBuf,
+        formats: Option<Vec<String>>,
+        parts: Option<Vec<String>>,
+        tolerance: f64,
+        dxf_version: &str,
+        dxf_curves: &str,
+    ) -> Answer<Vec<PathBuf>> {
+        let written = [dxf_version, dxf_curves];
+        let bundle = self.bundle(py, formats, parts, tolerance, written)?;
+        files::written(py, bundle, directory)
+    }
+
+    fn __repr__(slf: &Bound<'_, Self>) -> PyResult<String> {
+        let (class, machine) = (slf.get_type().name()?, slf.get());
+        let (name, definition) = (machine.name(), machine.definition());
+        Ok(format!("{class}({name:?}, {definition})"))
+    }
+
+    fn __copy__(slf: Bound<'_, Self>) -> Bound<'_, Self> {
+        slf
+    }
+
+    fn __deepcopy__<'py>(slf: Bound<'py, Self>, _memo: &Bound<'py, PyAny>) -> Bound<'py, Self> {
+        slf
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> Answer<Reduced<'py>> {
+        by_design(py, self.0.design())
+    }
+}
+
+/// The object, if it is of the class.
+fn of_class<'py>(
+    class: &Bound<'py, PyType>,
+    object: Bound<'py, PyAny>,
+) -> Answer<Bound<'py, PyAny>> {
+    if object.is_instance(class)? {
+        return Ok(object);
+    }
+    Err(not_of_class(class)?)
+}

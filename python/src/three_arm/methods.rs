@@ -1,0 +1,337 @@
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use centrode_analysis::between_arms;
+use centrode_mechanism::three_arm::Link;
+use centrode_mechanism::three_arm::design::{ArmSpec, ThreeArmDesign, WorkSpec};
+use pyo3::prelude::{
+    Bound, Py, PyAny, PyClassInitializer, PyDictMethods, PyRef, Python, pymethods,
+};
+use pyo3::types::PyDict;
+
+use super::{ThreeArm, variants};
+use crate::array::{Course, Rows, Values};
+use crate::body::{Body, spec_of};
+use crate::cam::{DiscCam, Fork};
+use crate::count::{Count, optional};
+use crate::design::Class;
+use crate::error::{Answer, plain_tolerance};
+use crate::gear_pair::GearPair;
+use crate::made::Made;
+use crate::pitch::Pitch;
+use crate::record;
+use crate::tool::Tool;
+use crate::wait::wait;
+use crate::word::Word;
+
+#[pymethods]
+impl ThreeArm {
+    #[new]
+    #[pyo3(signature = (pitch, *, carrier_start, bend, arm_mounting_angle, tip_distance, pusher_offset, planet_reference=None, arms=Count::Fits(3), direction="clockwise", tooth_count=None, center_distance=None, picking=None, planting=None, rate_per_minute=180.0, plant_spacing=140.0, planting_depth=10.0, tray_distance=None, tray_inclination=0.0, seedling_height=60.0, seedling_width=4.0, clamp_length=60.0, housing_offset=10.0, tool=None, addendum="full", backlash=0.0, sun=None, intermediate=None, planet=None, name="three-arm", title=""), text_signature = "(pitch, *, carrier_start, bend, arm_mounting_angle, tip_distance, pusher_offset, planet_reference=None, arms=3, direction='clockwise', tooth_count=None, center_distance=None, picking=None, planting=None, rate_per_minute=180.0, plant_spacing=140.0, planting_depth=10.0, tray_distance=None, tray_inclination=0.0, seedling_height=60.0, seedling_width=4.0, clamp_length=60.0, housing_offset=10.0, tool=None, addendum='full', backlash=0.0, sun=None, intermediate=None, planet=None, name='three-arm', title='')")]
+    #[expect(clippy::too_many_arguments, reason = "keyword arguments")]
+    fn new(
+        py: Python<'_>,
+        pitch: PyRef<'_, Pitch>,
+        carrier_start: f64,
+        bend: f64,
+        arm_mounting_angle: f64,
+        tip_distance: f64,
+        pusher_offset: f64,
+        planet_reference: Option<f64>,
+        arms: Count,
+        direction: &str,
+        tooth_count: Option<Count>,
+        center_distance: Option<f64>,
+        picking: Option<f64>,
+        planting: Option<f64>,
+        rate_per_minute: f64,
+        plant_spacing: f64,
+        planting_depth: f64,
+        tray_distance: Option<f64>,
+        tray_inclination: f64,
+        seedling_height: f64,
+        seedling_width: f64,
+        clamp_length: f64,
+        housing_offset: f64,
+        tool: Option<Tool>,
+        addendum: &str,
+        backlash: f64,
+        sun: Option<PyRef<'_, Body>>,
+        intermediate: Option<PyRef<'_, Body>>,
+        planet: Option<PyRef<'_, Body>>,
+        name: &str,
+        title: &str,
+    ) -> Answer<PyClassInitializer<Self>> {
+        let arm = ArmSpec::new(arm_mounting_angle, tip_distance, pusher_offset);
+        let mut design = ThreeArmDesign::new(pitch.spec.clone(), carrier_start, bend, arm);
+        design.name = name.into();
+        design.title = title.into();
+        design.arms = arms.of("arms")?;
+        design.direction = Word::of("direction", direction)?;
+        design.planet_reference = planet_reference;
+        design.tooth_count = optional("tooth_count", tooth_count)?;
+        design.center_distance = center_distance;
+        design.arm.clamp_length = clamp_length;
+        design.tool = tool.map(|tool| tool.0).unwrap_or_default();
+        design.teeth.addendum = Word::of("teeth.addendum", addendum)?;
+        design.teeth.backlash = backlash;
+        design.gearbox.housing_offset = housing_offset;
+        design.work = WorkSpec {
+            picking,
+            planting,
+            rate_per_minute,
+            plant_spacing,
+            planting_depth,
+        };
+        design.tray.distance = tray_distance;
+        design.tray.inclination = tray_inclination;
+        design.seedling.height = seedling_height;
+        design.seedling.width = seedling_width;
+        design.sun = spec_of(sun);
+        design.intermediate = spec_of(intermediate);
+        design.planet = spec_of(planet);
+        Self::made(py, design)
+    }
+
+    /// Number of arms.
+    #[getter]
+    fn arms(&self) -> u32 {
+        self.0.arms()
+    }
+
+    /// Pitch curve of the sun.
+    #[getter]
+    fn pitch(&self) -> Answer<Pitch> {
+        Pitch::resolve(self.0.design().pitch.clone())
+    }
+
+    /// Distance of the axes of two gears in mesh, mm.
+    #[getter]
+    fn center_distance(&self) -> f64 {
+        self.0.center_distance()
+    }
+
+    /// Module, mm, if the tooth count is given: pitch length / (pi x tooth count).
+    #[getter]
+    fn module(&self) -> Option<f64> {
+        self.0.module()
+    }
+
+    /// The planet's zero behind the chain's second leg at the start, rad.
+    #[getter]
+    fn planet_reference(&self) -> f64 {
+        self.0.train().planet_reference()
+    }
+
+    /// Height of the tip's path in the machine's frame, mm.
+    #[getter]
+    fn trajectory_height(&self) -> f64 {
+        self.0.trajectory().height()
+    }
+
+    /// Height of the ground in the machine's frame, mm.
+    #[getter]
+    fn ground(&self) -> f64 {
+        self.0.ground()
+    }
+
+    /// Speed of the carrier at the design's rate, rad/s.
+    #[getter]
+    fn carrier_speed(&self) -> f64 {
+        self.0.carrier_speed()
+    }
+
+    /// Carrier turn at which an arm picks, rad.
+    #[pyo3(signature = (arm=0))]
+    fn picking(&self, arm: u32) -> Answer<f64> {
+        Ok(self.0.picking(self.arm(arm)?))
+    }
+
+    /// Carrier turn at which an arm plants, rad.
+    #[pyo3(signature = (arm=0))]
+    fn planting(&self, arm: u32) -> Answer<f64> {
+        Ok(self.0.planting(self.arm(arm)?))
+    }
+
+    /// Tip of an arm at carrier turns (rad), (N, 2), mm: in the machine's frame, or over ground as the machine travels.
+    ///
+    /// >>> import centrode as ct, numpy as np
+    /// >>> arms = ct.ThreeArm.from_toml(ct.template("three-arm"))
+    /// >>> arms.tip(np.radians([20, 191])).round(3)
+    /// array([[ 243.621,   29.807],
+    ///        [ -68.003, -251.994]])
+    #[pyo3(signature = (theta, arm=0, *, over_ground=false))]
+    fn tip(&self, theta: Values, arm: u32, over_ground: bool) -> Answer<Course> {
+        self.of_tip(theta, arm, over_ground, |m| m.position.coords.into())
+    }
+
+    /// Velocity of an arm's tip, (N, 2), mm for a radian of carrier turn; times `carrier_speed` it is mm/s.
+    #[pyo3(signature = (theta, arm=0, *, over_ground=false))]
+    fn tip_velocity(&self, theta: Values, arm: u32, over_ground: bool) -> Answer<Course> {
+        self.of_tip(theta, arm, over_ground, |m| m.velocity.into())
+    }
+
+    /// Acceleration of an arm's tip, (N, 2), mm for a radian of carrier turn squared.
+    #[pyo3(signature = (theta, arm=0))]
+    fn tip_acceleration(&self, theta: Values, arm: u32) -> Answer<Course> {
+        self.of_tip(theta, arm, false, |m| m.acceleration.into())
+    }
+
+    /// Elevation of an arm's clamp above the horizontal, seen towards the tray, in (-pi, pi], rad.
+    #[pyo3(signature = (theta, arm=0))]
+    fn clamp_angle(&self, theta: Values, arm: u32) -> Answer<Course> {
+        let arm = self.arm(arm)?;
+        Ok(self.each(theta, move |arms, theta| arms.clamp_elevation(theta, arm)))
+    }
+
+    /// Where every link stands: by name x, y (mm) and turn (rad) of its frame, (N, 3).
+    ///
+    /// Gears stand in the frames of a gear pair's gears; an arm's x axis points as its clamp does.
+    ///
+    /// >>> import centrode as ct
+    /// >>> arms = ct.ThreeArm.from_toml(ct.template("three-arm"))
+    /// >>> sorted(arms.pose(0.0))[:4]
+    /// ['arm-0', 'arm-1', 'arm-2', 'carrier']
+    fn pose<'py>(&self, py: Python<'py>, theta: Values) -> Answer<Bound<'py, PyDict>> {
+        let mut links = vec![
+            ("sun".to_owned(), Link::Sun),
+            ("carrier".into(), Link::Carrier),
+        ];
+        for k in 0..self.0.arms() {
+            links.push((format!("intermediate-{k}"), Link::Intermediate(k)));
+            links.push((format!("planet-{k}"), Link::Planet(k)));
+            links.push((format!("arm-{k}"), Link::Arm(k)));
+        }
+        let poses = PyDict::new(py);
+        for (name, link) in links {
+            let rows = self.rows(theta.clone(), move |arms, theta| {
+                let stands = arms.link(link, theta);
+                let at = stands.origin.position;
+                [at.x, at.y, stands.angle.position]
+            });
+            poses.set_item(name, rows)?;
+        }
+        Ok(poses)
+    }
+
+    /// The cam of each arm, fixed to the carrier about the planet's axis.
+    ///
+    /// The cam angle is the turn the arm has made against the carrier since the start.
+    ///
+    /// Raises:
+    ///     MechanismError: Cam and fork cannot be.
+    #[getter]
+    fn cam(slf: &Bound<'_, Self>) -> Answer<DiscCam> {
+        let pusher = slf.get().0.pusher()?;
+        let made = Made::part_of(slf.clone().into_any(), "cam")?;
+        Ok(DiscCam::new(pusher.cam().clone(), made))
+    }
+
+    /// The fork of each arm, between cam and push rod.
+    ///
+    /// Raises:
+    ///     MechanismError: Cam and fork cannot be.
+    ///
+    /// >>> import centrode as ct
+    /// >>> fork = ct.ThreeArm.from_toml(ct.template("three-arm")).fork
+    /// >>> fork.joint, round(fork.retraction(fork.swing(25.0)), 9)
+    /// ('pin-on-rod', 25.0)
+    #[getter]
+    fn fork(&self) -> Answer<Fork> {
+        let pusher = self.0.pusher()?;
+        Ok(Fork(pusher.fork().clone()))
+    }
+
+    /// What an arm must keep clear with, (N, 2), mm, in the frame in which `pose` gives it: corners of a closed
+    /// polygon, counter-clockwise, nowhere farther than `tolerance` (mm) from the exact contour.
+    ///
+    /// Raises:
+    ///     MechanismError: The arm's parts do not fit each other.
+    #[pyo3(signature = (tolerance=1e-3))]
+    fn arm_contour(&self, tolerance: f64) -> Answer<Rows<2>> {
+        let tolerance = plain_tolerance(tolerance)?;
+        let arm = self.0.arm_body()?;
+        Ok(Rows::of(&arm.outline().flatten(tolerance)))
+    }
+
+    /// How close arms come over a whole turn, proven between samples to within `tolerance` (mm); None for one arm.
+    ///
+    /// Raises:
+    ///     MechanismError: The arm's parts do not fit each other.
+    ///
+    /// >>> import centrode as ct
+    /// >>> close = ct.ThreeArm.from_toml(ct.template("three-arm")).arm_clearance()
+    /// >>> round(close.least, 1), close.lower_bound > close.least - 0.04
+    /// (62.6, True)
+    #[pyo3(signature = (tolerance=1e-2))]
+    fn arm_clearance<'py>(
+        &self,
+        py: Python<'py>,
+        tolerance: f64,
+    ) -> Answer<Option<Bound<'py, PyAny>>> {
+        let tolerance = plain_tolerance(tolerance)?;
+        let arm = self.0.arm_body()?;
+        let arms = Arc::clone(&self.0);
+        let found = wait(py, move || between_arms(&arms, &arm, tolerance))?;
+        let found = found?.map(|found| record::clearance(py, &found));
+        Ok(found.transpose()?)
+    }
+
+    /// Figures of many variants of this mechanism, about twenty microseconds each: goals 2 to 4 and 6 to 8, centre distance and
+    /// length of the pitch curves, by name; NaN where a variant is no mechanism. `centrode.sweep` spreads more of them over
+    /// an executor.
+    ///
+    /// Args:
+    ///     parameters: Values by the parameter's name: "r1" to "r99" and "theta1" to "theta99" for radius and polar angle of a
+    ///         control point, "carrier_start", "bend", "mounting_angle", "tip_distance", "pusher_offset", "planet_reference",
+    ///         "picking", "planting"; arrays of one length, or single numbers; mm, degrees.
+    ///     inputs: Inputs a turn at which the tip's path is looked at before its extremes are sharpened.
+    ///
+    /// Returns:
+    ///     Arrays by name, angles in radians: "pick-angle", "push-angle", "angle-difference", "gearbox-clearance",
+    ///     "trajectory-height", "module", "center_distance", "pitch_length".
+    ///
+    /// Raises:
+    ///     DesignError: No such parameter, or the sun is no B-spline in the polar plane.
+    ///
+    /// >>> import centrode as ct, numpy as np
+    /// >>> arms = ct.ThreeArm.from_toml(ct.template("three-arm"))
+    /// >>> arms.sweep({"r1": [15, 21, 27], "tip_distance": 145})["trajectory-height"].round(1).tolist()
+    /// [377.8, 370.8, 363.1]
+    #[pyo3(signature = (parameters, *, inputs=360))]
+    fn sweep<'py>(
+        &self,
+        py: Python<'py>,
+        parameters: BTreeMap<String, Values>,
+        inputs: usize,
+    ) -> Answer<Bound<'py, PyDict>> {
+        variants::sweep(py, self.0.design(), parameters, inputs)
+    }
+
+    /// Sun and intermediate gear with their teeth; the planets are the sun's part again.
+    ///
+    /// Raises:
+    ///     GearPairError: No teeth can be laid out or cut, or the tooth count is missing.
+    fn gear_pair(&self, py: Python<'_>) -> Answer<Py<GearPair>> {
+        let arms = Arc::clone(&self.0);
+        GearPair::object(py, wait(py, move || arms.pair())??)
+    }
+
+    /// How far an arm's push rod is drawn back at carrier turns (rad), mm: 0 thrown out.
+    ///
+    /// Raises:
+    ///     MechanismError: Cam and fork cannot be.
+    ///
+    /// >>> import centrode as ct, numpy as np
+    /// >>> arms = ct.ThreeArm.from_toml(ct.template("three-arm"))
+    /// >>> arms.push_rod(np.radians([20, 191, 206, 221])).round(6) + 0.0
+    /// array([25. , 25. , 12.5,  0. ])
+    #[pyo3(signature = (theta, arm=0))]
+    fn push_rod(&self, theta: Values, arm: u32) -> Answer<Course> {
+        let arm = self.arm(arm)?;
+        let pusher = self.0.pusher()?;
+        Ok(self.each(theta, move |arms, theta| {
+            pusher.retraction(arms.own_input(theta, arm)).position
+        }))
+    }
+}

@@ -1,0 +1,120 @@
+//! Words of design files and calls, and what each stands for.
+
+use centrode_analysis::optimise::Strategy;
+use centrode_export::dxf::{Curves, Version};
+use centrode_mechanism::cam::design::Turn;
+use centrode_mechanism::design::{Projection, SheetSize};
+use centrode_mechanism::gear::design::{Addendum, Phase};
+use centrode_mechanism::gear::pitch::{Interpolation, Plane};
+use centrode_mechanism::linkage::Branch;
+use centrode_mechanism::shaft::Scheme;
+use centrode_mechanism::three_arm::design::Direction;
+
+use crate::error::{Answer, Raised};
+
+/// One of a few, each known by a word.
+pub(crate) trait Word: Copy + PartialEq + 'static {
+    /// All of them, by their words.
+    const WORDS: &'static [(&'static str, Self)];
+
+    /// The one of a word given at a key.
+    fn of(key: &str, word: &str) -> Answer<Self> {
+        let mut all = Self::WORDS.iter();
+        let found = all.find(|(name, _)| *name == word);
+        found.map(|(_, one)| *one).ok_or_else(|| {
+            let known: Vec<&str> = Self::WORDS.iter().map(|(name, _)| *name).collect();
+            Raised::word(key, word, &known)
+        })
+    }
+
+    /// Its word.
+    fn word(self) -> &'static str {
+        let mut all = Self::WORDS.iter();
+        all.find(|(_, one)| *one == self)
+            .map_or("", |(name, _)| name)
+    }
+}
+
+impl Word for Addendum {
+    const WORDS: &'static [(&'static str, Self)] =
+        &[("full", Self::Full), ("fitted", Self::Fitted)];
+}
+
+impl Word for Phase {
+    const WORDS: &'static [(&'static str, Self)] = &[
+        ("auto", Self::Auto),
+        ("tooth", Self::Tooth),
+        ("space", Self::Space),
+        ("congruent", Self::Congruent),
+    ];
+}
+
+impl Word for Plane {
+    const WORDS: &'static [(&'static str, Self)] =
+        &[("polar", Self::Polar), ("cartesian", Self::Cartesian)];
+}
+
+impl Word for Interpolation {
+    const WORDS: &'static [(&'static str, Self)] = &[
+        ("cubic", Self::Cubic),
+        ("quintic", Self::Quintic),
+        ("trigonometric", Self::Trigonometric),
+    ];
+}
+
+impl Word for Turn {
+    const WORDS: &'static [(&'static str, Self)] = &[
+        ("counter-clockwise", Self::CounterClockwise),
+        ("clockwise", Self::Clockwise),
+    ];
+}
+
+impl Word for Direction {
+    const WORDS: &'static [(&'static str, Self)] = &[
+        ("clockwise", Self::Clockwise),
+        ("counter-clockwise", Self::CounterClockwise),
+    ];
+}
+
+impl Word for Branch {
+    const WORDS: &'static [(&'static str, Self)] =
+        &[("upper", Self::Upper), ("lower", Self::Lower)];
+}
+
+impl Word for Scheme {
+    const WORDS: &'static [(&'static str, Self)] = &[
+        ("shaft", Self::Shaft),
+        ("elliptic-gear", Self::EllipticGear),
+        ("both", Self::Both),
+    ];
+}
+
+impl Word for SheetSize {
+    const WORDS: &'static [(&'static str, Self)] = &[
+        ("A4", Self::A4),
+        ("A3", Self::A3),
+        ("A2", Self::A2),
+        ("A1", Self::A1),
+        ("A0", Self::A0),
+    ];
+}
+
+impl Word for Projection {
+    const WORDS: &'static [(&'static str, Self)] = &[
+        ("first-angle", Self::FirstAngle),
+        ("third-angle", Self::ThirdAngle),
+    ];
+}
+
+impl Word for Version {
+    const WORDS: &'static [(&'static str, Self)] = &[("R2010", Self::R2010), ("R12", Self::R12)];
+}
+
+impl Word for Curves {
+    const WORDS: &'static [(&'static str, Self)] =
+        &[("arcs", Self::Arcs), ("splines", Self::Splines)];
+}
+
+impl Word for Strategy {
+    const WORDS: &'static [(&'static str, Self)] = &Self::NAMES;
+}
