@@ -9,8 +9,8 @@ mod path;
 mod scene;
 
 pub use html::{Asset, INDEX, asset, report};
+pub use path::Path;
 pub(crate) use path::short;
-pub use path::{Path, Role};
 
 use serde::Serialize;
 
