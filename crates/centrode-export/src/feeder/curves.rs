@@ -14,13 +14,9 @@ pub fn curves(feeder: &Feeder) -> Vec<Curve> {
     let bar = *feeder.six_bar().four_bar();
     let input = |i: u32| TAU * f64::from(i) / f64::from(SAMPLES);
     let input: Vec<f64> = (0..=SAMPLES).map(input).collect();
-    let curve = |chart, unit, f: &dyn Fn(f64) -> f64| Curve {
-        chart,
-        name: "",
-        unit,
-        count: false,
-        input: input.clone(),
-        value: input.iter().map(|&phi| f(phi)).collect(),
+    let curve = |chart, unit, f: &dyn Fn(f64) -> f64| {
+        let value = input.iter().map(|&phi| f(phi));
+        Curve::new([chart, "", unit], &input, value.collect())
     };
     vec![
         curve("Angle of the effector", "°", &|phi| {

@@ -12,14 +12,7 @@ pub fn curves(pair: &GearPair) -> Vec<Curve> {
         .map(|i| pair.cycle() * f64::from(i) / f64::from(steps))
         .collect();
     let points: Vec<_> = input.iter().map(|&phi| pair.pitch_point(phi)).collect();
-    let curve = |chart, name, unit, value: Vec<f64>| Curve {
-        chart,
-        name,
-        unit,
-        count: false,
-        input: input.clone(),
-        value,
-    };
+    let curve = |chart, name, unit, value| Curve::new([chart, name, unit], &input, value);
     let law = |f: &dyn Fn(f64) -> f64| -> Vec<f64> { input.iter().map(|&phi| f(phi)).collect() };
     let slope = f64::from(pair.mean_ratio().1) / f64::from(pair.mean_ratio().0);
     vec![

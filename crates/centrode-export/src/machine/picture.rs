@@ -1,6 +1,6 @@
 use std::f64::consts::{PI, TAU};
 
-use centrode_geometry::{Bounds, Point, Tolerance};
+use centrode_geometry::{Point, Tolerance};
 use centrode_mechanism::machine::{
     Figure, Line, LinePath, LineRole, Machine, Quantity, Seat, Sketch,
 };
@@ -15,6 +15,8 @@ use crate::page::{Link, Mark, Motion, Path, Picture, short};
 const FEWEST: f64 = 720.0;
 /// Fewest steps of a turn of the input: no link may turn by half a turn in one.
 const PER_TURN: f64 = 60.0;
+/// Times the tolerance by which figures may be off between two steps: nobody measures what moves.
+const BETWEEN: f64 = 4.0;
 /// Most steps of a period.
 const MOST: f64 = 2e4;
 /// How long before a jump the picture still stands where it jumps from, and how long after it stands where it jumps to, rad.
@@ -25,34 +27,44 @@ const SUDDEN: f64 = 1e-3;
 /// Angles are rounded by, rad.
 const ANGLE: f64 = 1e-6;
 
-/// The machine as a picture that moves; every line and pose is within the tolerance of the exact one.
+/// The machine as a picture that moves; lines are within the tolerance of the exact ones, and so are places at steps of the
+/// input, between them within four times as much.
 #[must_use]
 pub fn picture(machine: &Machine, tolerance: Tolerance) -> Picture {
     let rims: Vec<Vec<Point>> = machine.sketches.iter().map(rim).collect();
     let course = Course::within(machine, &rims, tolerance);
     let length = 0.1 * tolerance.mm();
-    let paths: Vec<Vec<Path>> = (0..machine.figures.len())
-        .map(|figure| course.paths(machine, figure, tolerance))
-        .collect();
-    let rounded = |poses: &Vec<[f64; 3]>| {
-        let mut all = poses
+    // Figures that look alike are fitted once.
+    let still = |sketch: &Sketch| {
+        sketch
+            .lines
             .iter()
-            .map(|[x, y, turn]| [short(*x, length), short(*y, length), short(*turn, ANGLE)]);
-        let all: Vec<[f64; 3]> = all.by_ref().collect();
+            .map(|line| still(line, tolerance))
+            .collect()
+    };
+    let still: Vec<Vec<Option<Path>>> = machine.sketches.iter().map(still).collect();
+    let paths = |(index, figure): (usize, &Figure)| Link {
+        name: figure.name.clone(),
+        paths: machine.sketches[figure.sketch]
+            .lines
+            .iter()
+            .zip(&still[figure.sketch])
+            .filter_map(|(line, still)| {
+                still.clone().or_else(|| course.way(line, index, tolerance))
+            })
+            .collect(),
+    };
+    let rounded = |poses: &Vec<[f64; 3]>| {
+        let rounded =
+            |[x, y, turn]: &[f64; 3]| [short(*x, length), short(*y, length), short(*turn, ANGLE)];
+        let all: Vec<[f64; 3]> = poses.iter().map(rounded).collect();
         match all.first() {
             Some(first) if all.iter().all(|pose| pose == first) => first.to_vec(),
             _ => all.concat(),
         }
     };
-    let links = machine.figures.iter().zip(paths);
-    let extent = course.extent(machine, &rims);
     Picture {
-        links: links
-            .map(|(figure, paths)| Link {
-                name: figure.name.clone(),
-                paths,
-            })
-            .collect(),
+        links: machine.figures.iter().enumerate().map(paths).collect(),
         motion: Motion {
             input_name: machine.input.name.clone(),
             input: course
@@ -72,7 +84,7 @@ pub fn picture(machine: &Machine, tolerance: Tolerance) -> Picture {
                 at: mark.at,
             })
             .collect(),
-        extent: [extent.min.x, extent.min.y, extent.max.x, extent.max.y],
+        extent: course.extent(machine, &rims),
     }
 }
 
@@ -86,7 +98,7 @@ struct Course {
 }
 
 impl Course {
-    /// At steps between which straight lines are within the tolerance, as far as [`MOST`] allow.
+    /// At steps between which straight lines are near enough, as far as [`MOST`] allow.
     fn within(machine: &Machine, rims: &[Vec<Point>], tolerance: Tolerance) -> Self {
         let period = machine.input.period;
         let traced: Vec<bool> = (0..machine.points.len())
@@ -101,7 +113,7 @@ impl Course {
         let least = FEWEST.max(period / TAU * PER_TURN);
         let coarse = course(least);
         // A chord is off by a quarter of how far its middle is off the chord over both steps beside it.
-        let off = 0.25 * coarse.bend(machine, rims, &sudden) / tolerance.mm();
+        let off = 0.25 * coarse.bend(machine, rims, &sudden) / (BETWEEN * tolerance.mm());
         let steps = (least * off.sqrt()).min(MOST.max(least));
         if off > 1.0 && steps > least {
             course(steps)
@@ -160,45 +172,56 @@ impl Course {
         figures.map(of).fold(0.0, f64::max)
     }
 
-    /// The lines of a figure.
-    fn paths(&self, machine: &Machine, figure: usize, tolerance: Tolerance) -> Vec<Path> {
-        let path = |line: &Line| match &line.path {
-            LinePath::Contour(outline) => Path::closed(line.role, outline, tolerance),
-            LinePath::Chain(corners) => {
-                let corners: Vec<Point> = corners.iter().copied().map(Point::from).collect();
-                Path::open(line.role, &corners)
-            }
-            LinePath::Trace(point) => {
-                let ways = self.points[*point].iter().zip(&self.poses[figure]);
-                let seen: Vec<Point> = ways.map(|(p, pose)| placed(pose).inverse() * p).collect();
-                Path::way(line.role, &seen, tolerance)
-            }
+    /// The way of the point that a line traces, as seen from its figure.
+    fn way(&self, line: &Line, figure: usize, tolerance: Tolerance) -> Option<Path> {
+        let LinePath::Trace(point) = line.path else {
+            return None;
         };
-        let sketch = &machine.sketches[machine.figures[figure].sketch];
-        sketch.lines.iter().map(path).collect()
+        let places = self.points[point].iter().zip(&self.poses[figure]);
+        let seen: Vec<Point> = places.map(|(p, pose)| placed(pose).inverse() * p).collect();
+        Some(Path::way(line.role, &seen, tolerance))
     }
 
-    /// Round the material of all figures, and the traces, over the period.
-    fn extent(&self, machine: &Machine, rims: &[Vec<Point>]) -> Bounds {
-        let mut bounds = Bounds::EMPTY;
+    /// Least x and y, greatest x and y of the material of all figures, and of the traces, over the period.
+    fn extent(&self, machine: &Machine, rims: &[Vec<Point>]) -> [f64; 4] {
+        let mut extent = [
+            f64::INFINITY,
+            f64::INFINITY,
+            f64::NEG_INFINITY,
+            f64::NEG_INFINITY,
+        ];
+        let mut cover = |x: f64, y: f64| {
+            let [left, low, right, high] = extent;
+            extent = [left.min(x), low.min(y), right.max(x), high.max(y)];
+        };
         for (figure, poses) in machine.figures.iter().zip(&self.poses) {
             let still = poses.iter().all(|pose| *pose == poses[0]);
             let count = if still { 1 } else { poses.len() };
-            for pose in &poses[..count] {
-                let place = placed(pose);
-                let rim = rims[figure.sketch].iter();
-                bounds = rim.fold(bounds, |b, p| b.with(place * p));
+            for [x, y, turn] in &poses[..count] {
+                let (sin, cos) = turn.sin_cos();
+                for p in &rims[figure.sketch] {
+                    cover(x + cos * p.x - sin * p.y, y + sin * p.x + cos * p.y);
+                }
             }
-            let traced = machine.sketches[figure.sketch].lines.iter();
-            let traced = traced.filter_map(|line| match (line.role, &line.path) {
-                (LineRole::Trace, LinePath::Trace(point)) => Some(*point),
-                _ => None,
-            });
-            bounds = traced
-                .flat_map(|point| &self.points[point])
-                .fold(bounds, |b, p| b.with(*p));
+            for line in &machine.sketches[figure.sketch].lines {
+                if let (LineRole::Trace, LinePath::Trace(point)) = (line.role, &line.path) {
+                    self.points[*point].iter().for_each(|p| cover(p.x, p.y));
+                }
+            }
         }
-        bounds
+        extent
+    }
+}
+
+/// A line that is the same whatever moves.
+fn still(line: &Line, tolerance: Tolerance) -> Option<Path> {
+    match &line.path {
+        LinePath::Contour(outline) => Some(Path::closed(line.role, outline, tolerance)),
+        LinePath::Chain(corners) => {
+            let corners: Vec<Point> = corners.iter().copied().map(Point::from).collect();
+            Some(Path::open(line.role, &corners))
+        }
+        LinePath::Trace(_) => None,
     }
 }
 

@@ -114,3 +114,18 @@ pub struct Curve {
     #[serde(serialize_with = "path::drawn")]
     pub value: Vec<f64>,
 }
+
+impl Curve {
+    /// A figure of a chart at ascending inputs.
+    #[must_use]
+    pub fn new([chart, name, unit]: [&'static str; 3], input: &[f64], value: Vec<f64>) -> Self {
+        Self {
+            chart,
+            name,
+            unit,
+            count: false,
+            input: input.to_vec(),
+            value,
+        }
+    }
+}

@@ -46,27 +46,20 @@ impl Path {
         }
     }
 
-    /// A closed polygon, its corners within the tolerance of those given.
-    #[must_use]
-    pub fn polygon(role: LineRole, corners: &[Point], tolerance: Tolerance) -> Self {
-        let unit = unit(tolerance);
-        let corner = |p: &Point| [short(p.x, unit), short(p.y, unit), 0.0];
-        Self {
-            role,
-            vertices: corners.iter().flat_map(corner).collect(),
-            closed: true,
-        }
-    }
-
     /// The way of a point, its places within the tolerance of those given; closed where it ends as it begins.
     pub(crate) fn way(role: LineRole, places: &[Point], tolerance: Tolerance) -> Self {
-        let mut way = Self::polygon(role, places, tolerance);
-        let count = way.vertices.len();
-        way.closed = count > 3 && way.vertices[..3] == way.vertices[count - 3..];
-        if way.closed {
-            way.vertices.truncate(count - 3);
+        let unit = unit(tolerance);
+        let place = |p: &Point| [short(p.x, unit), short(p.y, unit), 0.0];
+        let mut places: Vec<[f64; 3]> = places.iter().map(place).collect();
+        let closed = places.len() > 1 && places.first() == places.last();
+        if closed {
+            places.pop();
         }
-        way
+        Self {
+            role,
+            vertices: places.concat(),
+            closed,
+        }
     }
 
     /// An open chain of lines.

@@ -24,13 +24,9 @@ pub fn box_curves(machine: &MovingBox) -> Result<Vec<Curve>, ExportError> {
 fn curves(machine: &Machine<'_>) -> Vec<Curve> {
     let input = machine.shaft.groove().steps(STEP);
     let omega = machine.shaft.load().speed();
-    let curve = |chart, unit, f: &dyn Fn(f64) -> f64| Curve {
-        chart,
-        name: "",
-        unit,
-        count: false,
-        value: input.iter().map(|&t| f(t)).collect(),
-        input: input.clone(),
+    let curve = |chart, unit, f: &dyn Fn(f64) -> f64| {
+        let value = input.iter().map(|&t| f(t));
+        Curve::new([chart, "", unit], &input, value.collect())
     };
     vec![
         curve("Position of the box", "mm", &|t| machine.motion(t).position),

@@ -14,13 +14,8 @@ pub fn curves(mechanism: &ThreeArm) -> Vec<Curve> {
     let inputs: Vec<f64> = (0..=SAMPLES).map(input).collect();
     let chains: Vec<Chain<'_>> = inputs.iter().map(|&phi| mechanism.chain(0, phi)).collect();
     let speed = mechanism.carrier_speed();
-    let curve = |chart, name, unit, f: &dyn Fn(&Chain<'_>) -> f64| Curve {
-        chart,
-        name,
-        unit,
-        count: false,
-        value: chains.iter().map(f).collect(),
-        input: inputs.clone(),
+    let curve = |chart, name, unit, f: &dyn Fn(&Chain<'_>) -> f64| {
+        Curve::new([chart, name, unit], &inputs, chains.iter().map(f).collect())
     };
     let tip = |chain: &Chain<'_>| chain.tip().at_speed(speed);
     vec![

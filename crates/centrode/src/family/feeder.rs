@@ -130,14 +130,8 @@ fn torques(machine: &Feeder) -> Vec<Curve> {
         .collect();
     let curve = |name, moving| {
         let torque = |&phi: &f64| system.at(phi, moving).map_or(f64::NAN, |f| f.torque);
-        Curve {
-            chart: "Torque of the crank",
-            name,
-            unit: "N·mm",
-            count: false,
-            value: input.iter().map(torque).collect(),
-            input: input.clone(),
-        }
+        let words = ["Torque of the crank", name, "N·mm"];
+        Curve::new(words, &input, input.iter().map(torque).collect())
     };
     vec![curve("moving", true), curve("held still", false)]
 }

@@ -129,13 +129,8 @@ fn checked_curves(mechanism: &ThreeArm, teeth: Option<&TrainTeeth>) -> Vec<Curve
             ("from the tray", course.tray),
         ];
         let found = all.into_iter().filter(|(_, value)| !value.is_empty());
-        curves.extend(found.map(|(name, value)| Curve {
-            chart: "Clearance of the arms",
-            name,
-            unit: "mm",
-            count: false,
-            input: course.input.clone(),
-            value,
+        curves.extend(found.map(|(name, value)| {
+            Curve::new(["Clearance of the arms", name, "mm"], &course.input, value)
         }));
     }
     if let Some(teeth) = teeth {
