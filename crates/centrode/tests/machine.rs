@@ -4,7 +4,8 @@ use std::fs;
 use std::path::Path;
 
 use centrode::FAMILIES;
-use centrode::export::machine::{plain, read, schema, write};
+use centrode::export::machine::{picture, plain, read, schema, write};
+use centrode::export::page::Picture;
 use centrode::export::{Bundle, Format, Options, Package};
 use centrode::geometry::Tolerance;
 use centrode::mechanism::machine::Machine;
@@ -28,6 +29,31 @@ fn machines() -> Vec<(String, Machine)> {
     let found: Vec<_> = names.iter().filter_map(machine).collect();
     assert!(found.len() >= 10, "{} machines", found.len());
     found
+}
+
+/// Holds two pictures against each other: the same lines in the same places, all numbers within what they are rounded by.
+fn assert_alike(one: &Picture, other: &Picture, (name, off): (&str, f64)) {
+    let near = |a: &[f64], b: &[f64]| {
+        a.len() == b.len() && a.iter().zip(b).all(|(a, b)| (a - b).abs() <= off)
+    };
+    assert!(!one.links.is_empty(), "{name}");
+    assert_eq!(one.links.len(), other.links.len(), "{name}");
+    for (a, b) in one.links.iter().zip(&other.links) {
+        assert_eq!(a.name, b.name, "{name}");
+        assert_eq!(a.paths.len(), b.paths.len(), "{name} {}", a.name);
+        for (p, q) in a.paths.iter().zip(&b.paths) {
+            assert_eq!((p.role, p.closed), (q.role, q.closed), "{name} {}", a.name);
+            assert!(near(&p.vertices, &q.vertices), "{name} {}", a.name);
+        }
+    }
+    assert_eq!(one.motion.input_name, other.motion.input_name, "{name}");
+    assert!(near(&one.motion.input, &other.motion.input), "{name}");
+    let poses = one.motion.poses.iter().zip(&other.motion.poses);
+    for ((a, b), link) in poses.zip(&one.links) {
+        assert!(near(a, b), "{name} {}", link.name);
+    }
+    assert_eq!(one.marks, other.marks, "{name}");
+    assert!(near(&one.extent, &other.extent), "{name}");
 }
 
 fn files(machine: &Machine, options: &Options) -> Bundle {
@@ -81,6 +107,8 @@ fn a_machine_read_back_from_its_plain_file_stands_and_exports_as_the_first() {
                 assert!(off <= 1e-12 * size, "{name} link {link} at {input}: {off}");
             }
         }
+        let [one, other] = [&machine, &again].map(|machine| picture(machine, tolerance));
+        assert_alike(&one, &other, (&name, 0.1 * tolerance.mm()));
         let (first, second) = (files(&machine, &options), files(&again, &options));
         for ((file, one), (name_again, other)) in first.files().zip(second.files()) {
             assert_eq!(file, name_again, "{name}");

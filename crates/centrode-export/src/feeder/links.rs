@@ -3,16 +3,19 @@ use std::sync::Arc;
 
 use centrode_geometry::{Solid, Vector};
 use centrode_mechanism::feeder::{Feeder, Part, Plate};
+use centrode_mechanism::gear::IncompletePair;
 use centrode_mechanism::machine::{
     Closure, Form, Input, Joint, Link, LinkPoint, Machine, Quantity, Shape,
 };
 use centrode_mechanism::transmission::{FromFn, MotionJet, Transmission};
 use nalgebra::Isometry2;
 
+use super::figures;
 use crate::ExportError;
 
-/// The links as a tree, every joint zero where the effector rests; the loops close at C.
-pub(super) fn machine(feeder: &Feeder, plates: &[Plate]) -> Result<Machine, ExportError> {
+/// The links as a tree, every joint zero where the effector rests; the loops close at C. The gears are drawn with the teeth
+/// of a pair, or by their pitch circles.
+pub(super) fn drawn(feeder: &Feeder, plates: &[Plate], gears: Option<&IncompletePair>) -> Machine {
     let design = feeder.design();
     let mut machine = Machine {
         name: design.name.clone(),
@@ -30,19 +33,10 @@ pub(super) fn machine(feeder: &Feeder, plates: &[Plate]) -> Result<Machine, Expo
     let time = Quantity::Input(1.0 / feeder.speed());
     machine.column("time_s", "s", "time at the design's speed", time);
     let rest = |part: Part| feeder.place(part, feeder.start()).translation.vector;
-    for plate in plates {
-        let part = plate.part;
-        let solid = solid(feeder, plate)?;
-        let shape = machine.shape(Shape {
-            name: format!("links/{}", part.name()),
-            part: String::new(),
-            form: Form::Solids(vec![solid.clone()]),
-        });
+    for part in Part::ALL {
         let link = machine.link(Link {
             name: part.name().into(),
-            mass: Some(solid.mass_properties(design.plates.density)),
-            shape: Some(shape),
-            surfaces: Vec::new(),
+            ..Link::default()
         });
         let Some(carrier) = carrier(part) else {
             continue;
@@ -71,6 +65,27 @@ pub(super) fn machine(feeder: &Feeder, plates: &[Plate]) -> Result<Machine, Expo
     }
     close(feeder, &mut machine);
     tip(feeder, &mut machine);
+    figures::draw(feeder, plates, gears, &mut machine);
+    machine
+}
+
+/// The links with their bodies.
+pub(super) fn machine(feeder: &Feeder, plates: &[Plate]) -> Result<Machine, ExportError> {
+    let mut machine = drawn(feeder, plates, None);
+    for plate in plates {
+        let name = plate.part.name();
+        let solid = solid(feeder, plate)?;
+        let mass = solid.mass_properties(feeder.design().plates.density);
+        let shape = machine.shape(Shape {
+            name: format!("links/{name}"),
+            part: String::new(),
+            form: Form::Solids(vec![solid]),
+        });
+        if let Some(link) = machine.link_named(name) {
+            machine.links[link].mass = Some(mass);
+            machine.links[link].shape = Some(shape);
+        }
+    }
     Ok(machine)
 }
 

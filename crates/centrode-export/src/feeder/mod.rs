@@ -1,16 +1,18 @@
 //! The files of a feeder: its links as plates, a simulator model, its motion.
 
+mod curves;
+mod figures;
 mod gears;
 mod links;
-mod picture;
 mod plates;
 mod sheets;
 
 use crate::package::title_or_name;
 use crate::{Bundle, ExportError, Format, Options, Package};
 use centrode_mechanism::feeder::{Feeder, FeederError, Part, Plate};
+use centrode_mechanism::gear::IncompletePair;
 use centrode_mechanism::machine::Machine;
-pub use picture::{Teeth, curves, picture};
+pub use curves::curves;
 pub use plates::{assembly, plate};
 
 impl From<FeederError> for ExportError {
@@ -25,6 +27,16 @@ impl From<FeederError> for ExportError {
 /// [`ExportError`] where a link cannot be cut from plate.
 pub fn machine(feeder: &Feeder) -> Result<Machine, ExportError> {
     links::machine(feeder, &cut(feeder)?)
+}
+
+/// The six-bar as it moves and is drawn, without bodies: the gears with the teeth of a pair, or by their pitch circles alone,
+/// for which nothing is cut. Links that make no plate are not drawn.
+#[must_use]
+pub fn drawn(feeder: &Feeder, gears: Option<&IncompletePair>) -> Machine {
+    let plates = Part::ALL
+        .into_iter()
+        .filter_map(|part| feeder.plate(part).ok());
+    links::drawn(feeder, &plates.collect::<Vec<_>>(), gears)
 }
 
 /// Every part as a plate.

@@ -1,8 +1,9 @@
 use std::sync::Arc;
 
+use centrode_geometry::Outline;
 use centrode_mechanism::gear::{Gear, GearPair, Member, Role};
 use centrode_mechanism::machine::{
-    Form, GearMesh, Input, Joint, Linear, Link, Machine, Quantity, Shape, Surface,
+    Form, GearMesh, Input, Joint, Line, LineRole, Linear, Link, Machine, Quantity, Shape, Surface,
 };
 use centrode_mechanism::transmission::Transmission;
 
@@ -14,6 +15,16 @@ use crate::ExportError;
 /// # Errors
 /// [`ExportError`] where a gear is no solid.
 pub fn machine(pair: &GearPair) -> Result<Machine, ExportError> {
+    let mut machine = drawn(pair);
+    for (link, member) in [(1, Member::Driver), (2, Member::Driven)] {
+        embody(&mut machine, link, (pair, member), "")?;
+    }
+    Ok(machine)
+}
+
+/// The machine of a pair as it moves and is drawn, without bodies.
+#[must_use]
+pub fn drawn(pair: &GearPair) -> Machine {
     let mut machine = Machine {
         name: pair.name().into(),
         title: pair.title().into(),
@@ -24,18 +35,19 @@ pub fn machine(pair: &GearPair) -> Result<Machine, ExportError> {
         },
         ..Machine::default()
     };
-    let base = machine.link(Link {
-        name: "base".into(),
-        ..Link::default()
-    });
+    let [base, driver, driven] =
+        ["base", Member::Driver.name(), Member::Driven.name()].map(|name| {
+            machine.link(Link {
+                name: name.into(),
+                ..Link::default()
+            })
+        });
     // At the driver's polar angle phi the driver has turned by -phi, the driven gear by its driven angle.
-    let driver = gear(&mut machine, pair, Member::Driver, "")?;
     let law = Linear {
         start: 0.0,
         slope: -1.0,
     };
     let driving = machine.joint(Joint::turning(base, driver, Arc::new(law)));
-    let driven = gear(&mut machine, pair, Member::Driven, "")?;
     let law: Arc<dyn Transmission> = Arc::new(pair.rolling().clone());
     let at = [pair.center_distance(), 0.0, 0.0];
     let joint = machine.joint(Joint::turning(base, driven, law).at(at));
@@ -68,31 +80,48 @@ pub fn machine(pair: &GearPair) -> Result<Machine, ExportError> {
         "d ratio / d driver_angle",
         Quantity::rate(joint, 2, 1.0),
     );
-    Ok(machine)
+    for (link, member) in [(driven, Member::Driven), (driver, Member::Driver)] {
+        let sketch = machine.sketch(member.name(), lines(pair.gear(member)));
+        machine.draw(member.name(), link, sketch);
+    }
+    machine
 }
 
-/// Adds the link of a gear; the prefix begins the names of its files.
-pub(crate) fn gear(
+/// Outline, bore and pitch curve of a gear, in its own frame.
+pub(crate) fn lines(gear: &Gear) -> Vec<Line> {
+    lines_within(gear.outline(), gear)
+}
+
+/// Bore and pitch curve of a gear in an outline of its own.
+pub(crate) fn lines_within(outline: &Outline, gear: &Gear) -> Vec<Line> {
+    let mut lines = vec![Line::contour(LineRole::Body, outline)];
+    lines.extend(gear.bore().map(|bore| Line::contour(LineRole::Hole, &bore)));
+    lines.push(Line::contour(LineRole::Pitch, gear.pitch_curve()));
+    lines
+}
+
+/// Gives a link the body of a gear, whose files' names begin with the prefix.
+pub(crate) fn embody(
     machine: &mut Machine,
-    pair: &GearPair,
-    member: Member,
+    link: usize,
+    (pair, member): (&GearPair, Member),
     prefix: &str,
-) -> Result<usize, ExportError> {
+) -> Result<(), ExportError> {
     let solid = solid(pair, member)?;
     let gear = pair.gear(member);
     let name = member.name();
     let surface = machine.surface(teeth(gear, name));
+    let mass = solid.mass_properties(gear.body().density);
     let shape = machine.shape(Shape {
         name: format!("{prefix}{name}-body"),
         part: format!("{prefix}{name}"),
-        form: Form::Solids(vec![solid.clone()]),
+        form: Form::Solids(vec![solid]),
     });
-    Ok(machine.link(Link {
-        name: name.into(),
-        mass: Some(solid.mass_properties(gear.body().density)),
-        shape: Some(shape),
-        surfaces: vec![surface],
-    }))
+    let link = &mut machine.links[link];
+    link.mass = Some(mass);
+    link.shape = Some(shape);
+    link.surfaces = vec![surface];
+    Ok(())
 }
 
 /// The teeth of a gear: flanks and tips touch, fillets do not.

@@ -1,9 +1,9 @@
 //! The files of a gear pair.
 
+mod curves;
 mod drawn;
 mod links;
 mod outline;
-mod picture;
 mod pins;
 mod sheet;
 mod sheets;
@@ -11,11 +11,10 @@ mod solid;
 
 use crate::{Bundle, ExportError, Format, Options, Package};
 use centrode_mechanism::gear::{GearPair, GearPairError, Member};
+pub use curves::curves;
 use drawn::Drawn;
-pub use links::machine;
-pub(crate) use links::{gear, teeth};
-pub(crate) use picture::drawn_gear;
-pub use picture::{curves, picture};
+pub use links::{drawn, machine};
+pub(crate) use links::{embody, lines, lines_within, teeth};
 pub(crate) use sheets::Label;
 pub use sheets::{Subject, sheets};
 pub use solid::{mesh, solid};

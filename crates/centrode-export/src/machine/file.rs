@@ -1,7 +1,7 @@
 use std::sync::Arc;
 
 use centrode_geometry::{SolidError, Tolerance};
-use centrode_mechanism::machine::{Form, Machine, MachineError, Quantity};
+use centrode_mechanism::machine::{Form, Machine, MachineError, Quantity, Seat};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
@@ -67,8 +67,16 @@ pub(super) fn in_pieces(machine: &Machine) -> Machine {
     for joint in &mut plain.joints {
         joint.law = Arc::new(joint.law.pieces());
     }
-    for column in &mut plain.columns {
-        if let Quantity::Law(law) = &mut column.quantity {
+    let columns = plain.columns.iter_mut().map(|column| &mut column.quantity);
+    let own = plain
+        .figures
+        .iter_mut()
+        .flat_map(|figure| match &mut figure.seat {
+            Seat::Free(by) => by.iter_mut(),
+            Seat::Link(_) => [].iter_mut(),
+        });
+    for quantity in columns.chain(own) {
+        if let Quantity::Law(law) = quantity {
             *law = Arc::new(law.pieces());
         }
     }

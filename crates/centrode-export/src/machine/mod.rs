@@ -4,6 +4,8 @@ mod bodies;
 mod file;
 mod model;
 mod motion;
+mod picture;
+mod rim;
 
 use centrode_mechanism::machine::Machine;
 
@@ -13,6 +15,7 @@ pub use motion::{
     ClosureWords, ColumnWords, InputWords, Interpolation, JointWords, LinearWords, MeshWords,
     MotionFile, PointWords,
 };
+pub use picture::picture;
 #[cfg(test)]
 pub(crate) use {model::simulated, motion::lines};
 

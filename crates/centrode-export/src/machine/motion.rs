@@ -179,7 +179,7 @@ fn bend(machine: &Machine) -> f64 {
 }
 
 /// Breaks of a law in a period of the machine.
-fn within(law: &dyn Transmission, machine: &Machine) -> Vec<f64> {
+pub(super) fn within(law: &dyn Transmission, machine: &Machine) -> Vec<f64> {
     let (own, period) = (law.period(), machine.input.period);
     let turns = (period / own).round().max(1.0) as u32;
     let breaks = law.breaks();

@@ -9,8 +9,8 @@ mod path;
 mod scene;
 
 pub use html::{Asset, INDEX, asset, report};
+pub use path::Path;
 pub(crate) use path::short;
-pub use path::{Path, Role};
 
 use serde::Serialize;
 
@@ -113,4 +113,19 @@ pub struct Curve {
     /// The figure at every input, in `unit`; what is not finite is no part of the curve.
     #[serde(serialize_with = "path::drawn")]
     pub value: Vec<f64>,
+}
+
+impl Curve {
+    /// A figure of a chart at ascending inputs.
+    #[must_use]
+    pub fn new([chart, name, unit]: [&'static str; 3], input: &[f64], value: Vec<f64>) -> Self {
+        Self {
+            chart,
+            name,
+            unit,
+            count: false,
+            input: input.to_vec(),
+            value,
+        }
+    }
 }

@@ -1,43 +1,13 @@
 use centrode_geometry::{Outline, Point, Segment, Tolerance};
+use centrode_mechanism::machine::LineRole;
 use serde::ser::SerializeSeq as _;
 use serde::{Serialize, Serializer};
-
-/// What a line of the picture is, which settles how it looks.
-#[derive(Clone, Copy, Debug, Eq, PartialEq, Serialize)]
-#[serde(rename_all = "lowercase")]
-#[non_exhaustive]
-pub enum Role {
-    /// Contour of material.
-    Body,
-    /// Contour of a hole in it.
-    Hole,
-    /// A pitch curve.
-    Pitch,
-    /// The path of a point.
-    Trace,
-    /// Where a point may lie.
-    Locus,
-    /// The path of a point as it stays behind on the ground.
-    OverGround,
-    /// A bar seen as its centre line.
-    Bar,
-    /// The same of what grips.
-    Clamp,
-    /// What belongs to the part but lies beside it, in another plane.
-    Beside,
-    /// What moves, where it does its work.
-    Pose,
-    /// The ground.
-    Ground,
-    /// An edge of the window in which a seedling is picked.
-    Window,
-}
 
 /// A chain of lines and arcs.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Path {
-    /// What it is.
-    pub role: Role,
+    /// Its meaning, which settles how it looks.
+    pub role: LineRole,
     /// x and y of each vertex, mm, and the bulge of the arc that follows it: the tangent of a quarter of
     /// the turned angle, positive counter-clockwise, zero for a line.
     pub vertices: Vec<f64>,
@@ -48,7 +18,7 @@ pub struct Path {
 impl Path {
     /// A closed outline, nowhere farther from it than the tolerance.
     #[must_use]
-    pub fn closed(role: Role, outline: &Outline, tolerance: Tolerance) -> Self {
+    pub fn closed(role: LineRole, outline: &Outline, tolerance: Tolerance) -> Self {
         let fitted = outline.arcs(tolerance.scaled(0.9));
         let unit = unit(tolerance);
         let vertices = fitted
@@ -76,21 +46,25 @@ impl Path {
         }
     }
 
-    /// A closed polygon, its corners within the tolerance of those given.
-    #[must_use]
-    pub fn polygon(role: Role, corners: &[Point], tolerance: Tolerance) -> Self {
+    /// The way of a point, its places within the tolerance of those given; closed where it ends as it begins.
+    pub(crate) fn way(role: LineRole, places: &[Point], tolerance: Tolerance) -> Self {
         let unit = unit(tolerance);
-        let corner = |p: &Point| [short(p.x, unit), short(p.y, unit), 0.0];
+        let place = |p: &Point| [short(p.x, unit), short(p.y, unit), 0.0];
+        let mut places: Vec<[f64; 3]> = places.iter().map(place).collect();
+        let closed = places.len() > 1 && places.first() == places.last();
+        if closed {
+            places.pop();
+        }
         Self {
             role,
-            vertices: corners.iter().flat_map(corner).collect(),
-            closed: true,
+            vertices: places.concat(),
+            closed,
         }
     }
 
     /// An open chain of lines.
     #[must_use]
-    pub fn open(role: Role, corners: &[Point]) -> Self {
+    pub fn open(role: LineRole, corners: &[Point]) -> Self {
         Self {
             role,
             vertices: corners.iter().flat_map(|p| [p.x, p.y, 0.0]).collect(),
@@ -146,7 +120,7 @@ mod tests {
         let circle = Outline::circle(Point::new(1.234_567_8, -7.0), 31.415_926);
         for mm in [1.0, 1e-2, 1e-4] {
             let tolerance = Tolerance::new(mm).expect("positive");
-            let path = Path::closed(Role::Body, &circle, tolerance);
+            let path = Path::closed(LineRole::Body, &circle, tolerance);
             let corners: Vec<&[f64]> = path.vertices.chunks(3).collect();
             let next = corners.iter().cycle().skip(1);
             for (from, to) in corners.iter().zip(next) {

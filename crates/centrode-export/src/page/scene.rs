@@ -53,15 +53,16 @@ impl Serialize for Picture {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Link, Role};
+    use super::super::Link;
     use super::*;
     use centrode_geometry::Point;
+    use centrode_mechanism::machine::LineRole;
 
     #[test]
     fn parts_that_look_alike_share_a_shape() {
         let bar = |length| {
             vec![Path::open(
-                Role::Bar,
+                LineRole::Bar,
                 &[Point::origin(), Point::new(length, 0.0)],
             )]
         };

@@ -11,13 +11,16 @@ use centrode_mechanism::transmission::{FromFn, MotionJet, Transmission};
 use nalgebra::{Matrix3, Point3};
 
 use super::machine::{Gears, Machine};
-use super::slider_solid;
+use super::{figures, slider_solid};
 use crate::{ExportError, gear_pair};
 
 /// How far beyond the slider's way the box's joint lets it slide, mm.
 const ROOM: f64 = 1.0;
 /// Edge of the cube whose inertia the box has, mm.
 const CUBE: f64 = 100.0;
+
+/// The gears, the one that drives first.
+pub(super) const MEMBERS: [Member; 2] = [Member::Driver, Member::Driven];
 
 /// Prefix of the gears' files in a moving box's bundle.
 pub(super) const GEARS: &str = "gears-";
@@ -26,8 +29,43 @@ pub(super) const GEARS: &str = "gears-";
 /// elliptic gears, if any, stand at the near end.
 pub(super) fn machine(parts: &Machine<'_>) -> Result<machine::Machine, ExportError> {
     let shaft = parts.shaft;
-    let (groove, slider) = (shaft.groove(), shaft.slider());
+    let mut machine = drawn(parts)?;
     let block = slider_solid(shaft)?;
+    let seen = machine.shape(Shape {
+        name: "shaft-body".into(),
+        part: "shaft".into(),
+        form: Form::Body(Arc::new(Grooved(shaft.clone()))),
+    });
+    let cut = machine.shape(Shape {
+        name: "slider-body".into(),
+        part: "slider".into(),
+        form: Form::Solids(vec![block.clone()]),
+    });
+    let block = block.mass_properties(shaft.slider().density);
+    let carried = carried(shaft.load().mass - block.mass);
+    for (name, mass, shape) in [
+        ("shaft", shaft.mass_properties()?, Some(seen)),
+        ("box", carried, None),
+        ("slider", block, Some(cut)),
+    ] {
+        if let Some(link) = machine.link_named(name) {
+            machine.links[link].mass = Some(mass);
+            machine.links[link].shape = shape;
+        }
+    }
+    if let Some(gears) = &parts.gears {
+        for member in MEMBERS {
+            let link = machine.link_named(member.name()).unwrap_or(0);
+            gear_pair::embody(&mut machine, link, (&gears.pair, member), GEARS)?;
+        }
+    }
+    Ok(machine)
+}
+
+/// The machine as it moves and is drawn, without bodies.
+pub(super) fn drawn(parts: &Machine<'_>) -> Result<machine::Machine, ExportError> {
+    let shaft = parts.shaft;
+    let (groove, slider) = (shaft.groove(), shaft.slider());
     let mut machine = machine::Machine {
         name: parts.name.into(),
         title: parts.title.into(),
@@ -46,31 +84,11 @@ pub(super) fn machine(parts: &Machine<'_>) -> Result<machine::Machine, ExportErr
         ),
         ..machine::Machine::default()
     };
-    let seen = machine.shape(Shape {
-        name: "shaft-body".into(),
-        part: "shaft".into(),
-        form: Form::Body(Arc::new(Grooved(shaft.clone()))),
-    });
-    let cut = machine.shape(Shape {
-        name: "slider-body".into(),
-        part: "slider".into(),
-        form: Form::Solids(vec![block.clone()]),
-    });
-    let block = block.mass_properties(slider.density);
-    let carried = carried(shaft.load().mass - block.mass);
-    let links = [
-        ("base", None, None),
-        ("frame", None, None),
-        ("shaft", Some(shaft.mass_properties()?), Some(seen)),
-        ("box", Some(carried), None),
-        ("slider", Some(block), Some(cut)),
-    ];
-    let [base, frame, turned, carriage, slid] = links.map(|(name, mass, shape)| {
+    let links = ["base", "frame", "shaft", "box", "slider"];
+    let [base, frame, turned, carriage, slid] = links.map(|name| {
         machine.link(Link {
             name: name.into(),
-            mass,
-            shape,
-            surfaces: Vec::new(),
+            ..Link::default()
         })
     });
     // The frame's z, along the shaft, on the world's x; its x, where the slider is, upwards.
@@ -96,9 +114,13 @@ pub(super) fn machine(parts: &Machine<'_>) -> Result<machine::Machine, ExportErr
         .led_by(turning);
     let swivelling = machine.joint(swivelling);
     columns(&mut machine, parts, [turning, boxed, swivelling], &turn);
+    figures::develop(parts, &turn, [boxed, swivelling], &mut machine)?;
     if let Some(gears) = &parts.gears {
-        let [end, _] = ShaftSolid::new(groove, shaft.body())?.whole();
-        hang(gears, end, [frame, turned], turning, &mut machine)?;
+        let solid = ShaftSolid::new(groove, shaft.body())?;
+        let [end, _] = solid.whole();
+        let driver = hang(gears, end, [frame, turned], turning, &mut machine);
+        let [low, _] = solid.ends();
+        figures::gears(gears, shaft, low, [driver, turning], &mut machine);
     }
     Ok(machine)
 }
@@ -262,37 +284,34 @@ fn carried(mass: f64) -> MassProperties {
     }
 }
 
-/// Adds the driver on the frame and its mate on the shaft, whose near end is at the height `end`.
+/// Adds the driver on the frame and its mate on the shaft, whose near end is at the height `end`; the driver's joint.
 fn hang(
     gears: &Gears<'_>,
     end: f64,
     [frame, shaft]: [usize; 2],
     turning: usize,
     machine: &mut machine::Machine,
-) -> Result<(), ExportError> {
-    let mut links = [0; 2];
-    for (member, link) in [Member::Driver, Member::Driven].into_iter().zip(&mut links) {
-        let solid = gear_pair::solid(&gears.pair, member)?;
-        let bottom = end - solid.bottom();
-        *link = gear_pair::gear(machine, &gears.pair, member, GEARS)?;
-        if member == Member::Driver {
-            let law = Linear {
-                start: -gears.drive.phase - gears.slowest(),
-                slope: 1.0,
-            };
-            let at = [-gears.pair.center_distance(), 0.0, bottom];
-            let joint = machine.joint(Joint::turning(frame, *link, Arc::new(law)).at(at));
-            let meaning = "turn of the gear that drives, from its zero";
-            machine.column("driver_angle_rad", "rad", meaning, Quantity::joint(joint));
-        } else {
-            let fixed = Joint::fixed(shaft, *link).at([0.0, 0.0, bottom]);
-            machine.joint(fixed.turned([0.0, 0.0, gears.rest()]));
-        }
-    }
+) -> usize {
+    let links = MEMBERS.map(|member| {
+        machine.link(Link {
+            name: member.name().into(),
+            ..Link::default()
+        })
+    });
+    let law = Linear {
+        start: -gears.drive.phase - gears.slowest(),
+        slope: 1.0,
+    };
+    let at = [-gears.pair.center_distance(), 0.0, end];
+    let joint = machine.joint(Joint::turning(frame, links[0], Arc::new(law)).at(at));
+    let meaning = "turn of the gear that drives, from its zero";
+    machine.column("driver_angle_rad", "rad", meaning, Quantity::joint(joint));
+    let fixed = Joint::fixed(shaft, links[1]).at([0.0, 0.0, end]);
+    machine.joint(fixed.turned([0.0, 0.0, gears.rest()]));
     machine.meshes.push(GearMesh {
         links,
         joint: turning,
         copy: 0,
     });
-    Ok(())
+    joint
 }

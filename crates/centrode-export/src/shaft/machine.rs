@@ -70,6 +70,12 @@ impl<'a> Machine<'a> {
         }
     }
 
+    /// Input at which the shaft has turned by an angle, rad.
+    pub(super) fn input_at_turn(&self, turn: f64) -> f64 {
+        let gears = self.gears.as_ref();
+        gears.map_or(turn, |gears| gears.drive.input_at(turn))
+    }
+
     /// Motion of the box by the input, mm and rad.
     pub(super) fn motion(&self, input: f64) -> MotionJet {
         self.stroke.at(input)
@@ -114,12 +120,5 @@ impl Gears<'_> {
     /// `-pick`, stands there.
     pub(super) fn rest(&self) -> f64 {
         self.pair.driven_angle(self.slowest()) + self.drive.phase
-    }
-
-    /// Turns of driver and driven gear in their own frames by the input, rad, counter-clockwise: the driver
-    /// turns with the input and drives its mate backwards.
-    pub(super) fn turns(&self, input: f64) -> [f64; 2] {
-        let driver = input - self.drive.phase - self.slowest();
-        [driver, self.pair.driven_angle(-driver)]
     }
 }

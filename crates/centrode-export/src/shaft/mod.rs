@@ -1,10 +1,11 @@
 //! The files of a spiral shaft.
 
+mod curves;
 mod drawings;
+mod figures;
 mod gcode;
 mod links;
 mod machine;
-mod picture;
 mod sheets;
 mod tables;
 
@@ -12,10 +13,10 @@ use crate::{Bundle, ExportError, Format, Options, Package, gear_pair};
 use centrode_geometry::Solid;
 use centrode_mechanism::machine::Machine as Linked;
 use centrode_mechanism::shaft::{MovingBox, ShaftError, SpiralShaft};
+pub use curves::{box_curves, shaft_curves};
 pub use drawings::{developed, side_view, slider};
 pub use gcode::program;
 use machine::Machine;
-pub use picture::{box_curves, box_picture, shaft_curves, shaft_picture};
 pub use sheets::{shaft_sheets, slider_sheets};
 
 impl From<ShaftError> for ExportError {
@@ -73,6 +74,22 @@ pub fn machine(shaft: &SpiralShaft) -> Result<Linked, ExportError> {
 /// [`ExportError`], for instance where the gears cannot be cut.
 pub fn moving_box_machine(machine: &MovingBox) -> Result<Linked, ExportError> {
     links::machine(&Machine::of_box(machine)?)
+}
+
+/// Shaft, box and slider as they move and are drawn, without bodies.
+///
+/// # Errors
+/// [`ExportError`] where body and groove make no solid.
+pub fn drawn(shaft: &SpiralShaft) -> Result<Linked, ExportError> {
+    links::drawn(&Machine::of_shaft(shaft))
+}
+
+/// Gears, shaft, box and slider as they move and are drawn, without bodies.
+///
+/// # Errors
+/// [`ExportError`] where body and groove make no solid, or the elliptic gears no pair.
+pub fn moving_box_drawn(machine: &MovingBox) -> Result<Linked, ExportError> {
+    links::drawn(&Machine::of_box(machine)?)
 }
 
 fn slider_solid(shaft: &SpiralShaft) -> Result<Solid, ExportError> {

@@ -227,7 +227,8 @@ fn the_gears_of_the_model_turn_the_shaft_as_the_law_has_it() {
     let machine = MovingBox::resolve(&design).expect("resolves");
     let machine = Machine::of_box(&machine).expect("gears");
     let gears = machine.gears.as_ref().expect("gears");
-    let mesh = |input: f64| gears.turns(input)[1];
+    let turned = |input: f64| input - gears.drive.phase - gears.slowest();
+    let mesh = |input: f64| gears.pair.driven_angle(-turned(input));
     let rest = gears.pair.driven_angle(gears.slowest()) + gears.drive.phase;
     for i in 0..100 {
         let input = 0.13 * f64::from(i) - 2.0;

@@ -1,24 +1,20 @@
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-use centrode_geometry::{MassProperties, Solid, Vector};
-use centrode_mechanism::gear::Member;
+use centrode_geometry::{MassProperties, Solid};
+use centrode_mechanism::gear::{GearPair, Member};
 use centrode_mechanism::machine::{
     self, Column, Form, GearMesh, Input, Joint, JointKind, Linear, LinkPoint, Quantity, Shape,
-    Surface,
 };
 use centrode_mechanism::three_arm::{Link, Pusher, ThreeArm};
 use centrode_mechanism::transmission::{FromFn, MotionJet, Transmission};
 use nalgebra::Isometry2;
 
-use super::machine::Machine;
-use super::machine::{no_fork, no_gearbox};
+use super::limbs::Limbs;
+use super::machine::{Machine, no_gearbox};
 use super::plate::Plate;
-use super::{Part, surroundings};
+use super::{Part, figures, surroundings};
 use crate::{ExportError, gear_pair};
-
-/// Times the tolerance by which the bodies of an arm may stand off it: arms touch nothing as closely as teeth do.
-const COARSE: f64 = 20.0;
 
 /// Where a cam is on the carrier: its frame in the carrier's.
 pub(super) fn cam_on_carrier(machine: &Machine<'_>, chain: u32) -> Isometry2<f64> {
@@ -30,15 +26,20 @@ pub(super) fn cam_on_carrier(machine: &Machine<'_>, chain: u32) -> Isometry2<f64
 }
 
 /// Sun and tray fixed to the base, ground sliding on it, the carrier on the base, gears and cams on the carrier, arms on
-/// planets, forks and rods on arms.
-pub(super) fn machine(parts: &Machine<'_>) -> Result<machine::Machine, ExportError> {
-    let mechanism = parts.mechanism;
+/// planets, forks and rods on arms; without parts what moves alone, and neither cams nor forks nor rods. The gears are drawn
+/// with the teeth of a pair, or by their pitch curves.
+pub(super) fn machine(
+    mechanism: &ThreeArm,
+    parts: Option<&Machine<'_>>,
+    teeth: Option<&GearPair>,
+) -> Result<machine::Machine, ExportError> {
     let design = mechanism.design();
     let mut builder = Builder {
+        mechanism,
         parts,
         laws: Arc::new(Laws {
             mechanism: mechanism.clone(),
-            pusher: parts.pusher.clone(),
+            pusher: parts.map(|parts| parts.pusher.clone()),
         }),
         machine: machine::Machine {
             name: design.name.clone(),
@@ -62,12 +63,14 @@ pub(super) fn machine(parts: &Machine<'_>) -> Result<machine::Machine, ExportErr
     builder.surroundings(base);
     let carrier = builder.carrier(base)?;
     let sun = builder.sun(base)?;
-    let limbs = Limbs::of(&mut builder)?;
+    let limbs = parts.map(|parts| Limbs::of(parts, &mut builder));
+    let limbs = limbs.transpose()?;
     for chain in 0..mechanism.arms() {
-        builder.chain(chain, (carrier, sun), &limbs)?;
+        builder.chain(chain, (carrier, sun), limbs.as_ref())?;
     }
     builder.ground_column();
     builder.tips();
+    figures::draw(mechanism, teeth, &mut builder.machine);
     Ok(builder.machine)
 }
 
@@ -75,25 +78,17 @@ pub(super) fn machine(parts: &Machine<'_>) -> Result<machine::Machine, ExportErr
 #[derive(Debug)]
 struct Laws {
     mechanism: ThreeArm,
-    pusher: Pusher,
+    pusher: Option<Pusher>,
 }
 
 /// Index of a shape, what the link weighs, and its surfaces.
-type Seen = (usize, Option<MassProperties>);
+pub(super) type Seen = (usize, Option<MassProperties>);
 
-/// The parts every chain has.
-struct Limbs {
-    arm: Seen,
-    touching: Vec<usize>,
-    cam: Seen,
-    fork: Seen,
-    rod: Seen,
-}
-
-struct Builder<'a> {
-    parts: &'a Machine<'a>,
+pub(super) struct Builder<'a> {
+    mechanism: &'a ThreeArm,
+    parts: Option<&'a Machine<'a>>,
     laws: Arc<Laws>,
-    machine: machine::Machine,
+    pub(super) machine: machine::Machine,
 }
 
 impl Builder<'_> {
@@ -112,6 +107,12 @@ impl Builder<'_> {
         })
     }
 
+    /// Adds a link of a shape and mass alone.
+    fn bodied(&mut self, name: &str, seen: Option<Seen>) -> usize {
+        let (shape, mass) = seen.map_or((None, None), |(shape, mass)| (Some(shape), mass));
+        self.link(name, mass, shape, Vec::new())
+    }
+
     /// The law of a joint by the carrier's turn.
     fn law(
         &self,
@@ -124,7 +125,8 @@ impl Builder<'_> {
         for arm in 0..mechanism.arms() {
             let later = TAU * f64::from(arm) / f64::from(mechanism.arms());
             let own = mechanism.train().breaks();
-            let own = own.into_iter().chain(laws.pusher.breaks());
+            let pushed = laws.pusher.iter().flat_map(Pusher::breaks);
+            let own = own.into_iter().chain(pushed);
             breaks.extend(own.map(|b| (b + later).rem_euclid(TAU)));
         }
         breaks.sort_by(f64::total_cmp);
@@ -142,7 +144,11 @@ impl Builder<'_> {
     }
 
     /// Several solids as one body; their mass together.
-    fn body(&mut self, name: &str, plates: &[(Plate, [f64; 2])]) -> Result<Seen, ExportError> {
+    pub(super) fn body(
+        &mut self,
+        name: &str,
+        plates: &[(Plate, [f64; 2])],
+    ) -> Result<Seen, ExportError> {
         let (mut solids, mut masses): (Vec<Solid>, Vec<_>) = (Vec::new(), Vec::new());
         for (plate, span) in plates {
             let part = plate.part;
@@ -159,24 +165,29 @@ impl Builder<'_> {
     }
 
     fn surroundings(&mut self, base: usize) {
-        let mechanism = self.parts.mechanism;
-        let mut seen = |name: &str, mesh| {
-            self.machine.shape(Shape {
-                name: name.into(),
-                part: String::new(),
-                form: Form::Mesh(mesh, 0.0),
-            })
-        };
-        let tray = seen("tray", surroundings::tray_body(mechanism));
-        let ground = seen("ground", surroundings::ground_body(mechanism));
-        let tray = self.link("tray", None, Some(tray), Vec::new());
+        let mechanism = self.mechanism;
+        let (mut shapes, mut heavy) = ([None; 2], None);
+        if let Some(parts) = self.parts {
+            let mut seen = |name: &str, mesh| {
+                Some(self.machine.shape(Shape {
+                    name: name.into(),
+                    part: String::new(),
+                    form: Form::Mesh(mesh, 0.0),
+                }))
+            };
+            shapes = [
+                seen("tray", surroundings::tray_body(mechanism)),
+                seen("ground", surroundings::ground_body(mechanism)),
+            ];
+            // What slides must weigh something; as much as the carrier will do.
+            let outline = parts.gearbox.outline.clone();
+            let solid = Solid::new(outline, Vec::new(), 0.0, 10.0);
+            heavy = solid.map(|solid| solid.mass_properties(2000.0)).ok();
+        }
+        let [tray, ground] = shapes;
+        let tray = self.link("tray", None, tray, Vec::new());
         self.machine.joint(Joint::fixed(base, tray));
-        // What slides must weigh something; as much as the carrier will do.
-        let body = &self.parts.gearbox;
-        let heavy = Solid::new(body.outline.clone(), Vec::new(), 0.0, 10.0)
-            .map(|solid| solid.mass_properties(2000.0))
-            .ok();
-        let ground = self.link("ground", heavy, Some(ground), Vec::new());
+        let ground = self.link("ground", heavy, ground, Vec::new());
         let law = Linear {
             start: 0.0,
             slope: mechanism.train().direction().sign() * mechanism.advance(),
@@ -188,12 +199,15 @@ impl Builder<'_> {
     }
 
     fn carrier(&mut self, base: usize) -> Result<usize, ExportError> {
-        let plate = self.parts.plate_of(Part::Carrier);
-        let plate = plate.ok_or_else(no_gearbox)?;
-        let [rear, front] = self.parts.gearbox.spans;
-        let (shape, mass) = self.body("carrier-body", &[(plate.clone(), rear), (plate, front)])?;
-        let carrier = self.link("carrier", mass, Some(shape), Vec::new());
-        let train = self.parts.mechanism.train();
+        let mut seen = None;
+        if let Some(parts) = self.parts {
+            let plate = parts.plate_of(Part::Carrier);
+            let plate = plate.ok_or_else(no_gearbox)?;
+            let [rear, front] = parts.gearbox.spans;
+            seen = Some(self.body("carrier-body", &[(plate.clone(), rear), (plate, front)])?);
+        }
+        let carrier = self.bodied("carrier", seen);
+        let train = self.mechanism.train();
         let law = Linear {
             start: train.carrier_start(),
             slope: train.direction().sign(),
@@ -207,7 +221,7 @@ impl Builder<'_> {
 
     fn sun(&mut self, base: usize) -> Result<usize, ExportError> {
         let sun = self.gear(Part::Sun, "sun")?;
-        let start = self.parts.mechanism.link(Link::Sun, 0.0).angle.position;
+        let start = self.mechanism.link(Link::Sun, 0.0).angle.position;
         let joint = Joint::fixed(base, sun).turned([0.0, 0.0, start]);
         self.machine.joint(joint);
         Ok(sun)
@@ -215,12 +229,15 @@ impl Builder<'_> {
 
     /// A gear's link.
     fn gear(&mut self, part: Part, name: &str) -> Result<usize, ExportError> {
-        let (pair, member) = self.parts.gear(part).ok_or_else(no_gearbox)?;
+        let Some(parts) = self.parts else {
+            return Ok(self.bodied(name, None));
+        };
+        let (pair, member) = parts.gear(part).ok_or_else(no_gearbox)?;
         let solid = gear_pair::solid(pair, member)?;
         let gear = pair.gear(member);
         // A planet has the teeth of the sun.
         let prefix = match member {
-            Member::Driver if same_width(self.parts) => Part::Sun.name(),
+            Member::Driver if same_width(parts) => Part::Sun.name(),
             _ => part.name(),
         };
         let surface = self.machine.surface(gear_pair::teeth(gear, prefix));
@@ -238,36 +255,16 @@ impl Builder<'_> {
         &mut self,
         k: u32,
         (carrier, sun): (usize, usize),
-        limbs: &Limbs,
+        limbs: Option<&Limbs>,
     ) -> Result<(), ExportError> {
-        let parts = self.parts;
-        let mechanism = parts.mechanism;
-        let on_carrier = |link: Link| {
-            let at = mechanism.on_carrier(link);
-            [at.x, at.y, 0.0]
-        };
-        let laws = self.laws.clone();
-        let turn = |laws: &Laws, link: Link, input: f64| {
-            let angle = |link| laws.mechanism.link(link, input).angle;
-            angle(link).plus(-1.0, &angle(Link::Carrier))
-        };
-        let whole = |link: Link| {
-            let got = turn(&laws, link, TAU).position - turn(&laws, link, 0.0).position;
-            TAU * (got / TAU).round()
-        };
+        let mechanism = self.mechanism;
         let name = format!("intermediate_{k}");
         let intermediate = self.gear(Part::Intermediate, &name)?;
-        let own = Link::Intermediate(k);
-        let law = self.law(whole(own), move |laws, input| turn(laws, own, input));
-        let joint = Joint::turning(carrier, intermediate, law).at(on_carrier(own));
-        let first = self.machine.joint(joint);
+        let first = self.on_carrier(carrier, intermediate, Link::Intermediate(k));
         self.column(first, &name, "rad", "intermediate gear against the carrier");
         let name = format!("planet_{k}");
         let planet = self.gear(Part::Planet, &name)?;
-        let own = Link::Planet(k);
-        let law = self.law(whole(own), move |laws, input| turn(laws, own, input));
-        let joint = Joint::turning(carrier, planet, law).at(on_carrier(own));
-        let second = self.machine.joint(joint);
+        let second = self.on_carrier(carrier, planet, Link::Planet(k));
         let meaning = "planet, and the arm with it, against the carrier";
         self.column(second, &name, "rad", meaning);
         for (links, joint) in [
@@ -277,49 +274,73 @@ impl Builder<'_> {
             let copy = k as usize;
             self.machine.meshes.push(GearMesh { links, joint, copy });
         }
-        let (shape, mass) = limbs.cam;
-        let cam = self.link(&format!("cam_{k}"), mass, Some(shape), Vec::new());
-        let place = cam_on_carrier(parts, k);
-        let at = place.translation.vector;
         let level = mechanism.arm_level();
-        let fixed = Joint::fixed(carrier, cam).at([at.x, at.y, level]);
-        self.machine
-            .joint(fixed.turned([0.0, 0.0, place.rotation.angle()]));
-        let (shape, mass) = limbs.arm;
-        let arm = self.link(
-            &format!("arm_{k}"),
-            mass,
-            Some(shape),
-            limbs.touching.clone(),
-        );
+        if let (Some(parts), Some(limbs)) = (self.parts, limbs) {
+            let cam = self.bodied(&format!("cam_{k}"), Some(limbs.cam));
+            let place = cam_on_carrier(parts, k);
+            let at = place.translation.vector;
+            let fixed = Joint::fixed(carrier, cam).at([at.x, at.y, level]);
+            let turned = fixed.turned([0.0, 0.0, place.rotation.angle()]);
+            self.machine.joint(turned);
+        }
+        let touching = limbs.map_or(Vec::new(), |limbs| limbs.touching.clone());
+        let arm = self.bodied(&format!("arm_{k}"), limbs.map(|limbs| limbs.arm));
+        self.machine.links[arm].surfaces = touching;
         let on_planet = mechanism.train().arm_on_planet() + mechanism.clamp_mounting();
         let fixed = Joint::fixed(planet, arm).at([0.0, 0.0, level]);
         self.machine.joint(fixed.turned([0.0, 0.0, on_planet]));
-        let back = move |laws: &Laws, input: f64| {
-            let own = laws.mechanism.own_input(input, k);
-            laws.pusher.retraction(own)
+        if let (Some(parts), Some(limbs)) = (self.parts, limbs) {
+            self.pushed(&parts.pusher, (k, arm), limbs);
+        }
+        Ok(())
+    }
+
+    /// The joint of a gear on the carrier.
+    fn on_carrier(&mut self, carrier: usize, gear: usize, link: Link) -> usize {
+        let mechanism = self.mechanism;
+        let turn = move |laws: &Laws, input: f64| {
+            let (mechanism, train) = (&laws.mechanism, laws.mechanism.train());
+            let carrier = MotionJet {
+                position: train.carrier_start() + train.direction().sign() * input,
+                velocity: train.direction().sign(),
+                ..MotionJet::default()
+            };
+            mechanism.link(link, input).angle.plus(-1.0, &carrier)
+        };
+        let got = turn(&self.laws, TAU).position - turn(&self.laws, 0.0).position;
+        let law = self.law(TAU * (got / TAU).round(), turn);
+        let at = mechanism.on_carrier(link);
+        let joint = Joint::turning(carrier, gear, law).at([at.x, at.y, 0.0]);
+        self.machine.joint(joint)
+    }
+
+    /// Fork and rod on an arm.
+    fn pushed(&mut self, pusher: &Pusher, (k, arm): (u32, usize), limbs: &Limbs) {
+        let back = move |laws: &Laws, pusher: &Pusher, input: f64| {
+            pusher.retraction(laws.mechanism.own_input(input, k))
         };
         let name = format!("fork_{k}");
-        let (shape, mass) = limbs.fork;
-        let fork = self.link(&name, mass, Some(shape), Vec::new());
+        let fork = self.bodied(&name, Some(limbs.fork));
         let law = self.law(0.0, move |laws, input| {
-            laws.pusher.fork_angle(&back(laws, input))
+            let pusher = laws.pusher.as_ref();
+            let turned = pusher.map(|pusher| pusher.fork_angle(&back(laws, pusher, input)));
+            turned.unwrap_or_default()
         });
-        let pivot = parts.pusher.pivot();
+        let pivot = pusher.pivot();
         let joint = Joint::turning(arm, fork, law).at([pivot.x, pivot.y, 0.0]);
         let joint = self.machine.joint(joint);
         self.column(joint, &name, "rad", "fork against its arm");
         let name = format!("push_rod_{k}");
-        let (shape, mass) = limbs.rod;
-        let rod = self.link(&name, mass, Some(shape), Vec::new());
+        let rod = self.bodied(&name, Some(limbs.rod));
         let law = self.law(0.0, move |laws, input| {
-            MotionJet::default().plus(-1.0, &back(laws, input))
+            let pusher = laws.pusher.as_ref();
+            let back = pusher.map(|pusher| back(laws, pusher, input));
+            MotionJet::default().plus(-1.0, &back.unwrap_or_default())
         });
-        let slide = ([1.0, 0.0, 0.0], [-parts.pusher.stroke(), 0.0]);
+        let slide = ([1.0, 0.0, 0.0], [-pusher.stroke(), 0.0]);
         let joint = self.machine.joint(Joint::sliding(arm, rod, slide, law));
         let meaning = "push rod along its arm's x axis, zero thrown out";
         self.column(joint, &name, "mm", meaning);
-        Ok(())
     }
 
     fn ground_column(&mut self) {
@@ -333,8 +354,8 @@ impl Builder<'_> {
 
     /// The tips of the arms and their columns.
     fn tips(&mut self) {
-        let tip = self.parts.arm.tip();
-        for k in 0..self.parts.mechanism.arms() {
+        let [.., tip] = figures::joints(self.mechanism);
+        for k in 0..self.mechanism.arms() {
             let Some(link) = self.machine.link_named(&format!("arm_{k}")) else {
                 continue;
             };
@@ -357,70 +378,6 @@ impl Builder<'_> {
             });
         }
     }
-}
-
-impl Limbs {
-    fn of(builder: &mut Builder<'_>) -> Result<Self, ExportError> {
-        let parts = builder.parts;
-        let plate = |part: Part| parts.plate_of(part).ok_or_else(no_fork);
-        let span = |name: &str| parts.of_arm(name).map_or([0.0, 1.0], |p| p.span);
-        let arm = [
-            (Part::Housing, "housing"),
-            (Part::CoverRear, "cover-rear"),
-            (Part::CoverFront, "cover-front"),
-            (Part::Clamp, "flake-left"),
-            (Part::Clamp, "flake-right"),
-        ];
-        let arm = arm.map(|(part, name)| Ok((plate(part)?, span(name))));
-        let arm: Vec<_> = arm.into_iter().collect::<Result<_, ExportError>>()?;
-        let pusher = &parts.pusher;
-        let place = Vector::new(pusher.fork_spec().arm_length, 0.0);
-        let place = Isometry2::new(place, 0.0);
-        let mut roller = plate(Part::Roller)?;
-        for outline in roller.holes.iter_mut().chain([&mut roller.outline]) {
-            *outline = outline.transformed(&place);
-        }
-        let fork = [
-            (plate(Part::Fork)?, pusher.fork_span()),
-            (roller, pusher.cam_span()),
-        ];
-        Ok(Self {
-            arm: builder.body("arm-body", &arm)?,
-            touching: touching(builder),
-            cam: builder.body("cam-body", &[(plate(Part::Cam)?, pusher.cam_span())])?,
-            fork: builder.body("fork-body", &fork)?,
-            rod: builder.body(
-                "push-rod-body",
-                &[(plate(Part::PushRod)?, span("push-rod"))],
-            )?,
-        })
-    }
-}
-
-/// Surfaces of an arm: its housing with the covers, and both flakes.
-fn touching(builder: &mut Builder<'_>) -> Vec<usize> {
-    let parts = builder.parts;
-    let covers = ["cover-rear", "cover-front"].map(|name| parts.of_arm(name));
-    let surfaces = ["housing", "flake-left", "flake-right"].map(|name| {
-        let part = parts.of_arm(name)?;
-        let [mut bottom, mut top] = part.span;
-        if name == "housing" {
-            for [rear, front] in covers.iter().flatten().map(|cover| cover.span) {
-                (bottom, top) = (bottom.min(rear), top.max(front));
-            }
-        }
-        Some(Surface {
-            name: format!("arm_{}", name.replace('-', "_")),
-            outline: part.outline.clone(),
-            span: [bottom, top],
-            teeth: Vec::new(),
-            coarseness: COARSE,
-        })
-    });
-    let surfaces = surfaces.into_iter().flatten();
-    surfaces
-        .map(|surface| builder.machine.surface(surface))
-        .collect()
 }
 
 /// Whether sun and planets are as wide: their teeth are then the same bodies.

@@ -2,23 +2,25 @@
 
 mod arrangement;
 mod assembly;
+mod curves;
+mod figures;
+mod limbs;
 mod links;
 mod machine;
 mod part;
-mod picture;
 mod plate;
 mod surroundings;
-mod turn;
 
 use centrode_mechanism::arm::ArmError;
+use centrode_mechanism::gear::GearPair;
 use centrode_mechanism::machine::Machine as Linked;
 use centrode_mechanism::three_arm::{PusherError, ThreeArm};
 
 use crate::gear_pair::{self, Label};
 use crate::{Bundle, ExportError, Format, Options, Package, cam};
+pub use curves::curves;
 use machine::Machine;
 pub use part::Part;
-pub use picture::{Teeth, curves, picture};
 
 impl From<ArmError> for ExportError {
     fn from(error: ArmError) -> Self {
@@ -37,7 +39,20 @@ impl From<PusherError> for ExportError {
 /// # Errors
 /// [`ExportError`] where a part does not exist.
 pub fn machine(mechanism: &ThreeArm) -> Result<Linked, ExportError> {
-    links::machine(&Machine::new(mechanism)?)
+    linked(&Machine::new(mechanism)?)
+}
+
+/// The mechanism as it moves and is drawn, without bodies: the gears with the teeth of a pair, or by their pitch curves
+/// alone, for which nothing is cut.
+///
+/// # Errors
+/// [`ExportError`] where a part does not exist.
+pub fn drawn(mechanism: &ThreeArm, teeth: Option<&GearPair>) -> Result<Linked, ExportError> {
+    links::machine(mechanism, None, teeth)
+}
+
+fn linked(machine: &Machine<'_>) -> Result<Linked, ExportError> {
+    links::machine(machine.mechanism, Some(machine), Some(&machine.pairs[0]))
 }
 
 /// The files of a mechanism's parts in the formats asked for, not yet on disk: each part once, however many
@@ -72,7 +87,7 @@ pub fn files(
         arrangement::sheets(&machine, supplement, &options.sheet, tolerance)
             .map_err(ExportError::no_sheet(whole))
     })?;
-    package.machine(|| links::machine(&machine))?;
+    package.machine(|| linked(&machine))?;
     package.finish()
 }
 

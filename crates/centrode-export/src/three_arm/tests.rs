@@ -1,11 +1,14 @@
 use std::collections::BTreeSet;
+use std::f64::consts::TAU;
 
-use centrode_geometry::{Solid, Tolerance};
+use centrode_geometry::{Point, Solid, Tolerance};
 use centrode_mechanism::design::DesignSpec as _;
-use centrode_mechanism::machine::{Column, Form, JointKind, Quantity};
+use centrode_mechanism::machine::{Column, Form, JointKind, LineRole, Quantity};
 use centrode_mechanism::three_arm::design::ThreeArmDesign;
 
 use super::*;
+use crate::machine;
+use crate::page::Picture;
 use crate::sheet::overlaps;
 
 fn mechanism(change: impl Fn(&mut ThreeArmDesign)) -> ThreeArm {
@@ -154,7 +157,7 @@ fn meshes_are_closed_and_as_large_as_their_solids() {
             plate.part
         );
     }
-    for shape in links::machine(&machine).expect("linked").shapes {
+    for shape in linked(&machine).expect("linked").shapes {
         let meshes = match &shape.form {
             Form::Mesh(mesh, _) => vec![mesh.clone()],
             Form::Solids(solids) => {
@@ -178,7 +181,7 @@ fn the_model_has_every_link_once_and_every_law_a_joint() {
     for arms in [1, 3, 4] {
         let machine = mechanism(|d| d.arms = arms);
         let machine = Machine::new(&machine).expect("resolved");
-        let linked = links::machine(&machine).expect("linked");
+        let linked = linked(&machine).expect("linked");
         // Base, tray, ground, carrier, sun; gears, cam, arm, fork and rod of each chain.
         assert_eq!(linked.links.len() as u32, 5 + 6 * arms);
         assert_eq!(linked.joints.len() + 1, linked.links.len());
@@ -216,4 +219,66 @@ fn what_cannot_be_made_is_refused_by_name() {
     });
     let error = files(&thin, &[Format::Dxf], &options()).expect_err("no arm");
     assert!(error.to_string().contains("arm.body"), "{error}");
+}
+
+fn picture(mechanism: &ThreeArm) -> Picture {
+    let tolerance = Tolerance::new(1e-3).expect("positive");
+    machine::picture(&drawn(mechanism, None).expect("linked"), tolerance)
+}
+
+#[test]
+fn arms_that_work_have_their_tips_at_the_marks() {
+    let picture = picture(&mechanism(|_| {}));
+    let poses = picture.links[0].paths.iter();
+    let poses = poses.filter(|path| path.role == LineRole::Pose);
+    assert_eq!(picture.marks.len(), 2);
+    for (pose, mark) in poses.zip(&picture.marks) {
+        let tip = Point::new(pose.vertices[9], pose.vertices[10]);
+        assert!((tip - Point::from(mark.at)).norm() < 1e-9, "{}", mark.name);
+    }
+}
+
+#[test]
+fn the_path_left_on_the_ground_goes_through_the_tip_at_every_input() {
+    let mechanism = mechanism(|_| {});
+    let picture = picture(&mechanism);
+    let link = picture.links.iter().position(|l| l.name == "ground");
+    let link = link.expect("drawn");
+    let way = &picture.links[link].paths[0].vertices;
+    let poses = &picture.motion.poses[link];
+    for (i, &phi) in picture.motion.input.iter().enumerate() {
+        let tip = mechanism.tip(phi, 0).position;
+        let at = Point::new(way[3 * i] + poses[3 * i], way[3 * i + 1] + poses[3 * i + 1]);
+        assert!((at - tip).norm() < 1e-3, "{at} is not {tip} at {phi}");
+    }
+    // One arm plants once a turn, and the machine has gone on by all seedlings of that turn.
+    let gone = poses[0] - poses[poses.len() - 3];
+    assert!(
+        (gone.abs() - TAU * mechanism.advance()).abs() < 1e-3,
+        "{gone}"
+    );
+}
+
+#[test]
+fn planted_seedlings_stand_where_arms_have_planted_them() {
+    let mechanism = mechanism(|_| {});
+    let picture = picture(&mechanism);
+    let stems: Vec<&Vec<f64>> = (1..=4)
+        .map(|k| format!("planted seedling {k}"))
+        .map(|name| picture.links.iter().position(|l| l.name == name))
+        .map(|link| &picture.motion.poses[link.expect("drawn")])
+        .collect();
+    let apart = TAU / f64::from(mechanism.arms());
+    let release = mechanism.planting(0);
+    for (i, &phi) in picture.motion.input.iter().enumerate() {
+        let since = (phi - release).rem_euclid(apart);
+        // Where an arm plants there is one sample just before, and inputs are rounded.
+        if !(2e-6..apart - 2e-6).contains(&since) {
+            continue;
+        }
+        for (poses, foot) in stems.iter().zip(mechanism.planted(phi, 4)) {
+            let at = Point::new(poses[3 * i], poses[3 * i + 1]);
+            assert!((at - foot).norm() < 1e-3, "{at} is not {foot} at {phi}");
+        }
+    }
 }

@@ -3,7 +3,9 @@
 //! Posing, motion tables, simulator models, pictures and interference read a [`Machine`] and nothing else. Loops are
 //! closed when it is made: the joints' laws already hold them, and the closures stay known to simulators.
 
+mod figure;
 mod jet;
+mod joint;
 mod law;
 mod plain;
 mod pose;
@@ -18,7 +20,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::transmission::Transmission;
 
+pub use figure::{Figure, Line, LinePath, LineRole, Mark, Seat, Sketch};
 pub use jet::{FrameJet, PointJet};
+pub use joint::{Joint, JointKind};
 pub use law::{Constant, Linear, Piecewise};
 pub use sound::{MachineError, loose_link};
 
@@ -48,6 +52,12 @@ pub struct Machine {
     pub shapes: Vec<Shape>,
     /// Surfaces that links touch with, each once.
     pub surfaces: Vec<Surface>,
+    /// Lines that the links are drawn with, each set once.
+    pub sketches: Vec<Sketch>,
+    /// The picture: what is drawn, the hindmost first.
+    pub figures: Vec<Figure>,
+    /// Places of the picture worth a name.
+    pub marks: Vec<Mark>,
     /// What a reader of the machine's files should know beside what they hold.
     pub note: String,
 }
@@ -78,45 +88,6 @@ pub struct Link {
     pub shape: Option<usize>,
     /// Indices of the surfaces it touches other links with.
     pub surfaces: Vec<usize>,
-}
-
-/// What carries a link, and how the link moves on it.
-#[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
-#[serde(deny_unknown_fields)]
-pub struct Joint {
-    /// Index of the link that carries.
-    pub parent: usize,
-    /// Index of the link carried.
-    pub child: usize,
-    /// How it moves.
-    pub kind: JointKind,
-    /// Place of the child's origin in the parent's frame where the coordinate is zero, mm.
-    pub origin: [f64; 3],
-    /// Turn of the child's frame there about the parent's x, then y, then z, rad.
-    pub turn: [f64; 3],
-    /// Unit vector of the axis in the child's frame.
-    pub axis: [f64; 3],
-    /// The coordinate by the input: rad about the axis, or mm along it.
-    #[serde(with = "plain::laws")]
-    #[schemars(with = "plain::laws::File")]
-    pub law: Arc<dyn Transmission>,
-    /// Index of the joint whose position settles this one's, through a cam or a groove; none where the input does.
-    pub leader: Option<usize>,
-    /// Column that holds the torque (N mm) against the joint.
-    pub load: Option<usize>,
-}
-
-/// How a joint moves.
-#[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum JointKind {
-    /// Not at all.
-    #[default]
-    Fixed,
-    /// Turning without end.
-    Turning,
-    /// Sliding between two values of its coordinate, mm.
-    Sliding([f64; 2]),
 }
 
 /// A pin through two links beside the tree of joints.
@@ -336,71 +307,6 @@ impl Machine {
             &self.name
         } else {
             &self.title
-        }
-    }
-}
-
-impl Joint {
-    /// A joint that carries a link with its frame on the parent's, and does not move.
-    #[must_use]
-    pub fn fixed(parent: usize, child: usize) -> Self {
-        Self {
-            parent,
-            child,
-            kind: JointKind::Fixed,
-            origin: [0.0; 3],
-            turn: [0.0; 3],
-            axis: [0.0, 0.0, 1.0],
-            law: Arc::new(Constant(0.0)),
-            leader: None,
-            load: None,
-        }
-    }
-
-    /// A pin along z.
-    #[must_use]
-    pub fn turning(parent: usize, child: usize, law: Arc<dyn Transmission>) -> Self {
-        Self {
-            kind: JointKind::Turning,
-            law,
-            ..Self::fixed(parent, child)
-        }
-    }
-
-    /// A slide along an axis of the child, between two values of its coordinate, mm.
-    #[must_use]
-    pub fn sliding(
-        parent: usize,
-        child: usize,
-        (axis, range): ([f64; 3], [f64; 2]),
-        law: Arc<dyn Transmission>,
-    ) -> Self {
-        Self {
-            kind: JointKind::Sliding(range),
-            axis,
-            law,
-            ..Self::fixed(parent, child)
-        }
-    }
-
-    /// The joint with the child's origin at a place of the parent, mm.
-    #[must_use]
-    pub fn at(self, origin: [f64; 3]) -> Self {
-        Self { origin, ..self }
-    }
-
-    /// The joint with the child's frame turned about the parent's x, then y, then z, rad.
-    #[must_use]
-    pub fn turned(self, turn: [f64; 3]) -> Self {
-        Self { turn, ..self }
-    }
-
-    /// The joint that follows another one through a cam or a groove.
-    #[must_use]
-    pub fn led_by(self, leader: usize) -> Self {
-        Self {
-            leader: Some(leader),
-            ..self
         }
     }
 }

@@ -1,4 +1,4 @@
-use nalgebra::{Rotation3, Translation3, Vector3};
+use nalgebra::{Isometry3, Rotation3, Translation3, UnitQuaternion, Vector3};
 
 use super::{FrameJet, Joint, JointKind, Machine, PointJet, Quantity};
 use crate::transmission::MotionJet;
@@ -18,39 +18,72 @@ impl Joint {
         };
         FrameJet::still(place).then(&moved)
     }
+
+    /// The child's place in the parent's frame at a coordinate.
+    #[must_use]
+    pub fn place(&self, coordinate: f64) -> Isometry3<f64> {
+        let [x, y, z] = self.turn;
+        let turn = UnitQuaternion::from_euler_angles(x, y, z);
+        let place = Isometry3::from_parts(self.origin.into(), turn);
+        let axis = Vector3::from(self.axis);
+        match self.kind {
+            JointKind::Fixed => place,
+            JointKind::Turning => place * UnitQuaternion::from_scaled_axis(axis * coordinate),
+            JointKind::Sliding(_) => place * Translation3::from(axis * coordinate),
+        }
+    }
 }
 
 impl Machine {
     /// Where every link stands at an input, in the first link's frame, with derivatives by the input.
     #[must_use]
     pub fn pose(&self, input: f64) -> Vec<FrameJet> {
-        let mut frames: Vec<Option<FrameJet>> = vec![None; self.links.len()];
-        if let Some(first) = frames.first_mut() {
-            *first = Some(FrameJet::identity());
+        let own = |joint: &Joint| joint.frame(&joint.law.at(input));
+        let frames = self.hung(FrameJet::identity(), |parent, joint| {
+            parent.then(&own(joint))
+        });
+        let found = frames.into_iter();
+        found
+            .map(|frame| frame.unwrap_or_else(FrameJet::identity))
+            .collect()
+    }
+
+    /// Where links stand at an input, in the first link's frame, without derivatives; none for those not wanted.
+    #[must_use]
+    pub fn places(&self, input: f64, wanted: &[bool]) -> Vec<Option<Isometry3<f64>>> {
+        self.hung(Isometry3::identity(), |parent, joint| {
+            let asked = wanted.get(joint.child) == Some(&true);
+            asked.then(|| parent * joint.place(joint.law.at(input).position))
+        })
+    }
+
+    /// What the first link has, handed on from each link to those it carries; none for what hangs on a link without it.
+    fn hung<T, U: Into<Option<T>>>(
+        &self,
+        first: T,
+        next: impl Fn(&T, &Joint) -> U,
+    ) -> Vec<Option<T>> {
+        let mut all: Vec<Option<T>> = self.links.iter().map(|_| None).collect();
+        if let Some(own) = all.first_mut() {
+            *own = Some(first);
         }
         // A joint may stand before the one that carries its parent: one more pass for each link in the way.
         for _ in 0..self.joints.len() {
             let mut open = false;
             for joint in &self.joints {
-                if frames[joint.child].is_some() {
+                if all[joint.child].is_some() {
                     continue;
                 }
-                match frames[joint.parent] {
+                match &all[joint.parent] {
                     None => open = true,
-                    Some(parent) => {
-                        let own = joint.frame(&joint.law.at(input));
-                        frames[joint.child] = Some(parent.then(&own));
-                    }
+                    Some(parent) => all[joint.child] = next(parent, joint).into(),
                 }
             }
             if !open {
                 break;
             }
         }
-        let found = frames.into_iter();
-        found
-            .map(|frame| frame.unwrap_or_else(FrameJet::identity))
-            .collect()
+        all
     }
 
     /// A point at an input, in the first link's frame.

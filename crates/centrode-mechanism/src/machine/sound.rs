@@ -1,4 +1,4 @@
-use super::{JointKind, Machine, Quantity};
+use super::{JointKind, LinePath, Machine, Quantity, Seat};
 
 /// A machine that does not hang together.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -53,6 +53,8 @@ impl Machine {
                 "shape" => self.shapes.len(),
                 "surface" => self.surfaces.len(),
                 "point" => self.points.len(),
+                "sketch" => self.sketches.len(),
+                "figure" => self.figures.len(),
                 _ => self.columns.len(),
             };
             if index >= count {
@@ -107,14 +109,26 @@ impl Machine {
             all.push((format!("point {:?}", point.name), "link", point.link));
         }
         for column in &self.columns {
-            let from = || format!("column {:?}", column.name);
-            match column.quantity {
-                Quantity::Joint { joint, .. } => all.push((from(), "joint", joint)),
-                Quantity::Point { point, .. } | Quantity::PointSpeed { point, .. } => {
-                    all.push((from(), "point", point));
-                }
-                Quantity::Input(_) | Quantity::Law(_) => {}
+            all.extend(column.quantity.named(&format!("column {:?}", column.name)));
+        }
+        for sketch in &self.sketches {
+            let from = || format!("sketch {:?}", sketch.name);
+            let traced = sketch.lines.iter().filter_map(|line| match line.path {
+                LinePath::Trace(point) => Some((from(), "point", point)),
+                LinePath::Contour(_) | LinePath::Chain(_) => None,
+            });
+            all.extend(traced);
+        }
+        for figure in &self.figures {
+            let from = format!("figure {:?}", figure.name);
+            match &figure.seat {
+                Seat::Link(link) => all.push((from.clone(), "link", *link)),
+                Seat::Free(by) => all.extend(by.iter().filter_map(|q| q.named(&from))),
             }
+            all.push((from, "sketch", figure.sketch));
+        }
+        for mark in &self.marks {
+            all.push((format!("mark {:?}", mark.name), "figure", mark.figure));
         }
         all
     }
@@ -128,6 +142,18 @@ impl Machine {
                 ways,
             }),
         }
+    }
+}
+
+impl Quantity {
+    /// The joint or point it is of, by its kind and index, as named from somewhere.
+    fn named(&self, from: &str) -> Option<(String, &'static str, usize)> {
+        let (kind, index) = match *self {
+            Self::Joint { joint, .. } => ("joint", joint),
+            Self::Point { point, .. } | Self::PointSpeed { point, .. } => ("point", point),
+            Self::Input(_) | Self::Law(_) => return None,
+        };
+        Some((from.into(), kind, index))
     }
 }
 

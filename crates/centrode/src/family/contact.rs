@@ -3,14 +3,7 @@ use centrode_export::page::Curve;
 
 /// Findings of running finished gears together, along the cycle.
 pub(super) fn contact_curves(contact: &Contact) -> Vec<Curve> {
-    let curve = |chart, name, unit, value: Vec<f64>| Curve {
-        chart,
-        name,
-        unit,
-        count: false,
-        input: contact.input.clone(),
-        value,
-    };
+    let curve = |chart, name, unit, value| Curve::new([chart, name, unit], &contact.input, value);
     let degrees = |list: &[f64]| list.iter().map(|v| v.to_degrees()).collect::<Vec<_>>();
     vec![
         Curve {

@@ -3,12 +3,14 @@ use std::f64::consts::TAU;
 use centrode_analysis::optimise::feeder::{FeederProblem, Widened};
 use centrode_analysis::optimise::{DesignProblem, NotSearched};
 use centrode_analysis::{FeederForces, Report, check_feeder, check_strokes};
-use centrode_export::feeder::{self, Teeth};
+use centrode_export::feeder;
+use centrode_export::machine::picture;
 use centrode_export::page::{Curve, Handle, HandlePlane, Picture};
 use centrode_export::{Bundle, ExportError, Format, Options};
 use centrode_geometry::Tolerance;
 use centrode_mechanism::design::{Design, MechanismError};
 use centrode_mechanism::feeder::{Dimension, Feeder, FeederDesign, Part};
+use centrode_mechanism::gear::IncompletePair;
 use centrode_mechanism::machine::Machine;
 use serde_json::json;
 
@@ -19,6 +21,8 @@ const LOOKS: u32 = 360;
 
 /// Tolerance of the picture, as a share of the frame.
 const DRAWN: f64 = 1e-4;
+/// Times that tolerance while no teeth are cut, for a picture quick enough to follow a hand that drags a handle.
+const COARSE: f64 = 10.0;
 
 impl Mechanism for Feeder {
     fn design(&self) -> &dyn Design {
@@ -52,7 +56,7 @@ impl Mechanism for Feeder {
     /// Picture of the moving six-bar, with the path of its tip. The gears are plain: cutting their teeth takes longer
     /// than an eye waits.
     fn picture(&self) -> Picture {
-        drawn(self, Teeth::Plain)
+        drawn(self, None)
     }
 
     fn is_coarse(&self) -> bool {
@@ -61,7 +65,7 @@ impl Mechanism for Feeder {
 
     fn detailed(&self) -> Option<Picture> {
         let pair = self.gears().ok()?;
-        Some(drawn(self, Teeth::Cut(&pair)))
+        Some(drawn(self, Some(&pair)))
     }
 
     fn machine(&self) -> Result<Machine, ExportError> {
@@ -126,24 +130,19 @@ fn torques(machine: &Feeder) -> Vec<Curve> {
         .collect();
     let curve = |name, moving| {
         let torque = |&phi: &f64| system.at(phi, moving).map_or(f64::NAN, |f| f.torque);
-        Curve {
-            chart: "Torque of the crank",
-            name,
-            unit: "N·mm",
-            count: false,
-            value: input.iter().map(torque).collect(),
-            input: input.clone(),
-        }
+        let words = ["Torque of the crank", name, "N·mm"];
+        Curve::new(words, &input, input.iter().map(torque).collect())
     };
     vec![curve("moving", true), curve("held still", false)]
 }
 
-fn drawn(machine: &Feeder, teeth: Teeth<'_>) -> Picture {
+fn drawn(machine: &Feeder, gears: Option<&IncompletePair>) -> Picture {
     let frame = machine.six_bar().four_bar().lengths()[3];
-    let Ok(tolerance) = Tolerance::new(DRAWN * frame) else {
+    let coarseness = gears.map_or(COARSE, |_| 1.0);
+    let Ok(tolerance) = Tolerance::new(coarseness * DRAWN * frame) else {
         return Picture::default();
     };
-    let mut picture = feeder::picture(machine, teeth, tolerance);
+    let mut picture = picture(&feeder::drawn(machine, gears), tolerance);
     let link = |part: Part| picture.links.iter().position(|l| l.name == part.name());
     let handles = joints(machine).into_iter().filter_map(|(part, handle)| {
         let link = link(part)?;

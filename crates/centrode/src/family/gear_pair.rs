@@ -1,7 +1,7 @@
 use centrode_analysis::{Contact, Report, check, check_contact};
-use centrode_export::gear_pair;
 use centrode_export::page::{Curve, Picture};
 use centrode_export::{Bundle, ExportError, Format, Options};
+use centrode_export::{gear_pair, machine};
 use centrode_geometry::Tolerance;
 use centrode_mechanism::design::{Design, MechanismError};
 use centrode_mechanism::gear::GearPair;
@@ -42,7 +42,7 @@ impl Mechanism for GearPair {
         let Ok(tolerance) = Tolerance::new(DRAWN * self.module()) else {
             return Picture::default();
         };
-        let mut picture = gear_pair::picture(self, tolerance);
+        let mut picture = machine::picture(&gear_pair::drawn(self), tolerance);
         let mut links = picture.links.iter();
         if let Some(link) = links.position(|link| link.name == picture.motion.input_name) {
             let length = self.driver().pitch_length();

@@ -6,7 +6,7 @@ use centrode_mechanism::design::{Design, MechanismError};
 use centrode_mechanism::machine::Machine;
 use centrode_mechanism::shaft::{MovingBox, MovingBoxDesign, Scheme};
 
-use super::spiral_shaft::{in_words, tolerance, window};
+use super::spiral_shaft::{drawn, in_words, window};
 use super::{Mechanism, Resolved};
 
 impl Mechanism for MovingBox {
@@ -32,8 +32,7 @@ impl Mechanism for MovingBox {
 
     /// The developed groove with its slider, by the input of the machine.
     fn picture(&self) -> Picture {
-        let drawn = tolerance(self.shaft()).and_then(|t| shaft::box_picture(self, t).ok());
-        let mut picture = drawn.unwrap_or_default();
+        let mut picture = drawn(self.shaft(), shaft::moving_box_drawn(self));
         picture.handles = window(self.shaft(), "shaft.", |input| self.shaft_turn(input));
         picture
     }

@@ -1,6 +1,7 @@
 use std::f64::consts::TAU;
 
 use centrode_analysis::{Report, check_shaft};
+use centrode_export::machine::picture;
 use centrode_export::page::{Curve, Handle, HandlePlane, Picture};
 use centrode_export::shaft;
 use centrode_export::{Bundle, ExportError, Format, Options};
@@ -35,8 +36,7 @@ impl Mechanism for SpiralShaft {
 
     /// The developed groove with its slider.
     fn picture(&self) -> Picture {
-        let drawn = tolerance(self).and_then(|t| shaft::shaft_picture(self, t).ok());
-        let mut picture = drawn.unwrap_or_default();
+        let mut picture = drawn(self, shaft::drawn(self));
         let even = |input: f64| MotionJet {
             position: input,
             velocity: 1.0,
@@ -65,9 +65,13 @@ impl Resolved for SpiralShaft {
     }
 }
 
-/// Tolerance with which a shaft is drawn.
-pub(super) fn tolerance(shaft: &SpiralShaft) -> Option<Tolerance> {
-    Tolerance::new(DRAWN * shaft.groove().width()).ok()
+/// The picture of a machine round a shaft; an empty one where there is none.
+pub(super) fn drawn(shaft: &SpiralShaft, machine: Result<Machine, ExportError>) -> Picture {
+    let tolerance = Tolerance::new(DRAWN * shaft.groove().width());
+    match (machine, tolerance) {
+        (Ok(machine), Ok(tolerance)) => picture(&machine, tolerance),
+        _ => Picture::default(),
+    }
 }
 
 /// Description of a shaft in one line.

@@ -5,11 +5,11 @@ use centrode_analysis::{
     check_three_arm_teeth,
 };
 use centrode_export::page::{Curve, Picture};
-use centrode_export::three_arm::{self, Teeth};
 use centrode_export::{Bundle, ExportError, Format, Options};
+use centrode_export::{machine, three_arm};
 use centrode_geometry::Tolerance;
 use centrode_mechanism::design::{Design, MechanismError};
-use centrode_mechanism::gear::Member;
+use centrode_mechanism::gear::{GearPair, Member};
 use centrode_mechanism::machine::Machine;
 use centrode_mechanism::three_arm::ThreeArm;
 use centrode_mechanism::three_arm::design::ThreeArmDesign;
@@ -23,6 +23,8 @@ const PARTS: u32 = 120;
 
 /// Tolerance of the picture, as a share of the distance between two axes.
 const DRAWN: f64 = 1e-4;
+/// Times that tolerance while no teeth are cut, for a picture quick enough to follow a hand that drags a handle.
+const COARSE: f64 = 10.0;
 
 impl Mechanism for ThreeArm {
     fn design(&self) -> &dyn Design {
@@ -58,7 +60,7 @@ impl Mechanism for ThreeArm {
 
     /// Picture of the mechanism with plain gears: cutting teeth takes longer than an eye waits.
     fn picture(&self) -> Picture {
-        drawn(self, Teeth::Plain)
+        drawn(self, None)
     }
 
     fn is_coarse(&self) -> bool {
@@ -67,7 +69,7 @@ impl Mechanism for ThreeArm {
 
     fn detailed(&self) -> Option<Picture> {
         let pair = self.pair().ok()?;
-        Some(drawn(self, Teeth::Cut(&pair)))
+        Some(drawn(self, Some(&pair)))
     }
 
     fn machine(&self) -> Result<Machine, ExportError> {
@@ -127,13 +129,8 @@ fn checked_curves(mechanism: &ThreeArm, teeth: Option<&TrainTeeth>) -> Vec<Curve
             ("from the tray", course.tray),
         ];
         let found = all.into_iter().filter(|(_, value)| !value.is_empty());
-        curves.extend(found.map(|(name, value)| Curve {
-            chart: "Clearance of the arms",
-            name,
-            unit: "mm",
-            count: false,
-            input: course.input.clone(),
-            value,
+        curves.extend(found.map(|(name, value)| {
+            Curve::new(["Clearance of the arms", name, "mm"], &course.input, value)
         }));
     }
     if let Some(teeth) = teeth {
@@ -156,11 +153,15 @@ fn checked_curves(mechanism: &ThreeArm, teeth: Option<&TrainTeeth>) -> Vec<Curve
     curves
 }
 
-fn drawn(mechanism: &ThreeArm, teeth: Teeth<'_>) -> Picture {
-    let Ok(tolerance) = Tolerance::new(DRAWN * mechanism.center_distance()) else {
+fn drawn(mechanism: &ThreeArm, teeth: Option<&GearPair>) -> Picture {
+    let coarseness = teeth.map_or(COARSE, |_| 1.0);
+    let Ok(tolerance) = Tolerance::new(coarseness * DRAWN * mechanism.center_distance()) else {
         return Picture::default();
     };
-    let mut picture = three_arm::picture(mechanism, teeth, tolerance);
+    let Ok(machine) = three_arm::drawn(mechanism, teeth) else {
+        return Picture::default();
+    };
+    let mut picture = machine::picture(&machine, tolerance);
     if let Some(sun) = picture.links.iter().position(|link| link.name == "sun") {
         let length = mechanism.rolling().pitch_length(Member::Driver);
         picture.handles = handles(&mechanism.design().pitch, length, sun);

@@ -1,0 +1,103 @@
+use std::sync::Arc;
+
+use centrode_geometry::{Outline, Point};
+use centrode_mechanism::feeder::{Feeder, Part, Plate};
+use centrode_mechanism::gear::IncompletePair;
+use centrode_mechanism::linkage::SixBar;
+use centrode_mechanism::machine::{Constant, Line, LineRole, Machine, Mark, Quantity, Seat};
+
+use crate::gear_pair;
+
+/// Points of the curve on which the effector's pivot may lie.
+const PIVOTS: usize = 240;
+
+/// Draws the six-bar with the path of the tip and with all places of the effector's pivot that would give the swing asked
+/// for: a chord for half a turn, see [`SixBar::pivots`]. Behind it the incomplete gears that turn its crank, the driver to
+/// the left; by their pitch circles without a pair.
+pub(super) fn draw(
+    feeder: &Feeder,
+    plates: &[Plate],
+    gears: Option<&IncompletePair>,
+    machine: &mut Machine,
+) {
+    let [driver, driven] = match gears {
+        Some(pair) => cut(pair),
+        None => plain(feeder),
+    };
+    let driver = machine.sketch("driver", driver);
+    let still = |at: f64| Quantity::Law(Arc::new(Constant(at)));
+    let beside = still(-center_distance(feeder));
+    let seat = Seat::Free(Box::new([beside, still(0.0), Quantity::Input(-1.0)]));
+    machine.draw_at("driver", seat, [0.0; 3], driver);
+    let driven = machine.sketch("driven gear", driven);
+    let crank = machine.link_named(Part::Crank.name()).unwrap_or(0);
+    machine.draw("driven gear", crank, driven);
+    for plate in plates {
+        let name = plate.part.name();
+        let mut lines = vec![Line::contour(LineRole::Body, &plate.outline)];
+        let holes = plate.cut_outs();
+        lines.extend(holes.iter().map(|hole| Line::contour(LineRole::Hole, hole)));
+        if plate.part == Part::Frame {
+            lines.push(Line::trace(LineRole::Trace, 0));
+            let bar = feeder.six_bar().four_bar();
+            let pivots = SixBar::pivots(bar, feeder.design().goals.swing, PIVOTS);
+            lines.push(Line::chain(LineRole::Locus, &pivots));
+        }
+        let sketch = machine.sketch(name, lines);
+        // Links are parallel to the frame where the effector rests.
+        let rest = feeder.place(plate.part, feeder.start()).rotation.angle();
+        let seat = Seat::Link(machine.link_named(name).unwrap_or(0));
+        machine.draw_at(name, seat, [0.0, 0.0, rest], sketch);
+        let figure = machine.figures.len() - 1;
+        let named = plate.joints.iter().filter(|joint| match plate.part {
+            Part::Frame => true,
+            Part::Crank => joint.name == "B",
+            Part::Effector => joint.name == "E",
+            Part::Slider => joint.name == "C",
+            Part::Coupler | Part::Rocker => false,
+        });
+        machine.marks.extend(named.map(|joint| Mark {
+            name: joint.name.into(),
+            figure,
+            at: joint.at.coords.into(),
+        }));
+    }
+}
+
+/// Distance between the shafts of the incomplete gears, mm.
+fn center_distance(feeder: &Feeder) -> f64 {
+    let gears = &feeder.design().gears;
+    0.5 * gears.module * f64::from(gears.driver_pitches + gears.driven_pitches)
+}
+
+/// Driver and driven gear by their pitch and tip circles.
+fn plain(feeder: &Feeder) -> [Vec<Line>; 2] {
+    let gears = &feeder.design().gears;
+    [gears.driver_pitches, gears.driven_pitches].map(|pitches| {
+        let radius = 0.5 * gears.module * f64::from(pitches);
+        let lines = [
+            (LineRole::Body, radius + gears.module),
+            (LineRole::Pitch, radius),
+        ];
+        let circle = |radius| Outline::circle(Point::origin(), radius);
+        lines
+            .map(|(role, radius)| Line::contour(role, &circle(radius)))
+            .into()
+    })
+}
+
+/// Driver and driven gear with their teeth and locking arcs, cams and pins as lines, each in its own axes.
+fn cut(pair: &IncompletePair) -> [Vec<Line>; 2] {
+    let gears = pair.pair();
+    let mut both = [
+        gear_pair::lines_within(pair.driver(), gears.driver()),
+        gear_pair::lines_within(pair.driven(), gears.driven()),
+    ];
+    for cam in pair.cams() {
+        both[0].push(Line::contour(LineRole::Beside, &cam.outline));
+        let pins = cam.pins.iter();
+        let pins = pins.map(|&at| Outline::circle(at, cam.pin_radius));
+        both[1].extend(pins.map(|pin| Line::contour(LineRole::Beside, &pin)));
+    }
+    both
+}

@@ -1,0 +1,332 @@
+use std::f64::consts::{PI, TAU};
+
+use centrode_geometry::{Point, Tolerance};
+use centrode_mechanism::machine::{
+    Figure, Line, LinePath, LineRole, Machine, Quantity, Seat, Sketch,
+};
+use centrode_mechanism::transmission::Transmission;
+use nalgebra::{Isometry2, Isometry3, Vector3};
+
+use super::motion::within;
+use super::rim::rim;
+use crate::page::{Link, Mark, Motion, Path, Picture, short};
+
+/// Fewest steps of a period.
+const FEWEST: f64 = 720.0;
+/// Fewest steps of a turn of the input: no link may turn by half a turn in one.
+const PER_TURN: f64 = 60.0;
+/// Times the tolerance by which figures may be off between two steps: nobody measures what moves.
+const BETWEEN: f64 = 4.0;
+/// Most steps of a period.
+const MOST: f64 = 2e4;
+/// How long before a jump the picture still stands where it jumps from, and how long after it stands where it jumps to, rad.
+const BEFORE: f64 = 1e-6;
+const AFTER: f64 = 1e-9;
+/// Change over [`BEFORE`], as a share of the law's speed, above which a law jumps.
+const SUDDEN: f64 = 1e-3;
+/// Angles are rounded by, rad.
+const ANGLE: f64 = 1e-6;
+
+/// The machine as a picture that moves; lines are within the tolerance of the exact ones, and so are places at steps of the
+/// input, between them within four times as much.
+#[must_use]
+pub fn picture(machine: &Machine, tolerance: Tolerance) -> Picture {
+    let rims: Vec<Vec<Point>> = machine.sketches.iter().map(rim).collect();
+    let course = Course::within(machine, &rims, tolerance);
+    let length = 0.1 * tolerance.mm();
+    // Figures that look alike are fitted once.
+    let still = |sketch: &Sketch| {
+        sketch
+            .lines
+            .iter()
+            .map(|line| still(line, tolerance))
+            .collect()
+    };
+    let still: Vec<Vec<Option<Path>>> = machine.sketches.iter().map(still).collect();
+    let paths = |(index, figure): (usize, &Figure)| Link {
+        name: figure.name.clone(),
+        paths: machine.sketches[figure.sketch]
+            .lines
+            .iter()
+            .zip(&still[figure.sketch])
+            .filter_map(|(line, still)| {
+                still.clone().or_else(|| course.way(line, index, tolerance))
+            })
+            .collect(),
+    };
+    let rounded = |poses: &Vec<[f64; 3]>| {
+        let rounded =
+            |[x, y, turn]: &[f64; 3]| [short(*x, length), short(*y, length), short(*turn, ANGLE)];
+        let all: Vec<[f64; 3]> = poses.iter().map(rounded).collect();
+        match all.first() {
+            Some(first) if all.iter().all(|pose| pose == first) => first.to_vec(),
+            _ => all.concat(),
+        }
+    };
+    Picture {
+        links: machine.figures.iter().enumerate().map(paths).collect(),
+        motion: Motion {
+            input_name: machine.input.name.clone(),
+            input: course
+                .input
+                .iter()
+                .map(|&input| short(input, 1e-7))
+                .collect(),
+            poses: course.poses.iter().map(rounded).collect(),
+        },
+        handles: Vec::new(),
+        marks: machine
+            .marks
+            .iter()
+            .map(|mark| Mark {
+                name: mark.name.clone(),
+                link: mark.figure,
+                at: mark.at,
+            })
+            .collect(),
+        extent: course.extent(machine, &rims),
+    }
+}
+
+/// Where all figures stand over a period.
+struct Course {
+    input: Vec<f64>,
+    /// Of each figure x, y and turn at every input.
+    poses: Vec<Vec<[f64; 3]>>,
+    /// Of each point its place at every input; empty for one that nothing traces.
+    points: Vec<Vec<Point>>,
+}
+
+impl Course {
+    /// At steps between which straight lines are near enough, as far as [`MOST`] allow.
+    fn within(machine: &Machine, rims: &[Vec<Point>], tolerance: Tolerance) -> Self {
+        let period = machine.input.period;
+        let traced: Vec<bool> = (0..machine.points.len())
+            .map(|point| machine.sketches.iter().any(|s| traces(s, point)))
+            .collect();
+        let wanted = wanted(machine, &traced);
+        let sudden = sudden(machine, &wanted);
+        let course = |steps: f64| {
+            let input = inputs(period, steps.ceil() as u32, &sudden);
+            Self::at(machine, (&wanted, &traced), input)
+        };
+        let least = FEWEST.max(period / TAU * PER_TURN);
+        let coarse = course(least);
+        // A chord is off by a quarter of how far its middle is off the chord over both steps beside it.
+        let off = 0.25 * coarse.bend(machine, rims, &sudden) / (BETWEEN * tolerance.mm());
+        let steps = (least * off.sqrt()).min(MOST.max(least));
+        if off > 1.0 && steps > least {
+            course(steps)
+        } else {
+            coarse
+        }
+    }
+
+    fn at(machine: &Machine, (wanted, traced): (&[bool], &[bool]), input: Vec<f64>) -> Self {
+        let mut poses: Vec<Vec<[f64; 3]>> =
+            vec![Vec::with_capacity(input.len()); machine.figures.len()];
+        let mut points = vec![Vec::new(); machine.points.len()];
+        for &now in &input {
+            let places = machine.places(now, wanted);
+            for (figure, poses) in machine.figures.iter().zip(&mut poses) {
+                let before = poses.last().map(|pose| pose[2]);
+                poses.push(pose(machine, figure, &places, (now, before)));
+            }
+            for (index, ways) in points.iter_mut().enumerate().filter(|(i, _)| traced[*i]) {
+                let point = &machine.points[index];
+                let at = places[point.link]
+                    .map_or(point.at.into(), |p| p * nalgebra::Point3::from(point.at));
+                ways.push(at.xy());
+            }
+        }
+        Self {
+            input,
+            poses,
+            points,
+        }
+    }
+
+    /// Greatest distance of a figure's lines from the middle of where they stand before and after, jumps aside.
+    fn bend(&self, machine: &Machine, rims: &[Vec<Point>], sudden: &[f64]) -> f64 {
+        let smooth = |&i: &usize| {
+            sudden
+                .binary_search_by(|s| s.total_cmp(&self.input[i]))
+                .is_err()
+        };
+        let smooth: Vec<usize> = (1..self.input.len() - 1).filter(smooth).collect();
+        let of = |(figure, poses): (&Figure, &Vec<[f64; 3]>)| {
+            let reach = rims[figure.sketch].iter().map(|p| p.coords.norm());
+            let reach = reach.fold(0.0, f64::max);
+            let off = |&i: &usize| {
+                let (from, now, to) = (self.input[i - 1], self.input[i], self.input[i + 1]);
+                let share = (now - from) / (to - from);
+                let [x, y, turn] = [0, 1, 2].map(|k| {
+                    let (a, b) = (poses[i - 1][k], poses[i + 1][k]);
+                    poses[i][k] - (a + share * (b - a))
+                });
+                x.hypot(y) + reach * turn.abs()
+            };
+            smooth.iter().map(off).fold(0.0, f64::max)
+        };
+        let figures = machine.figures.iter().zip(&self.poses);
+        figures.map(of).fold(0.0, f64::max)
+    }
+
+    /// The way of the point that a line traces, as seen from its figure.
+    fn way(&self, line: &Line, figure: usize, tolerance: Tolerance) -> Option<Path> {
+        let LinePath::Trace(point) = line.path else {
+            return None;
+        };
+        let places = self.points[point].iter().zip(&self.poses[figure]);
+        let seen: Vec<Point> = places.map(|(p, pose)| placed(pose).inverse() * p).collect();
+        Some(Path::way(line.role, &seen, tolerance))
+    }
+
+    /// Least x and y, greatest x and y of the material of all figures, and of the traces, over the period.
+    fn extent(&self, machine: &Machine, rims: &[Vec<Point>]) -> [f64; 4] {
+        let mut extent = [
+            f64::INFINITY,
+            f64::INFINITY,
+            f64::NEG_INFINITY,
+            f64::NEG_INFINITY,
+        ];
+        let mut cover = |x: f64, y: f64| {
+            let [left, low, right, high] = extent;
+            extent = [left.min(x), low.min(y), right.max(x), high.max(y)];
+        };
+        for (figure, poses) in machine.figures.iter().zip(&self.poses) {
+            let still = poses.iter().all(|pose| *pose == poses[0]);
+            let count = if still { 1 } else { poses.len() };
+            for [x, y, turn] in &poses[..count] {
+                let (sin, cos) = turn.sin_cos();
+                for p in &rims[figure.sketch] {
+                    cover(x + cos * p.x - sin * p.y, y + sin * p.x + cos * p.y);
+                }
+            }
+            for line in &machine.sketches[figure.sketch].lines {
+                if let (LineRole::Trace, LinePath::Trace(point)) = (line.role, &line.path) {
+                    self.points[*point].iter().for_each(|p| cover(p.x, p.y));
+                }
+            }
+        }
+        extent
+    }
+}
+
+/// A line that is the same whatever moves.
+fn still(line: &Line, tolerance: Tolerance) -> Option<Path> {
+    match &line.path {
+        LinePath::Contour(outline) => Some(Path::closed(line.role, outline, tolerance)),
+        LinePath::Chain(corners) => {
+            let corners: Vec<Point> = corners.iter().copied().map(Point::from).collect();
+            Some(Path::open(line.role, &corners))
+        }
+        LinePath::Trace(_) => None,
+    }
+}
+
+fn placed([x, y, turn]: &[f64; 3]) -> Isometry2<f64> {
+    Isometry2::new(nalgebra::Vector2::new(*x, *y), *turn)
+}
+
+/// Where a figure stands at an input; a link's turn goes on from the one before.
+fn pose(
+    machine: &Machine,
+    figure: &Figure,
+    places: &[Option<Isometry3<f64>>],
+    (input, before): (f64, Option<f64>),
+) -> [f64; 3] {
+    let [x, y, turn] = figure.at;
+    let seat = match &figure.seat {
+        Seat::Free(by) => [0, 1, 2].map(|k| machine.value(&by[k], input)),
+        Seat::Link(link) => {
+            let place = places[*link].unwrap_or_else(Isometry3::identity);
+            let along = place.rotation * Vector3::x();
+            let at = place.translation.vector;
+            let mut seen = along.y.atan2(along.x);
+            if let Some(before) = before {
+                let before = before - turn;
+                seen = before + (seen - before + PI).rem_euclid(TAU) - PI;
+            }
+            [at.x, at.y, seen]
+        }
+    };
+    let at = placed(&seat) * Point::new(x, y);
+    [at.x, at.y, seat[2] + turn]
+}
+
+/// The links that figures and traces need, with those that carry them.
+fn wanted(machine: &Machine, traced: &[bool]) -> Vec<bool> {
+    let mut wanted = vec![false; machine.links.len()];
+    let seats = machine
+        .figures
+        .iter()
+        .filter_map(|figure| match figure.seat {
+            Seat::Link(link) => Some(link),
+            Seat::Free(_) => None,
+        });
+    let points = machine.points.iter().zip(traced);
+    let points = points.filter(|(_, traced)| **traced).map(|(p, _)| p.link);
+    for link in seats.chain(points) {
+        let mut next = Some(link);
+        while let Some(link) = next {
+            if std::mem::replace(&mut wanted[link], true) {
+                break;
+            }
+            let carrier = machine.joints.iter().find(|joint| joint.child == link);
+            next = carrier.map(|joint| joint.parent);
+        }
+    }
+    wanted
+}
+
+fn traces(sketch: &Sketch, point: usize) -> bool {
+    let mut lines = sketch.lines.iter();
+    lines.any(|line| line.path == LinePath::Trace(point))
+}
+
+/// Inputs at which a figure's speed jumps, and just before and after those at which its place does, ascending.
+fn sudden(machine: &Machine, wanted: &[bool]) -> Vec<f64> {
+    let moved = machine.joints.iter().filter(|joint| wanted[joint.child]);
+    let mut laws: Vec<&dyn Transmission> = moved.map(|joint| joint.law.as_ref()).collect();
+    for figure in &machine.figures {
+        let Seat::Free(by) = &figure.seat else {
+            continue;
+        };
+        laws.extend(by.iter().filter_map(|quantity| match quantity {
+            Quantity::Joint { joint, .. } => Some(machine.joints[*joint].law.as_ref()),
+            Quantity::Law(law) => Some(law.as_ref()),
+            _ => None,
+        }));
+    }
+    let period = machine.input.period;
+    let mut found = Vec::new();
+    for law in laws {
+        for at in within(law, machine) {
+            let [before, after] = [at - BEFORE, at + AFTER].map(|input| law.at(input));
+            let limit = SUDDEN * (1.0 + after.velocity.abs());
+            let at = if at < BEFORE { period } else { at };
+            if (after.position - before.position).abs() > limit && at <= period {
+                found.extend([at - BEFORE, at + AFTER]);
+            } else if (after.velocity - before.velocity).abs() > limit && at < period {
+                found.push(at);
+            }
+        }
+    }
+    found.sort_by(f64::total_cmp);
+    found.dedup_by(|b, a| *b - *a < 0.5 * BEFORE);
+    found
+}
+
+/// Equal steps of a period and all that is sudden, ascending.
+fn inputs(period: f64, steps: u32, sudden: &[f64]) -> Vec<f64> {
+    let alone = |input: &f64| {
+        let after = sudden.partition_point(|s| s < input);
+        let beside = sudden[after.saturating_sub(1)..].iter().take(2);
+        beside.into_iter().all(|s| (s - input).abs() > 2.0 * BEFORE)
+    };
+    let even = (0..=steps).map(|i| period * f64::from(i) / f64::from(steps));
+    let mut all: Vec<f64> = even.filter(alone).chain(sudden.iter().copied()).collect();
+    all.sort_by(f64::total_cmp);
+    all
+}

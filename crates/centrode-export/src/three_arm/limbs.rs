@@ -1,0 +1,82 @@
+use centrode_geometry::Vector;
+use centrode_mechanism::machine::Surface;
+use nalgebra::Isometry2;
+
+use super::Part;
+use super::links::{Builder, Seen};
+use super::machine::{Machine, no_fork};
+use crate::ExportError;
+
+/// Times the tolerance by which the bodies of an arm may stand off it: arms touch nothing as closely as teeth do.
+const COARSE: f64 = 20.0;
+
+/// The parts every chain has.
+pub(super) struct Limbs {
+    pub(super) arm: Seen,
+    pub(super) touching: Vec<usize>,
+    pub(super) cam: Seen,
+    pub(super) fork: Seen,
+    pub(super) rod: Seen,
+}
+
+impl Limbs {
+    pub(super) fn of(parts: &Machine<'_>, builder: &mut Builder<'_>) -> Result<Self, ExportError> {
+        let plate = |part: Part| parts.plate_of(part).ok_or_else(no_fork);
+        let span = |name: &str| parts.of_arm(name).map_or([0.0, 1.0], |p| p.span);
+        let arm = [
+            (Part::Housing, "housing"),
+            (Part::CoverRear, "cover-rear"),
+            (Part::CoverFront, "cover-front"),
+            (Part::Clamp, "flake-left"),
+            (Part::Clamp, "flake-right"),
+        ];
+        let arm = arm.map(|(part, name)| Ok((plate(part)?, span(name))));
+        let arm: Vec<_> = arm.into_iter().collect::<Result<_, ExportError>>()?;
+        let pusher = &parts.pusher;
+        let place = Vector::new(pusher.fork_spec().arm_length, 0.0);
+        let place = Isometry2::new(place, 0.0);
+        let mut roller = plate(Part::Roller)?;
+        for outline in roller.holes.iter_mut().chain([&mut roller.outline]) {
+            *outline = outline.transformed(&place);
+        }
+        let fork = [
+            (plate(Part::Fork)?, pusher.fork_span()),
+            (roller, pusher.cam_span()),
+        ];
+        Ok(Self {
+            arm: builder.body("arm-body", &arm)?,
+            touching: touching(parts, builder),
+            cam: builder.body("cam-body", &[(plate(Part::Cam)?, pusher.cam_span())])?,
+            fork: builder.body("fork-body", &fork)?,
+            rod: builder.body(
+                "push-rod-body",
+                &[(plate(Part::PushRod)?, span("push-rod"))],
+            )?,
+        })
+    }
+}
+
+/// Surfaces of an arm: its housing with the covers, and both flakes.
+fn touching(parts: &Machine<'_>, builder: &mut Builder<'_>) -> Vec<usize> {
+    let covers = ["cover-rear", "cover-front"].map(|name| parts.of_arm(name));
+    let surfaces = ["housing", "flake-left", "flake-right"].map(|name| {
+        let part = parts.of_arm(name)?;
+        let [mut bottom, mut top] = part.span;
+        if name == "housing" {
+            for [rear, front] in covers.iter().flatten().map(|cover| cover.span) {
+                (bottom, top) = (bottom.min(rear), top.max(front));
+            }
+        }
+        Some(Surface {
+            name: format!("arm_{}", name.replace('-', "_")),
+            outline: part.outline.clone(),
+            span: [bottom, top],
+            teeth: Vec::new(),
+            coarseness: COARSE,
+        })
+    });
+    let surfaces = surfaces.into_iter().flatten();
+    surfaces
+        .map(|surface| builder.machine.surface(surface))
+        .collect()
+}
