@@ -27,7 +27,7 @@ fn places(segment: &Segment) -> impl Iterator<Item = Point> {
     let count: u32 = match segment {
         Segment::Line(..) => 1,
         Segment::Arc(_) => 16,
-        Segment::Spline(_) => 2,
+        Segment::Poly(_) => 2,
     };
     (0..count).map(move |i| {
         segment
