@@ -15,8 +15,7 @@ use crate::array::{Course, Values};
 use crate::error::{Answer, Raised};
 use crate::feeder::Feeder;
 use crate::gear_pair::GearPair;
-use crate::moving_box::MovingBox;
-use crate::spiral_shaft::SpiralShaft;
+use crate::shaft::{MovingBox, SpiralShaft};
 use crate::three_arm::ThreeArm;
 use crate::wait::wait;
 

@@ -4,7 +4,6 @@ use pyo3::prelude::pymodule;
 
 mod array;
 mod body;
-mod box_drive;
 mod cam;
 mod count;
 mod design;
@@ -16,14 +15,13 @@ mod gear;
 mod gear_pair;
 mod made;
 mod mechanism;
-mod moving_box;
 mod pitch;
 mod place;
 mod record;
 mod search;
+mod shaft;
 mod sheet;
 mod six_bar;
-mod spiral_shaft;
 mod table;
 mod three_arm;
 mod tool;
@@ -38,7 +36,6 @@ mod _centrode {
     #[pymodule_export]
     use crate::{
         body::{Body, Keyway},
-        box_drive::BoxDrive,
         cam::{
             DiscCam, Follower, Fork, Law, Segment, dwell, law, law_of_polynomial, return_, rise,
             swinging_flat, swinging_roller, transition, translating_flat, translating_roller,
@@ -50,14 +47,15 @@ mod _centrode {
         gear::Gear,
         gear_pair::GearPair,
         mechanism::Mechanism,
-        moving_box::MovingBox,
         pitch::kinds::{
             bezier, bspline, circle, conjugate, eccentric_circle, ellipse, from_ratio,
             from_transmission, limacon, lobed_ellipse, polar,
         },
         pitch::{_pitch_from_toml, Pitch},
+        shaft::BoxDrive,
+        shaft::MovingBox,
+        shaft::SpiralShaft,
         six_bar::SixBar,
-        spiral_shaft::SpiralShaft,
         three_arm::ThreeArm,
         tool::{Rack, Shaper},
     };

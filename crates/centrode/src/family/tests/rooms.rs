@@ -17,12 +17,11 @@ const OWN: [&str; 7] = [
 ];
 
 /// Other files of one family, and the lists: that of the families and that of their Python classes.
-const OTHERS: [&str; 5] = [
+const OTHERS: [&str; 4] = [
     "centrode/src/family/mod.rs",
     "python/src/design.rs",
     "python/src/lib.rs",
     "python/src/pitch/mod.rs",
-    "python/src/variants.rs",
 ];
 
 /// Types of a family. A gear pair is an element of other families too.

@@ -5,13 +5,13 @@ use centrode_mechanism::shaft as mechanism;
 use centrode_mechanism::shaft::{EllipticGears, MovingBoxDesign, Scheme};
 use pyo3::prelude::{Py, PyClassInitializer, PyRef, Python, pyclass, pymethods};
 
+use super::BoxDrive;
+use super::SpiralShaft;
 use crate::array::{Course, Values};
-use crate::box_drive::BoxDrive;
 use crate::count::Count;
 use crate::design::Class;
 use crate::error::Answer;
 use crate::gear_pair::GearPair;
-use crate::spiral_shaft::SpiralShaft;
 use crate::wait::wait;
 use crate::word::Word;
 

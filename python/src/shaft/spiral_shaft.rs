@@ -12,8 +12,8 @@ use pyo3::prelude::{
 };
 use pyo3::types::{PyDict, PyType};
 
+use super::BoxDrive;
 use crate::array::{Course, MeshRows, Numbers, Rows, Values, mesh};
-use crate::box_drive::BoxDrive;
 use crate::count::Count;
 use crate::design::Class;
 use crate::error::{Answer, Raised, plain_tolerance};
