@@ -3,9 +3,9 @@ use centrode_mechanism::design as spec;
 use crate::table::table;
 
 table! {
-    /// What the drawing sheets say in their title block, and how they are laid out.
+    /// Words of the title block of drawing sheets, and their layout.
     ///
-    /// What is left out stays empty on the sheet.
+    /// Keywords left out stay empty on the sheet.
     ///
     /// Args:
     ///     number: Drawing number; the part's name is added to it.

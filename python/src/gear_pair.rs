@@ -266,7 +266,7 @@ impl GearPair {
         self.each(phi, |pair, phi| pair.pitch_point(phi).pressure_angle)
     }
 
-    /// The same with the driver pushing it back: |alpha + mu|.
+    /// Pressure angle with the driver pushing it back: |alpha + mu|.
     fn reverse_pressure_angle(&self, phi: Values) -> Course {
         self.each(phi, |pair, phi| {
             pair.pitch_point(phi).reverse_pressure_angle

@@ -167,7 +167,7 @@ pub(crate) struct Missed {
     pub(crate) input: Option<f64>,
     /// Usual remedy.
     pub(crate) remedy: Option<&'static str>,
-    /// What else there is to say, after the miss.
+    /// Further words, after the miss.
     pub(crate) words: String,
 }
 

@@ -79,11 +79,11 @@ impl LineType {
 pub struct Entity {
     /// Name of its layer.
     pub layer: String,
-    /// What is drawn.
+    /// Shape drawn.
     pub shape: Shape,
 }
 
-/// What can be drawn.
+/// Shape of an entity.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Shape {
     /// A closed contour.

@@ -26,7 +26,7 @@ pub(crate) fn shown_tolerance(
 pub struct Model {
     /// Name of the machine.
     pub name: String,
-    /// What a reader of the file should know.
+    /// Comment at the head of the file.
     pub note: String,
     /// The links; the first is fixed to the world.
     pub links: Vec<Link>,

@@ -242,7 +242,7 @@ impl ThreeArm {
         Ok(Fork(pusher.fork().clone()))
     }
 
-    /// What an arm must keep clear with, (N, 2), mm, in the frame in which `pose` gives it: corners of a closed
+    /// Contour that an arm must keep clear with, (N, 2), mm, in the frame in which `pose` gives it: corners of a closed
     /// polygon, counter-clockwise, nowhere farther than `tolerance` (mm) from the exact contour.
     ///
     /// Raises:

@@ -42,7 +42,7 @@ impl Contours {
         })
     }
 
-    /// The same with every contour made of lines and arcs.
+    /// Drawing with every contour made of lines and arcs.
     pub(super) fn with_arcs(mut self, tolerance: Tolerance) -> Self {
         for (_, outline) in &mut self.contours {
             *outline = outline.arcs(tolerance);

@@ -15,9 +15,9 @@ pub(super) struct GearPart {
     pub(super) name: &'static str,
     /// A polygon of short chords.
     outline: Outline,
-    /// The same of few lines and arcs, as drawings have it.
+    /// Outline of few lines and arcs, for drawings.
     drawn: Outline,
-    /// What is cut out of it.
+    /// Contours cut out of it.
     holes: Vec<Outline>,
     /// Pins that stand on it, for reference.
     pins: Vec<(Point, f64)>,

@@ -144,7 +144,7 @@ fn joint(machine: &Machine, lines: &[Line], index: usize, driving: Option<usize>
     joint.starting_at(start)
 }
 
-/// What a reader of the model should know.
+/// Comment at the head of a model.
 fn note(
     machine: &Machine,
     lines: &[Line],

@@ -23,7 +23,7 @@ pub struct Picture {
     pub links: Vec<Link>,
     /// The cycle.
     pub motion: Motion,
-    /// What can be drawn aside with the mouse.
+    /// Points that can be dragged with the mouse.
     pub handles: Vec<Handle>,
     /// Places worth a name.
     pub marks: Vec<Mark>,
@@ -56,7 +56,7 @@ pub struct Mark {
 /// Between samples a pose is interpolated linearly, angle and place.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Motion {
-    /// What the input is: the turning link.
+    /// Name of the input: the turning link.
     pub input_name: String,
     /// Input angles, rad, ascending, over one whole cycle.
     pub input: Vec<f64>,
@@ -68,7 +68,7 @@ pub struct Motion {
 /// A point of the picture that stands for numbers of the design.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Handle {
-    /// What it is, for those who cannot see it.
+    /// Description for those who cannot see it.
     pub name: String,
     /// Index of the link it moves with.
     pub link: usize,

@@ -73,7 +73,7 @@ impl Path {
     }
 }
 
-/// What numbers may be rounded by, so that a tenth of the tolerance is left for it.
+/// Rounding of numbers, which takes a tenth of the tolerance.
 fn unit(tolerance: Tolerance) -> f64 {
     let decimals = (-(0.05 * tolerance.mm()).log10()).ceil().clamp(0.0, 12.0);
     10_f64.powi(-(decimals as i32))

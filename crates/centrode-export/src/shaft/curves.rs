@@ -13,7 +13,7 @@ pub fn shaft_curves(shaft: &SpiralShaft) -> Vec<Curve> {
     curves(&Machine::of_shaft(shaft))
 }
 
-/// The same of a moving box, by its own input.
+/// Curves of a moving box, by its own input.
 ///
 /// # Errors
 /// [`ExportError`] where the elliptic gears make no pair.

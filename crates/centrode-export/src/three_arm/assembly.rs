@@ -121,7 +121,7 @@ pub(super) fn planted_stems(mechanism: &ThreeArm, reach: f64) -> Vec<Outline> {
     })
 }
 
-/// What does not turn: path of the tip, ground, tray; and what the drawing is of.
+/// Surroundings that do not turn: path of the tip, ground, tray; and the title.
 fn surroundings(machine: &Machine<'_>, drawing: &mut Drawing) {
     let mechanism = machine.mechanism;
     let path = path(mechanism);

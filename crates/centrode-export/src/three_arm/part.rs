@@ -70,7 +70,7 @@ impl Part {
         }
     }
 
-    /// What its drawing is called.
+    /// Name of its drawing.
     #[must_use]
     pub fn title(self) -> &'static str {
         match self {

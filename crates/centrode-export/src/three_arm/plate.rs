@@ -23,14 +23,14 @@ pub(super) struct Plate {
     pub(super) quantity: u32,
     pub(super) outline: Outline,
     pub(super) holes: Vec<Outline>,
-    /// What goes through a wall of it, its height from the middle of the thickness.
+    /// Holes through a wall, their height from the middle of the thickness.
     pub(super) opening: Option<Opening>,
     /// mm.
     pub(super) thickness: f64,
     pub(super) material: String,
     /// kg/m^3.
     pub(super) density: f64,
-    /// What its sheet says besides.
+    /// Further notes of its sheet.
     pub(super) notes: Vec<String>,
     /// Tables of its sheet.
     pub(super) tables: Vec<Table>,
@@ -66,7 +66,7 @@ impl Plate {
         })
     }
 
-    /// The same between other heights.
+    /// Plate between other heights.
     pub(super) fn placed(&self, [bottom, top]: [f64; 2]) -> Result<Solid, SolidError> {
         let solid = Solid::new(self.outline.clone(), self.holes.clone(), bottom, top)?;
         let Some(opening) = &self.opening else {

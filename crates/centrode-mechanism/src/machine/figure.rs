@@ -79,13 +79,13 @@ pub struct Figure {
     pub name: String,
     /// Index of the sketch.
     pub sketch: usize,
-    /// What it moves with.
+    /// Carrier of its motion.
     pub seat: Seat,
     /// Place (x and y, mm) and turn (rad) of the sketch on its seat.
     pub at: [f64; 3],
 }
 
-/// What a figure moves with.
+/// Carrier of a figure's motion.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Seat {

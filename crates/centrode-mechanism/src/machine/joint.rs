@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::{Constant, plain};
 use crate::transmission::Transmission;
 
-/// What carries a link, and how the link moves on it.
+/// Connection of a link to the one that carries it, and its motion there.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Joint {

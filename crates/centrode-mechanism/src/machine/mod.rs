@@ -58,7 +58,7 @@ pub struct Machine {
     pub figures: Vec<Figure>,
     /// Places of the picture worth a name.
     pub marks: Vec<Mark>,
-    /// What a reader of the machine's files should know beside what they hold.
+    /// Comment of the machine's files.
     pub note: String,
 }
 
@@ -66,7 +66,7 @@ pub struct Machine {
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Input {
-    /// What turns: a link or a shaft.
+    /// Name of the part that turns: a link or a shaft.
     pub name: String,
     /// Angle after which every joint repeats, up to its advance, rad.
     pub period: f64,
@@ -226,7 +226,7 @@ pub trait Body: fmt::Debug + Send + Sync {
     fn mesh(&self, tolerance: Tolerance) -> Result<Mesh, SolidError>;
 }
 
-/// What a link touches others with: contours over a range of heights.
+/// Surface with which a link touches others: contours over a range of heights.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Surface {

@@ -123,7 +123,7 @@ pub(super) struct Extrusion {
     holes: Vec<Contour>,
     /// Lower and upper face, mm.
     span: [f64; 2],
-    /// What goes through a wall.
+    /// Holes through a wall.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     opening: Option<OpeningFile>,
 }

@@ -57,7 +57,7 @@ impl Machine {
         })
     }
 
-    /// What the first link has, handed on from each link to those it carries; none for what hangs on a link without it.
+    /// Value of the first link, handed on from each link to those it carries; none below a link without one.
     fn hung<T, U: Into<Option<T>>>(
         &self,
         first: T,

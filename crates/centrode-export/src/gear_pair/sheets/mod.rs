@@ -21,7 +21,7 @@ use centrode_mechanism::{
 };
 use part::Part;
 
-/// What a sheet is of.
+/// Subject of a sheet.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub enum Subject {
     /// The driver.
@@ -66,14 +66,14 @@ impl From<Member> for Subject {
     }
 }
 
-/// What a gear is called in a machine larger than its pair.
+/// Names of a gear in a machine larger than its pair.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub(crate) struct Label {
     /// The name its files have.
     pub(crate) name: &'static str,
-    /// What its drawing is called.
+    /// Name of its drawing.
     pub(crate) title: &'static str,
-    /// What it meshes with.
+    /// Gear it meshes with.
     pub(crate) mate: &'static str,
     /// How many of it a machine has.
     pub(crate) quantity: u32,

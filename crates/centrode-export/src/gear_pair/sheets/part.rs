@@ -13,7 +13,7 @@ pub(super) struct Part<'a> {
     pub(super) pitch_curve: Outline,
     pub(super) bore: Option<Outline>,
     pub(super) tolerance: Tolerance,
-    /// What it is called, where not driver or driven.
+    /// Name, where not driver or driven.
     pub(super) label: Option<Label>,
     /// The outermost point of each tooth.
     tips: Vec<Point>,

@@ -93,7 +93,7 @@ fn mate_name(pair: &GearPair, mate: Member) -> String {
     format!("{name}, {} teeth{same}", pair.gear(mate).tooth_count())
 }
 
-/// What is the same for both gears.
+/// Rows common to both gears.
 fn pair_rows(pair: &GearPair, meshing: Option<Meshing>, rows: &mut Rows) {
     let (driver, driven) = pair.mean_ratio();
     rows.add(
@@ -122,7 +122,7 @@ fn pair_rows(pair: &GearPair, meshing: Option<Meshing>, rows: &mut Rows) {
     }
 }
 
-/// What the assembly sheet says of the pair.
+/// Rows of the pair on the assembly sheet.
 pub(super) fn pair_data(pair: &GearPair, meshing: Option<Meshing>) -> Table {
     let mut rows = Rows::default();
     let [z1, z2] = [pair.driver(), pair.driven()].map(|gear| gear.tooth_count());

@@ -10,7 +10,7 @@ use std::f64::consts::{PI, TAU};
 /// Step of the lead table, rad: 5 deg.
 const STEP: f64 = PI / 36.0;
 
-/// What the shaft is, and does.
+/// Data of the shaft and its motion.
 pub(super) fn data(shaft: &SpiralShaft) -> Table {
     let (design, groove) = (shaft.design(), shaft.groove());
     let traverse = groove.traverse();
