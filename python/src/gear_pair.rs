@@ -15,7 +15,7 @@ use crate::body::{Body, spec_of};
 use crate::count::{Count, optional};
 use crate::design::Class;
 use crate::drawing::DrawingSpec;
-use crate::error::Answer;
+use crate::error::{Answer, finite};
 use crate::gear::Gear;
 use crate::made::Made;
 use crate::mechanism::Mechanism;
@@ -312,6 +312,9 @@ impl GearPair {
             None => wait(py, move || Contact::sampled(&pair, per_pitch)),
             Some(inputs) => {
                 let inputs = inputs.into_vec();
+                for &input in &inputs {
+                    finite("every input", input)?;
+                }
                 wait(py, move || Contact::at(&pair, &inputs))
             }
         };

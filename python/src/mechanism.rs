@@ -6,6 +6,7 @@ use std::sync::Arc;
 use centrode::family::{self, Depth, Family};
 use centrode::meshing;
 use centrode_analysis::optimise::Settings;
+use centrode_export::machine::tabulated;
 use centrode_export::{Bundle, Format};
 use centrode_mechanism::machine::{FrameJet, Machine};
 use pyo3::prelude::{
@@ -191,7 +192,8 @@ impl Mechanism {
     /// >>> pair.motion([1.0, 2.0])["driven_angle_rad"].round(12)
     /// array([0.5, 1. ])
     fn motion<'py>(&self, py: Python<'py>, phi: Values) -> Answer<Bound<'py, PyDict>> {
-        let machine = self.links(py)?;
+        let machine = self.ask(py, |machine| machine.machine().map(tabulated))??;
+        let machine = Arc::new(machine);
         let columns = PyDict::new(py);
         for (index, column) in machine.columns.iter().enumerate() {
             let machine = Arc::clone(&machine);

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use centrode_analysis::interference::Clearance;
 use centrode_analysis::optimise::{Ended, Progress};
-use centrode_analysis::{Contact, Finding, Goal, Report, Severity, Table, Unit};
+use centrode_analysis::{Contact, Finding, Goal, Report, Severity, Table};
 use centrode_mechanism::gear::{OverPins, Pin, Tooth, ToothSide};
 use centrode_mechanism::linkage;
 use numpy::{IntoPyArray, PyArrayMethods};
@@ -105,10 +105,8 @@ pub(crate) fn clearance<'py>(py: Python<'py>, found: &Clearance) -> PyResult<Bou
 
 /// A report.
 pub(crate) fn report<'py>(py: Python<'py>, report: &Report) -> PyResult<Bound<'py, PyAny>> {
-    let units = report.values.keys().map(|key| {
-        let symbol = report.unit(key).map_or("", Unit::symbol);
-        (*key, symbol)
-    });
+    let units = report.units().into_iter();
+    let units = units.map(|(key, unit)| (key, unit.symbol()));
     record!(py, "centrode._report" "Report", report => []
         ok: report.ok(),
         findings: tuple(py, report.findings.iter().map(|f| finding(py, f)))?,

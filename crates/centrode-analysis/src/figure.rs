@@ -83,14 +83,3 @@ pub(crate) fn rows<S: Serializer>(
     let figures = |row: &[f64]| row.iter().copied().map(JsonNumber).collect::<Vec<_>>();
     serializer.collect_seq(rows.iter().map(|(name, row)| (name, figures(row))))
 }
-
-/// Writes the unit of each figure by its key.
-pub(crate) fn units<S: Serializer>(
-    groups: &[FigureGroup],
-    serializer: S,
-) -> Result<S::Ok, S::Error> {
-    let rows = groups.iter().flat_map(|group| group.rows);
-    let keys = rows.flat_map(|row| row.keys.iter().map(|key| (*key, row.unit)));
-    let named: BTreeMap<&str, Unit> = keys.filter(|(key, _)| !key.is_empty()).collect();
-    serializer.collect_map(named)
-}

@@ -86,8 +86,8 @@ pub struct Report {
     /// Figures by key.
     #[serde(serialize_with = "figure::values")]
     pub values: BTreeMap<&'static str, f64>,
-    /// Titles and units of the figures, in the order in which they are shown; in JSON the unit of each figure.
-    #[serde(rename = "units", serialize_with = "figure::units")]
+    /// Titles and units of the figures, in the order in which they are shown.
+    #[serde(skip)]
     pub groups: Vec<FigureGroup>,
     /// Goals, if its design has any.
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -110,6 +110,14 @@ impl Report {
         let mut rows = self.groups.iter().flat_map(|group| group.rows);
         let found = rows.find(|row| !key.is_empty() && row.keys.contains(&key));
         found.map(|row| row.unit)
+    }
+
+    /// Units of the figures by key.
+    #[must_use]
+    pub fn units(&self) -> BTreeMap<&'static str, Unit> {
+        let keys = self.values.keys();
+        keys.filter_map(|key| Some((*key, self.unit(key)?)))
+            .collect()
     }
 
     /// Puts the worst findings first.

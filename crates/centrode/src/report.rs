@@ -2,9 +2,10 @@ mod figures;
 mod findings;
 mod goals;
 
+use std::collections::BTreeMap;
 use std::io::Write;
 
-use centrode::analysis::Report;
+use centrode::analysis::{Report, Unit};
 use centrode::family::Mechanism;
 use serde::Serialize;
 
@@ -18,6 +19,7 @@ struct Json<'a> {
     ok: bool,
     #[serde(flatten)]
     report: &'a Report,
+    units: BTreeMap<&'static str, Unit>,
 }
 
 /// The report as JSON with every digit; an infinite figure is the string "Infinity". Ends with a newline.
@@ -25,6 +27,7 @@ pub(crate) fn json(report: &Report) -> std::io::Result<String> {
     let json = Json {
         ok: report.ok(),
         report,
+        units: report.units(),
     };
     let mut text = serde_json::to_string_pretty(&json)?;
     text.push('\n');

@@ -4,6 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use centrode::FAMILIES;
+use centrode::analysis::interference::between_links;
 use centrode::export::machine::{picture, plain, read, schema, write};
 use centrode::export::page::Picture;
 use centrode::export::{Bundle, Format, Options, Package};
@@ -61,6 +62,57 @@ fn files(machine: &Machine, options: &Options) -> Bundle {
     let mut package = Package::new("a machine", ["", ""], &formats, options);
     package.machine(|| Ok(machine.clone())).expect("written");
     package.finish().expect("whole")
+}
+
+/// Names and clearances of the links that do not mesh and touch others in the plane, to within the tolerance.
+fn clearances(machine: &Machine, tolerance: Tolerance) -> Vec<(String, f64, f64)> {
+    let touching: Vec<usize> = (0..machine.links.len())
+        .filter(|link| !machine.links[*link].surfaces.is_empty())
+        .collect();
+    let mut found = Vec::new();
+    for (i, &one) in touching.iter().enumerate() {
+        for &other in &touching[i + 1..] {
+            let pair = [one, other];
+            let meshes = |links: [usize; 2]| links == pair || links == [other, one];
+            if machine.meshes.iter().any(|mesh| meshes(mesh.links)) {
+                continue;
+            }
+            let Ok(Some(clearance)) = between_links(machine, pair, tolerance) else {
+                continue;
+            };
+            let name = pair
+                .map(|link| machine.links[link].name.as_str())
+                .join(" and ");
+            found.push((name, clearance.least, clearance.lower_bound));
+        }
+    }
+    found
+}
+
+#[test]
+fn links_keep_the_same_clearance_in_the_machine_read_back_from_its_plain_file() {
+    let tolerance = Tolerance::new(0.2).expect("positive");
+    let mut compared = 0;
+    for (name, machine) in machines() {
+        // Of a machine of many links some are enough.
+        if !["feeder-2022", "three-arm-2021"].contains(&name.as_str()) {
+            continue;
+        }
+        let bytes = write(&plain(&machine, tolerance).expect("meshed")).expect("plain");
+        let again = read(&bytes).expect("readable");
+        let [one, other] = [&machine, &again].map(|machine| clearances(machine, tolerance));
+        assert_eq!(one.len(), other.len(), "{name}");
+        for ((links, least, bound), (_, least_again, bound_again)) in one.iter().zip(&other) {
+            let off = (least - least_again).abs().max((bound - bound_again).abs());
+            assert!(off < 1e-9, "{name}: {links}: {least} and {least_again}");
+            assert!(
+                bound <= least && least - bound <= tolerance.mm(),
+                "{name}: {links}"
+            );
+        }
+        compared += one.len();
+    }
+    assert!(compared > 2, "{compared} pairs");
 }
 
 /// Holds two tables against each other: positions to rounding, derivatives of pieces less closely.

@@ -2,6 +2,7 @@
 
 mod body;
 mod depth;
+mod links;
 mod motion;
 mod parry;
 mod sweep;
@@ -9,6 +10,7 @@ mod sweep;
 use centrode_geometry::{Outline, Point, Tolerance};
 
 pub use body::{Body, BodyError};
+pub use links::{LinkClearanceError, between_links};
 pub use motion::{Bend, Later, Motion, MotionError, PoseJet, Rest, Tabulated, Uniform};
 
 use depth::deepest;

@@ -4,13 +4,14 @@ mod tables;
 use std::f64::consts::{FRAC_PI_6, TAU};
 
 use centrode_geometry::extremes;
+use centrode_mechanism::gear::GearPair;
 use centrode_mechanism::shaft::{
-    ClearOffset, Crossing, MovingBox, Pick, Schedule, ShaftError, SpiralShaft,
+    ClearOffset, Crossing, EllipticDrive, MovingBox, Pick, Schedule, ShaftError, SpiralShaft,
 };
 use centrode_mechanism::transmission::Transmission;
 
 use self::figures::FIGURES;
-use crate::{Finding, Place, Report, Severity, Unit};
+use crate::{Finding, Place, Report, Severity, Unit, gear_pair};
 
 /// Pressure angle, rad, above which a follower moved along its guide runs badly: 30 deg.
 const PRESSURE_ANGLE: f64 = FRAC_PI_6;
@@ -57,6 +58,7 @@ pub fn check_moving_box(machine: &MovingBox) -> Report {
         return report;
     };
     seat(machine, &mut report);
+    gears(machine, drive, &mut report);
     let values = &mut report.values;
     values.insert("gear_eccentricity", drive.eccentricity);
     let k = drive.eccentricity;
@@ -88,6 +90,29 @@ pub fn check_moving_box(machine: &MovingBox) -> Report {
     contact(limit, load.speed_rpm, &mut report);
     report.worst_first();
     report
+}
+
+/// Reports what is wrong with the gears, or that none can be cut.
+fn gears(machine: &MovingBox, drive: &EllipticDrive, report: &mut Report) {
+    let Some(design) = machine.design().gear_pair(drive) else {
+        return;
+    };
+    match GearPair::resolve(&design) {
+        Ok(pair) => report.findings.extend(gear_pair::check(&pair).findings),
+        Err(error) => report.findings.push(Finding {
+            rule: "no-gears",
+            severity: Severity::Error,
+            message: format!("no gears can be cut: {}: {error}", error.key()),
+            measured: None,
+            required: None,
+            unit: Unit::Count,
+            remedy: None,
+            place: Place {
+                part: Some("gears".into()),
+                ..Place::default()
+            },
+        }),
+    }
 }
 
 /// Reports gears that have a bore of their own which is not that of their journal.

@@ -156,6 +156,28 @@ fn gears_with_a_bore_of_their_own_must_fit_the_journal() {
 }
 
 #[test]
+fn gears_of_a_box_that_cannot_be_cut_are_found_and_those_of_bad_teeth_told() {
+    let report = |count: u32, module: f64| {
+        let mut design = MovingBoxDesign {
+            scheme: Scheme::EllipticGear,
+            gears: Some(EllipticGears {
+                speed_ratio: Some(3.0),
+                ..EllipticGears::default()
+            }),
+            ..MovingBoxDesign::default()
+        };
+        let gears = design.gears.as_mut().expect("gears");
+        (gears.tooth_count, gears.module) = (count, module);
+        let machine = MovingBox::resolve(&design).expect("resolves");
+        check_moving_box(&machine)
+    };
+    let none = report(12, 2.25);
+    assert!(!none.ok() && rules(&none).contains(&"no-gears"));
+    let undercut = report(10, 5.0);
+    assert!(undercut.ok() && rules(&undercut).contains(&"undercut"));
+}
+
+#[test]
 fn the_elliptic_scheme_has_its_published_figures() {
     let design = MovingBoxDesign {
         scheme: Scheme::EllipticGear,

@@ -64,6 +64,14 @@ pub(crate) fn add(machine: &Machine, package: &mut Package<'_>) -> Result<(), Ex
     Ok(())
 }
 
+/// The machine with every column of its table of motion: those of the machine, and the rate of each joint that does not move
+/// evenly and has none.
+#[must_use]
+pub fn tabulated(machine: Machine) -> Machine {
+    let lines = motion::lines(&file::in_pieces(&machine));
+    motion::with_rates(machine, &lines)
+}
+
 /// The JSON schema of `motion.json`.
 #[must_use]
 pub fn motion_schema() -> serde_json::Value {

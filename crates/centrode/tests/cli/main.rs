@@ -181,6 +181,12 @@ fn a_new_feeder_is_good_and_the_published_one_is_infeasible() {
 fn the_published_three_arm_set_has_its_goals() {
     let check = centrode(&["check", &shipped("three-arm-2021.toml"), "--json"]);
     let report: serde_json::Value = serde_json::from_slice(&check.stdout).expect("JSON");
+    let keys = |table: &str| -> Vec<String> {
+        let table = report[table].as_object().expect("a table");
+        table.keys().cloned().collect()
+    };
+    // Every figure has its unit, and there is no unit without a figure.
+    assert_eq!(keys("values"), keys("units"));
     let goals = report["goals"].as_array().expect("goals");
     let goal = |name: &str| goals.iter().find(|g| g["name"] == name).expect("a goal");
     let value = |name: &str| goal(name)["value"].as_f64().expect("a figure");
