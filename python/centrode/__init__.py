@@ -37,6 +37,7 @@ from ._error import CamError, DesignError, Error, ExportError, GearPairError, Li
 from ._goal import Goal
 from ._optimised import Optimised
 from ._over_pins import OverPins
+from ._part import Part
 from ._report import Finding, Place, Report, Table
 from ._sheet import Drawing, Sheets
 from ._six_bar import DeadCenters
@@ -70,6 +71,7 @@ __all__ = [
     "MovingBox",
     "Optimised",
     "OverPins",
+    "Part",
     "Pitch",
     "PitchError",
     "Place",

@@ -12,6 +12,7 @@ from ._contact import Contact
 from ._goal import Goal
 from ._optimised import Optimised
 from ._over_pins import OverPins
+from ._part import Part
 from ._report import Report
 from ._sheet import Drawing, Sheets
 from ._six_bar import DeadCenters
@@ -447,6 +448,7 @@ class Mechanism:
     @overload
     def motion(self, phi: ArrayLike) -> dict[str, NDArray[float64]]: ...
     def frames(self, phi: ArrayLike) -> dict[str, NDArray[float64]]: ...
+    def parts(self) -> tuple[Part, ...]: ...
     def optimise(
         self,
         method: Literal["guided", "cma-es", "de", "ga"] = "guided",

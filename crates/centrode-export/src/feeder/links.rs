@@ -1,16 +1,16 @@
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-use centrode_geometry::{Solid, Vector};
+use centrode_geometry::{MassProperties, Solid, Vector};
 use centrode_mechanism::feeder::{Feeder, Part, Plate};
 use centrode_mechanism::gear::IncompletePair;
 use centrode_mechanism::machine::{
     Closure, Form, Input, Joint, Link, LinkPoint, Machine, Quantity, Shape,
 };
 use centrode_mechanism::transmission::{FromFn, MotionJet, Transmission};
-use nalgebra::Isometry2;
+use nalgebra::{Isometry2, Isometry3};
 
-use super::figures;
+use super::{arrangement, figures};
 use crate::ExportError;
 
 /// The links as a tree, every joint zero where the effector rests; the loops close at C. The gears are drawn with the teeth
@@ -72,10 +72,11 @@ pub(super) fn drawn(feeder: &Feeder, plates: &[Plate], gears: Option<&Incomplete
 /// The links with their bodies.
 pub(super) fn machine(feeder: &Feeder, plates: &[Plate]) -> Result<Machine, ExportError> {
     let mut machine = drawn(feeder, plates, None);
+    arrangement::tell(feeder, plates, &mut machine);
     for plate in plates {
         let name = plate.part.name();
         let solid = solid(feeder, plate)?;
-        let mass = solid.mass_properties(feeder.design().plates.density);
+        let mass = mass(feeder, plate, &solid);
         let shape = machine.shape(Shape {
             name: format!("links/{name}"),
             part: String::new(),
@@ -87,6 +88,17 @@ pub(super) fn machine(feeder: &Feeder, plates: &[Plate]) -> Result<Machine, Expo
         }
     }
     Ok(machine)
+}
+
+/// Mass of a part with all its plates: a second one of the frame stands above the others.
+fn mass(feeder: &Feeder, plate: &Plate, solid: &Solid) -> MassProperties {
+    let spec = &feeder.design().plates;
+    let one = solid.mass_properties(spec.density);
+    let above = 5.0 * (spec.thickness + spec.gap);
+    let all: Vec<MassProperties> = (0..plate.part.quantity())
+        .map(|k| one.placed(&Isometry3::translation(0.0, 0.0, f64::from(k) * above)))
+        .collect();
+    MassProperties::together(&all).unwrap_or(one)
 }
 
 /// A plate in the axes of the model's link: parallel to the world's where the effector rests.

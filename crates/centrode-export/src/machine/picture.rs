@@ -225,12 +225,12 @@ fn still(line: &Line, tolerance: Tolerance) -> Option<Path> {
     }
 }
 
-fn placed([x, y, turn]: &[f64; 3]) -> Isometry2<f64> {
+pub(super) fn placed([x, y, turn]: &[f64; 3]) -> Isometry2<f64> {
     Isometry2::new(nalgebra::Vector2::new(*x, *y), *turn)
 }
 
 /// Where a figure stands at an input; a link's turn goes on from the one before.
-fn pose(
+pub(super) fn pose(
     machine: &Machine,
     figure: &Figure,
     places: &[Option<Isometry3<f64>>],
@@ -268,16 +268,21 @@ fn wanted(machine: &Machine, traced: &[bool]) -> Vec<bool> {
     let points = machine.points.iter().zip(traced);
     let points = points.filter(|(_, traced)| **traced).map(|(p, _)| p.link);
     for link in seats.chain(points) {
-        let mut next = Some(link);
-        while let Some(link) = next {
-            if std::mem::replace(&mut wanted[link], true) {
-                break;
-            }
-            let carrier = machine.joints.iter().find(|joint| joint.child == link);
-            next = carrier.map(|joint| joint.parent);
-        }
+        carriers(machine, link, &mut wanted);
     }
     wanted
+}
+
+/// Marks a link and those that carry it.
+pub(super) fn carriers(machine: &Machine, link: usize, wanted: &mut [bool]) {
+    let mut next = Some(link);
+    while let Some(link) = next {
+        if std::mem::replace(&mut wanted[link], true) {
+            break;
+        }
+        let carrier = machine.joints.iter().find(|joint| joint.child == link);
+        next = carrier.map(|joint| joint.parent);
+    }
 }
 
 fn traces(sketch: &Sketch, point: usize) -> bool {

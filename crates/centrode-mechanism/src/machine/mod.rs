@@ -1,12 +1,15 @@
 //! The machine: rigid links in a tree of joints, each of which follows a transmission of the one input.
 //!
-//! Posing, motion tables, simulator models, pictures and interference read a [`Machine`] and nothing else. Loops are
+//! Posing, motion tables, simulator models, pictures, parts lists, arrangements and interference read a [`Machine`] and nothing
+//! else. Loops are
 //! closed when it is made: the joints' laws already hold them, and the closures stay known to simulators.
 
+mod arrangement;
 mod figure;
 mod jet;
 mod joint;
 mod law;
+mod part;
 mod plain;
 mod pose;
 mod sound;
@@ -20,10 +23,12 @@ use serde::{Deserialize, Serialize};
 
 use crate::transmission::Transmission;
 
+pub use arrangement::{Arrangement, Axis, Callout, Datum, Dimension, Place};
 pub use figure::{Figure, Line, LinePath, LineRole, Mark, Seat, Sketch};
 pub use jet::{FrameJet, PointJet};
 pub use joint::{Joint, JointKind};
 pub use law::{Constant, Linear, Piecewise};
+pub use part::Part;
 pub use sound::{MachineError, loose_link};
 
 /// Rigid links, and how each of them moves with the one input.
@@ -58,6 +63,10 @@ pub struct Machine {
     pub figures: Vec<Figure>,
     /// Places of the picture worth a name.
     pub marks: Vec<Mark>,
+    /// Parts that a shop makes or buys, in the order of the parts list.
+    pub parts: Vec<Part>,
+    /// The general arrangement.
+    pub arrangement: Arrangement,
     /// Comment of the machine's files.
     pub note: String,
 }
