@@ -42,7 +42,7 @@ mod tolerance;
 pub use antiderivative::Antiderivative;
 pub use bounds::Bounds;
 pub use cancel::{Cancel, Cancelled, Scope, checkpoint};
-pub use convex::{ConvexPieces, convex_pieces};
+pub use convex::{ConvexPieces, convex_hull, convex_pieces};
 pub use crossing::Crossing;
 pub use crossings::{Unresolved, crossings, self_crossings};
 pub use curve::{Curve, Jet};
