@@ -268,21 +268,12 @@ fn wanted(machine: &Machine, traced: &[bool]) -> Vec<bool> {
     let points = machine.points.iter().zip(traced);
     let points = points.filter(|(_, traced)| **traced).map(|(p, _)| p.link);
     for link in seats.chain(points) {
-        carriers(machine, link, &mut wanted);
+        wanted[link] = true;
+        for joint in machine.carriers(link) {
+            wanted[joint.parent] = true;
+        }
     }
     wanted
-}
-
-/// Marks a link and those that carry it.
-pub(super) fn carriers(machine: &Machine, link: usize, wanted: &mut [bool]) {
-    let mut next = Some(link);
-    while let Some(link) = next {
-        if std::mem::replace(&mut wanted[link], true) {
-            break;
-        }
-        let carrier = machine.joints.iter().find(|joint| joint.child == link);
-        next = carrier.map(|joint| joint.parent);
-    }
 }
 
 fn traces(sketch: &Sketch, point: usize) -> bool {

@@ -39,15 +39,9 @@ pub(super) struct Length {
 
 /// The first of the links that a link is fixed to.
 fn fixed_to(machine: &Machine, link: usize) -> usize {
-    let mut first = link;
-    let fixed = |link: usize| {
-        let mut joints = machine.joints.iter();
-        joints.find(|joint| joint.child == link && joint.kind == JointKind::Fixed)
-    };
-    while let Some(joint) = fixed(first) {
-        first = joint.parent;
-    }
-    first
+    let carriers = machine.carriers(link);
+    let fixed = carriers.take_while(|joint| joint.kind == JointKind::Fixed);
+    fixed.last().map_or(link, |joint| joint.parent)
 }
 
 /// A name of the machine in words.

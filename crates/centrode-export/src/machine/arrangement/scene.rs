@@ -4,7 +4,7 @@ use centrode_mechanism::machine::{
 };
 use nalgebra::{Isometry2, Isometry3};
 
-use super::super::picture::{carriers, placed, pose};
+use super::super::picture::{placed, pose};
 use crate::sheet::Pen;
 
 /// Parts of a period in which the way of a point is drawn.
@@ -185,10 +185,16 @@ fn perimeter(outline: &Outline) -> f64 {
 /// The way of a point over one period, as seen from a figure.
 fn way(machine: &Machine, figure: &Figure, point: &LinkPoint) -> Vec<Point> {
     let mut wanted = vec![false; machine.links.len()];
-    carriers(machine, point.link, &mut wanted);
     // A free seat's quantities find their links themselves.
-    if let Seat::Link(link) = figure.seat {
-        carriers(machine, link, &mut wanted);
+    let seat = match figure.seat {
+        Seat::Link(link) => Some(link),
+        Seat::Free(_) => None,
+    };
+    for link in seat.into_iter().chain([point.link]) {
+        wanted[link] = true;
+        for joint in machine.carriers(link) {
+            wanted[joint.parent] = true;
+        }
     }
     let at = |i: u32| {
         let input = machine.input.period * f64::from(i) / f64::from(STEPS);
