@@ -31,6 +31,7 @@ mod piece;
 mod placement;
 mod poly_segment;
 mod quadrature;
+mod recent;
 mod roots;
 #[cfg(test)]
 mod shapes;
@@ -55,6 +56,7 @@ pub use moments::AreaMoments;
 pub use opening::Opening;
 pub use outline::{Arc, OpenOutline, Outline, Segment};
 pub use poly_segment::{PolySegment, SegmentJet};
+pub use recent::Recent;
 pub use roots::{bracketed_minimum, bracketed_root};
 pub use shell::{Shell, ShellCurve, ShellEdge, ShellFace, ShellSurface};
 pub use solid::{Solid, SolidError};
