@@ -8,7 +8,7 @@ from ._slider_force import SliderForce
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Forces:
-    """Forces of a machine at inputs: each a number or an array of the shape of the inputs, forces with their components last.
+    """Forces of a machine at inputs: numbers or arrays of the shape of the inputs, forces with their components last.
 
     Components are along the axes of the first link: x and y for a machine in a plane, x, y and z for one in space.
     """
@@ -26,7 +26,7 @@ class Forces:
     contacts: dict[str, NDArray[np.float64]]
     """Force on the second link of a contact, N: on the roller of a cam, the pin in a slot."""
     meshes: dict[str, float | NDArray[np.float64]]
-    """Force along the flanks' normal, N, by the two links; positive on the flanks that push the driven one counter-clockwise."""
+    """Force along the flanks' normal, N, by the two links; positive where it turns the driven one counter-clockwise."""
     guides: dict[str, SliderForce]
     """Forces of a groove on what it moves, by that joint."""
     undetermined: tuple[str, ...]

@@ -18,8 +18,8 @@ pub(super) fn blocks(mut needs: Vec<Vec<bool>>) -> Vec<Vec<usize>> {
         }
     }
     let mut blocks: Vec<Vec<usize>> = Vec::new();
-    for one in 0..count {
-        let alike = |block: &&mut Vec<usize>| needs[one][block[0]] && needs[block[0]][one];
+    for (one, needed) in needs.iter().enumerate() {
+        let alike = |block: &&mut Vec<usize>| needed[block[0]] && needs[block[0]][one];
         match blocks.iter_mut().find(alike) {
             Some(block) => block.push(one),
             None => blocks.push(vec![one]),

@@ -5,6 +5,7 @@
 //! nothing for the joints that it moves to supply. Lengths are mm, masses kg, forces N, torques N mm.
 
 mod blocks;
+mod elimination;
 mod motion;
 mod ready;
 mod state;
@@ -100,6 +101,14 @@ pub enum ForcesError {
         holder: String,
         /// Name of the link.
         link: String,
+    },
+    /// Forces that are not finite.
+    #[error("at the input {input} rad and {speed} rad/s the forces are not finite")]
+    NotFinite {
+        /// The input, rad.
+        input: f64,
+        /// Speed of the input, rad/s.
+        speed: f64,
     },
     /// Forces grow beyond bounds: a dead position, or teeth that stand still on both links.
     #[error("at the input {input} rad no force on {links} balances the load: a dead position")]

@@ -2,6 +2,7 @@ use centrode_mechanism::machine::{Axes, GuideForce, JointKind, Load, Machine, Qu
 use centrode_mechanism::transmission::MotionJet;
 use nalgebra::Vector3;
 
+use super::elimination::eliminated;
 use super::motion::LinkMotion;
 use super::ready::{Balance, Follower, Step};
 use super::tie::{Lines, Tie, TieKind};
@@ -9,8 +10,6 @@ use super::{Forces, ForcesError, JointForce, Reaction, ToothForce};
 
 /// Millimetres in a metre: kg mm/s² are thousandths of a newton.
 const MM: f64 = 1000.0;
-/// Share of the greatest lever that rounding leaves: below it a force is not determined.
-const DEAD: f64 = 1e-13;
 
 /// A force and its moment about the origin of the first link.
 #[derive(Clone, Copy, Debug)]
@@ -60,7 +59,7 @@ impl Balance {
     /// equals that of inertia, weight and loads on their ways.
     ///
     /// # Errors
-    /// [`ForcesError::Dead`] in a dead position.
+    /// [`ForcesError::Dead`] in a dead position, [`ForcesError::NotFinite`] for numbers too large.
     pub fn at(&self, input: f64, speed: f64) -> Result<Forces, ForcesError> {
         let mut state = State::of(self, input, speed);
         let machine = &*self.machine;
@@ -114,6 +113,11 @@ impl Balance {
             }
             let reaction = (!self.hidden[joint]).then(|| state.reaction(joint));
             forces.joints.push(JointForce { drive, reaction });
+        }
+        // A sum of what is not finite is not, either.
+        let sum = forces.joints.iter().map(|joint| joint.drive).sum::<f64>();
+        if !(sum + forces.input_torque + forces.kinetic_energy).is_finite() {
+            return Err(ForcesError::NotFinite { input, speed });
         }
         Ok(forces)
     }
@@ -348,42 +352,4 @@ fn in_world(link: &LinkMotion, components: Vector3<f64>, axes: Axes) -> Vector3<
         Axes::World => components,
         Axes::Link => link.turn * components,
     }
-}
-
-/// Solution of equations, each a row that ends in its right side; none where rounding leaves none.
-///
-/// Source: Gauss's elimination with the pivots of scaled rows; ties come in ones and twos.
-fn eliminated(mut rows: Vec<Vec<f64>>) -> Option<Vec<f64>> {
-    let count = rows.len();
-    for row in &mut rows {
-        // Rows of forces and of moments have sizes of their own.
-        let size = row[..count]
-            .iter()
-            .fold(0.0_f64, |most, x| most.max(x.abs()));
-        row.iter_mut().for_each(|x| *x /= size);
-    }
-    for at in 0..count {
-        let size = |row: &usize| rows[*row][at].abs();
-        let pivot = (at..count).max_by(|a, b| size(a).total_cmp(&size(b)))?;
-        if !(size(&pivot) > DEAD) {
-            return None;
-        }
-        rows.swap(at, pivot);
-        let (above, below) = rows.split_at_mut(at + 1);
-        let pivot = &above[at];
-        for row in below {
-            let share = row[at] / pivot[at];
-            for (x, over) in row.iter_mut().zip(pivot).skip(at) {
-                *x -= share * over;
-            }
-        }
-    }
-    let mut found = vec![0.0; count];
-    for at in (0..count).rev() {
-        let row = &rows[at];
-        let known = row[at + 1..count].iter().zip(&found[at + 1..]);
-        let known: f64 = known.map(|(x, value)| x * value).sum();
-        found[at] = (row[count] - known) / row[at];
-    }
-    Some(found)
 }

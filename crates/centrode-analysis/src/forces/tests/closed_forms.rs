@@ -65,24 +65,8 @@ fn joint_forces_of_a_slider_crank_are_those_of_the_closed_form() {
 #[test]
 fn joint_forces_of_a_four_bar_are_those_of_the_closed_form() {
     let [a, b, c, d] = [40.0, 110.0, 80.0, 100.0];
-    let mut linkage = Linkage::new();
-    let build = |linkage: &mut Linkage| {
-        let p = linkage.point(Bar::FRAME, Point::origin())?;
-        let q = linkage.point(Bar::FRAME, Point::new(d, 0.0))?;
-        let (crank, tip) = linkage.crank(p, a, 0.0)?;
-        let bars = linkage.rrr(tip, q, (b, c), Branch::Upper)?;
-        Ok::<_, LinkageError>([crank, bars.first, bars.second])
-    };
-    let [crank, coupler, rocker] = build(&mut linkage).expect("a linkage");
-    let linkage = Arc::new(linkage);
-    let angle = |bar: Bar, less: Option<Bar>| {
-        let linkage = linkage.clone();
-        law(move |phi| {
-            let pose = linkage.at(phi).expect("it turns");
-            let own = pose.body(bar).angle;
-            less.map_or(own, |less| own.plus(-1.0, &pose.body(less).angle))
-        })
-    };
+    let (linkage, [crank, coupler, rocker]) = four_bar([a, b, c, d]);
+    let angle = |bar: Bar, less: Option<Bar>| angle(&linkage, bar, less);
     let mut found = machine(&["frame", "crank", "coupler", "rocker"]);
     found.joint(Joint::turning(0, 1, turning(1.0)));
     found.joint(Joint::turning(1, 2, angle(coupler, Some(crank))).at([a, 0.0, 0.0]));
@@ -92,11 +76,7 @@ fn joint_forces_of_a_four_bar_are_those_of_the_closed_form() {
         at: [b, 0.0, 0.0],
         joints: [1, 2],
     });
-    found.loads.push(Load::Torque {
-        link: 3,
-        torque: [number(0.0), number(0.0), number(-900.0)],
-        axes: Axes::World,
-    });
+    found.loads.push(torque(3, -900.0));
     let balance = Balance::new(found).expect("a machine");
     for i in 0..20 {
         let phi = 0.3 * f64::from(i);
@@ -126,18 +106,8 @@ fn joint_forces_of_a_four_bar_are_those_of_the_closed_form() {
 fn a_cam_pushes_its_roller_square_to_its_curve() {
     let (e, arm, center, reach) = (15.0, 70.0, 90.0, 60.0);
     // Middle of the disc to the roller, a bar of constant length: the follower moves as the rocker of a four-bar.
-    let mut linkage = Linkage::new();
-    let build = |linkage: &mut Linkage| {
-        let p = linkage.point(Bar::FRAME, Point::origin())?;
-        let q = linkage.point(Bar::FRAME, Point::new(center, 0.0))?;
-        let (_, tip) = linkage.crank(p, e, 0.0)?;
-        let bars = linkage.rrr(tip, q, (reach, arm), Branch::Upper)?;
-        Ok::<_, LinkageError>(bars.second)
-    };
-    let rocker = build(&mut linkage).expect("a linkage");
-    let pose = Arc::new(linkage);
-    let posed = pose.clone();
-    let swing = law(move |phi| posed.at(phi).expect("it turns").body(rocker).angle);
+    let (pose, [_, _, rocker]) = four_bar([e, reach, arm, center]);
+    let swing = angle(&pose, rocker, None);
     let mut found = machine(&["frame", "cam", "follower"]);
     found.joint(Joint::turning(0, 1, turning(1.0)));
     found.joint(Joint::turning(0, 2, swing).at([center, 0.0, 0.0]));
@@ -147,11 +117,7 @@ fn a_cam_pushes_its_roller_square_to_its_curve() {
         at: [arm, 0.0, 0.0],
         normal: None,
     });
-    found.loads.push(Load::Torque {
-        link: 2,
-        torque: [number(0.0), number(0.0), number(700.0)],
-        axes: Axes::World,
-    });
+    found.loads.push(torque(2, 700.0));
     let balance = Balance::new(found).expect("a machine");
     for i in 0..20 {
         let phi = 0.31 * f64::from(i);

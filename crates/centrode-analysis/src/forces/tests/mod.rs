@@ -63,6 +63,39 @@ fn reaction(forces: &Forces, joint: usize) -> Vector3<f64> {
     forces.joints[joint].reaction.expect("determined").force
 }
 
+/// A torque on a link, N mm.
+fn torque(link: usize, size: f64) -> Load {
+    Load::Torque {
+        link,
+        torque: [0.0, 0.0, size].map(number),
+        axes: Axes::World,
+    }
+}
+
+/// Law of the angle of a bar, against another one where there is one.
+fn angle(linkage: &Arc<Linkage>, bar: Bar, less: Option<Bar>) -> Law {
+    let linkage = linkage.clone();
+    law(move |phi| {
+        let pose = linkage.at(phi).expect("it turns");
+        let own = pose.body(bar).angle;
+        less.map_or(own, |less| own.plus(-1.0, &pose.body(less).angle))
+    })
+}
+
+/// A four-bar of crank, coupler, rocker and frame, and its three moving bars.
+fn four_bar([a, b, c, d]: [f64; 4]) -> (Arc<Linkage>, [Bar; 3]) {
+    let mut linkage = Linkage::new();
+    let mut build = || {
+        let p = linkage.point(Bar::FRAME, Point::origin())?;
+        let q = linkage.point(Bar::FRAME, Point::new(d, 0.0))?;
+        let (crank, tip) = linkage.crank(p, a, 0.0)?;
+        let bars = linkage.rrr(tip, q, (b, c), Branch::Upper)?;
+        Ok::<_, LinkageError>([crank, bars.first, bars.second])
+    };
+    let bars = build().expect("a linkage");
+    (Arc::new(linkage), bars)
+}
+
 fn near(found: f64, wanted: f64, share: f64) {
     let off = (found - wanted).abs();
     assert!(off <= share * (1.0 + wanted.abs()), "{found} {wanted}");
@@ -122,11 +155,7 @@ fn gears(load: f64) -> Machine {
         copy: 0,
         pressure_angle: Some(20_f64.to_radians()),
     });
-    found.loads.push(Load::Torque {
-        link: 2,
-        torque: [number(0.0), number(0.0), number(load)],
-        axes: Axes::World,
-    });
+    found.loads.push(torque(2, load));
     found
 }
 
@@ -173,6 +202,8 @@ fn what_has_no_single_answer_is_refused_by_name() {
     dead.closures[0].joints = [0, 1];
     let balance = Balance::new(dead).expect("the piston drives");
     assert!(balance.at(1.0, 1.0).is_ok());
+    let error = balance.at(1.0, 1e300).expect_err("too fast").to_string();
+    assert!(error.contains("not finite"), "{error}");
     let error = balance.at(0.0, 1.0).expect_err("dead");
     assert!(
         error

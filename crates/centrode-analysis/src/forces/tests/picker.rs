@@ -22,14 +22,7 @@ fn picker() -> Machine {
     };
     let (linkage, turns, pins) = build().expect("a linkage");
     let linkage = Arc::new(linkage);
-    let angle = |bar: Bar, less: Option<Bar>| {
-        let linkage = linkage.clone();
-        law(move |phi| {
-            let pose = linkage.at(phi).expect("it turns");
-            let own = pose.body(bar).angle;
-            less.map_or(own, |less| own.plus(-1.0, &pose.body(less).angle))
-        })
-    };
+    let angle = |bar: Bar, less: Option<Bar>| angle(&linkage, bar, less);
     let slide = |pin: usize, along: fn(&Jet) -> MotionJet| {
         let (linkage, pin) = (linkage.clone(), pins[pin]);
         law(move |phi| along(&linkage.at(phi).expect("it turns").joint(pin)))

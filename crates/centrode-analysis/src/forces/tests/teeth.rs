@@ -48,11 +48,7 @@ fn teeth_of_an_elliptic_pair_push_square_to_its_pitch_curves() {
         copy: 0,
         pressure_angle: Some(alpha),
     });
-    pair.loads.push(Load::Torque {
-        link: 2,
-        torque: [number(0.0), number(0.0), number(-500.0)],
-        axes: Axes::World,
-    });
+    pair.loads.push(torque(2, -500.0));
     let balance = Balance::new(pair).expect("a machine");
     for i in 1..30 {
         let t = 0.1 * f64::from(i);
