@@ -34,6 +34,7 @@ from ._clearance import Clearance
 from ._contact import Contact
 from ._design import load, schema
 from ._error import CamError, DesignError, Error, ExportError, GearPairError, LinkageError, MechanismError, PitchError
+from ._forces import Forces
 from ._goal import Goal
 from ._optimised import Optimised
 from ._over_pins import OverPins
@@ -60,6 +61,7 @@ __all__ = [
     "ExportError",
     "Feeder",
     "Finding",
+    "Forces",
     "Gear",
     "GearPair",
     "GearPairError",

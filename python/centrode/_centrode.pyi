@@ -9,6 +9,7 @@ from typing_extensions import Self, disjoint_base
 
 from ._clearance import Clearance
 from ._contact import Contact
+from ._forces import Forces
 from ._goal import Goal
 from ._optimised import Optimised
 from ._over_pins import OverPins
@@ -448,6 +449,7 @@ class Mechanism:
     @overload
     def motion(self, phi: ArrayLike) -> dict[str, NDArray[float64]]: ...
     def frames(self, phi: ArrayLike) -> dict[str, NDArray[float64]]: ...
+    def forces(self, phi: ArrayLike, *, speed: _Real | None = None) -> Forces: ...
     def parts(self) -> tuple[Part, ...]: ...
     def optimise(
         self,

@@ -11,6 +11,7 @@ mod drawing;
 mod error;
 mod feeder;
 mod files;
+mod forces;
 mod gear;
 mod gear_pair;
 mod made;

@@ -17,8 +17,9 @@ use pyo3::types::{PyDict, PyTuple, PyType};
 
 use crate::array::{Course, Values};
 use crate::design::{named, object, of_class, path_loaded, read};
-use crate::error::{Answer, tolerance as within};
+use crate::error::{Answer, finite, tolerance as within};
 use crate::files;
+use crate::forces;
 use crate::made::{Reduced, by_design};
 use crate::record;
 use crate::search;
@@ -226,6 +227,36 @@ impl Mechanism {
             frames.set_item(&link.name, frames_of)?;
         }
         Ok(frames)
+    }
+
+    /// Forces at inputs, rad, that turn evenly: the torque of the input and what joints, pins, rollers and teeth carry.
+    ///
+    /// The links weigh what their bodies do, with the loads of the design. Wear, play and, but for grooves and rails,
+    /// friction are left out.
+    ///
+    /// Args:
+    ///     phi: Inputs, rad.
+    ///     speed: Speed of the input, rad/s; left out, the design's, or 1 where it says nothing. Zero holds it still.
+    ///
+    /// Raises:
+    ///     MechanismError: A part cannot be made, more than one thing holds a link, or no force balances the load.
+    ///
+    /// >>> import centrode as ct
+    /// >>> forces = ct.Feeder.from_toml(ct.template("feeder")).forces([0.0, 1.0], speed=0)
+    /// >>> forces.drives["crank_joint"].round(1)
+    /// array([89.4, 86.9])
+    /// >>> forces.joints["coupler_joint"].shape
+    /// (2, 2)
+    #[pyo3(signature = (phi, *, speed=None))]
+    fn forces<'py>(
+        &self,
+        py: Python<'py>,
+        phi: Values,
+        speed: Option<f64>,
+    ) -> Answer<Bound<'py, PyAny>> {
+        let machine = self.links(py)?;
+        let speed = finite("speed", speed.unwrap_or(machine.input.speed))?;
+        forces::found(py, machine, phi.finite()?, speed)
     }
 
     /// The parts that a shop makes or buys for the machine, in the order of its parts list.

@@ -97,6 +97,26 @@ pub(crate) fn slider_force<'py>(
     )
 }
 
+/// Forces of a machine: the torque of its input, and by names drives, joints, closures, contacts, meshes and guides.
+pub(crate) fn forces<'py>(
+    py: Python<'py>,
+    input: Course,
+    parts: [Bound<'py, PyDict>; 6],
+    undetermined: Vec<String>,
+) -> PyResult<Bound<'py, PyAny>> {
+    let [drives, joints, closures, contacts, meshes, guides] = parts;
+    record!(py, "centrode._forces" "Forces", () => []
+        input: input,
+        drives: drives,
+        joints: joints,
+        closures: closures,
+        contacts: contacts,
+        meshes: meshes,
+        guides: guides,
+        undetermined: PyTuple::new(py, undetermined)?,
+    )
+}
+
 /// Clearance of two arms.
 pub(crate) fn clearance<'py>(py: Python<'py>, found: &Clearance) -> PyResult<Bound<'py, PyAny>> {
     record!(py, "centrode._clearance" "Clearance", found => [least, lower_bound, input]

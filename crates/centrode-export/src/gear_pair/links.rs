@@ -55,6 +55,7 @@ pub fn drawn(pair: &GearPair) -> Machine {
         links: [driver, driven],
         joint,
         copy: 0,
+        pressure_angle: Some(pair.design().tool.pressure_angle()),
     });
     machine.column(
         "driver_angle_rad",

@@ -10,6 +10,7 @@ mod links;
 mod machine;
 mod part;
 mod plate;
+mod pushed;
 mod surroundings;
 
 use centrode_mechanism::arm::ArmError;

@@ -145,6 +145,23 @@ fn a_law_that_jumps_is_cut_where_it_jumps() {
     assert!((pieces.at(2.001).position - 5.0).abs() < 1e-12);
 }
 
+fn guide(radius: f64, friction: f64) -> Guide {
+    Guide {
+        joint: 1,
+        radius,
+        friction,
+    }
+}
+
+fn mesh(angle: f64) -> GearMesh {
+    GearMesh {
+        links: [1, 2],
+        joint: 0,
+        copy: 0,
+        pressure_angle: Some(angle),
+    }
+}
+
 #[test]
 fn what_does_not_hang_together_is_refused_by_name() {
     let sound = || Machine {
@@ -162,7 +179,7 @@ fn what_does_not_hang_together_is_refused_by_name() {
         machine.validate().expect_err("refused").to_string()
     };
     type Change = fn(&mut Machine);
-    let cases: [(Change, &str); 5] = [
+    let cases: [(Change, &str); 12] = [
         (
             |m| m.points[0].link = 9,
             "point \"tip\" names link 9, of which there are 4",
@@ -182,6 +199,47 @@ fn what_does_not_hang_together_is_refused_by_name() {
         (
             |m| m.joints[0].turn[1] = f64::INFINITY,
             "a number of the joint of \"arm\" is inf",
+        ),
+        (|m| m.gravity[1] = f64::NAN, "gravity is NaN"),
+        (
+            |m| {
+                let at = [0.0; 3];
+                m.loads.push(Load::Mass {
+                    link: 2,
+                    at,
+                    mass: -1.0,
+                });
+            },
+            "a mass carried is -1",
+        ),
+        (
+            |m| {
+                let effort = Quantity::joint(7);
+                m.loads.push(Load::Joint { joint: 0, effort });
+            },
+            "a load names joint 7, of which there are 3",
+        ),
+        (
+            |m| m.meshes.push(mesh(2.0)),
+            "the pressure angle of a mesh is 2",
+        ),
+        (
+            |m| m.guides.push(guide(f64::NAN, 0.1)),
+            "the radius of a guide is NaN",
+        ),
+        (
+            |m| m.guides.push(guide(5.0, -0.1)),
+            "the friction of a guide is -0.1",
+        ),
+        (
+            |m| {
+                m.closures.push(Closure {
+                    links: [1, 2],
+                    at: [0.0; 3],
+                    joints: [0, 5],
+                });
+            },
+            "a closure names joint 5, of which there are 3",
         ),
     ];
     for (change, expected) in cases {

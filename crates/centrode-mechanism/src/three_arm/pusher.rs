@@ -339,9 +339,7 @@ impl Pusher {
         };
         let pivot = (Point::origin(), 0.5 * pivot_bore);
         let roller = (Point::new(arm_length, 0.0), 0.5 * roller_bore);
-        // From the roller's direction to the lever's, whatever the swing.
-        let angle = -self.side * (2.0 * FRAC_PI_2 + lever.start - self.cam.disc().start_angle());
-        let along = Rotation2::new(angle) * Vector::x();
+        let along = self.slot()?;
         let pin = 0.5 * slot_width;
         let slot = [lever.length, lever.length / lever.start.cos()]
             .map(|distance| (Point::from(along * distance), pin));
@@ -349,6 +347,27 @@ impl Pusher {
         let circle = |(center, radius)| Outline::circle(center, radius);
         let holes = vec![circle(pivot), circle(roller), Outline::hull(&slot)?];
         Some((Outline::hull(&around)?, holes))
+    }
+
+    /// Direction of the fork's slot in its own frame, from its pivot.
+    #[must_use]
+    pub fn slot(&self) -> Option<Vector> {
+        let RodJoint::PinOnRod(lever) = self.fork.rod else {
+            return None;
+        };
+        // From the roller's direction to the lever's, whatever the swing.
+        let angle = -self.side * (2.0 * FRAC_PI_2 + lever.start - self.cam.disc().start_angle());
+        Some(Rotation2::new(angle) * Vector::x())
+    }
+
+    /// The rod's pin in the fork's slot with the rod thrown out, in the arm's frame, mm.
+    #[must_use]
+    pub fn pin(&self) -> Option<Point> {
+        let RodJoint::PinOnRod(lever) = self.fork.rod else {
+            return None;
+        };
+        let down = self.spec.pivot_distance + lever.length;
+        Some(Point::new(0.5 * self.stroke, -self.side * down))
     }
 
     /// Extent of the cam along the planet's axis, mm, from the middle of the arm's housing.

@@ -148,10 +148,11 @@ mod tests {
             .build()
             .expect("a runtime");
         let done = runtime.block_on(task);
-        // A thread that still computes would be waited for here.
+        // A thread that still computes would be waited for here: minutes, where one that stops takes a tenth of a second
+        // on a machine that has nothing else to do.
         let ended = Instant::now();
         drop(runtime);
-        assert!(ended.elapsed() < Duration::from_millis(100));
+        assert!(ended.elapsed() < Duration::from_secs(2));
         done
     }
 
@@ -175,7 +176,7 @@ mod tests {
             assert!(quick.expect("the latest").contains("family"));
             let overtaken = ours.await.expect("no panic");
             assert!(matches!(overtaken, Err(Unsolved::Overtaken)));
-            assert!(asked.elapsed() < Duration::from_millis(100));
+            assert!(asked.elapsed() < Duration::from_secs(2));
             // A request that was held up on its way takes nobody's place.
             let latest = slow(PAGE);
             tokio::time::sleep(Duration::from_millis(50)).await;
