@@ -38,6 +38,7 @@ from ._forces import Forces
 from ._goal import Goal
 from ._optimised import Optimised
 from ._over_pins import OverPins
+from ._part import Part
 from ._report import Finding, Place, Report, Table
 from ._sheet import Drawing, Sheets
 from ._six_bar import DeadCenters
@@ -72,6 +73,7 @@ __all__ = [
     "MovingBox",
     "Optimised",
     "OverPins",
+    "Part",
     "Pitch",
     "PitchError",
     "Place",

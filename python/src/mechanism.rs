@@ -259,6 +259,18 @@ impl Mechanism {
         forces::found(py, machine, phi.finite()?, speed)
     }
 
+    /// The parts that a shop makes or buys for the machine, in the order of its parts list.
+    ///
+    /// >>> import centrode as ct
+    /// >>> pair = ct.GearPair(ct.pitch.circle(module=2, tooth_count=20))
+    /// >>> print(*pair.parts(), sep="\n")
+    /// 1 x Driver gear, 20 teeth
+    /// 1 x Driven gear, 20 teeth
+    fn parts<'py>(&self, py: Python<'py>) -> Answer<Bound<'py, PyTuple>> {
+        let machine = self.links(py)?;
+        Ok(record::parts(py, &machine)?)
+    }
+
     /// Searches for a better machine around this one; the table [optimise] of its design says what may move, and a table
     /// [bounds], where it has one, how far.
     ///

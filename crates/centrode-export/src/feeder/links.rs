@@ -2,7 +2,7 @@ use centrode_mechanism::feeder::{Feeder, Part, Plate};
 use centrode_mechanism::gear::IncompletePair;
 use centrode_mechanism::machine::{Form, Machine, Quantity, Shape};
 
-use super::figures;
+use super::{arrangement, figures};
 use crate::ExportError;
 
 /// The links as a tree, every joint zero where the effector rests; the loops close at C. The gears are drawn with the teeth
@@ -30,6 +30,7 @@ pub(super) fn drawn(feeder: &Feeder, plates: &[Plate], gears: Option<&Incomplete
 /// The links with their bodies.
 pub(super) fn machine(feeder: &Feeder, plates: &[Plate]) -> Result<Machine, ExportError> {
     let mut machine = drawn(feeder, plates, None);
+    arrangement::tell(feeder, plates, &mut machine);
     for plate in plates {
         let name = plate.part.name();
         let body = feeder.body(plate);

@@ -7,7 +7,7 @@ use centrode_mechanism::machine::{
 };
 use centrode_mechanism::transmission::Transmission;
 
-use super::solid;
+use super::{arrangement, solid};
 use crate::ExportError;
 
 /// A frame with both gears turning about z, the driver at its origin.
@@ -85,6 +85,7 @@ pub fn drawn(pair: &GearPair) -> Machine {
         let sketch = machine.sketch(member.name(), lines(pair.gear(member)));
         machine.draw(member.name(), link, sketch);
     }
+    arrangement::tell(pair, &mut machine);
     machine
 }
 

@@ -12,7 +12,7 @@ use centrode_mechanism::transmission::{FromFn, MotionJet, Transmission};
 use nalgebra::{Matrix3, Point3};
 
 use super::machine::{Gears, Machine};
-use super::{figures, slider_solid};
+use super::{arrangement, figures, slider_solid};
 use crate::{ExportError, gear_pair};
 
 /// How far beyond the slider's way the box's joint lets it slide, mm.
@@ -60,6 +60,7 @@ pub(super) fn machine(parts: &Machine<'_>) -> Result<machine::Machine, ExportErr
             gear_pair::embody(&mut machine, link, (&gears.pair, member), GEARS)?;
         }
     }
+    arrangement::tell(parts, &mut machine)?;
     Ok(machine)
 }
 

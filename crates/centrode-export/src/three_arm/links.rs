@@ -14,7 +14,7 @@ use nalgebra::Isometry2;
 use super::limbs::Limbs;
 use super::machine::{Machine, no_gearbox};
 use super::plate::Plate;
-use super::{Part, figures, surroundings};
+use super::{Part, arrangement, figures, surroundings};
 use crate::{ExportError, gear_pair};
 
 /// Where a cam is on the carrier: its frame in the carrier's.
@@ -72,7 +72,10 @@ pub(super) fn machine(
     }
     builder.ground_column();
     builder.tips();
-    figures::draw(mechanism, teeth, &mut builder.machine);
+    figures::draw(mechanism, (parts, teeth), &mut builder.machine);
+    if let Some(parts) = parts {
+        arrangement::tell(parts, &mut builder.machine);
+    }
     Ok(builder.machine)
 }
 

@@ -2,7 +2,7 @@ use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use centrode_geometry::{MassProperties, Solid, SolidError, Vector};
-use nalgebra::Isometry2;
+use nalgebra::{Isometry2, Isometry3};
 
 use super::{Feeder, Part, Plate};
 use crate::machine::{Closure, Input, Joint, Link, LinkPoint, Load, Machine, STANDARD_GRAVITY};
@@ -101,7 +101,7 @@ impl Feeder {
         machine
     }
 
-    /// Body and mass of a plate in the frame of its link.
+    /// Body of a plate in the frame of its link, and the mass of all its plates: a second one of the frame stands above the others.
     ///
     /// # Errors
     /// [`SolidError`] where the plate encloses no volume.
@@ -109,8 +109,13 @@ impl Feeder {
         let place = self.place(plate.part, self.start());
         let turned = Isometry2::new(Vector::zeros(), place.rotation.angle());
         let solid = plate.solid_at(&turned, plate.bottom)?;
-        let mass = solid.mass_properties(self.design().plates.density);
-        Ok((solid, mass))
+        let spec = &self.design().plates;
+        let one = solid.mass_properties(spec.density);
+        let above = 5.0 * (spec.thickness + spec.gap);
+        let all: Vec<MassProperties> = (0..plate.part.quantity())
+            .map(|k| one.placed(&Isometry3::translation(0.0, 0.0, f64::from(k) * above)))
+            .collect();
+        Ok((solid, MassProperties::together(&all).unwrap_or(one)))
     }
 
     /// Direction of the effector's slot where it rests, and how far the slider goes in it either way, mm.

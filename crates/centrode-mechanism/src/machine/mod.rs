@@ -1,14 +1,16 @@
 //! The machine: rigid links in a tree of joints, each of which follows a transmission of the one input.
 //!
-//! Posing, motion tables, simulator models, pictures and interference read a [`Machine`] and nothing else. Loops are
-//! closed when it is made: the joints' laws already hold them, and the closures stay known to simulators.
+//! Posing, motion tables, forces, simulator models, pictures, parts lists, arrangements and interference read a [`Machine`]
+//! and nothing else. Loops are closed when it is made: the joints' laws already hold them, and the closures stay known.
 
+mod arrangement;
 mod contact;
 mod figure;
 mod jet;
 mod joint;
 mod law;
 mod load;
+mod part;
 mod plain;
 mod pose;
 mod sound;
@@ -22,12 +24,14 @@ use serde::{Deserialize, Serialize};
 
 use crate::transmission::Transmission;
 
+pub use arrangement::{Arrangement, Axis, Callout, Datum, Dimension, Place};
 pub use contact::{Closure, Contact, GearMesh, Guide, GuideForce};
 pub use figure::{Figure, Line, LinePath, LineRole, Mark, Seat, Sketch};
 pub use jet::{FrameJet, PointJet};
 pub use joint::{Joint, JointKind};
 pub use law::{Constant, Linear, Piecewise};
 pub use load::{Axes, Load, STANDARD_GRAVITY};
+pub use part::Part;
 pub use sound::{MachineError, loose_link};
 
 /// Rigid links, and how each of them moves with the one input.
@@ -70,6 +74,10 @@ pub struct Machine {
     pub figures: Vec<Figure>,
     /// Places of the picture worth a name.
     pub marks: Vec<Mark>,
+    /// Parts that a shop makes or buys, in the order of the parts list.
+    pub parts: Vec<Part>,
+    /// The general arrangement.
+    pub arrangement: Arrangement,
     /// Comment of the machine's files.
     pub note: String,
 }

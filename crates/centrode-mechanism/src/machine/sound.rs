@@ -1,4 +1,4 @@
-use super::{JointKind, LinePath, Load, Machine, Quantity, Seat};
+use super::{Arrangement, JointKind, LinePath, Load, Machine, Quantity, Seat};
 
 /// A machine that does not hang together.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -82,6 +82,17 @@ impl Machine {
             }
         }
         self.forces_are_sound()?;
+        for part in &self.parts {
+            if let Some(value) = part.mass.filter(|mass| !(*mass >= 0.0 && mass.is_finite())) {
+                let what = format!("the mass of the part {:?}", part.name);
+                return Err(MachineError::Number { what, value });
+            }
+        }
+        let value = self.arrangement.input;
+        if !value.is_finite() {
+            let what = "the input of the arrangement".into();
+            return Err(MachineError::Number { what, value });
+        }
         self.is_tree()
     }
 
@@ -199,6 +210,35 @@ impl Machine {
         for mark in &self.marks {
             all.push((format!("mark {:?}", mark.name), "figure", mark.figure));
         }
+        all.extend(self.listed());
+        all
+    }
+
+    /// Names by index of parts list and arrangement.
+    fn listed(&self) -> Vec<(String, &'static str, usize)> {
+        let mut all = Vec::new();
+        for part in &self.parts {
+            let from = || format!("part {:?}", part.name);
+            all.extend(part.links.iter().map(|&link| (from(), "link", link)));
+            all.extend(part.place.map(|place| (from(), "figure", place.figure)));
+        }
+        let Arrangement {
+            dimensions,
+            callouts,
+            seen_through,
+            columns,
+            ..
+        } = &self.arrangement;
+        let ends = dimensions.iter().flat_map(|dimension| dimension.ends);
+        let places = ends.chain(callouts.iter().map(|callout| callout.place));
+        let from = || "the arrangement".to_owned();
+        all.extend(places.map(|place| (from(), "figure", place.figure)));
+        all.extend(
+            seen_through
+                .iter()
+                .map(|&figure| (from(), "figure", figure)),
+        );
+        all.extend(columns.iter().map(|&column| (from(), "column", column)));
         all
     }
 

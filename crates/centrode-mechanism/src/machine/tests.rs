@@ -247,3 +247,97 @@ fn what_does_not_hang_together_is_refused_by_name() {
         assert!(message.contains(expected), "{message}");
     }
 }
+
+#[test]
+fn masses_of_parts_add_up_by_their_links_and_scenery_weighs_nothing() {
+    let mut machine = machine();
+    let mass = |mass| MassProperties {
+        mass,
+        center: nalgebra::Point3::new(1.0, 2.0, 3.0),
+        inertia: nalgebra::Matrix3::identity(),
+    };
+    for (link, kilograms) in [(0, 50.0), (1, 2.0), (2, 0.75)] {
+        machine.links[link].mass = Some(mass(kilograms));
+    }
+    assert_eq!(machine.mass_properties(0.3), None);
+    let listed: [(&str, Vec<usize>, Option<f64>); 3] = [
+        ("plate", vec![1, 1], Some(1.0)),
+        ("arm", vec![2], Some(0.75)),
+        ("pin", vec![1, 2], None),
+    ];
+    for (name, links, mass) in listed {
+        machine.part(Part {
+            name: name.into(),
+            links,
+            mass,
+            ..Part::default()
+        });
+    }
+    assert_eq!(machine.parts.iter().map(Part::quantity).sum::<usize>(), 5);
+    assert_eq!(
+        [0, 1, 2].map(|link| machine.mass_of_pieces(link)),
+        [0.0, 2.0, 0.75]
+    );
+    let found = machine.mass_properties(0.3).expect("two bodies");
+    let center = |link: usize| {
+        machine
+            .link_frame(link, 0.3)
+            .point([1.0, 2.0, 3.0])
+            .position
+    };
+    let want = (center(1).coords * 2.0 + center(2).coords * 0.75) / 2.75;
+    assert!((found.mass - 2.75).abs() < 1e-12);
+    assert!((found.center.coords - want).norm() < 1e-9);
+}
+
+#[test]
+fn parts_and_arrangement_name_only_what_is_there() {
+    let sound = || {
+        let mut machine = machine();
+        machine.input = Input {
+            name: "carrier".into(),
+            period: TAU,
+            speed: 1.0,
+        };
+        machine.part(Part {
+            name: "plate".into(),
+            links: vec![1],
+            ..Part::default()
+        });
+        machine
+    };
+    assert_eq!(sound().validate(), Ok(()));
+    let told = |change: &dyn Fn(&mut Machine)| {
+        let mut machine = sound();
+        change(&mut machine);
+        machine.validate().expect_err("unsound").to_string()
+    };
+    let place = Place {
+        figure: 3,
+        at: [0.0; 2],
+    };
+    assert_eq!(
+        told(&|machine| machine.parts[0].links.push(9)),
+        "part \"plate\" names link 9, of which there are 4"
+    );
+    assert_eq!(
+        told(&|machine| machine.parts[0].place = Some(place)),
+        "part \"plate\" names figure 3, of which there are 0"
+    );
+    assert_eq!(
+        told(&|machine| machine.parts[0].mass = Some(-1.0)),
+        "the mass of the part \"plate\" is -1"
+    );
+    let dimension = Dimension {
+        ends: [place; 2],
+        along: Axis::X,
+    };
+    assert_eq!(
+        told(&|machine| machine.arrangement.dimensions.push(dimension)),
+        "the arrangement names figure 3, of which there are 0"
+    );
+    assert_eq!(
+        told(&|machine| machine.arrangement.columns.push(1)),
+        "the arrangement names column 1, of which there are 0"
+    );
+}
