@@ -90,9 +90,9 @@ fn pins(feeder: &Feeder, machine: &mut Machine) {
     let [_, c, _] = feeder.six_bar().joints(feeder.start());
     let rim = [c.x - 0.5 * pin, c.y];
     machine.part(machine::Part {
-        name: "pin of A, B, C, D and F".into(),
+        name: "pin of a joint".into(),
         links,
-        remark: format!("Ø{}", number(pin, PLACES)),
+        remark: format!("Ø{}, of A, B, C, D and F", number(pin, PLACES)),
         place: machine.place_on(Part::Frame.name(), rim),
         ..machine::Part::default()
     });

@@ -5,7 +5,7 @@ use crate::sheet::{number, range};
 
 /// Lists the gears and tells the pair's arrangement.
 pub(super) fn tell(pair: &GearPair, machine: &mut Machine) {
-    list_pair(pair, "", machine);
+    list_pair(pair, "", &[Member::Driver, Member::Driven], machine);
     let told = &mut machine.arrangement;
     told.title = "Gear pair".into();
     told.drawing = pair.drawing().clone();
@@ -39,22 +39,24 @@ pub(super) fn tell(pair: &GearPair, machine: &mut Machine) {
     }
 }
 
-/// Lists both gears of a pair, whose files' names begin with the prefix, and their shafts.
-pub(crate) fn list_pair(pair: &GearPair, prefix: &str, machine: &mut Machine) {
-    let both = [
-        (Member::Driver, ["Driver gear", "Shaft of the driver"]),
-        (Member::Driven, ["Driven gear", "Shaft of the driven gear"]),
-    ];
+/// Lists both gears of a pair, whose files' names begin with the prefix, then the shafts of those that have one of their own.
+pub(crate) fn list_pair(pair: &GearPair, prefix: &str, shafts: &[Member], machine: &mut Machine) {
     let links =
         |machine: &Machine, member: Member| Vec::from_iter(machine.link_named(member.name()));
-    for (member, [name, _]) in both {
+    for (member, name) in [
+        (Member::Driver, "Driver gear"),
+        (Member::Driven, "Driven gear"),
+    ] {
         let (file, links) = (format!("{prefix}{}", member.name()), links(machine, member));
         let words = [name, &file, member.name()];
         list(machine, pair.gear(member), words, links);
     }
-    for (member, [_, name]) in both {
-        let links = links(machine, member);
-        list_shafts(machine, pair.gear(member), name, links);
+    for &member in shafts {
+        let (name, links) = (
+            format!("Shaft of the {} gear", member.name()),
+            links(machine, member),
+        );
+        list_shafts(machine, pair.gear(member), &name, links);
     }
 }
 

@@ -68,12 +68,12 @@ pub(super) fn columns(machine: &Machine) -> Vec<Column> {
         names.join(" ")
     };
     vec![
-        Column::numbers("item", (1..=machine.parts.len()).map(|item| item as f64)),
-        words("part", &|part| part.name.clone()),
-        Column::numbers(
-            "quantity",
-            machine.parts.iter().map(|part| part.quantity() as f64),
+        Column::words(
+            "item",
+            (1..=machine.parts.len()).map(|item| item.to_string()),
         ),
+        words("part", &|part| part.name.clone()),
+        words("quantity", &|part| part.quantity().to_string()),
         words("material", &|part| part.material.clone()),
         words("mass_kg", &|part| {
             part.mass

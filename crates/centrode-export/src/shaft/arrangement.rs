@@ -1,5 +1,6 @@
 use std::f64::consts::TAU;
 
+use centrode_mechanism::gear::Member;
 use centrode_mechanism::machine::{Axis, Datum, Dimension, Machine as Linked, Part};
 use centrode_mechanism::shaft::ShaftSolid;
 
@@ -105,7 +106,8 @@ fn list(parts: &Machine<'_>, machine: &mut Linked) -> Result<(), ExportError> {
         ..Part::default()
     });
     if let Some(gears) = &parts.gears {
-        gear_pair::list_pair(&gears.pair, GEARS, machine);
+        // The driven gear sits on the grooved shaft.
+        gear_pair::list_pair(&gears.pair, GEARS, &[Member::Driver], machine);
     }
     Ok(())
 }

@@ -25,8 +25,6 @@ const ARROW: f64 = 1.2;
 const BESIDE: f64 = 0.9;
 /// Radii of such an arrow in the order tried, mm.
 const RADII: [f64; 10] = [14.0, 11.0, 17.0, 20.0, 8.0, 24.0, 28.0, 6.0, 33.0, 40.0];
-/// Distance to the upper edge of a view, as a share of that to its sides, below which words are put above it.
-const UPPER: f64 = 0.6;
 /// Height of the lowest words above a view, mm, and how far their leaders lean.
 const ABOVE: f64 = 12.0;
 const LEAN: f64 = 6.0;
@@ -175,9 +173,9 @@ impl View<'_> {
     }
 }
 
-/// Whether the upper edge of a view is much nearer to a point than its sides.
+/// Whether the upper edge of a view is nearer to a point than its sides.
 fn is_upper(at: Point, Bounds { min, max }: Bounds) -> bool {
-    max.y - at.y < UPPER * (at.x - min.x).min(max.x - at.x)
+    max.y - at.y < (at.x - min.x).min(max.x - at.x)
 }
 
 /// Writes notes above a view: leaders of the left ones lean to the left, those of the others to the right, and rise the higher
