@@ -18,7 +18,7 @@ pub struct Balance {
     /// Joint that carries each link.
     pub(super) carrier: Vec<Option<usize>>,
     pub(super) masses: Vec<Mass>,
-    /// What settles forces that the tree does not, in an order in which it can be worked out.
+    /// Steps that settle forces which the tree does not, in an order in which each can be worked out.
     pub(super) steps: Vec<Step>,
     /// Whether a force of unknown place passes a joint.
     pub(super) hidden: Vec<bool>,

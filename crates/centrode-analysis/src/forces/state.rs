@@ -326,7 +326,7 @@ impl<'a> State<'a> {
         force
     }
 
-    /// What a joint supplies, but for drive and loads along its axis.
+    /// Force that a joint supplies, but for drive and loads along its axis.
     fn reaction(&self, joint: usize) -> Reaction {
         let passed = &self.passed[joint];
         let axis = &self.axes[joint];

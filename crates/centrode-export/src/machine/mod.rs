@@ -6,6 +6,7 @@ mod bodies;
 mod file;
 mod model;
 mod motion;
+mod motion_file;
 mod parts;
 mod picture;
 mod rim;
@@ -16,7 +17,7 @@ use crate::{ExportError, Format, Package, csv, mjcf, urdf};
 pub use arrangement::arrangement;
 pub(crate) use arrangement::{NAME as ARRANGEMENT, proved};
 pub use file::{MachineFileError, plain, read, schema, write};
-pub use motion::{
+pub use motion_file::{
     ClosureWords, ColumnWords, InputWords, Interpolation, JointWords, LinearWords, MeshWords,
     MotionFile, PointWords,
 };

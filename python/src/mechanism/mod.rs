@@ -1,29 +1,26 @@
 //! All that machines of every family can do.
 
+mod held;
+
 use std::path::PathBuf;
 use std::sync::{Arc, OnceLock};
 
-use centrode::family::{self, Depth, Family};
-use centrode::meshing;
+use centrode::family::{self, Depth};
 use centrode_analysis::optimise::Settings;
-use centrode_export::machine::tabulated;
-use centrode_export::{Bundle, Format};
 use centrode_mechanism::machine::{FrameJet, Machine};
 use pyo3::prelude::{
-    Bound, PyAny, PyAnyMethods, PyClassInitializer, PyDictMethods, PyResult, PyTypeMethods, Python,
-    pyclass, pymethods,
+    Bound, PyAny, PyAnyMethods, PyDictMethods, PyResult, PyTypeMethods, Python, pyclass, pymethods,
 };
 use pyo3::types::{PyDict, PyTuple, PyType};
 
 use crate::array::{Course, Values};
-use crate::design::{named, object, of_class, path_loaded, read};
-use crate::error::{Answer, finite, tolerance as within};
+use crate::design::{object, of_class, path_loaded, read};
+use crate::error::{Answer, finite};
 use crate::files;
 use crate::forces;
 use crate::made::{Reduced, by_design};
 use crate::record;
 use crate::search;
-use crate::wait::wait;
 use crate::word::Word;
 
 /// A machine of whatever family: what `load` gives is one of its subclasses.
@@ -47,56 +44,6 @@ pub(crate) struct Mechanism(
 impl PartialEq for Mechanism {
     fn eq(&self, other: &Self) -> bool {
         self.0.design() == other.0.design()
-    }
-}
-
-impl Mechanism {
-    /// The machine as what a new object of a subclass begins with.
-    pub(crate) fn start<M: family::Mechanism>(machine: &Arc<M>) -> PyClassInitializer<Self> {
-        let machine = Arc::clone(machine) as Arc<dyn family::Mechanism>;
-        Self(machine, OnceLock::new()).into()
-    }
-
-    fn family(&self) -> Answer<&'static Family> {
-        named(self.0.design().family().word)
-    }
-
-    /// Asks the machine something that may take long.
-    fn ask<T: Send + 'static>(
-        &self,
-        py: Python<'_>,
-        ask: impl FnOnce(&dyn family::Mechanism) -> T + Send + 'static,
-    ) -> PyResult<T> {
-        let machine = Arc::clone(&self.0);
-        wait(py, move || ask(machine.as_ref()))
-    }
-
-    fn links(&self, py: Python<'_>) -> Answer<Arc<Machine>> {
-        if let Some(known) = self.1.get() {
-            return Ok(Arc::clone(known));
-        }
-        let made = self.ask(py, |machine| machine.machine().map(tabulated))??;
-        Ok(Arc::clone(self.1.get_or_init(|| Arc::new(made))))
-    }
-
-    fn bundle(
-        &self,
-        py: Python<'_>,
-        formats: Option<Vec<String>>,
-        parts: Option<Vec<String>>,
-        tolerance: f64,
-        [dxf_version, dxf_curves]: [&str; 2],
-    ) -> Answer<Bundle> {
-        let tolerance = within(tolerance, self.0.accuracy())?;
-        let formats = files::formats(formats, &Format::ALL)?;
-        let mut options = files::options(tolerance, dxf_version, dxf_curves)?;
-        options.parts = files::parts(parts, self.family()?.parts)?;
-        Ok(self.ask(py, move |machine| {
-            if formats.contains(&Format::Sheet) || formats.contains(&Format::Pdf) {
-                options.sheet.meshing = meshing(&machine.check());
-            }
-            machine.files(&formats, &options)
-        })??)
     }
 }
 
