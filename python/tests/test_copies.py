@@ -90,6 +90,7 @@ def objects():
         shaft.force(0.1),
         shaft.forces(0.1),
         feeder.forces([0.1, 0.2]),
+        *feeder.parts(),
         ct.MovingBox(shaft),
         ct.MovingBox(moved_distance=2.05),
         report,
