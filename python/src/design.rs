@@ -114,8 +114,19 @@ pub(crate) fn object<'py>(
     })??)
 }
 
+/// The object, if it is of the class.
+pub(crate) fn of_class<'py>(
+    class: &Bound<'py, PyType>,
+    object: Bound<'py, PyAny>,
+) -> Answer<Bound<'py, PyAny>> {
+    if object.is_instance(class)? {
+        return Ok(object);
+    }
+    Err(not_of_class(class)?)
+}
+
 /// The exception of a machine that is not of a class.
-pub(crate) fn not_of_class(class: &Bound<'_, PyType>) -> PyResult<Raised> {
+fn not_of_class(class: &Bound<'_, PyType>) -> PyResult<Raised> {
     for kind in &CLASSES {
         if class.is_subclass(&(kind.class)(class.py()))? {
             let sentence = format!("family must be {:?}", kind.word);

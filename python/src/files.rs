@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use centrode::family::PartName;
 use centrode_export::{Bundle, Format, Options, write_file};
 use centrode_geometry::Tolerance;
 use pyo3::prelude::{Bound, PyResult, Python, pyfunction};
@@ -23,6 +24,16 @@ pub(crate) fn formats(names: Option<Vec<String>>, known: &[Format]) -> Answer<Ve
         })
     };
     names.iter().map(format).collect()
+}
+
+/// Parts by their names, if they are parts of the family.
+pub(crate) fn parts(names: Option<Vec<String>>, known: &[PartName]) -> Answer<Option<Vec<String>>> {
+    let known: Vec<&str> = known.iter().map(|part| part.name).collect();
+    let mut asked = names.iter().flatten();
+    match asked.find(|word| !known.contains(&word.as_str())) {
+        Some(word) => Err(Raised::word("parts", word, &known)),
+        None => Ok(names),
+    }
 }
 
 /// How files are written.

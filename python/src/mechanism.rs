@@ -1,7 +1,7 @@
 //! All that machines of every family can do.
 
 use std::path::PathBuf;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use centrode::family::{self, Depth, Family};
 use centrode::meshing;
@@ -16,8 +16,8 @@ use pyo3::prelude::{
 use pyo3::types::{PyDict, PyTuple, PyType};
 
 use crate::array::{Course, Values};
-use crate::design::{named, not_of_class, object, path_loaded, read};
-use crate::error::{Answer, Raised, tolerance as within};
+use crate::design::{named, object, of_class, path_loaded, read};
+use crate::error::{Answer, tolerance as within};
 use crate::files;
 use crate::made::{Reduced, by_design};
 use crate::record;
@@ -37,7 +37,11 @@ use crate::word::Word;
 /// True
 #[pyclass(frozen, eq, subclass, module = "centrode")]
 #[derive(Debug)]
-pub(crate) struct Mechanism(Arc<dyn family::Mechanism>);
+pub(crate) struct Mechanism(
+    Arc<dyn family::Mechanism>,
+    /// Its links and its table of motion, made when they are first asked for.
+    OnceLock<Arc<Machine>>,
+);
 
 impl PartialEq for Mechanism {
     fn eq(&self, other: &Self) -> bool {
@@ -48,7 +52,8 @@ impl PartialEq for Mechanism {
 impl Mechanism {
     /// The machine as what a new object of a subclass begins with.
     pub(crate) fn start<M: family::Mechanism>(machine: &Arc<M>) -> PyClassInitializer<Self> {
-        Self(Arc::clone(machine) as Arc<dyn family::Mechanism>).into()
+        let machine = Arc::clone(machine) as Arc<dyn family::Mechanism>;
+        Self(machine, OnceLock::new()).into()
     }
 
     fn family(&self) -> Answer<&'static Family> {
@@ -66,7 +71,11 @@ impl Mechanism {
     }
 
     fn links(&self, py: Python<'_>) -> Answer<Arc<Machine>> {
-        Ok(Arc::new(self.ask(py, |machine| machine.machine())??))
+        if let Some(known) = self.1.get() {
+            return Ok(Arc::clone(known));
+        }
+        let made = self.ask(py, |machine| machine.machine().map(tabulated))??;
+        Ok(Arc::clone(self.1.get_or_init(|| Arc::new(made))))
     }
 
     fn bundle(
@@ -80,12 +89,7 @@ impl Mechanism {
         let tolerance = within(tolerance, self.0.accuracy())?;
         let formats = files::formats(formats, &Format::ALL)?;
         let mut options = files::options(tolerance, dxf_version, dxf_curves)?;
-        let known: Vec<&str> = self.family()?.parts.iter().map(|part| part.name).collect();
-        let mut asked = parts.iter().flatten();
-        if let Some(word) = asked.find(|word| !known.contains(&word.as_str())) {
-            return Err(Raised::word("parts", word, &known));
-        }
-        options.parts = parts;
+        options.parts = files::parts(parts, self.family()?.parts)?;
         Ok(self.ask(py, move |machine| {
             if formats.contains(&Format::Sheet) || formats.contains(&Format::Pdf) {
                 options.sheet.meshing = meshing(&machine.check());
@@ -192,8 +196,7 @@ impl Mechanism {
     /// >>> pair.motion([1.0, 2.0])["driven_angle_rad"].round(12)
     /// array([0.5, 1. ])
     fn motion<'py>(&self, py: Python<'py>, phi: Values) -> Answer<Bound<'py, PyDict>> {
-        let machine = self.ask(py, |machine| machine.machine().map(tabulated))??;
-        let machine = Arc::new(machine);
+        let machine = self.links(py)?;
         let columns = PyDict::new(py);
         for (index, column) in machine.columns.iter().enumerate() {
             let machine = Arc::clone(&machine);
@@ -384,15 +387,4 @@ impl Mechanism {
     fn __reduce__<'py>(&self, py: Python<'py>) -> Answer<Reduced<'py>> {
         by_design(py, self.0.design())
     }
-}
-
-/// The object, if it is of the class.
-fn of_class<'py>(
-    class: &Bound<'py, PyType>,
-    object: Bound<'py, PyAny>,
-) -> Answer<Bound<'py, PyAny>> {
-    if object.is_instance(class)? {
-        return Ok(object);
-    }
-    Err(not_of_class(class)?)
 }

@@ -7,6 +7,8 @@ use nalgebra::Isometry2;
 
 /// Greatest turn of the driven gear searched, rad.
 const FREE: f64 = 0.5;
+/// Share of a squared distance that rounding may be off.
+const ROUNDING: f64 = 1e-12;
 /// Corners of a pin.
 const PIN_CORNERS: u32 = 240;
 
@@ -158,22 +160,22 @@ impl Room {
         let near_driver = near_edges(&driver_points, Point::origin(), mate.reach);
         let near_mate = near_edges(&mate.corners, axis, driver.reach);
         // The driven gear going on turns the driver back, in its axes.
-        for &(corner, _) in &near_driver {
-            self.corner(corner, &near_mate, 1.0, mate.holds(corner));
+        for edge in &near_driver {
+            self.corner(edge.from, &near_mate, 1.0, mate.holds(edge.from));
         }
-        for &(corner, _) in &near_mate {
-            let inside = driver.holds(place.inverse_transform_point(&corner));
-            self.corner(corner, &near_driver, -1.0, inside);
+        for edge in &near_mate {
+            let inside = driver.holds(place.inverse_transform_point(&edge.from));
+            self.corner(edge.from, &near_driver, -1.0, inside);
         }
     }
 
     /// Narrows the room by a corner that turns about the origin until it meets an edge; `sense` is 1 for one of the
     /// driver.
-    fn corner(&mut self, corner: Point, edges: &[(Point, Point)], sense: f64, inside: bool) {
+    fn corner(&mut self, corner: Point, edges: &[Edge], sense: f64, inside: bool) {
         let squared = corner.coords.norm_squared();
         let (mut less, mut more) = (FREE, FREE);
-        for (a, b) in edges {
-            let (from, way) = (a.coords, b - a);
+        for edge in edges.iter().filter(|edge| edge.meets(squared)) {
+            let (from, way) = (edge.from.coords, edge.way);
             let (p, q) = (way.norm_squared(), from.dot(&way));
             let room = q * q - p * (from.norm_squared() - squared);
             if room < 0.0 || p == 0.0 {
@@ -214,14 +216,42 @@ impl Room {
     }
 }
 
+/// Edge of a polygon, and the squares of its least and greatest distance from the axis.
+struct Edge {
+    from: Point,
+    way: Vector,
+    low: f64,
+    high: f64,
+}
+
+impl Edge {
+    fn new(from: Point, to: Point) -> Self {
+        let way = to - from;
+        let ends = [from, to].map(|p| p.coords.norm_squared());
+        let t = -from.coords.dot(&way) / way.norm_squared();
+        let foot = (from + way * t.clamp(0.0, 1.0)).coords.norm_squared();
+        Self {
+            from,
+            way,
+            low: foot.min(ends[0]).min(ends[1]) * (1.0 - ROUNDING),
+            high: ends[0].max(ends[1]) * (1.0 + ROUNDING),
+        }
+    }
+
+    /// Whether a circle about the axis, of a squared radius, can meet it.
+    fn meets(&self, squared: f64) -> bool {
+        (self.low..=self.high).contains(&squared)
+    }
+}
+
 /// The edges of a polygon that begin or end within a distance of a point.
-fn near_edges(corners: &[Point], from: Point, reach: f64) -> Vec<(Point, Point)> {
+fn near_edges(corners: &[Point], from: Point, reach: f64) -> Vec<Edge> {
     let near = |p: &Point| (p - from).norm_squared() <= reach * reach;
     let next = corners.iter().cycle().skip(1);
     let edges = corners.iter().zip(next);
     edges
         .filter(|(a, b)| near(a) || near(b))
-        .map(|(a, b)| (*a, *b))
+        .map(|(a, b)| Edge::new(*a, *b))
         .collect()
 }
 

@@ -31,7 +31,7 @@ pub fn convex_pieces(polygon: &[Point], tolerance: Tolerance) -> ConvexPieces {
         if area(&part) <= tolerance.mm() * tolerance.mm() {
             continue;
         }
-        let corners = hull(&part);
+        let corners = convex_hull(&part);
         let hollow = deepest(&part, &corners);
         let cut = hollow
             .filter(|(_, depth)| *depth > tolerance.mm())
@@ -68,8 +68,12 @@ fn area(polygon: &[Point]) -> f64 {
         .sum::<f64>()
 }
 
-/// Indices of the corners of a polygon's convex hull, in the order of the polygon, by the monotone chain.
-fn hull(polygon: &[Point]) -> Vec<usize> {
+/// Indices of the corners of the convex hull of points, counter-clockwise from the lowest index on: those of a simple
+/// polygon in its own order.
+///
+/// Andrew's monotone chain; points on an edge of the hull are no corners, and of equal points one is.
+#[must_use]
+pub fn convex_hull(polygon: &[Point]) -> Vec<usize> {
     let mut order: Vec<usize> = (0..polygon.len()).collect();
     order.sort_by(|&i, &j| {
         let (a, b) = (polygon[i], polygon[j]);

@@ -1,5 +1,7 @@
-use centrode_geometry::Tolerance;
-use centrode_mechanism::feeder::Feeder;
+use std::sync::Arc;
+
+use centrode_geometry::{Recent, Tolerance};
+use centrode_mechanism::feeder::{Feeder, GearsSpec};
 
 use crate::{Finding, IncompleteContact, Place, Report, Severity, Unit};
 
@@ -11,6 +13,9 @@ const CONTOUR: f64 = 1e-4;
 const OVERLAP: f64 = 1e-3;
 /// Backlash above which they are loose, as a multiple of the one asked for.
 const LOOSE: f64 = 2.0;
+
+/// Contact of the gears of the designs checked last.
+static PROVEN: Recent<GearsSpec, Arc<IncompleteContact>> = Recent::new();
 
 /// Checks that the intermittent gears can be cut, and hold the crank all the way: nothing penetrates, and the crank is
 /// free by no more than the backlash asked for.
@@ -44,7 +49,9 @@ pub(super) fn gears(feeder: &Feeder, report: &mut Report) {
     let Ok(tolerance) = Tolerance::new(CONTOUR * spec.module) else {
         return;
     };
-    let contact = IncompleteContact::of(&pair, GEAR_LOOKS, tolerance);
+    let contact = PROVEN.get(spec, || {
+        Arc::new(IncompleteContact::of(&pair, GEAR_LOOKS, tolerance))
+    });
     let most = |moving| {
         let [ahead, back] = [&contact.ahead, &contact.back];
         contact

@@ -1,6 +1,5 @@
-use centrode_geometry::{Outline, Tolerance, Vector};
-use centrode_mechanism::machine::{Joint, JointKind, Machine};
-use nalgebra::Rotation2;
+use centrode_geometry::Tolerance;
+use centrode_mechanism::machine::{FrameJet, Joint, JointKind, Machine};
 
 use super::{BodyError, Clearance, InterferenceError, MotionError, Moving, PoseJet, Shares};
 
@@ -67,35 +66,27 @@ pub fn between_links(
     }
     let shares = Shares::of(tolerance);
     let inputs = [0.0, machine.input.period];
-    let mut least: Option<Clearance> = None;
-    for [one, other] in level_pairs(machine, links, &chains) {
-        let bodies = [one, other].map(|outline| shares.body(std::slice::from_ref(outline)));
-        let [a, b] = bodies;
-        let (a, b) = (a?, b?);
-        let motions = [
-            shares.motion(&a, inputs, |input| pose(&chains[0], input))?,
-            shares.motion(&b, inputs, |input| pose(&chains[1], input))?,
-        ];
-        let moving =
-            [(&a, &motions[0]), (&b, &motions[1])].map(|(body, motion)| Moving { body, motion });
-        let Some(found) = shares.least(&moving, &[[0, 1]], inputs)? else {
-            continue;
-        };
-        least = Some(match least {
-            None => found,
-            Some(best) => {
-                let nearer = if found.least < best.least {
-                    found
-                } else {
-                    best
-                };
-                Clearance {
-                    lower_bound: found.lower_bound.min(best.lower_bound),
-                    ..nearer
-                }
-            }
-        });
+    let mut bodies = Vec::new();
+    for (link, chain) in links.into_iter().zip(&chains) {
+        let height: f64 = chain.iter().map(|joint| joint.origin[2]).sum();
+        for &index in &machine.links[link].surfaces {
+            let surface = &machine.surfaces[index];
+            let body = shares.body(std::slice::from_ref(&surface.outline))?;
+            let motion = shares.motion(&body, inputs, |input| pose(chain, input))?;
+            bodies.push((link, surface.span.map(|end| end + height), body, motion));
+        }
     }
+    let moving: Vec<Moving<'_>> = bodies
+        .iter()
+        .map(|(.., body, motion)| Moving { body, motion })
+        .collect();
+    let level = |[i, j]: &[usize; 2]| {
+        let ((one, [low, high], ..), (other, [bottom, top], ..)) = (&bodies[*i], &bodies[*j]);
+        one != other && low < top && bottom < high
+    };
+    let all = (0..bodies.len()).flat_map(|i| (i + 1..bodies.len()).map(move |j| [i, j]));
+    let pairs: Vec<[usize; 2]> = all.filter(level).collect();
+    let least = shares.least(&moving, &pairs, inputs)?;
     Ok(least.map(|found| Clearance {
         pair: links,
         ..found
@@ -105,15 +96,7 @@ pub fn between_links(
 /// Joints that carry each of two links, from the nearest link that carries both.
 fn apart(machine: &Machine, links: [usize; 2]) -> [Vec<&Joint>; 2] {
     let [mut one, mut other] = links.map(|link| {
-        let mut chain = Vec::new();
-        let mut at = link;
-        while let Some(joint) = machine.joints.iter().find(|joint| joint.child == at) {
-            chain.push(joint);
-            at = joint.parent;
-            if chain.len() > machine.joints.len() {
-                break;
-            }
-        }
+        let mut chain: Vec<&Joint> = machine.carriers(link).collect();
         chain.reverse();
         chain
     });
@@ -138,72 +121,26 @@ fn in_plane(joint: &Joint) -> bool {
     }
 }
 
-/// Contours of both links that overlap in height.
-fn level_pairs<'a>(
-    machine: &'a Machine,
-    links: [usize; 2],
-    chains: &[Vec<&Joint>; 2],
-) -> Vec<[&'a Outline; 2]> {
-    let surfaces = |which: usize| {
-        let height: f64 = chains[which].iter().map(|joint| joint.origin[2]).sum();
-        let of_link = machine.links[links[which]].surfaces.iter();
-        of_link
-            .map(|&index| &machine.surfaces[index])
-            .map(move |surface| (&surface.outline, surface.span.map(|end| end + height)))
-            .collect::<Vec<_>>()
-    };
-    let (ours, theirs) = (surfaces(0), surfaces(1));
-    let mut pairs = Vec::new();
-    for (one, [low, high]) in &ours {
-        for (other, [bottom, top]) in &theirs {
-            if low < top && bottom < high {
-                pairs.push([*one, *other]);
-            }
-        }
-    }
-    pairs
-}
-
 /// Pose of the last link of a chain in the frame of the link that carries the first, with its first derivative.
 fn pose(chain: &[&Joint], input: f64) -> PoseJet {
-    let mut found = PoseJet {
-        position: nalgebra::Point2::origin(),
-        angle: 0.0,
-        velocity: Vector::zeros(),
-        turning: 0.0,
-    };
+    let mut frame = FrameJet::identity();
+    // Turns are added up: an angle read from the frame would not be continuous.
+    let (mut angle, mut turning) = (0.0, 0.0);
     for joint in chain {
-        found = step(
-            &found,
-            [joint.origin[0], joint.origin[1]].into(),
-            Vector::zeros(),
-        );
-        found.angle += joint.turn[2];
         let coordinate = joint.law.at(input);
-        let axis = Vector::new(joint.axis[0], joint.axis[1]);
-        match joint.kind {
-            JointKind::Turning => {
-                found.angle += joint.axis[2] * coordinate.position;
-                found.turning += joint.axis[2] * coordinate.velocity;
-            }
-            JointKind::Sliding(_) => {
-                let (way, speed) = (axis * coordinate.position, axis * coordinate.velocity);
-                found = step(&found, way, speed);
-            }
-            _ => {}
+        frame = frame.then(&joint.frame(&coordinate));
+        angle += joint.turn[2];
+        if joint.kind == JointKind::Turning {
+            angle += joint.axis[2] * coordinate.position;
+            turning += joint.axis[2] * coordinate.velocity;
         }
     }
-    found
-}
-
-/// A frame moved by a vector of its own that changes at a speed of its own.
-fn step(frame: &PoseJet, way: Vector, speed: Vector) -> PoseJet {
-    let turn = Rotation2::new(frame.angle);
-    let arm = turn * way;
+    let origin = frame.point([0.0; 3]);
     PoseJet {
-        position: frame.position + arm,
-        velocity: frame.velocity + Vector::new(-arm.y, arm.x) * frame.turning + turn * speed,
-        ..*frame
+        position: origin.position.xy(),
+        angle,
+        velocity: origin.velocity.xy(),
+        turning,
     }
 }
 
@@ -213,7 +150,7 @@ mod tests {
     use std::sync::Arc;
 
     use super::*;
-    use centrode_geometry::{Point, Segment};
+    use centrode_geometry::{Outline, Point, Segment};
     use centrode_mechanism::machine::{Constant, Input, Linear, Link, Surface};
 
     fn square(half: f64) -> Outline {
@@ -287,7 +224,8 @@ mod tests {
         // The crank's pin is nearest at 50 mm; the squares keep level and reach 5 and 10 mm towards each other.
         assert!((found.least - 15.0).abs() < 1e-4, "{found:?}");
         assert!(found.lower_bound <= 15.0 && found.lower_bound > 15.0 - 1e-4);
-        assert!((found.input - (TAU - 0.3)).abs() < 0.3, "{found:?}");
+        // There 25 mm/rad^2 of the turn squared are within the tolerance.
+        assert!((found.input - (TAU - 0.3)).abs() < 2e-3, "{found:?}");
         assert_eq!(found.pair, [2, 3]);
     }
 

@@ -2,9 +2,10 @@ use super::*;
 use crate::Table;
 use centrode_mechanism::cam::law::LawSpec;
 use centrode_mechanism::shaft::{
-    EllipticGears, MovingBoxDesign, RotatedSine, Scheme, SpeedFormula, SpeedKnots, SpeedLaw,
-    SpiralShaftDesign,
+    EllipticGears, MovingBox, MovingBoxDesign, RotatedSine, Scheme, SpeedFormula, SpeedKnots,
+    SpeedLaw, SpiralShaftDesign,
 };
+use centrode_mechanism::transmission::Transmission as _;
 use std::f64::consts::PI;
 
 fn published() -> SpiralShaftDesign {

@@ -268,13 +268,9 @@ fn wanted(machine: &Machine, traced: &[bool]) -> Vec<bool> {
     let points = machine.points.iter().zip(traced);
     let points = points.filter(|(_, traced)| **traced).map(|(p, _)| p.link);
     for link in seats.chain(points) {
-        let mut next = Some(link);
-        while let Some(link) = next {
-            if std::mem::replace(&mut wanted[link], true) {
-                break;
-            }
-            let carrier = machine.joints.iter().find(|joint| joint.child == link);
-            next = carrier.map(|joint| joint.parent);
+        wanted[link] = true;
+        for joint in machine.carriers(link) {
+            wanted[joint.parent] = true;
         }
     }
     wanted

@@ -1,4 +1,4 @@
-use centrode_geometry::{Point, Segment};
+use centrode_geometry::{Point, Segment, convex_hull};
 use centrode_mechanism::machine::{LinePath, LineRole, Sketch};
 
 /// Most places of a rim: what lies beyond the straight lines between them is seen by no eye.
@@ -17,9 +17,9 @@ pub(super) fn rim(sketch: &Sketch) -> Vec<Point> {
             LinePath::Trace(_) => {}
         }
     }
-    let hull = hull(points);
-    let step = hull.len().div_ceil(MOST).max(1);
-    hull.into_iter().step_by(step).collect()
+    let corners = convex_hull(&points);
+    let step = corners.len().div_ceil(MOST).max(1);
+    corners.iter().step_by(step).map(|&i| points[i]).collect()
 }
 
 /// Places of a segment from its start on.
@@ -34,37 +34,6 @@ fn places(segment: &Segment) -> impl Iterator<Item = Point> {
             .at(2.0 * f64::from(i) / f64::from(count) - 1.0)
             .point
     })
-}
-
-/// The convex hull of some points, counter-clockwise: Andrew's monotone chain.
-fn hull(mut points: Vec<Point>) -> Vec<Point> {
-    points.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
-    points.dedup();
-    if points.len() < 3 {
-        return points;
-    }
-    let mut lower = chain(points.iter());
-    let mut upper = chain(points.iter().rev());
-    // Each begins where the other one ends.
-    lower.pop();
-    upper.pop();
-    lower.append(&mut upper);
-    lower
-}
-
-/// The points that leave all others on their left, of points in order.
-fn chain<'a>(points: impl Iterator<Item = &'a Point>) -> Vec<Point> {
-    let mut kept: Vec<Point> = Vec::new();
-    for point in points {
-        while let [.., from, middle] = kept[..] {
-            if (middle - from).perp(&(point - from)) > 0.0 {
-                break;
-            }
-            kept.pop();
-        }
-        kept.push(*point);
-    }
-    kept
 }
 
 #[cfg(test)]

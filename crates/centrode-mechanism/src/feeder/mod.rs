@@ -15,7 +15,7 @@ mod search;
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
-use centrode_geometry::{Extreme, Point, bracketed_root, greatest, pieces};
+use centrode_geometry::{Extreme, Point, Recent, bracketed_root, greatest, pieces};
 
 pub use design::{BoundsSpec, DriveSpec, FeederDesign, FeederGoals, LinkageSpec, MakingSpec};
 pub use dimension::{Dimension, UnknownDimension};
@@ -25,7 +25,7 @@ pub use parts::{Part, Plate, PlateJoint};
 pub use plates::PlatesSpec;
 pub use search::DimensionSearchSpec;
 
-use crate::gear::{IncompleteDrive, IncompletePair};
+use crate::gear::{IncompleteDrive, IncompletePair, IncompletePairError};
 use crate::linkage::{FourBar, SixBar};
 use crate::transmission::{MotionJet, Transmission};
 
@@ -114,10 +114,15 @@ impl Feeder {
 
     /// The incomplete gear and its mate with their teeth, locking arcs and entry cam.
     ///
+    /// Cutting them takes long; those of a design in which other things change are cut once.
+    ///
     /// # Errors
     /// [`FeederError::Gears`] where they cannot be cut.
-    pub fn gears(&self) -> Result<IncompletePair, FeederError> {
-        Ok(IncompletePair::resolve(&self.design.gears.pair())?)
+    pub fn gears(&self) -> Result<Arc<IncompletePair>, FeederError> {
+        static CUT: Recent<GearsSpec, Result<Arc<IncompletePair>, IncompletePairError>> =
+            Recent::new();
+        let spec = &self.design.gears;
+        Ok(CUT.get(spec, || IncompletePair::resolve(&spec.pair()).map(Arc::new))?)
     }
 
     /// Crank angle at which the effector rests and is filled, rad: the end of its swing from which the slower

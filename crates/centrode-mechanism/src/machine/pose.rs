@@ -93,11 +93,18 @@ impl Machine {
         self.link_frame(point.link, input).point(point.at)
     }
 
+    /// Joints that carry a link, the nearest first.
+    pub fn carriers(&self, link: usize) -> impl Iterator<Item = &Joint> {
+        let of = |link: usize| self.joints.iter().find(|joint| joint.child == link);
+        let all = std::iter::successors(of(link), move |joint| of(joint.parent));
+        // In a sound machine none comes twice.
+        all.take(self.joints.len())
+    }
+
     /// One link at an input: only the joints that carry it are worked out.
     #[must_use]
     pub fn link_frame(&self, link: usize, input: f64) -> FrameJet {
-        let carrier = self.joints.iter().find(|joint| joint.child == link);
-        match carrier {
+        match self.carriers(link).next() {
             None => FrameJet::identity(),
             Some(joint) => {
                 let own = joint.frame(&joint.law.at(input));

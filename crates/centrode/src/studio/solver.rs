@@ -148,10 +148,11 @@ mod tests {
             .build()
             .expect("a runtime");
         let done = runtime.block_on(task);
-        // A thread that still computes would be waited for here.
+        // A thread that still computes would be waited for here: minutes, where one that stops takes a tenth of a second
+        // on a machine that has nothing else to do.
         let ended = Instant::now();
         drop(runtime);
-        assert!(ended.elapsed() < Duration::from_millis(100));
+        assert!(ended.elapsed() < Duration::from_secs(2));
         done
     }
 

@@ -4,7 +4,7 @@ use std::sync::Arc;
 use centrode_geometry::{Outline, Point, Tolerance, Vector, checkpoint};
 use nalgebra::{Isometry2, Rotation2};
 
-use super::radial::Radial;
+use super::radial::{Chain, Radial};
 use super::{IncompletePairError, IncompletePairSpec, Pins};
 use crate::gear::pitch::PitchSpec;
 use crate::gear::{GearPair, Member};
@@ -298,24 +298,27 @@ impl IncompletePair {
             .collect();
         inputs.extend(self.law.breaks());
         inputs.sort_by(f64::total_cmp);
-        for body in bodies {
-            for &side in plays {
-                let placed = |input: f64| -> Vec<Point> {
-                    let off = if always || (input > 0.0 && input < motion) {
-                        side * play
-                    } else {
-                        0.0
-                    };
-                    let place = self.mate(input, self.law.at(input.min(TAU)).position + off);
-                    body.iter().map(|p| place * p).collect()
+        let chains: Vec<Chain> = bodies.iter().flat_map(|body| Chain::of(body)).collect();
+        for &side in plays {
+            let placed = |input: f64| {
+                let off = if always || (input > 0.0 && input < motion) {
+                    side * play
+                } else {
+                    0.0
                 };
-                let mut before = placed(0.0);
-                for &input in &inputs[1..] {
-                    checkpoint();
-                    let now = placed(input);
-                    blank.cut_moving(&before, &now, reach);
-                    before = now;
+                self.mate(input, self.law.at(input.min(TAU)).position + off)
+            };
+            let mut before = placed(0.0);
+            for &input in &inputs[1..] {
+                checkpoint();
+                let now = placed(input);
+                for chain in &chains {
+                    if chain.is_near(&before, reach) || chain.is_near(&now, reach) {
+                        let [before, now] = [&before, &now].map(|place| chain.placed(place, reach));
+                        blank.cut_moving(&before, &now);
+                    }
                 }
+                before = now;
             }
         }
         blank

@@ -1,9 +1,97 @@
 use std::f64::consts::{PI, TAU};
+use std::sync::LazyLock;
 
-use centrode_geometry::{Point, Tolerance};
+use centrode_geometry::{Point, Tolerance, Vector};
+use nalgebra::Isometry2;
 
 /// Directions in which a contour's radius is kept.
 const DIRECTIONS: usize = 32_768;
+
+/// Unit vectors of the directions.
+static UNIT: LazyLock<Vec<Vector>> = LazyLock::new(|| {
+    let unit = |index| {
+        let (sin, cos) = direction(index).sin_cos();
+        Vector::new(cos, sin)
+    };
+    (0..DIRECTIONS).map(unit).collect()
+});
+
+fn direction(index: usize) -> f64 {
+    TAU * index as f64 / DIRECTIONS as f64
+}
+
+/// Corner of a polygon, and its direction where it is near enough to matter.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Corner {
+    at: Vector,
+    direction: Option<f64>,
+}
+
+impl Corner {
+    fn new(at: &Point) -> Self {
+        Self::within(at, f64::INFINITY)
+    }
+
+    /// The corner, near if within `reach` of the origin.
+    fn within(at: &Point, reach: f64) -> Self {
+        let near = at.coords.norm_squared() <= reach * reach;
+        Self {
+            at: at.coords,
+            direction: near.then(|| at.y.atan2(at.x)),
+        }
+    }
+
+    fn is_near(&self) -> bool {
+        self.direction.is_some()
+    }
+
+    fn direction(&self) -> f64 {
+        self.direction.unwrap_or_else(|| self.at.y.atan2(self.at.x))
+    }
+}
+
+/// Corners of a chain of a polygon.
+const CHAIN: usize = 32;
+
+/// Part of a closed polygon: corners one after the other, with the one before them and the one after them.
+#[derive(Clone, Debug)]
+pub(super) struct Chain {
+    corners: Vec<Point>,
+    middle: Point,
+    radius: f64,
+}
+
+impl Chain {
+    /// The chains of a closed polygon.
+    pub(super) fn of(polygon: &[Point]) -> Vec<Self> {
+        let count = polygon.len();
+        let chain = |start: usize| {
+            let end = (start + CHAIN).min(count);
+            let around = start + count - 1..=end + count;
+            let corners: Vec<Point> = around.map(|i| polygon[i % count]).collect();
+            let sum: Vector = corners.iter().map(|p| p.coords).sum();
+            let middle = Point::from(sum / corners.len() as f64);
+            let radius = corners.iter().map(|p| (p - middle).norm());
+            Self {
+                radius: radius.fold(0.0, f64::max),
+                corners,
+                middle,
+            }
+        };
+        (0..count).step_by(CHAIN).map(chain).collect()
+    }
+
+    /// Whether a corner of it can be within `reach` of the origin when it is placed.
+    pub(super) fn is_near(&self, place: &Isometry2<f64>, reach: f64) -> bool {
+        let reach = (reach + self.radius) * (1.0 + 1e-12);
+        (place * self.middle).coords.norm_squared() <= reach * reach
+    }
+
+    pub(super) fn placed(&self, place: &Isometry2<f64>, reach: f64) -> Vec<Corner> {
+        let corner = |p| Corner::within(&(place * p), reach);
+        self.corners.iter().map(corner).collect()
+    }
+}
 
 /// Contour around the origin that every ray from there meets once, by its radius in even directions.
 ///
@@ -28,10 +116,6 @@ impl Radial {
         radial
     }
 
-    fn direction(index: usize) -> f64 {
-        TAU * index as f64 / DIRECTIONS as f64
-    }
-
     pub(super) fn greatest(&self) -> f64 {
         self.radius.iter().copied().fold(0.0, f64::max)
     }
@@ -44,9 +128,8 @@ impl Radial {
 
     /// Cuts away everything beyond a circle about any point.
     pub(super) fn cut_circle(&mut self, center: Point, radius: f64) {
-        for (index, kept) in self.radius.iter_mut().enumerate() {
-            let (sin, cos) = Self::direction(index).sin_cos();
-            let along = center.x * cos + center.y * sin;
+        for (unit, kept) in UNIT.iter().zip(&mut self.radius) {
+            let along = center.coords.dot(unit);
             let room = along * along - center.coords.norm_squared() + radius * radius;
             if room >= 0.0 {
                 let near = along - room.sqrt();
@@ -67,7 +150,7 @@ impl Radial {
     /// Fills a circle about the origin between two directions.
     pub(super) fn fill(&mut self, from: f64, to: f64, radius: f64) {
         for (index, kept) in self.radius.iter_mut().enumerate() {
-            if (from..=to).contains(&Self::direction(index)) {
+            if (from..=to).contains(&direction(index)) {
                 *kept = kept.max(radius);
             }
         }
@@ -75,51 +158,48 @@ impl Radial {
 
     /// Cuts away everything beyond a closed polygon.
     pub(super) fn cut_polygon(&mut self, polygon: &[Point]) {
-        for (index, &from) in polygon.iter().enumerate() {
-            self.cut(from, polygon[(index + 1) % polygon.len()]);
+        let corners: Vec<Corner> = polygon.iter().map(Corner::new).collect();
+        for (index, from) in corners.iter().enumerate() {
+            self.cut(from, &corners[(index + 1) % corners.len()]);
         }
     }
 
-    /// Cuts away everything beyond the region swept by a polygon between two poses: its edges and the paths of its
-    /// corners. Corners beyond `reach` are skipped.
-    pub(super) fn cut_moving(&mut self, before: &[Point], now: &[Point], reach: f64) {
-        let near = |p: &Point| p.coords.norm_squared() <= reach * reach;
-        let count = now.len();
-        for index in 0..count {
-            if !near(&now[index]) && !near(&before[index]) {
+    /// Cuts away everything beyond the region swept by a chain between two poses: its edges and the paths of its
+    /// corners. Corners without a direction are skipped, and so are the first and the last.
+    pub(super) fn cut_moving(&mut self, before: &[Corner], now: &[Corner]) {
+        for (before, now) in before.windows(3).zip(now.windows(3)) {
+            if !now[1].is_near() && !before[1].is_near() {
                 continue;
             }
-            self.cut(before[index], now[index]);
-            self.cut(now[index], now[(index + 1) % count]);
-            if !near(&now[(index + count - 1) % count]) {
-                self.cut(now[(index + count - 1) % count], now[index]);
+            self.cut(&before[1], &now[1]);
+            self.cut(&now[1], &now[2]);
+            if !now[0].is_near() {
+                self.cut(&now[0], &now[1]);
             }
         }
     }
 
     /// Cuts away everything beyond a segment, seen from the origin.
-    fn cut(&mut self, from: Point, to: Point) {
-        let (mut from, mut to) = (from.coords, to.coords);
-        let mut turn = from.perp(&to).atan2(from.dot(&to));
-        if turn < 0.0 {
+    fn cut(&mut self, from: &Corner, to: &Corner) {
+        let (mut from, mut to) = (from, to);
+        if from.at.perp(&to.at) < 0.0 {
             (from, to) = (to, from);
-            turn = -turn;
+        }
+        let start = from.direction();
+        let mut end = to.direction();
+        if end < start {
+            end += TAU;
         }
         // Seen edge-on, or from the origin itself.
-        if turn >= PI {
+        if end - start >= PI {
             return;
         }
         let step = TAU / DIRECTIONS as f64;
-        let start = from.y.atan2(from.x);
-        let first = (start / step).ceil() as i64;
-        let last = ((start + turn) / step).floor() as i64;
-        let way = to - from;
-        let moment = from.perp(&way);
-        for line in first..=last {
+        let way = to.at - from.at;
+        let moment = from.at.perp(&way);
+        for line in (start / step).ceil() as i64..=(end / step).floor() as i64 {
             let index = line.rem_euclid(DIRECTIONS as i64) as usize;
-            let (sin, cos) = Self::direction(index).sin_cos();
-            let across = cos * way.y - sin * way.x;
-            let radius = moment / across;
+            let radius = moment / UNIT[index].perp(&way);
             if radius > 0.0 && radius < self.radius[index] {
                 self.radius[index] = radius;
             }
@@ -129,9 +209,8 @@ impl Radial {
     /// Corners of a polygon nowhere farther from the contour than the tolerance, counter-clockwise.
     pub(super) fn polygon(&self, tolerance: Tolerance) -> Vec<Point> {
         let place = |index: usize| {
-            let (sin, cos) = Self::direction(index % DIRECTIONS).sin_cos();
-            let radius = self.radius[index % DIRECTIONS];
-            Point::new(radius * cos, radius * sin)
+            let index = index % DIRECTIONS;
+            Point::from(UNIT[index] * self.radius[index])
         };
         // From the outermost point, which is a corner of any such polygon.
         let start = (0..DIRECTIONS)
@@ -194,14 +273,15 @@ mod tests {
     fn a_corner_cuts_along_its_way() {
         let mut blank = Radial::unbounded();
         blank.limit(5.0);
-        let needle =
-            |x: f64, y: f64| [[x, y], [x + 20.0, y + 1.0], [x + 20.0, y - 1.0]].map(Point::from);
+        let needle = [[0.0, 0.0], [20.0, 1.0], [20.0, -1.0]].map(Point::from);
+        let at = |y: f64| Isometry2::translation(3.0, y);
         // A straight way of the point at x = 3, in coarse steps.
-        let mut before = needle(3.0, -2.0);
-        for step in 1..=4 {
-            let now = needle(3.0, -2.0 + f64::from(step));
-            blank.cut_moving(&before, &now, 6.0);
-            before = now;
+        for step in 0..4 {
+            let (before, now) = (at(f64::from(step) - 2.0), at(f64::from(step) - 1.0));
+            for chain in Chain::of(&needle) {
+                assert!(chain.is_near(&now, 6.0) && !chain.is_near(&at(30.0), 6.0));
+                blank.cut_moving(&chain.placed(&before, 6.0), &chain.placed(&now, 6.0));
+            }
         }
         for angle in [-0.5, -0.2, 0.1, 0.3, 0.5] {
             let expected = 3.0 / f64::cos(angle);

@@ -1,5 +1,7 @@
 //! Transmission function of a joint: its position as a function of the machine's input.
 
+mod inverse;
+
 use std::fmt;
 use std::sync::Arc;
 
@@ -7,6 +9,8 @@ use centrode_geometry::bracketed_root;
 
 use crate::formula::{Number, Taylor};
 use crate::machine::Piecewise;
+
+pub use inverse::Inverse;
 
 /// A position and its first three derivatives with respect to the input.
 ///
@@ -231,60 +235,6 @@ impl Transmission for Chain {
     }
 }
 
-/// Inverse of a transmission that always advances: the input as a function of the position.
-#[derive(Clone, Debug)]
-pub struct Inverse {
-    of: Arc<dyn Transmission>,
-    start: f64,
-}
-
-impl Inverse {
-    /// Inverts a transmission that runs one way.
-    ///
-    /// # Errors
-    /// [`TransmissionError::StandsStill`] where its velocity is zero or against its advance, sampled
-    /// at a thousand inputs and at its breaks.
-    pub fn new(of: Arc<dyn Transmission>) -> Result<Self, TransmissionError> {
-        const LOOKS: u32 = 1000;
-        let (period, way) = (of.period(), of.advance().signum());
-        let even = (0..LOOKS).map(|i| period * f64::from(i) / f64::from(LOOKS));
-        for input in even.chain(of.breaks()) {
-            let velocity = of.at(input).velocity;
-            if of.advance() == 0.0 || velocity * way <= 0.0 || velocity.is_nan() {
-                return Err(TransmissionError::StandsStill { input, velocity });
-            }
-        }
-        let start = of.at(0.0).position;
-        Ok(Self { of, start })
-    }
-}
-
-impl Transmission for Inverse {
-    fn at(&self, position: f64) -> MotionJet {
-        let (period, advance) = (self.of.period(), self.of.advance());
-        let turns = ((position - self.start) / advance).floor();
-        let input = root(self.of.as_ref(), position - turns * advance, 0.0, period);
-        self.of.at(input).inverse(input + turns * period)
-    }
-
-    fn period(&self) -> f64 {
-        self.of.advance().abs()
-    }
-
-    fn advance(&self) -> f64 {
-        self.of.period().copysign(self.of.advance())
-    }
-
-    fn breaks(&self) -> Vec<f64> {
-        let period = self.period();
-        let breaks = self.of.breaks().into_iter();
-        sorted(
-            breaks.map(|b| self.of.at(b).position.rem_euclid(period)),
-            period,
-        )
-    }
-}
-
 /// Input in `[low, high]` at which a monotone transmission has a position; the nearer end where none.
 fn root(of: &dyn Transmission, position: f64, low: f64, high: f64) -> f64 {
     let off = |input: f64| of.at(input).position - position;
@@ -382,6 +332,22 @@ mod tests {
             assert_eq!(there_and_back.advance(), TAU);
             assert_eq!(there_and_back.breaks().len(), 1);
             assert!((there_and_back.breaks()[0] - 1.0).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn an_inverse_is_found_to_rounding_everywhere() {
+        for sign in [1.0, -1.0] {
+            let law = wavy(sign);
+            let inverse = Inverse::new(law.clone()).expect("monotone");
+            for i in 0..=5000 {
+                let t = TAU * f64::from(i) / 5000.0;
+                let found = inverse.at(law.at(t).position).position;
+                // Where a period ends the next begins.
+                let off = (found - t).abs();
+                assert!(off.min((off - TAU).abs()) < 4e-15, "{t}: {found}");
+            }
+            assert!(inverse.at(f64::NAN).position.is_nan());
         }
     }
 

@@ -1,0 +1,106 @@
+use centrode_geometry::extremes;
+use centrode_mechanism::gear::GearPair;
+use centrode_mechanism::shaft::{EllipticDrive, MovingBox};
+use centrode_mechanism::transmission::Transmission;
+
+use super::{check_shaft, contact, moved, tables};
+use crate::{Finding, Place, Report, Severity, Unit, gear_pair};
+
+/// Checks a moving box: its shaft, and the motion its drive gives it. The figures of the box itself begin
+/// with `box_`; those without are the shaft's, turned evenly.
+#[must_use]
+pub fn check_moving_box(machine: &MovingBox) -> Report {
+    let mut report = check_shaft(machine.shaft());
+    report.findings.retain(|f| f.rule != "moved-distance");
+    let forces = std::mem::take(&mut report.tables);
+    report.tables = tables::schemes(machine);
+    report.tables.extend(forces);
+    let (moves, picks) = (machine.moved_in_window(), machine.schedule());
+    moved(machine.shaft(), moves, &picks, &mut report);
+    let Some(drive) = machine.drive() else {
+        report.worst_first();
+        return report;
+    };
+    seat(machine, &mut report);
+    gears(machine, drive, &mut report);
+    let values = &mut report.values;
+    values.insert("gear_eccentricity", drive.eccentricity);
+    let k = drive.eccentricity;
+    values.insert("shaft_speed_ratio_min", (1.0 - k) / (1.0 + k));
+    values.insert("shaft_speed_ratio_max", (1.0 + k) / (1.0 - k));
+    values.insert("box_moved_distance", machine.moved_in_window());
+    let load = machine.shaft().load();
+    let mean = machine.shaft().law().mean_speed();
+    let ends = machine.stroke_pieces();
+    let over = |of: &dyn Fn(f64) -> f64| extremes(of, &ends).map(|extreme| extreme.value);
+    let [slow, fast] = over(&|input| machine.stroke_at(input).velocity / mean);
+    values.insert("box_speed_ratio_min", slow);
+    values.insert("box_speed_ratio_max", fast);
+    let [braking, speeding] = over(&|input| machine.stroke_at(input).acceleration);
+    values.insert("box_acceleration_max", speeding.max(-braking));
+    let metres = 1e-3 * load.speed() * load.speed();
+    values.insert("box_acceleration_max_m_s2", metres * speeding.max(-braking));
+    let limit = load.contact_limit_rpm(-braking);
+    values.insert("box_contact_limit_rpm", limit);
+    let radius = machine.shaft().groove().radius();
+    let [least, greatest] = over(&|input| {
+        let turn = machine.shaft_turn(input).position;
+        let lead = (machine.shaft().law().at(turn).velocity / radius).atan();
+        load.force(machine.stroke_at(input), lead, radius).normal
+    });
+    values.insert("box_normal_force_min", least);
+    values.insert("box_normal_force_max", greatest);
+    report.findings.retain(|f| f.rule != "contact-lost");
+    contact(limit, load.speed_rpm, &mut report);
+    report.worst_first();
+    report
+}
+
+/// Reports what is wrong with the gears, or that none can be cut.
+fn gears(machine: &MovingBox, drive: &EllipticDrive, report: &mut Report) {
+    let Some(design) = machine.design().gear_pair(drive) else {
+        return;
+    };
+    match GearPair::resolve(&design) {
+        Ok(pair) => report.findings.extend(gear_pair::check(&pair).findings),
+        Err(error) => report.findings.push(Finding {
+            rule: "no-gears",
+            severity: Severity::Error,
+            message: format!("no gears can be cut: {}: {error}", error.key()),
+            measured: None,
+            required: None,
+            unit: Unit::Count,
+            remedy: None,
+            place: Place {
+                part: Some("gears".into()),
+                ..Place::default()
+            },
+        }),
+    }
+}
+
+/// Reports gears that have a bore of their own which is not that of their journal.
+fn seat(machine: &MovingBox, report: &mut Report) {
+    let Some(gears) = &machine.design().gears else {
+        return;
+    };
+    let (bore, journal) = (gears.body.bore, machine.shaft().body().journal_diameter);
+    if bore == 0.0 || bore == journal {
+        return;
+    }
+    report.findings.push(Finding {
+        rule: "gear-seat",
+        severity: Severity::Error,
+        message: format!(
+            "the driven gear's bore of {bore} mm does not fit the shaft's journal of {journal} mm"
+        ),
+        measured: Some(bore),
+        required: Some(journal),
+        unit: Unit::Millimetre,
+        remedy: Some("leave gears.body.bore out, or change shaft.body.journal_diameter"),
+        place: Place {
+            part: Some("gears".into()),
+            ..Place::default()
+        },
+    });
+}

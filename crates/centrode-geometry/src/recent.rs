@@ -1,0 +1,66 @@
+use std::sync::{Mutex, PoisonError};
+
+/// Results remembered.
+const MOST: usize = 4;
+
+/// The last few results of a long computation, each by what it was made of.
+///
+/// For what stays as it is while something else of a design is changed many times. Made anew, a result is the same:
+/// remembering it changes nothing but the time. While one thread makes a result, others may make the same one.
+///
+/// ```
+/// use centrode_geometry::Recent;
+///
+/// static SQUARES: Recent<u32, u32> = Recent::new();
+/// assert_eq!(SQUARES.get(&7, || 49), 49);
+/// assert_eq!(SQUARES.get(&7, || unreachable!("it is remembered")), 49);
+/// ```
+#[derive(Debug)]
+pub struct Recent<K, V>(Mutex<Vec<(K, V)>>);
+
+impl<K, V> Recent<K, V> {
+    /// Nothing remembered yet.
+    #[must_use]
+    pub const fn new() -> Self {
+        Self(Mutex::new(Vec::new()))
+    }
+}
+
+impl<K, V> Default for Recent<K, V> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl<K: Clone + PartialEq, V: Clone> Recent<K, V> {
+    /// The remembered result of `key`, or the one made now.
+    pub fn get(&self, key: &K, make: impl FnOnce() -> V) -> V {
+        let known = |known: &Vec<(K, V)>| known.iter().find(|k| k.0 == *key).map(|k| k.1.clone());
+        if let Some(value) = known(&self.0.lock().unwrap_or_else(PoisonError::into_inner)) {
+            return value;
+        }
+        // Not under the lock: it takes long, and may be cancelled.
+        let value = make();
+        let mut all = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        if known(&all).is_none() {
+            all.truncate(MOST - 1);
+            all.insert(0, (key.clone(), value.clone()));
+        }
+        value
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_oldest_is_forgotten_first() {
+        let recent = Recent::new();
+        let mut made = Vec::new();
+        for key in [1, 2, 3, 4, 1, 5, 4, 1] {
+            recent.get(&key, || made.push(key));
+        }
+        assert_eq!(made, [1, 2, 3, 4, 5, 1]);
+    }
+}
