@@ -1,6 +1,7 @@
 //! Check of a composed machine.
 
 mod figures;
+mod goals;
 mod joints;
 #[cfg(test)]
 mod tests;
@@ -9,7 +10,8 @@ use centrode_geometry::{extremes, greatest, least, pieces};
 use centrode_mechanism::composed::Composed;
 
 use self::figures::FIGURES;
-use crate::{Finding, Place, Report, Severity, Table, Unit};
+use crate::report::Missed;
+use crate::{Finding, Goal, Place, Report, Severity, Table, Unit};
 
 /// Parts of a turn of the input in each of which a motion has few extremes.
 const PARTS: u32 = 16;
@@ -35,8 +37,23 @@ pub fn check_composed(composed: &Composed) -> Report {
     joints::joints(composed, &ends, &mut report);
     joints::four_bars(composed, &mut report);
     points(composed, &ends, &mut report);
+    let found = goals::goals(composed);
+    report.goals = found.iter().map(|found| found.goal.clone()).collect();
+    report.blame_goals(|goal| Missed {
+        input: found
+            .iter()
+            .find(|f| f.goal.name == goal.name)
+            .and_then(|f| f.input),
+        ..Missed::default()
+    });
     report.worst_first();
     report
+}
+
+/// The goals of a composed machine with their figures.
+pub(crate) fn goals_of(composed: &Composed) -> Vec<Goal> {
+    let found = goals::goals(composed).into_iter();
+    found.map(|found| found.goal).collect()
 }
 
 /// Ends of the parts of a cycle between which all motion is smooth.

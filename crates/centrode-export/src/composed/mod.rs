@@ -8,7 +8,7 @@ use centrode_mechanism::machine::{Form, Machine};
 use nalgebra::Isometry2;
 
 use crate::drawing::{Color, Drawing, LineType, Shape};
-use crate::{Bundle, ExportError, Format, Options, Package};
+use crate::{Bundle, ExportError, Format, Options, Package, gear_pair};
 pub use curves::curves;
 
 const PROFILE: &str = "PROFILE";
@@ -45,7 +45,7 @@ pub fn files(
     let mut package = Package::new("a composed machine", named, formats, options);
     package.finer_than(design.plates.pin_diameter, "pins' diameter")?;
     for (index, body) in composed.bodies().iter().enumerate() {
-        let Some(solid) = plate(&made, index) else {
+        let Some(solid) = plates(&made, index).first() else {
             continue;
         };
         let name = &body.name;
@@ -57,17 +57,30 @@ pub fn files(
         let title = package.titled(name);
         package.solid(name, &title, || Ok(solid.clone()))?;
     }
+    for gear in composed.gears() {
+        let solid = || gear_pair::solid(&gear.pair, gear.member);
+        package.drawing(&gear.name, |_| {
+            let mut drawing = layers();
+            contours(&mut drawing, PROFILE, &solid()?, &Isometry2::identity());
+            Ok(drawing)
+        })?;
+        let title = package.titled(&gear.name);
+        package.solid(&gear.name, &title, solid)?;
+    }
     package.drawing("assembly", |_| Ok(assembly(composed, &made)))?;
     package.machine(|| Ok(made.clone()))?;
     package.finish()
 }
 
-/// The plate of a link.
-fn plate(machine: &Machine, link: usize) -> Option<&Solid> {
-    let shape = machine.links.get(link)?.shape?;
-    match &machine.shapes.get(shape)?.form {
-        Form::Solids(solids) => solids.first(),
-        _ => None,
+/// The plate of a link, and its gears.
+fn plates(machine: &Machine, link: usize) -> &[Solid] {
+    let shape = machine.links.get(link).and_then(|link| link.shape);
+    match shape
+        .and_then(|shape| machine.shapes.get(shape))
+        .map(|shape| &shape.form)
+    {
+        Some(Form::Solids(solids)) => solids,
+        _ => &[],
     }
 }
 
@@ -75,9 +88,6 @@ fn plate(machine: &Machine, link: usize) -> Option<&Solid> {
 fn assembly(composed: &Composed, machine: &Machine) -> Drawing {
     let mut drawing = layers().layer(PATH, Color::Blue, LineType::Continuous, 0.18);
     for (index, body) in composed.bodies().iter().enumerate() {
-        let Some(solid) = plate(machine, index) else {
-            continue;
-        };
         let layer = body.name.to_uppercase();
         let line = match index {
             0 => LineType::Phantom,
@@ -86,12 +96,14 @@ fn assembly(composed: &Composed, machine: &Machine) -> Drawing {
         drawing = drawing.layer(&layer, Color::Foreground, line, 0.35);
         let at = composed.place(index, Point::origin(), 0.0);
         let turned = composed.angle(index, 0.0).position;
-        contours(
-            &mut drawing,
-            &layer,
-            solid,
-            &Isometry2::new(at.coords, turned),
-        );
+        for solid in plates(machine, index) {
+            contours(
+                &mut drawing,
+                &layer,
+                solid,
+                &Isometry2::new(at.coords, turned),
+            );
+        }
     }
     for (_, body, at) in composed.points().filter(|(_, body, _)| *body > 0) {
         let way = (0..=POINTS).map(|i| {

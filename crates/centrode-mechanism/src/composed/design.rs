@@ -5,13 +5,16 @@ use std::collections::BTreeMap;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{ComposedDyadSpec, ComposedLawSpec};
+use super::{
+    ComposedDyadSpec, ComposedGearSpec, ComposedGoalSpec, ComposedLawSpec, ComposedLoopSpec,
+    ComposedMeshSpec,
+};
 use crate::degrees;
 use crate::design::DesignSpec;
-use crate::gear::design::SpecError;
 use crate::gear::design::rule::{
     Rule, broken, count_in_range, file_name, finite, in_range, not_negative, positive, single_line,
 };
+use crate::gear::design::{GearPairDesign, SpecError};
 
 /// Name of the body that stands still.
 pub(super) const FRAME: &str = "frame";
@@ -40,9 +43,24 @@ pub struct ComposedDesign {
     /// Dyads by name.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub dyads: BTreeMap<String, ComposedDyadSpec>,
+    /// Gear pairs by name, each as in family gear-pair.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub pairs: BTreeMap<String, GearPairDesign>,
+    /// Gears by name, each of a pair and on a body.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub gears: BTreeMap<String, ComposedGearSpec>,
+    /// Meshes by name, beside those that hold bodies.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub meshes: BTreeMap<String, ComposedLoopSpec>,
     /// The bodies as plates.
     #[serde(default)]
     pub plates: ComposedPlatesSpec,
+    /// Goals by name.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub goals: BTreeMap<String, ComposedGoalSpec>,
+    /// Numbers that a search may move, by their keys in quotes, each with its least and greatest value.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub vary: BTreeMap<String, [f64; 2]>,
 }
 
 /// The shaft that drives a composed machine.
@@ -97,7 +115,7 @@ pub enum Side {
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct ComposedBodySpec {
-    /// Point of another body on which it turns, or from which it slides: `frame.O`.
+    /// Point of another body on which it turns, or from which it slides: `frame.O`; with a mesh, the body that carries it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub on: Option<String>,
     /// Direction in which it slides, in the axes of the body that carries it, rad (degrees in the file); left out, it turns.
@@ -125,6 +143,9 @@ pub struct ComposedBodySpec {
     /// Motion of a body that turns or slides.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub law: Option<ComposedLawSpec>,
+    /// Mesh that turns it on its carrier, and places it there.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mesh: Option<ComposedMeshSpec>,
     /// Points by name: x and y in the body's axes, mm.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub points: BTreeMap<String, [f64; 2]>,
@@ -237,8 +258,24 @@ impl ComposedBodySpec {
         if self.on.is_some() && self.fixed_to.is_some() {
             return broken("fixed_to", Rule::Excludes("on"));
         }
-        if self.on.is_some() && self.law.is_none() {
-            return broken("law", Rule::Needed("for a body that turns or slides"));
+        if let Some(mesh) = &self.mesh {
+            finite("mesh.direction_deg", mesh.direction)?;
+            let beside = [
+                ("law", self.law.is_some()),
+                ("slides_deg", self.slides.is_some()),
+            ];
+            if let Some((key, _)) = beside.into_iter().find(|(_, given)| *given) {
+                return broken(key, Rule::Excludes("mesh"));
+            }
+        }
+        if self.on.is_some() && self.law.is_none() && self.mesh.is_none() {
+            return broken(
+                "law",
+                Rule::Needed("for a body that turns or slides, or a mesh"),
+            );
+        }
+        if self.on.is_none() && self.mesh.is_some() {
+            return broken("on", Rule::Needed("for a body that a mesh turns"));
         }
         if self.on.is_none() && self.law.is_some() {
             return broken("on", Rule::Needed("for a body with a law"));
@@ -285,7 +322,9 @@ impl DesignSpec for ComposedDesign {
     const FAMILY: &'static str = "machine";
     const ABOUT: &'static str = "A planar machine composed of bodies, laws and dyads.";
     const TEMPLATE: &'static str = include_str!("../../design/machine.toml");
-    const TABLES: &'static [&'static str] = &["input", "frame", "bodies", "dyads", "plates"];
+    const TABLES: &'static [&'static str] = &[
+        "input", "frame", "bodies", "dyads", "pairs", "gears", "meshes", "plates", "goals", "vary",
+    ];
 
     fn words(&self) -> [&str; 2] {
         [&self.name, &self.title]
@@ -322,6 +361,29 @@ impl ComposedDesign {
             let key = format!("dyads.{name}");
             file_name(&key, name)?;
             dyad.validate().map_err(|e| e.inside(&key))?;
+        }
+        for (name, pair) in &self.pairs {
+            let key = format!("pairs.{name}");
+            file_name(&key, name)?;
+            pair.validate().map_err(|e| e.inside(&key))?;
+        }
+        for (name, gear) in &self.gears {
+            let key = format!("gears.{name}");
+            file_name(&key, name)?;
+            finite(&format!("{key}.mount_deg"), gear.mount)?;
+        }
+        for (name, goal) in &self.goals {
+            let key = format!("goals.{name}");
+            file_name(&key, name)?;
+            goal.validate().map_err(|e| e.inside(&key))?;
+        }
+        for (name, [low, high]) in &self.vary {
+            let key = format!("vary.{name}");
+            finite(&key, *low)?;
+            finite(&key, *high)?;
+            if low >= high {
+                return broken(&key, Rule::NotInOrder(*low, *high));
+            }
         }
         self.plates.validate().map_err(|e| e.inside("plates"))
     }

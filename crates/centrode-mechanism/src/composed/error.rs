@@ -2,6 +2,7 @@ use thiserror::Error;
 
 use super::ComposedLawError;
 use crate::design::MechanismError;
+use crate::gear::GearPairError;
 use crate::gear::design::SpecError;
 use crate::linkage::LinkageError;
 
@@ -122,6 +123,54 @@ pub enum ComposedError {
         /// Input, rad.
         input: f64,
     },
+    /// Words that are no figure.
+    #[error("there is no figure {words:?}; its forms are {}", known.join(", "))]
+    NoFigure {
+        /// Key that names it.
+        key: String,
+        /// The words.
+        words: String,
+        /// Forms of figures.
+        known: Vec<String>,
+    },
+    /// A dyad that is not there.
+    #[error("there is no dyad {dyad:?}; there are {}", known.join(", "))]
+    NoDyad {
+        /// Key that names it.
+        key: String,
+        /// Its name.
+        dyad: String,
+        /// Dyads there are.
+        known: Vec<String>,
+    },
+    /// A pair that cannot be cut.
+    #[error("{error}")]
+    Pair {
+        /// Name of the pair.
+        pair: String,
+        /// Why.
+        error: Box<GearPairError>,
+    },
+    /// A gear or pair that is not there.
+    #[error("there is no {what} {name:?}; there are {}", if known.is_empty() { "none".to_owned() } else { known.join(", ") })]
+    NoGear {
+        /// Key that names it.
+        key: String,
+        /// Kind: `gear` or `pair`.
+        what: &'static str,
+        /// Its name.
+        name: String,
+        /// Names there are.
+        known: Vec<String>,
+    },
+    /// Gears that cannot mesh.
+    #[error("{why}")]
+    NoMesh {
+        /// Key of the mesh.
+        key: String,
+        /// Why.
+        why: String,
+    },
     /// Anything else that a linkage cannot be.
     #[error("{error}")]
     Linkage {
@@ -169,7 +218,12 @@ impl ComposedError {
             | Self::Ring { key, .. }
             | Self::NoTriangle { key, .. }
             | Self::NoDirection { key, .. }
+            | Self::NoFigure { key, .. }
+            | Self::NoDyad { key, .. }
+            | Self::NoGear { key, .. }
+            | Self::NoMesh { key, .. }
             | Self::Linkage { key, .. } => key.clone(),
+            Self::Pair { pair, error } => format!("pairs.{pair}.{}", error.key()),
             Self::Loose { body } => format!("bodies.{body}"),
             Self::Law { body, error } => format!("bodies.{body}.law.{}", error.key()),
             Self::DoesNotClose { dyad, .. } => format!("dyads.{dyad}"),

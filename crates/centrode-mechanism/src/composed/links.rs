@@ -1,9 +1,9 @@
-use centrode_geometry::{Point, SolidError};
+use centrode_geometry::{MassProperties, Point, SolidError};
 
 use super::{Composed, ComposedBody};
 use crate::machine::{
-    Closure, Form, Input, Joint, JointKind, Line, LineRole, Link, LinkPoint, Machine, Mark,
-    Quantity, Shape, Surface,
+    Closure, Form, GearMesh, Input, Joint, JointKind, Line, LineRole, Link, LinkPoint, Machine,
+    Mark, Quantity, Shape, Surface,
 };
 
 impl Composed {
@@ -38,6 +38,15 @@ impl Composed {
                 at: [pin.at.x, pin.at.y, 0.0],
             });
         }
+        for mesh in &self.meshes {
+            let body = |gear: usize| self.body_named(&self.gears[gear].body_name).unwrap_or(0);
+            machine.meshes.push(GearMesh {
+                links: mesh.gears.map(body),
+                // Each body but the frame is carried by the joint before it.
+                joint: mesh.moved - 1,
+                copy: 0,
+            });
+        }
         self.add_points(&mut machine);
         self.draw(&mut machine);
         Ok(machine)
@@ -50,19 +59,30 @@ impl Composed {
             name: name.clone(),
             ..Link::default()
         };
+        let (mut solids, mut masses) = (Vec::new(), Vec::new());
         if let Some(solid) = self.plate(body)? {
-            link.mass = Some(solid.mass_properties(self.design.plates.density));
-            link.surfaces = vec![machine.surface(Surface {
+            masses.push(solid.mass_properties(self.design.plates.density));
+            link.surfaces.push(machine.surface(Surface {
                 name: name.clone(),
                 outline: solid.outline().clone(),
                 span: [solid.bottom(), solid.top()],
                 teeth: Vec::new(),
                 coarseness: 1.0,
-            })];
+            }));
+            solids.push(solid);
+        }
+        for gear in self.gears.iter().filter(|gear| gear.body_name == *name) {
+            let solid = gear.solid(self.gear_bottom(gear))?;
+            masses.push(solid.mass_properties(gear.gear().body().density));
+            link.surfaces.push(machine.surface(gear.surface(&solid)));
+            solids.push(solid);
+        }
+        if !solids.is_empty() {
+            link.mass = MassProperties::together(&masses);
             link.shape = Some(machine.shape(Shape {
                 name: format!("links/{name}"),
                 part: String::new(),
-                form: Form::Solids(vec![solid]),
+                form: Form::Solids(solids),
             }));
         }
         machine.link(link);
@@ -123,6 +143,8 @@ impl Composed {
                 lines.push(Line::contour(LineRole::Body, &outline));
                 lines.extend(holes.iter().map(|hole| Line::contour(LineRole::Hole, hole)));
             }
+            let gears = self.gears.iter().filter(|gear| gear.body_name == body.name);
+            lines.extend(gears.flat_map(|gear| gear.lines()));
             if index == 0 {
                 let ways = traced.iter();
                 lines.extend(ways.map(|&point| Line::trace(LineRole::Trace, point)));

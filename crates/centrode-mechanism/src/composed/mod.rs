@@ -3,11 +3,17 @@
 //! A body has axes of its own. One that turns has its origin on its pin; one that slides has its first axis along its line;
 //! the bodies of a dyad have theirs as those of a [`Linkage`]. The input is the angle of the driving shaft, rad.
 
+mod build;
 mod design;
 mod dyad;
 mod error;
+mod figure;
+mod gearing;
+mod gears;
+mod goal;
 mod law;
 mod links;
+mod mesh;
 mod plates;
 mod points;
 mod resolve;
@@ -24,8 +30,13 @@ pub use design::{
 };
 pub use dyad::{ComposedDyadSpec, DyadKind};
 pub use error::ComposedError;
+pub use figure::{ComposedFigure, FIGURE_FORMS, PointPart};
+pub use gearing::ComposedGear;
+pub use gears::{ComposedGearSpec, ComposedLoopSpec, ComposedMeshSpec, GearRole};
+pub use goal::{ComposedGoalSpec, Over};
 pub use law::{ComposedLawError, ComposedLawSpec};
 
+use self::gearing::Meshing;
 use self::points::BodyPoints;
 use crate::linkage::{Line, Link, Linkage};
 use crate::machine::JointKind;
@@ -40,6 +51,9 @@ pub struct Composed {
     dyads: Vec<ComposedDyad>,
     pins: Vec<Pin>,
     points: BodyPoints,
+    figures: Vec<ComposedFigure>,
+    gears: Vec<ComposedGear>,
+    meshes: Vec<Meshing>,
 }
 
 /// A body of a composed machine.
@@ -152,6 +166,18 @@ impl Composed {
     #[must_use]
     pub fn dyads(&self) -> &[ComposedDyad] {
         &self.dyads
+    }
+
+    /// Gears in the order of their names.
+    #[must_use]
+    pub fn gears(&self) -> &[ComposedGear] {
+        &self.gears
+    }
+
+    /// Figures of the goals, in the order of their names.
+    #[must_use]
+    pub fn figures(&self) -> &[ComposedFigure] {
+        &self.figures
     }
 
     /// Input after which the machine repeats, rad.

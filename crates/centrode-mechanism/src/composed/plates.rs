@@ -32,7 +32,8 @@ impl Composed {
     /// Points, by `body.point`, on which other bodies turn.
     pub(super) fn pinned(&self) -> BTreeSet<String> {
         let design = &self.design;
-        let turning = design.bodies.values().filter(|body| body.slides.is_none());
+        let bodies = design.bodies.values();
+        let turning = bodies.filter(|body| body.slides.is_none() && body.mesh.is_none());
         let on = turning.filter_map(|body| body.on.clone());
         let dyads = design.dyads.values().flat_map(|dyad| {
             let ends = dyad.from.iter().chain(&dyad.to).cloned();

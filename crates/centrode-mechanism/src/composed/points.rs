@@ -86,7 +86,7 @@ pub(super) fn points_of(design: &ComposedDesign) -> Result<BodyPoints, ComposedE
     all.insert(FRAME.into(), BTreeMap::new());
     for (name, body) in &design.bodies {
         all.entry(name.clone()).or_default();
-        if let (Some(on), None) = (&body.on, body.slides) {
+        if let (Some(on), None, None) = (&body.on, body.slides, &body.mesh) {
             let key = format!("bodies.{name}.on");
             let pin = Reference::to_point(&key, on)?;
             if pin.body == *name {

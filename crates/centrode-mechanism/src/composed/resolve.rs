@@ -1,20 +1,18 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use centrode_geometry::{Point, extremes, pieces};
+use centrode_geometry::Point;
 
+use super::build::range;
 use super::design::FRAME;
+use super::gearing::{Meshing, gears_of};
 use super::points::{BodyPoints, Reference, points_of};
 use super::{
-    Composed, ComposedBody, ComposedDesign, ComposedDyad, ComposedDyadSpec, ComposedError, Mount,
-    Pin,
+    Composed, ComposedBody, ComposedDesign, ComposedDyad, ComposedDyadSpec, ComposedError,
+    ComposedFigure, ComposedGear, Over, Pin,
 };
-use crate::composed::DyadKind;
-use crate::linkage::{Branch, Coordinate, Joint, Line, Link, Linkage, LinkageError, NotClosing};
-use crate::transmission::Transmission;
-
-/// Parts of a cycle in each of which a slide has few extremes.
-const PARTS: u32 = 8;
+use crate::gear::design::{Rule, SpecError};
+use crate::linkage::{Coordinate, Link, Linkage, LinkageError, NotClosing};
 
 /// Body or dyad to build, in whatever order its needs allow.
 #[derive(Clone, Copy)]
@@ -24,16 +22,18 @@ enum Node<'a> {
 }
 
 /// A composed machine under construction.
-struct Builder<'a> {
-    design: &'a ComposedDesign,
-    points: BodyPoints,
-    linkage: Linkage,
+pub(super) struct Builder<'a> {
+    pub(super) design: &'a ComposedDesign,
+    pub(super) points: BodyPoints,
+    pub(super) linkage: Linkage,
     /// Bodies in the order of building, and those that dyads have yet to be followed for.
-    bodies: Vec<ComposedBody>,
-    dyads: Vec<ComposedDyad>,
-    pins: Vec<Pin>,
+    pub(super) bodies: Vec<ComposedBody>,
+    pub(super) dyads: Vec<ComposedDyad>,
+    pub(super) pins: Vec<Pin>,
+    pub(super) gears: Vec<ComposedGear>,
+    pub(super) meshes: Vec<Meshing>,
     /// Joints whose motion follows from the closed linkage, by the body they carry, and the key that holds it.
-    followed: Vec<(usize, Coordinate, String)>,
+    pub(super) followed: Vec<(usize, Coordinate, String)>,
 }
 
 impl Composed {
@@ -44,8 +44,11 @@ impl Composed {
     pub fn resolve(design: &ComposedDesign) -> Result<Self, ComposedError> {
         design.validate()?;
         holders(design)?;
+        let points = points_of(design)?;
         let mut builder = Builder {
-            points: points_of(design)?,
+            gears: gears_of(design, &points)?,
+            meshes: Vec::new(),
+            points,
             linkage: Linkage::with_turns(design.input.turns),
             bodies: vec![ComposedBody {
                 name: FRAME.into(),
@@ -59,14 +62,30 @@ impl Composed {
         };
         builder.build()?;
         builder.follow()?;
-        Ok(Self {
+        builder.check_loops()?;
+        let mut made = Self {
             design: design.clone(),
             linkage: builder.linkage,
             bodies: builder.bodies,
             dyads: builder.dyads,
             pins: builder.pins,
             points: builder.points,
-        })
+            figures: Vec::new(),
+            gears: builder.gears,
+            meshes: builder.meshes,
+        };
+        let goals = design.goals.iter();
+        let figures = goals.map(|(name, goal)| {
+            let figure = made.figure(&format!("goals.{name}.figure"), &goal.figure)?;
+            if matches!(figure, ComposedFigure::Clearance(_)) && goal.over != Some(Over::Least) {
+                let key = format!("goals.{name}.over");
+                let rule = Rule::Needed("as least for a clearance");
+                return Err(SpecError { key, rule }.into());
+            }
+            Ok(figure)
+        });
+        made.figures = figures.collect::<Result<_, ComposedError>>()?;
+        Ok(made)
     }
 }
 
@@ -143,7 +162,10 @@ impl<'a> Builder<'a> {
         let words: Vec<(&str, &String)> = match node {
             Node::Body(name) => {
                 let body = &self.design.bodies[*name];
-                let on = body.on.iter().map(|on| ("on", on));
+                let on = body
+                    .on
+                    .iter()
+                    .map(|on| (if body.mesh.is_some() { "carrier" } else { "on" }, on));
                 let fixed = body.fixed_to.iter().map(|to| ("fixed_to", to));
                 on.chain(fixed).collect()
             }
@@ -162,13 +184,25 @@ impl<'a> Builder<'a> {
         };
         let mut bodies = Vec::new();
         for (word_key, word) in words {
+            let by_body = matches!(word_key, "fixed_to" | "carrier");
+            let word_key = if word_key == "carrier" {
+                "on"
+            } else {
+                word_key
+            };
             let key = format!("{key}.{word_key}");
-            let reference = match word_key {
-                "fixed_to" => Reference::to_body(word),
-                _ => Reference::to_point(&key, word)?,
+            let reference = match by_body {
+                true => Reference::to_body(word),
+                false => Reference::to_point(&key, word)?,
             };
             reference.find(&key, &self.points)?;
             bodies.push(reference.body);
+        }
+        if let Node::Body(name) = node
+            && let Some(mesh) = &self.design.bodies[*name].mesh
+        {
+            let with = self.gear(&format!("{key}.mesh.with"), &mesh.with)?;
+            bodies.push(self.gears[with].body_name.clone());
         }
         Ok(bodies)
     }
@@ -196,200 +230,15 @@ impl<'a> Builder<'a> {
     }
 
     /// A point of a body that is there: the body's index, the place in its axes.
-    fn place(&self, key: &str, word: &str) -> Result<(usize, Point), ComposedError> {
+    pub(super) fn place(&self, key: &str, word: &str) -> Result<(usize, Point), ComposedError> {
         let reference = Reference::to_body(word);
         let at = reference.find(key, &self.points)?;
         let index = self.bodies.iter().position(|b| b.name == reference.body);
         Ok((index.unwrap_or(0), at))
     }
 
-    fn line(&self, key: &str, word: &str, angle: f64) -> Result<(usize, Line), ComposedError> {
-        let (body, through) = self.place(key, word)?;
-        let link = self.bodies[body].link;
-        Ok((
-            body,
-            Line {
-                link,
-                through,
-                angle,
-            },
-        ))
-    }
-
-    fn joint(&mut self, key: &str, word: &str) -> Result<(usize, Point, Joint), ComposedError> {
-        let (body, at) = self.place(key, word)?;
-        let joint = self.linkage.point(self.bodies[body].link, at);
-        Ok((body, at, joint.map_err(blame(key))?))
-    }
-
-    fn push(&mut self, name: &str, link: Link, mount: Mount) -> usize {
-        self.bodies.push(ComposedBody {
-            name: name.into(),
-            link,
-            mount: Some(mount),
-        });
-        self.bodies.len() - 1
-    }
-
-    fn add_body(&mut self, name: &str) -> Result<(), ComposedError> {
-        let design = self.design;
-        let body = &design.bodies[name];
-        if let Some(to) = &body.fixed_to {
-            let key = format!("bodies.{name}.fixed_to");
-            let angle = body.turned.unwrap_or(0.0);
-            let (carrier, line) = self.line(&key, to, angle)?;
-            let link = self.linkage.fixed(line).map_err(blame(&key))?;
-            self.push(name, link, Mount::fixed(carrier, line.through, angle));
-            return Ok(());
-        }
-        let (Some(on), Some(law)) = (&body.on, &body.law) else {
-            return Ok(());
-        };
-        let key = format!("bodies.{name}.on");
-        let law = law.resolve(design.input.turns, body.slides.is_some());
-        let law = law.map_err(|error| ComposedError::Law {
-            body: name.into(),
-            error,
-        })?;
-        if let Some(angle) = body.slides {
-            let (carrier, line) = self.line(&key, on, angle)?;
-            let link = self.linkage.sliding(line, Arc::clone(&law));
-            let link = link.map_err(blame(&key))?;
-            let range = range(law.as_ref(), &self.linkage);
-            self.push(name, link, Mount::sliding(carrier, &line, law, range));
-        } else {
-            let (carrier, at, joint) = self.joint(&key, on)?;
-            let link = self.linkage.turning(joint, Arc::clone(&law));
-            self.push(
-                name,
-                link.map_err(blame(&key))?,
-                Mount::turning(carrier, at, law),
-            );
-        }
-        Ok(())
-    }
-
-    fn add_dyad(&mut self, name: &str, dyad: &ComposedDyadSpec) -> Result<(), ComposedError> {
-        let key = format!("dyads.{name}");
-        let word = |word: &Option<String>| word.clone().unwrap_or_default();
-        let [from_key, to_key] = ["from", "to"].map(|end| format!("{key}.{end}"));
-        let branch = match dyad.side.map(super::Side::sign) {
-            Some(sign) if sign < 0.0 => Branch::Lower,
-            _ => Branch::Upper,
-        };
-        let wrong = blame(&key);
-        let [first, second] = [&dyad.bodies[0], &dyad.bodies[1]];
-        let angle = dyad.direction.unwrap_or(0.0);
-        let origin = Point::origin();
-        let length = |i: usize| dyad.lengths.get(i).copied().unwrap_or(0.0);
-        let made = match dyad.kind {
-            DyadKind::TwoBars => {
-                let (from, p_at, p) = self.joint(&from_key, &word(&dyad.from))?;
-                let (to, q_at, q) = self.joint(&to_key, &word(&dyad.to))?;
-                let bars = self.linkage.rrr(p, q, (length(0), length(1)), branch);
-                let bars = bars.map_err(wrong)?;
-                let one = self.turning(&key, (first, bars.first), from, p_at);
-                let other = self.turning(&key, (second, bars.second), to, q_at);
-                self.pins
-                    .push(Pin::new([one, other], Point::new(length(0), 0.0)));
-                [one, other]
-            }
-            DyadKind::BarAndSlider => {
-                let (from, at, p) = self.joint(&from_key, &word(&dyad.from))?;
-                let (guide, line) = self.line(&format!("{key}.line"), &word(&dyad.line), angle)?;
-                let made = self
-                    .linkage
-                    .rrp(p, length(0), line, branch)
-                    .map_err(wrong)?;
-                let bar = self.turning(&key, (first, made.link), from, at);
-                let block = self.sliding(&key, (second, made.block), guide, line);
-                self.pins
-                    .push(Pin::new([bar, block], Point::new(length(0), 0.0)));
-                [bar, block]
-            }
-            DyadKind::GuideThroughBlock => {
-                let (from, _, p) = self.joint(&from_key, &word(&dyad.from))?;
-                let (to, at, q) = self.joint(&to_key, &word(&dyad.to))?;
-                let offset = dyad.offset.unwrap_or(0.0);
-                let made = self.linkage.rpr(p, q, offset, branch).map_err(wrong)?;
-                let guide = self.turning(&key, (second, made.link), to, at);
-                let line = Line {
-                    link: made.link,
-                    through: Point::new(0.0, offset),
-                    angle: 0.0,
-                };
-                let block = self.sliding(&key, (first, made.block), guide, line);
-                self.pins.push(Pin::new([block, from], origin));
-                [block, guide]
-            }
-            DyadKind::TwoSliders => {
-                let turn = dyad.second_direction.unwrap_or(0.0);
-                let (guide, line) = self.line(&format!("{key}.line"), &word(&dyad.line), angle)?;
-                let second_key = format!("{key}.second_line");
-                let (other, across) = self.line(&second_key, &word(&dyad.second_line), turn)?;
-                let made = self.linkage.prp(line, across).map_err(wrong)?;
-                let block = self.sliding(&key, (first, made.block), guide, line);
-                let mate = self.sliding(&key, (second, made.link), other, across);
-                self.pins.push(Pin::new([block, mate], origin));
-                [block, mate]
-            }
-            DyadKind::Yoke => {
-                let slot = dyad.slot.unwrap_or(0.0);
-                let (from, _, p) = self.joint(&from_key, &word(&dyad.from))?;
-                let (guide, line) = self.line(&format!("{key}.line"), &word(&dyad.line), angle)?;
-                let made = self.linkage.rpp(p, line, slot).map_err(wrong)?;
-                let yoke = self.sliding(&key, (second, made.link), guide, line);
-                let along = Line {
-                    link: made.link,
-                    through: origin,
-                    angle: slot,
-                };
-                let block = self.sliding(&key, (first, made.block), yoke, along);
-                self.pins.push(Pin::new([block, from], origin));
-                [block, yoke]
-            }
-        };
-        self.dyads.push(ComposedDyad {
-            name: name.into(),
-            kind: dyad.kind,
-            bodies: made,
-        });
-        Ok(())
-    }
-
-    /// Adds a body of a dyad that turns on a pin; its motion is followed when all is built.
-    fn turning(
-        &mut self,
-        key: &str,
-        (name, link): (&str, Link),
-        carrier: usize,
-        at: Point,
-    ) -> usize {
-        let against = self.bodies[carrier].link;
-        let law = Arc::new(crate::machine::Constant(0.0));
-        let body = self.push(name, link, Mount::turning(carrier, at, law));
-        let of = Coordinate::Angle { link, against };
-        self.followed.push((body, of, key.into()));
-        body
-    }
-
-    /// Adds a body of a dyad that slides along a line; its motion is followed when all is built.
-    fn sliding(
-        &mut self,
-        key: &str,
-        (name, link): (&str, Link),
-        carrier: usize,
-        line: Line,
-    ) -> usize {
-        let law = Arc::new(crate::machine::Constant(0.0));
-        let body = self.push(name, link, Mount::sliding(carrier, &line, law, [0.0; 2]));
-        let of = Coordinate::Along { link, line };
-        self.followed.push((body, of, key.into()));
-        body
-    }
-
     /// Follows the joints of the dyads over the cycle, over which all of them must close.
-    fn follow(&mut self) -> Result<(), ComposedError> {
+    pub(super) fn follow(&mut self) -> Result<(), ComposedError> {
         if let Some(NotClosing {
             dyad,
             open,
@@ -423,13 +272,7 @@ impl<'a> Builder<'a> {
     }
 }
 
-/// Least and greatest value of a law over the cycle.
-fn range(law: &dyn Transmission, linkage: &Linkage) -> [f64; 2] {
-    let ends = pieces(0.0, linkage.period(), PARTS, linkage.breaks());
-    extremes(|input| law.at(input).position, &ends).map(|extreme| extreme.value)
-}
-
-fn blame(key: &str) -> impl Fn(LinkageError) -> ComposedError {
+pub(super) fn blame(key: &str) -> impl Fn(LinkageError) -> ComposedError {
     let key = key.to_owned();
     move |error| ComposedError::Linkage {
         key: key.clone(),

@@ -1,3 +1,5 @@
+use centrode_analysis::optimise::composed::ComposedProblem;
+use centrode_analysis::optimise::{DesignProblem, NotSearched};
 use centrode_analysis::{Report, check_composed};
 use centrode_export::page::{Curve, Handle, HandlePlane, Picture};
 use centrode_export::{Bundle, ExportError, Format, Options};
@@ -64,6 +66,10 @@ impl Resolved for Composed {
 
     fn resolve(design: &ComposedDesign) -> Result<Self, MechanismError> {
         Ok(Self::resolve(design)?)
+    }
+
+    fn problem(design: &ComposedDesign) -> Result<Box<dyn DesignProblem + Send>, NotSearched> {
+        Ok(Box::new(ComposedProblem::new(design)?))
     }
 }
 

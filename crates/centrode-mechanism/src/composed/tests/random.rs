@@ -128,8 +128,10 @@ fn dyad(random: &mut Random, machine: &Composed, bodies: [String; 2]) -> Compose
 /// A random machine of some elements, each added where it lets the machine close.
 fn machine(seed: u32) -> Composed {
     let mut random = Random(seed.wrapping_mul(747_796_405).wrapping_add(1));
-    let mut design = ComposedDesign::default();
-    design.name = "random".into();
+    let mut design = ComposedDesign {
+        name: "random".into(),
+        ..ComposedDesign::default()
+    };
     for name in ["P", "Q", "R"] {
         let at = [0; 2].map(|_| random.within(-60.0, 60.0));
         design.frame.points.insert(name.into(), at);
