@@ -13,8 +13,8 @@ PHI = np.linspace(0.0, 2.0 * np.pi, 181)
 def closed(unknowns, lengths, start):
     """Places of the joints by Newton's method on the lengths of the bars alone, each input from the solution before it.
 
-    `unknowns` are names of joints; `lengths` rows of two joints and their distance; `start` gives the fixed joints at an
-    input and, at the first, a guess of the others.
+    `unknowns` are names of joints; `lengths` rows of two joints and their distance; `start` gives the fixed joints at
+    an input and, at the first, a guess of the others.
     """
     found = []
     guess = None
