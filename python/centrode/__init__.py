@@ -35,9 +35,11 @@ from ._clearance import Clearance
 from ._contact import Contact
 from ._design import load, schema
 from ._error import CamError, DesignError, Error, ExportError, GearPairError, LinkageError, MechanismError, PitchError
+from ._forces import Forces
 from ._goal import Goal
 from ._optimised import Optimised
 from ._over_pins import OverPins
+from ._part import Part
 from ._report import Finding, Place, Report, Table
 from ._sheet import Drawing, Sheets
 from ._six_bar import DeadCenters
@@ -60,6 +62,7 @@ __all__ = [
     "ExportError",
     "Feeder",
     "Finding",
+    "Forces",
     "Gear",
     "GearPair",
     "GearPairError",
@@ -72,6 +75,7 @@ __all__ = [
     "MovingBox",
     "Optimised",
     "OverPins",
+    "Part",
     "Pitch",
     "PitchError",
     "Place",

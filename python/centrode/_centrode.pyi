@@ -9,9 +9,11 @@ from typing_extensions import Self, disjoint_base
 
 from ._clearance import Clearance
 from ._contact import Contact
+from ._forces import Forces
 from ._goal import Goal
 from ._optimised import Optimised
 from ._over_pins import OverPins
+from ._part import Part
 from ._report import Report
 from ._sheet import Drawing, Sheets
 from ._six_bar import DeadCenters
@@ -448,6 +450,8 @@ class Mechanism:
     @overload
     def motion(self, phi: ArrayLike) -> dict[str, NDArray[float64]]: ...
     def frames(self, phi: ArrayLike) -> dict[str, NDArray[float64]]: ...
+    def forces(self, phi: ArrayLike, *, speed: _Real | None = None) -> Forces: ...
+    def parts(self) -> tuple[Part, ...]: ...
     def optimise(
         self,
         method: Literal["guided", "cma-es", "de", "ga"] = "guided",

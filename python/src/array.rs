@@ -80,7 +80,7 @@ impl Values {
     }
 
     /// The numbers, if all are finite: a function of an angle has no value anywhere else.
-    fn finite(self) -> Answer<Self> {
+    pub(crate) fn finite(self) -> Answer<Self> {
         for &value in &self.0 {
             finite("every input", value)?;
         }

@@ -1,5 +1,6 @@
 use std::error::Error;
 
+use centrode_analysis::forces::ForcesError;
 use centrode_analysis::optimise::feeder::NotWidened;
 use centrode_analysis::optimise::{NotSearched, SearchError};
 use centrode_analysis::{ArmClearanceError, FeederForcesError};
@@ -69,6 +70,7 @@ raised! {
     ArmError { _ => MechanismError("arm.body"), }
     ArmClearanceError { _ => MechanismError("arm.body"), }
     FeederForcesError { _ => MechanismError("plates"), }
+    ForcesError { _ => MechanismError(""), }
     NotSearched { _ => MechanismError("optimise"), }
     NotWidened { _ => MechanismError("optimise"), }
     SearchError { _ => MechanismError("optimise"), }

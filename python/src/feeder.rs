@@ -1,7 +1,8 @@
 use std::sync::Arc;
 
+use centrode_analysis::FeederForces;
+use centrode_analysis::forces::Forces;
 use centrode_analysis::optimise::feeder::Widened;
-use centrode_analysis::{FeederForces, Forces};
 use centrode_mechanism::feeder as mechanism;
 use pyo3::prelude::{Py, PyClassInitializer, Python, pyclass, pymethods};
 
@@ -108,7 +109,7 @@ impl Feeder {
         let feeder = Arc::clone(&self.0);
         Course::together(phi, &[], move |phi| {
             let forces = forces(&feeder, phi, moving, carried)?;
-            Ok(forces.iter().map(|f| f.torque).collect())
+            Ok(forces.iter().map(FeederForces::torque).collect())
         })
     }
 
@@ -123,8 +124,8 @@ impl Feeder {
         let feeder = Arc::clone(&self.0);
         Course::together(phi, &[7, 2], move |phi| {
             let forces = forces(&feeder, phi, moving, carried)?;
-            let reactions = forces.iter().flat_map(|f| &f.reactions);
-            Ok(reactions.flat_map(|r| [r.force[0], r.force[1]]).collect())
+            let joints = forces.iter().flat_map(FeederForces::joints);
+            Ok(joints.flat_map(<[f64; 2]>::from).collect())
         })
     }
 

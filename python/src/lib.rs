@@ -12,6 +12,7 @@ mod drawing;
 mod error;
 mod feeder;
 mod files;
+mod forces;
 mod gear;
 mod gear_pair;
 mod made;

@@ -7,6 +7,7 @@ use centrode_analysis::optimise::{Ended, Progress};
 use centrode_analysis::{Contact, Finding, Goal, Report, Severity, Table};
 use centrode_mechanism::gear::{OverPins, Pin, Tooth, ToothSide};
 use centrode_mechanism::linkage;
+use centrode_mechanism::machine::{Machine, Part};
 use numpy::{IntoPyArray, PyArrayMethods};
 use pyo3::IntoPyObjectExt;
 use pyo3::prelude::{Bound, IntoPyObject, Py, PyAny, PyAnyMethods, PyResult, Python};
@@ -96,6 +97,26 @@ pub(crate) fn slider_force<'py>(
     )
 }
 
+/// Forces of a machine: the torque of its input, and by names drives, joints, closures, contacts, meshes and guides.
+pub(crate) fn forces<'py>(
+    py: Python<'py>,
+    input: Course,
+    parts: [Bound<'py, PyDict>; 6],
+    undetermined: Vec<String>,
+) -> PyResult<Bound<'py, PyAny>> {
+    let [drives, joints, closures, contacts, meshes, guides] = parts;
+    record!(py, "centrode._forces" "Forces", () => []
+        input: input,
+        drives: drives,
+        joints: joints,
+        closures: closures,
+        contacts: contacts,
+        meshes: meshes,
+        guides: guides,
+        undetermined: PyTuple::new(py, undetermined)?,
+    )
+}
+
 /// Clearance of two arms.
 pub(crate) fn clearance<'py>(py: Python<'py>, found: &Clearance) -> PyResult<Bound<'py, PyAny>> {
     record!(py, "centrode._clearance" "Clearance", found => [least, lower_bound, input]
@@ -155,6 +176,23 @@ pub(crate) fn goals<'py>(py: Python<'py>, goals: &[Goal]) -> PyResult<Bound<'py,
         )
     };
     tuple(py, goals.iter().map(one))
+}
+
+/// The parts of a machine.
+pub(crate) fn parts<'py>(py: Python<'py>, machine: &Machine) -> PyResult<Bound<'py, PyTuple>> {
+    let one = |part: &Part| {
+        let links = part.links.iter().map(|&link| &machine.links[link].name);
+        record!(py, "centrode._part" "Part", () => []
+            name: &part.name,
+            quantity: part.quantity(),
+            links: PyTuple::new(py, links.collect::<Vec<_>>())?,
+            material: &part.material,
+            mass: part.mass,
+            file: &part.file,
+            remark: &part.remark,
+        )
+    };
+    tuple(py, machine.parts.iter().map(one))
 }
 
 fn table<'py>(py: Python<'py>, table: &Table) -> PyResult<Bound<'py, PyAny>> {

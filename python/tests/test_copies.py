@@ -90,6 +90,8 @@ def objects():
         rhombus.dead_centers,
         shaft,
         shaft.force(0.1),
+        shaft.forces(0.1),
+        feeder.forces([0.1, 0.2]),
         ct.MovingBox(shaft),
         ct.MovingBox(moved_distance=2.05),
         report,

@@ -25,6 +25,22 @@ def test_motion_has_the_columns_and_numbers_of_the_table(family):
         assert np.allclose(values, table[:, index], rtol=1e-9, atol=1e-9), name
 
 
+@pytest.mark.parametrize("family", FAMILIES)
+def test_parts_are_those_of_the_list_and_belong_to_links(family):
+    machine = ct.Mechanism.from_toml(ct.template(family))
+    files = machine.files(formats=["csv", "dxf"])
+    listed = list(csv.DictReader(io.StringIO(files["parts.csv"].decode())))
+    parts, frames = machine.parts(), machine.frames(0.0)
+    assert len(parts) == len(listed) >= 2
+    for part, row in zip(parts, listed, strict=True):
+        assert isinstance(part, ct.Part)
+        assert part.quantity == len(part.links) == float(row["quantity"])
+        assert set(part.links) <= set(frames)
+        assert (part.file, part.mass) == (row["files"], float(row["mass_kg"]) if row["mass_kg"] else None)
+        assert not part.file or f"{part.file}.dxf" in files
+    assert sum(part.mass or 0 for part in parts) > 0
+
+
 @pytest.mark.parametrize("path", SHIPPED, ids=lambda path: path.stem)
 def test_every_figure_of_a_report_has_its_unit_and_no_other(path):
     report = ct.load(path).check()

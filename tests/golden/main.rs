@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 
 use centrode::FAMILIES;
 use centrode::family::Mechanism;
-use centrode_export::{Format, Options};
+use centrode_export::{Bundle, Format, Options};
 use centrode_geometry::Tolerance;
 use serde_json::{Value, json};
 
@@ -82,6 +82,7 @@ fn written(mechanism: &dyn Mechanism) -> BTreeMap<String, Value> {
         Err(error) => return BTreeMap::from([("refused".to_owned(), json!(error.to_string()))]),
     };
     // Of a pair, how many bodies there are to touch with is enough.
+    named_files_are_there(mechanism, &bundle);
     let (bodies, others): (Vec<_>, Vec<_>) = bundle
         .files()
         .partition(|(name, _)| family == "gear-pair" && name.starts_with("collision/"));
@@ -93,6 +94,27 @@ fn written(mechanism: &dyn Mechanism) -> BTreeMap<String, Value> {
         counts.insert("collision".to_owned(), json!(bodies.len()));
     }
     counts
+}
+
+/// Checks that the parts list names no files that are not written.
+fn named_files_are_there(mechanism: &dyn Mechanism, bundle: &Bundle) {
+    let machine = mechanism.machine().expect("written above");
+    let solids = [".step", ".stl"];
+    for part in machine.parts.iter().filter(|part| !part.file.is_empty()) {
+        let made = |end: &str| {
+            bundle
+                .files()
+                .any(|(name, _)| name == format!("{}{end}", part.file))
+        };
+        let (drawn, solid) = (made(".dxf"), solids.iter().any(|end| made(end)));
+        assert!(
+            drawn && solid,
+            "{}: {}",
+            mechanism.design().name(),
+            part.file
+        );
+    }
+    assert!(machine.parts.iter().any(|part| !part.file.is_empty()));
 }
 
 /// Every place where two values differ, numbers within [`DIFFERENCE`] aside.

@@ -6,11 +6,15 @@ use crate::{
     csv::{self, Column},
     drawing::Drawing,
     dxf::{self, Curves},
-    machine, pdf,
+    machine::{self, ARRANGEMENT},
+    pdf,
     sheet::Sheet,
     step::{self, StepError},
     stl, svg, threemf,
 };
+
+/// Formats of drawing sheets.
+const SHEETS: [Format; 2] = [Format::Sheet, Format::Pdf];
 
 /// The title of a design, or its name where it has none.
 pub(crate) fn title_or_name<'a>(title: &'a str, name: &'a str) -> &'a str {
@@ -162,7 +166,7 @@ impl<'a> Package<'a> {
         part: &str,
         make: impl FnOnce() -> Result<Vec<Sheet>, ExportError>,
     ) -> Result<(), ExportError> {
-        if !self.takes(part, &[Format::Sheet, Format::Pdf]) {
+        if !self.takes(part, &SHEETS) {
             return Ok(());
         }
         let (sheets, tolerance) = (make()?, self.tolerance());
@@ -281,7 +285,8 @@ impl<'a> Package<'a> {
         self.file(file, make().into_bytes())
     }
 
-    /// Offers the machine: its table of motion, simulator models with the meshes they show, scripts that play them.
+    /// Offers the machine: its general arrangement, parts list, table of motion, simulator models with the meshes they show,
+    /// scripts that play them.
     ///
     /// # Errors
     /// [`ExportError`] where it cannot be made or written.
@@ -291,10 +296,29 @@ impl<'a> Package<'a> {
     ) -> Result<(), ExportError> {
         // A smaller machine within this one is in its models.
         let own = self.prefix.is_empty();
-        if own && self.wants(&[Format::Csv, Format::Urdf, Format::Mjcf]) {
-            machine::add(&make()?, self)?;
+        let models = own && self.wants(&[Format::Csv, Format::Urdf, Format::Mjcf]);
+        let sheets = self.takes(ARRANGEMENT, &SHEETS);
+        if !sheets && !models {
+            return Ok(());
+        }
+        let made = make()?;
+        self.arrangement(&made)?;
+        if models {
+            machine::add(&made, self)?;
         }
         Ok(())
+    }
+
+    /// Offers the general arrangement of a machine, unless nothing is drawn of it.
+    pub(crate) fn arrangement(&mut self, machine: &Machine) -> Result<(), ExportError> {
+        if machine.figures.is_empty() {
+            return Ok(());
+        }
+        let (sheet, tolerance) = (self.options.sheet, self.tolerance());
+        self.sheets(ARRANGEMENT, || {
+            machine::arrangement(machine, &sheet, tolerance)
+                .map_err(ExportError::no_sheet(ARRANGEMENT))
+        })
     }
 
     /// Adds the files of a smaller machine within this one, models aside, with a prefix to their names.

@@ -1,5 +1,5 @@
 use crate::AreaMoments;
-use nalgebra::{Matrix3, Point3, Vector3};
+use nalgebra::{Isometry3, Matrix3, Point3, Vector3};
 
 /// Mass, center of mass and inertia of a body.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -30,6 +30,17 @@ impl MassProperties {
             mass,
             center: Point3::new(center.x, center.y, 0.5 * (bottom + top)),
             inertia: Matrix3::new(yy + zz, -xy, 0.0, -xy, xx + zz, 0.0, 0.0, 0.0, xx + yy),
+        }
+    }
+
+    /// The body moved to another place.
+    #[must_use]
+    pub fn placed(&self, place: &Isometry3<f64>) -> Self {
+        let turn = place.rotation.to_rotation_matrix();
+        Self {
+            mass: self.mass,
+            center: place * self.center,
+            inertia: turn.matrix() * self.inertia * turn.matrix().transpose(),
         }
     }
 
@@ -98,7 +109,7 @@ impl VolumeMoments {
 #[cfg(test)]
 mod tests {
     use crate::{Outline, Point, Solid, Tolerance, Vector, shapes::rosette};
-    use nalgebra::{Isometry2, Rotation3, Vector3};
+    use nalgebra::{Isometry2, Isometry3, Rotation3, Vector3};
 
     #[test]
     fn a_steel_tube_has_the_closed_forms() {
@@ -179,5 +190,23 @@ mod tests {
         let carried = r.matrix() * a.inertia * r.matrix().transpose();
         assert!((carried - b.inertia).norm() < 1e-10 * b.inertia.norm());
         assert!(carried[(0, 1)].abs() > 1e-6 * carried.norm());
+    }
+
+    #[test]
+    fn a_body_moved_in_its_plane_and_up_is_the_extrusion_of_the_moved_contour() {
+        let motion = Isometry2::new(Vector::new(5.0, -2.0), 0.7);
+        let body = |motion: &Isometry2<f64>, bottom: f64| {
+            let tolerance = Tolerance::new(1e-3).expect("positive");
+            let outline = rosette(9.0, 2.0, 5, tolerance).transformed(motion);
+            let solid = Solid::new(outline, Vec::new(), bottom, bottom + 4.0);
+            solid.expect("has height").mass_properties(2700.0)
+        };
+        let want = body(&motion, 3.0);
+        let axis = Vector3::z() * 0.7;
+        let place = Isometry3::new(Vector3::new(5.0, -2.0, 3.0), axis);
+        let found = body(&Isometry2::identity(), 0.0).placed(&place);
+        assert!((found.mass - want.mass).abs() < 1e-12);
+        assert!((found.center - want.center).norm() < 1e-9);
+        assert!((found.inertia - want.inertia).norm() < 1e-9 * want.inertia.norm());
     }
 }

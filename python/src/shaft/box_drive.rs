@@ -3,7 +3,8 @@
 use std::sync::Arc;
 
 use centrode::family::Mechanism as Mechanical;
-use centrode_mechanism::shaft::{Load, MovingBox, SliderForce, SpiralShaft};
+use centrode_mechanism::machine::GuideForce;
+use centrode_mechanism::shaft::{Load, MovingBox, SpiralShaft};
 use centrode_mechanism::transmission::{MotionJet, Transmission};
 use pyo3::prelude::{Bound, PyAny, PyClassInitializer, Python, pyclass, pymethods};
 
@@ -29,7 +30,7 @@ pub(crate) trait Drive: Mechanical {
 
     fn load(&self) -> Load;
 
-    fn force(&self, input: f64, load: &Load) -> SliderForce;
+    fn force(&self, input: f64, load: &Load) -> GuideForce;
 }
 
 impl Drive for SpiralShaft {
@@ -49,7 +50,7 @@ impl Drive for SpiralShaft {
         *self.load()
     }
 
-    fn force(&self, input: f64, load: &Load) -> SliderForce {
+    fn force(&self, input: f64, load: &Load) -> GuideForce {
         self.force(input, load)
     }
 }
@@ -71,7 +72,7 @@ impl Drive for MovingBox {
         *self.shaft().load()
     }
 
-    fn force(&self, input: f64, load: &Load) -> SliderForce {
+    fn force(&self, input: f64, load: &Load) -> GuideForce {
         self.force(input, load)
     }
 }
@@ -164,7 +165,7 @@ impl BoxDrive {
             rail_friction: rail_friction.unwrap_or(usual.rail_friction),
         };
         load.validate()?;
-        let part = |part: fn(SliderForce) -> f64| {
+        let part = |part: fn(GuideForce) -> f64| {
             let drive = Arc::clone(&self.0);
             Course::each(phi.clone(), move |phi| part(drive.force(phi, &load)))
         };

@@ -1,13 +1,11 @@
 use std::cell::Cell;
 
-use centrode_geometry::{Extreme, Point, SolidError, Vector, greatest_each};
+use centrode_geometry::{Extreme, SolidError, Vector, greatest_each};
 use centrode_mechanism::feeder::{Feeder, FeederError, Part};
-use centrode_mechanism::linkage::{Branch, Link, Linkage, LinkageError};
 
-use crate::{CrankMotion, ForceError, Forces, Kinetostatics, LinkMass, Report, Table, Unit};
+use crate::forces::{Balance, Forces, ForcesError};
+use crate::{Report, Table, Unit};
 
-/// Standard acceleration of free fall, down the y axis, mm/s².
-const GRAVITY: Vector = Vector::new(0.0, -9806.65);
 /// Figures of a state: the torque and the force in every joint.
 const FIGURES: usize = 1 + FeederForces::CONNECTIONS.len();
 
@@ -28,13 +26,7 @@ pub enum FeederForcesError {
     },
     /// The linkage's balance has no answer.
     #[error(transparent)]
-    Balance(#[from] ForceError),
-}
-
-impl From<LinkageError> for FeederForcesError {
-    fn from(error: LinkageError) -> Self {
-        Self::Balance(error.into())
-    }
+    Balance(#[from] ForcesError),
 }
 
 /// A feeder with the masses of its plates: the torque its crank needs and the forces in its joints.
@@ -42,15 +34,13 @@ impl From<LinkageError> for FeederForcesError {
 /// The y axis points up. The links' inertia at the design's speed is counted or left out; a jump of speed, which has no
 /// finite force, and friction are not.
 #[derive(Clone, Debug)]
-pub struct FeederForces<'a> {
-    feeder: &'a Feeder,
-    linkage: Linkage,
-    masses: Vec<LinkMass>,
+pub struct FeederForces {
+    balance: Balance,
 }
 
-impl<'a> FeederForces<'a> {
-    /// Connections of the linkage in the order of [`Forces::reactions`]: the shafts A and D of crank and rocker and the
-    /// pin B, the coupler's pin C on the rocker and on the slider, the pivot F, the slot on the slider.
+impl FeederForces {
+    /// Joints of the linkage in the order of [`FeederForces::joints`]: the shafts A and D of crank and rocker and the
+    /// pin B, the pin C on the rocker and on the slider, the pivot F, the slot on the slider.
     pub const CONNECTIONS: [&'static str; 7] =
         ["A", "B", "D", "C, rocker", "C, slider", "F", "slot"];
 
@@ -58,7 +48,7 @@ impl<'a> FeederForces<'a> {
     ///
     /// # Errors
     /// [`FeederForcesError`].
-    pub fn of(feeder: &'a Feeder) -> Result<Self, FeederForcesError> {
+    pub fn of(feeder: &Feeder) -> Result<Self, FeederForcesError> {
         Self::new(feeder, feeder.design().drive.carried_mass)
     }
 
@@ -66,70 +56,56 @@ impl<'a> FeederForces<'a> {
     ///
     /// # Errors
     /// [`FeederForcesError`].
-    pub fn new(feeder: &'a Feeder, carried: f64) -> Result<Self, FeederForcesError> {
-        let six_bar = feeder.six_bar();
-        let [crank, coupler, rocker, frame] = six_bar.four_bar().lengths();
-        let mut linkage = Linkage::new();
-        let a = linkage.point(Link::FRAME, Point::origin())?;
-        let d = linkage.point(Link::FRAME, Point::new(frame, 0.0))?;
-        let f = linkage.point(Link::FRAME, six_bar.pivot())?;
-        let (crank, b) = linkage.crank(a, crank, 0.0)?;
-        let bars = linkage.rrr(b, d, (coupler, rocker), six_bar.four_bar().branch())?;
-        let effector = linkage.rpr(bars.joint, f, 0.0, Branch::Upper)?;
-        let density = feeder.design().plates.density;
-        let mut masses = Vec::new();
-        for (part, link) in [
-            (Part::Crank, crank),
-            (Part::Coupler, bars.first),
-            (Part::Rocker, bars.second),
-            (Part::Slider, effector.block),
-            (Part::Effector, effector.link),
-        ] {
-            let solid = feeder.plate(part)?.solid();
-            let solid = solid.map_err(|source| FeederForcesError::Solid {
+    pub fn new(feeder: &Feeder, carried: f64) -> Result<Self, FeederForcesError> {
+        let mut machine = feeder.links(carried);
+        for part in Part::ALL
+            .into_iter()
+            .filter(|part| part.carrier().is_some())
+        {
+            let body = feeder.body(&feeder.plate(part)?);
+            let (_, mass) = body.map_err(|source| FeederForcesError::Solid {
                 part: part.name(),
                 source,
             })?;
-            let whole = solid.mass_properties(density);
-            masses.push(LinkMass {
-                link,
-                mass: whole.mass,
-                center: whole.center.xy(),
-                inertia: whole.inertia[(2, 2)],
-            });
+            machine.links[part.link()].mass = Some(mass);
         }
-        masses.push(LinkMass {
-            link: effector.link,
-            mass: carried,
-            center: Point::new(six_bar.effector_length(), 0.0),
-            inertia: 0.0,
-        });
-        // Refuses a carried mass that is none.
-        Kinetostatics::new(&linkage, masses.clone(), Vec::new(), GRAVITY)?;
-        Ok(Self {
-            feeder,
-            linkage,
-            masses,
-        })
+        let balance = Balance::new(machine)?;
+        Ok(Self { balance })
     }
 
-    /// Torque and forces at an input, moving at the design's speed or at rest there.
+    /// Forces at an input, moving at the design's speed or at rest there.
     ///
     /// # Errors
     /// [`FeederForcesError::Balance`].
     pub fn at(&self, input: f64, moving: bool) -> Result<Forces, FeederForcesError> {
-        let crank = self.feeder.crank(input);
-        let speed = self.feeder.speed();
-        let motion = if moving {
-            CrankMotion {
-                speed: crank.velocity * speed,
-                acceleration: crank.acceleration * speed * speed,
-            }
-        } else {
-            CrankMotion::default()
+        let speed = self.balance.machine().input.speed;
+        Ok(self.balance.at(input, if moving { speed } else { 0.0 })?)
+    }
+
+    /// Torque the crank needs, N mm, counter-clockwise.
+    #[must_use]
+    pub fn torque(forces: &Forces) -> f64 {
+        forces.joints[Part::Crank.joint()].drive
+    }
+
+    /// Forces in the joints, N, in the order of [`FeederForces::CONNECTIONS`]: on crank, coupler and rocker from what carries
+    /// them, on rocker and slider from the pin C, on the effector from its pivot, and on the slider from the slot.
+    #[must_use]
+    pub fn joints(forces: &Forces) -> [Vector; 7] {
+        let on = |part: Part| {
+            let reaction = forces.joints[part.joint()].reaction;
+            reaction.map_or_else(Vector::zeros, |reaction| reaction.force.xy())
         };
-        let system = Kinetostatics::new(&self.linkage, self.masses.clone(), Vec::new(), GRAVITY)?;
-        Ok(system.at(crank.position, motion)?)
+        let [coupler, slider] = [0, 1].map(|closure| forces.closures[closure].xy());
+        [
+            on(Part::Crank),
+            on(Part::Coupler),
+            on(Part::Rocker),
+            coupler + slider,
+            -slider,
+            on(Part::Effector),
+            on(Part::Slider),
+        ]
     }
 }
 
@@ -145,9 +121,10 @@ pub(super) fn forces(feeder: &Feeder, report: &mut Report) {
             balanced.set(false);
             return [f64::NAN; FIGURES];
         };
+        let joints = FeederForces::joints(&forces);
         std::array::from_fn(|k| match k.checked_sub(1) {
-            None => forces.torque.abs(),
-            Some(joint) => forces.reactions[joint].force.norm(),
+            None => FeederForces::torque(&forces).abs(),
+            Some(joint) => joints[joint].norm(),
         })
     };
     let ends = feeder.pieces();

@@ -85,7 +85,7 @@ fn the_crank_moves_the_masses_of_the_plates() {
     let feeder = feeder([59.718, 105.477, 98.497, 129.79], [84.118, 63.61]);
     let [empty, full] =
         [0.0, 2.0].map(|carried| FeederForces::new(&feeder, carried).expect("plates"));
-    let at = |forces: &FeederForces<'_>, input, moving| forces.at(input, moving).expect("it turns");
+    let at = |forces: &FeederForces, input, moving| forces.at(input, moving).expect("it turns");
     let step = 1e-4;
     for i in 1..40 {
         let input = 0.1 * f64::from(i);
@@ -94,14 +94,14 @@ fn the_crank_moves_the_masses_of_the_plates() {
         for system in [&empty, &full] {
             let energy = |x: f64| at(system, x, false).potential_energy;
             let slope = (energy(input + step) - energy(input - step)) / (2.0 * step);
-            let torque = at(system, input, false).torque;
+            let torque = FeederForces::torque(&at(system, input, false));
             assert!((torque * turned.velocity - slope).abs() < 1e-5 * (1.0 + slope.abs()));
             let whole = |x: f64| {
                 let forces = at(system, x, true);
                 forces.potential_energy + forces.kinetic_energy
             };
             let slope = (whole(input + step) - whole(input - step)) / (2.0 * step);
-            let torque = at(system, input, true).torque;
+            let torque = FeederForces::torque(&at(system, input, true));
             assert!((torque * turned.velocity - slope).abs() < 1e-4 * (1.0 + slope.abs()));
         }
         let raised = feeder.tip(input).y;
@@ -111,7 +111,7 @@ fn the_crank_moves_the_masses_of_the_plates() {
     }
     assert!(FeederForces::new(&feeder, -1.0).is_err());
     let report = check_feeder(&feeder);
-    let still = at(&empty, 0.0, false).torque.abs();
+    let still = FeederForces::torque(&at(&empty, 0.0, false)).abs();
     assert!(report.values["crank_torque_still_max"] >= still);
     assert!(
         report
@@ -131,8 +131,8 @@ fn greatest_seen(feeder: &Feeder, moving: bool) -> [f64; 8] {
     let mut greatest = [0.0_f64; 8];
     for input in even.chain(beside.filter(|&b| b >= 0.0)) {
         let forces = system.at(input, moving).expect("it turns");
-        let joints = forces.reactions.iter().map(|r| r.force.norm());
-        let sizes = std::iter::once(forces.torque.abs()).chain(joints);
+        let joints = FeederForces::joints(&forces).map(|force| force.norm());
+        let sizes = std::iter::once(FeederForces::torque(&forces).abs()).chain(joints);
         for (greatest, size) in greatest.iter_mut().zip(sizes) {
             *greatest = greatest.max(size);
         }

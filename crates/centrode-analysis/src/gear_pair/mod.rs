@@ -2,12 +2,14 @@
 
 mod figures;
 mod remedy;
+mod teeth;
 
 use std::f64::consts::PI;
 
-use centrode_mechanism::gear::{Gear, GearPair, Limits, Member, ToolKind, Tooth};
+use centrode_mechanism::gear::{GearPair, Limits, Member, ToolKind};
 
 use self::remedy::remedy;
+use self::teeth::teeth;
 use crate::{Contact, Finding, Place, Report, Severity, Unit};
 
 pub(crate) use figures::FIGURES;
@@ -155,159 +157,6 @@ fn greatest_pressure_angle(pair: &GearPair) -> (f64, f64) {
         }
     }
     greatest
-}
-
-fn teeth(pair: &GearPair, gear: &Gear, limits: &Limits, report: &mut Report) {
-    let part = gear.member().name();
-    let least = pair.teeth().least_tip_width;
-    let small = 1e-9 * pair.module();
-    let collect = |wanted: &dyn Fn(&Tooth) -> Option<f64>| -> (Vec<u32>, f64) {
-        let found: Vec<(u32, f64)> = (0_u32..)
-            .zip(gear.teeth())
-            .filter_map(|(k, tooth)| wanted(tooth).map(|figure| (k, figure)))
-            .collect();
-        let worst = found.iter().map(|f| f.1).fold(0.0, f64::max);
-        (found.into_iter().map(|f| f.0).collect(), worst)
-    };
-    let sides = |tooth: &Tooth| [tooth.leading, tooth.trailing];
-    let largest = format!(
-        "the largest module without it is {:.4} mm",
-        limits.largest_module
-    );
-    let mut add = |rule,
-                   severity,
-                   (teeth, worst): (Vec<u32>, f64),
-                   required,
-                   unit,
-                   say: &dyn Fn(&str, f64) -> String| {
-        if teeth.is_empty() {
-            return;
-        }
-        let who = format!(
-            "{} of {} teeth of the {part}",
-            teeth.len(),
-            gear.tooth_count()
-        );
-        report.findings.push(Finding {
-            rule,
-            remedy: remedy(rule),
-            severity,
-            message: say(&who, worst),
-            measured: Some(worst),
-            required,
-            unit,
-            place: Place {
-                part: Some(part.into()),
-                teeth,
-                input: None,
-            },
-        });
-    };
-    let severed = collect(&|t| t.severed.then_some(1.0));
-    add(
-        "severed",
-        Severity::Error,
-        severed,
-        None,
-        Unit::Count,
-        &|who, _| {
-            format!(
-                "{who} are cut off at the root by undercut from both sides; {}",
-                largest
-            )
-        },
-    );
-    let undercut = collect(&|t| {
-        let worst = sides(t).iter().map(|s| s.undercut).fold(0.0, f64::max);
-        (worst > 0.0 && !t.severed).then_some(worst)
-    });
-    add(
-        "undercut",
-        Severity::Warning,
-        undercut,
-        Some(0.0),
-        Unit::Millimetre,
-        &|who, worst| {
-            format!(
-                "{who} are undercut, up to {worst:.4} mm of roll; {}",
-                largest
-            )
-        },
-    );
-    let short = collect(&|t| {
-        let worst = sides(t).iter().map(|s| s.shortened).fold(0.0, f64::max);
-        (worst > small && !t.severed).then_some(worst)
-    });
-    add(
-        "short-tooth",
-        Severity::Warning,
-        short,
-        Some(0.0),
-        Unit::Millimetre,
-        &|who, worst| {
-            format!(
-                "{who} cannot be cut to full height, up to {worst:.4} mm is missing: the pitch curve is concave there, or the shaper ends"
-            )
-        },
-    );
-    let pointed = collect(&|t| (t.tip_width <= small && !t.severed).then_some(0.0));
-    add(
-        "pointed",
-        Severity::Warning,
-        pointed,
-        Some(least),
-        Unit::Millimetre,
-        &|who, _| format!("{who} are pointed: their flanks meet below the tip"),
-    );
-    let thin = collect(&|t| {
-        (t.tip_width > small && t.tip_width < least * (1.0 - 1e-9)).then_some(least - t.tip_width)
-    });
-    add(
-        "thin-tip",
-        Severity::Warning,
-        thin,
-        Some(least),
-        Unit::Millimetre,
-        &|who, worst| {
-            format!("{who} are thinner at the tip than {least:.4} mm, by up to {worst:.4} mm")
-        },
-    );
-    let dead =
-        collect(&|t| (!t.severed && sides(t).iter().any(|s| s.active.is_none())).then_some(1.0));
-    add(
-        "no-flank",
-        Severity::Warning,
-        dead,
-        None,
-        Unit::Count,
-        &|who, _| format!("{who} have a side without any working flank"),
-    );
-    let present = gear.teeth().iter().filter(|t| !t.severed);
-    let width = present
-        .clone()
-        .map(|t| t.tip_width)
-        .fold(f64::INFINITY, f64::min);
-    let fillet = present
-        .flat_map(|t| sides(t).map(|s| s.fillet_radius))
-        .fold(f64::INFINITY, f64::min);
-    let names = match gear.member() {
-        Member::Driver => [
-            "driver_tip_width_min",
-            "driver_fillet_radius_min",
-            "driver_root_radius_min",
-            "driver_tip_radius_max",
-        ],
-        Member::Driven => [
-            "driven_tip_width_min",
-            "driven_fillet_radius_min",
-            "driven_root_radius_min",
-            "driven_tip_radius_max",
-        ],
-    };
-    let radii = gear.radii();
-    for (name, figure) in names.into_iter().zip([width, fillet, radii.0, radii.1]) {
-        report.values.insert(name, figure);
-    }
 }
 
 /// Transmission error, rad, up to which the flanks carry the motion.

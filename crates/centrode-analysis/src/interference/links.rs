@@ -3,9 +3,6 @@ use centrode_mechanism::machine::{FrameJet, Joint, JointKind, Machine};
 
 use super::{BodyError, Clearance, InterferenceError, MotionError, Moving, PoseJet, Shares};
 
-/// Difference of a direction from the drawing plane, or from its normal, that is rounding.
-const PLANE: f64 = 1e-12;
-
 /// Reason why the clearance of two links cannot be determined.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -59,7 +56,7 @@ pub fn between_links(
     }
     let chains = apart(machine, links);
     for joint in chains.iter().flatten() {
-        if !in_plane(joint) {
+        if !joint.is_planar() {
             let link = machine.links[joint.child].name.clone();
             return Err(LinkClearanceError::OutOfPlane { link });
         }
@@ -108,17 +105,6 @@ fn apart(machine: &Machine, links: [usize; 2]) -> [Vec<&Joint>; 2] {
     one.drain(..shared);
     other.drain(..shared);
     [one, other]
-}
-
-/// Whether a joint keeps its link's plane.
-fn in_plane(joint: &Joint) -> bool {
-    let [x, y, z] = joint.axis;
-    let flat = joint.turn[0].abs() <= PLANE && joint.turn[1].abs() <= PLANE;
-    flat && match joint.kind {
-        JointKind::Turning => x.abs() <= PLANE && y.abs() <= PLANE,
-        JointKind::Sliding(_) => z.abs() <= PLANE,
-        _ => true,
-    }
 }
 
 /// Pose of the last link of a chain in the frame of the link that carries the first, with its first derivative.

@@ -2,6 +2,7 @@
 
 mod body;
 mod depth;
+mod later;
 mod links;
 mod motion;
 mod parry;
@@ -10,8 +11,9 @@ mod sweep;
 use centrode_geometry::{Outline, Point, Tolerance};
 
 pub use body::{Body, BodyError};
+pub use later::Later;
 pub use links::{LinkClearanceError, between_links};
-pub use motion::{Bend, Later, Motion, MotionError, PoseJet, Rest, Tabulated, Uniform};
+pub use motion::{Bend, Motion, MotionError, PoseJet, Rest, Tabulated, Uniform};
 
 use depth::deepest;
 use motion::{Frame, ascending};

@@ -49,7 +49,7 @@ impl Bend {
         self.acceleration + distance * self.turning_change.hypot(self.turning * self.turning)
     }
 
-    fn greater(self, other: Self) -> Self {
+    pub(super) fn greater(self, other: Self) -> Self {
         Self {
             acceleration: self.acceleration.max(other.acceleration),
             turning: self.turning.max(other.turning),
@@ -131,7 +131,7 @@ impl Motion for Uniform {
 /// fourth power of the cell where the motion is smooth.
 #[derive(Clone, Debug)]
 pub struct Tabulated {
-    start: f64,
+    pub(super) start: f64,
     cell: f64,
     jets: Vec<PoseJet>,
     /// `bends[k][i]` bounds the cells `i .. i + 2^k`.
@@ -234,7 +234,7 @@ impl Tabulated {
     }
 
     /// Length from the first input to the last.
-    fn length(&self) -> f64 {
+    pub(super) fn length(&self) -> f64 {
         self.cell * (self.jets.len() - 1) as f64
     }
 
@@ -279,58 +279,6 @@ impl Motion for Tabulated {
 
     fn deviation(&self) -> (f64, f64) {
         self.deviation
-    }
-}
-
-/// Motion of a body that repeats another's later, turned about the common frame's origin.
-///
-/// Arms on one carrier: seen from it, each is a turned copy of the first, late by its share of a cycle.
-#[derive(Clone, Copy, Debug)]
-pub struct Later<'a> {
-    /// Motion that is repeated; its inputs are one whole cycle.
-    pub first: &'a Tabulated,
-    /// Delay of the input, in `[0, cycle]`.
-    pub delay: f64,
-    /// Turn, rad.
-    pub turned: f64,
-}
-
-impl Later<'_> {
-    /// Input of the first body, in its table.
-    fn own(&self, input: f64) -> f64 {
-        let (start, cycle) = (self.first.start, self.first.length());
-        start + (input - self.delay - start).rem_euclid(cycle)
-    }
-}
-
-impl Motion for Later<'_> {
-    fn at(&self, input: f64) -> PoseJet {
-        let jet = self.first.at(self.own(input));
-        let turn = Rotation2::new(self.turned);
-        PoseJet {
-            position: turn * jet.position,
-            angle: jet.angle + self.turned,
-            velocity: turn * jet.velocity,
-            turning: jet.turning,
-        }
-    }
-
-    fn bend(&self, from: f64, to: f64) -> Bend {
-        let (start, cycle) = (self.first.start, self.first.length());
-        if to - from >= cycle {
-            return self.first.bend(start, start + cycle);
-        }
-        let own = self.own(from);
-        let end = own + (to - from);
-        if end <= start + cycle {
-            return self.first.bend(own, end);
-        }
-        let round = self.first.bend(start, end - cycle);
-        self.first.bend(own, start + cycle).greater(round)
-    }
-
-    fn deviation(&self) -> (f64, f64) {
-        self.first.deviation
     }
 }
 

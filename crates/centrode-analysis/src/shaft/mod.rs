@@ -1,11 +1,13 @@
+mod crossings;
 mod figures;
 mod moving_box;
 mod tables;
 
 use std::f64::consts::{FRAC_PI_6, TAU};
 
-use centrode_mechanism::shaft::{ClearOffset, Crossing, Pick, Schedule, ShaftError, SpiralShaft};
+use centrode_mechanism::shaft::{Pick, Schedule, SpiralShaft};
 
+use self::crossings::crossings;
 use self::figures::FIGURES;
 use crate::{Finding, Place, Report, Severity, Unit};
 
@@ -186,117 +188,6 @@ fn groove(shaft: &SpiralShaft, report: &mut Report) {
 fn from_turn(angle: f64) -> f64 {
     let within = angle.rem_euclid(TAU);
     within.min(TAU - within)
-}
-
-fn crossings(shaft: &SpiralShaft, report: &mut Report) {
-    let groove = shaft.groove();
-    let all = groove.crossings();
-    let longest = all.iter().map(|c| c.gap).fold(0.0, f64::max);
-    let shortest = all.iter().map(|c| c.gap).fold(f64::INFINITY, f64::min);
-    report.values.insert("crossing_count", all.len() as f64);
-    report.values.insert("crossing_gap_max", longest);
-    report.values.insert("crossing_gap_min", shortest);
-    let length = shaft.slider().length;
-    if longest >= length {
-        let open = all.iter().filter(|c| c.gap >= length).count();
-        report.findings.push(Finding {
-            rule: "slider-length",
-            severity: Severity::Error,
-            message: format!(
-                "a slider {length} mm long loses both walls at {open} of {} crossings; it takes more than {longest:.3} mm",
-                all.len()
-            ),
-            measured: Some(length),
-            required: Some(longest),
-            unit: Unit::Millimetre,
-            remedy: Some("a longer slider, a narrower groove, or a return_offset"),
-            place: Place {
-                part: Some("slider".into()),
-                ..Place::default()
-            },
-        });
-    }
-    tilt(shaft, longest, report);
-    let design = shaft.design();
-    let in_window = |c: &&Crossing| {
-        [c.out, c.back]
-            .iter()
-            .any(|theta| from_turn(theta - design.pick) <= 0.5 * design.window)
-    };
-    let picked = all.iter().filter(in_window).count();
-    report
-        .values
-        .insert("crossings_while_picking", picked as f64);
-    let Some(first) = all.iter().find(in_window) else {
-        return;
-    };
-    report.findings.push(Finding {
-        rule: "crossing-while-picking",
-        severity: Severity::Warning,
-        message: format!(
-            "{picked} of {} crossings are passed while a seedling is picked, where the walls are missing over {:.2} mm; {}",
-            all.len(),
-            first.gap,
-            advice(shaft)
-        ),
-        measured: Some(first.gap),
-        required: Some(length),
-        unit: Unit::Millimetre,
-        remedy: Some("a slider longer than the gap, or a return_offset"),
-        place: at(first.out),
-    });
-}
-
-/// Checks a slider free on its pin, pushed against one wall, where a crossing interrupts that wall over `gap` mm.
-///
-/// The load acts at the pin, the wall on the parts that are left of it. While the pin passes the gap the slider must
-/// touch the wall before it and behind it, up to a whole gap away at either end: it must be twice as long as
-/// the gap. A shorter one, held on one side of its pin alone, turns into the other groove.
-fn tilt(shaft: &SpiralShaft, gap: f64, report: &mut Report) {
-    let length = shaft.slider().length;
-    report.values.insert("slider_length_free_on_pin", 2.0 * gap);
-    if length >= 2.0 * gap {
-        return;
-    }
-    report.findings.push(Finding {
-        rule: "slider-tilts",
-        severity: Severity::Warning,
-        message: format!(
-            "a crossing takes the wall that pushes the slider away over {gap:.2} mm: {length} mm long and free on its pin, the slider can turn into the other groove there; held by the walls alone it must be {:.2} mm long",
-            2.0 * gap
-        ),
-        measured: Some(length),
-        required: Some(2.0 * gap),
-        unit: Unit::Millimetre,
-        remedy: Some("a narrower groove, a longer slider, or a pin that does not turn freely"),
-        place: Place {
-            part: Some("slider".into()),
-            ..Place::default()
-        },
-    });
-}
-
-/// Shift of the return groove that brings the slow places off the crossings, in words.
-fn advice(shaft: &SpiralShaft) -> String {
-    let law = shaft.law();
-    let steepest = 2.0 * (law.mean_speed() / shaft.groove().radius()).atan();
-    let wanted = 1.25 * shaft.groove().width() / steepest.sin();
-    match offered(shaft, wanted) {
-        Ok(clear) if clear.return_offset == 0.0 => {
-            "no shift of the return groove makes that shorter; meeting the same hole at the same angle both ways always crosses there".to_owned()
-        }
-        Ok(clear) => format!(
-            "return_offset = {:.4} lets {:.2} mm of slider bridge those of the strokes and misses each hole by {:.4} mm; meeting the same hole at the same angle both ways always crosses there",
-            clear.return_offset, clear.slider_length, clear.misplacement
-        ),
-        Err(error) => format!("no shifted return groove: {error}"),
-    }
-}
-
-fn offered(shaft: &SpiralShaft, length: f64) -> Result<ClearOffset, ShaftError> {
-    shaft
-        .groove()
-        .clear_offset(length, &shaft.design().reversal)
 }
 
 fn slider(shaft: &SpiralShaft, report: &mut Report) {

@@ -3,6 +3,7 @@
 mod arm_clearance;
 mod figures;
 mod gear_train;
+mod goals;
 mod pusher;
 mod variants;
 
@@ -10,17 +11,18 @@ use std::f64::consts::TAU;
 
 use centrode_geometry::Tolerance;
 use centrode_mechanism::gear::{FlankCount, GearPairError, Member};
-use centrode_mechanism::three_arm::design::GoalsSpec;
-use centrode_mechanism::three_arm::{Figures, PickingRule, PlantingRule, ThreeArm};
+use centrode_mechanism::three_arm::{PickingRule, PlantingRule, ThreeArm};
 
 use self::figures::FIGURES;
 use self::gear_train::check_gear_train;
+use self::goals::all_goals;
 use self::pusher::check_pusher;
 use crate::report::Missed;
 use crate::{Finding, Goal, Place, Report, Severity, Table, Unit, gear_pair};
 
 pub use arm_clearance::{ArmClearance, ArmClearanceCourse, ArmClearanceError, between_arms};
 pub use gear_train::{TrainTeeth, carrier_turn};
+pub use goals::goals;
 pub use variants::{Variants, VariantsError};
 
 /// Tolerance of the arms' clearances, as a share of the tip's distance from the planet's axis.
@@ -91,30 +93,6 @@ pub(crate) fn reached(mechanism: &ThreeArm) -> (Vec<Goal>, Option<ArmClearance>)
     )
 }
 
-fn all_goals(
-    mechanism: &ThreeArm,
-    arms: Option<&ArmClearance>,
-    teeth: Option<&[FlankCount; 2]>,
-) -> Vec<Goal> {
-    let mut goals = goals(&mechanism.figures(), &mechanism.design().goals);
-    for goal in &mut goals {
-        let value = match &*goal.name {
-            "arm-clearance" => match arms.and_then(|found| found.arms) {
-                Some(found) => found.least,
-                None => continue,
-            },
-            "seedling-clearance" => mechanism.seedling_clearance().value,
-            "sound-teeth" => match teeth {
-                Some(teeth) => f64::from(teeth.iter().map(|t| t.unsound).sum::<u32>()),
-                None => continue,
-            },
-            _ => continue,
-        };
-        *goal = goal.clone().with(value);
-    }
-    goals
-}
-
 /// Checks the teeth of every mesh, where the design has any.
 fn check_teeth(
     mechanism: &ThreeArm,
@@ -166,72 +144,6 @@ fn arm_tolerance(mechanism: &ThreeArm) -> Option<Tolerance> {
 pub fn arm_clearance_course(mechanism: &ThreeArm, parts: u32) -> Option<ArmClearanceCourse> {
     let (body, tolerance) = (mechanism.arm_body().ok()?, arm_tolerance(mechanism)?);
     ArmClearanceCourse::of(mechanism, &body, tolerance, parts).ok()
-}
-
-/// Goals of a mechanism as far as its figures reach: those of arms, seedlings and flanks are left open.
-#[must_use]
-pub fn goals(figures: &Figures, wanted: &GoalsSpec) -> Vec<Goal> {
-    let range = |[least, greatest]: [f64; 2]| [Some(least), Some(greatest)];
-    let least = |least: f64| [Some(least), None];
-    let angle = |about, value, wanted: [f64; 2]| {
-        Goal::new(
-            about,
-            Some(value),
-            range(wanted),
-            Unit::Angle,
-            wanted[1] - wanted[0],
-        )
-    };
-    // A clearance of 20 mm is the paper's own; it is the scale where any clearance will do.
-    let size = |wanted: f64| if wanted > 0.0 { wanted } else { 20.0 };
-    let length = |about, value, wanted: f64| {
-        Goal::new(about, value, least(wanted), Unit::Millimetre, size(wanted))
-    };
-    vec![
-        length(
-            (1, "arm-clearance", "arms clear of each other"),
-            None,
-            wanted.arm_clearance,
-        ),
-        angle(
-            (2, "pick-angle", "clamp above horizontal at picking"),
-            figures.pick_angle,
-            wanted.pick_angle,
-        ),
-        angle(
-            (3, "push-angle", "clamp below horizontal at planting"),
-            figures.push_angle,
-            wanted.push_angle,
-        ),
-        angle(
-            (4, "angle-difference", "turn from picking to planting"),
-            figures.angle_difference,
-            wanted.angle_difference,
-        ),
-        length(
-            (5, "seedling-clearance", "clamp clear of planted seedlings"),
-            None,
-            wanted.seedling_clearance,
-        ),
-        length(
-            (6, "gearbox-clearance", "gearbox above the ground"),
-            Some(figures.gearbox_clearance),
-            wanted.gearbox_clearance,
-        ),
-        length(
-            (7, "trajectory-height", "height of the trajectory"),
-            Some(figures.trajectory_height),
-            wanted.trajectory_height,
-        ),
-        length((8, "module", "module"), figures.module, wanted.module),
-        Goal::new(
-            (8, "sound-teeth", "flanks unsound at full height"),
-            None,
-            [None, Some(0.0)],
-            Unit::Count,
-            10.0,
-        ),
-    ]
 }
 
 fn figures(mechanism: &ThreeArm, report: &mut Report) {

@@ -1,5 +1,6 @@
 //! The files of a feeder: its links as plates, a simulator model, its motion.
 
+mod arrangement;
 mod curves;
 mod figures;
 mod gears;
@@ -73,9 +74,6 @@ pub fn files(
         })?;
     }
     package.drawing("assembly", |_| Ok(assembly(feeder, &plates)))?;
-    package.sheets("assembly", || {
-        sheets::assembly(feeder, &plates, &options.sheet)
-    })?;
     add_gears(&mut package, feeder)?;
     package.machine(|| links::machine(feeder, &plates))?;
     package.finish()

@@ -1,21 +1,17 @@
-//! The drawing sheets of a feeder: each plate with its dimensions, and the six-bar in place.
+//! The drawing sheets of a feeder: each plate with its dimensions.
 
 use crate::{
     ExportError, SheetOptions,
     drawing::{Anchor, Shape},
-    sheet::{Draft, Pen, Piece, Scale, Sheet, Table, TitleBlock, compose, view_letters},
+    sheet::{Draft, Pen, Piece, Scale, Sheet, TitleBlock, compose, view_letters},
 };
-use centrode_geometry::{Bounds, Outline, Point, Vector};
+use centrode_geometry::{Bounds, Point, Vector};
 use centrode_mechanism::design::SheetSize;
 use centrode_mechanism::feeder::{Feeder, MakingSpec, Part, Plate};
-use nalgebra::Isometry2;
-use std::f64::consts::TAU;
 
 /// Room between a view and its first dimension line, mm, and from one line to the next.
 const FIRST: f64 = 10.0;
 const NEXT: f64 = 9.0;
-/// Corners of a path.
-const POINTS: u32 = 360;
 
 fn block(feeder: &Feeder, name: &str, options: &SheetOptions) -> TitleBlock {
     let mut title = name.to_owned();
@@ -189,145 +185,6 @@ fn ends(plate: &Plate, k: f64, draft: &mut Draft) {
 fn plate_end(plate: &Plate) -> f64 {
     let bounds = plate.outline.bounds();
     bounds.max.x - 0.5 * (bounds.max.y - bounds.min.y)
-}
-
-/// The sheets of the six-bar in place.
-pub(super) fn assembly(
-    feeder: &Feeder,
-    plates: &[Plate],
-    options: &SheetOptions,
-) -> Result<Vec<Sheet>, ExportError> {
-    let mut block = block(feeder, "assembly", options);
-    block.document = "Assembly drawing".into();
-    let parts = Table {
-        title: "Parts".into(),
-        headings: ["part", "quantity", "at z"].map(String::from).into(),
-        columns: vec![Anchor::Left, Anchor::Right, Anchor::Right],
-        rows: plates.iter().map(row).collect(),
-        notes: Vec::new(),
-    };
-    let figures = figures(feeder);
-    let lines = [
-        "Shown where the effector rests and is filled.".to_owned(),
-        "Heights z of the lower faces, mm; a second frame plate above.".to_owned(),
-        "Dash-dotted: paths of B, C and of the tip E.".to_owned(),
-    ];
-    let pieces = |scale: Scale, size: SheetSize| {
-        vec![
-            Piece::table("parts list", &parts),
-            Piece::table("figures", &figures),
-            Piece::notes(&lines),
-            Piece::view(
-                "six-bar",
-                six_bar(feeder, plates, scale, view_letters(size)),
-            ),
-        ]
-    };
-    let tips = feeder.path(2, POINTS);
-    let bounds = tips.iter().fold(Bounds::EMPTY, |b, p| b.with(*p));
-    let size = options.size.or(feeder.design().drawing.sheet);
-    compose(size, &block, (bounds.max - bounds.min).amax(), &pieces, &[])
-        .map_err(ExportError::no_sheet("assembly"))
-}
-
-fn row(plate: &Plate) -> Vec<String> {
-    vec![
-        plate.part.name().to_owned(),
-        plate.part.quantity().to_string(),
-        number(plate.bottom),
-    ]
-}
-
-fn figures(feeder: &Feeder) -> Table {
-    let six_bar = feeder.six_bar();
-    let [crank, coupler, rocker, frame] = six_bar.four_bar().lengths();
-    let pivot = six_bar.pivot();
-    let degrees = |x: f64| format!("{:.4}°", x.to_degrees());
-    let rows = [
-        ("crank AB", number(crank)),
-        ("coupler BC", number(coupler)),
-        ("rocker CD", number(rocker)),
-        ("frame AD", number(frame)),
-        (
-            "pivot F",
-            format!("{}, {}", number(pivot.x), number(pivot.y)),
-        ),
-        ("effector FE", number(six_bar.effector_length())),
-        ("swing", degrees(six_bar.swing())),
-        (
-            "least transmission angle",
-            degrees(six_bar.four_bar().least_transmission_angle()),
-        ),
-        ("crank at rest", degrees(feeder.start())),
-        (
-            "cycles a minute",
-            format!("{:.4}", feeder.cycles_per_minute()),
-        ),
-    ];
-    Table {
-        title: "Six-bar".into(),
-        headings: Vec::new(),
-        columns: vec![Anchor::Left, Anchor::Right],
-        rows: rows.map(|(name, value)| vec![name.into(), value]).into(),
-        notes: Vec::new(),
-    }
-}
-
-/// The six-bar at rest, the crank's shaft in the origin.
-fn six_bar(feeder: &Feeder, plates: &[Plate], scale: Scale, letters: f64) -> Draft {
-    let k = scale.factor();
-    let mut draft = Draft::lettered(letters);
-    let mut whole = Bounds::EMPTY;
-    for plate in plates {
-        let place = feeder.place(plate.part, feeder.start());
-        let on_paper =
-            |contour: &Outline, place: &Isometry2<f64>| contour.transformed(place).scaled(k);
-        let pen = match plate.part {
-            Part::Frame => Pen::Adjacent,
-            _ => Pen::Outline,
-        };
-        let outline = on_paper(&plate.outline, &place);
-        whole = whole.union(outline.bounds());
-        draft.draw(pen, Shape::Contour(outline));
-        for hole in plate.cut_outs() {
-            draft.draw(pen, Shape::Contour(on_paper(&hole, &place)));
-        }
-    }
-    // B goes all round; C and E come back the way they went, and dashes drawn twice would fill each other's gaps.
-    let [feed, _] = feeder.strokes();
-    let there = feeder.crank(feed.to).position - feeder.start();
-    for (joint, turned) in [(0, TAU), (1, there), (2, there)] {
-        let at = |i: u32| feeder.start() + turned * f64::from(i) / f64::from(POINTS);
-        let points = (0..=POINTS).map(|i| feeder.six_bar().joints(at(i))[joint] * k);
-        let path: Vec<Point> = points.collect();
-        whole = path.iter().fold(whole, |b, p| b.with(*p));
-        draft.draw(Pen::Axis, Shape::Polyline(path));
-    }
-    let [b, c, e] = feeder.six_bar().joints(feeder.start());
-    let frame = feeder.six_bar().four_bar().lengths()[3];
-    let pivot = feeder.six_bar().pivot();
-    let joints = [
-        ("A", Point::origin()),
-        ("B", b),
-        ("C", c),
-        ("D", Point::new(frame, 0.0)),
-        ("E", e),
-        ("F", pivot),
-    ];
-    let off = Vector::new(1.0, 1.0) * (0.5 * feeder.design().plates.pin_diameter * k + 0.6);
-    for (name, at) in joints {
-        draft.text(at * k + off, letters, name, Anchor::Left);
-    }
-    let across = [Point::new(frame, 0.0), pivot].map(|at| (at, number(at.x)));
-    distances(&mut draft, across.into(), whole.min.y, k);
-    let beside = Point::new(whole.max.x + FIRST, 0.0);
-    draft.dimension(
-        [Point::origin(), pivot * k],
-        Vector::y(),
-        beside,
-        &number(pivot.y),
-    );
-    draft
 }
 
 /// A number to four places, without trailing zeros.

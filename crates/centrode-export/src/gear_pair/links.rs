@@ -7,7 +7,7 @@ use centrode_mechanism::machine::{
 };
 use centrode_mechanism::transmission::Transmission;
 
-use super::solid;
+use super::{arrangement, solid};
 use crate::ExportError;
 
 /// A frame with both gears turning about z, the driver at its origin.
@@ -55,6 +55,7 @@ pub fn drawn(pair: &GearPair) -> Machine {
         links: [driver, driven],
         joint,
         copy: 0,
+        pressure_angle: Some(pair.design().tool.pressure_angle()),
     });
     machine.column(
         "driver_angle_rad",
@@ -84,6 +85,7 @@ pub fn drawn(pair: &GearPair) -> Machine {
         let sketch = machine.sketch(member.name(), lines(pair.gear(member)));
         machine.draw(member.name(), link, sketch);
     }
+    arrangement::tell(pair, &mut machine);
     machine
 }
 

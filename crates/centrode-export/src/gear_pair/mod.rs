@@ -1,5 +1,6 @@
 //! The files of a gear pair.
 
+mod arrangement;
 mod curves;
 mod drawn;
 mod links;
@@ -10,6 +11,7 @@ mod sheets;
 mod solid;
 
 use crate::{Bundle, ExportError, Format, Options, Package};
+pub(crate) use arrangement::{list, list_pair, list_shafts, of_both};
 use centrode_mechanism::gear::{GearPair, GearPairError, Member};
 pub use curves::curves;
 use drawn::Drawn;
@@ -54,6 +56,9 @@ pub fn subject_files(
     let mut package = package(pair, formats, options);
     let drawn = Drawn::new(pair, options.tolerance);
     add(&mut package, &drawn, subject, None)?;
+    if subject == Subject::Assembly {
+        package.arrangement(&links::drawn(pair))?;
+    }
     package.finish()
 }
 
@@ -93,12 +98,12 @@ fn add(
     let (pair, tolerance, sheet) = (drawn.pair, package.tolerance(), package.options().sheet);
     let name = label.map_or(subject.name(), |label| label.name);
     package.drawing(name, |curves| Ok(drawn.drawing(subject, curves)))?;
-    package.sheets(name, || {
-        sheets::labelled(pair, subject, label, &sheet, tolerance)
-    })?;
     let Some(member) = subject.member() else {
         return Ok(());
     };
+    package.sheets(name, || {
+        sheets::labelled(pair, subject, label, &sheet, tolerance)
+    })?;
     let title = match label {
         None => package.titled(&format!("{name} gear")),
         Some(_) => package.titled(name),

@@ -102,6 +102,7 @@ fn every_format_is_there_and_the_same_twice() {
         "assembly.pdf",
         "motion.csv",
         "motion.json",
+        "parts.csv",
         "machine.urdf",
         "play_pybullet.py",
         "machine.xml",

@@ -1,7 +1,7 @@
 use std::sync::Arc;
 
 use centrode_geometry::{SolidError, Tolerance};
-use centrode_mechanism::machine::{Form, Machine, MachineError, Quantity, Seat};
+use centrode_mechanism::machine::{Form, Load, Machine, MachineError, Quantity, Seat};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
@@ -75,7 +75,8 @@ pub(super) fn in_pieces(machine: &Machine) -> Machine {
             Seat::Free(by) => by.iter_mut(),
             Seat::Link(_) => [].iter_mut(),
         });
-    for quantity in columns.chain(own) {
+    let loads = plain.loads.iter_mut().flat_map(Load::sizes_mut);
+    for quantity in columns.chain(own).chain(loads) {
         if let Quantity::Law(law) = quantity {
             *law = Arc::new(law.pieces());
         }

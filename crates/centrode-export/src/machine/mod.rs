@@ -1,20 +1,27 @@
-//! The files of a machine: its table of motion, simulator models, and scripts that play them.
+//! The files of a machine: its parts list and general arrangement, its table of motion, simulator models, and scripts that play
+//! them.
 
+mod arrangement;
 mod bodies;
 mod file;
 mod model;
 mod motion;
+mod motion_file;
+mod parts;
 mod picture;
 mod rim;
 
 use centrode_mechanism::machine::Machine;
 
 use crate::{ExportError, Format, Package, csv, mjcf, urdf};
+pub use arrangement::arrangement;
+pub(crate) use arrangement::{NAME as ARRANGEMENT, proved};
 pub use file::{MachineFileError, plain, read, schema, write};
-pub use motion::{
+pub use motion_file::{
     ClosureWords, ColumnWords, InputWords, Interpolation, JointWords, LinearWords, MeshWords,
     MotionFile, PointWords,
 };
+pub use parts::parts_list;
 pub use picture::picture;
 #[cfg(test)]
 pub(crate) use {model::simulated, motion::lines};
@@ -22,7 +29,7 @@ pub(crate) use {model::simulated, motion::lines};
 /// Name of the simulator models, without its end.
 const MODEL: &str = "machine";
 
-/// Adds the table of motion with its description and, as asked for, URDF and MJCF with the STL files they show and scripts
+/// Adds the table of motion with its description, the parts list and, as asked for, URDF and MJCF with the STL files they show and scripts
 /// that play them.
 pub(crate) fn add(machine: &Machine, package: &mut Package<'_>) -> Result<(), ExportError> {
     let tolerance = package.tolerance();
@@ -39,6 +46,9 @@ pub(crate) fn add(machine: &Machine, package: &mut Package<'_>) -> Result<(), Ex
     let mut json = serde_json::to_string_pretty(&about)?;
     json.push('\n');
     package.file("motion.json", json.into_bytes())?;
+    if package.wants(&[Format::Csv]) && !exact.parts.is_empty() {
+        package.file("parts.csv", csv::write(&parts::columns(&exact))?)?;
+    }
     let [urdf, mjcf] = [Format::Urdf, Format::Mjcf].map(|format| package.wants(&[format]));
     if !urdf && !mjcf {
         return Ok(());

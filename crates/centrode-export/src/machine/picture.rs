@@ -225,12 +225,12 @@ fn still(line: &Line, tolerance: Tolerance) -> Option<Path> {
     }
 }
 
-fn placed([x, y, turn]: &[f64; 3]) -> Isometry2<f64> {
+pub(super) fn placed([x, y, turn]: &[f64; 3]) -> Isometry2<f64> {
     Isometry2::new(nalgebra::Vector2::new(*x, *y), *turn)
 }
 
 /// Where a figure stands at an input; a link's turn goes on from the one before.
-fn pose(
+pub(super) fn pose(
     machine: &Machine,
     figure: &Figure,
     places: &[Option<Isometry3<f64>>],

@@ -91,12 +91,18 @@ fn surface(parts: &Machine<'_>) -> Result<Vec<Line>, ExportError> {
     Ok(lines)
 }
 
+/// Lower left corner of the box as drawn.
+pub(super) fn corner(shaft: &SpiralShaft) -> Point {
+    let lead = shaft.law().lead();
+    Point::new(-0.5 * lead * f64::from(shaft.traverse().holes()), lead)
+}
+
 /// The box in its rows of holes, above the development.
 fn rows(shaft: &SpiralShaft) -> Vec<Line> {
     let count = shaft.traverse().holes();
     let (lead, holes) = (shaft.law().lead(), f64::from(count));
     let (length, depth) = (lead * holes, 2.0 * lead);
-    let low = Point::new(-0.5 * length, lead);
+    let low = corner(shaft);
     let rim = rectangle(low, low + Vector::new(length, depth));
     let mut lines = vec![Line::contour(LineRole::Body, &rim)];
     lines.extend((0..count).map(|i| {

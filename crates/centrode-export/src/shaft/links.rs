@@ -4,14 +4,15 @@ use std::sync::Arc;
 use centrode_geometry::{MassProperties, Mesh, SolidError, Tolerance};
 use centrode_mechanism::gear::Member;
 use centrode_mechanism::machine::{
-    self, Body, Form, GearMesh, Input, Joint, Linear, Link, Piecewise, Quantity, Shape,
+    self, Body, Form, GearMesh, Guide, GuideForce, Input, Joint, Linear, Link, Load, Piecewise,
+    Quantity, Shape,
 };
-use centrode_mechanism::shaft::{ShaftSolid, SliderForce, SpiralShaft};
+use centrode_mechanism::shaft::{GRAVITY, ShaftSolid, SpiralShaft};
 use centrode_mechanism::transmission::{FromFn, MotionJet, Transmission};
 use nalgebra::{Matrix3, Point3};
 
 use super::machine::{Gears, Machine};
-use super::{figures, slider_solid};
+use super::{arrangement, figures, slider_solid};
 use crate::{ExportError, gear_pair};
 
 /// How far beyond the slider's way the box's joint lets it slide, mm.
@@ -59,6 +60,7 @@ pub(super) fn machine(parts: &Machine<'_>) -> Result<machine::Machine, ExportErr
             gear_pair::embody(&mut machine, link, (&gears.pair, member), GEARS)?;
         }
     }
+    arrangement::tell(parts, &mut machine)?;
     Ok(machine)
 }
 
@@ -82,6 +84,7 @@ pub(super) fn drawn(parts: &Machine<'_>) -> Result<machine::Machine, ExportError
         note: format!(
             "The box has the mass moved and the inertia of a cube of {CUBE} mm, and no friction. Slider and groove do not touch."
         ),
+        gravity: [0.0, 0.0, -1e3 * GRAVITY],
         ..machine::Machine::default()
     };
     let links = ["base", "frame", "shaft", "box", "slider"];
@@ -113,6 +116,7 @@ pub(super) fn drawn(parts: &Machine<'_>) -> Result<machine::Machine, ExportError
         .turned([FRAC_PI_2, 0.0, FRAC_PI_2])
         .led_by(turning);
     let swivelling = machine.joint(swivelling);
+    loads(&mut machine, shaft, boxed);
     columns(&mut machine, parts, [turning, boxed, swivelling], &turn);
     figures::develop(parts, &turn, [boxed, swivelling], &mut machine)?;
     if let Some(gears) = &parts.gears {
@@ -155,6 +159,24 @@ fn swivel(turn: &Arc<dyn Transmission>, stroke: &Arc<dyn Transmission>, radius: 
         position: (stroke.at(input).velocity / turn.at(input).velocity / radius).atan(),
         ..MotionJet::default()
     }))
+}
+
+/// The groove that moves the box, and the friction of the rails on it.
+fn loads(machine: &mut machine::Machine, shaft: &SpiralShaft, joint: usize) {
+    let load = *shaft.load();
+    machine.guides.push(Guide {
+        joint,
+        radius: shaft.groove().radius(),
+        friction: load.groove_friction,
+    });
+    let stroke = machine.joints[joint].law.clone();
+    let (period, breaks) = (stroke.period(), stroke.breaks());
+    let law = FromFn::new(period, 0.0, breaks, move |input| MotionJet {
+        position: load.rail_force(&stroke.at(input)),
+        ..MotionJet::default()
+    });
+    let effort = Quantity::Law(Arc::new(law));
+    machine.loads.push(Load::Joint { joint, effort });
 }
 
 /// The table: shaft, box and slider with their speeds at the design's speed of the input, forces.
@@ -240,7 +262,7 @@ fn columns(
         load.force(law.at(input), lead, groove.radius())
     });
     let (period, breaks) = (parts.shaft.cycle(), machine.joints[carriage].law.breaks());
-    let mut add = |name: &str, unit: &str, meaning: &str, of: fn(&SliderForce, f64) -> f64| {
+    let mut add = |name: &str, unit: &str, meaning: &str, of: fn(&GuideForce, f64) -> f64| {
         let (turn, force) = (turn.clone(), force.clone());
         let law = FromFn::new(period, 0.0, breaks.clone(), move |input| MotionJet {
             position: of(&force(turn.as_ref(), input), turn.at(input).velocity),
@@ -312,6 +334,7 @@ fn hang(
         links,
         joint: turning,
         copy: 0,
+        pressure_angle: Some(gears.pair.design().tool.pressure_angle()),
     });
     joint
 }

@@ -1,6 +1,7 @@
 use crate::ExportError;
 use centrode_mechanism::gear::GearPair;
-use centrode_mechanism::shaft::{EllipticDrive, MovingBox, Schedule, SliderForce, SpiralShaft};
+use centrode_mechanism::machine::GuideForce;
+use centrode_mechanism::shaft::{EllipticDrive, MovingBox, Schedule, SpiralShaft};
 use centrode_mechanism::transmission::{MotionJet, Transmission};
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -98,7 +99,7 @@ impl<'a> Machine<'a> {
     }
 
     /// Forces on the slider; the load's speed is the input's.
-    pub(super) fn force(&self, input: f64) -> SliderForce {
+    pub(super) fn force(&self, input: f64) -> GuideForce {
         let groove = self.shaft.groove();
         let lead = groove.lead_angle(self.turn(input).position);
         let load = self.shaft.load();

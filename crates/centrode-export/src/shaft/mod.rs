@@ -1,5 +1,6 @@
 //! The files of a spiral shaft.
 
+mod arrangement;
 mod curves;
 mod drawings;
 mod figures;

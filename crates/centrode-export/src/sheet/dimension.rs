@@ -8,6 +8,9 @@ use centrode_geometry::{Arc, Bounds, Point, Vector};
 const LIFT: f64 = 1.3;
 /// Length of an extension line beyond the dimension line, mm.
 const BEYOND: f64 = 2.0;
+/// Step by which a leader is moved to run clear of words, mm, and the most steps.
+const CLEARING: f64 = 1.5;
+const TRIES: u32 = 40;
 /// Distance of an extension line from its feature, mm.
 const CLEAR: f64 = 0.8;
 
@@ -38,8 +41,7 @@ impl Draft {
         let length = (end - start).norm();
         let width = lettering::width(words, self.letters);
         let rotation = along.y.atan2(along.x);
-        let inside = length >= 2.5 * ARROW;
-        let between = inside && width + 1.0 <= length;
+        let (inside, between, middle) = fitting(length, width);
         let (from, to) = if inside {
             (start, end)
         } else {
@@ -54,12 +56,7 @@ impl Draft {
         let sense = if inside { along } else { -along };
         self.arrow(start, -sense);
         self.arrow(end, sense);
-        let middle = if between {
-            start + along * (0.5 * length)
-        } else {
-            end + along * (ARROW + 1.5 + 0.5 * width)
-        };
-        let at = middle + up * LIFT;
+        let at = start + along * middle + up * LIFT;
         self.turned_text(at, self.letters, words, Anchor::Middle, rotation);
     }
 
@@ -88,7 +85,7 @@ impl Draft {
     }
 
     /// Draws notes in two columns left and right of a view, each with a leader to its point, in the order of
-    /// the points so that leaders do not cross. `band` of heights is left free.
+    /// the points so that leaders do not cross. `band` of heights is left free, and leaders run clear of words there are.
     pub fn callouts(&mut self, around: Bounds, band: [f64; 2], notes: &[(Point, Vec<String>)]) {
         let middle = 0.5 * (around.min.x + around.max.x);
         for right in [false, true] {
@@ -108,16 +105,25 @@ impl Draft {
             let mut floor = band[1];
             for (tip, words) in &column[upper..] {
                 let y = tip.y.max(floor + below(words, self.letters));
+                let y = self.clear(*tip, Point::new(x, y), CLEARING);
                 self.leader(*tip, Point::new(x, y), words);
                 floor = y + above(self.letters);
             }
             let mut ceiling = band[0];
             for (tip, words) in column[..upper].iter().rev() {
                 let y = tip.y.min(ceiling - above(self.letters));
+                let y = self.clear(*tip, Point::new(x, y), -CLEARING);
                 self.leader(*tip, Point::new(x, y), words);
                 ceiling = y - below(words, self.letters);
             }
         }
+    }
+
+    /// The first height from an elbow's on, by steps, at which a leader to it runs through no words; its own where there is none.
+    fn clear(&self, tip: Point, elbow: Point, step: f64) -> f64 {
+        let heights = (0..TRIES).map(|i| elbow.y + step * f64::from(i));
+        let free = |y: &f64| !self.strikes([tip, Point::new(elbow.x, *y)]);
+        heights.into_iter().find(free).unwrap_or(elbow.y)
     }
 
     /// Draws an arc about a centre with an arrow at its end, angles in rad.
@@ -135,6 +141,27 @@ impl Draft {
         let direction = Vector::new(-lean.sin(), lean.cos()) * sense;
         self.arrow(at(to), direction);
     }
+}
+
+/// Whether arrows fit inside a dimension, whether its words fit between them, and how far beyond its start the middle of the
+/// words is, mm.
+fn fitting(length: f64, width: f64) -> (bool, bool, f64) {
+    let inside = length >= 2.5 * ARROW;
+    let between = inside && width + 1.0 <= length;
+    let middle = if between {
+        0.5 * length
+    } else {
+        length + ARROW + 1.5 + 0.5 * width
+    };
+    (inside, between, middle)
+}
+
+/// Stretch of its line that the words of a dimension take with some air, mm.
+pub(crate) fn dimension_words([a, b]: [f64; 2], words: &str, letters: f64) -> [f64; 2] {
+    let width = lettering::width(words, letters);
+    let (_, _, middle) = fitting((b - a).abs(), width);
+    let middle = a.min(b) + middle;
+    [-1.0, 1.0].map(|side| middle + side * (0.5 * width + 1.0))
 }
 
 /// Room above the line of a note, mm.

@@ -33,6 +33,11 @@ impl Draft {
         }
     }
 
+    /// Height of the letters of dimensions and notes, mm.
+    pub(crate) fn lettering(&self) -> f64 {
+        self.letters
+    }
+
     /// Draws a shape.
     pub fn draw(&mut self, pen: Pen, shape: Shape) {
         self.entities.push(Entity {
@@ -134,6 +139,12 @@ impl Draft {
     pub fn touches(&self, rectangle: Bounds) -> bool {
         let shapes = self.entities.iter().map(|entity| &entity.shape);
         overlap::enters(shapes, rectangle)
+    }
+
+    /// Whether a straight line runs through words.
+    pub(super) fn strikes(&self, line: [Point; 2]) -> bool {
+        let shapes = self.entities.iter().map(|entity| &entity.shape);
+        overlap::strikes(shapes, line)
     }
 
     /// A rectangle around everything.

@@ -8,6 +8,26 @@ pub(crate) fn number(x: f64, places: usize) -> String {
     if text == "-0" { "0" } else { text }.to_owned()
 }
 
+/// Number to so many places, zeros and all, without a sign to a zero.
+pub(crate) fn fixed(x: f64, places: usize) -> String {
+    let text = format!("{x:.places$}");
+    let bare = text.trim_start_matches('-');
+    match bare.contains(|c: char| matches!(c, '1'..='9')) {
+        true => text,
+        false => bare.to_owned(),
+    }
+}
+
+/// Least and greatest number to so many places; one where both are the same.
+pub(crate) fn range([low, high]: [f64; 2], places: usize) -> String {
+    let [low, high] = [low, high].map(|x| number(x, places));
+    if low == high {
+        low
+    } else {
+        format!("{low} to {high}")
+    }
+}
+
 /// Mass in grams with its unit, from a kilogram on in kilograms.
 pub(crate) fn mass(grams: f64) -> String {
     if grams >= 1000.0 {
@@ -19,7 +39,7 @@ pub(crate) fn mass(grams: f64) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::number;
+    use super::{fixed, number};
 
     #[test]
     fn zeros_that_say_nothing_are_left_out() {
@@ -32,5 +52,9 @@ mod tests {
         ];
         let written = written.map(|(x, places)| number(x, places));
         assert_eq!(written, ["12.5", "12", "0", "1000", "0.3"]);
+        assert_eq!(
+            [-4e-5, -6e-5, 2.5].map(|x| fixed(x, 4)),
+            ["0.0000", "-0.0001", "2.5000"]
+        );
     }
 }

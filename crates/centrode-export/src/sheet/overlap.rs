@@ -5,6 +5,9 @@ use crate::drawing::{Shape, Text};
 use centrode_geometry::{Bounds, Outline, Point, Segment, Tolerance, Vector};
 use nalgebra::Rotation2;
 
+/// Half the width of a leader with some air, mm.
+const HALF: f64 = 0.3;
+
 /// Words that touch something.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Overlap {
@@ -78,6 +81,15 @@ pub(super) fn enters<'a>(shapes: impl Iterator<Item = &'a Shape>, rectangle: Bou
         }
     }
     found
+}
+
+/// Whether a straight line of a thin pen runs through words among some shapes.
+pub(super) fn strikes<'a>(shapes: impl Iterator<Item = &'a Shape>, line: [Point; 2]) -> bool {
+    let mut texts = shapes.filter_map(|shape| match shape {
+        Shape::Text(text) => Some(Ink::of(text)),
+        _ => None,
+    });
+    texts.any(|ink| ink.is_met_by(line, HALF))
 }
 
 /// The rectangle of a text's ink, in the frame of its baseline.

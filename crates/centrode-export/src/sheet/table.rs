@@ -30,6 +30,25 @@ pub struct Table {
 }
 
 impl Table {
+    /// Table without the columns in which no row says anything.
+    pub(crate) fn filled(mut self) -> Self {
+        let said = |k: usize| {
+            self.rows
+                .iter()
+                .any(|row| row.get(k).is_some_and(|cell| !cell.is_empty()))
+        };
+        let said: Vec<bool> = (0..self.columns.len()).map(said).collect();
+        let keep = |cells: &mut Vec<String>| {
+            let mut column = said.iter();
+            cells.retain(|_| column.next() != Some(&false));
+        };
+        self.rows.iter_mut().for_each(keep);
+        keep(&mut self.headings);
+        let mut column = said.iter();
+        self.columns.retain(|_| column.next() != Some(&false));
+        self
+    }
+
     /// Width of each column, mm: that of its longest cell.
     fn widths(&self) -> Vec<f64> {
         let longest = |k: usize| {
@@ -137,4 +156,59 @@ impl Table {
 
 fn width(words: &str) -> f64 {
     lettering::width(words, LETTERS)
+}
+
+/// Longest value on one line, letters.
+const LINE: usize = 38;
+
+/// Rows of a name, a symbol and a value, which is broken at blanks, and within a word longer than a line.
+pub(crate) fn broken(name: &str, symbol: &str, value: &str) -> Vec<Vec<String>> {
+    let mut lines: Vec<String> = vec![String::new()];
+    for word in value.split(' ') {
+        let letters: Vec<char> = word.chars().collect();
+        for part in letters.chunks(LINE) {
+            let part: String = part.iter().collect();
+            let last = lines.last_mut();
+            match last {
+                Some(line) if line.is_empty() => line.push_str(&part),
+                Some(line) if line.chars().count() + 1 + part.chars().count() <= LINE => {
+                    line.push(' ');
+                    line.push_str(&part);
+                }
+                _ => lines.push(part),
+            }
+        }
+    }
+    let row = |(row, line)| {
+        let (name, symbol) = if row == 0 { (name, symbol) } else { ("", "") };
+        vec![name.to_owned(), symbol.to_owned(), line]
+    };
+    lines.into_iter().enumerate().map(row).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn columns_that_say_nothing_are_left_out_and_long_values_are_broken() {
+        let row = |cells: [&str; 3]| cells.map(String::from).to_vec();
+        let table = Table {
+            title: "Data".into(),
+            headings: row(["name", "symbol", "value"]),
+            columns: vec![Anchor::Left, Anchor::Middle, Anchor::Right],
+            rows: vec![row(["a", "", "1"]), row(["b", "", ""])],
+            notes: Vec::new(),
+        }
+        .filled();
+        assert_eq!(table.headings, ["name", "value"]);
+        assert_eq!(table.columns, [Anchor::Left, Anchor::Right]);
+        assert_eq!(table.rows, [["a", "1"], ["b", ""]]);
+        let long = format!("{} {}", "x".repeat(30), "y".repeat(40));
+        let rows = broken("name", "n", &long);
+        let values: Vec<usize> = rows.iter().map(|row| row[2].len()).collect();
+        assert_eq!(values, [30, 38, 2]);
+        assert_eq!(rows[1][..2], ["", ""]);
+        assert_eq!(broken("name", "", ""), [["name", "", ""]]);
+    }
 }

@@ -1,375 +1,226 @@
-//! The general arrangement: the whole machine on a sheet, with its main dimensions and a list of its parts.
-
-use centrode_geometry::{Bounds, Outline, Point, Tolerance, Vector};
-use centrode_mechanism::design::SheetSize;
+use centrode_geometry::Point;
 use centrode_mechanism::gear::Member;
-use centrode_mechanism::three_arm::Link;
+use centrode_mechanism::machine::{self, Axis, Callout, Datum, Dimension};
+use centrode_mechanism::three_arm::ThreeArm;
 
+use super::Part;
 use super::machine::Machine;
-use super::{Part, assembly};
-use crate::SheetOptions;
-use crate::drawing::{Anchor, Shape};
-use crate::sheet::{Draft, Pen, Piece, Scale, Sheet, SheetError, Table, TitleBlock, compose};
+use crate::gear_pair;
+use crate::sheet::number;
 
-/// Sheet of a machine half a metre high.
-const USUAL: SheetSize = SheetSize::A2;
-/// Room between the view and its first dimension line, mm, and from one line to the next.
-const FIRST: f64 = 12.0;
-const NEXT: f64 = 9.0;
-/// Room on either side of the middle of a dimension line, mm: half its words, and for leaders that slant.
-const CLEAR: f64 = 15.0;
-
-/// The sheets of the machine as its first arm picks.
-pub(super) fn sheets(
-    machine: &Machine<'_>,
-    supplement: &str,
-    options: &SheetOptions,
-    tolerance: Tolerance,
-) -> Result<Vec<Sheet>, SheetError> {
-    let spec = &machine.mechanism.design().drawing;
-    let mut block = TitleBlock::new(spec, Part::Assembly.name(), options);
-    block.title = Part::Assembly.title().into();
-    block.supplement = supplement.into();
-    block.document = "General arrangement".into();
-    let view = View::of(machine, tolerance);
-    let (parts, figures) = (parts_list(machine), figures(machine));
-    let lines = [
-        "Shown as arm I picks; arms II and III follow it.".to_owned(),
-        "Gears seen through the front plate of the carrier.".to_owned(),
-        "Dash-dotted: pitch curves, path of the tips.".to_owned(),
-        "Spring, bearings, shafts, screws: bought, not listed.".to_owned(),
-    ];
-    let pieces = |scale: Scale, size: SheetSize| {
-        vec![
-            Piece::table("parts list", &parts),
-            Piece::table("figures", &figures),
-            Piece::notes(&lines),
-            Piece::view("machine", view.draft(scale, size)),
-        ]
-    };
-    let extent = (view.whole.max - view.whole.min).amax();
-    let size = options.size.or(spec.sheet).unwrap_or(USUAL);
-    compose(Some(size), &block, extent, &pieces, &[])
-}
-
-/// The machine from the front, at full size.
-struct View<'a> {
-    machine: &'a Machine<'a>,
-    contours: Vec<(Pen, Outline)>,
-    path: Vec<Point>,
-    /// Feet of the planted seedlings, the newest first.
-    planted: Vec<Point>,
-    whole: Bounds,
-}
-
-impl<'a> View<'a> {
-    fn of(machine: &'a Machine<'a>, tolerance: Tolerance) -> Self {
-        let mechanism = machine.mechanism;
-        let mut contours: Vec<(Pen, Outline)> = assembly::contours(machine, tolerance)
-            .into_iter()
-            .map(|(layer, outline)| (pen(layer), outline))
-            .collect();
-        let path = assembly::path(mechanism);
-        let reach = path.iter().map(|p| p.coords.norm()).fold(0.0, f64::max);
-        let tray = mechanism.tray_body();
-        // Of a long tray what is within reach of the arms, and a little more.
-        let near = |outline: &Outline| outline.bounds().max.y.abs() < reach;
-        let stems = tray.stems.iter().map(|stem| tray.placed(stem)).filter(near);
-        let still = stems.chain(assembly::planted_stems(mechanism, reach));
-        contours.extend(still.map(|outline| (Pen::Adjacent, outline)));
-        let bounds = contours.iter().map(|(_, outline)| outline.bounds());
-        let whole = bounds.fold(Bounds::EMPTY, Bounds::union);
-        let whole = path.iter().fold(whole, |b, p| b.with(*p));
-        Self {
-            machine,
-            contours,
-            path,
-            planted: assembly::planted(mechanism, reach),
-            whole,
+/// Lists the parts and tells the arrangement: the mechanism as its first arm picks.
+pub(super) fn tell(parts: &Machine<'_>, machine: &mut machine::Machine) {
+    let mechanism = parts.mechanism;
+    for part in Part::ALL {
+        if part != Part::Assembly {
+            list(parts, part, machine);
         }
     }
-
-    fn draft(&self, scale: Scale, size: SheetSize) -> Draft {
-        let k = scale.factor();
-        let letters = match size {
-            SheetSize::A4 => 2.5,
-            _ => 3.5,
-        };
-        let mut draft = Draft::lettered(letters);
-        for (pen, outline) in &self.contours {
-            draft.draw(*pen, Shape::Contour(outline.scaled(k)));
-        }
-        let path = self.path.iter().map(|p| p * k).collect();
-        draft.draw(Pen::Axis, Shape::Polyline(path));
-        let whole = Bounds {
-            min: self.whole.min * k,
-            max: self.whole.max * k,
-        };
-        self.surroundings(&mut draft, k, letters);
-        let words = self.dimensions(&mut draft, k, whole);
-        let items: Vec<(Point, Vec<String>)> = self
-            .items()
-            .into_iter()
-            .map(|(items, at)| (at * k, vec![items]))
-            .collect();
-        // Numbers stand beyond the dimension lines, and their leaders pass clear of the words there.
-        let around = Bounds {
-            min: whole.min,
-            max: whole.max + Vector::new(FIRST + 2.0 * NEXT, 0.0),
-        };
-        draft.callouts(around, words, &items);
-        draft
-    }
-
-    /// The tray's surface, the ground, and the axes.
-    fn surroundings(&self, draft: &mut Draft, k: f64, letters: f64) {
-        let mechanism = self.machine.mechanism;
-        let tray = mechanism.tray_body();
-        let span = 0.5 * (self.whole.max.y - self.whole.min.y);
-        let end = |side: f64| tray.place * Point::new(0.0, side * span) * k;
-        draft.line(Pen::Outline, end(-1.0), end(1.0));
-        let ground = mechanism.ground() * k;
-        let [left, right] = [self.whole.min.x, self.whole.max.x].map(|x| x * k);
-        let (from, to) = (Point::new(left, ground), Point::new(right, ground));
-        draft.line(Pen::Outline, from, to);
-        let over = to + Vector::new(0.0, 1.5);
-        draft.text(over, letters, "ground", Anchor::Right);
-        let top = end(1.0);
-        let behind = top + Vector::new(2.0, -letters);
-        draft.text(behind, letters, "surface of the tray", Anchor::Left);
-        let cross = 6.0;
-        for at in self.axes() {
-            let at = at * k;
-            for way in [Vector::x(), Vector::y()] {
-                draft.line(Pen::Axis, at - way * cross, at + way * cross);
-            }
-        }
-    }
-
-    /// Axes of sun, intermediate gears and planets.
-    fn axes(&self) -> Vec<Point> {
-        let arms = 0..self.machine.mechanism.arms();
-        let turning = arms.flat_map(|k| [Link::Intermediate(k), Link::Planet(k)]);
-        [Link::Sun]
-            .into_iter()
-            .chain(turning)
-            .map(|l| self.at(l))
-            .collect()
-    }
-
-    /// Where a link's frame stands.
-    fn at(&self, link: Link) -> Point {
-        let mechanism = self.machine.mechanism;
-        mechanism.link(link, mechanism.picking(0)).origin.position
-    }
-
-    /// Tray, ground, trajectory and plants; gives the heights between which the words of the upright ones stand.
-    fn dimensions(&self, draft: &mut Draft, k: f64, whole: Bounds) -> [f64; 2] {
-        let mechanism = self.machine.mechanism;
-        let origin = Point::origin();
-        let tip = mechanism.tip(mechanism.picking(0), 0).position;
-        let trajectory = mechanism.trajectory();
-        let below = |row: f64| Point::new(0.0, whole.min.y - FIRST - row * NEXT);
-        draft.dimension([origin, tip * k], Vector::x(), below(0.0), &number(tip.x));
-        if let [newest, before, ..] = self.planted[..] {
-            let apart = number(mechanism.design().work.plant_spacing);
-            draft.dimension([newest * k, before * k], Vector::x(), below(1.0), &apart);
-        }
-        let beside = |row: f64| Point::new(whole.max.x + FIRST + row * NEXT, 0.0);
-        let ground = Point::new(0.0, mechanism.ground());
-        let [low, high] = [trajectory.lowest, trajectory.highest]
-            .map(|extreme| mechanism.tip(extreme.input, 0).position);
-        let middles = [
-            ([origin, ground], -ground.y),
-            ([low, high], trajectory.height()),
-        ]
-        .into_iter()
-        .zip([0.0, 1.0])
-        .map(|(([a, b], length), row)| {
-            let ends = [a * k, b * k];
-            draft.dimension(ends, Vector::y(), beside(row), &number(length));
-            0.5 * (ends[0].y + ends[1].y)
-        });
-        let middles: Vec<f64> = middles.collect();
-        let least = middles.iter().copied().fold(f64::INFINITY, f64::min);
-        let most = middles.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        [least - CLEAR, most + CLEAR]
-    }
-
-    /// A point of each part, by its number in the list of parts, on different arms so that they spread; the covers of
-    /// a housing share its contour.
-    fn items(&self) -> Vec<(String, Point)> {
-        let mechanism = self.machine.mechanism;
-        let arms = mechanism.arms();
-        let input = mechanism.picking(0);
-        let on_arm =
-            |k: u32, p: Point| mechanism.link(Link::Arm(k % arms), input).point(p).position;
-        let (spec, pusher) = (&mechanism.design().arm, &self.machine.pusher);
-        let reach = (spec.tip_distance.powi(2) - spec.pusher_offset.powi(2)).sqrt();
-        let back = |k: u32| {
-            pusher
-                .retraction(mechanism.own_input(input, k % arms))
-                .position
-        };
-        let sizes = mechanism.arm_sizes();
-        let offset = spec.pusher_offset;
-        let radius = |member| 0.5 * mechanism.rolling().radii(member).0;
-        let beside = |link: Link, far: f64| self.at(link) + Vector::new(0.7, 0.7) * far;
-        let carrier = mechanism.link(Link::Carrier, input);
-        let rim = self
-            .machine
-            .gearbox
-            .outline
-            .segments()
-            .first()
-            .map(|s| s.start());
-        let points = [
-            (Part::Sun, Some(beside(Link::Sun, -radius(Member::Driver)))),
-            (
-                Part::Intermediate,
-                Some(beside(Link::Intermediate(1 % arms), radius(Member::Driven))),
-            ),
-            (
-                Part::Planet,
-                Some(beside(Link::Planet(2 % arms), -radius(Member::Driver))),
-            ),
-            (
-                Part::Cam,
-                Some(beside(Link::Planet(1 % arms), 0.6 * pusher.cam().radii().0)),
-            ),
-            (Part::Fork, Some(on_arm(2, pusher.pivot()))),
-            (Part::Roller, Some(on_arm(0, pusher.roller(back(0))))),
-            (Part::Carrier, rim.map(|p| carrier.point(p).position)),
-            (
-                Part::Housing,
-                Some(on_arm(
-                    1,
-                    Point::new(-sizes.housing.drum_radius * 0.98, 0.0),
-                )),
-            ),
-            (
-                Part::Clamp,
-                Some(on_arm(
-                    2,
-                    Point::new(reach - 0.5 * spec.clamp_length, -offset),
-                )),
-            ),
-            (
-                Part::PushRod,
-                Some(on_arm(
-                    0,
-                    Point::new(reach - spec.clamp_length - back(0), -offset),
-                )),
-            ),
-        ];
-        let numbered = |(part, at): (Part, Option<Point>)| {
-            let parts: &[Part] = match part {
-                Part::Housing => &[part, Part::CoverRear, Part::CoverFront],
-                _ => &[part],
-            };
-            let items: Vec<String> = parts.iter().map(|part| item(*part)).collect();
-            Some((items.join(", "), at?))
-        };
-        points.into_iter().filter_map(numbered).collect()
-    }
+    bought(parts, machine);
+    let carrier = machine.place_on("carrier", [0.0; 2]);
+    let told = &mut machine.arrangement;
+    told.seen_through.extend(carrier.map(|place| place.figure));
+    told.title = Part::Assembly.title().into();
+    told.drawing = mechanism.design().drawing.clone();
+    told.input = mechanism.picking(0);
+    told.data = data(parts);
+    told.notes = [
+        "Shown as arm I picks; arms II and III follow it.",
+        "Gears seen through the front plate of the carrier.",
+        "Dash-dotted: pitch curves, path of the tips.",
+        "Springs, bearings, screws: bought, not listed.",
+    ]
+    .map(String::from)
+    .into();
+    surroundings(mechanism, machine);
 }
 
-/// How the layers of the drawing look on a sheet.
-fn pen(layer: &str) -> Pen {
-    match layer {
-        "ARMS" => Pen::Outline,
-        "CARRIER" => Pen::Adjacent,
-        "PITCH_CURVE" => Pen::Axis,
-        _ => Pen::Thin,
-    }
-}
-
-/// Number of a part in the list, from one.
-fn item(part: Part) -> String {
-    let before = Part::ALL.iter().take_while(|known| **known != part).count();
-    (before + 1).to_string()
-}
-
-fn parts_list(machine: &Machine<'_>) -> Table {
-    let arms = machine.mechanism.arms();
-    let listed = Part::ALL.into_iter().filter(|part| *part != Part::Assembly);
-    let row = |part: Part| {
-        let material = match (machine.gear(part), machine.plate_of(part)) {
-            (Some((pair, member)), _) => pair.gear(member).body().material.clone(),
-            (None, Some(plate)) => plate.material,
-            (None, None) => String::new(),
-        };
-        vec![
-            item(part),
-            part.title().to_owned(),
-            part.quantity(arms).to_string(),
-            material,
-            part.name().to_owned(),
-        ]
-    };
-    Table {
-        title: "Parts".into(),
-        headings: ["item", "part", "quantity", "material", "files"]
-            .map(String::from)
-            .into(),
-        columns: vec![
-            Anchor::Right,
-            Anchor::Left,
-            Anchor::Right,
-            Anchor::Left,
-            Anchor::Left,
-        ],
-        rows: listed.map(row).collect(),
-        notes: Vec::new(),
-    }
-}
-
-fn figures(machine: &Machine<'_>) -> Table {
-    let mechanism = machine.mechanism;
-    let design = mechanism.design();
-    let degrees = |angle: f64| format!("{}°", number(angle.to_degrees()));
-    let rows = [
-        ("centre distance a", number(mechanism.center_distance())),
+/// Dimensions and words of tray, ground and plants.
+fn surroundings(mechanism: &ThreeArm, machine: &mut machine::Machine) {
+    let on = |machine: &machine::Machine, at: Point| machine.place_on("machine", at.coords.into());
+    let tip = mechanism.tip(mechanism.picking(0), 0).position;
+    let ground = Point::new(0.0, mechanism.ground());
+    let origin = on(machine, Point::origin());
+    let seedlings = ["planted seedling 1", "planted seedling 2"];
+    let dimensions = [
+        (origin, on(machine, tip), Axis::X),
+        (origin, on(machine, ground), Axis::Y),
         (
-            "teeth of every gear",
-            machine.pairs[0].driver().tooth_count().to_string(),
+            machine.place_on(seedlings[0], [0.0; 2]),
+            machine.place_on(seedlings[1], [0.0; 2]),
+            Axis::X,
         ),
-        ("module", number(machine.pairs[0].module())),
-        ("bend γ0", degrees(design.bend)),
+    ];
+    for (from, to, along) in dimensions {
+        if let (Some(from), Some(to)) = (from, to) {
+            let ends = [from, to];
+            machine
+                .arrangement
+                .dimensions
+                .push(Dimension { ends, along });
+        }
+    }
+    let tray = mechanism.tray_body().place * Point::new(0.0, mechanism.design().tray.hole_spacing);
+    let words = [("ground", ground), ("surface of the tray", tray)];
+    for (words, at) in words {
+        if let Some(place) = on(machine, at) {
+            let words = vec![words.into()];
+            machine.arrangement.callouts.push(Callout { place, words });
+        }
+    }
+}
+
+/// Links that carry the pieces of a part.
+fn links(part: Part, arms: u32, machine: &machine::Machine) -> Vec<usize> {
+    let chains = |name: &str, each: usize| {
+        let names = (0..arms).flat_map(|k| std::iter::repeat_n(format!("{name}_{k}"), each));
+        names.filter_map(|name| machine.link_named(&name)).collect()
+    };
+    let alone = |name: &str, count: usize| {
+        let link = machine.link_named(name);
+        link.into_iter().cycle().take(count).collect()
+    };
+    match part {
+        Part::Assembly => Vec::new(),
+        Part::Sun => alone("sun", 1),
+        Part::Carrier => alone("carrier", 2),
+        Part::Intermediate => chains("intermediate", 1),
+        Part::Planet => chains("planet", 1),
+        Part::Cam => chains("cam", 1),
+        Part::Fork | Part::Roller => chains("fork", 1),
+        Part::Housing | Part::CoverRear | Part::CoverFront => chains("arm", 1),
+        Part::Clamp => chains("arm", 2),
+        Part::PushRod => chains("push_rod", 1),
+    }
+}
+
+/// Lists a part; its number stands at a piece on an arm that leaves the others room.
+fn list(parts: &Machine<'_>, part: Part, machine: &mut machine::Machine) {
+    let arms = parts.mechanism.arms();
+    let links = links(part, arms, machine);
+    let arm = |name: &str, k: u32| format!("{name} {}", k % arms + 1);
+    if let Some((pair, member)) = parts.gear(part) {
+        let figure = match part {
+            Part::Sun => "sun".into(),
+            Part::Intermediate => arm("intermediate gear", 1),
+            _ => arm("planet", 2),
+        };
+        let words = [part.title(), part.name(), &figure];
+        return gear_pair::list(machine, pair.gear(member), words, links);
+    }
+    let Some(plate) = parts.plate_of(part) else {
+        return;
+    };
+    let edge =
+        |machine: &machine::Machine, figure: String| machine.place_on_edge(&figure, &plate.outline);
+    let place = match part {
+        Part::Cam => edge(machine, arm("cam", 1)),
+        Part::Fork => edge(machine, arm("fork", 2)),
+        Part::Roller => {
+            let spec = parts.pusher.fork_spec();
+            let rim = [spec.arm_length + spec.roller_radius, 0.0];
+            machine.place_on(&arm("fork", 0), rim)
+        }
+        Part::Carrier => edge(machine, "carrier".into()),
+        // The covers have the contour of the housing.
+        Part::Housing | Part::CoverRear | Part::CoverFront => {
+            let wall = parts.of_arm("housing").map(|part| &part.outline);
+            wall.and_then(|wall| machine.place_on_edge(&arm("arm", 1), wall))
+        }
+        Part::Clamp => edge(machine, arm("arm", 2)),
+        Part::PushRod => edge(machine, arm("push rod", 0)),
+        _ => None,
+    };
+    let mass = plate.mass([0.0, plate.thickness]).ok();
+    machine.part(machine::Part {
+        name: part.title().into(),
+        links,
+        material: plate.material,
+        mass: mass.map(|mass| mass.mass),
+        file: part.name().into(),
+        remark: format!("{} thick", number(plate.thickness, 3)),
+        place,
+    });
+}
+
+/// Lists shafts and pins.
+fn bought(parts: &Machine<'_>, machine: &mut machine::Machine) {
+    let spec = parts.pusher.fork_spec();
+    let arms = parts.mechanism.arms();
+    let shafts = [
+        (Part::Sun, "Shaft of the carrier"),
+        (Part::Intermediate, "Shaft of an intermediate gear"),
+        (Part::Planet, "Shaft of a planet gear"),
+    ];
+    for (part, name) in shafts {
+        if let Some((pair, member)) = parts.gear(part) {
+            let links = links(part, arms, machine);
+            gear_pair::list_shafts(machine, pair.gear(member), name, links);
+        }
+    }
+    let pins = [
+        ("Pin of the fork", Part::Housing, spec.pivot_bore),
+        ("Pin of the roller", Part::Fork, spec.roller_bore),
+        // Half as wide as the slot in which it runs, as its hole in the rod is.
+        ("Pin of the push rod", Part::PushRod, 0.5 * spec.slot_width),
+    ];
+    for (name, on, diameter) in pins {
+        let links = links(on, arms, machine);
+        machine.part(machine::Part {
+            name: name.into(),
+            links,
+            remark: format!("Ø{}", number(diameter, 3)),
+            ..machine::Part::default()
+        });
+    }
+}
+
+fn data(parts: &Machine<'_>) -> Vec<Datum> {
+    let mechanism = parts.mechanism;
+    let design = mechanism.design();
+    let number = |x: f64| number(x, 2);
+    let degrees = |angle: f64| format!("{}°", number(angle.to_degrees()));
+    let teeth = parts.pairs[0].gear(Member::Driver).tooth_count();
+    let [planted, picked] = [mechanism.planting(0), mechanism.picking(0)].map(degrees);
+    [
+        ("centre distance", "a", number(mechanism.center_distance())),
+        ("teeth of every gear", "z", teeth.to_string()),
+        ("module", "m", number(parts.pairs[0].module())),
+        ("bend", "γ0", degrees(design.bend)),
         (
-            "arm's mounting angle β0",
+            "arm's mounting angle",
+            "β0",
             degrees(design.arm.mounting_angle),
         ),
         (
-            "tip from the planet's axis S",
+            "tip from the planet's axis",
+            "S",
             number(design.arm.tip_distance),
         ),
-        ("pusher's axis from it H1", number(design.arm.pusher_offset)),
+        (
+            "pusher's axis from it",
+            "H1",
+            number(design.arm.pusher_offset),
+        ),
         (
             "gearbox sweeps a radius of",
+            "",
             number(mechanism.gearbox_radius()),
         ),
+        ("arms pick at a carrier turn of", "", picked),
+        ("and plant at", "", planted),
         (
-            "arms pick at a carrier turn of",
-            degrees(mechanism.picking(0)),
+            "seedlings a minute",
+            "",
+            number(design.work.rate_per_minute),
         ),
-        ("and plant at", degrees(mechanism.planting(0))),
-        ("seedlings a minute", number(design.work.rate_per_minute)),
-        ("plants apart", number(design.work.plant_spacing)),
-        ("holes of the tray apart", number(design.tray.hole_spacing)),
-    ];
-    Table {
-        title: "Mechanism".into(),
-        headings: Vec::new(),
-        columns: vec![Anchor::Left, Anchor::Right],
-        rows: rows.map(|(name, value)| vec![name.into(), value]).into(),
-        notes: Vec::new(),
-    }
-}
-
-/// A number to two places, without trailing zeros.
-fn number(x: f64) -> String {
-    let text = format!("{x:.2}");
-    let text = text.trim_end_matches('0').trim_end_matches('.');
-    if text == "-0" { "0" } else { text }.to_owned()
+        ("plants apart", "", number(design.work.plant_spacing)),
+        (
+            "holes of the tray apart",
+            "",
+            number(design.tray.hole_spacing),
+        ),
+    ]
+    .map(|(name, symbol, value)| Datum::new(name, symbol, value))
+    .into()
 }

@@ -7,6 +7,8 @@ use centrode_mechanism::machine::{Constant, Line, LineRole, Machine, Mark, Quant
 use centrode_mechanism::three_arm::{Link, ThreeArm};
 use centrode_mechanism::transmission::{FromFn, MotionJet};
 
+use super::bodies;
+use super::machine::Machine as Parts;
 use crate::gear_pair;
 
 /// Planted seedlings that are shown.
@@ -16,8 +18,13 @@ const CORNERS: u32 = 240;
 /// Share of the way between two plantings within which an input counts as the later one's.
 const ROUNDING: f64 = 1e-12;
 
-/// Draws gears, carrier, arms, the path of the tip, tray and seedlings; the gears by their pitch curves without a pair.
-pub(super) fn draw(mechanism: &ThreeArm, teeth: Option<&GearPair>, machine: &mut Machine) {
+/// Draws gears, carrier, arms, the path of the tip, tray and seedlings; the gears by their pitch curves without a pair, carrier and
+/// arms as bars without parts.
+pub(super) fn draw(
+    mechanism: &ThreeArm,
+    (parts, teeth): (Option<&Parts<'_>>, Option<&GearPair>),
+    machine: &mut Machine,
+) {
     let link = |machine: &Machine, name: &str| machine.link_named(name).unwrap_or(0);
     let around = surroundings(mechanism);
     let around = machine.sketch("surroundings", around);
@@ -42,12 +49,24 @@ pub(super) fn draw(mechanism: &ThreeArm, teeth: Option<&GearPair>, machine: &mut
         }
     };
     chains(machine, "intermediate", "intermediate gear", intermediate);
-    chains(machine, "planet", "planet", sun);
-    let legs = machine.sketch("carrier", carrier(mechanism));
-    let turning = link(machine, "carrier");
-    machine.draw("carrier", turning, legs);
-    let limb = machine.sketch("arm", arm(mechanism));
-    chains(machine, "arm", "arm", limb);
+    let planet = match parts {
+        None => sun,
+        Some(parts) => {
+            let lines = gear_pair::lines(parts.pairs[1].gear(Member::Driver));
+            machine.sketch("planet", lines)
+        }
+    };
+    chains(machine, "planet", "planet", planet);
+    match parts {
+        Some(parts) => bodies::draw(parts, machine),
+        None => {
+            let legs = machine.sketch("carrier", carrier(mechanism));
+            let turning = link(machine, "carrier");
+            machine.draw("carrier", turning, legs);
+            let limb = machine.sketch("arm", arm(mechanism));
+            chains(machine, "arm", "arm", limb);
+        }
+    }
     let mark = |(name, input): (&str, f64)| {
         let Point { coords } = mechanism.tip(input, 0).position;
         Mark {

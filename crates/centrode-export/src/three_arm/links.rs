@@ -4,7 +4,8 @@ use std::sync::Arc;
 use centrode_geometry::{MassProperties, Solid};
 use centrode_mechanism::gear::{GearPair, Member};
 use centrode_mechanism::machine::{
-    self, Column, Form, GearMesh, Input, Joint, JointKind, Linear, LinkPoint, Quantity, Shape,
+    self, Column, Form, GearMesh, Input, Joint, JointKind, Linear, LinkPoint, Quantity,
+    STANDARD_GRAVITY, Shape,
 };
 use centrode_mechanism::three_arm::{Link, Pusher, ThreeArm};
 use centrode_mechanism::transmission::{FromFn, MotionJet, Transmission};
@@ -13,7 +14,7 @@ use nalgebra::Isometry2;
 use super::limbs::Limbs;
 use super::machine::{Machine, no_gearbox};
 use super::plate::Plate;
-use super::{Part, figures, surroundings};
+use super::{Part, arrangement, figures, surroundings};
 use crate::{ExportError, gear_pair};
 
 /// Where a cam is on the carrier: its frame in the carrier's.
@@ -50,6 +51,7 @@ pub(super) fn machine(
                 speed: mechanism.carrier_speed(),
             },
             note: "Cams, forks and rods, ground, tray and seedlings are there to be seen.".into(),
+            gravity: [0.0, -STANDARD_GRAVITY, 0.0],
             ..machine::Machine::default()
         },
     };
@@ -70,22 +72,25 @@ pub(super) fn machine(
     }
     builder.ground_column();
     builder.tips();
-    figures::draw(mechanism, teeth, &mut builder.machine);
+    figures::draw(mechanism, (parts, teeth), &mut builder.machine);
+    if let Some(parts) = parts {
+        arrangement::tell(parts, &mut builder.machine);
+    }
     Ok(builder.machine)
 }
 
 /// The laws of the joints.
 #[derive(Debug)]
-struct Laws {
-    mechanism: ThreeArm,
-    pusher: Option<Pusher>,
+pub(super) struct Laws {
+    pub(super) mechanism: ThreeArm,
+    pub(super) pusher: Option<Pusher>,
 }
 
 /// Index of a shape, what the link weighs, and its surfaces.
 pub(super) type Seen = (usize, Option<MassProperties>);
 
 pub(super) struct Builder<'a> {
-    mechanism: &'a ThreeArm,
+    pub(super) mechanism: &'a ThreeArm,
     parts: Option<&'a Machine<'a>>,
     laws: Arc<Laws>,
     pub(super) machine: machine::Machine,
@@ -108,13 +113,13 @@ impl Builder<'_> {
     }
 
     /// Adds a link of a shape and mass alone.
-    fn bodied(&mut self, name: &str, seen: Option<Seen>) -> usize {
+    pub(super) fn bodied(&mut self, name: &str, seen: Option<Seen>) -> usize {
         let (shape, mass) = seen.map_or((None, None), |(shape, mass)| (Some(shape), mass));
         self.link(name, mass, shape, Vec::new())
     }
 
     /// The law of a joint by the carrier's turn.
-    fn law(
+    pub(super) fn law(
         &self,
         advance: f64,
         f: impl Fn(&Laws, f64) -> MotionJet + Send + Sync + 'static,
@@ -137,7 +142,7 @@ impl Builder<'_> {
     }
 
     /// Adds the column that holds a joint's coordinate.
-    fn column(&mut self, joint: usize, name: &str, unit: &str, meaning: &str) {
+    pub(super) fn column(&mut self, joint: usize, name: &str, unit: &str, meaning: &str) {
         let name = format!("{name}_{unit}");
         self.machine
             .column(&name, unit, meaning, Quantity::joint(joint));
@@ -272,11 +277,18 @@ impl Builder<'_> {
             ([intermediate, planet], second),
         ] {
             let copy = k as usize;
-            self.machine.meshes.push(GearMesh { links, joint, copy });
+            let pressure_angle = Some(mechanism.design().tool.pressure_angle());
+            self.machine.meshes.push(GearMesh {
+                links,
+                joint,
+                copy,
+                pressure_angle,
+            });
         }
         let level = mechanism.arm_level();
+        let mut cam = None;
         if let (Some(parts), Some(limbs)) = (self.parts, limbs) {
-            let cam = self.bodied(&format!("cam_{k}"), Some(limbs.cam));
+            let cam = *cam.insert(self.bodied(&format!("cam_{k}"), Some(limbs.cam)));
             let place = cam_on_carrier(parts, k);
             let at = place.translation.vector;
             let fixed = Joint::fixed(carrier, cam).at([at.x, at.y, level]);
@@ -289,8 +301,8 @@ impl Builder<'_> {
         let on_planet = mechanism.train().arm_on_planet() + mechanism.clamp_mounting();
         let fixed = Joint::fixed(planet, arm).at([0.0, 0.0, level]);
         self.machine.joint(fixed.turned([0.0, 0.0, on_planet]));
-        if let (Some(parts), Some(limbs)) = (self.parts, limbs) {
-            self.pushed(&parts.pusher, (k, arm), limbs);
+        if let (Some(parts), Some(limbs), Some(cam)) = (self.parts, limbs, cam) {
+            self.pushed(&parts.pusher, k, [cam, arm], limbs);
         }
         Ok(())
     }
@@ -312,35 +324,6 @@ impl Builder<'_> {
         let at = mechanism.on_carrier(link);
         let joint = Joint::turning(carrier, gear, law).at([at.x, at.y, 0.0]);
         self.machine.joint(joint)
-    }
-
-    /// Fork and rod on an arm.
-    fn pushed(&mut self, pusher: &Pusher, (k, arm): (u32, usize), limbs: &Limbs) {
-        let back = move |laws: &Laws, pusher: &Pusher, input: f64| {
-            pusher.retraction(laws.mechanism.own_input(input, k))
-        };
-        let name = format!("fork_{k}");
-        let fork = self.bodied(&name, Some(limbs.fork));
-        let law = self.law(0.0, move |laws, input| {
-            let pusher = laws.pusher.as_ref();
-            let turned = pusher.map(|pusher| pusher.fork_angle(&back(laws, pusher, input)));
-            turned.unwrap_or_default()
-        });
-        let pivot = pusher.pivot();
-        let joint = Joint::turning(arm, fork, law).at([pivot.x, pivot.y, 0.0]);
-        let joint = self.machine.joint(joint);
-        self.column(joint, &name, "rad", "fork against its arm");
-        let name = format!("push_rod_{k}");
-        let rod = self.bodied(&name, Some(limbs.rod));
-        let law = self.law(0.0, move |laws, input| {
-            let pusher = laws.pusher.as_ref();
-            let back = pusher.map(|pusher| back(laws, pusher, input));
-            MotionJet::default().plus(-1.0, &back.unwrap_or_default())
-        });
-        let slide = ([1.0, 0.0, 0.0], [-pusher.stroke(), 0.0]);
-        let joint = self.machine.joint(Joint::sliding(arm, rod, slide, law));
-        let meaning = "push rod along its arm's x axis, zero thrown out";
-        self.column(joint, &name, "mm", meaning);
     }
 
     fn ground_column(&mut self) {

@@ -2,6 +2,7 @@
 
 mod arrangement;
 mod assembly;
+mod bodies;
 mod curves;
 mod figures;
 mod limbs;
@@ -9,6 +10,7 @@ mod links;
 mod machine;
 mod part;
 mod plate;
+mod pushed;
 mod surroundings;
 
 use centrode_mechanism::arm::ArmError;
@@ -81,11 +83,8 @@ pub fn files(
     }
     let cam = machine.pusher.cam();
     package.table(Part::Cam.name(), "cam", || cam::columns(cam, cam::ROWS))?;
-    let (whole, supplement) = (Part::Assembly.name(), package.design());
-    package.drawing(whole, |_| Ok(assembly::drawing(&machine, tolerance)))?;
-    package.sheets(whole, || {
-        arrangement::sheets(&machine, supplement, &options.sheet, tolerance)
-            .map_err(ExportError::no_sheet(whole))
+    package.drawing(Part::Assembly.name(), |_| {
+        Ok(assembly::drawing(&machine, tolerance))
     })?;
     package.machine(|| linked(&machine))?;
     package.finish()

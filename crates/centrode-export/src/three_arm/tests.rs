@@ -7,9 +7,9 @@ use centrode_mechanism::machine::{Column, Form, JointKind, LineRole, Quantity};
 use centrode_mechanism::three_arm::design::ThreeArmDesign;
 
 use super::*;
-use crate::machine;
+use crate::machine::{self, arrangement};
 use crate::page::Picture;
-use crate::sheet::overlaps;
+use crate::sheet::{number, overlaps};
 
 fn mechanism(change: impl Fn(&mut ThreeArmDesign)) -> ThreeArm {
     let mut design = ThreeArmDesign::from_toml(ThreeArmDesign::TEMPLATE).expect("sound");
@@ -49,6 +49,7 @@ fn every_part_has_a_file_of_every_format_the_same_each_time() {
         "machine.xml",
         "motion.csv",
         "motion.json",
+        "parts.csv",
         "play_mujoco.py",
         "play_pybullet.py",
         "cam.csv",
@@ -121,10 +122,27 @@ fn words_touch_nothing_on_the_sheets_of_plates() {
 fn the_general_arrangement_lists_every_part_and_its_words_touch_nothing() {
     for arms in [1, 3] {
         let machine = mechanism(|d| d.arms = arms);
+        let tip = machine.tip(machine.picking(0), 0).position;
+        let lengths = [
+            tip.x,
+            -machine.ground(),
+            machine.trajectory().height(),
+            machine.design().work.plant_spacing,
+        ];
+        let kept = [machine.center_distance(), machine.design().arm.tip_distance];
+        let lengths = lengths.map(|length| number(length, 3));
+        let told = [
+            lengths.to_vec(),
+            kept.map(|length| number(length, 4)).to_vec(),
+        ]
+        .concat();
         let machine = Machine::new(&machine).expect("resolved");
-        let sheets = arrangement::sheets(&machine, "", &options().sheet, options().tolerance);
+        let machine = linked(&machine).expect("linked");
+        let sheets = arrangement(&machine, &options().sheet, options().tolerance);
         let sheets = sheets.expect("laid out");
-        assert_eq!(overlaps(&sheets[0]), [], "{arms} arms");
+        for sheet in &sheets {
+            assert_eq!(overlaps(sheet), [], "{arms} arms");
+        }
         let words: Vec<&str> = sheets
             .iter()
             .flat_map(|sheet| &sheet.drawing.entities)
@@ -135,6 +153,9 @@ fn the_general_arrangement_lists_every_part_and_its_words_touch_nothing() {
             .collect();
         for part in Part::ALL {
             assert!(words.contains(&part.title()), "{part}");
+        }
+        for length in &told {
+            assert!(words.contains(&length.as_str()), "{length}: {words:?}");
         }
         for balloon in ["1", "2", "3", "8, 9, 10", "12"] {
             assert!(words.contains(&balloon), "{balloon}");

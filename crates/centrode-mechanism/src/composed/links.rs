@@ -32,19 +32,28 @@ impl Composed {
                 self.add_joint(&mut machine, index, mount.carrier);
             }
         }
-        for pin in &self.pins {
+        // A pin a dyad; each body but the frame is carried by the joint before it.
+        for (pin, dyad) in self.pins.iter().zip(&self.dyads) {
             machine.closures.push(Closure {
                 links: pin.bodies,
                 at: [pin.at.x, pin.at.y, 0.0],
+                joints: dyad.bodies.map(|body| body - 1),
             });
         }
-        for mesh in &self.meshes {
+        // The frames of meshing links stand on the gears' axes.
+        let centred = |gear: &usize| self.gears[*gear].at == Point::origin();
+        for mesh in self
+            .meshes
+            .iter()
+            .filter(|mesh| mesh.gears.iter().all(centred))
+        {
+            let pair = &self.gears[mesh.gears[0]].pair;
             let body = |gear: usize| self.body_named(&self.gears[gear].body_name).unwrap_or(0);
             machine.meshes.push(GearMesh {
                 links: mesh.gears.map(body),
-                // Each body but the frame is carried by the joint before it.
                 joint: mesh.moved - 1,
                 copy: 0,
+                pressure_angle: Some(pair.design().tool.pressure_angle()),
             });
         }
         self.add_points(&mut machine);

@@ -8,6 +8,7 @@ mod design;
 mod dimension;
 mod error;
 mod gears;
+mod links;
 mod parts;
 mod plates;
 mod search;

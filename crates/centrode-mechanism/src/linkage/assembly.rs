@@ -5,7 +5,7 @@ use centrode_geometry::{Point, Vector};
 
 use super::dyad::Branch;
 use super::error::LinkageError;
-use super::parts::{Connection, Joint, Line, Link, LinkageParts, SliderDyad, TwoBars};
+use super::parts::{Joint, Line, Link, SliderDyad, TwoBars};
 use crate::transmission::Transmission;
 
 #[derive(Clone, Debug)]
@@ -87,7 +87,6 @@ pub struct Linkage {
     pub(super) owners: Vec<usize>,
     pub(super) links: usize,
     crank: Option<Link>,
-    connections: Vec<Connection>,
     /// Input after which the linkage repeats, rad.
     pub(super) period: f64,
     /// Inputs in `[0, period)` where a derivative of a law may jump, ascending.
@@ -131,7 +130,6 @@ impl Linkage {
             owners: Vec::new(),
             links: 1,
             crank: None,
-            connections: Vec::new(),
             period: TAU * f64::from(turns.max(1)),
             breaks: Vec::new(),
         }
@@ -176,14 +174,6 @@ impl Linkage {
         Joint(self.owners.len() - 1)
     }
 
-    pub(super) fn pin(&mut self, joint: Joint, other: Link) {
-        let owner = Link(self.owners[joint.0]);
-        self.connections.push(Connection::Turning {
-            joint,
-            links: (owner, other),
-        });
-    }
-
     /// Adds a point of a link, given in the link's axes, mm: a fixed pivot on the frame, a coupler
     /// point, the third joint of a ternary link.
     ///
@@ -218,7 +208,6 @@ impl Linkage {
         }
         let link = self.new_link();
         self.crank = Some(link);
-        self.pin(pivot, link);
         self.steps.push(Step::Crank { pivot: at, phase });
         let tip = self.point(link, Point::new(length, 0.0))?;
         Ok((link, tip))
@@ -239,10 +228,7 @@ impl Linkage {
         length("the first bar", lengths.0)?;
         length("the second bar", lengths.1)?;
         let (first, second) = (self.new_link(), self.new_link());
-        self.pin(p, first);
-        self.pin(q, second);
         let joint = self.new_joint(first);
-        self.pin(joint, second);
         self.steps.push(Step::Rrr {
             p: at_p,
             q: at_q,
@@ -272,10 +258,7 @@ impl Linkage {
         self.know_line(&line)?;
         self::length("the bar", length)?;
         let (link, block) = (self.new_link(), self.new_link());
-        self.pin(p, link);
         let joint = self.new_joint(link);
-        self.pin(joint, block);
-        self.slide(joint, block, line.link);
         self.steps.push(Step::Rrp {
             p: at,
             length,
@@ -284,14 +267,6 @@ impl Linkage {
             joint: joint.0,
         });
         Ok(SliderDyad { block, link, joint })
-    }
-
-    pub(super) fn slide(&mut self, joint: Joint, block: Link, guide: Link) {
-        self.connections.push(Connection::Sliding {
-            joint,
-            block,
-            guide,
-        });
     }
 
     /// Adds a block pinned at the joint `p` and a link that turns about the joint `q` and slides
@@ -311,9 +286,6 @@ impl Linkage {
         let (at_p, at_q) = (self.know_joint(p)?, self.know_joint(q)?);
         finite("the offset", offset)?;
         let (block, link) = (self.new_link(), self.new_link());
-        self.pin(p, block);
-        self.pin(q, link);
-        self.slide(p, block, link);
         self.steps.push(Step::Rpr {
             p: at_p,
             q: at_q,
@@ -337,9 +309,6 @@ impl Linkage {
         self.know_line(&second)?;
         let (block, link) = (self.new_link(), self.new_link());
         let joint = self.new_joint(block);
-        self.pin(joint, link);
-        self.slide(joint, block, first.link);
-        self.slide(joint, link, second.link);
         self.steps.push(Step::Prp {
             lines: (first, second),
         });
@@ -356,21 +325,8 @@ impl Linkage {
         self.know_line(&line)?;
         finite("the slot's angle", slot)?;
         let (block, link) = (self.new_link(), self.new_link());
-        self.pin(p, block);
-        self.slide(p, block, link);
         let joint = self.new_joint(link);
-        self.slide(joint, link, line.link);
         self.steps.push(Step::Rpp { p: at, line, slot });
         Ok(SliderDyad { block, link, joint })
-    }
-
-    /// Parts of the linkage.
-    #[must_use]
-    pub fn parts(&self) -> LinkageParts {
-        LinkageParts {
-            crank: self.crank,
-            connections: self.connections.clone(),
-            link_count: self.links,
-        }
     }
 }

@@ -47,7 +47,6 @@ impl Linkage {
         let at = self.know_joint(pivot)?;
         self.follow(law.as_ref());
         let link = self.new_link();
-        self.pin(pivot, link);
         self.steps.push(Step::Turning { pivot: at, law });
         Ok(link)
     }
@@ -65,8 +64,7 @@ impl Linkage {
         self.know_line(&line)?;
         self.follow(law.as_ref());
         let link = self.new_link();
-        let joint = self.new_joint(link);
-        self.slide(joint, link, line.link);
+        self.new_joint(link);
         self.steps.push(Step::Sliding { line, law });
         self.steps.push(Step::Point {
             link: link.0,

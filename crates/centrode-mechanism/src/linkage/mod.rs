@@ -32,7 +32,7 @@ pub use cycle::{Coordinate, LinkTransmission};
 pub use dyad::Branch;
 pub use error::LinkageError;
 pub use four_bar::{DeadCenters, FourBar, FourBarError, Grashof};
-pub use parts::{Connection, Joint, Line, Link, LinkageParts, SliderDyad, TwoBars};
+pub use parts::{Joint, Line, Link, SliderDyad, TwoBars};
 pub use pose::{Body, Pose};
 pub use six_bar::{EffectorExtremes, SixBar, SixBarError, SwingSensitivity};
 pub use six_bar_motion::SixBarPosition;

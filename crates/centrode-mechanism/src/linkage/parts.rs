@@ -59,35 +59,3 @@ pub struct SliderDyad {
     /// Joint of block and link, or of block and its driver.
     pub joint: Joint,
 }
-
-/// Joint that holds two links of a linkage together.
-#[derive(Clone, Copy, Debug, Eq, PartialEq)]
-pub enum Connection {
-    /// A pin.
-    Turning {
-        /// Joint of both.
-        joint: Joint,
-        /// The two links.
-        links: (Link, Link),
-    },
-    /// A block in a straight guide.
-    Sliding {
-        /// Centre of the block.
-        joint: Joint,
-        /// The block; its first axis points along the guide.
-        block: Link,
-        /// The link with the guide.
-        guide: Link,
-    },
-}
-
-/// Parts of a linkage, as an analysis of forces needs them.
-#[derive(Clone, Debug)]
-pub struct LinkageParts {
-    /// The driven link.
-    pub crank: Option<Link>,
-    /// Every pin and guide.
-    pub connections: Vec<Connection>,
-    /// Links, the frame included.
-    pub link_count: usize,
-}

@@ -6,6 +6,9 @@ use serde::{Deserialize, Serialize};
 use super::{Constant, plain};
 use crate::transmission::Transmission;
 
+/// Difference of a direction from the drawing plane, or from its normal, that is rounding.
+const PLANE: f64 = 1e-12;
+
 /// Connection of a link to the one that carries it, and its motion there.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
@@ -98,6 +101,18 @@ impl Joint {
     #[must_use]
     pub fn turned(self, turn: [f64; 3]) -> Self {
         Self { turn, ..self }
+    }
+
+    /// Whether it keeps the link carried in the plane of the one that carries: it turns about z, or slides square to z.
+    #[must_use]
+    pub fn is_planar(&self) -> bool {
+        let [x, y, z] = self.axis.map(|along| along.abs() <= PLANE);
+        let flat = self.turn[..2].iter().all(|turn| turn.abs() <= PLANE);
+        flat && match self.kind {
+            JointKind::Fixed => true,
+            JointKind::Turning => x && y,
+            JointKind::Sliding(_) => z,
+        }
     }
 
     /// The joint that follows another one through a cam or a groove.

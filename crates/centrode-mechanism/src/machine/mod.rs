@@ -1,12 +1,16 @@
 //! The machine: rigid links in a tree of joints, each of which follows a transmission of the one input.
 //!
-//! Posing, motion tables, simulator models, pictures and interference read a [`Machine`] and nothing else. Loops are
-//! closed when it is made: the joints' laws already hold them, and the closures stay known to simulators.
+//! Posing, motion tables, forces, simulator models, pictures, parts lists, arrangements and interference read a [`Machine`]
+//! and nothing else. Loops are closed when it is made: the joints' laws already hold them, and the closures stay known.
 
+mod arrangement;
+mod contact;
 mod figure;
 mod jet;
 mod joint;
 mod law;
+mod load;
+mod part;
 mod plain;
 mod pose;
 mod sound;
@@ -20,10 +24,14 @@ use serde::{Deserialize, Serialize};
 
 use crate::transmission::Transmission;
 
+pub use arrangement::{Arrangement, Axis, Callout, Datum, Dimension, Place};
+pub use contact::{Closure, Contact, GearMesh, Guide, GuideForce};
 pub use figure::{Figure, Line, LinePath, LineRole, Mark, Seat, Sketch};
 pub use jet::{FrameJet, PointJet};
 pub use joint::{Joint, JointKind};
 pub use law::{Constant, Linear, Piecewise};
+pub use load::{Axes, Load, STANDARD_GRAVITY};
+pub use part::Part;
 pub use sound::{MachineError, loose_link};
 
 /// Rigid links, and how each of them moves with the one input.
@@ -44,6 +52,14 @@ pub struct Machine {
     pub closures: Vec<Closure>,
     /// Links that touch by their teeth.
     pub meshes: Vec<GearMesh>,
+    /// Links of which one runs along a curve of the other.
+    pub contacts: Vec<Contact>,
+    /// Grooves that lead joints.
+    pub guides: Vec<Guide>,
+    /// Acceleration of free fall in the frame of the first link, mm/s².
+    pub gravity: [f64; 3],
+    /// Loads beside weight and inertia.
+    pub loads: Vec<Load>,
     /// Points worth following.
     pub points: Vec<LinkPoint>,
     /// Columns of the table of motion; the first is the input.
@@ -58,6 +74,10 @@ pub struct Machine {
     pub figures: Vec<Figure>,
     /// Places of the picture worth a name.
     pub marks: Vec<Mark>,
+    /// Parts that a shop makes or buys, in the order of the parts list.
+    pub parts: Vec<Part>,
+    /// The general arrangement.
+    pub arrangement: Arrangement,
     /// Comment of the machine's files.
     pub note: String,
 }
@@ -88,28 +108,6 @@ pub struct Link {
     pub shape: Option<usize>,
     /// Indices of the surfaces it touches other links with.
     pub surfaces: Vec<usize>,
-}
-
-/// A pin through two links beside the tree of joints.
-#[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
-#[serde(deny_unknown_fields)]
-pub struct Closure {
-    /// Indices of the two links.
-    pub links: [usize; 2],
-    /// Place of the pin in the frame of the first, mm.
-    pub at: [f64; 3],
-}
-
-/// Two links that touch by their teeth.
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
-#[serde(deny_unknown_fields)]
-pub struct GearMesh {
-    /// Indices of the driving and the driven link.
-    pub links: [usize; 2],
-    /// Index of the joint that the teeth move.
-    pub joint: usize,
-    /// Number of the copy of a chain it belongs to.
-    pub copy: usize,
 }
 
 /// A point of a link.

@@ -1,4 +1,4 @@
-use super::{JointKind, LinePath, Machine, Quantity, Seat};
+use super::{Arrangement, JointKind, LinePath, Load, Machine, Quantity, Seat};
 
 /// A machine that does not hang together.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -81,7 +81,63 @@ impl Machine {
                 return Err(MachineError::Number { what, value });
             }
         }
+        self.forces_are_sound()?;
+        for part in &self.parts {
+            if let Some(value) = part.mass.filter(|mass| !(*mass >= 0.0 && mass.is_finite())) {
+                let what = format!("the mass of the part {:?}", part.name);
+                return Err(MachineError::Number { what, value });
+            }
+        }
+        let value = self.arrangement.input;
+        if !value.is_finite() {
+            let what = "the input of the arrangement".into();
+            return Err(MachineError::Number { what, value });
+        }
         self.is_tree()
+    }
+
+    /// Checks the numbers that forces alone read.
+    fn forces_are_sound(&self) -> Result<(), MachineError> {
+        let finite = |value: &f64| value.is_finite();
+        let positive = |value: &f64| *value >= 0.0 && value.is_finite();
+        let acute = |angle: &f64| angle.abs() < std::f64::consts::FRAC_PI_2;
+        type Rule<'a> = &'a dyn Fn(&f64) -> bool;
+        let mut all: Vec<(&str, &[f64], Rule<'_>)> = vec![("gravity", &self.gravity, &finite)];
+        for load in &self.loads {
+            all.push(("a place of a load", load.numbers(), &finite));
+            if let Load::Mass { mass, .. } = load {
+                all.push(("a mass carried", std::slice::from_ref(mass), &positive));
+            }
+        }
+        for mesh in &self.meshes {
+            let angle = mesh.pressure_angle.as_slice();
+            all.push(("the pressure angle of a mesh", angle, &acute));
+        }
+        for contact in &self.contacts {
+            all.push(("a place of a contact", &contact.at, &finite));
+            let normal = contact.normal.as_ref().map_or(&[][..], |normal| normal);
+            all.push(("a normal of a contact", normal, &finite));
+        }
+        for guide in &self.guides {
+            let (radius, friction) = (&guide.radius, &guide.friction);
+            all.push((
+                "the radius of a guide",
+                std::slice::from_ref(radius),
+                &positive,
+            ));
+            all.push((
+                "the friction of a guide",
+                std::slice::from_ref(friction),
+                &positive,
+            ));
+        }
+        for (what, values, good) in all {
+            if let Some(&value) = values.iter().find(|value| !good(value)) {
+                let what = what.into();
+                return Err(MachineError::Number { what, value });
+            }
+        }
+        Ok(())
     }
 
     /// Every name by index: who names, what kind, which one.
@@ -100,10 +156,34 @@ impl Machine {
         }
         for closure in &self.closures {
             all.extend(closure.links.map(|link| ("a closure".into(), "link", link)));
+            all.extend(
+                closure
+                    .joints
+                    .map(|joint| ("a closure".into(), "joint", joint)),
+            );
         }
         for mesh in &self.meshes {
             all.extend(mesh.links.map(|link| ("a mesh".into(), "link", link)));
             all.push(("a mesh".into(), "joint", mesh.joint));
+        }
+        for contact in &self.contacts {
+            all.extend(contact.links.map(|link| ("a contact".into(), "link", link)));
+            all.push(("a contact".into(), "joint", contact.joint));
+        }
+        all.extend(
+            self.guides
+                .iter()
+                .map(|guide| ("a guide".into(), "joint", guide.joint)),
+        );
+        for load in &self.loads {
+            let (kind, index) = match *load {
+                Load::Force { link, .. } | Load::Torque { link, .. } | Load::Mass { link, .. } => {
+                    ("link", link)
+                }
+                Load::Joint { joint, .. } => ("joint", joint),
+            };
+            all.push(("a load".into(), kind, index));
+            all.extend(load.sizes().iter().filter_map(|size| size.named("a load")));
         }
         for point in &self.points {
             all.push((format!("point {:?}", point.name), "link", point.link));
@@ -130,6 +210,35 @@ impl Machine {
         for mark in &self.marks {
             all.push((format!("mark {:?}", mark.name), "figure", mark.figure));
         }
+        all.extend(self.listed());
+        all
+    }
+
+    /// Names by index of parts list and arrangement.
+    fn listed(&self) -> Vec<(String, &'static str, usize)> {
+        let mut all = Vec::new();
+        for part in &self.parts {
+            let from = || format!("part {:?}", part.name);
+            all.extend(part.links.iter().map(|&link| (from(), "link", link)));
+            all.extend(part.place.map(|place| (from(), "figure", place.figure)));
+        }
+        let Arrangement {
+            dimensions,
+            callouts,
+            seen_through,
+            columns,
+            ..
+        } = &self.arrangement;
+        let ends = dimensions.iter().flat_map(|dimension| dimension.ends);
+        let places = ends.chain(callouts.iter().map(|callout| callout.place));
+        let from = || "the arrangement".to_owned();
+        all.extend(places.map(|place| (from(), "figure", place.figure)));
+        all.extend(
+            seen_through
+                .iter()
+                .map(|&figure| (from(), "figure", figure)),
+        );
+        all.extend(columns.iter().map(|&column| (from(), "column", column)));
         all
     }
 

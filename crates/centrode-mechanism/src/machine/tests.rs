@@ -145,6 +145,23 @@ fn a_law_that_jumps_is_cut_where_it_jumps() {
     assert!((pieces.at(2.001).position - 5.0).abs() < 1e-12);
 }
 
+fn guide(radius: f64, friction: f64) -> Guide {
+    Guide {
+        joint: 1,
+        radius,
+        friction,
+    }
+}
+
+fn mesh(angle: f64) -> GearMesh {
+    GearMesh {
+        links: [1, 2],
+        joint: 0,
+        copy: 0,
+        pressure_angle: Some(angle),
+    }
+}
+
 #[test]
 fn what_does_not_hang_together_is_refused_by_name() {
     let sound = || Machine {
@@ -162,7 +179,7 @@ fn what_does_not_hang_together_is_refused_by_name() {
         machine.validate().expect_err("refused").to_string()
     };
     type Change = fn(&mut Machine);
-    let cases: [(Change, &str); 5] = [
+    let cases: [(Change, &str); 12] = [
         (
             |m| m.points[0].link = 9,
             "point \"tip\" names link 9, of which there are 4",
@@ -183,9 +200,144 @@ fn what_does_not_hang_together_is_refused_by_name() {
             |m| m.joints[0].turn[1] = f64::INFINITY,
             "a number of the joint of \"arm\" is inf",
         ),
+        (|m| m.gravity[1] = f64::NAN, "gravity is NaN"),
+        (
+            |m| {
+                let at = [0.0; 3];
+                m.loads.push(Load::Mass {
+                    link: 2,
+                    at,
+                    mass: -1.0,
+                });
+            },
+            "a mass carried is -1",
+        ),
+        (
+            |m| {
+                let effort = Quantity::joint(7);
+                m.loads.push(Load::Joint { joint: 0, effort });
+            },
+            "a load names joint 7, of which there are 3",
+        ),
+        (
+            |m| m.meshes.push(mesh(2.0)),
+            "the pressure angle of a mesh is 2",
+        ),
+        (
+            |m| m.guides.push(guide(f64::NAN, 0.1)),
+            "the radius of a guide is NaN",
+        ),
+        (
+            |m| m.guides.push(guide(5.0, -0.1)),
+            "the friction of a guide is -0.1",
+        ),
+        (
+            |m| {
+                m.closures.push(Closure {
+                    links: [1, 2],
+                    at: [0.0; 3],
+                    joints: [0, 5],
+                });
+            },
+            "a closure names joint 5, of which there are 3",
+        ),
     ];
     for (change, expected) in cases {
         let message = refused(change);
         assert!(message.contains(expected), "{message}");
     }
+}
+
+#[test]
+fn masses_of_parts_add_up_by_their_links_and_scenery_weighs_nothing() {
+    let mut machine = machine();
+    let mass = |mass| MassProperties {
+        mass,
+        center: nalgebra::Point3::new(1.0, 2.0, 3.0),
+        inertia: nalgebra::Matrix3::identity(),
+    };
+    for (link, kilograms) in [(0, 50.0), (1, 2.0), (2, 0.75)] {
+        machine.links[link].mass = Some(mass(kilograms));
+    }
+    assert_eq!(machine.mass_properties(0.3), None);
+    let listed: [(&str, Vec<usize>, Option<f64>); 3] = [
+        ("plate", vec![1, 1], Some(1.0)),
+        ("arm", vec![2], Some(0.75)),
+        ("pin", vec![1, 2], None),
+    ];
+    for (name, links, mass) in listed {
+        machine.part(Part {
+            name: name.into(),
+            links,
+            mass,
+            ..Part::default()
+        });
+    }
+    assert_eq!(machine.parts.iter().map(Part::quantity).sum::<usize>(), 5);
+    assert_eq!(
+        [0, 1, 2].map(|link| machine.mass_of_pieces(link)),
+        [0.0, 2.0, 0.75]
+    );
+    let found = machine.mass_properties(0.3).expect("two bodies");
+    let center = |link: usize| {
+        machine
+            .link_frame(link, 0.3)
+            .point([1.0, 2.0, 3.0])
+            .position
+    };
+    let want = (center(1).coords * 2.0 + center(2).coords * 0.75) / 2.75;
+    assert!((found.mass - 2.75).abs() < 1e-12);
+    assert!((found.center.coords - want).norm() < 1e-9);
+}
+
+#[test]
+fn parts_and_arrangement_name_only_what_is_there() {
+    let sound = || {
+        let mut machine = machine();
+        machine.input = Input {
+            name: "carrier".into(),
+            period: TAU,
+            speed: 1.0,
+        };
+        machine.part(Part {
+            name: "plate".into(),
+            links: vec![1],
+            ..Part::default()
+        });
+        machine
+    };
+    assert_eq!(sound().validate(), Ok(()));
+    let told = |change: &dyn Fn(&mut Machine)| {
+        let mut machine = sound();
+        change(&mut machine);
+        machine.validate().expect_err("unsound").to_string()
+    };
+    let place = Place {
+        figure: 3,
+        at: [0.0; 2],
+    };
+    assert_eq!(
+        told(&|machine| machine.parts[0].links.push(9)),
+        "part \"plate\" names link 9, of which there are 4"
+    );
+    assert_eq!(
+        told(&|machine| machine.parts[0].place = Some(place)),
+        "part \"plate\" names figure 3, of which there are 0"
+    );
+    assert_eq!(
+        told(&|machine| machine.parts[0].mass = Some(-1.0)),
+        "the mass of the part \"plate\" is -1"
+    );
+    let dimension = Dimension {
+        ends: [place; 2],
+        along: Axis::X,
+    };
+    assert_eq!(
+        told(&|machine| machine.arrangement.dimensions.push(dimension)),
+        "the arrangement names figure 3, of which there are 0"
+    );
+    assert_eq!(
+        told(&|machine| machine.arrangement.columns.push(1)),
+        "the arrangement names column 1, of which there are 0"
+    );
 }

@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::Groove;
 use crate::gear::design::SpecError;
 use crate::gear::design::rule::{not_negative, positive};
+use crate::machine::GuideForce;
 use crate::transmission::{MotionJet, Transmission};
 
 /// Acceleration of free fall, m/s^2, as used in the paper.
@@ -37,21 +38,6 @@ impl Default for Load {
     }
 }
 
-/// Forces on the slider at one angle of the shaft.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SliderForce {
-    /// Push the groove must give the box along its way, N; negative where it holds the box back.
-    pub push: f64,
-    /// Normal force of the wall, N, never negative.
-    pub normal: f64,
-    /// Force round the shaft that the sleeve takes, N: positive where it resists the shaft.
-    pub transverse: f64,
-    /// Torque on the shaft, N mm: positive where the shaft drives.
-    pub torque: f64,
-    /// Whether the wall behind the slider pushes it; else the one in front holds it back.
-    pub driving: bool,
-}
-
 impl Load {
     /// Checks the ranges.
     ///
@@ -70,35 +56,22 @@ impl Load {
         self.speed_rpm * TAU / 60.0
     }
 
-    /// Forces for a motion (mm and rad of what turns at the load's speed) on a groove of this lead angle
-    /// (rad) and radius (mm), by equilibrium.
+    /// Forces on the slider for a motion (mm and rad of what turns at the load's speed) on a groove of this lead angle
+    /// (rad) and radius (mm): those of a [`GuideForce`] for the push `m (x'' + g mu)` along the way of the box.
     ///
-    /// With the lead angle `a`, the groove's friction angle `f` and the push `P = m (x'' + g mu)`, both
-    /// along the way of the box: `F_n = P cos f / cos(a + f)`, `F_oy = P tan(a + f)`. Where `P` is negative
-    /// the other wall holds the box back, and the sum becomes a difference. Replaces equations (14) and
-    /// (15) of Zhou et al. 2018.
+    /// Replaces equations (14) and (15) of Zhou et al. 2018.
     #[must_use]
-    pub fn force(&self, motion: MotionJet, lead_angle: f64, radius: f64) -> SliderForce {
+    pub fn force(&self, motion: MotionJet, lead_angle: f64, radius: f64) -> GuideForce {
         let omega = self.speed();
-        let way = way(&motion);
-        let along = way * motion.acceleration * 1e-3 * omega * omega;
+        let along = way(&motion) * motion.acceleration * 1e-3 * omega * omega;
         let push = self.mass * (along + GRAVITY * self.rail_friction);
-        let lead = lead_angle.abs();
-        let friction = self.groove_friction.atan();
-        let driving = push >= 0.0;
-        let angle = if driving {
-            lead + friction
-        } else {
-            lead - friction
-        };
-        let transverse = push * angle.tan();
-        SliderForce {
-            push,
-            normal: push.abs() * friction.cos() / angle.cos(),
-            transverse,
-            torque: transverse * radius,
-            driving,
-        }
+        GuideForce::new(push, lead_angle, radius, self.groove_friction)
+    }
+
+    /// Friction of the rails on the box in a motion, N: against its way.
+    #[must_use]
+    pub fn rail_force(&self, motion: &MotionJet) -> f64 {
+        -way(motion) * self.mass * GRAVITY * self.rail_friction
     }
 
     /// Speed of the shaft, turns a minute, above which a motion whose deceleration along its way is at most
@@ -142,7 +115,7 @@ pub struct ForceRange {
 impl Groove {
     /// Forces on the slider at an angle of the shaft.
     #[must_use]
-    pub fn force(&self, theta: f64, load: &Load) -> SliderForce {
+    pub fn force(&self, theta: f64, load: &Load) -> GuideForce {
         load.force(
             self.traverse().at(theta),
             self.lead_angle(theta),

@@ -26,7 +26,7 @@ pub use crossing::{ClearOffset, Crossing};
 pub use design::{GrooveSpec, SpiralShaftDesign};
 pub use elliptic::EllipticDrive;
 pub use error::ShaftError;
-pub use force::{ForceRange, GRAVITY, Load, SliderForce};
+pub use force::{ForceRange, GRAVITY, Load};
 pub use groove::{Groove, Wall};
 pub use law::{
     AmplitudeFor, RotatedSine, ShaftLaw, Sine, SpeedFormula, SpeedKnots, SpeedLaw, SpeedTable,

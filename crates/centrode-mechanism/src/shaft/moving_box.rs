@@ -5,15 +5,14 @@ use centrode_geometry::pieces;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{
-    EllipticDrive, Load, Schedule, ShaftError, SliderForce, SpiralShaft, SpiralShaftDesign,
-};
+use super::{EllipticDrive, Load, Schedule, ShaftError, SpiralShaft, SpiralShaftDesign};
 use crate::design::DesignSpec;
 use crate::gear::design::rule::{
     Rule, broken, count_in_range, file_name, in_range, positive, single_line,
 };
 use crate::gear::design::{BodySpec, GearPairDesign, Keyway, SpecError, TeethSpec, ToolSpec};
 use crate::gear::pitch::{Ellipse, PitchSpec};
+use crate::machine::GuideForce;
 use crate::transmission::{MotionJet, Transmission};
 
 /// Even parts of a turn in each of which a stroke has few extremes.
@@ -348,7 +347,7 @@ impl MovingBox {
 
     /// Forces on the slider at an input, with a load whose speed is that of the input.
     #[must_use]
-    pub fn force(&self, input: f64, load: &Load) -> SliderForce {
+    pub fn force(&self, input: f64, load: &Load) -> GuideForce {
         let turn = self.shaft_turn(input);
         let groove = self.shaft.groove();
         load.force(

@@ -3,10 +3,11 @@ use centrode_geometry::{
 };
 
 use super::{
-    Groove, Load, Schedule, ShaftBody, ShaftError, ShaftLaw, ShaftSolid, SliderForce, SliderSpec,
-    SpeedLaw, SpiralShaftDesign, Traverse,
+    Groove, Load, Schedule, ShaftBody, ShaftError, ShaftLaw, ShaftSolid, SliderSpec, SpeedLaw,
+    SpiralShaftDesign, Traverse,
 };
 use crate::design::DrawingSpec;
+use crate::machine::GuideForce;
 use crate::transmission::Transmission;
 
 /// A spiral shaft: law, groove, slider and body, resolved.
@@ -137,7 +138,7 @@ impl SpiralShaft {
 
     /// Forces on the slider at an angle of the shaft.
     #[must_use]
-    pub fn force(&self, theta: f64, load: &Load) -> SliderForce {
+    pub fn force(&self, theta: f64, load: &Load) -> GuideForce {
         self.groove.force(theta, load)
     }
 

@@ -129,7 +129,10 @@ fn torques(machine: &Feeder) -> Vec<Curve> {
         .map(|i| TAU * f64::from(i) / f64::from(LOOKS))
         .collect();
     let curve = |name, moving| {
-        let torque = |&phi: &f64| system.at(phi, moving).map_or(f64::NAN, |f| f.torque);
+        let torque = |&phi: &f64| {
+            let forces = system.at(phi, moving);
+            forces.map_or(f64::NAN, |forces| FeederForces::torque(&forces))
+        };
         let words = ["Torque of the crank", name, "N·mm"];
         Curve::new(words, &input, input.iter().map(torque).collect())
     };

@@ -176,7 +176,7 @@ mod tests {
             assert!(quick.expect("the latest").contains("family"));
             let overtaken = ours.await.expect("no panic");
             assert!(matches!(overtaken, Err(Unsolved::Overtaken)));
-            assert!(asked.elapsed() < Duration::from_millis(100));
+            assert!(asked.elapsed() < Duration::from_secs(2));
             // A request that was held up on its way takes nobody's place.
             let latest = slow(PAGE);
             tokio::time::sleep(Duration::from_millis(50)).await;

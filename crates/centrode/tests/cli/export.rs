@@ -7,7 +7,7 @@ use std::process::{Command, Stdio};
 
 use crate::{centrode, fed, shipped, text};
 
-const ALL: [&str; 36] = [
+const ALL: [&str; 37] = [
     "assembly-sheet.dxf",
     "assembly-sheet.svg",
     "assembly.dxf",
@@ -41,6 +41,7 @@ const ALL: [&str; 36] = [
     "machine.xml",
     "motion.csv",
     "motion.json",
+    "parts.csv",
     "play_mujoco.py",
     "play_pybullet.py",
     "report.json",
@@ -145,6 +146,7 @@ fn the_kinds_asked_for_and_no_others_are_written() {
                 "driver.csv",
                 "motion.csv",
                 "motion.json",
+                "parts.csv",
             ],
         ),
         (

@@ -38,7 +38,7 @@ fn the_parts_asked_for_and_no_others_are_written() {
         ),
         (
             &["--part", "cam", "--format", "csv"],
-            &["cam.csv", "motion.csv", "motion.json"],
+            &["cam.csv", "motion.csv", "motion.json", "parts.csv"],
         ),
     ] {
         let folder = tempfile::tempdir().expect("a place to write");

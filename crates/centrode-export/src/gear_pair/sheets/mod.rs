@@ -1,13 +1,14 @@
 //! The drawing sheets of a gear pair.
 
-mod assembly;
 mod face;
 mod part;
 mod tables;
 mod tooth;
 
+use super::drawn;
 use crate::{
     ExportError, SheetOptions,
+    machine::arrangement,
     package::title_or_name,
     sheet::{
         Corner, Draft, Piece, Scale, Sheet, SheetError, TitleBlock, compose, mass, number,
@@ -20,6 +21,7 @@ use centrode_mechanism::{
     gear::{GearPair, Member},
 };
 use part::Part;
+pub(super) use part::middle;
 
 /// Subject of a sheet.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
@@ -100,35 +102,28 @@ pub(super) fn labelled(
     options: &SheetOptions,
     tolerance: Tolerance,
 ) -> Result<Vec<Sheet>, ExportError> {
-    let block = block(pair, subject, label, options);
     let sheets = match subject.member() {
         Some(member) => {
             let mut part = Part::new(pair, member, tolerance);
             part.label = label;
-            gear(&part, block, options)
+            gear(&part, block(&part, options), options)
         }
-        None => both(pair, block, options, tolerance),
+        None => arrangement(&drawn(pair), options, tolerance),
     };
     sheets.map_err(ExportError::no_sheet(subject.name()))
 }
 
-/// The title block of a subject's sheets, and the size and projection that hold.
-fn block(
-    pair: &GearPair,
-    subject: Subject,
-    label: Option<Label>,
-    options: &SheetOptions,
-) -> TitleBlock {
-    let name = label.map_or(subject.name(), |label| label.name);
-    let title = match subject {
-        Subject::Driver => "Driver gear",
-        Subject::Driven => "Driven gear",
-        Subject::Assembly => "Gear pair",
+/// The title block of a gear's sheets.
+fn block(part: &Part<'_>, options: &SheetOptions) -> TitleBlock {
+    let pair = part.pair;
+    let title = match part.member {
+        Member::Driver => "Driver gear",
+        Member::Driven => "Driven gear",
     };
     TitleBlock {
-        title: label.map_or(title, |label| label.title).to_owned(),
+        title: part.label.map_or(title, |label| label.title).to_owned(),
         supplement: title_or_name(pair.title(), pair.name()).to_owned(),
-        ..TitleBlock::new(pair.drawing(), name, options)
+        ..TitleBlock::new(pair.drawing(), part.name(), options)
     }
 }
 
@@ -139,9 +134,7 @@ fn gear(
 ) -> Result<Vec<Sheet>, SheetError> {
     block.document = "Part drawing".into();
     block.material = part.gear.body().material.clone();
-    let bore = part.bore.as_ref().map_or(0.0, |bore| bore.area());
-    let volume = (part.gear.outline().area() - bore) * part.gear.body().width;
-    block.mass = mass(volume * part.gear.body().density * 1e-6);
+    block.mass = mass(super::arrangement::mass(part.gear) * 1e3);
     let data = tables::data(part, options.meshing);
     let details: Vec<Draft> = tooth::extremes(part)
         .into_iter()
@@ -169,52 +162,6 @@ fn gear(
     let flowing = [tables::over_pins(part), tables::profile(part)];
     let size = options.size.or(part.pair.drawing().sheet);
     compose(size, &block, extent, &pieces, &flowing)
-}
-
-fn both(
-    pair: &GearPair,
-    mut block: TitleBlock,
-    options: &SheetOptions,
-    tolerance: Tolerance,
-) -> Result<Vec<Sheet>, SheetError> {
-    let [driver, driven] =
-        [Member::Driver, Member::Driven].map(|member| Part::new(pair, member, tolerance));
-    block.document = "Assembly drawing".into();
-    let data = tables::pair_data(pair, options.meshing);
-    let lines = [
-        "Shown at φ = 0: pitch point on the line of centres.".to_owned(),
-        "φ is the polar angle of the pitch point on the driver;".to_owned(),
-        "the driver has then turned clockwise by φ,".to_owned(),
-        "the driven gear counter-clockwise by the angle of the table.".to_owned(),
-        "Driver tooth k runs in driven space k - 1,".to_owned(),
-        "driven tooth k in driver space k.".to_owned(),
-    ];
-    let motion = tables::motion(pair);
-    // One turn of a table goes beside the gears, more on to the next sheet.
-    let (beside, flowing) = if motion.rows.len() <= 40 {
-        (Some(motion), Vec::new())
-    } else {
-        (None, vec![motion])
-    };
-    let pieces = |scale: Scale, size: SheetSize| {
-        let mut pieces = vec![
-            Piece::table("gear pair data table", &data),
-            Piece::notes(&lines),
-            Piece::view(
-                "view of both gears",
-                assembly::view(&driver, &driven, scale, view_letters(size)),
-            ),
-        ];
-        pieces.extend(beside.iter().map(|table| Piece {
-            corner: Corner::UpperLeft,
-            ..Piece::table("motion table", table)
-        }));
-        pieces
-    };
-    let a = pair.center_distance();
-    let width = driven.bounds().max.x + a - driver.bounds().min.x;
-    let size = options.size.or(pair.drawing().sheet);
-    compose(size, &block, width, &pieces, &flowing)
 }
 
 fn notes(part: &Part<'_>) -> Vec<String> {

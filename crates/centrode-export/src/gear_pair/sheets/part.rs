@@ -27,6 +27,20 @@ pub(super) struct Extremes {
     pub(super) least: Point,
 }
 
+/// The pitch curve's frame so many pitches after the middle of a gear's first tooth.
+pub(in crate::gear_pair) fn middle(pair: &GearPair, member: Member, pitches: f64) -> Frame {
+    let (gear, rolling) = (pair.gear(member), pair.rolling());
+    let own = match member {
+        Member::Driver => 0.0,
+        Member::Driven => 0.5,
+    };
+    let pitch = gear.pitch_length() / f64::from(gear.tooth_count());
+    rolling.frame(
+        member,
+        rolling.parameter((pitches + pair.phase() + own) * pitch),
+    )
+}
+
 impl<'a> Part<'a> {
     pub(super) fn new(pair: &'a GearPair, member: Member, tolerance: Tolerance) -> Self {
         let gear = pair.gear(member);
@@ -98,12 +112,7 @@ impl<'a> Part<'a> {
 
     /// The pitch curve's frame in the middle of a tooth, or `half` pitches after it.
     pub(super) fn middle(&self, tooth: u32, half: f64) -> Frame {
-        let own = match self.member {
-            Member::Driver => 0.0,
-            Member::Driven => 0.5,
-        };
-        let arc = (f64::from(tooth) + self.pair.phase() + own + half) * self.pitch();
-        self.frame(arc)
+        middle(self.pair, self.member, f64::from(tooth) + half)
     }
 
     pub(super) fn frame(&self, arc: f64) -> Frame {

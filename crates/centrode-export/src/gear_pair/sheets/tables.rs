@@ -1,10 +1,12 @@
 //! The tables of a gear's sheets.
 
 use super::part::{Part, degrees};
+use crate::gear_pair::arrangement;
+use crate::machine::proved;
 use crate::{
     Meshing,
     drawing::Anchor,
-    sheet::{Table, number},
+    sheet::{Table, broken, number, range},
 };
 use centrode_mechanism::gear::{
     CurvatureRange, GearPair, Member, PinFault, ToolKind, design::Addendum,
@@ -59,7 +61,7 @@ pub(super) fn data(part: &Part<'_>, meshing: Option<Meshing>) -> Table {
         Member::Driver => pair.definition().to_owned(),
         Member::Driven => format!("rolls on the driver's: {}", pair.definition()),
     };
-    rows.add_long("Pitch curve", "", &definition);
+    rows.add("Pitch curve", "", &definition);
     rows.add("Length of pitch curve", "", number(gear.pitch_length(), 6));
     let (least, greatest) = pair.rolling().radii(part.member);
     rows.add("Pitch radius", "r", range([least, greatest], 4));
@@ -75,7 +77,10 @@ pub(super) fn data(part: &Part<'_>, meshing: Option<Meshing>) -> Table {
         None => mate_name(pair, mate),
     };
     rows.add("Mate", "", mate);
-    pair_rows(pair, meshing, &mut rows);
+    let proved = meshing.as_ref().map(proved).unwrap_or_default();
+    for datum in arrangement::of_both(pair).iter().chain(&proved) {
+        rows.add(&datum.name, &datum.symbol, &datum.value);
+    }
     rows.add("Accuracy class", "", body.accuracy.clone());
     rows.add("Material", "", body.material.clone());
     rows.add("Heat treatment", "", body.heat_treatment.clone());
@@ -91,77 +96,6 @@ fn mate_name(pair: &GearPair, mate: Member) -> String {
     };
     let same = if pair.congruent() { ", same part" } else { "" };
     format!("{name}, {} teeth{same}", pair.gear(mate).tooth_count())
-}
-
-/// Rows common to both gears.
-fn pair_rows(pair: &GearPair, meshing: Option<Meshing>, rows: &mut Rows) {
-    let (driver, driven) = pair.mean_ratio();
-    rows.add(
-        "Mean ratio, turns driver : driven",
-        "",
-        format!("{driver}:{driven}"),
-    );
-    let a = pair.center_distance();
-    let (least, greatest) = pair.rolling().radii(Member::Driver);
-    let ratios = [least / (a - least), greatest / (a - greatest)];
-    rows.add("Ratio, driven : driver speed", "i", range(ratios, 6));
-    rows.add("Centre distance", "a", number(a, 6));
-    rows.add(
-        "Backlash, as designed, normal",
-        "jn",
-        number(pair.backlash(), 4),
-    );
-    if let Some(meshing) = meshing {
-        rows.add(
-            "Backlash, as proved, normal",
-            "jn",
-            range(meshing.backlash, 4),
-        );
-        let [low, high] = meshing.contact_ratio;
-        rows.add("Pairs of teeth in contact", "", range([low, high], 0));
-    }
-}
-
-/// Rows of the pair on the assembly sheet.
-pub(super) fn pair_data(pair: &GearPair, meshing: Option<Meshing>) -> Table {
-    let mut rows = Rows::default();
-    let [z1, z2] = [pair.driver(), pair.driven()].map(|gear| gear.tooth_count());
-    rows.add("Number of teeth", "z1 / z2", format!("{z1} / {z2}"));
-    rows.add("Module", "m", number(pair.module(), 6));
-    let tool = &pair.teeth().tool;
-    rows.add(
-        "Pressure angle",
-        "α",
-        format!("{}°", number(tool.pressure_angle.to_degrees(), 4)),
-    );
-    rows.add_long("Driver's pitch curve", "", pair.definition());
-    pair_rows(pair, meshing, &mut rows);
-    let radius = pair.rolling().radius(0.0);
-    rows.add("Pitch point at φ = 0, from driver", "r", number(radius, 6));
-    rows.add("Ratio at φ = 0", "i", number(pair.ratio(0.0), 6));
-    rows.table("Gear pair data")
-}
-
-/// The driven angle and the ratio every ten degrees of the driver over a whole cycle.
-pub(super) fn motion(pair: &GearPair) -> Table {
-    let steps = (pair.cycle().to_degrees() / 10.0).round() as u32;
-    let rows = (0..=steps).map(|i| {
-        let phi = f64::from(10 * i).to_radians();
-        vec![
-            (10 * i).to_string(),
-            format!("{:.4}", pair.driven_angle(phi).to_degrees()),
-            format!("{:.5}", pair.ratio(phi)),
-        ]
-    });
-    Table {
-        title: "Motion".into(),
-        headings: ["driver φ °", "driven °", "ratio i"]
-            .map(String::from)
-            .to_vec(),
-        columns: vec![Anchor::Right; 3],
-        rows: rows.collect(),
-        notes: vec!["full table: motion.csv".into()],
-    }
 }
 
 /// The measure over a pin in every space.
@@ -255,51 +189,13 @@ pub(super) fn profile(part: &Part<'_>) -> Table {
     }
 }
 
-fn range([low, high]: [f64; 2], places: usize) -> String {
-    let [low, high] = [low, high].map(|x| number(x, places));
-    if low == high {
-        low
-    } else {
-        format!("{low} to {high}")
-    }
-}
-
-/// Longest value on one line, letters.
-const LINE: usize = 38;
-
 #[derive(Default)]
 struct Rows(Vec<Vec<String>>);
 
 impl Rows {
-    fn add(&mut self, name: &str, symbol: &str, value: String) {
-        if value.chars().count() > LINE {
-            return self.add_long(name, symbol, &value);
-        }
-        self.0.push(vec![name.to_owned(), symbol.to_owned(), value]);
-    }
-
-    /// A value of several lines, broken at blanks, and within a word longer than a line.
-    fn add_long(&mut self, name: &str, symbol: &str, value: &str) {
-        let mut lines: Vec<String> = vec![String::new()];
-        for word in value.split(' ') {
-            let letters: Vec<char> = word.chars().collect();
-            for part in letters.chunks(LINE) {
-                let part: String = part.iter().collect();
-                let last = lines.last_mut();
-                match last {
-                    Some(line) if line.is_empty() => line.push_str(&part),
-                    Some(line) if line.chars().count() + 1 + part.chars().count() <= LINE => {
-                        line.push(' ');
-                        line.push_str(&part);
-                    }
-                    _ => lines.push(part),
-                }
-            }
-        }
-        for (row, line) in lines.into_iter().enumerate() {
-            let (name, symbol) = if row == 0 { (name, symbol) } else { ("", "") };
-            self.0.push(vec![name.to_owned(), symbol.to_owned(), line]);
-        }
+    /// A value, on several lines where it is long.
+    fn add(&mut self, name: &str, symbol: &str, value: impl AsRef<str>) {
+        self.0.extend(broken(name, symbol, value.as_ref()));
     }
 
     fn table(self, title: &str) -> Table {

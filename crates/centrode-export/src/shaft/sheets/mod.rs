@@ -5,6 +5,8 @@ mod side;
 mod slider;
 mod tables;
 
+pub(super) use tables::data;
+
 use super::slider_solid;
 use crate::{
     ExportError, Options,

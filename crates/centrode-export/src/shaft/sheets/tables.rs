@@ -1,7 +1,7 @@
 //! The tables of a shaft's sheets.
 
 use super::table;
-use crate::sheet::number;
+use crate::sheet::{fixed, number};
 use crate::{drawing::Anchor, sheet::Table};
 use centrode_mechanism::shaft::SpiralShaft;
 use centrode_mechanism::transmission::Transmission;
@@ -11,7 +11,7 @@ use std::f64::consts::{PI, TAU};
 const STEP: f64 = PI / 36.0;
 
 /// Data of the shaft and its motion.
-pub(super) fn data(shaft: &SpiralShaft) -> Table {
+pub(in crate::shaft) fn data(shaft: &SpiralShaft) -> Table {
     let (design, groove) = (shaft.design(), shaft.groove());
     let traverse = groove.traverse();
     let mut data = table(
@@ -81,12 +81,12 @@ pub(super) fn lead(shaft: &SpiralShaft) -> Table {
     for i in 0..=steps {
         let theta = STEP * f64::from(i);
         let within = |limit: f64| theta <= limit + 1e-9;
-        let place = |start: f64| number4(traverse.at(start + theta.min(turn)).position);
+        let place = |start: f64| fixed(traverse.at(start + theta.min(turn)).position, 4);
         let none = String::new;
         lead.rows.push(vec![
             format!("{}°", number(theta.to_degrees(), 0)),
             if within(TAU) {
-                number4(shaft.law().moved(begin, begin + theta))
+                fixed(shaft.law().moved(begin, begin + theta), 4)
             } else {
                 none()
             },
@@ -122,14 +122,4 @@ pub(super) fn lead(shaft: &SpiralShaft) -> Table {
         ),
     ];
     lead
-}
-
-/// Four places, with the sign taken off a zero.
-fn number4(x: f64) -> String {
-    let text = format!("{x:.4}");
-    if text == "-0.0000" {
-        "0.0000".into()
-    } else {
-        text
-    }
 }

@@ -1,12 +1,16 @@
 //! Intermittent (incomplete) gears: a driver with teeth on an arc alone, and the motion and rest it gives its mate.
 
+mod cams;
 mod drive;
+mod law;
 mod pair;
 mod radial;
 mod spec;
 
+pub use cams::Cam;
 pub use drive::{IncompleteDrive, IncompleteError};
-pub use pair::{Cam, IncompleteLaw, IncompletePair};
+pub use law::IncompleteLaw;
+pub use pair::IncompletePair;
 pub use spec::{IncompletePairError, IncompletePairSpec, Pins};
 
 #[cfg(test)]

@@ -4,18 +4,18 @@ use std::sync::Arc;
 use centrode_geometry::{Outline, Point, Tolerance, Vector, checkpoint};
 use nalgebra::{Isometry2, Rotation2};
 
+use super::cams::Cam;
+use super::law::IncompleteLaw;
 use super::radial::{Chain, Radial};
-use super::{IncompletePairError, IncompletePairSpec, Pins};
+use super::{IncompletePairError, IncompletePairSpec};
 use crate::gear::pitch::PitchSpec;
 use crate::gear::{GearPair, Member};
-use crate::transmission::{MotionJet, Transmission};
+use crate::transmission::Transmission;
 
 /// Steps of one driver turn while the driven gear passes through the driver's blank: a twentieth of a degree.
 const STEPS: u32 = 7200;
 /// Greatest distance of a written contour from the computed one, in modules.
 const ACCURACY: f64 = 1e-4;
-/// Corners of a pin.
-const PIN_CORNERS: u32 = 96;
 /// Least height of a tooth above the locking arc, in modules, for it to count.
 const TOOTH: f64 = 0.2;
 
@@ -41,106 +41,6 @@ pub struct IncompletePair {
     teeth: u32,
     stops: u32,
     accuracy: Tolerance,
-}
-
-/// Cam beside the driver's teeth, and the pins by which it holds the driven gear while that starts or stops.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Cam {
-    /// The cam in the driver's axes.
-    pub outline: Outline,
-    /// The pins in the driven gear's axes, one for each stop.
-    pub pins: Vec<Point>,
-    /// Radius of a pin, mm.
-    pub pin_radius: f64,
-}
-
-/// The motion of an [`IncompletePair`]: the law of its pitch curves over the toothed arc, eased in and out over the
-/// entry angle, and rest.
-#[derive(Clone, Debug)]
-pub struct IncompleteLaw {
-    pair: Arc<crate::gear::Rolling>,
-    /// Driver angle of the toothed arc.
-    arc: f64,
-    entry: f64,
-    driven: f64,
-}
-
-impl IncompleteLaw {
-    /// The driver angle from start to stop, rad.
-    #[must_use]
-    pub fn motion_angle(&self) -> f64 {
-        self.arc + self.entry
-    }
-
-    /// Roll of the pitch curves within one turn, rad of the driver.
-    fn rolled(&self, input: f64) -> MotionJet {
-        let (entry, motion) = (self.entry, self.motion_angle());
-        let ease = |input: f64| {
-            let u = input / entry;
-            MotionJet {
-                position: entry * u.powi(4) * (2.5 - 3.0 * u + u * u),
-                velocity: u.powi(3) * (10.0 - 15.0 * u + 6.0 * u * u),
-                acceleration: 30.0 * (u * (1.0 - u)).powi(2) / entry,
-                jerk: 60.0 * u * (1.0 - u) * (1.0 - 2.0 * u) / (entry * entry),
-            }
-        };
-        if input < entry {
-            return ease(input);
-        }
-        if input <= motion - entry {
-            return MotionJet {
-                position: input - 0.5 * entry,
-                velocity: 1.0,
-                ..MotionJet::default()
-            };
-        }
-        // The exit is the entry run backwards.
-        let back = ease(motion - input);
-        MotionJet {
-            position: self.arc - back.position,
-            velocity: back.velocity,
-            acceleration: -back.acceleration,
-            jerk: back.jerk,
-        }
-    }
-}
-
-impl Transmission for IncompleteLaw {
-    fn at(&self, input: f64) -> MotionJet {
-        let turns = (input / TAU).floor();
-        let within = input - turns * TAU;
-        let gone = turns * self.driven;
-        if within >= self.motion_angle() {
-            return MotionJet {
-                position: gone + self.driven,
-                ..MotionJet::default()
-            };
-        }
-        let rolled = self.rolled(within);
-        let phi = rolled.position;
-        let mesh = MotionJet {
-            position: self.pair.driven_angle(phi),
-            velocity: self.pair.ratio(phi),
-            acceleration: self.pair.ratio_slope(phi),
-            jerk: 0.0,
-        };
-        let mut jet = mesh.after(&rolled);
-        jet.position += gone - self.pair.driven_angle(0.0);
-        jet
-    }
-
-    fn advance(&self) -> f64 {
-        self.driven
-    }
-
-    fn breaks(&self) -> Vec<f64> {
-        let motion = self.motion_angle();
-        if self.entry > 0.0 {
-            vec![0.0, self.entry, motion - self.entry, motion]
-        } else {
-            vec![0.0, motion]
-        }
-    }
 }
 
 impl IncompletePair {
@@ -282,14 +182,20 @@ impl IncompletePair {
     }
 
     /// Pose of the driven gear when the driver has turned by `input`, in the driver's axes.
-    fn mate(&self, input: f64, driven: f64) -> Isometry2<f64> {
+    pub(super) fn mate(&self, input: f64, driven: f64) -> Isometry2<f64> {
         let placed = Isometry2::new(Vector::new(self.pair.center_distance(), 0.0), driven);
         Isometry2::rotation(input) * placed
     }
 
     /// The `blank` less the region swept by `bodies` over one driver turn, with the driven gear offset by +-`play`
     /// while it moves (throughout if `always`).
-    fn swept(&self, mut blank: Radial, bodies: &[Vec<Point>], play: f64, always: bool) -> Radial {
+    pub(super) fn swept(
+        &self,
+        mut blank: Radial,
+        bodies: &[Vec<Point>],
+        play: f64,
+        always: bool,
+    ) -> Radial {
         let reach = blank.greatest();
         let motion = self.law.motion_angle();
         let plays: &[f64] = if play > 0.0 { &[-1.0, 1.0] } else { &[0.0] };
@@ -322,47 +228,6 @@ impl IncompletePair {
             }
         }
         blank
-    }
-
-    /// Cuts the cams of entry and exit, one on each side of the teeth: on one the pins of the other would be in the way.
-    fn cut_cams(
-        &self,
-        pins: &Pins,
-        play: f64,
-        accuracy: Tolerance,
-    ) -> Result<Vec<Cam>, IncompletePairError> {
-        let radius = 0.5 * pins.diameter.unwrap_or(2.5 * self.pair.module());
-        let pitch = self.pair.rolling().pitch_length(Member::Driven) / TAU;
-        let circle = 0.5 * pins.circle.unwrap_or(1.5 * pitch);
-        let nearest = self.center_distance() - circle - radius;
-        let hub = 0.5 * self.pair.driver().body().bore;
-        if nearest <= hub {
-            return Err(IncompletePairError::PinMeetsHub { nearest, hub });
-        }
-        let (entry, motion) = (self.law.entry, self.law.motion_angle());
-        // Entry pins lie below the line of centres, where the driver's surface comes from; exit pins above.
-        let ends = [(1.0, entry), (-1.0, motion - entry)];
-        let cam = |(side, handed_over): (f64, f64)| {
-            let places: Vec<Point> = (0..self.stops)
-                .map(|stop| {
-                    let turned = self.law.driven * f64::from(stop);
-                    let direction = PI + side * pins.angle - turned;
-                    Point::new(direction.cos(), direction.sin()) * circle
-                })
-                .collect();
-            let bodies: Vec<Vec<Point>> = places.iter().map(|&at| pin(at, radius)).collect();
-            // The cam reaches as far as its pin when the teeth take over.
-            let at = self.mate(handed_over, self.law.at(handed_over).position) * places[0];
-            let mut blank = Radial::unbounded();
-            blank.limit(at.coords.norm());
-            let cam = self.swept(blank, &bodies, play, true);
-            Cam {
-                outline: Outline::polygon(&cam.polygon(accuracy)),
-                pins: places,
-                pin_radius: radius,
-            }
-        };
-        Ok(ends.map(cam).into())
     }
 
     /// Complete pair from which the gears are cut.
@@ -484,14 +349,4 @@ fn teeth(radial: &Radial, radius: f64) -> u32 {
     (0..count)
         .filter(|&i| above(i) && !above((i + count - 1) % count))
         .count() as u32
-}
-
-/// Corners of a pin, which lie a little outside it.
-fn pin(center: Point, radius: f64) -> Vec<Point> {
-    let radius = radius / (PI / f64::from(PIN_CORNERS)).cos();
-    let corner = |i: u32| {
-        let angle = TAU * f64::from(i) / f64::from(PIN_CORNERS);
-        center + Vector::new(angle.cos(), angle.sin()) * radius
-    };
-    (0..PIN_CORNERS).map(corner).collect()
 }

@@ -1,6 +1,15 @@
+mod edge;
+mod event;
+mod level;
+
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use centrode_geometry::{Tolerance, bracketed_root, checkpoint};
+
+pub(super) use edge::Edge;
+use event::{Event, even};
+pub(super) use level::{Level, columns};
+use level::{levels, rises};
 
 use crate::shaft::{Groove, Wall};
 use crate::transmission::Transmission;
@@ -16,56 +25,6 @@ const DEEPEST: u32 = 12;
 
 /// Number of lines sampled for edges that meet.
 const LOOKS: u32 = 360;
-
-/// A wall of one turn of the groove, at one level below the surface: a height over the angle round the
-/// shaft, for the groove is a graph over it.
-#[derive(Clone, Copy, Debug, Eq, PartialEq)]
-pub(super) struct Edge {
-    /// Turn of the cycle.
-    pub(super) turn: usize,
-    pub(super) wall: Wall,
-    /// Index into [`Plan::levels`].
-    pub(super) level: usize,
-}
-
-/// Half width and radius of a line along the groove's floor.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Level {
-    pub(super) half: f64,
-    pub(super) radius: f64,
-}
-
-impl Level {
-    /// A line along the fillet: at the angle 0 the foot of the wall, `half` off the middle; at a quarter turn the
-    /// floor.
-    pub(super) fn of(half: f64, floor: f64, fillet: f64, angle: f64) -> Self {
-        let (sin, cos) = angle.sin_cos();
-        Self {
-            half: half - fillet * (1.0 - cos),
-            radius: floor + fillet * (1.0 - sin),
-        }
-    }
-}
-
-/// An angle round the shaft that gets a line.
-#[derive(Debug)]
-struct Event {
-    phi: f64,
-    /// Edges that meet there.
-    pairs: Vec<[usize; 2]>,
-    /// Heights of all edges there, if already computed.
-    heights: Option<Vec<f64>>,
-}
-
-impl Event {
-    fn at(phi: f64) -> Self {
-        Self {
-            phi,
-            pairs: Vec::new(),
-            heights: None,
-        }
-    }
-}
 
 /// The angles round the shaft at which anything happens, and every edge's height there.
 #[derive(Debug)]
@@ -434,53 +393,4 @@ impl<'a> Plan<'a> {
         }
         bracketed_root(apart, start, end, low, high)
     }
-}
-
-/// Turns of the groove that repeat the one before them: on a stroke every turn has the same law.
-fn rises(groove: &Groove) -> Vec<Option<f64>> {
-    let traverse = groove.traverse();
-    let (stroke, reversal) = (traverse.stroke(), traverse.reversal());
-    // A wall belongs to a place of the centre line that lies this much farther round at most.
-    let aside = 0.5 * groove.width() / groove.radius();
-    let back = stroke + reversal;
-    let rise = |turn: u32| {
-        let first = traverse.since_start(TAU * (f64::from(turn) - 1.0) - aside);
-        let last = first + 2.0 * (TAU + aside);
-        let lead = traverse.law().lead();
-        if last <= stroke {
-            Some(lead)
-        } else if first >= back && last <= back + stroke {
-            Some(-lead)
-        } else {
-            None
-        }
-    };
-    (0..traverse.turns()).map(rise).collect()
-}
-
-/// Even lines round the shaft.
-fn even(count: u32) -> impl Iterator<Item = Event> {
-    (0..count).map(move |i| Event::at(TAU * f64::from(i) / f64::from(count)))
-}
-
-/// Number of columns round the shaft with which a chord is within `limit` (mm) of its arc.
-pub(super) fn columns(radius: f64, limit: f64) -> u32 {
-    let half = (1.0 - (limit / radius).min(0.5)).acos();
-    ((FRAC_PI_2 * 2.0 / half).ceil().min(1e5) as u32).max(16)
-}
-
-/// Foot of the wall, and the fillet down to the floor within `limit`, mm.
-fn levels(groove: &Groove, fillet: f64, limit: f64) -> Vec<Level> {
-    let (half, floor) = (0.5 * groove.width(), groove.radius() - groove.depth());
-    if fillet == 0.0 {
-        return vec![Level {
-            half,
-            radius: floor,
-        }];
-    }
-    let step = 2.0 * (1.0 - (limit / fillet).min(0.5)).acos();
-    let count = (FRAC_PI_2 / step).ceil().clamp(1.0, 64.0);
-    (0..=count as u32)
-        .map(|i| Level::of(half, floor, fillet, FRAC_PI_2 * f64::from(i) / count))
-        .collect()
 }

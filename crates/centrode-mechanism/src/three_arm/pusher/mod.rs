@@ -1,3 +1,5 @@
+mod error;
+
 use std::f64::consts::{FRAC_PI_2, TAU};
 use std::sync::Arc;
 
@@ -9,8 +11,9 @@ use super::design::{ForkSpec, PusherCamSpec};
 use crate::arm::{ArmBody, ArmBodySpec, ArmError};
 use crate::cam::design::{Dwell, MotionSpec, SegmentSpec, Travel, Turn};
 use crate::cam::{Cam, CamError, Fork, Lever, Motion, RodJoint};
-use crate::gear::design::SpecError;
 use crate::transmission::{MotionJet, Transmission};
+
+pub use error::PusherError;
 
 /// Drive of an arm's push rod: the cam on the carrier, the fork on the arm.
 ///
@@ -34,108 +37,6 @@ pub struct Pusher {
 struct Spans {
     cam: [f64; 2],
     fork: [f64; 2],
-}
-
-/// Reason why an arm's push rod cannot be moved.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum PusherError {
-    /// A value outside its range.
-    #[error(transparent)]
-    Spec(#[from] SpecError),
-    /// There is no such arm.
-    #[error(transparent)]
-    Arm(#[from] ArmError),
-    /// There is no such cam.
-    #[error(transparent)]
-    Cam(#[from] CamError),
-    /// The rod has no time to rest thrown out.
-    #[error(
-        "drawing back over {closing} deg, holding over {hold} deg and throwing out over {release} deg take more than a turn"
-    )]
-    NoRest {
-        /// Carrier turn over which the rod is drawn back, deg.
-        closing: f64,
-        /// Carrier turn from picking to planting, deg.
-        hold: f64,
-        /// Carrier turn over which the rod is thrown out, deg.
-        release: f64,
-    },
-    /// The pivot is not between the planet's axis and the pusher's.
-    #[error(
-        "the fork's pivot is {pivot_distance} mm from the planet's axis, but the pusher's axis only {pusher_offset} mm"
-    )]
-    Pivot {
-        /// Distance of the pivot, mm.
-        pivot_distance: f64,
-        /// Distance of the pusher's axis, mm.
-        pusher_offset: f64,
-    },
-    /// The holes of pivot and roller meet.
-    #[error(
-        "the roller's pin is {arm_length} mm from the pivot, but their holes reach {needed} mm"
-    )]
-    Holes {
-        /// Distance of the two, mm.
-        arm_length: f64,
-        /// Half of both diameters together, mm.
-        needed: f64,
-    },
-    /// Cam, fork and rod do not fit side by side.
-    #[error(
-        "rod, fork and cam reach {needed} mm to the rear of the middle of the housing, which leaves {room} mm"
-    )]
-    Depth {
-        /// Width they need, mm.
-        needed: f64,
-        /// The room inside the rear cover, mm.
-        room: f64,
-    },
-    /// The rod is too short behind for the fork's pin.
-    #[error(
-        "thrown out, the fork's pin is {pin} mm before the planet's axis, but the rod begins at {rod} mm: lengthen arm.body.housing.tube_back or shorten the stroke"
-    )]
-    RodEnd {
-        /// Position of the pin along the pusher's axis, mm.
-        pin: f64,
-        /// Position at which the rod begins, with room for the pin's hole, mm.
-        rod: f64,
-    },
-    /// The roller at its highest strikes the housing's drum.
-    #[error(
-        "the roller reaches {reach} mm from the planet's axis, but the housing leaves {room} mm"
-    )]
-    Roller {
-        /// Greatest distance it reaches, mm.
-        reach: f64,
-        /// Inner radius of the drum, mm.
-        room: f64,
-    },
-}
-
-impl PusherError {
-    /// Key of the design file at fault.
-    #[must_use]
-    pub fn key(&self) -> String {
-        match self {
-            Self::Spec(error) => error.key.clone(),
-            Self::Arm(ArmError::Spec(error)) => format!("arm.{}", error.key),
-            Self::Arm(_) => "arm.body".into(),
-            Self::Cam(CamError::Bore { .. }) => "cam.body.bore".into(),
-            Self::Cam(CamError::Spec(error)) if error.key == "base_radius" => {
-                "cam.base_radius".into()
-            }
-            Self::Cam(CamError::Spec(_) | CamError::Reach { .. }) | Self::Roller { .. } => {
-                "fork".into()
-            }
-            Self::Cam(_) => "cam".into(),
-            Self::NoRest { .. } => "cam.closing_deg".into(),
-            Self::Pivot { .. } => "fork.pivot_distance".into(),
-            Self::Holes { .. } => "fork.arm_length".into(),
-            Self::Depth { .. } => "cam.body.width".into(),
-            Self::RodEnd { .. } => "arm.body.housing.tube_back".into(),
-        }
-    }
 }
 
 impl ThreeArm {
@@ -339,9 +240,7 @@ impl Pusher {
         };
         let pivot = (Point::origin(), 0.5 * pivot_bore);
         let roller = (Point::new(arm_length, 0.0), 0.5 * roller_bore);
-        // From the roller's direction to the lever's, whatever the swing.
-        let angle = -self.side * (2.0 * FRAC_PI_2 + lever.start - self.cam.disc().start_angle());
-        let along = Rotation2::new(angle) * Vector::x();
+        let along = self.slot()?;
         let pin = 0.5 * slot_width;
         let slot = [lever.length, lever.length / lever.start.cos()]
             .map(|distance| (Point::from(along * distance), pin));
@@ -349,6 +248,27 @@ impl Pusher {
         let circle = |(center, radius)| Outline::circle(center, radius);
         let holes = vec![circle(pivot), circle(roller), Outline::hull(&slot)?];
         Some((Outline::hull(&around)?, holes))
+    }
+
+    /// Direction of the fork's slot in its own frame, from its pivot.
+    #[must_use]
+    pub fn slot(&self) -> Option<Vector> {
+        let RodJoint::PinOnRod(lever) = self.fork.rod else {
+            return None;
+        };
+        // From the roller's direction to the lever's, whatever the swing.
+        let angle = -self.side * (2.0 * FRAC_PI_2 + lever.start - self.cam.disc().start_angle());
+        Some(Rotation2::new(angle) * Vector::x())
+    }
+
+    /// The rod's pin in the fork's slot with the rod thrown out, in the arm's frame, mm.
+    #[must_use]
+    pub fn pin(&self) -> Option<Point> {
+        let RodJoint::PinOnRod(lever) = self.fork.rod else {
+            return None;
+        };
+        let down = self.spec.pivot_distance + lever.length;
+        Some(Point::new(0.5 * self.stroke, -self.side * down))
     }
 
     /// Extent of the cam along the planet's axis, mm, from the middle of the arm's housing.

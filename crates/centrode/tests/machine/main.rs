@@ -1,15 +1,19 @@
 //! The machine of every shipped design, written out as a plain file and read back with the family's object dropped.
 
+mod arrangement;
+
 use std::fs;
 use std::path::Path;
 
 use centrode::FAMILIES;
+use centrode::analysis::forces::{Balance, Forces};
 use centrode::analysis::interference::between_links;
 use centrode::export::machine::{picture, plain, read, schema, write};
 use centrode::export::page::Picture;
 use centrode::export::{Bundle, Format, Options, Package};
 use centrode::geometry::Tolerance;
-use centrode::mechanism::machine::Machine;
+use centrode::mechanism::machine::{JointKind, Load, Machine};
+use nalgebra::{Matrix3, Vector3};
 
 /// Name and machine of every shipped design that gives one.
 fn machines() -> Vec<(String, Machine)> {
@@ -161,6 +165,7 @@ fn a_machine_read_back_from_its_plain_file_stands_and_exports_as_the_first() {
         }
         let [one, other] = [&machine, &again].map(|machine| picture(machine, tolerance));
         assert_alike(&one, &other, (&name, 0.1 * tolerance.mm()));
+        arrangement::assert_alike(&machine, &again, &name, tolerance);
         let (first, second) = (files(&machine, &options), files(&again, &options));
         for ((file, one), (name_again, other)) in first.files().zip(second.files()) {
             assert_eq!(file, name_again, "{name}");
@@ -205,4 +210,171 @@ fn the_schema_of_the_plain_file_names_what_it_holds() {
     ] {
         assert!(schema.contains(word) || word == "linear", "{word}");
     }
+}
+
+/// Forces of a machine one after the other, N and N mm: its torque, then joints, closures, contacts and meshes.
+fn numbers(forces: &Forces) -> Vec<f64> {
+    let joints = forces.joints.iter().flat_map(|joint| {
+        let reaction = joint.reaction.map(|reaction| reaction.force);
+        let force = reaction.unwrap_or_else(Vector3::zeros);
+        [joint.drive, force.x, force.y, force.z]
+    });
+    let pins = forces.closures.iter().chain(&forces.contacts);
+    let pins = pins.flat_map(|force| [force.x, force.y, force.z]);
+    let teeth = forces.meshes.iter().filter_map(|mesh| mesh.normal);
+    let torque = std::iter::once(forces.input_torque);
+    torque.chain(joints).chain(pins).chain(teeth).collect()
+}
+
+#[test]
+fn a_machine_read_back_from_its_plain_file_has_the_forces_of_the_first() {
+    let tolerance = Tolerance::new(2e-2).expect("positive");
+    for (name, machine) in machines() {
+        let bytes = write(&plain(&machine, tolerance).expect("meshed")).expect("plain");
+        let again = read(&bytes).expect("readable");
+        let (speed, period) = (machine.input.speed, machine.input.period);
+        let [one, other] = [machine, again].map(|machine| Balance::new(machine).expect("forces"));
+        let table = |balance: &Balance| -> Vec<Vec<f64>> {
+            let at = |i: i32| period * (0.37 + 2.21 * f64::from(i)) / 60.0;
+            let forces = (0..30).map(|i| balance.at(at(i), speed).expect("it turns"));
+            forces.map(|forces| numbers(&forces)).collect()
+        };
+        let (one, other) = (table(&one), table(&other));
+        for column in 0..one[0].len() {
+            let size = one.iter().map(|row| row[column].abs()).fold(1e-6, f64::max);
+            let rows = one.iter().zip(&other);
+            let off = rows.map(|(a, b)| (a[column] - b[column]).abs());
+            let off = off.fold(0.0, f64::max);
+            assert!(off <= 1e-6 * size, "{name} {column}: {off} of {size}");
+        }
+    }
+}
+
+/// Kinetic and potential energy of a machine, N mm, from the frames of its links.
+fn energy(machine: &Machine, input: f64) -> f64 {
+    let speed = machine.input.speed;
+    let pose = machine.pose(input);
+    let links = machine.links.iter().zip(&pose);
+    let of = links.filter_map(|(link, frame)| {
+        let body = link.mass.as_ref()?;
+        let center = frame.point(body.center.coords.into());
+        let [turn, first, ..] = frame.0.map(|m| m.fixed_view::<3, 3>(0, 0).into_owned());
+        // Of the spin R' R^T.
+        let spin = first * turn.transpose() * speed;
+        let spin = turn.tr_mul(&Vector3::new(spin.m32, spin.m13, spin.m21));
+        let way = center.velocity * speed;
+        let moving = body.mass * way.norm_squared() + spin.dot(&(body.inertia * spin));
+        let height = Vector3::from(machine.gravity).dot(&center.position.coords);
+        Some((0.5 * moving - body.mass * height) / 1e3)
+    });
+    of.sum()
+}
+
+/// Work of the links' inertia and weight on their ways by a radian of the input, N mm, from the frames of the links.
+fn work(machine: &Machine, input: f64) -> f64 {
+    let square = machine.input.speed.powi(2);
+    let pose = machine.pose(input);
+    let links = machine.links.iter().zip(&pose);
+    let of = links.filter_map(|(link, frame)| {
+        let body = link.mass.as_ref()?;
+        let center = frame.point(body.center.coords.into());
+        let force = (center.acceleration * square - Vector3::from(machine.gravity)) * body.mass;
+        let [_, first, second, _] = frame.0.map(|m| m.fixed_view::<3, 3>(0, 0).into_owned());
+        let moments = Matrix3::identity() * (0.5 * body.inertia.trace()) - body.inertia;
+        let turned = (second * moments).dot(&first) * square;
+        Some((force.dot(&center.velocity) + turned) / 1e3)
+    });
+    of.sum()
+}
+
+/// Work of springs, rails and grooves that the input supplies by a radian, N mm.
+fn supplied(machine: &Machine, input: f64, forces: &Forces) -> f64 {
+    let rate = |joint: usize| machine.joints[joint].law.at(input).velocity;
+    let loads = machine.loads.iter().map(|load| match load {
+        Load::Joint { joint, effort } => -machine.value(effort, input) * rate(*joint),
+        _ => panic!("no shipped machine has another load"),
+    });
+    let grooves = machine.guides.iter().map(|guide| {
+        let leader = machine.joints[guide.joint].leader.expect("led");
+        let (own, lead) = (rate(guide.joint), rate(leader));
+        let push = forces.joints[guide.joint].drive;
+        let slope = own / lead / guide.radius;
+        let friction = guide.friction.atan().copysign(push * own);
+        let angle = slope.abs().atan() + friction;
+        // Less what the push does itself.
+        push * own.signum() * angle.tan() * guide.radius * lead.abs() - push * own
+    });
+    loads.sum::<f64>() + grooves.sum::<f64>()
+}
+
+#[test]
+fn the_torque_of_every_machine_is_that_of_virtual_work_and_feeds_its_energy() {
+    let mut heavy = 0;
+    for (name, machine) in machines() {
+        let balance = Balance::new(machine.clone()).expect("forces");
+        let (speed, period) = (machine.input.speed, machine.input.period);
+        let (mut looks, mut size) = (Vec::new(), 1e-6_f64);
+        for i in 0..60 {
+            let input = period * (0.37 + 2.21 * f64::from(i)) / 60.0;
+            let forces = balance.at(input, speed).expect("it turns");
+            let lost = supplied(&machine, input, &forces);
+            size = size.max(forces.input_torque.abs());
+            let off = forces.input_torque - work(&machine, input) - lost;
+            let h = 1e-4;
+            let [a, b, c, d] = [-2.0, -1.0, 1.0, 2.0].map(|k| energy(&machine, input + k * h));
+            let slope = (a - d + 8.0 * (c - b)) / (12.0 * h);
+            looks.push((off.abs(), (forces.input_torque - slope - lost).abs()));
+        }
+        heavy += usize::from(size > 1e-3);
+        let worst = looks.iter().map(|(off, _)| *off).fold(0.0, f64::max);
+        assert!(worst <= 1e-10 * size, "{name}: {worst} of {size}");
+        // Where an acceleration jumps the slope is none; that is at few places.
+        let far = looks.iter().filter(|(_, off)| *off > 1e-6 * size).count();
+        assert!(far <= 6, "{name}: {far} of 60 inputs, {size}");
+    }
+    assert!(heavy >= 10, "{heavy} machines with mass");
+}
+
+#[test]
+fn the_grooves_forces_are_those_of_the_table() {
+    let mut compared = 0;
+    for (name, machine) in machines() {
+        if machine.guides.is_empty() {
+            continue;
+        }
+        let balance = Balance::new(machine.clone()).expect("forces");
+        let column = |name: &str| {
+            let named = machine.columns.iter().find(|column| column.name == name);
+            &named.expect("in the table").quantity
+        };
+        for i in 0..40 {
+            let input = machine.input.period * (0.37 + 2.21 * f64::from(i)) / 60.0;
+            let forces = balance.at(input, machine.input.speed).expect("it turns");
+            let found = forces.guides[0];
+            for (name_of, found) in [
+                ("push_N", found.push),
+                ("normal_force_N", found.normal),
+                ("transverse_force_N", found.transverse),
+                ("shaft_torque_Nmm", found.torque),
+            ] {
+                let wanted = machine.value(column(name_of), input);
+                let off = (found - wanted).abs();
+                assert!(
+                    off <= 1e-9 * (1.0 + wanted.abs()),
+                    "{name} {name_of}: {found} {wanted}"
+                );
+            }
+            // Where the groove acts is not known: neither are the bearings of what it passes.
+            let hidden = forces
+                .joints
+                .iter()
+                .filter(|joint| joint.reaction.is_none());
+            let hidden = hidden.count();
+            let slides = |kind: &JointKind| matches!(kind, JointKind::Sliding(_));
+            let boxed = machine.joints.iter().position(|joint| slides(&joint.kind));
+            assert!(hidden == 3 && forces.joints[boxed.expect("a box")].reaction.is_none());
+        }
+        compared += 1;
+    }
+    assert_eq!(compared, 2, "a shaft and a box");
 }

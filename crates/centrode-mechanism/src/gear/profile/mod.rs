@@ -1,102 +1,22 @@
+mod error;
+mod swing;
+mod tooth;
+
 use centrode_geometry::{
-    Kept, LoopError, OpenOutline, Outline, Point, PolySegment, Segment, Tolerance, checkpoint,
-    without_loops,
+    Kept, LoopError, Outline, Point, PolySegment, Segment, Tolerance, checkpoint, without_loops,
 };
+
+pub use error::ProfileError;
+pub(crate) use tooth::{FlankPlan, ToothPlan, Top};
+pub use tooth::{Role, Tooth, ToothSide};
+
+use swing::Swing;
 
 use super::{
     flank::{Flank, Side},
     rolling::{Member, Rolling},
     tool::{Corner, Tool},
 };
-
-/// Role of a part of a gear's profile.
-#[derive(Clone, Copy, Debug, Eq, Hash, PartialEq)]
-pub enum Role {
-    /// Top of a tooth.
-    Tip,
-    /// Side of a tooth, which transmits the motion.
-    Flank,
-    /// Curve from a flank to the root, cut by the tool's rounded corner.
-    Fillet,
-    /// Bottom of a space.
-    Root,
-}
-
-impl Role {
-    /// Name used in files.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Tip => "tip",
-            Self::Flank => "flank",
-            Self::Fillet => "fillet",
-            Self::Root => "root",
-        }
-    }
-}
-
-/// Upper limit of a flank, and its end below.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct FlankPlan {
-    /// Arc length where the flank crosses the pitch curve.
-    pub(crate) crossing: f64,
-    pub(crate) top: Top,
-    pub(crate) corner: Corner,
-    /// Active depth: arc length of roll below the crossing down to which the mate needs the flank.
-    pub(crate) needed: f64,
-}
-
-/// End of a flank at the tip.
-#[derive(Clone, Copy, Debug)]
-pub(crate) enum Top {
-    /// At a normal distance from the pitch curve.
-    Height(f64),
-    /// At the point generated this far, in arc length, from its crossing.
-    Reach(f64),
-}
-
-/// Plan of the two flanks of a tooth.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct ToothPlan {
-    pub(crate) leading: FlankPlan,
-    pub(crate) trailing: FlankPlan,
-}
-
-/// One side of a finished tooth.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ToothSide {
-    /// Arc length where the flank crosses the pitch curve, mm.
-    pub crossing: f64,
-    /// Height of the tip corner above the pitch curve, mm.
-    pub tip_height: f64,
-    /// Tip shortening, mm: by how much the tip corner is lower than asked for, since the pitch curve or the tool
-    /// allows no more flank.
-    pub shortened: f64,
-    /// Form depth: depth below the pitch curve, at the tool's pose, that the tool's straight flank reaches, mm.
-    pub form_depth: f64,
-    /// Active depth: arc length of roll below the crossing down to which the flank is needed, mm, as far as the tool
-    /// reaches, or the mate where addenda are fitted.
-    pub needed: f64,
-    /// Length of active flank lost to undercut, in arc length of roll, mm; zero for a tooth without undercut.
-    pub undercut: f64,
-    /// Arc lengths of roll between which flank remains; `None` where nothing does.
-    pub active: Option<(f64, f64)>,
-    /// Least radius of curvature of the fillet, mm.
-    pub fillet_radius: f64,
-}
-
-/// A finished tooth, numbered in the order the teeth mesh.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Tooth {
-    /// Flank reached first.
-    pub leading: ToothSide,
-    /// Flank reached last.
-    pub trailing: ToothSide,
-    /// Width of the top land, mm; zero for a pointed or missing tooth.
-    pub tip_width: f64,
-    /// Whether undercut from both sides has cut the tooth off.
-    pub severed: bool,
-}
 
 /// Profile of one gear: its outline, the role of each segment of it, and its teeth.
 #[derive(Clone, Debug)]
@@ -116,37 +36,6 @@ struct Piece {
     side: Side,
 }
 
-/// Fillet parameter w, with roll = depth of the rounding's centre x sinh w: the distance
-/// from the pitch point to that centre is then entire, and the fillet far smoother than in the roll,
-/// which moves it slowly at the root and fast at the flank.
-struct Swing {
-    center: f64,
-    span: f64,
-    /// Whole roll over the depth of the rounding's centre.
-    slope: f64,
-}
-
-impl Swing {
-    fn of(corner: &Corner, center: f64, end: f64) -> Self {
-        let straight = (corner.depth - corner.radius).abs();
-        let roll = (corner.end - corner.center).abs();
-        Self {
-            center,
-            span: end - center,
-            // A corner rounded all the way turns at once: any finite slope serves.
-            slope: (roll / straight).min(1e3),
-        }
-    }
-
-    fn parameter(&self, w: f64) -> f64 {
-        self.center + self.span * w.sinh() / self.slope
-    }
-
-    fn own(&self, t: f64) -> f64 {
-        ((t - self.center) / self.span * self.slope).asinh()
-    }
-}
-
 /// Share of a straight rack's flank speed at which a flank too short for its height ends: beyond it the
 /// flank curls up on itself.
 const BLUNT: f64 = 0.02;
@@ -159,29 +48,6 @@ struct Ends {
     foot: f64,
     height: f64,
     shortened: f64,
-}
-
-/// Reason why a gear has no profile.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum ProfileError {
-    /// The pitch curve is too sharp for any tooth.
-    #[error("the {} has no profile: every part of its contour lies in a loop, so the teeth are too large for the pitch curve", .member.name())]
-    Looped {
-        /// Gear at fault.
-        member: Member,
-    },
-    /// The crossings of the contour with itself cannot be determined.
-    #[error("the {} has no profile: {cause}", .member.name())]
-    Unresolved {
-        /// Gear at fault.
-        member: Member,
-        /// Place and cause.
-        cause: LoopError,
-    },
-    /// The contour does not close: a coordinate is not a number.
-    #[error(transparent)]
-    Open(#[from] OpenOutline),
 }
 
 pub(crate) struct Cutter<'a> {

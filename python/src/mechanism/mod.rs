@@ -1,28 +1,26 @@
 //! All that machines of every family can do.
 
+mod held;
+
 use std::path::PathBuf;
 use std::sync::{Arc, OnceLock};
 
-use centrode::family::{self, Depth, Family};
-use centrode::meshing;
+use centrode::family::{self, Depth};
 use centrode_analysis::optimise::Settings;
-use centrode_export::machine::tabulated;
-use centrode_export::{Bundle, Format};
 use centrode_mechanism::machine::{FrameJet, Machine};
 use pyo3::prelude::{
-    Bound, PyAny, PyAnyMethods, PyClassInitializer, PyDictMethods, PyResult, PyTypeMethods, Python,
-    pyclass, pymethods,
+    Bound, PyAny, PyAnyMethods, PyDictMethods, PyResult, PyTypeMethods, Python, pyclass, pymethods,
 };
 use pyo3::types::{PyDict, PyTuple, PyType};
 
 use crate::array::{Course, Values};
-use crate::design::{named, object, of_class, path_loaded, read};
-use crate::error::{Answer, tolerance as within};
+use crate::design::{object, of_class, path_loaded, read};
+use crate::error::{Answer, finite};
 use crate::files;
+use crate::forces;
 use crate::made::{Reduced, by_design};
 use crate::record;
 use crate::search;
-use crate::wait::wait;
 use crate::word::Word;
 
 /// A machine of whatever family: what `load` gives is one of its subclasses.
@@ -46,56 +44,6 @@ pub(crate) struct Mechanism(
 impl PartialEq for Mechanism {
     fn eq(&self, other: &Self) -> bool {
         self.0.design() == other.0.design()
-    }
-}
-
-impl Mechanism {
-    /// The machine as what a new object of a subclass begins with.
-    pub(crate) fn start<M: family::Mechanism>(machine: &Arc<M>) -> PyClassInitializer<Self> {
-        let machine = Arc::clone(machine) as Arc<dyn family::Mechanism>;
-        Self(machine, OnceLock::new()).into()
-    }
-
-    fn family(&self) -> Answer<&'static Family> {
-        named(self.0.design().family().word)
-    }
-
-    /// Asks the machine something that may take long.
-    fn ask<T: Send + 'static>(
-        &self,
-        py: Python<'_>,
-        ask: impl FnOnce(&dyn family::Mechanism) -> T + Send + 'static,
-    ) -> PyResult<T> {
-        let machine = Arc::clone(&self.0);
-        wait(py, move || ask(machine.as_ref()))
-    }
-
-    fn links(&self, py: Python<'_>) -> Answer<Arc<Machine>> {
-        if let Some(known) = self.1.get() {
-            return Ok(Arc::clone(known));
-        }
-        let made = self.ask(py, |machine| machine.machine().map(tabulated))??;
-        Ok(Arc::clone(self.1.get_or_init(|| Arc::new(made))))
-    }
-
-    fn bundle(
-        &self,
-        py: Python<'_>,
-        formats: Option<Vec<String>>,
-        parts: Option<Vec<String>>,
-        tolerance: f64,
-        [dxf_version, dxf_curves]: [&str; 2],
-    ) -> Answer<Bundle> {
-        let tolerance = within(tolerance, self.0.accuracy())?;
-        let formats = files::formats(formats, &Format::ALL)?;
-        let mut options = files::options(tolerance, dxf_version, dxf_curves)?;
-        options.parts = files::parts(parts, self.family()?.parts)?;
-        Ok(self.ask(py, move |machine| {
-            if formats.contains(&Format::Sheet) || formats.contains(&Format::Pdf) {
-                options.sheet.meshing = meshing(&machine.check());
-            }
-            machine.files(&formats, &options)
-        })??)
     }
 }
 
@@ -226,6 +174,48 @@ impl Mechanism {
             frames.set_item(&link.name, frames_of)?;
         }
         Ok(frames)
+    }
+
+    /// Forces at inputs, rad, that turn evenly: the torque of the input and what joints, pins, rollers and teeth carry.
+    ///
+    /// The links weigh what their bodies do, with the loads of the design. Wear, play and, but for grooves and rails,
+    /// friction are left out.
+    ///
+    /// Args:
+    ///     phi: Inputs, rad.
+    ///     speed: Speed of the input, rad/s; left out, the design's, or 1 where it says nothing. Zero holds it still.
+    ///
+    /// Raises:
+    ///     MechanismError: A part cannot be made, more than one thing holds a link, or no force balances the load.
+    ///
+    /// >>> import centrode as ct
+    /// >>> forces = ct.Feeder.from_toml(ct.template("feeder")).forces([0.0, 1.0], speed=0)
+    /// >>> forces.drives["crank_joint"].round(1)
+    /// array([89.4, 86.9])
+    /// >>> forces.joints["coupler_joint"].shape
+    /// (2, 2)
+    #[pyo3(signature = (phi, *, speed=None))]
+    fn forces<'py>(
+        &self,
+        py: Python<'py>,
+        phi: Values,
+        speed: Option<f64>,
+    ) -> Answer<Bound<'py, PyAny>> {
+        let machine = self.links(py)?;
+        let speed = finite("speed", speed.unwrap_or(machine.input.speed))?;
+        forces::found(py, machine, phi.finite()?, speed)
+    }
+
+    /// The parts that a shop makes or buys for the machine, in the order of its parts list.
+    ///
+    /// >>> import centrode as ct
+    /// >>> pair = ct.GearPair(ct.pitch.circle(module=2, tooth_count=20))
+    /// >>> print(*pair.parts(), sep="\n")
+    /// 1 x Driver gear, 20 teeth
+    /// 1 x Driven gear, 20 teeth
+    fn parts<'py>(&self, py: Python<'py>) -> Answer<Bound<'py, PyTuple>> {
+        let machine = self.links(py)?;
+        Ok(record::parts(py, &machine)?)
     }
 
     /// Searches for a better machine around this one; the table [optimise] of its design says what may move, and a table

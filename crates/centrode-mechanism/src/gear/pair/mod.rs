@@ -1,19 +1,22 @@
+mod error;
+mod gear;
+
 use std::f64::consts::{PI, TAU};
 
-use centrode_geometry::{Outline, PolySegment, Segment, Tolerance};
+use centrode_geometry::Tolerance;
 
-use crate::bore;
-
-use crate::design::{DrawingSpec, MechanismError};
+use crate::design::DrawingSpec;
 
 use super::{
-    design::{BodySpec, GearPairDesign, SpecError, ToolSpec},
-    pitch::PitchError,
-    profile::{Cutter, Profile, ProfileError, Role, Tooth},
-    rolling::{Member, Rolling, RollingError},
-    teeth::{Counts, TeethError, TeethParameters, layout},
+    design::{BodySpec, GearPairDesign, ToolSpec},
+    profile::Cutter,
+    rolling::{Member, Rolling},
+    teeth::{Counts, TeethParameters, layout},
     tool::{Tool, ToolKind},
 };
+
+pub use error::GearPairError;
+pub use gear::Gear;
 
 /// Greatest distance of a stored outline from the exact curve, as a share of the module.
 const OUTLINE_TOLERANCE: f64 = 1e-10;
@@ -34,129 +37,6 @@ pub struct GearPair {
     congruent: bool,
     driver: Gear,
     driven: Gear,
-}
-
-/// One gear of a pair, in its own frame: axes parallel to the world's at phi = 0.
-#[derive(Clone, Debug)]
-pub struct Gear {
-    member: Member,
-    tooth_count: u32,
-    pitch_length: f64,
-    outline: Outline,
-    roles: Vec<Role>,
-    owners: Vec<u32>,
-    pitch_curve: Outline,
-    teeth: Vec<Tooth>,
-    body: BodySpec,
-}
-
-/// Reason why a design gives no gear pair.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum GearPairError {
-    /// A value breaks a rule of its own.
-    #[error(transparent)]
-    Spec(#[from] SpecError),
-    /// The pitch curve does not exist.
-    #[error(transparent)]
-    Pitch(#[from] PitchError),
-    /// The pitch curves do not roll on each other.
-    #[error(transparent)]
-    Rolling(#[from] RollingError),
-    /// No teeth can be laid out.
-    #[error(transparent)]
-    Teeth(#[from] TeethError),
-    /// The teeth leave no contour.
-    #[error(transparent)]
-    Profile(#[from] ProfileError),
-    /// Neither the pair nor the curve says how many teeth the driver has.
-    #[error(
-        "tooth_count is missing: give it to the pair, or module and tooth_count to the pitch curve"
-    )]
-    NoToothCount,
-    /// The driven gear has no whole number of teeth, or too few.
-    #[error("{driver} driver teeth at mean ratio {}:{} give the driven gear {driver} x {}/{} teeth; that must be a whole number of at least 3", ratio.0, ratio.1, ratio.0, ratio.1)]
-    DrivenTeeth {
-        /// Teeth of the driver.
-        driver: u32,
-        /// Turns of driver : turns of driven.
-        ratio: (u32, u32),
-    },
-    /// The pitch curve's law and the written mean ratio disagree.
-    #[error("mean_ratio is {}:{} but the pitch curve's law makes it {}:{}", written.0, written.1, implied.0, implied.1)]
-    MeanRatio {
-        /// Ratio as written.
-        written: (u32, u32),
-        /// Ratio of the law.
-        implied: (u32, u32),
-    },
-    /// The pitch curve has a corner, where there can be no tooth.
-    #[error(
-        "the pitch curve has a corner of {turn} rad at a polar angle of {angle} rad; a toothed curve must be smooth"
-    )]
-    Corner {
-        /// Change of direction, rad.
-        turn: f64,
-        /// Polar angle, rad.
-        angle: f64,
-    },
-    /// The wanted centre distance is not the one at which the curves roll.
-    #[error(
-        "center_distance is {wanted} mm, but this pitch curve rolls on a closed conjugate only at {needed} mm"
-    )]
-    CenterDistance {
-        /// Distance as written, mm.
-        wanted: f64,
-        /// Distance that closes the driven curve, mm.
-        needed: f64,
-    },
-    /// The bore, with its keyway, cuts into the teeth.
-    #[error("the {}'s bore reaches {reach} mm from the axis, but its teeth leave only {root} mm", .member.name())]
-    Bore {
-        /// Gear at fault.
-        member: Member,
-        /// Radius reached by bore and keyway, mm.
-        reach: f64,
-        /// Least radius of the outline, mm.
-        root: f64,
-    },
-}
-
-impl GearPairError {
-    /// Key of the design file at fault.
-    #[must_use]
-    pub fn key(&self) -> String {
-        match self {
-            Self::Spec(error) => error.key.clone(),
-            Self::Pitch(error) => format!("pitch.{}", error.key()),
-            Self::Rolling(RollingError::MeanRatio { .. } | RollingError::NotPeriodic { .. })
-            | Self::MeanRatio { .. } => "mean_ratio".into(),
-            Self::Rolling(_) | Self::Corner { .. } => "pitch".into(),
-            Self::Teeth(TeethError::TipRadius { .. }) => "tool.tip_radius_coefficient".into(),
-            // Without the play there would be a tooth.
-            Self::Teeth(TeethError::NoWidth { width, play, .. }) if width + play > 0.0 => {
-                "teeth.backlash".into()
-            }
-            Self::Teeth(TeethError::NoWidth { .. }) => "teeth.thickness_split".into(),
-            Self::Teeth(TeethError::NotCongruent { .. }) => "teeth.phase".into(),
-            Self::Profile(_) | Self::NoToothCount | Self::DrivenTeeth { .. } => {
-                "tooth_count".into()
-            }
-            Self::CenterDistance { .. } => "center_distance".into(),
-            Self::Bore { member, .. } => format!("{}.bore", member.name()),
-        }
-    }
-}
-
-impl From<GearPairError> for MechanismError {
-    fn from(error: GearPairError) -> Self {
-        let key = error.key();
-        match error {
-            GearPairError::Spec(error) => error.into(),
-            GearPairError::Pitch(error) => Self::new(key, error),
-            other => Self::new(key, other),
-        }
-    }
 }
 
 impl GearPair {
@@ -393,124 +273,6 @@ impl GearPair {
     }
 }
 
-impl Gear {
-    fn new(
-        rolling: &Rolling,
-        member: Member,
-        tooth_count: u32,
-        profile: Profile,
-        body: BodySpec,
-        tolerance: Tolerance,
-    ) -> Result<Self, GearPairError> {
-        let Profile {
-            outline,
-            roles,
-            owners,
-            teeth,
-        } = profile;
-        let gear = Self {
-            member,
-            tooth_count,
-            pitch_length: rolling.pitch_length(member),
-            outline,
-            roles,
-            owners,
-            pitch_curve: pitch_curve(rolling, member, tolerance)?,
-            teeth,
-            body,
-        };
-        gear.clears_bore()?;
-        Ok(gear)
-    }
-
-    fn clears_bore(&self) -> Result<(), GearPairError> {
-        let reach = bore::reach(&self.body);
-        let (root, _) = self.radii();
-        if reach >= root {
-            return Err(GearPairError::Bore {
-                member: self.member,
-                reach,
-                root,
-            });
-        }
-        Ok(())
-    }
-
-    /// Driver or driven.
-    #[must_use]
-    pub fn member(&self) -> Member {
-        self.member
-    }
-
-    /// Number of teeth.
-    #[must_use]
-    pub fn tooth_count(&self) -> u32 {
-        self.tooth_count
-    }
-
-    /// Length of the pitch curve, mm.
-    #[must_use]
-    pub fn pitch_length(&self) -> f64 {
-        self.pitch_length
-    }
-
-    /// The toothed contour, counter-clockwise.
-    #[must_use]
-    pub fn outline(&self) -> &Outline {
-        &self.outline
-    }
-
-    /// Role of each segment of the outline.
-    #[must_use]
-    pub fn roles(&self) -> &[Role] {
-        &self.roles
-    }
-
-    /// Tooth that each segment of the outline belongs to; a space belongs to the tooth before it.
-    #[must_use]
-    pub fn owners(&self) -> &[u32] {
-        &self.owners
-    }
-
-    /// The pitch curve, counter-clockwise.
-    #[must_use]
-    pub fn pitch_curve(&self) -> &Outline {
-        &self.pitch_curve
-    }
-
-    /// The teeth in the order they mesh.
-    #[must_use]
-    pub fn teeth(&self) -> &[Tooth] {
-        &self.teeth
-    }
-
-    /// Width, bore and material.
-    #[must_use]
-    pub fn body(&self) -> &BodySpec {
-        &self.body
-    }
-
-    /// Least and greatest distance of the outline from the axis, mm.
-    #[must_use]
-    pub fn radii(&self) -> (f64, f64) {
-        let (mut least, mut greatest) = (f64::INFINITY, 0.0_f64);
-        for segment in self.outline.segments() {
-            for i in 0..=8 {
-                let r = segment.at(-1.0 + 0.25 * f64::from(i)).point.coords.norm();
-                least = least.min(r);
-                greatest = greatest.max(r);
-            }
-        }
-        (least, greatest)
-    }
-
-    /// The bore with its keyway, counter-clockwise; `None` for a gear without one.
-    #[must_use]
-    pub fn bore(&self) -> Option<Outline> {
-        bore::outline(&self.body)
-    }
-}
-
 pub(super) fn parameters(design: &GearPairDesign, module: f64) -> TeethParameters {
     let spec = &design.tool;
     let kind = match spec {
@@ -549,37 +311,4 @@ pub(super) fn parameters(design: &GearPairDesign, module: f64) -> TeethParameter
         thickness_split: design.teeth.thickness_split,
         least_tip_width: design.teeth.least_tip_width_coefficient * module,
     }
-}
-
-fn pitch_curve(
-    rolling: &Rolling,
-    member: Member,
-    tolerance: Tolerance,
-) -> Result<Outline, GearPairError> {
-    let (from, to) = (
-        rolling.parameter(0.0),
-        rolling.parameter(rolling.pitch_length(member)),
-    );
-    let mut ends = vec![from];
-    ends.extend(rolling.breaks_between(from, to));
-    ends.push(to);
-    let mut polys: Vec<PolySegment> = Vec::new();
-    for pair in ends.windows(2) {
-        polys.extend(PolySegment::fit(
-            |t| rolling.frame(member, t).point,
-            pair[0],
-            pair[1],
-            tolerance,
-        ));
-    }
-    for i in 0..polys.len() {
-        let end = polys[i].end();
-        let next = (i + 1) % polys.len();
-        polys[next] = polys[next].pinned(end, polys[next].end());
-    }
-    let mut segments: Vec<Segment> = polys.into_iter().map(Segment::Poly).collect();
-    if member == Member::Driven {
-        segments = segments.iter().rev().map(Segment::reversed).collect();
-    }
-    Ok(Outline::new(segments).map_err(ProfileError::from)?)
 }

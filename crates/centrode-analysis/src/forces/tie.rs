@@ -1,0 +1,209 @@
+use centrode_mechanism::machine::{JointKind, Machine};
+use nalgebra::Vector3;
+
+use super::ForcesError;
+use super::motion::LinkMotion;
+
+/// Something beside the tree of joints that holds two links by a force that is not known beforehand.
+#[derive(Clone, Debug)]
+pub(super) struct Tie {
+    pub(super) kind: TieKind,
+    /// The links: its force acts on the second, and back on the first.
+    pub(super) links: [usize; 2],
+    /// Joints that it moves, as many as its force has components.
+    pub(super) held: Vec<usize>,
+    /// Joints that carry the second link alone (1) or the first alone (-1).
+    pub(super) between: Vec<(usize, f64)>,
+    /// Joint about whose axis its plane turns; none for the plane of the first link.
+    normal: Option<usize>,
+}
+
+/// Kind of a tie, by its index in the machine.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum TieKind {
+    Closure(usize),
+    Mesh(usize),
+    Contact(usize),
+}
+
+/// Place of a tie's force, and unit vectors along its components.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Lines {
+    pub(super) at: Vector3<f64>,
+    pub(super) along: [Vector3<f64>; 2],
+}
+
+impl Tie {
+    /// Every closure, mesh and contact of a machine.
+    ///
+    /// # Errors
+    /// [`ForcesError`] where one moves a joint that it does not reach, or that another one moves, too.
+    pub(super) fn all(machine: &Machine) -> Result<Vec<Self>, ForcesError> {
+        let closures = machine.closures.iter().enumerate();
+        let closures = closures.map(|(i, c)| (TieKind::Closure(i), c.links, c.joints.to_vec()));
+        let meshes = machine.meshes.iter().enumerate();
+        let meshes = meshes.map(|(i, m)| (TieKind::Mesh(i), m.links, vec![m.joint]));
+        let contacts = machine.contacts.iter().enumerate();
+        let contacts = contacts.map(|(i, c)| (TieKind::Contact(i), c.links, vec![c.joint]));
+        let mut ties: Vec<Self> = Vec::new();
+        for (kind, links, held) in closures.chain(meshes).chain(contacts) {
+            let between = between(machine, links);
+            let turns = |joint: &&usize| machine.joints[**joint].kind == JointKind::Turning;
+            let reached = between.iter().map(|(joint, _)| joint);
+            let normal = held.iter().chain(reached).find(turns).copied();
+            let tie = Self {
+                kind,
+                links,
+                held,
+                between,
+                normal,
+            };
+            tie.is_sound(machine, &ties)?;
+            ties.push(tie);
+        }
+        Ok(ties)
+    }
+
+    fn is_sound(&self, machine: &Machine, others: &[Self]) -> Result<(), ForcesError> {
+        let name = |joint: usize| machine.links[machine.joints[joint].child].name.clone();
+        for (i, &joint) in self.held.iter().enumerate() {
+            let free = machine.joints[joint].kind != JointKind::Fixed;
+            if !free || self.sign(joint) == 0.0 {
+                return Err(ForcesError::Apart {
+                    holder: self.words(machine),
+                    link: name(joint),
+                });
+            }
+            let other = others.iter().find(|tie| tie.held.contains(&joint));
+            let twice = self.held[..i].contains(&joint).then_some(self);
+            if let Some(other) = other.or(twice) {
+                return Err(ForcesError::Undetermined {
+                    link: name(joint),
+                    holders: format!("{} and {}", other.words(machine), self.words(machine)),
+                });
+            }
+        }
+        Ok(())
+    }
+
+    /// The tie in words, for messages.
+    pub(super) fn words(&self, machine: &Machine) -> String {
+        let kind = match self.kind {
+            TieKind::Closure(_) => "pin",
+            TieKind::Mesh(_) => "mesh",
+            TieKind::Contact(_) => "contact",
+        };
+        let [one, other] = self.links.map(|link| machine.links[link].name.as_str());
+        format!("the {kind} of {one} and {other}")
+    }
+
+    /// Sign of its force on what a joint carries; zero where the joint carries both links or neither.
+    pub(super) fn sign(&self, joint: usize) -> f64 {
+        let own = self.between.iter().find(|(of, _)| *of == joint);
+        own.map_or(0.0, |(_, sign)| *sign)
+    }
+
+    /// Whether the direction of its force is not known, only its moment.
+    pub(super) fn is_vague(&self, machine: &Machine) -> bool {
+        matches!(self.kind, TieKind::Mesh(i) if machine.meshes[i].pressure_angle.is_none())
+    }
+
+    /// Place and components of the force: of teeth along the tangent of the pitch curves. None where links that mesh stand
+    /// still on each other.
+    pub(super) fn lines(
+        &self,
+        machine: &Machine,
+        motions: &[LinkMotion],
+        axes: &[Vector3<f64>],
+    ) -> Option<Lines> {
+        let axis = self.normal.map_or(Vector3::z(), |joint| axes[joint]);
+        let [one, other] = self.links.map(|link| &motions[link]);
+        match self.kind {
+            TieKind::Closure(i) => {
+                let at = one.place + one.turn * Vector3::from(machine.closures[i].at);
+                // Along the world's axes where it lies in their plane.
+                let side = if axis.x.abs() < 0.9 {
+                    Vector3::x()
+                } else {
+                    Vector3::y()
+                };
+                let along = (side - axis * axis.dot(&side)).normalize();
+                let along = [along, axis.cross(&along)];
+                Some(Lines { at, along })
+            }
+            TieKind::Mesh(_) => pitch_point([one, other], axis),
+            TieKind::Contact(i) => {
+                let contact = &machine.contacts[i];
+                let at = other.place + other.turn * Vector3::from(contact.at);
+                let normal = match contact.normal {
+                    Some(normal) => one.turn * Vector3::from(normal),
+                    None => axis.cross(&(other.point(at)[0] - one.point(at)[0])),
+                };
+                let along = normal.try_normalize(0.0)?;
+                let along = [along; 2];
+                Some(Lines { at, along })
+            }
+        }
+    }
+
+    /// The lines of a mesh once the size of its force along the tangent is known: the flanks' normal leans from the tangent by
+    /// the pressure angle, so that what pushes pushes the gears apart.
+    pub(super) fn flank(
+        &self,
+        machine: &Machine,
+        lines: &Lines,
+        driver: &LinkMotion,
+        size: f64,
+    ) -> Lines {
+        let TieKind::Mesh(i) = self.kind else {
+            return *lines;
+        };
+        let angle = machine.meshes[i].pressure_angle.unwrap_or(0.0);
+        let [tangent, across] = lines.along;
+        let apart = across * across.dot(&(lines.at - driver.place)).signum();
+        let normal = tangent * angle.cos() + apart * angle.sin().copysign(angle * size);
+        Lines {
+            along: [normal, across],
+            ..*lines
+        }
+    }
+}
+
+/// Pitch point of two links, the pole of their motion against each other, and unit vectors along the pitch curves there and
+/// across them: the tangent turns the driven gear counter-clockwise.
+///
+/// The pitch curves roll on each other, so the acceleration of one against the other at the pole is square to them.
+fn pitch_point([driver, driven]: [&LinkMotion; 2], axis: Vector3<f64>) -> Option<Lines> {
+    let turning = axis.dot(&(driven.spin[0] - driver.spin[0]));
+    let slip = driven.way[0] - driver.point(driven.place)[0];
+    let at = driven.place + axis.cross(&slip) / turning;
+    let rolled = driven.point(at)[1] - driver.point(at)[1];
+    let tangent = axis.cross(&rolled).try_normalize(0.0)?;
+    let moment = axis.dot(&(at - driven.place).cross(&tangent));
+    let tangent = tangent * moment.signum();
+    let finite = tangent.iter().chain(at.iter()).all(|x| x.is_finite());
+    finite.then(|| Lines {
+        at,
+        along: [tangent, axis.cross(&tangent)],
+    })
+}
+
+/// Joints that carry the second of two links but not the first (1), and the first but not the second (-1).
+pub(super) fn between(machine: &Machine, links: [usize; 2]) -> Vec<(usize, f64)> {
+    let [one, other] = links.map(|link| {
+        let mut chain = Vec::new();
+        let mut at = link;
+        while let Some(joint) = machine.joints.iter().position(|joint| joint.child == at) {
+            if chain.len() > machine.joints.len() {
+                break;
+            }
+            chain.push(joint);
+            at = machine.joints[joint].parent;
+        }
+        chain
+    });
+    let ours = one.iter().filter(|joint| !other.contains(joint));
+    let theirs = other.iter().filter(|joint| !one.contains(joint));
+    let theirs = theirs.map(|&joint| (joint, 1.0));
+    theirs.chain(ours.map(|&joint| (joint, -1.0))).collect()
+}

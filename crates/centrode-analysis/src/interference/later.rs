@@ -1,0 +1,55 @@
+use nalgebra::Rotation2;
+
+use super::motion::{Bend, Motion, PoseJet, Tabulated};
+
+/// Motion of a body that repeats another's later, turned about the common frame's origin.
+///
+/// Arms on one carrier: seen from it, each is a turned copy of the first, late by its share of a cycle.
+#[derive(Clone, Copy, Debug)]
+pub struct Later<'a> {
+    /// Motion that is repeated; its inputs are one whole cycle.
+    pub first: &'a Tabulated,
+    /// Delay of the input, in `[0, cycle]`.
+    pub delay: f64,
+    /// Turn, rad.
+    pub turned: f64,
+}
+
+impl Later<'_> {
+    /// Input of the first body, in its table.
+    fn own(&self, input: f64) -> f64 {
+        let (start, cycle) = (self.first.start, self.first.length());
+        start + (input - self.delay - start).rem_euclid(cycle)
+    }
+}
+
+impl Motion for Later<'_> {
+    fn at(&self, input: f64) -> PoseJet {
+        let jet = self.first.at(self.own(input));
+        let turn = Rotation2::new(self.turned);
+        PoseJet {
+            position: turn * jet.position,
+            angle: jet.angle + self.turned,
+            velocity: turn * jet.velocity,
+            turning: jet.turning,
+        }
+    }
+
+    fn bend(&self, from: f64, to: f64) -> Bend {
+        let (start, cycle) = (self.first.start, self.first.length());
+        if to - from >= cycle {
+            return self.first.bend(start, start + cycle);
+        }
+        let own = self.own(from);
+        let end = own + (to - from);
+        if end <= start + cycle {
+            return self.first.bend(own, end);
+        }
+        let round = self.first.bend(start, end - cycle);
+        self.first.bend(own, start + cycle).greater(round)
+    }
+
+    fn deviation(&self) -> (f64, f64) {
+        self.first.deviation()
+    }
+}

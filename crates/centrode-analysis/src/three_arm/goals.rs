@@ -1,0 +1,96 @@
+use centrode_mechanism::gear::FlankCount;
+use centrode_mechanism::three_arm::design::GoalsSpec;
+use centrode_mechanism::three_arm::{Figures, ThreeArm};
+
+use super::ArmClearance;
+use crate::{Goal, Unit};
+
+/// Goals of a mechanism as far as its figures reach: those of arms, seedlings and flanks are left open.
+#[must_use]
+pub fn goals(figures: &Figures, wanted: &GoalsSpec) -> Vec<Goal> {
+    let range = |[least, greatest]: [f64; 2]| [Some(least), Some(greatest)];
+    let least = |least: f64| [Some(least), None];
+    let angle = |about, value, wanted: [f64; 2]| {
+        Goal::new(
+            about,
+            Some(value),
+            range(wanted),
+            Unit::Angle,
+            wanted[1] - wanted[0],
+        )
+    };
+    // A clearance of 20 mm is the paper's own; it is the scale where any clearance will do.
+    let size = |wanted: f64| if wanted > 0.0 { wanted } else { 20.0 };
+    let length = |about, value, wanted: f64| {
+        Goal::new(about, value, least(wanted), Unit::Millimetre, size(wanted))
+    };
+    vec![
+        length(
+            (1, "arm-clearance", "arms clear of each other"),
+            None,
+            wanted.arm_clearance,
+        ),
+        angle(
+            (2, "pick-angle", "clamp above horizontal at picking"),
+            figures.pick_angle,
+            wanted.pick_angle,
+        ),
+        angle(
+            (3, "push-angle", "clamp below horizontal at planting"),
+            figures.push_angle,
+            wanted.push_angle,
+        ),
+        angle(
+            (4, "angle-difference", "turn from picking to planting"),
+            figures.angle_difference,
+            wanted.angle_difference,
+        ),
+        length(
+            (5, "seedling-clearance", "clamp clear of planted seedlings"),
+            None,
+            wanted.seedling_clearance,
+        ),
+        length(
+            (6, "gearbox-clearance", "gearbox above the ground"),
+            Some(figures.gearbox_clearance),
+            wanted.gearbox_clearance,
+        ),
+        length(
+            (7, "trajectory-height", "height of the trajectory"),
+            Some(figures.trajectory_height),
+            wanted.trajectory_height,
+        ),
+        length((8, "module", "module"), figures.module, wanted.module),
+        Goal::new(
+            (8, "sound-teeth", "flanks unsound at full height"),
+            None,
+            [None, Some(0.0)],
+            Unit::Count,
+            10.0,
+        ),
+    ]
+}
+
+pub(super) fn all_goals(
+    mechanism: &ThreeArm,
+    arms: Option<&ArmClearance>,
+    teeth: Option<&[FlankCount; 2]>,
+) -> Vec<Goal> {
+    let mut goals = goals(&mechanism.figures(), &mechanism.design().goals);
+    for goal in &mut goals {
+        let value = match &*goal.name {
+            "arm-clearance" => match arms.and_then(|found| found.arms) {
+                Some(found) => found.least,
+                None => continue,
+            },
+            "seedling-clearance" => mechanism.seedling_clearance().value,
+            "sound-teeth" => match teeth {
+                Some(teeth) => f64::from(teeth.iter().map(|t| t.unsound).sum::<u32>()),
+                None => continue,
+            },
+            _ => continue,
+        };
+        *goal = goal.clone().with(value);
+    }
+    goals
+}

@@ -1,0 +1,146 @@
+use centrode_mechanism::gear::{Gear, GearPair, Member};
+use centrode_mechanism::machine::{Callout, Datum, Machine, Part};
+
+use crate::sheet::{number, range};
+
+/// Lists the gears and tells the pair's arrangement.
+pub(super) fn tell(pair: &GearPair, machine: &mut Machine) {
+    list_pair(pair, "", &[Member::Driver, Member::Driven], machine);
+    let told = &mut machine.arrangement;
+    told.title = "Gear pair".into();
+    told.drawing = pair.drawing().clone();
+    told.data = data(pair);
+    told.columns = vec![0, 1, 2];
+    told.notes = [
+        "Shown at φ = 0: pitch point on the line of centres.",
+        "φ is the polar angle of the pitch point on the driver;",
+        "the driver has then turned clockwise by φ,",
+        "the driven gear counter-clockwise by the angle of the table.",
+        "Driver tooth k runs in driven space k - 1,",
+        "driven tooth k in driver space k.",
+    ]
+    .map(String::from)
+    .into();
+    let last = pair.driven().tooth_count() - 1;
+    let first = [
+        (
+            Member::Driver,
+            "driver tooth 0",
+            format!("in driven space {last}"),
+        ),
+        (Member::Driven, "driven tooth 0", "in driver space 0".into()),
+    ];
+    for (member, tooth, space) in first {
+        let at = first_tooth(pair, member);
+        if let Some(place) = machine.place_on(member.name(), at) {
+            let words = vec![tooth.into(), space];
+            machine.arrangement.callouts.push(Callout { place, words });
+        }
+    }
+}
+
+/// Lists both gears of a pair, whose files' names begin with the prefix, then the shafts of those that have one of their own.
+pub(crate) fn list_pair(pair: &GearPair, prefix: &str, shafts: &[Member], machine: &mut Machine) {
+    let links =
+        |machine: &Machine, member: Member| Vec::from_iter(machine.link_named(member.name()));
+    for (member, name) in [
+        (Member::Driver, "Driver gear"),
+        (Member::Driven, "Driven gear"),
+    ] {
+        let (file, links) = (format!("{prefix}{}", member.name()), links(machine, member));
+        let words = [name, &file, member.name()];
+        list(machine, pair.gear(member), words, links);
+    }
+    for &member in shafts {
+        let (name, links) = (
+            format!("Shaft of the {} gear", member.name()),
+            links(machine, member),
+        );
+        list_shafts(machine, pair.gear(member), &name, links);
+    }
+}
+
+/// Lists a gear: its name, the name of its files, the figure that shows it.
+pub(crate) fn list(
+    machine: &mut Machine,
+    gear: &Gear,
+    [name, file, figure]: [&str; 3],
+    links: Vec<usize>,
+) {
+    machine.part(Part {
+        name: name.into(),
+        links,
+        material: gear.body().material.clone(),
+        mass: Some(mass(gear)),
+        file: file.into(),
+        remark: format!("{} teeth", gear.tooth_count()),
+        place: machine.place_on_edge(figure, gear.outline()),
+    });
+}
+
+/// Lists the shafts in the bores of gears, one for each of the links.
+pub(crate) fn list_shafts(machine: &mut Machine, gear: &Gear, name: &str, links: Vec<usize>) {
+    if gear.body().bore > 0.0 && !links.is_empty() {
+        machine.part(Part {
+            name: name.into(),
+            links,
+            remark: format!("Ø{}", number(gear.body().bore, 3)),
+            ..Part::default()
+        });
+    }
+}
+
+/// Mass of a gear, kg.
+pub(super) fn mass(gear: &Gear) -> f64 {
+    let body = gear.body();
+    let bore = gear.bore().map_or(0.0, |bore| bore.area());
+    let volume = (gear.outline().area() - bore) * body.width;
+    volume * body.density * 1e-9
+}
+
+/// Middle of the first tooth half its addendum above the pitch curve, in the gear's frame.
+fn first_tooth(pair: &GearPair, member: Member) -> [f64; 2] {
+    let frame = super::sheets::middle(pair, member, 0.0);
+    let at = frame.point + frame.normal * (0.5 * pair.teeth().tool.addendum);
+    at.coords.into()
+}
+
+/// Data of the pair.
+fn data(pair: &GearPair) -> Vec<Datum> {
+    let [z1, z2] = [pair.driver(), pair.driven()].map(|gear| gear.tooth_count());
+    let degrees = pair.teeth().tool.pressure_angle.to_degrees();
+    let mut data = vec![
+        Datum::new("Number of teeth", "z1 / z2", format!("{z1} / {z2}")),
+        Datum::new("Module", "m", number(pair.module(), 6)),
+        Datum::new("Pressure angle", "α", format!("{}°", number(degrees, 4))),
+        Datum::new("Driver's pitch curve", "", pair.definition()),
+    ];
+    data.extend(of_both(pair));
+    let radius = number(pair.rolling().radius(0.0), 6);
+    data.push(Datum::new("Pitch point at φ = 0, from driver", "r", radius));
+    data.push(Datum::new(
+        "Ratio at φ = 0",
+        "i",
+        number(pair.ratio(0.0), 6),
+    ));
+    data
+}
+
+/// Data that both gears have in common.
+pub(crate) fn of_both(pair: &GearPair) -> Vec<Datum> {
+    let (driver, driven) = pair.mean_ratio();
+    let a = pair.center_distance();
+    let (least, greatest) = pair.rolling().radii(Member::Driver);
+    let ratios = [least / (a - least), greatest / (a - greatest)];
+    let turns = format!("{driver}:{driven}");
+    vec![
+        Datum::new("Mean ratio, turns driver : driven", "", turns),
+        Datum::new("Ratio, driven : driver speed", "i", range(ratios, 6)),
+        Datum::new("Centre distance", "a", number(a, 6)),
+        Datum::new(
+            "Backlash, as designed, normal",
+            "jn",
+            number(pair.backlash(), 4),
+        ),
+    ]
+}

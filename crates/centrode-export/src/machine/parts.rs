@@ -1,0 +1,87 @@
+use centrode_mechanism::machine::{Machine, Part};
+
+use crate::csv::Column;
+use crate::drawing::Anchor;
+use crate::sheet::{Table, mass};
+
+/// The parts list of a machine, numbered from one; columns that say nothing of any part are left out.
+#[must_use]
+pub fn parts_list(machine: &Machine) -> Table {
+    let row = |(index, part): (usize, &Part)| {
+        vec![
+            (index + 1).to_string(),
+            part.name.clone(),
+            part.quantity().to_string(),
+            part.material.clone(),
+            part.mass.map(|kg| mass(kg * 1e3)).unwrap_or_default(),
+            part.file.clone(),
+            part.remark.clone(),
+        ]
+    };
+    let headings = [
+        ("item", Anchor::Right),
+        ("part", Anchor::Left),
+        ("quantity", Anchor::Right),
+        ("material", Anchor::Left),
+        ("mass of one", Anchor::Right),
+        ("files", Anchor::Left),
+        ("remark", Anchor::Left),
+    ];
+    let weighed = machine
+        .parts
+        .iter()
+        .filter(|part| part.mass.is_some())
+        .count();
+    let sum: f64 = (0..machine.links.len())
+        .map(|link| machine.mass_of_pieces(link))
+        .sum();
+    let together = mass(sum * 1e3);
+    let note = match weighed {
+        0 => None,
+        all if all == machine.parts.len() => Some(format!("Together {together}.")),
+        _ => Some(format!("Parts with a mass: together {together}.")),
+    };
+    Table {
+        title: "Parts".into(),
+        headings: headings.map(|(heading, _)| heading.into()).into(),
+        columns: headings.map(|(_, anchor)| anchor).into(),
+        rows: machine.parts.iter().enumerate().map(row).collect(),
+        notes: note.into_iter().collect(),
+    }
+    .filled()
+}
+
+/// The parts list as columns of a comma-separated table.
+pub(super) fn columns(machine: &Machine) -> Vec<Column> {
+    let words = |heading: &str, of: &dyn Fn(&Part) -> String| {
+        // A comma would end the cell.
+        let cell = |part: &Part| of(part).replace(',', ";").replace('"', "''");
+        Column::words(heading, machine.parts.iter().map(cell))
+    };
+    let links = |part: &Part| {
+        let mut names: Vec<&str> = part
+            .links
+            .iter()
+            .map(|&link| machine.links[link].name.as_str())
+            .collect();
+        names.dedup();
+        names.join(" ")
+    };
+    vec![
+        Column::words(
+            "item",
+            (1..=machine.parts.len()).map(|item| item.to_string()),
+        ),
+        words("part", &|part| part.name.clone()),
+        words("quantity", &|part| part.quantity().to_string()),
+        words("material", &|part| part.material.clone()),
+        words("mass_kg", &|part| {
+            part.mass
+                .map(|mass| format!("{mass:?}"))
+                .unwrap_or_default()
+        }),
+        words("links", &links),
+        words("files", &|part| part.file.clone()),
+        words("remark", &|part| part.remark.clone()),
+    ]
+}

@@ -1,0 +1,113 @@
+use std::f64::consts::TAU;
+
+use centrode_mechanism::gear::Member;
+use centrode_mechanism::machine::{Axis, Datum, Dimension, Machine as Linked, Part};
+use centrode_mechanism::shaft::ShaftSolid;
+
+use super::figures;
+use super::links::GEARS;
+use super::machine::Machine;
+use super::sheets::data;
+use crate::ExportError;
+use crate::gear_pair;
+use crate::sheet::number;
+
+/// Lists shaft, slider, box and gears with their masses, and tells the arrangement: the groove unrolled, the slider in it.
+pub(super) fn tell(parts: &Machine<'_>, machine: &mut Linked) -> Result<(), ExportError> {
+    list(parts, machine)?;
+    let shaft = parts.shaft;
+    let told = &mut machine.arrangement;
+    told.title = if parts.gears.is_some() {
+        "Moving box"
+    } else {
+        "Spiral shaft with box"
+    }
+    .into();
+    told.drawing = shaft.drawing().clone();
+    told.notes = [
+        "Surface of the shaft unrolled, seen from outside, its lower edge at 360°.",
+        "Above it the box in its rows of holes, drawn beside the shaft.",
+        "Slider and box where the cycle begins; thin: edges of the groove,",
+        "and of the window in which a seedling is picked.",
+    ]
+    .map(String::from)
+    .into();
+    let rows = data(shaft).rows.into_iter();
+    let datum = |row: Vec<String>| match &row[..] {
+        [name, symbol, value] => Some(Datum::new(name, symbol, value)),
+        _ => None,
+    };
+    told.data = rows.filter_map(datum).collect();
+    let solid = ShaftSolid::new(shaft.groove(), shaft.body())?;
+    let [near, far] = solid.whole();
+    told.data
+        .push(Datum::new("Shaft over all, mm", "", number(far - near, 3)));
+    if let Some(gears) = &parts.gears {
+        told.notes
+            .push("Gears on the near end, seen along the shaft, drawn below it.".into());
+        told.data.extend(gear_pair::of_both(&gears.pair));
+    }
+    let ([low, high], (first, last)) = (solid.ends(), shaft.traverse().reach());
+    let around = -TAU * shaft.groove().radius();
+    let dimensions = [
+        ([[first, around], [last, around]], Axis::X),
+        ([[low, around], [high, around]], Axis::X),
+        ([[high, around], [high, 0.0]], Axis::Y),
+    ];
+    for (ends, along) in dimensions {
+        if let [Some(from), Some(to)] = ends.map(|at| machine.place_on("shaft", at)) {
+            let ends = [from, to];
+            machine
+                .arrangement
+                .dimensions
+                .push(Dimension { ends, along });
+        }
+    }
+    Ok(())
+}
+
+fn list(parts: &Machine<'_>, machine: &mut Linked) -> Result<(), ExportError> {
+    let shaft = parts.shaft;
+    let (slider, body) = (shaft.slider(), shaft.body());
+    let weight = |machine: &Linked, link: usize| machine.links[link].mass.map(|mass| mass.mass);
+    let [turned, carriage, slid] =
+        ["shaft", "box", "slider"].map(|name| machine.link_named(name).unwrap_or(0));
+    let [low, _] = ShaftSolid::new(shaft.groove(), body)?.ends();
+    machine.part(Part {
+        name: "Spiral shaft".into(),
+        links: vec![turned],
+        material: body.material.clone(),
+        mass: weight(machine, turned),
+        file: "shaft".into(),
+        place: machine.place_on("shaft", [low, -0.25 * TAU * shaft.groove().radius()]),
+        ..Part::default()
+    });
+    machine.part(Part {
+        name: "Slider".into(),
+        links: vec![slid],
+        mass: weight(machine, slid),
+        file: "slider".into(),
+        remark: format!("{} long", number(slider.length, 3)),
+        place: machine.place_on_edge("slider", &slider.outline(shaft.groove().width())),
+        ..Part::default()
+    });
+    machine.part(Part {
+        name: "Pin of the slider".into(),
+        links: vec![carriage],
+        remark: format!("Ø{}", number(slider.pin_diameter, 3)),
+        ..Part::default()
+    });
+    machine.part(Part {
+        name: "Box with its rail".into(),
+        links: vec![carriage],
+        mass: weight(machine, carriage),
+        remark: "all that is moved but the slider".into(),
+        place: machine.place_on("box", figures::corner(shaft).coords.into()),
+        ..Part::default()
+    });
+    if let Some(gears) = &parts.gears {
+        // The driven gear sits on the grooved shaft.
+        gear_pair::list_pair(&gears.pair, GEARS, &[Member::Driver], machine);
+    }
+    Ok(())
+}

@@ -1,0 +1,45 @@
+use centrode_geometry::{Outline, Point};
+use centrode_mechanism::machine::{self, Line, LineRole};
+
+use super::Part;
+use super::machine::Machine;
+
+/// Draws the contours of what the page's picture has as bars: cams, forks, arms, push rods and the carrier in front.
+pub(super) fn draw(parts: &Machine<'_>, machine: &mut machine::Machine) {
+    let plate = |part: Part| {
+        let plate = parts.plate_of(part);
+        plate.map_or_else(Vec::new, |plate| contours([&plate.outline], &plate.holes))
+    };
+    let spec = parts.pusher.fork_spec();
+    let roller = Outline::circle(Point::new(spec.arm_length, 0.0), spec.roller_radius);
+    let mut fork = plate(Part::Fork);
+    fork.push(Line::contour(LineRole::Body, &roller));
+    let limbs = ["housing", "flake-left"].map(|name| Some(&parts.of_arm(name)?.outline));
+    let chains = [
+        ("cam", "cam", plate(Part::Cam)),
+        ("fork", "fork", fork),
+        ("arm", "arm", contours(limbs.into_iter().flatten(), &[])),
+        ("push rod", "push_rod", plate(Part::PushRod)),
+    ];
+    for (name, link, lines) in chains {
+        let sketch = machine.sketch(name, lines);
+        for k in 0..parts.mechanism.arms() {
+            if let Some(own) = machine.link_named(&format!("{link}_{k}")) {
+                machine.draw(&format!("{name} {}", k + 1), own, sketch);
+            }
+        }
+    }
+    let gearbox = &parts.gearbox;
+    let sketch = machine.sketch("carrier", contours([&gearbox.outline], &gearbox.holes));
+    let carrier = machine.link_named("carrier").unwrap_or(0);
+    machine.draw("carrier", carrier, sketch);
+}
+
+/// Contours of bodies and their holes.
+fn contours<'a>(bodies: impl IntoIterator<Item = &'a Outline>, holes: &[Outline]) -> Vec<Line> {
+    let bodies = bodies.into_iter().map(|outline| (LineRole::Body, outline));
+    let holes = holes.iter().map(|hole| (LineRole::Hole, hole));
+    let all = bodies.chain(holes);
+    all.map(|(role, outline)| Line::contour(role, outline))
+        .collect()
+}

@@ -1,0 +1,171 @@
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
+use centrode_geometry::{MassProperties, Solid, SolidError, Vector};
+use nalgebra::{Isometry2, Isometry3};
+
+use super::{Feeder, Part, Plate};
+use crate::machine::{Closure, Input, Joint, Link, LinkPoint, Load, Machine, STANDARD_GRAVITY};
+use crate::transmission::{FromFn, MotionJet, Transmission};
+
+impl Part {
+    /// The part another one is mounted on; none for the frame.
+    #[must_use]
+    pub fn carrier(self) -> Option<Self> {
+        match self {
+            Self::Frame => None,
+            Self::Crank | Self::Rocker | Self::Effector => Some(Self::Frame),
+            Self::Coupler => Some(Self::Crank),
+            Self::Slider => Some(Self::Effector),
+        }
+    }
+
+    /// Index of the part's link in the machine of a feeder.
+    #[must_use]
+    pub fn link(self) -> usize {
+        self as usize
+    }
+
+    /// Index of the joint that carries the part in the machine of a feeder; that of the crank for the frame.
+    #[must_use]
+    pub fn joint(self) -> usize {
+        self.link().saturating_sub(1)
+    }
+}
+
+impl Feeder {
+    /// The six-bar as links, joints and closures, with a mass (kg) carried at its tip: no bodies, no picture, no table.
+    ///
+    /// Links are those of [`Part::ALL`] in their order, each with its joint. Every frame is parallel to the world's where the
+    /// effector rests, every joint zero there. The y axis points up. The coupler closes the loop first, the slider second,
+    /// both on the rocker at C. The first point is the tip.
+    #[must_use]
+    pub fn links(&self, carried: f64) -> Machine {
+        let design = self.design();
+        let mut machine = Machine {
+            name: design.name.clone(),
+            title: design.title.clone(),
+            input: Input {
+                name: "incomplete gear".into(),
+                period: TAU,
+                speed: self.speed(),
+            },
+            gravity: [0.0, -STANDARD_GRAVITY, 0.0],
+            ..Machine::default()
+        };
+        let rest = |part: Part| self.place(part, self.start()).translation.vector;
+        for part in Part::ALL {
+            let link = machine.link(Link {
+                name: part.name().into(),
+                ..Link::default()
+            });
+            let Some(carrier) = part.carrier() else {
+                continue;
+            };
+            let law = self.joint_law(part);
+            let joint = if part == Part::Slider {
+                Joint::sliding(carrier.link(), link, self.slide(), law)
+            } else {
+                Joint::turning(carrier.link(), link, law)
+            };
+            let at = rest(part) - rest(carrier);
+            machine.joint(joint.at([at.x, at.y, 0.0]));
+        }
+        for (part, moved) in [
+            (Part::Coupler, [Part::Coupler, Part::Rocker]),
+            (Part::Slider, [Part::Effector, Part::Slider]),
+        ] {
+            let at = rest(Part::Slider) - rest(part);
+            machine.closures.push(Closure {
+                links: [part, Part::Rocker].map(Part::link),
+                at: [at.x, at.y, 0.0],
+                joints: moved.map(Part::joint),
+            });
+        }
+        let link = Part::Effector.link();
+        let turned = self.place(Part::Effector, self.start()).rotation;
+        let at = turned * Vector::new(self.six_bar().effector_length(), 0.0);
+        let at = [at.x, at.y, 0.0];
+        machine.points.push(LinkPoint {
+            name: "tip".into(),
+            link,
+            at,
+        });
+        if carried != 0.0 {
+            machine.loads.push(Load::Mass {
+                link,
+                at,
+                mass: carried,
+            });
+        }
+        machine
+    }
+
+    /// Body of a plate in the frame of its link, and the mass of all its plates: a second one of the frame stands above the others.
+    ///
+    /// # Errors
+    /// [`SolidError`] where the plate encloses no volume.
+    pub fn body(&self, plate: &Plate) -> Result<(Solid, MassProperties), SolidError> {
+        let place = self.place(plate.part, self.start());
+        let turned = Isometry2::new(Vector::zeros(), place.rotation.angle());
+        let solid = plate.solid_at(&turned, plate.bottom)?;
+        let spec = &self.design().plates;
+        let one = solid.mass_properties(spec.density);
+        let above = 5.0 * (spec.thickness + spec.gap);
+        let all: Vec<MassProperties> = (0..plate.part.quantity())
+            .map(|k| one.placed(&Isometry3::translation(0.0, 0.0, f64::from(k) * above)))
+            .collect();
+        Ok((solid, MassProperties::together(&all).unwrap_or(one)))
+    }
+
+    /// Direction of the effector's slot where it rests, and how far the slider goes in it either way, mm.
+    fn slide(&self) -> ([f64; 3], [f64; 2]) {
+        let along = self.place(Part::Effector, self.start()).rotation * Vector::x();
+        let bar = self.six_bar();
+        let now = bar.slider_distance(self.start()).position;
+        // As far as the slot lets it.
+        let play = self.design().plates.slot_play;
+        let range = [
+            bar.least_slider_distance() - now - play,
+            bar.greatest_slider_distance() - now + play,
+        ];
+        ([along.x, along.y, 0.0], range)
+    }
+
+    /// A joint's coordinate since the effector rested.
+    fn joint_law(&self, part: Part) -> Arc<dyn Transmission> {
+        let bar = *self.six_bar();
+        let at = move |crank: f64| -> MotionJet {
+            let by_crank = MotionJet {
+                position: crank,
+                velocity: 1.0,
+                ..MotionJet::default()
+            };
+            let four = bar.four_bar();
+            match part {
+                Part::Frame => MotionJet::default(),
+                Part::Crank => by_crank,
+                Part::Coupler => four
+                    .coupler_angle(crank)
+                    .unwrap_or_default()
+                    .plus(-1.0, &by_crank),
+                Part::Rocker => four.rocker_angle(crank).unwrap_or_default(),
+                Part::Effector => bar.effector_angle(crank),
+                Part::Slider => bar.slider_distance(crank),
+            }
+        };
+        let (own, start) = (self.clone(), self.start());
+        let rest = at(start).position;
+        let advance = match part {
+            Part::Crank => TAU,
+            Part::Coupler => at(start + TAU).position - rest,
+            _ => 0.0,
+        };
+        Arc::new(FromFn::new(TAU, advance, self.breaks(), move |input| {
+            let crank = own.crank(input);
+            let mut jet = at(crank.position).after(&crank);
+            jet.position -= rest;
+            jet
+        }))
+    }
+}

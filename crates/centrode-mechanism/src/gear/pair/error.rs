@@ -1,0 +1,115 @@
+use crate::design::MechanismError;
+use crate::gear::design::SpecError;
+use crate::gear::pitch::PitchError;
+use crate::gear::profile::ProfileError;
+use crate::gear::rolling::{Member, RollingError};
+use crate::gear::teeth::TeethError;
+
+/// Reason why a design gives no gear pair.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum GearPairError {
+    /// A value breaks a rule of its own.
+    #[error(transparent)]
+    Spec(#[from] SpecError),
+    /// The pitch curve does not exist.
+    #[error(transparent)]
+    Pitch(#[from] PitchError),
+    /// The pitch curves do not roll on each other.
+    #[error(transparent)]
+    Rolling(#[from] RollingError),
+    /// No teeth can be laid out.
+    #[error(transparent)]
+    Teeth(#[from] TeethError),
+    /// The teeth leave no contour.
+    #[error(transparent)]
+    Profile(#[from] ProfileError),
+    /// Neither the pair nor the curve says how many teeth the driver has.
+    #[error(
+        "tooth_count is missing: give it to the pair, or module and tooth_count to the pitch curve"
+    )]
+    NoToothCount,
+    /// The driven gear has no whole number of teeth, or too few.
+    #[error("{driver} driver teeth at mean ratio {}:{} give the driven gear {driver} x {}/{} teeth; that must be a whole number of at least 3", ratio.0, ratio.1, ratio.0, ratio.1)]
+    DrivenTeeth {
+        /// Teeth of the driver.
+        driver: u32,
+        /// Turns of driver : turns of driven.
+        ratio: (u32, u32),
+    },
+    /// The pitch curve's law and the written mean ratio disagree.
+    #[error("mean_ratio is {}:{} but the pitch curve's law makes it {}:{}", written.0, written.1, implied.0, implied.1)]
+    MeanRatio {
+        /// Ratio as written.
+        written: (u32, u32),
+        /// Ratio of the law.
+        implied: (u32, u32),
+    },
+    /// The pitch curve has a corner, where there can be no tooth.
+    #[error(
+        "the pitch curve has a corner of {turn} rad at a polar angle of {angle} rad; a toothed curve must be smooth"
+    )]
+    Corner {
+        /// Change of direction, rad.
+        turn: f64,
+        /// Polar angle, rad.
+        angle: f64,
+    },
+    /// The wanted centre distance is not the one at which the curves roll.
+    #[error(
+        "center_distance is {wanted} mm, but this pitch curve rolls on a closed conjugate only at {needed} mm"
+    )]
+    CenterDistance {
+        /// Distance as written, mm.
+        wanted: f64,
+        /// Distance that closes the driven curve, mm.
+        needed: f64,
+    },
+    /// The bore, with its keyway, cuts into the teeth.
+    #[error("the {}'s bore reaches {reach} mm from the axis, but its teeth leave only {root} mm", .member.name())]
+    Bore {
+        /// Gear at fault.
+        member: Member,
+        /// Radius reached by bore and keyway, mm.
+        reach: f64,
+        /// Least radius of the outline, mm.
+        root: f64,
+    },
+}
+
+impl GearPairError {
+    /// Key of the design file at fault.
+    #[must_use]
+    pub fn key(&self) -> String {
+        match self {
+            Self::Spec(error) => error.key.clone(),
+            Self::Pitch(error) => format!("pitch.{}", error.key()),
+            Self::Rolling(RollingError::MeanRatio { .. } | RollingError::NotPeriodic { .. })
+            | Self::MeanRatio { .. } => "mean_ratio".into(),
+            Self::Rolling(_) | Self::Corner { .. } => "pitch".into(),
+            Self::Teeth(TeethError::TipRadius { .. }) => "tool.tip_radius_coefficient".into(),
+            // Without the play there would be a tooth.
+            Self::Teeth(TeethError::NoWidth { width, play, .. }) if width + play > 0.0 => {
+                "teeth.backlash".into()
+            }
+            Self::Teeth(TeethError::NoWidth { .. }) => "teeth.thickness_split".into(),
+            Self::Teeth(TeethError::NotCongruent { .. }) => "teeth.phase".into(),
+            Self::Profile(_) | Self::NoToothCount | Self::DrivenTeeth { .. } => {
+                "tooth_count".into()
+            }
+            Self::CenterDistance { .. } => "center_distance".into(),
+            Self::Bore { member, .. } => format!("{}.bore", member.name()),
+        }
+    }
+}
+
+impl From<GearPairError> for MechanismError {
+    fn from(error: GearPairError) -> Self {
+        let key = error.key();
+        match error {
+            GearPairError::Spec(error) => error.into(),
+            GearPairError::Pitch(error) => Self::new(key, error),
+            other => Self::new(key, other),
+        }
+    }
+}

@@ -1,0 +1,172 @@
+use centrode_geometry::{Outline, PolySegment, Segment, Tolerance};
+
+use super::GearPairError;
+use crate::bore;
+use crate::gear::design::BodySpec;
+use crate::gear::profile::{Profile, ProfileError, Role, Tooth};
+use crate::gear::rolling::{Member, Rolling};
+
+/// One gear of a pair, in its own frame: axes parallel to the world's at phi = 0.
+#[derive(Clone, Debug)]
+pub struct Gear {
+    member: Member,
+    tooth_count: u32,
+    pitch_length: f64,
+    outline: Outline,
+    roles: Vec<Role>,
+    owners: Vec<u32>,
+    pitch_curve: Outline,
+    teeth: Vec<Tooth>,
+    pub(super) body: BodySpec,
+}
+
+impl Gear {
+    pub(super) fn new(
+        rolling: &Rolling,
+        member: Member,
+        tooth_count: u32,
+        profile: Profile,
+        body: BodySpec,
+        tolerance: Tolerance,
+    ) -> Result<Self, GearPairError> {
+        let Profile {
+            outline,
+            roles,
+            owners,
+            teeth,
+        } = profile;
+        let gear = Self {
+            member,
+            tooth_count,
+            pitch_length: rolling.pitch_length(member),
+            outline,
+            roles,
+            owners,
+            pitch_curve: pitch_curve(rolling, member, tolerance)?,
+            teeth,
+            body,
+        };
+        gear.clears_bore()?;
+        Ok(gear)
+    }
+
+    pub(super) fn clears_bore(&self) -> Result<(), GearPairError> {
+        let reach = bore::reach(&self.body);
+        let (root, _) = self.radii();
+        if reach >= root {
+            return Err(GearPairError::Bore {
+                member: self.member,
+                reach,
+                root,
+            });
+        }
+        Ok(())
+    }
+
+    /// Driver or driven.
+    #[must_use]
+    pub fn member(&self) -> Member {
+        self.member
+    }
+
+    /// Number of teeth.
+    #[must_use]
+    pub fn tooth_count(&self) -> u32 {
+        self.tooth_count
+    }
+
+    /// Length of the pitch curve, mm.
+    #[must_use]
+    pub fn pitch_length(&self) -> f64 {
+        self.pitch_length
+    }
+
+    /// The toothed contour, counter-clockwise.
+    #[must_use]
+    pub fn outline(&self) -> &Outline {
+        &self.outline
+    }
+
+    /// Role of each segment of the outline.
+    #[must_use]
+    pub fn roles(&self) -> &[Role] {
+        &self.roles
+    }
+
+    /// Tooth that each segment of the outline belongs to; a space belongs to the tooth before it.
+    #[must_use]
+    pub fn owners(&self) -> &[u32] {
+        &self.owners
+    }
+
+    /// The pitch curve, counter-clockwise.
+    #[must_use]
+    pub fn pitch_curve(&self) -> &Outline {
+        &self.pitch_curve
+    }
+
+    /// The teeth in the order they mesh.
+    #[must_use]
+    pub fn teeth(&self) -> &[Tooth] {
+        &self.teeth
+    }
+
+    /// Width, bore and material.
+    #[must_use]
+    pub fn body(&self) -> &BodySpec {
+        &self.body
+    }
+
+    /// Least and greatest distance of the outline from the axis, mm.
+    #[must_use]
+    pub fn radii(&self) -> (f64, f64) {
+        let (mut least, mut greatest) = (f64::INFINITY, 0.0_f64);
+        for segment in self.outline.segments() {
+            for i in 0..=8 {
+                let r = segment.at(-1.0 + 0.25 * f64::from(i)).point.coords.norm();
+                least = least.min(r);
+                greatest = greatest.max(r);
+            }
+        }
+        (least, greatest)
+    }
+
+    /// The bore with its keyway, counter-clockwise; `None` for a gear without one.
+    #[must_use]
+    pub fn bore(&self) -> Option<Outline> {
+        bore::outline(&self.body)
+    }
+}
+
+fn pitch_curve(
+    rolling: &Rolling,
+    member: Member,
+    tolerance: Tolerance,
+) -> Result<Outline, GearPairError> {
+    let (from, to) = (
+        rolling.parameter(0.0),
+        rolling.parameter(rolling.pitch_length(member)),
+    );
+    let mut ends = vec![from];
+    ends.extend(rolling.breaks_between(from, to));
+    ends.push(to);
+    let mut polys: Vec<PolySegment> = Vec::new();
+    for pair in ends.windows(2) {
+        polys.extend(PolySegment::fit(
+            |t| rolling.frame(member, t).point,
+            pair[0],
+            pair[1],
+            tolerance,
+        ));
+    }
+    for i in 0..polys.len() {
+        let end = polys[i].end();
+        let next = (i + 1) % polys.len();
+        polys[next] = polys[next].pinned(end, polys[next].end());
+    }
+    let mut segments: Vec<Segment> = polys.into_iter().map(Segment::Poly).collect();
+    if member == Member::Driven {
+        segments = segments.iter().rev().map(Segment::reversed).collect();
+    }
+    Ok(Outline::new(segments).map_err(ProfileError::from)?)
+}

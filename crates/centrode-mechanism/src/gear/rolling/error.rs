@@ -1,0 +1,41 @@
+use super::Rolling;
+
+/// Reason why two pitch curves cannot roll on each other.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum RollingError {
+    /// The pitch curve does not wind once around the shaft.
+    #[error(
+        "the pitch curve turns by {turned} rad about the shaft in one round; it must turn by 2 pi, always forward"
+    )]
+    NotAroundAxis {
+        /// Polar angle swept in one round, rad.
+        turned: f64,
+    },
+    /// The mean ratio has no closed driven curve.
+    #[error("mean ratio {}:{} needs a driver that repeats {} times a turn, but its radius differs by {difference:e} mm between repeats", ratio.0, ratio.1, ratio.1)]
+    NotPeriodic {
+        /// Turns of driver : turns of driven.
+        ratio: (u32, u32),
+        /// Greatest difference found, mm.
+        difference: f64,
+    },
+    /// A mean ratio with a zero or absurd number in it.
+    #[error("mean ratio {}:{} must be two counts from 1 to {}", ratio.0, ratio.1, Rolling::GREATEST_TURNS)]
+    MeanRatio {
+        /// Turns of driver : turns of driven.
+        ratio: (u32, u32),
+    },
+    /// No centre distance closes the driven curve.
+    #[error(
+        "no centre distance closes the driven curve: at {center_distance} mm one driver turn gives {turned} rad of {wanted}"
+    )]
+    NoClosure {
+        /// The last centre distance tried, mm.
+        center_distance: f64,
+        /// Driven angle of one driver turn, rad.
+        turned: f64,
+        /// Angle it should be, rad.
+        wanted: f64,
+    },
+}

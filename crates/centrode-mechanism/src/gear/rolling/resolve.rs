@@ -1,0 +1,251 @@
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
+use centrode_geometry::{Antiderivative, Curve, Point, bracketed_root};
+
+use super::{Extreme, Rolling, RollingError, SAME};
+
+impl Rolling {
+    /// Finds the centre distance at which `curve` drives a closed conjugate curve at `mean_ratio`
+    /// (turns of driver : turns of driven).
+    ///
+    /// # Errors
+    /// [`RollingError`] when no such curve exists.
+    pub fn of(curve: Arc<dyn Curve>, mean_ratio: (u32, u32)) -> Result<Self, RollingError> {
+        let ratio = reduced(mean_ratio)?;
+        let period = curve.period();
+        let (start, half) = axis_crossings(&*curve, period)?;
+        let breaks = curve.breaks();
+        // A curve drawn from angle zero on has a break there: rounding must not part the two, nor the break
+        // from itself a turn on.
+        let on = breaks.iter().find(|&&b| (b - start).abs() <= SAME * period);
+        let start = on.copied().unwrap_or(start);
+        let mut jumps: Vec<f64> = breaks
+            .into_iter()
+            .map(|b| if b < start { b + period } else { b })
+            .collect();
+        jumps.sort_by(f64::total_cmp);
+        let mut breaks = vec![start];
+        breaks.extend(jumps.iter().copied().filter(|&b| b > start));
+        breaks.push(start + period);
+
+        let arc = Antiderivative::of(|t| curve.at(t).first.norm(), &breaks);
+        let nodes: Vec<(f64, f64)> = arc
+            .nodes()
+            .map(|(t, weight)| {
+                let jet = curve.at(t);
+                (
+                    jet.point.coords.norm(),
+                    weight * jet.point.coords.perp(&jet.first),
+                )
+            })
+            .collect();
+        let (least, greatest) = extremes(&*curve, &arc);
+        let wanted = TAU * f64::from(ratio.1) / f64::from(ratio.0);
+        let mut a = closure(&nodes, greatest.radius, wanted);
+        let mut driven = driven_angle(&*curve, &breaks, a);
+        for _ in 0..4 {
+            let missing = driven.total() - wanted;
+            if missing.abs() <= 1e-15 * wanted {
+                break;
+            }
+            let slope: f64 = nodes
+                .iter()
+                .map(|&(r, w)| -w / (r * (a - r) * (a - r)))
+                .sum();
+            let better = a - missing / slope;
+            if better <= greatest.radius || better == a {
+                break;
+            }
+            let retry = driven_angle(&*curve, &breaks, better);
+            if (retry.total() - wanted).abs() >= missing.abs() {
+                break;
+            }
+            (a, driven) = (better, retry);
+        }
+        if (driven.total() - wanted).abs().is_nan()
+            || (driven.total() - wanted).abs() > 1e-12 * wanted
+        {
+            return Err(RollingError::NoClosure {
+                center_distance: a,
+                turned: driven.total(),
+                wanted,
+            });
+        }
+        let rolling = Self {
+            curve,
+            start,
+            half,
+            jumps,
+            arc,
+            driven,
+            center_distance: a,
+            mean_ratio: ratio,
+            least,
+            greatest,
+        };
+        rolling.check_repeats()?;
+        Ok(rolling)
+    }
+
+    /// Checks that a driver repeats n2 times a turn, without which the driven curve would not close after its own turn.
+    fn check_repeats(&self) -> Result<(), RollingError> {
+        let repeats = self.mean_ratio.1;
+        if repeats == 1 {
+            return Ok(());
+        }
+        let mut difference = 0.0_f64;
+        for i in 0..256 {
+            let phi = TAU * f64::from(i) / 256.0;
+            let r = self.radius(phi);
+            let again = self.radius(phi + TAU / f64::from(repeats));
+            difference = difference.max((again - r).abs());
+        }
+        if difference > 1e-9 * self.greatest.radius {
+            return Err(RollingError::NotPeriodic {
+                ratio: self.mean_ratio,
+                difference,
+            });
+        }
+        Ok(())
+    }
+}
+
+fn reduced(ratio: (u32, u32)) -> Result<(u32, u32), RollingError> {
+    let (mut a, mut b) = ratio;
+    while b != 0 {
+        (a, b) = (b, a % b);
+    }
+    let fair = |n: u32| (1..=Rolling::GREATEST_TURNS).contains(&n);
+    if a == 0 || !fair(ratio.0 / a) || !fair(ratio.1 / a) {
+        return Err(RollingError::MeanRatio { ratio });
+    }
+    Ok((ratio.0 / a, ratio.1 / a))
+}
+
+/// Parameters at polar angle 0 and pi.
+fn axis_crossings(curve: &dyn Curve, period: f64) -> Result<(f64, f64), RollingError> {
+    const SAMPLES: usize = 128;
+    let t = |i: usize| period * i as f64 / SAMPLES as f64;
+    let mut points: Vec<Point> = (0..SAMPLES).map(|i| curve.at(t(i)).point).collect();
+    // The end of the turn is its start, to the last digit.
+    points.push(points[0]);
+    let mut turned = 0.0;
+    let (mut start, mut half) = (None, None);
+    for i in 0..SAMPLES {
+        let (p, q) = (points[i], points[i + 1]);
+        turned += p.coords.perp(&q.coords).atan2(p.coords.dot(&q.coords));
+        let crossing = || bracketed_root(|t| curve.at(t).point.y, t(i), t(i + 1), p.y, q.y);
+        if p.y < 0.0 && q.y >= 0.0 {
+            start = Some(crossing());
+        }
+        if p.y >= 0.0 && q.y < 0.0 {
+            half = Some(crossing());
+        }
+    }
+    match (start, half) {
+        (Some(start), Some(half)) if (turned - TAU).abs() < 1e-6 => {
+            // A start at the very end of the turn is one at its start.
+            let start = if period - start <= SAME * period {
+                0.0
+            } else {
+                start
+            };
+            let half = if half < start { half + period } else { half };
+            Ok((start, half))
+        }
+        _ => Err(RollingError::NotAroundAxis { turned }),
+    }
+}
+
+/// Least and greatest radius, sharpened from the samples of the arc-length panels.
+fn extremes(curve: &dyn Curve, arc: &Antiderivative) -> (Extreme, Extreme) {
+    let slope = |t: f64| {
+        let jet = curve.at(t);
+        jet.point.coords.dot(&jet.first)
+    };
+    let mut samples: Vec<f64> = arc.nodes().map(|(t, _)| t).collect();
+    samples.sort_by(f64::total_cmp);
+    let mut least = Extreme {
+        at: 0.0,
+        radius: f64::INFINITY,
+    };
+    let mut greatest = Extreme {
+        at: 0.0,
+        radius: 0.0,
+    };
+    let mut take = |at: f64| {
+        let radius = curve.at(at).point.coords.norm();
+        if radius < least.radius {
+            least = Extreme { at, radius };
+        }
+        if radius > greatest.radius {
+            greatest = Extreme { at, radius };
+        }
+    };
+    let count = samples.len();
+    for i in 0..count {
+        let a = samples[i];
+        let b = if i + 1 < count {
+            samples[i + 1]
+        } else {
+            samples[0] + curve.period()
+        };
+        let (fa, fb) = (slope(a), slope(b));
+        if (fa > 0.0) != (fb > 0.0) {
+            take(bracketed_root(slope, a, b, fa, fb));
+        }
+        take(a);
+    }
+    (least, greatest)
+}
+
+/// Newton's method kept above the greatest radius, where the driven angle falls from infinity to zero.
+fn closure(nodes: &[(f64, f64)], greatest: f64, wanted: f64) -> f64 {
+    let turned = |a: f64| -> (f64, f64) {
+        let (mut sum, mut slope) = (0.0, 0.0);
+        for &(r, w) in nodes {
+            let part = w / (r * (a - r));
+            sum += part;
+            slope -= part / (a - r);
+        }
+        (sum, slope)
+    };
+    let mut low = greatest;
+    let mut high = f64::INFINITY;
+    // A circle of the greatest radius would need this distance; the answer is below it.
+    let mut a = greatest * (1.0 + TAU / wanted);
+    for _ in 0..100 {
+        let (sum, slope) = turned(a);
+        if sum > wanted {
+            low = low.max(a);
+        } else {
+            high = high.min(a);
+        }
+        let mut next = a - (sum - wanted) / slope;
+        if !(next > low && next < high) {
+            next = if high.is_finite() {
+                0.5 * (low + high)
+            } else {
+                2.0 * a
+            };
+        }
+        let done = (next - a).abs() <= 2.0 * f64::EPSILON * a;
+        a = next;
+        if done {
+            break;
+        }
+    }
+    a
+}
+
+fn driven_angle(curve: &dyn Curve, breaks: &[f64], a: f64) -> Antiderivative {
+    Antiderivative::of(
+        |t| {
+            let jet = curve.at(t);
+            let r = jet.point.coords.norm();
+            jet.point.coords.perp(&jet.first) / (r * (a - r))
+        },
+        breaks,
+    )
+}

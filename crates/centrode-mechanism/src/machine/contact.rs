@@ -1,0 +1,101 @@
+//! Connections of links beside the tree of joints.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// A pin through two links beside the tree of joints.
+#[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Closure {
+    /// Indices of the two links.
+    pub links: [usize; 2],
+    /// Place of the pin in the frame of the first, mm.
+    pub at: [f64; 3],
+    /// Indices of the two joints of the loop that the pin moves: nothing else drives them.
+    pub joints: [usize; 2],
+}
+
+/// Two links that touch by their teeth.
+///
+/// The frame of each stands on the axis of its gear.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct GearMesh {
+    /// Indices of the driving and the driven link.
+    pub links: [usize; 2],
+    /// Index of the joint that the teeth move.
+    pub joint: usize,
+    /// Number of the copy of a chain it belongs to.
+    pub copy: usize,
+    /// Angle of a flank's normal through the pitch point against the pitch curves, rad; none where flanks have no common one.
+    pub pressure_angle: Option<f64>,
+}
+
+/// A roller or pin of one link on a curve of another: cam and follower, pin and slot.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Contact {
+    /// Indices of the link with the curve and of the link with the roller.
+    pub links: [usize; 2],
+    /// Index of the joint that the contact moves.
+    pub joint: usize,
+    /// Axis of the roller in the frame of the second link, mm.
+    pub at: [f64; 3],
+    /// Direction of the force in the frame of the first link, for a straight slot; none for a curve: square to the way of
+    /// the roller along it.
+    pub normal: Option<[f64; 3]>,
+}
+
+/// A groove of a turning link that moves a joint led by that link's.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Guide {
+    /// Index of the joint that it moves.
+    pub joint: usize,
+    /// Distance of the groove from the axis of the leading joint, mm.
+    pub radius: f64,
+    /// Coefficient of friction in the groove.
+    pub friction: f64,
+}
+
+/// Forces of a groove on what it moves.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GuideForce {
+    /// Push along the way, N; negative where the groove holds back.
+    pub push: f64,
+    /// Normal force of the wall, N, never negative.
+    pub normal: f64,
+    /// Force round the axis, N: positive where it resists the turning link.
+    pub transverse: f64,
+    /// Torque on the turning link, N mm: positive where it drives.
+    pub torque: f64,
+    /// Whether the wall behind pushes; else the one in front holds back.
+    pub driving: bool,
+}
+
+impl GuideForce {
+    /// Forces of a groove of some lead angle (rad) and radius (mm) that gives a push (N) along the way, by equilibrium of the
+    /// wall's normal force and its friction.
+    ///
+    /// With the lead angle `a`, the angle of friction `f` and the push `P`: `F_n = P cos f / cos(a + f)`, across the way
+    /// `P tan(a + f)`. Where `P` is negative the other wall holds back, and the sum becomes a difference. It holds below the
+    /// angle of jamming, `a + f` less than a right angle.
+    #[must_use]
+    pub fn new(push: f64, lead_angle: f64, radius: f64, friction: f64) -> Self {
+        let (lead, friction) = (lead_angle.abs(), friction.atan());
+        let driving = push >= 0.0;
+        let angle = if driving {
+            lead + friction
+        } else {
+            lead - friction
+        };
+        let transverse = push * angle.tan();
+        Self {
+            push,
+            normal: push.abs() * friction.cos() / angle.cos(),
+            transverse,
+            torque: transverse * radius,
+            driving,
+        }
+    }
+}

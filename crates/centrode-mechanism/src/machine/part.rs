@@ -1,0 +1,63 @@
+use centrode_geometry::MassProperties;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::{Machine, Place};
+
+/// Part that a shop makes or buys: a line of the parts list.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Part {
+    /// Name.
+    pub name: String,
+    /// Indices of the links that the pieces belong to: one for each piece, so as many as a machine has.
+    pub links: Vec<usize>,
+    /// Material; empty where the design says nothing of it.
+    pub material: String,
+    /// Mass of one piece, kg; none where it is not known.
+    pub mass: Option<f64>,
+    /// Name that its drawings, sheets and solids begin with; empty for a part without files.
+    pub file: String,
+    /// Remark.
+    pub remark: String,
+    /// Place on a piece to which its number points in the general arrangement; none where it is not seen.
+    pub place: Option<Place>,
+}
+
+impl Part {
+    /// Number of pieces in a machine.
+    #[must_use]
+    pub fn quantity(&self) -> usize {
+        self.links.len()
+    }
+}
+
+impl Machine {
+    /// Adds a part with its pieces.
+    pub fn part(&mut self, part: Part) -> usize {
+        self.parts.push(part);
+        self.parts.len() - 1
+    }
+
+    /// Mass of the pieces that belong to a link, kg, of those whose mass is known.
+    #[must_use]
+    pub fn mass_of_pieces(&self, link: usize) -> f64 {
+        let pieces = |part: &Part| part.links.iter().filter(|own| **own == link).count();
+        let mass = |part: &Part| part.mass.unwrap_or_default() * pieces(part) as f64;
+        self.parts.iter().map(mass).sum()
+    }
+
+    /// Mass, center of mass and inertia at an input, in the first link's frame: of all links that a part belongs to, since
+    /// scenery is not the machine's. None where no such link has a mass.
+    #[must_use]
+    pub fn mass_properties(&self, input: f64) -> Option<MassProperties> {
+        let own = |link: &usize| self.parts.iter().any(|part| part.links.contains(link));
+        let wanted = vec![true; self.links.len()];
+        let places = self.places(input, &wanted);
+        let placed = (0..self.links.len()).filter(own).filter_map(|link| {
+            let place = places[link].as_ref()?;
+            Some(self.links[link].mass?.placed(place))
+        });
+        MassProperties::together(&placed.collect::<Vec<_>>())
+    }
+}

@@ -1,0 +1,12 @@
+use crate::shaft::Wall;
+
+/// A wall of one turn of the groove, at one level below the surface: a height over the angle round the
+/// shaft, for the groove is a graph over it.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+pub(in crate::shaft::solid) struct Edge {
+    /// Turn of the cycle.
+    pub(in crate::shaft::solid) turn: usize,
+    pub(in crate::shaft::solid) wall: Wall,
+    /// Index into the levels of the plan.
+    pub(in crate::shaft::solid) level: usize,
+}

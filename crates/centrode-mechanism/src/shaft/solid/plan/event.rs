@@ -1,0 +1,26 @@
+use std::f64::consts::TAU;
+
+/// An angle round the shaft that gets a line.
+#[derive(Debug)]
+pub(super) struct Event {
+    pub(super) phi: f64,
+    /// Edges that meet there.
+    pub(super) pairs: Vec<[usize; 2]>,
+    /// Heights of all edges there, if already computed.
+    pub(super) heights: Option<Vec<f64>>,
+}
+
+impl Event {
+    pub(super) fn at(phi: f64) -> Self {
+        Self {
+            phi,
+            pairs: Vec::new(),
+            heights: None,
+        }
+    }
+}
+
+/// Even lines round the shaft.
+pub(super) fn even(count: u32) -> impl Iterator<Item = Event> {
+    (0..count).map(move |i| Event::at(TAU * f64::from(i) / f64::from(count)))
+}
