@@ -12,6 +12,7 @@ use pyo3::prelude::{
 use pyo3::types::PyType;
 
 use crate::array::{Course, Values};
+use crate::composed::Machine;
 use crate::error::{Answer, Raised};
 use crate::feeder::Feeder;
 use crate::gear_pair::GearPair;
@@ -90,12 +91,13 @@ impl Kind {
 }
 
 /// The classes of all families.
-const CLASSES: [Kind; 5] = [
+const CLASSES: [Kind; 6] = [
     Kind::of::<GearPair>(),
     Kind::of::<ThreeArm>(),
     Kind::of::<SpiralShaft>(),
     Kind::of::<MovingBox>(),
     Kind::of::<Feeder>(),
+    Kind::of::<Machine>(),
 ];
 
 /// The object of a machine: one of the class of its family.

@@ -52,11 +52,13 @@ def objects():
     cam = ct.DiscCam(followers[0], out, base_radius=40, rotation="clockwise", start=0.3, body=ct.Body(bore=8), name="a")
     arms = ct.ThreeArm.from_toml(ct.template("three-arm"))
     feeder = ct.Feeder.from_toml(ct.template("feeder"))
+    leg = ct.Machine.from_toml(ct.template("machine"))
     shaft = ct.SpiralShaft(lead=20, holes=14, radius=15, amplitude=1.28, harmonic=1)
     rhombus = ct.SixBar(crank=77, coupler=147, rocker=127, frame=105, pivot=(100, 67), effector_length=200)
     report = arms.check()
     over = pair.driver.over_pins()
     made = [
+        leg,
         pair,
         pair.pitch,
         pair.driver,

@@ -60,7 +60,7 @@ fn outcome(name: &str) -> Value {
     let mut outcome = json!({"values": figures["values"], "findings": findings, "files": written(mechanism.as_ref())});
     for (i, goal) in report.goals.iter().enumerate() {
         let value = &figures["goals"][i]["value"];
-        outcome["goals"][goal.name] = json!({"value": value, "met": goal.met()});
+        outcome["goals"][&*goal.name] = json!({"value": value, "met": goal.met()});
     }
     for (i, table) in report.tables.iter().enumerate() {
         outcome["tables"][table.name] = figures["tables"][i]["rows"].clone();

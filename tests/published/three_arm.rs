@@ -87,7 +87,7 @@ fn the_shipped_reading_meets_what_the_paper_says_of_its_motion() {
     let arms = ThreeArm::resolve(&published()).expect("a mechanism");
     let report = check_three_arm(&arms);
     for goal in &report.goals {
-        let expected = match goal.name {
+        let expected = match &*goal.name {
             // The paper does not say how its gears bear a module above 2.5 mm; full teeth they cannot have.
             "sound-teeth" => Some(false),
             _ => Some(true),

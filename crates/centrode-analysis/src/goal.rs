@@ -1,3 +1,5 @@
+use std::borrow::Cow;
+
 use serde::Serialize;
 
 use crate::{Unit, figure};
@@ -11,9 +13,9 @@ pub struct Goal {
     /// Number in its list, from one; several figures may share one goal.
     pub number: u32,
     /// Short stable name, such as `pick-angle`.
-    pub name: &'static str,
+    pub name: Cow<'static, str>,
     /// The goal in a few words.
-    pub title: &'static str,
+    pub title: Cow<'static, str>,
     /// Figure, in `unit`; none where it was not checked.
     #[serde(serialize_with = "figure::option")]
     pub value: Option<f64>,
@@ -35,7 +37,11 @@ impl Goal {
     /// Makes a goal with its figure. `scale` is a positive size, in `unit`: a miss by it is half way.
     #[must_use]
     pub fn new(
-        (number, name, title): (u32, &'static str, &'static str),
+        (number, name, title): (
+            u32,
+            impl Into<Cow<'static, str>>,
+            impl Into<Cow<'static, str>>,
+        ),
         value: Option<f64>,
         wanted: [Option<f64>; 2],
         unit: Unit,
@@ -43,8 +49,8 @@ impl Goal {
     ) -> Self {
         let goal = Self {
             number,
-            name,
-            title,
+            name: name.into(),
+            title: title.into(),
             value: None,
             wanted,
             unit,

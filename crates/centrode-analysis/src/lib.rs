@@ -1,5 +1,6 @@
 //! Checks and searches of a mechanism: contact, clearance, undercut, goals.
 
+mod composed;
 mod contact;
 mod feeder;
 mod figure;
@@ -15,6 +16,7 @@ mod shaft;
 mod three_arm;
 mod unit;
 
+pub use composed::check_composed;
 pub use contact::Contact;
 pub use feeder::{
     Attainable, FeederForces, FeederForcesError, SixBarTolerances, SwingSpread, check_feeder,

@@ -1,3 +1,4 @@
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 use serde::Serialize;
@@ -145,7 +146,11 @@ impl Report {
             } = goal;
             let [value_told, margin_told] = [value, -margin].map(|figure| unit.tell(figure));
             Some(Finding {
-                rule: goal.name,
+                // A goal that a design names has no rule of its own.
+                rule: match &goal.name {
+                    Cow::Borrowed(name) => name,
+                    Cow::Owned(_) => "goal",
+                },
                 severity: Severity::Error,
                 message: format!(
                     "goal {number}, {title}: {value_told}, missed by {margin_told}{words}"

@@ -1,3 +1,5 @@
+use std::borrow::Cow;
+
 use centrode_geometry::Cancel;
 use centrode_mechanism::design::{Design, DesignError};
 use rayon::prelude::{IntoParallelIterator, ParallelIterator};
@@ -21,7 +23,7 @@ pub struct Response {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Answer {
     /// Name of the goal or figure.
-    pub name: &'static str,
+    pub name: Cow<'static, str>,
     /// Unit of the figures.
     pub unit: Unit,
     /// The figure at each value; none where there is none.
@@ -59,7 +61,7 @@ impl Response {
     #[must_use]
     pub fn answers(&self) -> Vec<Answer> {
         let mut found: Vec<Answer> = Vec::new();
-        let add = |found: &mut Vec<Answer>, name, unit, at: usize, figure| {
+        let add = |found: &mut Vec<Answer>, name: Cow<'static, str>, unit, at: usize, figure| {
             let place = found.iter().position(|answer| answer.name == name);
             let place = place.unwrap_or_else(|| {
                 let figures = vec![None; self.values.len()];
@@ -74,7 +76,7 @@ impl Response {
         };
         for (at, report) in self.reports.iter().enumerate() {
             for goal in report.iter().flat_map(|report| &report.goals) {
-                add(&mut found, goal.name, goal.unit, at, goal.value);
+                add(&mut found, goal.name.clone(), goal.unit, at, goal.value);
             }
         }
         for (at, report) in self.reports.iter().enumerate() {
@@ -86,7 +88,7 @@ impl Response {
                     .any(|a| a.name == *name && a.figures[at].is_some())
                 {
                     let unit = report.unit(name).unwrap_or(Unit::Number);
-                    add(&mut found, name, unit, at, Some(*value));
+                    add(&mut found, Cow::Borrowed(*name), unit, at, Some(*value));
                 }
             }
         }

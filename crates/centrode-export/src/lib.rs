@@ -4,6 +4,7 @@
 
 mod bundle;
 pub mod cam;
+pub mod composed;
 pub mod csv;
 pub mod drawing;
 pub mod dxf;

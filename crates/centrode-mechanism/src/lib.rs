@@ -3,6 +3,7 @@
 pub mod arm;
 mod bore;
 pub mod cam;
+pub mod composed;
 mod degrees;
 pub mod design;
 pub mod feeder;

@@ -74,7 +74,7 @@ fn asked<'a>(
     }
     let one = |name: &String| {
         answers.iter().find(|a| a.name == *name).ok_or_else(|| {
-            let known: Vec<&str> = answers.iter().map(|a| a.name).collect();
+            let known: Vec<&str> = answers.iter().map(|a| &*a.name).collect();
             Failure::Usage(format!(
                 "no figure {name:?}; there are {}",
                 known.join(", ")

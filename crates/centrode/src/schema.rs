@@ -2,17 +2,25 @@ use std::io::Write;
 use std::process::ExitCode;
 
 use centrode::FAMILIES;
+use centrode::mechanism::composed::FIGURE_FORMS;
 
 use crate::args::Schema;
 use crate::failure::Failure;
 
-/// Files beside the design file that have a schema.
-pub(crate) const FILES: [&str; 2] = ["machine-model", "motion"];
+/// Words beside the families that have a schema: the figures of a composed machine, and files that are exported.
+pub(crate) const FILES: [&str; 3] = ["figures", "machine-model", "motion"];
+
+/// Grammar of the figures of a composed machine: form, meaning, unit.
+fn figures() -> serde_json::Value {
+    let form = |[form, meaning, unit]: [&str; 3]| serde_json::json!({ "form": form, "meaning": meaning, "unit": unit });
+    FIGURE_FORMS.map(form).into_iter().collect()
+}
 
 /// Prints the JSON schema of the design file, or of a file that is exported.
 pub(crate) fn run(command: &Schema, out: &mut impl Write) -> Result<ExitCode, Failure> {
     let schema = match command.family.as_deref() {
         None => FAMILIES.json_schema(),
+        Some("figures") => figures(),
         Some("machine-model") => centrode::export::machine::schema(),
         Some("motion") => centrode::export::machine::motion_schema(),
         Some(word) => match FAMILIES.named(word) {

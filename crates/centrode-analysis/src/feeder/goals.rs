@@ -105,8 +105,8 @@ pub(super) fn unmet(feeder: &Feeder, report: &mut Report) {
         _ => String::new(),
     };
     report.blame_goals(|goal| Missed {
-        remedy: remedy(goal.name),
-        words: match goal.name {
+        remedy: remedy(&goal.name),
+        words: match &*goal.name {
             "transmission-angle" => attainable.clone(),
             _ => String::new(),
         },

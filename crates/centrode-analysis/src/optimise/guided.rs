@@ -333,7 +333,7 @@ impl GuidedSearch {
             .collect();
         let what = &seen.goals[goal];
         self.log.push(GuidedStep {
-            goal: (what.number, what.title.to_owned()),
+            goal: (what.number, what.title.clone().into_owned()),
             moves,
             miss: [seen.misses[goal], candidate.seen.misses[goal]],
             others: seen.change(&candidate.seen, goal).1,

@@ -6,6 +6,7 @@
 //! number of cores, and a stored search continues as if it had never stopped.
 
 mod cma_es;
+pub mod composed;
 mod design;
 mod design_search;
 mod differential_evolution;

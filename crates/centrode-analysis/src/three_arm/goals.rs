@@ -78,7 +78,7 @@ pub(super) fn all_goals(
 ) -> Vec<Goal> {
     let mut goals = goals(&mechanism.figures(), &mechanism.design().goals);
     for goal in &mut goals {
-        let value = match goal.name {
+        let value = match &*goal.name {
             "arm-clearance" => match arms.and_then(|found| found.arms) {
                 Some(found) => found.least,
                 None => continue,

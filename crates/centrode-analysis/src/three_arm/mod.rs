@@ -239,7 +239,7 @@ fn numeral(arm: u32) -> &'static str {
 /// Reports every goal that is not reached, and working points that no rule of the design has fixed.
 fn unmet(mechanism: &ThreeArm, arms: Option<&ArmClearance>, report: &mut Report) {
     let path = mechanism.trajectory();
-    let input = |goal: &Goal| match goal.name {
+    let input = |goal: &Goal| match &*goal.name {
         "arm-clearance" => arms.and_then(|found| Some(found.arms?.input)),
         "pick-angle" => Some(path.picking),
         "push-angle" => Some(path.planting),
@@ -292,7 +292,7 @@ fn unmet(mechanism: &ThreeArm, arms: Option<&ArmClearance>, report: &mut Report)
 
 /// Reports every goal that could not be checked: none passes unchecked.
 fn unchecked(mechanism: &ThreeArm, report: &mut Report) {
-    let reason = |goal: &Goal| match goal.name {
+    let reason = |goal: &Goal| match &*goal.name {
         "arm-clearance" if mechanism.arms() == 1 => (Severity::Note, "there is no other arm"),
         "arm-clearance" => (Severity::Error, "there is no arm to hold against another"),
         _ if mechanism.design().gear_tooth_count().is_none() => {

@@ -113,6 +113,16 @@ impl NumberedDesign {
         }
     }
 
+    /// Number as it is written, in the file's unit.
+    #[must_use]
+    pub fn value(&self) -> Option<f64> {
+        let mut copy = self.clone();
+        let value = copy.place()?;
+        value
+            .as_float()
+            .or(value.as_integer().map(|whole| whole as f64))
+    }
+
     /// Sets the number, in the file's unit; a count is rounded.
     ///
     /// # Errors

@@ -1,10 +1,14 @@
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
 use centrode_geometry::{Point, Vector};
 
 use super::dyad::Branch;
 use super::error::LinkageError;
 use super::parts::{Joint, Line, Link, SliderDyad, TwoBars};
+use crate::transmission::Transmission;
 
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(super) enum Step {
     /// A point of a link.
     Point {
@@ -16,23 +20,40 @@ pub(super) enum Step {
         pivot: usize,
         phase: f64,
     },
+    /// A link that turns on a joint's link by a law.
+    Turning {
+        pivot: usize,
+        law: Arc<dyn Transmission>,
+    },
+    /// A link that slides along a line by a law.
+    Sliding {
+        line: Line,
+        law: Arc<dyn Transmission>,
+    },
+    /// A link fixed to another one.
+    Fixed {
+        line: Line,
+    },
     Rrr {
         p: usize,
         q: usize,
         lengths: (f64, f64),
         branch: Branch,
+        joint: usize,
     },
     Rrp {
         p: usize,
         length: f64,
         line: Line,
         branch: Branch,
+        joint: usize,
     },
     Rpr {
         p: usize,
         q: usize,
         offset: f64,
         branch: Branch,
+        link: usize,
     },
     Prp {
         lines: (Line, Line),
@@ -44,7 +65,7 @@ pub(super) enum Step {
     },
 }
 
-/// A planar linkage of one input: a frame, a crank and dyads in the order they close.
+/// A planar linkage of one input: a frame, a crank, links driven by laws and dyads in the order they close.
 ///
 /// ```
 /// use centrode_geometry::Point;
@@ -59,13 +80,23 @@ pub(super) enum Step {
 /// assert!(pose.joint(bars.joint).point.y > 0.0);
 /// # Ok::<(), centrode_mechanism::linkage::LinkageError>(())
 /// ```
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct Linkage {
     pub(super) steps: Vec<Step>,
     /// Link of each joint.
     pub(super) owners: Vec<usize>,
     pub(super) links: usize,
     crank: Option<Link>,
+    /// Input after which the linkage repeats, rad.
+    pub(super) period: f64,
+    /// Inputs in `[0, period)` where a derivative of a law may jump, ascending.
+    pub(super) breaks: Vec<f64>,
+}
+
+impl Default for Linkage {
+    fn default() -> Self {
+        Self::new()
+    }
 }
 
 fn finite(name: &'static str, value: f64) -> Result<(), LinkageError> {
@@ -88,13 +119,23 @@ impl Linkage {
     /// Makes a frame alone.
     #[must_use]
     pub fn new() -> Self {
+        Self::with_turns(1)
+    }
+
+    /// Makes a frame alone, of a linkage that repeats after so many turns of the input.
+    #[must_use]
+    pub fn with_turns(turns: u32) -> Self {
         Self {
+            steps: Vec::new(),
+            owners: Vec::new(),
             links: 1,
-            ..Self::default()
+            crank: None,
+            period: TAU * f64::from(turns.max(1)),
+            breaks: Vec::new(),
         }
     }
 
-    fn know_joint(&self, joint: Joint) -> Result<usize, LinkageError> {
+    pub(super) fn know_joint(&self, joint: Joint) -> Result<usize, LinkageError> {
         let count = self.owners.len();
         if joint.0 < count {
             return Ok(joint.0);
@@ -106,13 +147,13 @@ impl Linkage {
         })
     }
 
-    fn know_line(&self, line: &Line) -> Result<(), LinkageError> {
+    pub(super) fn know_line(&self, line: &Line) -> Result<(), LinkageError> {
         finite("a line's angle", line.angle)?;
         finite("a line's point", line.through.x + line.through.y)?;
         self.know_link(line.link)
     }
 
-    fn know_link(&self, link: Link) -> Result<(), LinkageError> {
+    pub(super) fn know_link(&self, link: Link) -> Result<(), LinkageError> {
         if link.0 < self.links {
             return Ok(());
         }
@@ -123,12 +164,12 @@ impl Linkage {
         })
     }
 
-    fn new_link(&mut self) -> Link {
+    pub(super) fn new_link(&mut self) -> Link {
         self.links += 1;
         Link(self.links - 1)
     }
 
-    fn new_joint(&mut self, owner: Link) -> Joint {
+    pub(super) fn new_joint(&mut self, owner: Link) -> Joint {
         self.owners.push(owner.0);
         Joint(self.owners.len() - 1)
     }
@@ -193,6 +234,7 @@ impl Linkage {
             q: at_q,
             lengths,
             branch,
+            joint: joint.0,
         });
         Ok(TwoBars {
             first,
@@ -222,6 +264,7 @@ impl Linkage {
             length,
             line,
             branch,
+            joint: joint.0,
         });
         Ok(SliderDyad { block, link, joint })
     }
@@ -248,6 +291,7 @@ impl Linkage {
             q: at_q,
             offset,
             branch,
+            link: link.0,
         });
         Ok(SliderDyad {
             block,

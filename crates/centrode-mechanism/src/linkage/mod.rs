@@ -7,7 +7,9 @@
 //! same closed forms, not from differences.
 
 mod assembly;
+mod closing;
 mod cycle;
+mod driven;
 mod dyad;
 mod error;
 mod four_bar;
@@ -25,7 +27,8 @@ mod slider_crank;
 mod tests;
 
 pub use assembly::Linkage;
-pub use cycle::LinkTransmission;
+pub use closing::NotClosing;
+pub use cycle::{Coordinate, LinkTransmission};
 pub use dyad::Branch;
 pub use error::LinkageError;
 pub use four_bar::{DeadCenters, FourBar, FourBarError, Grashof};

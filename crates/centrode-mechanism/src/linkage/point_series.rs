@@ -129,6 +129,12 @@ impl<const N: usize, T: Number> PointSeries<N, T> {
         self.times(v.x).plus(self.left().times(v.y))
     }
 
+    /// Vector turned by the angle of a unit vector: the product of complex numbers.
+    #[inline(always)]
+    pub(crate) fn times_unit(self, unit: Self) -> Self {
+        self.times(unit.x).plus(self.left().times(unit.y))
+    }
+
     /// The direction of this vector, principal value.
     #[inline(always)]
     pub(crate) fn angle(self) -> Taylor<N, T> {

@@ -6,6 +6,7 @@ use super::error::LinkageError;
 use super::parts::{Line, Link};
 use super::point_series::PointSeries;
 use super::pose::{Body, Pose};
+use crate::formula::Taylor;
 use crate::transmission::MotionJet;
 
 /// Joints and links while a pose is computed.
@@ -18,15 +19,40 @@ pub(super) struct Series<const N: usize> {
 }
 
 impl<const N: usize> Series<N> {
-    fn line(&self, line: &Line) -> (PointSeries<N>, PointSeries<N>) {
+    pub(super) fn line(&self, line: &Line) -> (PointSeries<N>, PointSeries<N>) {
         let (origin, axis) = self.frames[line.link.0];
         let (sin, cos) = line.angle.sin_cos();
         let through = origin.plus(axis.turned(line.through.coords));
         (through, axis.turned(Vector::new(cos, sin)))
     }
 
-    pub(super) fn axis(&self, link: Link) -> PointSeries<N> {
-        self.frames[link.0].1
+    /// Origin and first axis of a link.
+    pub(super) fn frame(&self, link: Link) -> (PointSeries<N>, PointSeries<N>) {
+        self.frames[link.0]
+    }
+
+    /// Sine of the angle at which a dyad holds: 0 where it is stretched or folded, 1 where it holds best.
+    pub(super) fn hold(&self, step: &Step) -> Option<f64> {
+        let unit = |v: PointSeries<N>| v.unit_now();
+        let sine = |a: PointSeries<N>, b: PointSeries<N>| unit(a).cross(unit(b)).0[0].abs();
+        let cosine = |a: PointSeries<N>, b: PointSeries<N>| unit(a).dot(unit(b)).0[0].abs();
+        Some(match step {
+            Step::Rrr { p, q, joint, .. } => {
+                let at = self.joints[*joint];
+                sine(at.minus(self.joints[*p]), at.minus(self.joints[*q]))
+            }
+            Step::Rrp { p, line, joint, .. } => cosine(
+                self.joints[*joint].minus(self.joints[*p]),
+                self.line(line).1,
+            ),
+            Step::Rpr { p, q, link, .. } => {
+                let (_, axis) = self.frames[*link];
+                cosine(self.joints[*p].minus(self.joints[*q]), axis)
+            }
+            Step::Prp { lines } => sine(self.line(&lines.0).1, self.line(&lines.1).1),
+            Step::Rpp { slot, .. } => slot.sin().abs(),
+            _ => return None,
+        })
     }
 }
 
@@ -65,9 +91,8 @@ impl Linkage {
         Ok(())
     }
 
-    fn dyads(&self) -> impl Iterator<Item = &Step> {
-        let dyads = self.steps.iter();
-        dyads.filter(|s| !matches!(s, Step::Point { .. } | Step::Crank { .. }))
+    pub(super) fn dyads(&self) -> impl Iterator<Item = &Step> {
+        self.steps.iter().filter(|step| step.is_dyad())
     }
 
     fn is_prp(&self, dyad: usize) -> bool {
@@ -118,11 +143,26 @@ impl Linkage {
                     let axis = PointSeries::turning(input + *phase);
                     s.frames.push((s.joints[*pivot], axis));
                 }
+                Step::Turning { pivot, law } => {
+                    let (_, axis) = s.frames[self.owners[*pivot]];
+                    let turn = PointSeries::unit(law.at(input).coefficients());
+                    s.frames.push((s.joints[*pivot], axis.times_unit(turn)));
+                }
+                Step::Sliding { line, law } => {
+                    let (u, e) = s.line(line);
+                    let along: Taylor<N> = law.at(input).coefficients();
+                    s.frames.push((u.plus(e.times(along)), e));
+                }
+                Step::Fixed { line } => {
+                    let frame = s.line(line);
+                    s.frames.push(frame);
+                }
                 Step::Rrr {
                     p,
                     q,
                     lengths,
                     branch,
+                    ..
                 } => {
                     let (p, q) = (s.joints[*p], s.joints[*q]);
                     let Closed { at, room } = rrr(p, q, *lengths, *branch);
@@ -136,6 +176,7 @@ impl Linkage {
                     length,
                     line,
                     branch,
+                    ..
                 } => {
                     let p = s.joints[*p];
                     let (u, e) = s.line(line);
@@ -150,6 +191,7 @@ impl Linkage {
                     q,
                     offset,
                     branch,
+                    ..
                 } => {
                     let (p, q) = (s.joints[*p], s.joints[*q]);
                     let Closed { at, room } = rpr(p, q, *offset, *branch);

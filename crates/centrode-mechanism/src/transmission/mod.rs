@@ -84,6 +84,14 @@ impl MotionJet {
         }
     }
 
+    /// Taylor coefficients of this jet, as many as are asked for; those above the third are not known and left zero.
+    pub(crate) fn coefficients<const N: usize>(&self) -> Taylor<N> {
+        let known = self.series().0;
+        Taylor(std::array::from_fn(|k| {
+            known.get(k).copied().unwrap_or(0.0)
+        }))
+    }
+
     /// The series of this jet; its last coefficient is not known and left zero.
     pub(crate) fn series(&self) -> Taylor {
         Taylor([
@@ -242,7 +250,7 @@ fn root(of: &dyn Transmission, position: f64, low: f64, high: f64) -> f64 {
 }
 
 /// Ascending breaks, without those that differ by rounding only.
-fn sorted(breaks: impl Iterator<Item = f64>, period: f64) -> Vec<f64> {
+pub(crate) fn sorted(breaks: impl Iterator<Item = f64>, period: f64) -> Vec<f64> {
     let mut breaks: Vec<f64> = breaks.collect();
     breaks.sort_by(f64::total_cmp);
     breaks.dedup_by(|b, a| *b - *a <= 1e-12 * period);

@@ -1,5 +1,6 @@
 //! Families of machine: the one list of them, and the parts of the lower crates that each binds.
 
+mod composed;
 mod contact;
 mod feeder;
 mod gear_pair;
@@ -19,6 +20,7 @@ pub use open::OpenDesign;
 pub use registry::{Families, Family, PartName, Resolved};
 pub use widening::{Widening, WideningError};
 
+use centrode_mechanism::composed::Composed;
 use centrode_mechanism::feeder::Feeder;
 use centrode_mechanism::gear::GearPair;
 use centrode_mechanism::shaft::{MovingBox, SpiralShaft};
@@ -31,4 +33,5 @@ pub static FAMILIES: Families = Families(&[
     Family::of::<SpiralShaft>(),
     Family::of::<MovingBox>(),
     Family::of::<Feeder>(),
+    Family::of::<Composed>(),
 ]);

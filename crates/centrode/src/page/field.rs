@@ -114,7 +114,7 @@ pub(crate) fn keys_beside(text: &str, table: &str, word: &str) -> Option<Map<Str
         let Shape::Table { properties, .. } = shape(schema(), here, &value) else {
             return None;
         };
-        here = properties.get(name)?;
+        here = properties.iter().find(|(key, _)| key == name)?.1;
         value = value.get(name).cloned().unwrap_or_default();
     }
     let tagged = Value::Object(Map::from_iter([("kind".to_owned(), word.into())]));
@@ -168,7 +168,7 @@ fn add(
     default: Option<&Value>,
     out: &mut Vec<Table>,
 ) {
-    let (nothing, none) = (Value::Null, Map::new());
+    let nothing = Value::Null;
     let shown = written.or(default).unwrap_or(&nothing);
     let (tag, words, properties, required) = match shape(schema(), sub, shown) {
         Shape::Table {
@@ -178,7 +178,7 @@ fn add(
             required,
         } => (tag, words, properties, required),
         // A word that is none of the tags: only the choice can be shown.
-        Shape::Tagged { tag, words } => (Some(tag), words, &none, Vec::new()),
+        Shape::Tagged { tag, words } => (Some(tag), words, Vec::new(), Vec::new()),
         Shape::Leaf(_) => return,
     };
     let at = out.len();

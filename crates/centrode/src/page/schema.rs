@@ -8,7 +8,7 @@ pub(super) enum Shape<'a> {
     Table {
         tag: Option<&'a str>,
         words: Vec<Choice>,
-        properties: &'a Map<String, Value>,
+        properties: Vec<(String, &'a Value)>,
         required: Vec<&'a str>,
     },
     /// A table whose tag is none of the words known.
@@ -49,6 +49,19 @@ pub(super) fn shape<'a>(root: &'a Value, sub: &'a Value, value: &Value) -> Shape
     }
     if let Some(properties) = sub.get("properties").and_then(Value::as_object) {
         return table(None, Vec::new(), sub, properties);
+    }
+    if let Some(item) = sub
+        .get("additionalProperties")
+        .filter(|item| item.is_object())
+    {
+        // A table of names that the user gives: those that are written.
+        let names = value.as_object().into_iter().flatten();
+        return Shape::Table {
+            tag: None,
+            words: Vec::new(),
+            properties: names.map(|(name, _)| (name.clone(), item)).collect(),
+            required: Vec::new(),
+        };
     }
     Shape::Leaf(leaf(root, sub))
 }
@@ -108,10 +121,11 @@ fn table<'a>(
         .flatten()
         .filter_map(Value::as_str)
         .collect();
+    let properties = properties.iter();
     Shape::Table {
         tag,
         words,
-        properties,
+        properties: properties.map(|(name, sub)| (name.clone(), sub)).collect(),
         required,
     }
 }

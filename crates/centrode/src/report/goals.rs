@@ -37,8 +37,8 @@ pub(super) fn write(report: &Report, out: &mut impl Write) -> Result<()> {
 #[derive(Clone, Debug, Serialize)]
 pub(crate) struct GoalWords {
     number: u32,
-    name: &'static str,
-    title: &'static str,
+    name: String,
+    title: String,
     value: String,
     /// Figure as in the JSON report, to the last digit.
     exact: Option<String>,
@@ -93,8 +93,8 @@ pub(crate) fn goal_words(goal: &Goal) -> GoalWords {
     };
     GoalWords {
         number: goal.number,
-        name: goal.name,
-        title: goal.title,
+        name: goal.name.clone().into_owned(),
+        title: goal.title.clone().into_owned(),
         value: goal.value.map_or("-".into(), |value| goal.unit.show(value)),
         exact: goal.value.map(exact),
         unit: goal.unit.shown(),

@@ -65,12 +65,11 @@ fn without_the_transmission_angle_half_a_turn_is_reached_by_every_method() {
 fn with_it_the_search_says_infeasible_and_the_best_attainable() {
     let (ended, best, problem) = searched(&published(), Method::DifferentialEvolution, 1);
     assert_eq!(ended, Ended::Evaluations);
-    let missed: Vec<&str> = problem
-        .goals(&best)
-        .expect("a mechanism")
+    let goals = problem.goals(&best).expect("a mechanism");
+    let missed: Vec<&str> = goals
         .iter()
         .filter(|goal| goal.met() == Some(false))
-        .map(|goal| goal.name)
+        .map(|goal| &*goal.name)
         .collect();
     assert!(missed.contains(&"transmission-angle"), "{missed:?}");
     let violation = problem.evaluate(&best).violation().to_degrees();

@@ -305,7 +305,11 @@ impl DesignProblem for ThreeArmProblem {
         for goal in &mut goals {
             // A count of flanks has no slope; the module that every place of the curves bears has.
             if goal.name == "sound-teeth" && goal.met() == Some(false) {
-                let about = (goal.number, goal.name, "module over what the curves bear");
+                let about = (
+                    goal.number,
+                    goal.name.clone(),
+                    "module over what the curves bear",
+                );
                 *goal = Goal::new(
                     about,
                     Some(1.0 + quick.overload.max(1e-3)),

@@ -40,7 +40,7 @@ fn the_start_is_the_design_itself() {
     let missed: Vec<_> = goals
         .iter()
         .filter(|g| g.met() == Some(false))
-        .map(|g| g.name)
+        .map(|g| &*g.name)
         .collect();
     assert_eq!(
         missed,
@@ -60,7 +60,7 @@ fn what_is_met_in_the_search_is_met_in_the_check() {
     let goals = problem.goals(&start).expect("a mechanism");
     assert_eq!(report.goals.len() + 5, goals.len());
     for (ours, checked) in goals.iter().zip(&report.goals) {
-        assert_eq!((ours.name, ours.value), (checked.name, checked.value));
+        assert_eq!((&ours.name, ours.value), (&checked.name, checked.value));
     }
     // As many teeth as leave the module wanted, and not one more.
     let module = mechanism.module().expect("teeth");

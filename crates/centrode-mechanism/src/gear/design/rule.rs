@@ -50,6 +50,9 @@ pub enum Rule {
     /// A key that must be given.
     #[error("is needed {0}")]
     Needed(&'static str),
+    /// A key where it means nothing.
+    #[error("has no meaning {0}")]
+    Unused(&'static str),
     /// A name that cannot name a file.
     #[error("must be 1 to 64 letters, digits, '-' or '_', not {0:?}")]
     Name(String),

@@ -120,6 +120,10 @@ fn the_checked_in_schemas_are_those_of_the_code() {
                 "transmission_angle_deg",
             ],
         ),
+        (
+            "machine",
+            ["fixed_to", "slides_deg", "second_line_deg", "pin_diameter"],
+        ),
     ] {
         let file = family.replace('-', "_");
         let path = format!("{FOLDER}/{file}.schema.json");

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use super::FAMILIES;
 
 /// Names of files and folders that are a family's own, wherever they are.
-const OWN: [&str; 7] = [
+const OWN: [&str; 8] = [
     "gear",
     "gear_pair",
     "three_arm",
@@ -14,10 +14,13 @@ const OWN: [&str; 7] = [
     "spiral_shaft",
     "moving_box",
     "feeder",
+    "composed",
 ];
 
-/// Other files of one family, and the lists: that of the families and that of their Python classes.
-const OTHERS: [&str; 4] = [
+/// Other files of one family, and the lists: that of the families and that of their Python classes. The files of every
+/// model begin with the word of a family.
+const OTHERS: [&str; 5] = [
+    "centrode-export/src/machine/mod.rs",
     "centrode/src/family/mod.rs",
     "python/src/design.rs",
     "python/src/lib.rs",
@@ -25,7 +28,7 @@ const OTHERS: [&str; 4] = [
 ];
 
 /// Types of a family. A gear pair is an element of other families too.
-const TYPES: [&str; 9] = [
+const TYPES: [&str; 11] = [
     "GearPairDesign",
     "ThreeArm",
     "ThreeArmDesign",
@@ -35,6 +38,8 @@ const TYPES: [&str; 9] = [
     "MovingBoxDesign",
     "Feeder",
     "FeederDesign",
+    "Composed",
+    "ComposedDesign",
 ];
 
 /// Every source file below a folder, tests aside.

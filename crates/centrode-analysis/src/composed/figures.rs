@@ -1,0 +1,16 @@
+use crate::figure::{FigureGroup, row};
+use crate::unit::Unit::{Angle, Count, TurnsPerMinute};
+
+/// Figures of a composed machine, in the order in which they are shown.
+#[rustfmt::skip]
+pub(super) const FIGURES: &[FigureGroup] = &[FigureGroup {
+    heading: "Machine",
+    columns: &[],
+    rows: &[
+        row("bodies", &["body_count"], Count),
+        row("dyads", &["dyad_count"], Count),
+        row("speed of the input", &["input_rpm"], TurnsPerMinute),
+        row("repeats after", &["period"], Angle),
+        row("least transmission angle", &["transmission_angle_min"], Angle),
+    ],
+}];

@@ -1,0 +1,102 @@
+use centrode_geometry::extremes;
+use centrode_mechanism::composed::{Composed, DyadKind};
+use centrode_mechanism::linkage::{Branch, FourBar};
+use centrode_mechanism::machine::JointKind;
+
+use crate::{Report, Table, Unit};
+
+/// Swings and strokes of joints that come back, and the inputs of their dead centres.
+pub(super) fn joints(composed: &Composed, ends: &[f64], report: &mut Report) {
+    let (mut swings, mut centres) = (Vec::new(), Vec::new());
+    let mut strokes = Vec::new();
+    for body in composed.bodies() {
+        let Some(mount) = &body.mount else { continue };
+        let comes_back = mount.law.advance() == 0.0;
+        if mount.kind == JointKind::Fixed || !comes_back {
+            continue;
+        }
+        let [low, high] = extremes(|input| mount.law.at(input).position, ends);
+        if high.value - low.value == 0.0 {
+            continue;
+        }
+        let span = vec![low.value, high.value, high.value - low.value];
+        let rows = match mount.kind {
+            JointKind::Sliding(_) => &mut strokes,
+            _ => &mut swings,
+        };
+        rows.push((body.name.clone(), span));
+        centres.push((body.name.clone(), vec![low.input, high.input]));
+    }
+    let mut add = |name, title, unit, columns: [&str; 3], rows: Vec<(String, Vec<f64>)>| {
+        if rows.is_empty() {
+            return;
+        }
+        let count = rows[0].1.len();
+        report.tables.push(Table {
+            name,
+            title,
+            unit,
+            columns: columns[..count].iter().map(|&c| c.into()).collect(),
+            rows,
+        });
+    };
+    let span = ["least", "greatest", "span"];
+    add(
+        "swings",
+        "Angle of joint that rocks",
+        Unit::Angle,
+        span,
+        swings,
+    );
+    add("strokes", "Place of slide", Unit::Millimetre, span, strokes);
+    let inputs = ["least", "greatest", ""];
+    add(
+        "dead-centres",
+        "Input at the dead centres of joint",
+        Unit::Angle,
+        inputs,
+        centres,
+    );
+}
+
+/// Grashof's margin of every dyad RRR between a body that turns and the body that carries it.
+pub(super) fn four_bars(composed: &Composed, report: &mut Report) {
+    let mut rows = Vec::new();
+    for (dyad, spec) in composed.dyads().iter().filter_map(|dyad| {
+        let spec = composed.design().dyads.get(&dyad.name)?;
+        (dyad.kind == DyadKind::TwoBars).then_some((dyad, spec))
+    }) {
+        let [Some(from), Some(to)] = [&spec.from, &spec.to].map(|word| {
+            let word = word.as_deref()?;
+            composed.point_named(word)
+        }) else {
+            continue;
+        };
+        let mut four = None;
+        // Either end may be the crank's.
+        for ([crank, ground], lengths) in [
+            ([from, to], [spec.lengths[0], spec.lengths[1]]),
+            ([to, from], [spec.lengths[1], spec.lengths[0]]),
+        ] {
+            let Some(mount) = &composed.bodies()[crank.0].mount else {
+                continue;
+            };
+            if mount.kind == JointKind::Turning && mount.carrier == ground.0 {
+                let own = crank.1.coords.norm();
+                let frame = (ground.1 - mount.at).norm();
+                let bar = FourBar::new(own, lengths[0], lengths[1], frame, Branch::Upper);
+                four = bar.ok().map(|bar| bar.grashof_margin());
+            }
+        }
+        rows.extend(four.map(|margin| (dyad.name.clone(), vec![margin])));
+    }
+    if !rows.is_empty() {
+        report.tables.push(Table {
+            name: "grashof",
+            title: "Grashof's margin of the four-bar of dyad",
+            unit: Unit::Millimetre,
+            columns: vec!["margin".into()],
+            rows,
+        });
+    }
+}

@@ -1,0 +1,141 @@
+//! Check of a composed machine.
+
+mod figures;
+mod goals;
+mod joints;
+#[cfg(test)]
+mod tests;
+
+use centrode_geometry::{extremes, greatest, least, pieces};
+use centrode_mechanism::composed::Composed;
+
+use self::figures::FIGURES;
+use crate::report::Missed;
+use crate::{Finding, Goal, Place, Report, Severity, Table, Unit};
+
+/// Parts of a turn of the input in each of which a motion has few extremes.
+const PARTS: u32 = 16;
+/// Transmission angle below which a dyad holds badly, degrees: friction may lock it.
+const HOLDS_BADLY: f64 = 30.0;
+
+/// Checks a composed machine: how well its dyads hold, where joints reverse, how far points go and how fast.
+///
+/// Lengths are mm, angles rad, speeds mm/s. Every extreme is over the whole cycle.
+#[must_use]
+pub fn check_composed(composed: &Composed) -> Report {
+    let mut report = Report {
+        groups: FIGURES.to_vec(),
+        ..Report::default()
+    };
+    let values = &mut report.values;
+    values.insert("period", composed.period());
+    values.insert("input_rpm", composed.design().input.speed_rpm);
+    values.insert("body_count", composed.bodies().len() as f64 - 1.0);
+    values.insert("dyad_count", composed.dyads().len() as f64);
+    let ends = ends(composed);
+    dyads(composed, &ends, &mut report);
+    joints::joints(composed, &ends, &mut report);
+    joints::four_bars(composed, &mut report);
+    points(composed, &ends, &mut report);
+    let found = goals::goals(composed);
+    report.goals = found.iter().map(|found| found.goal.clone()).collect();
+    report.blame_goals(|goal| Missed {
+        input: found
+            .iter()
+            .find(|f| f.goal.name == goal.name)
+            .and_then(|f| f.input),
+        ..Missed::default()
+    });
+    report.worst_first();
+    report
+}
+
+/// The goals of a composed machine with their figures.
+pub(crate) fn goals_of(composed: &Composed) -> Vec<Goal> {
+    let found = goals::goals(composed).into_iter();
+    found.map(|found| found.goal).collect()
+}
+
+/// Ends of the parts of a cycle between which all motion is smooth.
+fn ends(composed: &Composed) -> Vec<f64> {
+    let parts = PARTS * composed.design().input.turns;
+    let breaks = composed.linkage().breaks();
+    pieces(0.0, composed.period(), parts, breaks)
+}
+
+/// Transmission angles of the dyads.
+fn dyads(composed: &Composed, ends: &[f64], report: &mut Report) {
+    let mut rows = Vec::new();
+    for (index, dyad) in composed.dyads().iter().enumerate() {
+        let angle = |input: f64| composed.transmission_angles(input)[index];
+        let [low, high] = [least(angle, ends), greatest(angle, ends)];
+        let row = vec![low.value, low.input, high.value, high.input];
+        rows.push((dyad.name.clone(), row));
+        let worst = report.values.get("transmission_angle_min").copied();
+        let worst = worst.unwrap_or(f64::INFINITY).min(low.value);
+        report.values.insert("transmission_angle_min", worst);
+        let degrees = low.value.to_degrees();
+        if degrees < HOLDS_BADLY {
+            report.findings.push(Finding {
+                rule: "transmission-angle",
+                severity: Severity::Warning,
+                message: format!(
+                    "the transmission angle of dyad {} falls to {degrees:.2} deg: below {HOLDS_BADLY} deg friction may lock it",
+                    dyad.name
+                ),
+                measured: Some(low.value),
+                required: Some(HOLDS_BADLY.to_radians()),
+                unit: Unit::Angle,
+                remedy: Some("longer bars against the motion that drives them, or other pins"),
+                place: Place {
+                    part: Some(dyad.name.clone()),
+                    input: Some(low.input),
+                    ..Place::default()
+                },
+            });
+        }
+    }
+    if !rows.is_empty() {
+        report.tables.push(Table {
+            name: "transmission-angles",
+            title: "Transmission angle of dyad",
+            unit: Unit::Angle,
+            columns: ["least", "at", "greatest", "at"].map(String::from).into(),
+            rows,
+        });
+    }
+}
+
+/// Reach and speed of every point that moves.
+fn points(composed: &Composed, ends: &[f64], report: &mut Report) {
+    let (mut reach, mut speed) = (Vec::new(), Vec::new());
+    for (name, body, at) in composed.points().filter(|(_, body, _)| *body > 0) {
+        let place = |input: f64| composed.place(body, at, input);
+        let [left, right] = extremes(|input| place(input).x, ends);
+        let [low, high] = extremes(|input| place(input).y, ends);
+        let sides = [left, right, low, high].map(|extreme| extreme.value);
+        reach.push((name.clone(), sides.to_vec()));
+        let rate = |input: f64| composed.point(body, at, input).first.norm();
+        let fastest = greatest(rate, ends).value * composed.speed();
+        speed.push((name, vec![fastest]));
+    }
+    if reach.is_empty() {
+        return;
+    }
+    report.tables.push(Table {
+        name: "reach",
+        title: "Reach of point",
+        unit: Unit::Millimetre,
+        columns: ["least x", "greatest x", "least y", "greatest y"]
+            .map(String::from)
+            .into(),
+        rows: reach,
+    });
+    report.tables.push(Table {
+        name: "speed",
+        title: "Greatest speed of point",
+        unit: Unit::MillimetrePerSecond,
+        columns: vec!["speed".into()],
+        rows: speed,
+    });
+}

@@ -1,0 +1,246 @@
+use centrode_mechanism::composed::{Composed, ComposedDesign};
+use centrode_mechanism::design::DesignSpec;
+
+use super::*;
+
+fn composed(text: &str) -> Composed {
+    let design = ComposedDesign::from_toml(text).expect("a design");
+    Composed::resolve(&design).expect("a machine")
+}
+
+fn table<'a>(report: &'a Report, name: &str) -> &'a Table {
+    let found = report.tables.iter().find(|table| table.name == name);
+    found.expect("a table of that name")
+}
+
+/// A crank-rocker, and a slider-crank on the same crank.
+const MACHINE: &str = r#"
+family = "machine"
+[frame.points]
+O = [0, 0]
+D = [105, 0]
+[bodies.crank]
+on = "frame.O"
+law = { ratio = 1 }
+points = { B = [77, 0] }
+[dyads.four-bar]
+type = "RRR"
+from = "crank.B"
+to = "frame.D"
+lengths = [147, 127]
+side = "left"
+bodies = ["coupler", "rocker"]
+joint = "C"
+[dyads.slider]
+type = "RRP"
+from = "crank.B"
+lengths = [200]
+line = "frame.O"
+line_deg = 0
+side = "forward"
+bodies = ["rod", "ram"]
+joint = "W"
+"#;
+
+#[test]
+fn a_crank_rocker_has_the_figures_of_its_closed_forms() {
+    let report = check_composed(&composed(MACHINE));
+    let [(name, angles)] = &table(&report, "transmission-angles").rows[..1] else {
+        panic!("two dyads");
+    };
+    assert_eq!(name, "four-bar");
+    // The cosine rule where crank and frame stretch and fold.
+    let between = |base: f64| {
+        let cosine = (147.0_f64.powi(2) + 127.0_f64.powi(2) - base * base) / (2.0 * 147.0 * 127.0);
+        let angle = cosine.acos();
+        angle.min(std::f64::consts::PI - angle)
+    };
+    let least = between(105.0 - 77.0).min(between(105.0 + 77.0));
+    assert!((angles[0] - least).abs() < 1e-12, "{angles:?} {least}");
+    // Middle lengths 105 and 127, shortest 77, longest 147.
+    let margin = (105.0 + 127.0) - (77.0 + 147.0);
+    assert_eq!(table(&report, "grashof").rows[0].1, [margin]);
+}
+
+#[test]
+fn a_slider_crank_has_its_stroke_between_its_dead_centres() {
+    let report = check_composed(&composed(MACHINE));
+    let strokes = table(&report, "strokes");
+    let (name, span) = &strokes.rows[0];
+    assert_eq!(name, "ram");
+    assert!((span[2] - 154.0).abs() < 1e-12, "{span:?}");
+    let dead = table(&report, "dead-centres");
+    let (_, inputs) = dead
+        .rows
+        .iter()
+        .find(|(name, _)| name == "ram")
+        .expect("it slides");
+    assert!(
+        (inputs[0] - std::f64::consts::PI).abs() < 1e-7,
+        "{inputs:?}"
+    );
+    let (_, angle) = &table(&report, "transmission-angles").rows[1];
+    assert!((angle[0] - (77.0_f64 / 200.0).acos()).abs() < 1e-12);
+    assert!(
+        report
+            .findings
+            .iter()
+            .any(|f| f.rule == "transmission-angle")
+    );
+}
+
+#[test]
+fn speeds_are_those_of_the_input() {
+    let report = check_composed(&composed(MACHINE));
+    let rows = &table(&report, "speed").rows;
+    let (_, speed) = rows
+        .iter()
+        .find(|(name, _)| name == "crank.B")
+        .expect("a point");
+    assert!(
+        (speed[0] - 77.0 * std::f64::consts::TAU).abs() < 1e-9,
+        "{speed:?}"
+    );
+}
+
+/// Goals on every form of figure, with those of the closed forms beside them.
+const GOALS: &str = r#"
+[goals.ram-stroke]
+figure = "ram.travel"
+over = "span"
+at_least = 154
+[goals.ram-far]
+figure = "rod.W.x"
+over = "greatest"
+between = [276.9, 277.1]
+[goals.crank-speed]
+figure = "B.speed"
+at_deg = 40
+at_most = 1
+[goals.crank-pull]
+figure = "B.acceleration"
+over = "least"
+at_least = 1
+[goals.level]
+figure = "crank.angle"
+at_deg = 90
+between = [89, 91]
+[goals.steady]
+figure = "crank.angular_speed"
+over = "span"
+at_most = 1e-9
+[goals.swing]
+figure = "rocker.swing"
+over = "span"
+between = [100, 120]
+[goals.holds]
+figure = "transmission(slider)"
+over = "least"
+at_least = 60
+[goals.apart]
+figure = "distance(crank.B, frame.O)"
+over = "greatest"
+at_most = 77.000000001
+[goals.clear]
+figure = "clearance(crank, rod)"
+over = "least"
+at_least = 0
+"#;
+
+#[test]
+fn every_form_of_figure_is_measured_as_its_closed_form_has_it() {
+    let machine = composed(&format!("{MACHINE}{GOALS}"));
+    let report = check_composed(&machine);
+    let goal = |name: &str| {
+        let found = report.goals.iter().find(|goal| goal.name == name);
+        let goal = found.expect("a goal");
+        (goal.value.expect("a figure"), goal.met())
+    };
+    let turn = std::f64::consts::TAU;
+    let near = |name: &str, value: f64| {
+        let (found, _) = goal(name);
+        assert!(
+            (found - value).abs() < 1e-9 * value.abs().max(1.0),
+            "{name}: {found} {value}"
+        );
+    };
+    near("ram-stroke", 154.0);
+    near("ram-far", 277.0);
+    near("crank-speed", 77.0 * turn);
+    near("crank-pull", 0.077 * turn * turn);
+    near("level", turn / 4.0);
+    near("steady", 0.0);
+    near("apart", 77.0);
+    near("holds", (77.0_f64 / 200.0).acos());
+    // Plates above each other never meet.
+    assert_eq!(goal("clear"), (f64::INFINITY, Some(true)));
+    // The rocker's ends: crank and coupler stretched and folded, by the cosine rule.
+    let side = |base: f64| {
+        let cosine = (105.0_f64.powi(2) + 127.0_f64.powi(2) - base * base) / (2.0 * 105.0 * 127.0);
+        cosine.acos()
+    };
+    near("swing", side(147.0 + 77.0) - side(147.0 - 77.0));
+    let missed: Vec<&str> = report
+        .findings
+        .iter()
+        .filter(|f| f.rule == "goal")
+        .map(|f| f.message.as_str())
+        .collect();
+    assert_eq!(missed.len(), 1, "{missed:?}");
+    assert!(
+        missed[0].contains("B.speed: 483.81 mm/s, missed by 482.81 mm/s"),
+        "{missed:?}"
+    );
+}
+
+#[test]
+fn figures_that_are_not_there_are_told_at_their_goal() {
+    for (figure, told) in [
+        (
+            "B.colour",
+            "there is no figure \"B.colour\"; its forms are point.x",
+        ),
+        (
+            "transmission(foot)",
+            "there is no dyad \"foot\"; there are four-bar, slider",
+        ),
+        ("clearance(crank, wheel)", "there is no body \"wheel\""),
+        ("crank.Z.x", "body \"crank\" has no point \"Z\""),
+        ("rocker.travel", "there is no figure"),
+        (
+            "clearance(crank, rod)",
+            "over is needed as least for a clearance",
+        ),
+    ] {
+        let text =
+            format!("{MACHINE}[goals.a]\nfigure = \"{figure}\"\nover = \"span\"\nat_least = 1\n");
+        let design = ComposedDesign::from_toml(&text).expect("a design");
+        let error = Composed::resolve(&design).expect_err(figure);
+        assert!(error.to_string().contains(told), "{error}");
+        assert!(error.key().starts_with("goals.a."), "{}", error.key());
+    }
+}
+
+#[test]
+fn a_search_finds_lengths_that_meet_the_goals() {
+    use crate::optimise::composed::ComposedProblem;
+    use crate::optimise::{DesignProblem, DesignSearch, Ended, Settings, Strategy};
+
+    let text = format!(
+        "{MACHINE}[goals.swing]\nfigure = \"rocker.swing\"\nover = \"span\"\nbetween = [59.95, 60.05]\n[goals.holds]\nfigure = \"transmission(four-bar)\"\nover = \"least\"\nat_least = 24\n[vary]\n\"bodies.crank.points.B[0]\" = [20, 80]\n\"dyads.four-bar.lengths[0]\" = [100, 180]\n"
+    );
+    let design = ComposedDesign::from_toml(&text).expect("a design");
+    let problem = ComposedProblem::new(&design).expect("a problem");
+    let (_, strategy) = Strategy::NAMES[1];
+    let settings = Settings {
+        evaluations: 3000,
+        seed: 2,
+        ..Settings::default()
+    };
+    let mut search = DesignSearch::new(&problem, strategy, settings).expect("a search");
+    let ended = search.run(&problem, &mut |_| std::ops::ControlFlow::Continue(()));
+    assert_eq!(ended, Ended::Target);
+    let best = problem.goals(&search.best()).expect("a machine");
+    assert!(best.iter().all(|goal| goal.met() == Some(true)), "{best:?}");
+    assert!(ComposedProblem::new(&ComposedDesign::from_toml(MACHINE).expect("a design")).is_err());
+}

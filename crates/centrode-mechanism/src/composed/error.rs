@@ -1,0 +1,241 @@
+use thiserror::Error;
+
+use super::ComposedLawError;
+use crate::design::MechanismError;
+use crate::gear::GearPairError;
+use crate::gear::design::SpecError;
+use crate::linkage::LinkageError;
+
+/// Error of a composed machine that cannot be.
+#[derive(Clone, Debug, Error, PartialEq)]
+#[non_exhaustive]
+pub enum ComposedError {
+    /// A value breaks a rule of its own.
+    #[error(transparent)]
+    Spec(#[from] SpecError),
+    /// A word that is no point of a body.
+    #[error("{word:?} names no point of a body: write body.point, as in frame.O")]
+    NoReference {
+        /// Key that names it.
+        key: String,
+        /// The word.
+        word: String,
+    },
+    /// A body that is not there.
+    #[error("there is no body {body:?}; there are {}", known.join(", "))]
+    NoBody {
+        /// Key that names it.
+        key: String,
+        /// Its name.
+        body: String,
+        /// Bodies there are.
+        known: Vec<String>,
+    },
+    /// A point that is not there.
+    #[error("body {body:?} has no point {point:?}; it has {}", if known.is_empty() { "none".to_owned() } else { known.join(", ") })]
+    NoPoint {
+        /// Key that names it.
+        key: String,
+        /// The body.
+        body: String,
+        /// Name of the point.
+        point: String,
+        /// Points it has.
+        known: Vec<String>,
+    },
+    /// Two points of one name on a body.
+    #[error("body {body:?} would have two points {point:?}: give one of them another name")]
+    PointTwice {
+        /// Key that gives the second one.
+        key: String,
+        /// The body.
+        body: String,
+        /// Name of the points.
+        point: String,
+    },
+    /// A body that is driven or tied twice.
+    #[error("body {body:?} is held already by {by}: it can be held by one of them only")]
+    HeldTwice {
+        /// Key that holds it the second time.
+        key: String,
+        /// The body.
+        body: String,
+        /// Key that holds it.
+        by: String,
+    },
+    /// A body that nothing holds.
+    #[error(
+        "body {body:?} is held by nothing: give it on and law, or fixed_to, or name it in a dyad"
+    )]
+    Loose {
+        /// The body.
+        body: String,
+    },
+    /// A body that would have to be in place before itself.
+    #[error("{}", ring(.names))]
+    Ring {
+        /// Key at which the ring is entered.
+        key: String,
+        /// Names along the ring.
+        names: Vec<String>,
+    },
+    /// A triangle whose sides do not meet.
+    #[error(
+        "sides of {} and {} mm cannot meet over points {apart:.6} mm apart: {missing:.6} mm are missing", lengths[0], lengths[1]
+    )]
+    NoTriangle {
+        /// Key of the corner.
+        key: String,
+        /// Lengths of the sides, mm.
+        lengths: [f64; 2],
+        /// Distance of the points, mm.
+        apart: f64,
+        /// Gap that is left, mm.
+        missing: f64,
+    },
+    /// A law that cannot be.
+    #[error("{error}")]
+    Law {
+        /// The body.
+        body: String,
+        /// Why.
+        error: ComposedLawError,
+    },
+    /// A dyad that does not close over the whole cycle.
+    #[error("dyad {dyad:?} {}: at {:.4} deg {missing:.4} mm are missing", closes(.open), input.to_degrees())]
+    DoesNotClose {
+        /// The dyad.
+        dyad: String,
+        /// Inputs at which it closes, rad.
+        open: Vec<(f64, f64)>,
+        /// Input at which most is missing, rad.
+        input: f64,
+        /// Distance between its ends there, mm.
+        missing: f64,
+    },
+    /// A joint whose motion has a pole.
+    #[error("the direction of body {body:?} is not defined near an input of {:.4} deg", input.to_degrees())]
+    NoDirection {
+        /// Key that holds it.
+        key: String,
+        /// The body.
+        body: String,
+        /// Input, rad.
+        input: f64,
+    },
+    /// Words that are no figure.
+    #[error("there is no figure {words:?}; its forms are {}", known.join(", "))]
+    NoFigure {
+        /// Key that names it.
+        key: String,
+        /// The words.
+        words: String,
+        /// Forms of figures.
+        known: Vec<String>,
+    },
+    /// A dyad that is not there.
+    #[error("there is no dyad {dyad:?}; there are {}", known.join(", "))]
+    NoDyad {
+        /// Key that names it.
+        key: String,
+        /// Its name.
+        dyad: String,
+        /// Dyads there are.
+        known: Vec<String>,
+    },
+    /// A pair that cannot be cut.
+    #[error("{error}")]
+    Pair {
+        /// Name of the pair.
+        pair: String,
+        /// Why.
+        error: Box<GearPairError>,
+    },
+    /// A gear or pair that is not there.
+    #[error("there is no {what} {name:?}; there are {}", if known.is_empty() { "none".to_owned() } else { known.join(", ") })]
+    NoGear {
+        /// Key that names it.
+        key: String,
+        /// Kind: `gear` or `pair`.
+        what: &'static str,
+        /// Its name.
+        name: String,
+        /// Names there are.
+        known: Vec<String>,
+    },
+    /// Gears that cannot mesh.
+    #[error("{why}")]
+    NoMesh {
+        /// Key of the mesh.
+        key: String,
+        /// Why.
+        why: String,
+    },
+    /// Anything else that a linkage cannot be.
+    #[error("{error}")]
+    Linkage {
+        /// Key that adds it.
+        key: String,
+        /// Why.
+        error: LinkageError,
+    },
+}
+
+/// Inputs at which a dyad closes, in words.
+fn closes(open: &[(f64, f64)]) -> String {
+    if open.is_empty() {
+        return "closes nowhere".into();
+    }
+    let range = |(low, high): &(f64, f64)| {
+        format!("{:.4} to {:.4} deg", low.to_degrees(), high.to_degrees())
+    };
+    let ranges: Vec<String> = open.iter().map(range).collect();
+    format!("closes only for inputs of {}", ranges.join(", "))
+}
+
+/// Names that wait for each other, in words.
+fn ring(names: &[String]) -> String {
+    match names {
+        [one] => format!("{one} is held by itself"),
+        _ => format!(
+            "{} wait for each other: each needs another one to be in place",
+            names.join(", ")
+        ),
+    }
+}
+
+impl ComposedError {
+    /// Key of the design to blame.
+    #[must_use]
+    pub fn key(&self) -> String {
+        match self {
+            Self::Spec(error) => error.key.clone(),
+            Self::NoReference { key, .. }
+            | Self::NoBody { key, .. }
+            | Self::NoPoint { key, .. }
+            | Self::PointTwice { key, .. }
+            | Self::HeldTwice { key, .. }
+            | Self::Ring { key, .. }
+            | Self::NoTriangle { key, .. }
+            | Self::NoDirection { key, .. }
+            | Self::NoFigure { key, .. }
+            | Self::NoDyad { key, .. }
+            | Self::NoGear { key, .. }
+            | Self::NoMesh { key, .. }
+            | Self::Linkage { key, .. } => key.clone(),
+            Self::Pair { pair, error } => format!("pairs.{pair}.{}", error.key()),
+            Self::Loose { body } => format!("bodies.{body}"),
+            Self::Law { body, error } => format!("bodies.{body}.law.{}", error.key()),
+            Self::DoesNotClose { dyad, .. } => format!("dyads.{dyad}"),
+        }
+    }
+}
+
+impl From<ComposedError> for MechanismError {
+    fn from(error: ComposedError) -> Self {
+        match error {
+            ComposedError::Spec(error) => error.into(),
+            other => Self::new(other.key(), other),
+        }
+    }
+}

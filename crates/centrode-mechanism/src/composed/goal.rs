@@ -1,0 +1,104 @@
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::degrees;
+use crate::gear::design::SpecError;
+use crate::gear::design::rule::{Rule, broken, finite, positive, single_line};
+
+/// A goal: a figure, where in the cycle it counts, and the range in which it is wanted, in the figure's unit: mm, deg, mm/s.
+#[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct ComposedGoalSpec {
+    /// Figure by its words: `foot.x`, `crank.angle`, `transmission(knee)`; `centrode schema figures` lists them.
+    pub figure: String,
+    /// Goal in a few words, for reports.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub title: String,
+    /// Extreme over the cycle that counts; left out, the figure counts at an input.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub over: Option<Over>,
+    /// Input at which it counts, rad (degrees in the file).
+    #[serde(
+        default,
+        rename = "at_deg",
+        with = "degrees::option",
+        skip_serializing_if = "Option::is_none"
+    )]
+    #[schemars(with = "Option<f64>")]
+    pub at: Option<f64>,
+    /// Least figure wanted.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub at_least: Option<f64>,
+    /// Greatest figure wanted.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub at_most: Option<f64>,
+    /// Least and greatest figure wanted.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub between: Option<[f64; 2]>,
+    /// Miss that is half way to the goal, for a search; left out, the size of what is wanted.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub scale: Option<f64>,
+}
+
+/// Value of a figure over a cycle.
+#[derive(Clone, Copy, Debug, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Over {
+    /// The least.
+    Least,
+    /// The greatest.
+    Greatest,
+    /// The greatest less the least.
+    Span,
+}
+
+impl ComposedGoalSpec {
+    /// Least and greatest figure wanted, in the unit shown.
+    #[must_use]
+    pub fn wanted(&self) -> [Option<f64>; 2] {
+        match self.between {
+            Some([least, greatest]) => [Some(least), Some(greatest)],
+            None => [self.at_least, self.at_most],
+        }
+    }
+
+    pub(super) fn validate(&self) -> Result<(), SpecError> {
+        single_line("title", &self.title)?;
+        match (self.over, self.at) {
+            (Some(_), Some(_)) => return broken("at_deg", Rule::Excludes("over")),
+            (None, None) => return broken("over", Rule::NeedsOneOf("over and at_deg")),
+            _ => {}
+        }
+        finite("at_deg", self.at.unwrap_or(0.0))?;
+        for (key, value) in [("at_least", self.at_least), ("at_most", self.at_most)] {
+            if value.is_some() && self.between.is_some() {
+                return broken(key, Rule::Excludes("between"));
+            }
+            finite(key, value.unwrap_or(0.0))?;
+        }
+        for end in self.between.iter().flatten() {
+            finite("between", *end)?;
+        }
+        match self.wanted() {
+            [None, None] => {
+                return broken(
+                    "at_least",
+                    Rule::NeedsOneOf("at_least, at_most and between"),
+                );
+            }
+            [Some(least), Some(greatest)] if least > greatest => {
+                let key = if self.between.is_some() {
+                    "between"
+                } else {
+                    "at_most"
+                };
+                return broken(key, Rule::NotInOrder(least, greatest));
+            }
+            _ => {}
+        }
+        match self.scale {
+            Some(scale) => positive("scale", scale),
+            None => Ok(()),
+        }
+    }
+}

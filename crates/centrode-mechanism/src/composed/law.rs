@@ -1,0 +1,293 @@
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::cam::design::MotionSpec;
+use crate::cam::{Motion, MotionError};
+use crate::degrees;
+use crate::formula::Formula;
+use crate::gear::design::SpecError;
+use crate::gear::design::rule::{Rule, broken, finite, in_range};
+use crate::gear::pitch::Interpolation;
+use crate::gear::pitch::periodic::Periodic;
+use crate::machine::Linear;
+use crate::transmission::{FromFn, MotionJet, Transmission};
+
+/// Greatest difference of a law's ends over a period that is rounding, as a share of its size or of 1 rad or mm.
+const ROUNDING: f64 = 1e-9;
+
+/// Motion of a body on the one that carries it, by the input: the sum of a start and at most one of the others.
+///
+/// Alone, a start is a constant; `ratio = 1` is the input itself.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct ComposedLawSpec {
+    /// Angle at the start of a body that turns, rad (degrees in the file).
+    #[serde(
+        rename = "start_deg",
+        with = "degrees::option",
+        skip_serializing_if = "Option::is_none"
+    )]
+    #[schemars(with = "Option<f64>")]
+    pub start_angle: Option<f64>,
+    /// Place at the start of a body that slides, mm.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub start: Option<f64>,
+    /// Turns of the body for one of the input: a belt, a chain, round gears; below zero it turns the other way.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub ratio: Option<f64>,
+    /// Formula of the input `phi` in rad: of an angle in rad for a body that turns and of a place in mm for one that slides.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub expression: Option<String>,
+    /// Angles at equal steps of the period, between which a smooth curve runs, rad (degrees in the file).
+    #[serde(
+        rename = "table_deg",
+        with = "degrees::list",
+        skip_serializing_if = "Vec::is_empty"
+    )]
+    #[schemars(with = "Vec<f64>")]
+    pub table_angles: Vec<f64>,
+    /// Places at equal steps of the period, between which a smooth curve runs, mm.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub table: Vec<f64>,
+    /// Rises, returns and dwells over one turn of the input, as for a cam.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub cam: Option<MotionSpec>,
+}
+
+/// Reason why there is no such law.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ComposedLawError {
+    /// A formula that cannot be read.
+    #[error("{0}")]
+    Formula(String),
+    /// A formula without a value.
+    #[error("the formula has no value at an input of {degrees} deg")]
+    NoValue {
+        /// Input, deg.
+        degrees: f64,
+    },
+    /// Segments that make no motion.
+    #[error(transparent)]
+    Cam(#[from] MotionError),
+    /// A table that makes no curve.
+    #[error("{0}")]
+    Table(String),
+    /// A turning body that is not back in place after a period.
+    #[error(
+        "turns the body by {turns} turns in the period of {period} turns of the input, which must be a whole number: set input.turns"
+    )]
+    NoWholeTurns {
+        /// Turns of the body.
+        turns: f64,
+        /// Turns of the input.
+        period: u32,
+    },
+    /// A motion that does not come back.
+    #[error("{what} is {start} at the start of the period and {end} at its end")]
+    Open {
+        /// The motion or its derivative.
+        what: &'static str,
+        /// Value at the start.
+        start: f64,
+        /// Value at the end.
+        end: f64,
+    },
+}
+
+impl ComposedLawError {
+    /// Key within the law's table.
+    #[must_use]
+    pub fn key(&self) -> String {
+        match self {
+            Self::Formula(_) | Self::NoValue { .. } | Self::Open { .. } => "expression".into(),
+            Self::Cam(error) => format!("cam.{}", error.key()),
+            Self::Table(_) => "table".into(),
+            Self::NoWholeTurns { .. } => "ratio".into(),
+        }
+    }
+}
+
+impl ComposedLawSpec {
+    pub(super) fn validate(&self, slides: bool) -> Result<(), SpecError> {
+        let given = [
+            ("ratio", self.ratio.is_some()),
+            ("expression", self.expression.is_some()),
+            ("table_deg", !self.table_angles.is_empty()),
+            ("table", !self.table.is_empty()),
+            ("cam", self.cam.is_some()),
+        ];
+        let mut motions = given.into_iter().filter(|(_, given)| *given);
+        let first = motions.next();
+        if let (Some((first, _)), Some((key, _))) = (first, motions.next()) {
+            return broken(key, Rule::Excludes(first));
+        }
+        if first.is_none() && self.start_angle.is_none() && self.start.is_none() {
+            let key = if slides { "start" } else { "start_deg" };
+            let keys = "start_deg, start, ratio, expression, table_deg, table and cam";
+            return broken(key, Rule::NeedsOneOf(keys));
+        }
+        let only = "but for a body that turns";
+        let strange: &[(&str, bool)] = if slides {
+            &[
+                ("start_deg", self.start_angle.is_some()),
+                ("ratio", self.ratio.is_some()),
+                ("table_deg", !self.table_angles.is_empty()),
+            ]
+        } else {
+            &[
+                ("start", self.start.is_some()),
+                ("table", !self.table.is_empty()),
+            ]
+        };
+        if let Some((key, _)) = strange.iter().find(|(_, given)| *given) {
+            let only = if slides {
+                only
+            } else {
+                "but for a body that slides"
+            };
+            return broken(key, Rule::Unused(only));
+        }
+        for value in [self.start_angle, self.start].into_iter().flatten() {
+            finite(if slides { "start" } else { "start_deg" }, value)?;
+        }
+        if let Some(ratio) = self.ratio {
+            in_range("ratio", ratio, [-1e3, 1e3], "")?;
+        }
+        for &value in self.table.iter().chain(&self.table_angles) {
+            finite(if slides { "table" } else { "table_deg" }, value)?;
+        }
+        let Some(cam) = &self.cam else {
+            return Ok(());
+        };
+        cam.validate().map_err(|e| e.inside("cam"))?;
+        match cam.swings() {
+            Some(swings) if swings == slides => {
+                let words = if slides { "lift" } else { "swing_deg" };
+                broken("cam", Rule::Stroke(words))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// The law over a period of so many turns of the input, of a body that slides or turns.
+    ///
+    /// # Errors
+    /// [`ComposedLawError`] where it cannot be read, or does not come back.
+    pub fn resolve(
+        &self,
+        turns: u32,
+        slides: bool,
+    ) -> Result<Arc<dyn Transmission>, ComposedLawError> {
+        let start = self.start_angle.or(self.start).unwrap_or(0.0);
+        let period = TAU * f64::from(turns);
+        let table = match (&self.table[..], &self.table_angles[..]) {
+            ([], angles) => angles,
+            (places, _) => places,
+        };
+        let law: Arc<dyn Transmission> = if let Some(text) = &self.expression {
+            expression(text, start, period)?
+        } else if !table.is_empty() {
+            let samples: Vec<f64> = table.iter().map(|value| start + value).collect();
+            let curve = Periodic::even("table", &samples, Interpolation::Quintic);
+            let curve = curve.map_err(|e| ComposedLawError::Table(e.to_string()))?;
+            let scale = 1.0 / f64::from(turns);
+            let jumps = curve.breaks().into_iter().map(|b| b / scale).collect();
+            let at = move |input: f64| stretched(&MotionJet::of(&curve.at(input * scale)), scale);
+            Arc::new(FromFn::new(period, 0.0, jumps, at))
+        } else if let Some(cam) = &self.cam {
+            let motion = Motion::resolve(cam)?;
+            let jumps = motion.breaks();
+            Arc::new(FromFn::new(TAU, 0.0, jumps, move |input| {
+                let mut jet = motion.at(input);
+                jet.position += start;
+                jet
+            }))
+        } else {
+            let slope = self.ratio.unwrap_or(0.0);
+            Arc::new(Linear { start, slope })
+        };
+        let advance = law.advance() * period / law.period();
+        if slides && advance != 0.0 {
+            let what = "its place";
+            let end = start + advance;
+            return Err(ComposedLawError::Open { what, start, end });
+        }
+        let turned = advance / TAU;
+        if (turned - turned.round()).abs() > ROUNDING {
+            return Err(ComposedLawError::NoWholeTurns {
+                turns: turned,
+                period: turns,
+            });
+        }
+        Ok(law)
+    }
+}
+
+/// A jet by an input of which its own is `scale` times.
+fn stretched(jet: &MotionJet, scale: f64) -> MotionJet {
+    jet.after(&MotionJet {
+        position: 0.0,
+        velocity: scale,
+        ..MotionJet::default()
+    })
+}
+
+/// A formula as a law that repeats up to its growth over the period.
+fn expression(
+    text: &str,
+    start: f64,
+    period: f64,
+) -> Result<Arc<dyn Transmission>, ComposedLawError> {
+    const LOOKS: u32 = 720;
+    let formula = Formula::read(text).map_err(|e| ComposedLawError::Formula(e.to_string()))?;
+    let jet = move |input: f64| {
+        let mut jet = MotionJet::of(&formula.at(input));
+        jet.position += start;
+        jet
+    };
+    for i in 0..=LOOKS {
+        let input = period * f64::from(i) / f64::from(LOOKS);
+        let MotionJet {
+            position,
+            velocity,
+            acceleration,
+            jerk,
+        } = jet(input);
+        if !(position + velocity + acceleration + jerk).is_finite() {
+            let degrees = input.to_degrees();
+            return Err(ComposedLawError::NoValue { degrees });
+        }
+    }
+    let (first, last) = (jet(0.0), jet(period));
+    for (what, start, end) in [
+        ("its rate", first.velocity, last.velocity),
+        ("its acceleration", first.acceleration, last.acceleration),
+    ] {
+        if (start - end).abs() > ROUNDING * start.abs().max(1.0) {
+            return Err(ComposedLawError::Open { what, start, end });
+        }
+    }
+    let advance = last.position - first.position;
+    // Whole turns, none among them, up to rounding.
+    let whole = TAU * (advance / TAU).round();
+    let advance = if (advance - whole).abs() <= ROUNDING * first.position.abs().max(1.0) {
+        whole
+    } else {
+        advance
+    };
+    Ok(Arc::new(FromFn::new(
+        period,
+        advance,
+        Vec::new(),
+        move |input| {
+            let turns = (input / period).floor();
+            let mut jet = jet(input - turns * period);
+            jet.position += turns * advance;
+            jet
+        },
+    )))
+}

@@ -1,0 +1,272 @@
+//! Composed machines: bodies that turn, slide or are fixed, driven by laws of one input and tied by dyads.
+//!
+//! A body has axes of its own. One that turns has its origin on its pin; one that slides has its first axis along its line;
+//! the bodies of a dyad have theirs as those of a [`Linkage`]. The input is the angle of the driving shaft, rad.
+
+mod build;
+mod design;
+mod dyad;
+mod error;
+mod figure;
+mod gearing;
+mod gears;
+mod goal;
+mod law;
+mod links;
+mod mesh;
+mod plates;
+mod points;
+mod resolve;
+#[cfg(test)]
+mod tests;
+
+use std::sync::Arc;
+
+use centrode_geometry::{Jet, Point};
+
+pub use design::{
+    ComposedBodySpec, ComposedDesign, ComposedInputSpec, ComposedPlatesSpec, ComposedPointsSpec,
+    CornerSpec, Side,
+};
+pub use dyad::{ComposedDyadSpec, DyadKind};
+pub use error::ComposedError;
+pub use figure::{ComposedFigure, FIGURE_FORMS, PointPart};
+pub use gearing::ComposedGear;
+pub use gears::{ComposedGearSpec, ComposedLoopSpec, ComposedMeshSpec, GearRole};
+pub use goal::{ComposedGoalSpec, Over};
+pub use law::{ComposedLawError, ComposedLawSpec};
+
+use self::gearing::Meshing;
+use self::points::BodyPoints;
+use crate::linkage::{Line, Link, Linkage};
+use crate::machine::JointKind;
+use crate::transmission::{MotionJet, Transmission};
+
+/// A composed machine: its bodies in the order in which they need each other, and their motion.
+#[derive(Clone, Debug)]
+pub struct Composed {
+    design: ComposedDesign,
+    linkage: Linkage,
+    bodies: Vec<ComposedBody>,
+    dyads: Vec<ComposedDyad>,
+    pins: Vec<Pin>,
+    points: BodyPoints,
+    figures: Vec<ComposedFigure>,
+    gears: Vec<ComposedGear>,
+    meshes: Vec<Meshing>,
+}
+
+/// A body of a composed machine.
+#[derive(Clone, Debug)]
+pub struct ComposedBody {
+    /// Name.
+    pub name: String,
+    /// Link of the linkage.
+    pub link: Link,
+    /// Joint that carries it; none for the frame.
+    pub mount: Option<Mount>,
+}
+
+/// Joint that carries a body.
+#[derive(Clone, Debug)]
+pub struct Mount {
+    /// Index of the body that carries.
+    pub carrier: usize,
+    /// Place of the joint in the carrier's axes, mm.
+    pub at: Point,
+    /// Turn of the joint's axes against the carrier's, rad.
+    pub angle: f64,
+    /// How it moves; a slide along the first axis.
+    pub kind: JointKind,
+    /// Its coordinate by the input, rad or mm.
+    pub law: Arc<dyn Transmission>,
+}
+
+/// A dyad of a composed machine.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ComposedDyad {
+    /// Name.
+    pub name: String,
+    /// Kind.
+    pub kind: DyadKind,
+    /// Indices of its two bodies.
+    pub bodies: [usize; 2],
+}
+
+/// Pin that closes a loop.
+#[derive(Clone, Debug, PartialEq)]
+struct Pin {
+    bodies: [usize; 2],
+    /// Place in the axes of the first, mm.
+    at: Point,
+}
+
+impl Pin {
+    fn new(bodies: [usize; 2], at: Point) -> Self {
+        Self { bodies, at }
+    }
+}
+
+impl Mount {
+    fn fixed(carrier: usize, at: Point, angle: f64) -> Self {
+        Self {
+            carrier,
+            at,
+            angle,
+            kind: JointKind::Fixed,
+            law: Arc::new(crate::machine::Constant(0.0)),
+        }
+    }
+
+    fn turning(carrier: usize, at: Point, law: Arc<dyn Transmission>) -> Self {
+        Self {
+            kind: JointKind::Turning,
+            law,
+            ..Self::fixed(carrier, at, 0.0)
+        }
+    }
+
+    fn sliding(carrier: usize, line: &Line, law: Arc<dyn Transmission>, range: [f64; 2]) -> Self {
+        Self {
+            kind: JointKind::Sliding(range),
+            law,
+            ..Self::fixed(carrier, line.through, line.angle)
+        }
+    }
+
+    /// Sets the motion, and the range of a slide.
+    fn follow(&mut self, law: Arc<dyn Transmission>, range: [f64; 2]) {
+        self.law = law;
+        if let JointKind::Sliding(of) = &mut self.kind {
+            *of = range;
+        }
+    }
+}
+
+impl Composed {
+    /// The design as written.
+    #[must_use]
+    pub fn design(&self) -> &ComposedDesign {
+        &self.design
+    }
+
+    /// The machine as a linkage.
+    #[must_use]
+    pub fn linkage(&self) -> &Linkage {
+        &self.linkage
+    }
+
+    /// Bodies in the order in which they need each other, the frame first.
+    #[must_use]
+    pub fn bodies(&self) -> &[ComposedBody] {
+        &self.bodies
+    }
+
+    /// Dyads in the order in which they close.
+    #[must_use]
+    pub fn dyads(&self) -> &[ComposedDyad] {
+        &self.dyads
+    }
+
+    /// Gears in the order of their names.
+    #[must_use]
+    pub fn gears(&self) -> &[ComposedGear] {
+        &self.gears
+    }
+
+    /// Figures of the goals, in the order of their names.
+    #[must_use]
+    pub fn figures(&self) -> &[ComposedFigure] {
+        &self.figures
+    }
+
+    /// Input after which the machine repeats, rad.
+    #[must_use]
+    pub fn period(&self) -> f64 {
+        self.linkage.period()
+    }
+
+    /// Speed of the input, rad/s.
+    #[must_use]
+    pub fn speed(&self) -> f64 {
+        self.design.input.speed_rpm * std::f64::consts::TAU / 60.0
+    }
+
+    /// Index of a body by its name.
+    #[must_use]
+    pub fn body_named(&self, name: &str) -> Option<usize> {
+        self.bodies.iter().position(|body| body.name == name)
+    }
+
+    /// Every point by `body.point`, with the index of its body and its place in the body's axes, mm: those of the bodies
+    /// themselves, not the pins on which they turn.
+    pub fn points(&self) -> impl Iterator<Item = (String, usize, Point)> + '_ {
+        self.bodies
+            .iter()
+            .enumerate()
+            .flat_map(move |(index, body)| {
+                let points = self.points.get(&body.name).into_iter().flatten();
+                let own = points.filter(|(_, point)| point.own);
+                own.map(move |(name, point)| (format!("{}.{name}", body.name), index, point.at))
+            })
+    }
+
+    /// Finds a point by `body.point`, or by its own name where no other body has one of that name: index of its body, and
+    /// place in the body's axes, mm.
+    #[must_use]
+    pub fn point_named(&self, word: &str) -> Option<(usize, Point)> {
+        if let Some((body, point)) = word.split_once('.') {
+            let at = self.points.get(body)?.get(point)?.at;
+            return Some((self.body_named(body)?, at));
+        }
+        let named = |name: &str| {
+            name.rsplit_once('.')
+                .is_some_and(|(_, point)| point == word)
+        };
+        let mut found = self.points().filter(|(name, ..)| named(name));
+        match (found.next(), found.next()) {
+            (Some((_, body, at)), None) => Some((body, at)),
+            _ => None,
+        }
+    }
+
+    /// Motion of a point of a body by the input: place in mm and its derivatives.
+    ///
+    /// # Panics
+    /// Never for the index of a body.
+    #[must_use]
+    pub fn point(&self, body: usize, at: Point, input: f64) -> Jet {
+        self.linkage.body(self.bodies[body].link, input).point(at)
+    }
+
+    /// Place of a point of a body at an input, mm.
+    ///
+    /// # Panics
+    /// Never for the index of a body.
+    #[must_use]
+    pub fn place(&self, body: usize, at: Point, input: f64) -> Point {
+        self.linkage.place(self.bodies[body].link, at, input)
+    }
+
+    /// Angle of a body's first axis by the input, without jumps, rad.
+    #[must_use]
+    pub fn angle(&self, body: usize, input: f64) -> MotionJet {
+        let Some(mount) = self.bodies.get(body).and_then(|body| body.mount.as_ref()) else {
+            return MotionJet::default();
+        };
+        let mut angle = self.angle(mount.carrier, input);
+        angle.position += mount.angle;
+        match mount.kind {
+            JointKind::Turning => angle.plus(1.0, &mount.law.at(input)),
+            _ => angle,
+        }
+    }
+
+    /// Transmission angles of the dyads, in their order, at an input, rad: 0 where a dyad is stretched or folded, a right
+    /// angle where it holds best.
+    #[must_use]
+    pub fn transmission_angles(&self, input: f64) -> Vec<f64> {
+        let holds = self.linkage.holds(input).into_iter();
+        holds.map(|sine| sine.min(1.0).asin()).collect()
+    }
+}

@@ -1,0 +1,93 @@
+use std::collections::BTreeSet;
+
+use centrode_geometry::{Outline, Point, Solid, SolidError};
+
+use super::design::FRAME;
+use super::{Composed, ComposedPlatesSpec};
+
+impl Composed {
+    /// Contour of a body's plate, round all its points, and the holes in it, where other bodies are pinned, in the body's
+    /// axes.
+    #[must_use]
+    pub fn contours(&self, body: usize) -> Option<(Outline, Vec<Outline>)> {
+        let ComposedPlatesSpec {
+            width,
+            pin_diameter,
+            ..
+        } = self.design.plates;
+        let name = &self.bodies.get(body)?.name;
+        let points = self.points.get(name)?;
+        let mut circles: Vec<(Point, f64)> = points.values().map(|p| (p.at, 0.5 * width)).collect();
+        if circles.is_empty() {
+            circles.push((Point::origin(), 0.5 * width));
+        }
+        let pinned = self.pinned();
+        let pins = points
+            .iter()
+            .filter(|(point, at)| !at.own || pinned.contains(&format!("{name}.{point}")));
+        let holes = pins.map(|(_, point)| Outline::circle(point.at, 0.5 * pin_diameter));
+        Some((Outline::hull(&circles)?, holes.collect()))
+    }
+
+    /// Points, by `body.point`, on which other bodies turn.
+    pub(super) fn pinned(&self) -> BTreeSet<String> {
+        let design = &self.design;
+        let bodies = design.bodies.values();
+        let turning = bodies.filter(|body| body.slides.is_none() && body.mesh.is_none());
+        let on = turning.filter_map(|body| body.on.clone());
+        let dyads = design.dyads.values().flat_map(|dyad| {
+            let ends = dyad.from.iter().chain(&dyad.to).cloned();
+            let joint = dyad.joint.iter();
+            let joint =
+                joint.flat_map(|joint| dyad.bodies.iter().map(move |b| format!("{b}.{joint}")));
+            ends.chain(joint).collect::<Vec<_>>()
+        });
+        on.chain(dyads).collect()
+    }
+
+    /// Whether no other body is held by a point, or by a joint that is this point, by `body.point`.
+    pub(super) fn free(&self, name: &str) -> bool {
+        let design = &self.design;
+        let bodies = design.bodies.values();
+        let held = bodies.flat_map(|body| body.on.iter().chain(&body.fixed_to));
+        let dyads = design.dyads.values();
+        let tied = dyads.flat_map(|dyad| [&dyad.from, &dyad.to, &dyad.line, &dyad.second_line]);
+        let words: BTreeSet<&String> = held.chain(tied.flatten()).collect();
+        let is_joint = |body: &String, joint: &String| format!("{body}.{joint}") == name;
+        let joint = design.dyads.values().find_map(|dyad| {
+            let joint = dyad.joint.as_ref()?;
+            let own = dyad.bodies.iter().any(|body| is_joint(body, joint));
+            own.then(|| dyad.bodies.each_ref().map(|body| format!("{body}.{joint}")))
+        });
+        match joint {
+            Some(names) => !names.iter().any(|name| words.contains(name)),
+            None => !words.contains(&name.to_owned()),
+        }
+    }
+
+    /// Height of the lower face of a body's plate along the shafts, mm; that of the frame is below all others.
+    pub(super) fn bottom(&self, body: usize) -> f64 {
+        let spec = &self.design.plates;
+        let name = &self.bodies[body].name;
+        let written = self.design.bodies.get(name).and_then(|body| body.layer);
+        let layer = match written {
+            _ if name == FRAME => -1.0,
+            Some(layer) => f64::from(layer),
+            None => body as f64 - 1.0,
+        };
+        layer * (spec.thickness + spec.gap)
+    }
+
+    /// A body as a plate; none for one without a contour.
+    ///
+    /// # Errors
+    /// [`SolidError`] where a number is not finite.
+    pub fn plate(&self, body: usize) -> Result<Option<Solid>, SolidError> {
+        let Some((outline, holes)) = self.contours(body) else {
+            return Ok(None);
+        };
+        let bottom = self.bottom(body);
+        let top = bottom + self.design.plates.thickness;
+        Solid::new(outline, holes, bottom, top).map(Some)
+    }
+}

@@ -1,0 +1,281 @@
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use centrode_geometry::Point;
+
+use super::build::range;
+use super::design::FRAME;
+use super::gearing::{Meshing, gears_of};
+use super::points::{BodyPoints, Reference, points_of};
+use super::{
+    Composed, ComposedBody, ComposedDesign, ComposedDyad, ComposedDyadSpec, ComposedError,
+    ComposedFigure, ComposedGear, Over, Pin,
+};
+use crate::gear::design::{Rule, SpecError};
+use crate::linkage::{Coordinate, Link, Linkage, LinkageError, NotClosing};
+
+/// Body or dyad to build, in whatever order its needs allow.
+#[derive(Clone, Copy)]
+enum Node<'a> {
+    Body(&'a str),
+    Dyad(&'a str, &'a ComposedDyadSpec),
+}
+
+/// A composed machine under construction.
+pub(super) struct Builder<'a> {
+    pub(super) design: &'a ComposedDesign,
+    pub(super) points: BodyPoints,
+    pub(super) linkage: Linkage,
+    /// Bodies in the order of building, and those that dyads have yet to be followed for.
+    pub(super) bodies: Vec<ComposedBody>,
+    pub(super) dyads: Vec<ComposedDyad>,
+    pub(super) pins: Vec<Pin>,
+    pub(super) gears: Vec<ComposedGear>,
+    pub(super) meshes: Vec<Meshing>,
+    /// Joints whose motion follows from the closed linkage, by the body they carry, and the key that holds it.
+    pub(super) followed: Vec<(usize, Coordinate, String)>,
+}
+
+impl Composed {
+    /// Resolves a design: bodies in the order in which they need each other, whatever their order in the file.
+    ///
+    /// # Errors
+    /// [`ComposedError`] naming the key at fault.
+    pub fn resolve(design: &ComposedDesign) -> Result<Self, ComposedError> {
+        design.validate()?;
+        holders(design)?;
+        let points = points_of(design)?;
+        let mut builder = Builder {
+            gears: gears_of(design, &points)?,
+            meshes: Vec::new(),
+            points,
+            linkage: Linkage::with_turns(design.input.turns),
+            bodies: vec![ComposedBody {
+                name: FRAME.into(),
+                link: Link::FRAME,
+                mount: None,
+            }],
+            dyads: Vec::new(),
+            pins: Vec::new(),
+            followed: Vec::new(),
+            design,
+        };
+        builder.build()?;
+        builder.follow()?;
+        builder.check_loops()?;
+        let mut made = Self {
+            design: design.clone(),
+            linkage: builder.linkage,
+            bodies: builder.bodies,
+            dyads: builder.dyads,
+            pins: builder.pins,
+            points: builder.points,
+            figures: Vec::new(),
+            gears: builder.gears,
+            meshes: builder.meshes,
+        };
+        let goals = design.goals.iter();
+        let figures = goals.map(|(name, goal)| {
+            let figure = made.figure(&format!("goals.{name}.figure"), &goal.figure)?;
+            if matches!(figure, ComposedFigure::Clearance(_)) && goal.over != Some(Over::Least) {
+                let key = format!("goals.{name}.over");
+                let rule = Rule::Needed("as least for a clearance");
+                return Err(SpecError { key, rule }.into());
+            }
+            Ok(figure)
+        });
+        made.figures = figures.collect::<Result<_, ComposedError>>()?;
+        Ok(made)
+    }
+}
+
+/// Checks that every body is held, and by one key.
+fn holders(design: &ComposedDesign) -> Result<(), ComposedError> {
+    let of_bodies = design.bodies.iter().flat_map(|(name, body)| {
+        let keys = [
+            ("on", body.on.is_some()),
+            ("fixed_to", body.fixed_to.is_some()),
+        ];
+        let given = keys.into_iter().filter(|(_, given)| *given);
+        given.map(move |(key, _)| (name, format!("bodies.{name}.{key}")))
+    });
+    let of_dyads = design.dyads.iter().flat_map(|(name, dyad)| {
+        let bodies = dyad.bodies.iter();
+        bodies.map(move |body| (body, format!("dyads.{name}.bodies")))
+    });
+    let mut held = BTreeMap::from([(FRAME.to_owned(), FRAME.to_owned())]);
+    for (body, key) in of_bodies.chain(of_dyads) {
+        if let Some(by) = held.insert(body.clone(), key.clone()) {
+            let body = body.clone();
+            return Err(ComposedError::HeldTwice { key, body, by });
+        }
+    }
+    match design.bodies.keys().find(|name| !held.contains_key(*name)) {
+        Some(body) => Err(ComposedError::Loose { body: body.clone() }),
+        None => Ok(()),
+    }
+}
+
+impl Node<'_> {
+    fn key(&self) -> String {
+        match self {
+            Self::Body(name) => format!("bodies.{name}"),
+            Self::Dyad(name, _) => format!("dyads.{name}"),
+        }
+    }
+}
+
+impl<'a> Builder<'a> {
+    /// Builds everything, each as soon as what it needs is there.
+    fn build(&mut self) -> Result<(), ComposedError> {
+        let design = self.design;
+        let held = design.bodies.iter();
+        let held = held.filter(|(_, body)| body.on.is_some() || body.fixed_to.is_some());
+        let bodies = held.map(|(name, _)| Node::Body(name));
+        let dyads = design
+            .dyads
+            .iter()
+            .map(|(name, dyad)| Node::Dyad(name, dyad));
+        let mut left: Vec<Node<'a>> = bodies.chain(dyads).collect();
+        let mut needs = Vec::new();
+        for node in &left {
+            needs.push(self.needs(node)?);
+        }
+        while !left.is_empty() {
+            let there = |body: &String| self.bodies.iter().any(|b| b.name == *body);
+            let ready = needs.iter().position(|need| need.iter().all(there));
+            let Some(next) = ready else {
+                return Err(self.ring(&left, &needs));
+            };
+            needs.remove(next);
+            match left.remove(next) {
+                Node::Body(name) => self.add_body(name)?,
+                Node::Dyad(name, dyad) => self.add_dyad(name, dyad)?,
+            }
+        }
+        Ok(())
+    }
+
+    /// Bodies that must be there before a node, each found with the point that is named.
+    fn needs(&self, node: &Node<'_>) -> Result<Vec<String>, ComposedError> {
+        let key = node.key();
+        let words: Vec<(&str, &String)> = match node {
+            Node::Body(name) => {
+                let body = &self.design.bodies[*name];
+                let on = body
+                    .on
+                    .iter()
+                    .map(|on| (if body.mesh.is_some() { "carrier" } else { "on" }, on));
+                let fixed = body.fixed_to.iter().map(|to| ("fixed_to", to));
+                on.chain(fixed).collect()
+            }
+            Node::Dyad(_, dyad) => {
+                let words = [
+                    ("from", &dyad.from),
+                    ("to", &dyad.to),
+                    ("line", &dyad.line),
+                    ("second_line", &dyad.second_line),
+                ];
+                let given = words.into_iter();
+                given
+                    .filter_map(|(key, word)| Some((key, word.as_ref()?)))
+                    .collect()
+            }
+        };
+        let mut bodies = Vec::new();
+        for (word_key, word) in words {
+            let by_body = matches!(word_key, "fixed_to" | "carrier");
+            let word_key = if word_key == "carrier" {
+                "on"
+            } else {
+                word_key
+            };
+            let key = format!("{key}.{word_key}");
+            let reference = match by_body {
+                true => Reference::to_body(word),
+                false => Reference::to_point(&key, word)?,
+            };
+            reference.find(&key, &self.points)?;
+            bodies.push(reference.body);
+        }
+        if let Node::Body(name) = node
+            && let Some(mesh) = &self.design.bodies[*name].mesh
+        {
+            let with = self.gear(&format!("{key}.mesh.with"), &mesh.with)?;
+            bodies.push(self.gears[with].body_name.clone());
+        }
+        Ok(bodies)
+    }
+
+    /// The bodies that wait for each other.
+    fn ring(&self, left: &[Node<'_>], needs: &[Vec<String>]) -> ComposedError {
+        let makes = |node: &Node<'_>, body: &String| match node {
+            Node::Body(name) => name == body,
+            Node::Dyad(_, dyad) => dyad.bodies.contains(body),
+        };
+        // From node to a node it waits for, until one comes again.
+        let (mut way, mut at) = (Vec::new(), 0);
+        while !way.contains(&at) {
+            way.push(at);
+            let there = |body: &&String| !self.bodies.iter().any(|b| b.name == **body);
+            let missing = needs[at].iter().find(there);
+            let maker = missing.and_then(|body| left.iter().position(|node| makes(node, body)));
+            at = maker.unwrap_or(at);
+        }
+        let start = way.iter().position(|step| *step == at).unwrap_or(0);
+        ComposedError::Ring {
+            key: left[at].key(),
+            names: way[start..].iter().map(|step| left[*step].key()).collect(),
+        }
+    }
+
+    /// A point of a body that is there: the body's index, the place in its axes.
+    pub(super) fn place(&self, key: &str, word: &str) -> Result<(usize, Point), ComposedError> {
+        let reference = Reference::to_body(word);
+        let at = reference.find(key, &self.points)?;
+        let index = self.bodies.iter().position(|b| b.name == reference.body);
+        Ok((index.unwrap_or(0), at))
+    }
+
+    /// Follows the joints of the dyads over the cycle, over which all of them must close.
+    pub(super) fn follow(&mut self) -> Result<(), ComposedError> {
+        if let Some(NotClosing {
+            dyad,
+            open,
+            input,
+            missing,
+        }) = self.linkage.not_closing()
+        {
+            return Err(ComposedError::DoesNotClose {
+                dyad: self.dyads[dyad].name.clone(),
+                open,
+                input,
+                missing,
+            });
+        }
+        for (body, of, key) in std::mem::take(&mut self.followed) {
+            let found = self.linkage.coordinate(of);
+            let law = found.map_err(|error| match error {
+                LinkageError::NoDirection { input, .. } => ComposedError::NoDirection {
+                    key: key.clone(),
+                    body: self.bodies[body].name.clone(),
+                    input,
+                },
+                error => blame(&key)(error),
+            })?;
+            let range = range(&law, &self.linkage);
+            if let Some(mount) = &mut self.bodies[body].mount {
+                mount.follow(Arc::new(law), range);
+            }
+        }
+        Ok(())
+    }
+}
+
+pub(super) fn blame(key: &str) -> impl Fn(LinkageError) -> ComposedError {
+    let key = key.to_owned();
+    move |error| ComposedError::Linkage {
+        key: key.clone(),
+        error,
+    }
+}

@@ -1,0 +1,167 @@
+use std::f64::consts::TAU;
+
+use super::{made, read, refused};
+use crate::composed::Composed;
+
+const TWO_ARM: &str = include_str!("../../../../../tests/designs/two-arm.toml");
+const PRESS: &str = include_str!("../../../../../tests/designs/press.toml");
+
+#[test]
+fn gears_mesh_where_they_are_carried() {
+    let train = made(TWO_ARM);
+    let machine = train.machine().expect("plates and gears");
+    assert_eq!(machine.validate(), Ok(()));
+    super::random::agrees(&train, &machine);
+    assert_eq!(machine.meshes.len(), 4);
+    for mesh in &machine.meshes {
+        // The joint is that of one of the two, and its axis keeps the pair's distance.
+        assert!(mesh.links.contains(&machine.joints[mesh.joint].child));
+        let distance = train.gears()[0].pair.center_distance();
+        for i in 0..9 {
+            let frames = machine.pose(0.9 * f64::from(i));
+            let [one, other] = mesh.links.map(|link| frames[link].point([0.0; 3]).position);
+            assert!(((one - other).norm() - distance).abs() < 1e-10);
+        }
+    }
+}
+
+#[test]
+fn pitch_curves_touch_and_roll_on_each_other() {
+    let press = made(PRESS);
+    let [pinion, wheel] = [0, 1].map(|gear: usize| &press.gears()[gear]);
+    let bodies = ["shaft", "crank"].map(|name| press.body_named(name).expect("there"));
+    let pair = &pinion.pair;
+    for i in 0..40 {
+        let input = 0.31 * f64::from(i);
+        // The point of the pinion's curve on the line of centres is the wheel's, too, and both move alike.
+        let own = pair.rolling().driven_jet(input).velocity;
+        let radius = pair.center_distance() * own / (1.0 + own);
+        let contact = centrode_geometry::Point::new(radius, 0.0);
+        let speeds = bodies.map(|body| {
+            let origin = press.point(body, Default::default(), input);
+            let turning = press.angle(body, input).velocity;
+            let arm = contact - origin.point;
+            centrode_geometry::Vector::new(-arm.y, arm.x) * turning
+        });
+        assert!((speeds[0] - speeds[1]).norm() < 1e-10, "{speeds:?}");
+    }
+    assert_eq!(
+        (pinion.name.as_str(), wheel.name.as_str()),
+        ("pinion", "wheel")
+    );
+}
+
+#[test]
+fn a_compound_gear_hands_its_turn_on_to_another_pair() {
+    // Shaft to idler by an elliptic pair, idler to wheel by a round pair of 1 to 2: two turns of the shaft a cycle.
+    let text = PRESS
+        .replace("speed_rpm = 60", "speed_rpm = 60\nturns = 2")
+        .replace(
+            "[dyads.ram]",
+            r#"[pairs.round]
+pitch = { kind = "circle", module = 2, tooth_count = 20 }
+mean_ratio = [2, 1]
+[gears.small]
+pair = "round"
+role = "driver"
+on = "crank"
+mount_deg = 7
+[gears.big]
+pair = "round"
+role = "driven"
+on = "drum"
+mount_deg = 3
+[bodies.drum]
+on = "frame"
+mesh = { gear = "big", with = "small", direction_deg = 120 }
+[dyads.ram]"#,
+        );
+    let train = made(&text);
+    let [crank, drum] = ["crank", "drum"].map(|name| train.body_named(name).expect("there"));
+    for i in -5..30 {
+        let input = 0.7 * f64::from(i);
+        let jets = [crank, drum].map(|body| train.angle(body, input));
+        assert!((jets[1].velocity + 0.5 * jets[0].velocity).abs() < 1e-12);
+        assert!((jets[1].jerk + 0.5 * jets[0].jerk).abs() < 1e-10);
+    }
+    let turned = train.angle(drum, 2.0 * TAU).position - train.angle(drum, 0.0).position;
+    assert!((turned + TAU).abs() < 1e-12);
+    let short = text.replace("turns = 2", "turns = 1");
+    let told = "bodies.drum.mesh: turns body drum by -0.5 turns on frame in the period of 1 turns";
+    let found = refused(&short);
+    assert!(found.contains(told), "{found}");
+}
+
+#[test]
+fn a_loop_of_meshes_closes_or_is_refused_with_its_gears_and_the_mismatch() {
+    let looped = |mount: f64| {
+        TWO_ARM.replace(
+            "[plates]",
+            &format!(
+                "spare = {{ pair = \"stage\", role = \"driven\", on = \"idler-1\", mount_deg = {mount} }}\n[meshes.loop]\ngears = [\"spare\", \"sun\"]\n[plates]"
+            ),
+        )
+    };
+    let closed = Composed::resolve(&read(&looped(0.0)));
+    assert!(closed.is_ok(), "{closed:?}");
+    let found = refused(&looped(10.0));
+    let told = "meshes.loop: the loop of meshes does not close: held by others, gears sun and spare are 10.000000 deg off";
+    assert!(found.contains(told), "{found}");
+}
+
+#[test]
+fn bad_gears_are_told_by_their_key() {
+    for (from, to, told) in [
+        (
+            "with = \"pinion\"",
+            "with = \"pinon\"",
+            "bodies.crank.mesh.with: there is no gear \"pinon\"; there are pinion, wheel",
+        ),
+        (
+            "pair = \"drive\"\nrole = \"driver\"",
+            "pair = \"drift\"\nrole = \"driver\"",
+            "gears.pinion.pair: there is no pair \"drift\"; there are drive",
+        ),
+        (
+            "role = \"driven\"",
+            "role = \"driver\"",
+            "bodies.crank.mesh: wheel is the driver of drive and pinion is the driver of drive: only",
+        ),
+        ("eccentricity = 0.3", "eccentricity = 1.3", "pairs.drive."),
+        (
+            "on = \"crank\"",
+            "on = \"rod\"",
+            "bodies.crank.mesh: gear wheel must be on body crank at its origin",
+        ),
+        (
+            "law = { ratio = -1 }",
+            "mesh = { gear = \"pinion\", with = \"wheel\", direction_deg = 0 }",
+            "wait for each other",
+        ),
+        (
+            "on = \"frame\"\nmesh",
+            "on = \"rod\"\nmesh",
+            "wait for each other",
+        ),
+        (
+            "direction_deg = 0 }",
+            "direction_deg = 0 }\nlaw = { ratio = 1 }",
+            "bodies.crank.law: cannot be given together with mesh",
+        ),
+    ] {
+        let text = PRESS.replacen(from, to, 1);
+        assert_ne!(text, PRESS, "{from}");
+        let found = refused(&text);
+        assert!(found.contains(told), "{to}\n  {found}\n  {told}");
+    }
+    // A gear that swings on what should carry its axis.
+    let text = PRESS.replace("on = \"frame\"\nmesh", "on = \"slider\"\nmesh").replace(
+        "[pairs.drive]",
+        "[bodies.slider]\non = \"frame.O\"\nslides_deg = 90\nlaw = { expression = \"sin(phi)\" }\n[pairs.drive]",
+    );
+    let found = refused(&text);
+    assert!(
+        found.contains("the axis of gear pinion moves on body slider, which must carry it"),
+        "{found}"
+    );
+}

@@ -1,0 +1,123 @@
+use std::sync::Arc;
+
+use centrode_geometry::Point;
+
+use super::assembly::{Linkage, Step};
+use super::error::LinkageError;
+use super::parts::{Joint, Line, Link};
+use super::pose::Body;
+use crate::transmission::{MotionJet, Transmission, sorted};
+
+impl Step {
+    /// Whether it closes a loop.
+    pub(super) fn is_dyad(&self) -> bool {
+        matches!(
+            self,
+            Self::Rrr { .. }
+                | Self::Rrp { .. }
+                | Self::Rpr { .. }
+                | Self::Prp { .. }
+                | Self::Rpp { .. }
+        )
+    }
+}
+
+impl Linkage {
+    /// Input after which the linkage repeats, rad.
+    #[must_use]
+    pub fn period(&self) -> f64 {
+        self.period
+    }
+
+    /// Inputs in `[0, period)` where a derivative of a law may jump, ascending.
+    #[must_use]
+    pub fn breaks(&self) -> &[f64] {
+        &self.breaks
+    }
+
+    /// Adds a link that turns about a joint, its first axis at the law's angle (rad) to that of the joint's link.
+    ///
+    /// # Errors
+    /// [`LinkageError::Unknown`].
+    pub fn turning(
+        &mut self,
+        pivot: Joint,
+        law: Arc<dyn Transmission>,
+    ) -> Result<Link, LinkageError> {
+        let at = self.know_joint(pivot)?;
+        self.follow(law.as_ref());
+        let link = self.new_link();
+        self.steps.push(Step::Turning { pivot: at, law });
+        Ok(link)
+    }
+
+    /// Adds a link that slides along a line, its origin at the law's distance (mm) from the line's point, its first axis
+    /// along the line.
+    ///
+    /// # Errors
+    /// [`LinkageError::Unknown`], [`LinkageError::NotFinite`].
+    pub fn sliding(
+        &mut self,
+        line: Line,
+        law: Arc<dyn Transmission>,
+    ) -> Result<Link, LinkageError> {
+        self.know_line(&line)?;
+        self.follow(law.as_ref());
+        let link = self.new_link();
+        self.new_joint(link);
+        self.steps.push(Step::Sliding { line, law });
+        self.steps.push(Step::Point {
+            link: link.0,
+            local: Point::origin().coords,
+        });
+        Ok(link)
+    }
+
+    /// Adds a link fixed to another one: its origin at the line's point, its first axis along the line.
+    ///
+    /// # Errors
+    /// [`LinkageError::Unknown`], [`LinkageError::NotFinite`].
+    pub fn fixed(&mut self, line: Line) -> Result<Link, LinkageError> {
+        self.know_line(&line)?;
+        let link = self.new_link();
+        self.steps.push(Step::Fixed { line });
+        Ok(link)
+    }
+
+    /// A link's motion at an input.
+    ///
+    /// Not finite where the linkage does not close.
+    ///
+    /// # Panics
+    /// Never for a link of the linkage.
+    #[must_use]
+    pub fn body(&self, link: Link, input: f64) -> Body {
+        let (origin, axis) = self.series::<4>(input).frame(link);
+        Body {
+            origin: origin.jet(),
+            angle: MotionJet::of(&axis.angle()),
+        }
+    }
+
+    /// Place of a link's point, given in its axes in mm, at an input, mm.
+    ///
+    /// Not finite where the linkage does not close.
+    ///
+    /// # Panics
+    /// Never for a link of the linkage.
+    #[must_use]
+    pub fn place(&self, link: Link, local: Point, input: f64) -> Point {
+        let (origin, axis) = self.series::<1>(input).frame(link);
+        origin.plus(axis.turned(local.coords)).value()
+    }
+
+    /// Notes where a law's derivatives jump.
+    fn follow(&mut self, law: &dyn Transmission) {
+        let (of_law, period) = (law.period(), self.period);
+        let repeats = (period / of_law).round().max(1.0) as u32;
+        let jumps = law.breaks();
+        let all = (0..repeats).flat_map(|i| jumps.iter().map(move |b| b + f64::from(i) * of_law));
+        let all: Vec<f64> = all.chain(self.breaks.iter().copied()).collect();
+        self.breaks = sorted(all.into_iter(), period);
+    }
+}

@@ -1,0 +1,120 @@
+use centrode_analysis::optimise::composed::ComposedProblem;
+use centrode_analysis::optimise::{DesignProblem, NotSearched};
+use centrode_analysis::{Report, check_composed};
+use centrode_export::page::{Curve, Handle, HandlePlane, Picture};
+use centrode_export::{Bundle, ExportError, Format, Options};
+use centrode_export::{composed, machine};
+use centrode_geometry::Tolerance;
+use centrode_mechanism::composed::{Composed, ComposedDesign, DyadKind};
+use centrode_mechanism::design::{Design, MechanismError};
+use centrode_mechanism::machine::Machine;
+
+use super::{Mechanism, Resolved};
+
+/// Tolerance of the picture, as a share of a plate's width.
+const DRAWN: f64 = 2e-3;
+
+impl Mechanism for Composed {
+    fn design(&self) -> &dyn Design {
+        self.design()
+    }
+
+    fn definition(&self) -> String {
+        let count = |count: usize, one: &str, many: &str| match count {
+            1 => format!("1 {one}"),
+            _ => format!("{count} {many}"),
+        };
+        format!(
+            "{}, {}; {} a minute",
+            count(self.bodies().len() - 1, "body", "bodies"),
+            count(self.dyads().len(), "dyad", "dyads"),
+            self.design().input.speed_rpm
+        )
+    }
+
+    fn check(&self) -> Report {
+        check_composed(self)
+    }
+
+    fn curves(&self) -> Vec<Curve> {
+        composed::curves(self)
+    }
+
+    fn picture(&self) -> Picture {
+        let tolerance = Tolerance::new(DRAWN * self.design().plates.width);
+        let (Ok(tolerance), Ok(made)) = (tolerance, composed::machine(self)) else {
+            return Picture::default();
+        };
+        let mut picture = machine::picture(&made, tolerance);
+        picture.handles = handles(self);
+        picture
+    }
+
+    fn machine(&self) -> Result<Machine, ExportError> {
+        composed::machine(self)
+    }
+
+    fn files(&self, formats: &[Format], options: &Options) -> Result<Bundle, ExportError> {
+        composed::files(self, formats, options)
+    }
+}
+
+impl Resolved for Composed {
+    type Design = ComposedDesign;
+
+    const NOUN: &'static str = "a composed machine";
+
+    fn resolve(design: &ComposedDesign) -> Result<Self, MechanismError> {
+        Ok(Self::resolve(design)?)
+    }
+
+    fn problem(design: &ComposedDesign) -> Result<Box<dyn DesignProblem + Send>, NotSearched> {
+        Ok(Box::new(ComposedProblem::new(design)?))
+    }
+}
+
+/// Handles on the points of the bodies and on the bars of the dyads; links are drawn in the order of the bodies.
+fn handles(composed: &Composed) -> Vec<Handle> {
+    let design = composed.design();
+    let frame = ("frame", "frame".to_owned(), &design.frame.points);
+    let bodies = design.bodies.iter();
+    let bodies = bodies.map(|(name, body)| (name.as_str(), format!("bodies.{name}"), &body.points));
+    let mut found = Vec::new();
+    for (name, key, points) in std::iter::once(frame).chain(bodies) {
+        let Some(link) = composed.body_named(name) else {
+            continue;
+        };
+        found.extend(points.iter().map(|(point, at)| Handle {
+            name: format!("{name}.{point}"),
+            link,
+            plane: HandlePlane::Cartesian,
+            keys: [0, 1].map(|i| format!("{key}.points.{point}[{i}]")),
+            values: *at,
+            scale: 1.0,
+            origin: [0.0; 2],
+            chained: false,
+        }));
+    }
+    let bars = composed.dyads().iter().flat_map(|dyad| {
+        let lengths = design.dyads.get(&dyad.name).map(|spec| &spec.lengths[..]);
+        let lengths = lengths.unwrap_or_default().iter().enumerate();
+        // Both bars end in one joint: each is held in its middle.
+        let scale = if dyad.kind == DyadKind::TwoBars {
+            0.5
+        } else {
+            1.0
+        };
+        lengths.map(move |(i, &length)| Handle {
+            name: format!("bar {} of {}", i + 1, dyad.name),
+            link: dyad.bodies[i],
+            plane: HandlePlane::Polar,
+            keys: [format!("dyads.{}.lengths[{i}]", dyad.name), String::new()],
+            values: [length, 0.0],
+            scale,
+            origin: [0.0; 2],
+            chained: false,
+        })
+    });
+    found.extend(bars);
+    found
+}

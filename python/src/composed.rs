@@ -1,0 +1,145 @@
+use std::sync::Arc;
+
+use centrode_mechanism::composed::Composed;
+use pyo3::prelude::{Bound, PyClassInitializer, PyResult, Python, pyclass, pymethods};
+use pyo3::types::PyTuple;
+
+use crate::array::{Course, Values, row};
+use crate::design::Class;
+use crate::error::{Answer, Raised};
+use crate::mechanism::Mechanism;
+
+/// A planar machine composed in its design file: bodies that turn, slide or are fixed, laws and dyads.
+///
+/// Made by `from_toml` or `load`; `template("machine")` is a design to start from. The input `phi` is the angle the driving
+/// shaft has turned by, rad.
+///
+/// >>> import centrode as ct
+/// >>> leg = ct.Machine.from_toml(ct.template("machine"))
+/// >>> leg.bodies
+/// ('frame', 'crank', 'lower-rod', 'rocker', 'upper-rod', 'thigh', 'tie', 'shin')
+/// >>> leg.point("foot", 0.0).round(6)
+/// array([-43.160111, -91.756933])
+#[pyclass(frozen, extends = Mechanism, module = "centrode")]
+#[derive(Debug)]
+pub(crate) struct Machine(Arc<Composed>);
+
+impl Class for Machine {
+    type Machine = Composed;
+
+    fn start(composed: Arc<Composed>) -> PyClassInitializer<Self> {
+        Mechanism::start(&composed).add_subclass(Self(composed))
+    }
+
+    fn machine(&self) -> &Arc<Composed> {
+        &self.0
+    }
+}
+
+/// The order of a derivative, none to the third.
+fn checked(order: usize) -> Answer<usize> {
+    match order {
+        0..=3 => Ok(order),
+        _ => Err(Raised::rule(
+            "order",
+            &format!("must be 0 to 3, not {order}"),
+        )),
+    }
+}
+
+#[pymethods]
+impl Machine {
+    /// Names of the bodies, the frame first, each after those that it needs.
+    #[getter]
+    fn bodies<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
+        PyTuple::new(py, self.0.bodies().iter().map(|body| &body.name))
+    }
+
+    /// Names of the dyads in the order in which they close.
+    #[getter]
+    fn dyads<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
+        PyTuple::new(py, self.0.dyads().iter().map(|dyad| &dyad.name))
+    }
+
+    /// Names of the points, `body.point`.
+    #[getter]
+    fn points<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
+        let names: Vec<String> = self.0.points().map(|(name, ..)| name).collect();
+        PyTuple::new(py, names)
+    }
+
+    /// Input after which the machine repeats, rad.
+    #[getter]
+    fn period(&self) -> f64 {
+        self.0.period()
+    }
+
+    /// Speed of the input, rad/s.
+    #[getter]
+    fn speed(&self) -> f64 {
+        self.0.speed()
+    }
+
+    /// A point at inputs, mm, or its derivative by the input: an array of the shape of `phi` and then (2,).
+    ///
+    /// Args:
+    ///     name: `body.point`, or the point alone where no other body has one of that name.
+    ///     phi: Inputs, rad.
+    ///     order: 0 for the place, 1 to 3 for derivatives, mm/rad, mm/rad² and mm/rad³.
+    ///
+    /// Raises:
+    ///     DesignError: There is no such point.
+    #[pyo3(signature = (name, phi, order=0))]
+    fn point(&self, name: &str, phi: Values, order: usize) -> Answer<Course> {
+        let Some((body, at)) = self.0.point_named(name) else {
+            let known: Vec<String> = self.0.points().map(|(name, ..)| name).collect();
+            let known: Vec<&str> = known.iter().map(String::as_str).collect();
+            return Err(Raised::word("name", name, &known));
+        };
+        Ok(match checked(order)? {
+            0 => self.rows(phi, move |made, phi| {
+                made.place(body, at, phi).coords.into()
+            }),
+            _ => self.rows(phi, move |made, phi| {
+                let jet = made.point(body, at, phi);
+                [jet.first, jet.second, jet.third][order - 1].into()
+            }),
+        })
+    }
+
+    /// A body at inputs: x and y of its origin, mm, and its angle, rad, without jumps, or their derivatives by the input: an
+    /// array of the shape of `phi` and then (3,).
+    ///
+    /// Args:
+    ///     name: Name of the body.
+    ///     phi: Inputs, rad.
+    ///     order: 0 for the place, 1 to 3 for derivatives.
+    ///
+    /// Raises:
+    ///     DesignError: There is no such body.
+    #[pyo3(signature = (name, phi, order=0))]
+    fn body(&self, name: &str, phi: Values, order: usize) -> Answer<Course> {
+        let Some(body) = self.0.body_named(name) else {
+            let known: Vec<&str> = self.0.bodies().iter().map(|b| b.name.as_str()).collect();
+            return Err(Raised::word("name", name, &known));
+        };
+        let order = checked(order)?;
+        Ok(self.rows(phi, move |made, phi| {
+            let jet = made.point(body, Default::default(), phi);
+            let place = [jet.point.coords, jet.first, jet.second, jet.third][order];
+            [place.x, place.y, row(&made.angle(body, phi))[order]]
+        }))
+    }
+
+    /// Transmission angle of a dyad at inputs, rad: 0 where it is stretched or folded, a right angle where it holds best.
+    ///
+    /// Raises:
+    ///     DesignError: There is no such dyad.
+    fn transmission_angle(&self, name: &str, phi: Values) -> Answer<Course> {
+        let Some(dyad) = self.0.dyads().iter().position(|dyad| dyad.name == name) else {
+            let known: Vec<&str> = self.0.dyads().iter().map(|d| d.name.as_str()).collect();
+            return Err(Raised::word("name", name, &known));
+        };
+        Ok(self.each(phi, move |made, phi| made.transmission_angles(phi)[dyad]))
+    }
+}
