@@ -1,6 +1,6 @@
 //! Dimensions and notes with leaders, ISO 129-1.
 
-use super::{Draft, Pen, draft::ARROW, lettering};
+use super::{Draft, Pen, draft::ARROW, lettering, steady};
 use crate::drawing::{Anchor, Shape};
 use centrode_geometry::{Arc, Bounds, Point, Vector};
 
@@ -87,20 +87,20 @@ impl Draft {
     /// Draws notes in two columns left and right of a view, each with a leader to its point, in the order of
     /// the points so that leaders do not cross. `band` of heights is left free, and leaders run clear of words there are.
     pub fn callouts(&mut self, around: Bounds, band: [f64; 2], notes: &[(Point, Vec<String>)]) {
-        let middle = 0.5 * (around.min.x + around.max.x);
+        let middle = steady(0.5 * (around.min.x + around.max.x));
         for right in [false, true] {
             let mut column: Vec<&(Point, Vec<String>)> = notes
                 .iter()
-                .filter(|(p, _)| (p.x >= middle) == right)
+                .filter(|(p, _)| (steady(p.x) >= middle) == right)
                 .collect();
-            column.sort_by(|a, b| a.0.y.total_cmp(&b.0.y));
+            column.sort_by(|a, b| steady(a.0.y).total_cmp(&steady(b.0.y)));
             let x = if right {
                 around.max.x + 4.0
             } else {
                 around.min.x - 4.0
             };
-            let halfway = 0.5 * (band[0] + band[1]);
-            let upper = column.partition_point(|(p, _)| p.y < halfway);
+            let halfway = steady(0.5 * (band[0] + band[1]));
+            let upper = column.partition_point(|(p, _)| steady(p.y) < halfway);
             // Upwards from the band, then downwards from it.
             let mut floor = band[1];
             for (tip, words) in &column[upper..] {

@@ -37,6 +37,12 @@ pub(crate) fn mass(grams: f64) -> String {
     }
 }
 
+/// A length on paper, mm, without its rounding errors: the order of things must not hang on them.
+pub(crate) fn steady(length: f64) -> f64 {
+    const PARTS: f64 = 1e6;
+    (length * PARTS).round() / PARTS
+}
+
 #[cfg(test)]
 mod tests {
     use super::{fixed, number};

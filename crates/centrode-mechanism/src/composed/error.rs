@@ -102,7 +102,7 @@ pub enum ComposedError {
         error: ComposedLawError,
     },
     /// A dyad that does not close over the whole cycle.
-    #[error("dyad {dyad:?} {}: at {:.4} deg {missing:.4} mm are missing", closes(.open), input.to_degrees())]
+    #[error("dyad {dyad:?} {}: at {:.4} deg {}", closes(.open), input.to_degrees(), short(*missing))]
     DoesNotClose {
         /// The dyad.
         dyad: String,
@@ -182,6 +182,17 @@ pub enum ComposedError {
 }
 
 /// Inputs at which a dyad closes, in words.
+/// Missing length, in words; none where the dyad only just reaches.
+fn short(missing: f64) -> String {
+    if missing > 0.0 && missing < 1e9 {
+        format!("{missing:.4} mm are missing")
+    } else if missing >= 1e9 {
+        format!("{missing:.4e} mm are missing")
+    } else {
+        "it is stretched or folded, and has no side".into()
+    }
+}
+
 fn closes(open: &[(f64, f64)]) -> String {
     if open.is_empty() {
         return "closes nowhere".into();

@@ -3,7 +3,7 @@ use centrode_geometry::{MassProperties, Point, SolidError};
 use super::{Composed, ComposedBody};
 use crate::machine::{
     Closure, Form, GearMesh, Input, Joint, JointKind, Line, LineRole, Link, LinkPoint, Machine,
-    Mark, Quantity, Shape, Surface,
+    Mark, Part, Quantity, Shape, Surface,
 };
 
 impl Composed {
@@ -58,7 +58,39 @@ impl Composed {
         }
         self.add_points(&mut machine);
         self.draw(&mut machine);
+        self.list(&mut machine)?;
         Ok(machine)
+    }
+
+    /// Lists the plates and gears as parts, each with the files of its name.
+    fn list(&self, machine: &mut Machine) -> Result<(), SolidError> {
+        for (index, body) in self.bodies.iter().enumerate() {
+            let Some(solid) = self.plate(index)? else {
+                continue;
+            };
+            machine.part(Part {
+                name: body.name.clone(),
+                links: vec![index],
+                mass: Some(solid.mass_properties(self.design.plates.density).mass),
+                file: body.name.clone(),
+                place: machine.place_on_edge(&body.name, solid.outline()),
+                ..Part::default()
+            });
+        }
+        for gear in &self.gears {
+            let solid = gear.solid(self.gear_bottom(gear))?;
+            let own = gear.gear();
+            machine.part(Part {
+                name: gear.name.clone(),
+                links: self.body_named(&gear.body_name).into_iter().collect(),
+                material: own.body().material.clone(),
+                mass: Some(solid.mass_properties(own.body().density).mass),
+                file: gear.name.clone(),
+                remark: format!("{} teeth", own.tooth_count()),
+                place: machine.place_on_edge(&gear.body_name, solid.outline()),
+            });
+        }
+        Ok(())
     }
 
     /// Adds a body with its plate: shape, mass, surface to touch with.
@@ -143,8 +175,9 @@ impl Composed {
 
     /// Draws every body, and the ways of the points on which nothing is held.
     fn draw(&self, machine: &mut Machine) {
+        let followed = self.followed();
         let traced: Vec<usize> = (0..machine.points.len())
-            .filter(|&point| self.free(&machine.points[point].name))
+            .filter(|&point| followed.contains(&machine.points[point].name))
             .collect();
         for (index, body) in self.bodies.iter().enumerate() {
             let mut lines = Vec::new();

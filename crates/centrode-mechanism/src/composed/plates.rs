@@ -18,14 +18,20 @@ impl Composed {
         let name = &self.bodies.get(body)?.name;
         let points = self.points.get(name)?;
         let mut circles: Vec<(Point, f64)> = points.values().map(|p| (p.at, 0.5 * width)).collect();
-        if circles.is_empty() {
+        let spec = self.design.bodies.get(name);
+        let fixed = spec.is_some_and(|body| body.fixed_to.is_some());
+        // A mesh places the axis of its body at the body's origin, which need not be a point.
+        let meshed = spec.is_some_and(|body| body.mesh.is_some());
+        if circles.is_empty() || fixed || meshed {
             circles.push((Point::origin(), 0.5 * width));
         }
         let pinned = self.pinned();
         let pins = points
             .iter()
             .filter(|(point, at)| !at.own || pinned.contains(&format!("{name}.{point}")));
-        let holes = pins.map(|(_, point)| Outline::circle(point.at, 0.5 * pin_diameter));
+        let axis = meshed.then(Point::origin);
+        let holes = pins.map(|(_, point)| point.at).chain(axis);
+        let holes = holes.map(|at| Outline::circle(at, 0.5 * pin_diameter));
         Some((Outline::hull(&circles)?, holes.collect()))
     }
 
@@ -45,24 +51,32 @@ impl Composed {
         on.chain(dyads).collect()
     }
 
-    /// Whether no other body is held by a point, or by a joint that is this point, by `body.point`.
-    pub(super) fn free(&self, name: &str) -> bool {
+    /// Points worth following, among those that no other body is held by: given ones, or joints where there is none.
+    pub(super) fn followed(&self) -> Vec<String> {
         let design = &self.design;
         let bodies = design.bodies.values();
         let held = bodies.flat_map(|body| body.on.iter().chain(&body.fixed_to));
         let dyads = design.dyads.values();
         let tied = dyads.flat_map(|dyad| [&dyad.from, &dyad.to, &dyad.line, &dyad.second_line]);
         let words: BTreeSet<&String> = held.chain(tied.flatten()).collect();
-        let is_joint = |body: &String, joint: &String| format!("{body}.{joint}") == name;
-        let joint = design.dyads.values().find_map(|dyad| {
-            let joint = dyad.joint.as_ref()?;
-            let own = dyad.bodies.iter().any(|body| is_joint(body, joint));
-            own.then(|| dyad.bodies.each_ref().map(|body| format!("{body}.{joint}")))
-        });
-        match joint {
+        // A joint has a name on each of its bodies.
+        let joints: Vec<[String; 2]> = design
+            .dyads
+            .values()
+            .filter_map(|dyad| {
+                let joint = dyad.joint.as_ref()?;
+                Some(dyad.bodies.each_ref().map(|body| format!("{body}.{joint}")))
+            })
+            .collect();
+        let of = |name: &String| joints.iter().find(|names| names.contains(name));
+        let free = |name: &String| match of(name) {
             Some(names) => !names.iter().any(|name| words.contains(name)),
-            None => !words.contains(&name.to_owned()),
-        }
+            None => !words.contains(name),
+        };
+        let moving = self.points().filter(|(_, body, _)| *body > 0);
+        let all = moving.map(|(name, ..)| name).filter(free);
+        let (ties, given): (Vec<String>, Vec<String>) = all.partition(|name| of(name).is_some());
+        if given.is_empty() { ties } else { given }
     }
 
     /// Height of the lower face of a body's plate along the shafts, mm; that of the frame is below all others.

@@ -6,7 +6,7 @@ use super::axes::Axis;
 use super::measure::Measured;
 use super::scene::{Drawn, Scene};
 use crate::drawing::{Anchor, Shape};
-use crate::sheet::{Draft, Pen, Scale, dimension_words, lettering, view_letters};
+use crate::sheet::{Draft, Pen, Scale, dimension_words, lettering, steady, view_letters};
 
 /// Room between the view and its first dimension line, mm, and from one line to the next.
 const FIRST: f64 = 12.0;
@@ -175,13 +175,13 @@ impl View<'_> {
 
 /// Whether the upper edge of a view is nearer to a point than its sides.
 fn is_upper(at: Point, Bounds { min, max }: Bounds) -> bool {
-    max.y - at.y < (at.x - min.x).min(max.x - at.x)
+    steady(max.y - at.y) < steady((at.x - min.x).min(max.x - at.x))
 }
 
 /// Writes notes above a view: leaders of the left ones lean to the left, those of the others to the right, and rise the higher
 /// the nearer to the middle.
 fn note_above(draft: &mut Draft, mut notes: Vec<Note>) {
-    notes.sort_by(|(a, _), (b, _)| a.x.total_cmp(&b.x));
+    notes.sort_by(|(a, _), (b, _)| steady(a.x).total_cmp(&steady(b.x)));
     let right = notes.split_off(notes.len() / 2);
     let row = draft.lettering() + 2.0;
     let lowest = draft.bounds().max.y + ABOVE;

@@ -18,8 +18,9 @@ const OWN: [&str; 8] = [
 ];
 
 /// Other files of one family, and the lists: that of the families and that of their Python classes. The files of every
-/// model begin with the word of a family.
-const OTHERS: [&str; 5] = [
+/// model and the view of every general arrangement begin with the word of a family.
+const OTHERS: [&str; 6] = [
+    "centrode-export/src/machine/arrangement/mod.rs",
     "centrode-export/src/machine/mod.rs",
     "centrode/src/family/mod.rs",
     "python/src/design.rs",
