@@ -17,6 +17,7 @@ pub struct MotionSpec {
     #[schemars(with = "f64")]
     pub start: f64,
     /// The segments; their spans add up to a whole turn.
+    #[serde(default)]
     pub segments: Vec<SegmentSpec>,
 }
 
