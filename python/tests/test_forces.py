@@ -17,6 +17,7 @@ DOWN = {
     "Feeder": (0.0, -9.80665, 0.0),
     "SpiralShaft": (0.0, 0.0, -9.81),
     "MovingBox": (0.0, 0.0, -9.81),
+    "Machine": (0.0, 0.0, 0.0),
 }
 # Weights of the central difference of eighth order.
 WEIGHTS = np.array([1 / 280, -4 / 105, 1 / 5, -4 / 5, 0, 4 / 5, -1 / 5, 4 / 105, -1 / 280])

@@ -12,6 +12,8 @@ pub use html::{Asset, INDEX, asset, report};
 pub use path::Path;
 pub(crate) use path::short;
 
+use std::borrow::Cow;
+
 use serde::Serialize;
 
 /// A machine drawn to scale, and how it moves.
@@ -100,7 +102,7 @@ pub enum HandlePlane {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Curve {
     /// The chart it belongs to; curves of one chart share unit and axis.
-    pub chart: &'static str,
+    pub chart: Cow<'static, str>,
     /// Name within the chart; empty where it is alone.
     pub name: &'static str,
     /// Unit as shown; empty for a plain number.
@@ -120,7 +122,7 @@ impl Curve {
     #[must_use]
     pub fn new([chart, name, unit]: [&'static str; 3], input: &[f64], value: Vec<f64>) -> Self {
         Self {
-            chart,
+            chart: chart.into(),
             name,
             unit,
             count: false,
