@@ -3,7 +3,7 @@ use std::sync::Arc;
 
 use crate::transmission::{MotionJet, Transmission};
 
-/// The motion of an [`IncompletePair`]: the law of its pitch curves over the toothed arc, eased in and out over the
+/// The motion of an [`IncompletePair`](super::IncompletePair): the law of its pitch curves over the toothed arc, eased in and out over the
 /// entry angle, and rest.
 #[derive(Clone, Debug)]
 pub struct IncompleteLaw {
