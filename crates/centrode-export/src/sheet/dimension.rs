@@ -104,26 +104,30 @@ impl Draft {
             // Upwards from the band, then downwards from it.
             let mut floor = band[1];
             for (tip, words) in &column[upper..] {
-                let y = tip.y.max(floor + below(words, self.letters));
-                let y = self.clear(*tip, Point::new(x, y), CLEARING);
+                let lowest = floor + below(words, self.letters);
+                let y = tip.y.max(lowest);
+                let y = self.clear(*tip, Point::new(x, y), |y| y >= lowest);
                 self.leader(*tip, Point::new(x, y), words);
                 floor = y + above(self.letters);
             }
             let mut ceiling = band[0];
             for (tip, words) in column[..upper].iter().rev() {
-                let y = tip.y.min(ceiling - above(self.letters));
-                let y = self.clear(*tip, Point::new(x, y), -CLEARING);
+                let highest = ceiling - above(self.letters);
+                let y = tip.y.min(highest);
+                let y = self.clear(*tip, Point::new(x, y), |y| y <= highest);
                 self.leader(*tip, Point::new(x, y), words);
                 ceiling = y - below(words, self.letters);
             }
         }
     }
 
-    /// The first height from an elbow's on, by steps, at which a leader to it runs through no words; its own where there is none.
-    fn clear(&self, tip: Point, elbow: Point, step: f64) -> f64 {
-        let heights = (0..TRIES).map(|i| elbow.y + step * f64::from(i));
-        let free = |y: &f64| !self.strikes([tip, Point::new(elbow.x, *y)]);
-        heights.into_iter().find(free).unwrap_or(elbow.y)
+    /// The allowed height nearest to an elbow's, by steps, at which a leader to it runs through no words; its own where there is
+    /// none.
+    fn clear(&self, tip: Point, elbow: Point, allowed: impl Fn(f64) -> bool) -> f64 {
+        let steps = (0..TRIES).map(|i| CLEARING * f64::from(i));
+        let mut heights = steps.flat_map(|step| [elbow.y + step, elbow.y - step]);
+        let free = |y: &f64| allowed(*y) && !self.strikes([tip, Point::new(elbow.x, *y)]);
+        heights.find(free).unwrap_or(elbow.y)
     }
 
     /// Draws an arc about a centre with an arrow at its end, angles in rad.

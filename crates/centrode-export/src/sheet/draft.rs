@@ -142,7 +142,7 @@ impl Draft {
     }
 
     /// Whether a straight line runs through words.
-    pub(super) fn strikes(&self, line: [Point; 2]) -> bool {
+    pub(crate) fn strikes(&self, line: [Point; 2]) -> bool {
         let shapes = self.entities.iter().map(|entity| &entity.shape);
         overlap::strikes(shapes, line)
     }

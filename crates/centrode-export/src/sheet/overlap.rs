@@ -5,8 +5,8 @@ use crate::drawing::{Shape, Text};
 use centrode_geometry::{Bounds, Outline, Point, Segment, Tolerance, Vector};
 use nalgebra::Rotation2;
 
-/// Half the width of a leader with some air, mm.
-const HALF: f64 = 0.3;
+/// Half the width of a leader's arrow with some air, mm.
+const HALF: f64 = 0.6;
 
 /// Words that touch something.
 #[derive(Clone, Debug, PartialEq)]

@@ -25,9 +25,12 @@ const ARROW: f64 = 1.2;
 const BESIDE: f64 = 0.9;
 /// Radii of such an arrow in the order tried, mm.
 const RADII: [f64; 10] = [14.0, 11.0, 17.0, 20.0, 8.0, 24.0, 28.0, 6.0, 33.0, 40.0];
-/// Height of the lowest words above a view, mm, and how far their leaders lean.
+/// Height of the lowest words above a view, mm, and how far their leaders lean: the least, the step and the count of what is
+/// tried for one that runs through no words.
 const ABOVE: f64 = 12.0;
 const LEAN: f64 = 6.0;
+const MORE: f64 = 1.5;
+const LEANS: u32 = 24;
 /// Most dimensions whose order is looked for among all orders.
 const ORDERED: usize = 6;
 
@@ -77,17 +80,22 @@ impl View<'_> {
             }
         }
         self.measure(&mut draft, k, whole);
-        let mut notes = self.name(&mut draft, k);
-        self.turn(&mut draft, k, whole);
         let told = self.scene.machine.arrangement.callouts.iter();
-        notes.extend(told.map(|note| (self.scene.at(&note.place) * k, note.words.clone())));
-        let (above, mut beside): (Vec<Note>, Vec<Note>) =
-            notes.into_iter().partition(|(at, _)| is_upper(*at, whole));
-        note_above(&mut draft, above);
+        let told: Vec<Note> = told
+            .map(|note| (self.scene.at(&note.place) * k, note.words.clone()))
+            .collect();
         let balloons = self.balloons.iter();
-        beside
-            .extend(balloons.map(|(place, items)| (self.scene.at(place) * k, vec![items.clone()])));
-        draft.callouts(draft.bounds(), [f64::NEG_INFINITY; 2], &beside);
+        let balloons: Vec<Note> = balloons
+            .map(|(place, items)| (self.scene.at(place) * k, vec![items.clone()]))
+            .collect();
+        let (above, beside): (Vec<Note>, Vec<Note>) =
+            told.into_iter().partition(|(at, _)| is_upper(*at, whole));
+        note_above(&mut draft, above);
+        self.turn(&mut draft, k, whole);
+        note_beside(&mut draft, &[beside, balloons].concat());
+        // Names have more room to choose from than leaders: they come last.
+        let left = self.name(&mut draft, k);
+        note_beside(&mut draft, &left);
         draft
     }
 
@@ -148,8 +156,10 @@ impl View<'_> {
             let center = axis.at * k;
             let sweep = ARROW * turned.signum();
             let free = |radius: f64, from: f64| {
+                // Squares that leave no gap between them.
+                let count = (radius * ARROW / BESIDE).ceil() as u32;
                 let square = |i: u32| {
-                    let angle = from + sweep * f64::from(i) / 8.0;
+                    let angle = from + sweep * f64::from(i) / f64::from(count);
                     let at = center + Vector::new(angle.cos(), angle.sin()) * radius;
                     let half = Vector::repeat(BESIDE);
                     Bounds {
@@ -157,7 +167,7 @@ impl View<'_> {
                         max: at + half,
                     }
                 };
-                (0..=8).all(|i| whole.meets(&square(i)) && !draft.touches(square(i)))
+                (0..=count).all(|i| whole.meets(&square(i)) && !draft.touches(square(i)))
             };
             let starts = |i: u32| {
                 std::f64::consts::FRAC_PI_2 - 0.5 * sweep
@@ -188,10 +198,18 @@ fn note_above(draft: &mut Draft, mut notes: Vec<Note>) {
     for (side, notes) in [(-1.0, notes), (1.0, right.into_iter().rev().collect())] {
         let mut height = lowest;
         for (tip, words) in notes {
-            draft.leader(tip, Point::new(tip.x + side * LEAN, height), &words);
+            let elbow = |i: u32| Point::new(tip.x + side * (LEAN + MORE * f64::from(i)), height);
+            let mut elbows = (0..LEANS).map(elbow);
+            let free = elbows.find(|elbow| !draft.strikes([tip, *elbow]));
+            draft.leader(tip, free.unwrap_or(elbow(0)), &words);
             height += row * (words.len() as f64 + 1.0);
         }
     }
+}
+
+/// Writes notes left and right of all that is drawn.
+fn note_beside(draft: &mut Draft, notes: &[Note]) {
+    draft.callouts(draft.bounds(), [f64::NEG_INFINITY; 2], notes);
 }
 
 /// Writes words beside a point where they touch nothing; whether there is room.
