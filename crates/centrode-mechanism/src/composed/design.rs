@@ -6,13 +6,12 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{
-    ComposedDyadSpec, ComposedGearSpec, ComposedGoalSpec, ComposedLawSpec, ComposedLoopSpec,
-    ComposedMeshSpec,
+    ComposedBodySpec, ComposedDyadSpec, ComposedGearSpec, ComposedGoalSpec, ComposedLoopSpec,
+    ComposedPlatesSpec, ComposedPointsSpec,
 };
-use crate::degrees;
 use crate::design::DesignSpec;
 use crate::gear::design::rule::{
-    Rule, broken, count_in_range, file_name, finite, in_range, not_negative, positive, single_line,
+    Rule, broken, count_in_range, file_name, finite, positive, single_line,
 };
 use crate::gear::design::{GearPairDesign, SpecError};
 
@@ -73,103 +72,6 @@ pub struct ComposedInputSpec {
     pub turns: u32,
 }
 
-/// Points of a body by name.
-#[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct ComposedPointsSpec {
-    /// Points by name: x and y in the body's axes, mm.
-    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
-    pub points: BTreeMap<String, [f64; 2]>,
-    /// Points by name, each the third corner of a triangle.
-    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
-    pub corners: BTreeMap<String, CornerSpec>,
-}
-
-/// A point of a body by its distances from two others.
-#[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
-#[serde(deny_unknown_fields)]
-pub struct CornerSpec {
-    /// The two points of the body from which it is measured.
-    pub from: [String; 2],
-    /// Distances from them, mm.
-    pub lengths: [f64; 2],
-    /// Side of the way from the first to the second on which it lies, left or right.
-    pub side: Side,
-}
-
-/// Choice between the two ways in which lengths go together.
-#[derive(Clone, Copy, Debug, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Side {
-    /// To the left of the way from the first point to the second.
-    Left,
-    /// To the right of it.
-    Right,
-    /// Forward along the line.
-    Forward,
-    /// Backward along the line.
-    Backward,
-}
-
-/// A body of a composed machine: turning on a pin, sliding along a line, fixed to another body or made by a dyad.
-#[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct ComposedBodySpec {
-    /// Point of another body on which it turns, or from which it slides: `frame.O`; with a mesh, the body that carries it.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub on: Option<String>,
-    /// Direction in which it slides, in the axes of the body that carries it, rad (degrees in the file); left out, it turns.
-    #[serde(
-        rename = "slides_deg",
-        with = "degrees::option",
-        skip_serializing_if = "Option::is_none"
-    )]
-    #[schemars(with = "Option<f64>")]
-    pub slides: Option<f64>,
-    /// Body, or point of a body, to which it is fixed: its origin.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub fixed_to: Option<String>,
-    /// Turn of its axes against those of the body it is fixed to, rad (degrees in the file).
-    #[serde(
-        rename = "turned_deg",
-        with = "degrees::option",
-        skip_serializing_if = "Option::is_none"
-    )]
-    #[schemars(with = "Option<f64>")]
-    pub turned: Option<f64>,
-    /// Place of its plate along the shafts, counted from the one next to the frame; left out, plates stack in order.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub layer: Option<u32>,
-    /// Motion of a body that turns or slides.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub law: Option<ComposedLawSpec>,
-    /// Mesh that turns it on its carrier, and places it there.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub mesh: Option<ComposedMeshSpec>,
-    /// Points by name: x and y in the body's axes, mm.
-    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
-    pub points: BTreeMap<String, [f64; 2]>,
-    /// Points by name, each the third corner of a triangle.
-    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
-    pub corners: BTreeMap<String, CornerSpec>,
-}
-
-/// The bodies as plates drawn round their points.
-#[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct ComposedPlatesSpec {
-    /// Thickness of a plate, mm.
-    pub thickness: f64,
-    /// Distance of neighbouring plates, mm.
-    pub gap: f64,
-    /// Width of a plate, mm: it ends in half circles about its points.
-    pub width: f64,
-    /// Diameter of the pins, mm.
-    pub pin_diameter: f64,
-    /// Density, kg/m^3.
-    pub density: f64,
-}
-
 fn default_name() -> String {
     "machine".into()
 }
@@ -180,141 +82,6 @@ impl Default for ComposedInputSpec {
             speed_rpm: 60.0,
             turns: 1,
         }
-    }
-}
-
-impl Default for ComposedPlatesSpec {
-    fn default() -> Self {
-        Self {
-            thickness: 5.0,
-            gap: 1.0,
-            width: 8.0,
-            pin_diameter: 3.0,
-            density: 7850.0,
-        }
-    }
-}
-
-impl Side {
-    /// Whether it is a side of a way rather than a sense along a line.
-    #[must_use]
-    pub fn is_across(self) -> bool {
-        matches!(self, Self::Left | Self::Right)
-    }
-
-    /// +1 to the left and forward, -1 to the right and backward.
-    #[must_use]
-    pub fn sign(self) -> f64 {
-        match self {
-            Self::Left | Self::Forward => 1.0,
-            Self::Right | Self::Backward => -1.0,
-        }
-    }
-}
-
-impl CornerSpec {
-    fn validate(&self) -> Result<(), SpecError> {
-        for length in self.lengths {
-            positive("lengths", length)?;
-        }
-        if !self.side.is_across() {
-            return broken("side", Rule::Needed("as left or right"));
-        }
-        Ok(())
-    }
-}
-
-impl ComposedPointsSpec {
-    fn validate(&self) -> Result<(), SpecError> {
-        points(&self.points, &self.corners)
-    }
-}
-
-/// Checks the names and numbers of a body's points.
-fn points(
-    points: &BTreeMap<String, [f64; 2]>,
-    corners: &BTreeMap<String, CornerSpec>,
-) -> Result<(), SpecError> {
-    for (name, at) in points {
-        let key = format!("points.{name}");
-        file_name(&key, name)?;
-        for coordinate in at {
-            finite(&key, *coordinate)?;
-        }
-    }
-    for (name, corner) in corners {
-        let key = format!("corners.{name}");
-        file_name(&key, name)?;
-        if points.contains_key(name) {
-            return broken(&key, Rule::Excludes("a point of the same name"));
-        }
-        corner.validate().map_err(|e| e.inside(&key))?;
-    }
-    Ok(())
-}
-
-impl ComposedBodySpec {
-    fn validate(&self) -> Result<(), SpecError> {
-        if self.on.is_some() && self.fixed_to.is_some() {
-            return broken("fixed_to", Rule::Excludes("on"));
-        }
-        if let Some(mesh) = &self.mesh {
-            finite("mesh.direction_deg", mesh.direction)?;
-            let beside = [
-                ("law", self.law.is_some()),
-                ("slides_deg", self.slides.is_some()),
-            ];
-            if let Some((key, _)) = beside.into_iter().find(|(_, given)| *given) {
-                return broken(key, Rule::Excludes("mesh"));
-            }
-        }
-        if self.on.is_some() && self.law.is_none() && self.mesh.is_none() {
-            return broken(
-                "law",
-                Rule::Needed("for a body that turns or slides, or a mesh"),
-            );
-        }
-        if self.on.is_none() && self.mesh.is_some() {
-            return broken("on", Rule::Needed("for a body that a mesh turns"));
-        }
-        if self.on.is_none() && self.law.is_some() {
-            return broken("on", Rule::Needed("for a body with a law"));
-        }
-        if self.on.is_none() && self.slides.is_some() {
-            return broken("on", Rule::Needed("for a body that slides"));
-        }
-        if self.fixed_to.is_none() && self.turned.is_some() {
-            return broken(
-                "turned_deg",
-                Rule::Unused("but for a body that is fixed_to another"),
-            );
-        }
-        for (key, angle) in [("slides_deg", self.slides), ("turned_deg", self.turned)] {
-            finite(key, angle.unwrap_or(0.0))?;
-        }
-        if let Some(layer) = self.layer {
-            count_in_range("layer", layer, 0, 1000)?;
-        }
-        if let Some(law) = &self.law {
-            let slides = self.slides.is_some();
-            law.validate(slides).map_err(|e| e.inside("law"))?;
-        }
-        points(&self.points, &self.corners)
-    }
-}
-
-impl ComposedPlatesSpec {
-    fn validate(&self) -> Result<(), SpecError> {
-        for (key, value) in [
-            ("thickness", self.thickness),
-            ("width", self.width),
-            ("density", self.density),
-        ] {
-            positive(key, value)?;
-        }
-        not_negative("gap", self.gap)?;
-        let most = 0.9 * self.width;
-        in_range("pin_diameter", self.pin_diameter, [0.0, most], " mm")
     }
 }
 

@@ -208,20 +208,14 @@ impl Builder<'_> {
     /// Angle of a gear by the input.
     fn gear_angle(&self, gear: usize) -> Angle {
         let gear = &self.gears[gear];
-        let body = self
-            .bodies
-            .iter()
-            .position(|body| body.name == gear.body_name);
+        let body = self.body_named(&gear.body_name);
         self.angle(body.unwrap_or(0)).plus(gear.mount)
     }
 
     /// Axis of a gear in the axes of a body that carries it without moving it; none where it moves there.
     fn axis_on(&self, carrier: usize, gear: usize) -> Option<Point> {
         let gear = &self.gears[gear];
-        let body = self
-            .bodies
-            .iter()
-            .position(|body| body.name == gear.body_name)?;
+        let body = self.body_named(&gear.body_name)?;
         let size = SAME * gear.pair.center_distance();
         let near = |one: Point, other: Point| (one - other).norm() <= size;
         let mount = |index: usize| self.bodies[index].mount.as_ref();
@@ -349,8 +343,8 @@ impl Builder<'_> {
         let pair = &self.gears[driver].pair;
         let axis = |gear: usize, input: f64| {
             let gear = &self.gears[gear];
-            let body = self.bodies.iter().find(|body| body.name == gear.body_name);
-            body.map(|body| self.linkage.place(body.link, gear.at, input))
+            let body = self.body_named(&gear.body_name)?;
+            Some(self.linkage.place(self.bodies[body].link, gear.at, input))
         };
         let [one, other] = [self.gear_angle(driver), self.gear_angle(driven)];
         let rolling = Arc::new(pair.rolling().clone());

@@ -3,7 +3,9 @@
 //! A body has axes of its own. One that turns has its origin on its pin; one that slides has its first axis along its line;
 //! the bodies of a dyad have theirs as those of a [`Linkage`]. The input is the angle of the driving shaft, rad.
 
+mod body;
 mod build;
+mod corner;
 mod design;
 mod dyad;
 mod error;
@@ -24,10 +26,9 @@ use std::sync::Arc;
 
 use centrode_geometry::{Jet, Point};
 
-pub use design::{
-    ComposedBodySpec, ComposedDesign, ComposedInputSpec, ComposedPlatesSpec, ComposedPointsSpec,
-    CornerSpec, Side,
-};
+pub use body::ComposedBodySpec;
+pub use corner::{ComposedPointsSpec, CornerSpec, Side};
+pub use design::{ComposedDesign, ComposedInputSpec};
 pub use dyad::{ComposedDyadSpec, DyadKind};
 pub use error::ComposedError;
 pub use figure::{ComposedFigure, FIGURE_FORMS, PointPart};
@@ -35,6 +36,7 @@ pub use gearing::ComposedGear;
 pub use gears::{ComposedGearSpec, ComposedLoopSpec, ComposedMeshSpec, GearRole};
 pub use goal::{ComposedGoalSpec, Over};
 pub use law::{ComposedLawError, ComposedLawSpec};
+pub use plates::ComposedPlatesSpec;
 
 use self::gearing::Meshing;
 use self::points::BodyPoints;

@@ -1,9 +1,56 @@
 use std::collections::BTreeSet;
 
 use centrode_geometry::{Outline, Point, Solid, SolidError};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
+use super::Composed;
 use super::design::FRAME;
-use super::{Composed, ComposedPlatesSpec};
+use crate::gear::design::SpecError;
+use crate::gear::design::rule::{in_range, not_negative, positive};
+
+/// The bodies as plates drawn round their points.
+#[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct ComposedPlatesSpec {
+    /// Thickness of a plate, mm.
+    pub thickness: f64,
+    /// Distance of neighbouring plates, mm.
+    pub gap: f64,
+    /// Width of a plate, mm: it ends in half circles about its points.
+    pub width: f64,
+    /// Diameter of the pins, mm.
+    pub pin_diameter: f64,
+    /// Density, kg/m^3.
+    pub density: f64,
+}
+
+impl Default for ComposedPlatesSpec {
+    fn default() -> Self {
+        Self {
+            thickness: 5.0,
+            gap: 1.0,
+            width: 8.0,
+            pin_diameter: 3.0,
+            density: 7850.0,
+        }
+    }
+}
+
+impl ComposedPlatesSpec {
+    pub(super) fn validate(&self) -> Result<(), SpecError> {
+        for (key, value) in [
+            ("thickness", self.thickness),
+            ("width", self.width),
+            ("density", self.density),
+        ] {
+            positive(key, value)?;
+        }
+        not_negative("gap", self.gap)?;
+        let most = 0.9 * self.width;
+        in_range("pin_diameter", self.pin_diameter, [0.0, most], " mm")
+    }
+}
 
 impl Composed {
     /// Contour of a body's plate, round all its points, and the holes in it, where other bodies are pinned, in the body's

@@ -142,7 +142,7 @@ impl<'a> Builder<'a> {
             needs.push(self.needs(node)?);
         }
         while !left.is_empty() {
-            let there = |body: &String| self.bodies.iter().any(|b| b.name == *body);
+            let there = |body: &String| self.body_named(body).is_some();
             let ready = needs.iter().position(|need| need.iter().all(there));
             let Some(next) = ready else {
                 return Err(self.ring(&left, &needs));
@@ -217,7 +217,7 @@ impl<'a> Builder<'a> {
         let (mut way, mut at) = (Vec::new(), 0);
         while !way.contains(&at) {
             way.push(at);
-            let there = |body: &&String| !self.bodies.iter().any(|b| b.name == **body);
+            let there = |body: &&String| self.body_named(body).is_none();
             let missing = needs[at].iter().find(there);
             let maker = missing.and_then(|body| left.iter().position(|node| makes(node, body)));
             at = maker.unwrap_or(at);
@@ -229,11 +229,16 @@ impl<'a> Builder<'a> {
         }
     }
 
+    /// Index of a body that is there.
+    pub(super) fn body_named(&self, name: &str) -> Option<usize> {
+        self.bodies.iter().position(|body| body.name == name)
+    }
+
     /// A point of a body that is there: the body's index, the place in its axes.
     pub(super) fn place(&self, key: &str, word: &str) -> Result<(usize, Point), ComposedError> {
         let reference = Reference::to_body(word);
         let at = reference.find(key, &self.points)?;
-        let index = self.bodies.iter().position(|b| b.name == reference.body);
+        let index = self.body_named(&reference.body);
         Ok((index.unwrap_or(0), at))
     }
 

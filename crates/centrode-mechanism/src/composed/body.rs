@@ -1,0 +1,105 @@
+//! A body as written.
+
+use std::collections::BTreeMap;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::corner::points;
+use super::{ComposedLawSpec, ComposedMeshSpec, CornerSpec};
+use crate::degrees;
+use crate::gear::design::SpecError;
+use crate::gear::design::rule::{Rule, broken, count_in_range, finite};
+
+/// A body of a composed machine: turning on a pin, sliding along a line, fixed to another body or made by a dyad.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct ComposedBodySpec {
+    /// Point of another body on which it turns, or from which it slides: `frame.O`; with a mesh, the body that carries it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub on: Option<String>,
+    /// Direction in which it slides, in the axes of the body that carries it, rad (degrees in the file); left out, it turns.
+    #[serde(
+        rename = "slides_deg",
+        with = "degrees::option",
+        skip_serializing_if = "Option::is_none"
+    )]
+    #[schemars(with = "Option<f64>")]
+    pub slides: Option<f64>,
+    /// Body, or point of a body, to which it is fixed: its origin.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub fixed_to: Option<String>,
+    /// Turn of its axes against those of the body it is fixed to, rad (degrees in the file).
+    #[serde(
+        rename = "turned_deg",
+        with = "degrees::option",
+        skip_serializing_if = "Option::is_none"
+    )]
+    #[schemars(with = "Option<f64>")]
+    pub turned: Option<f64>,
+    /// Place of its plate along the shafts, counted from the one next to the frame; left out, plates stack in order.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub layer: Option<u32>,
+    /// Motion of a body that turns or slides.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub law: Option<ComposedLawSpec>,
+    /// Mesh that turns it on its carrier, and places it there.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mesh: Option<ComposedMeshSpec>,
+    /// Points by name: x and y in the body's axes, mm.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub points: BTreeMap<String, [f64; 2]>,
+    /// Points by name, each the third corner of a triangle.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub corners: BTreeMap<String, CornerSpec>,
+}
+
+impl ComposedBodySpec {
+    pub(super) fn validate(&self) -> Result<(), SpecError> {
+        if self.on.is_some() && self.fixed_to.is_some() {
+            return broken("fixed_to", Rule::Excludes("on"));
+        }
+        if let Some(mesh) = &self.mesh {
+            finite("mesh.direction_deg", mesh.direction)?;
+            let beside = [
+                ("law", self.law.is_some()),
+                ("slides_deg", self.slides.is_some()),
+            ];
+            if let Some((key, _)) = beside.into_iter().find(|(_, given)| *given) {
+                return broken(key, Rule::Excludes("mesh"));
+            }
+        }
+        if self.on.is_some() && self.law.is_none() && self.mesh.is_none() {
+            return broken(
+                "law",
+                Rule::Needed("for a body that turns or slides, or a mesh"),
+            );
+        }
+        if self.on.is_none() && self.mesh.is_some() {
+            return broken("on", Rule::Needed("for a body that a mesh turns"));
+        }
+        if self.on.is_none() && self.law.is_some() {
+            return broken("on", Rule::Needed("for a body with a law"));
+        }
+        if self.on.is_none() && self.slides.is_some() {
+            return broken("on", Rule::Needed("for a body that slides"));
+        }
+        if self.fixed_to.is_none() && self.turned.is_some() {
+            return broken(
+                "turned_deg",
+                Rule::Unused("but for a body that is fixed_to another"),
+            );
+        }
+        for (key, angle) in [("slides_deg", self.slides), ("turned_deg", self.turned)] {
+            finite(key, angle.unwrap_or(0.0))?;
+        }
+        if let Some(layer) = self.layer {
+            count_in_range("layer", layer, 0, 1000)?;
+        }
+        if let Some(law) = &self.law {
+            let slides = self.slides.is_some();
+            law.validate(slides).map_err(|e| e.inside("law"))?;
+        }
+        points(&self.points, &self.corners)
+    }
+}
