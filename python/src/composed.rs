@@ -53,8 +53,7 @@ impl Machine {
     fn at_each(&self, phi: Values, tail: &[usize], points: Vec<(usize, Point)>) -> Course {
         let made = Arc::clone(&self.0);
         Course::together(phi, tail, move |phi| {
-            let places = made.places_each(&points, phi).into_iter();
-            Ok(places.flat_map(|p| [p.x, p.y]).collect())
+            Ok(made.places_each(&points, phi).into_flattened())
         })
     }
 }

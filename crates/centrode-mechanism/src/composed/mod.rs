@@ -258,7 +258,7 @@ impl Composed {
     /// # Panics
     /// Never for indices of bodies.
     #[must_use]
-    pub fn places_each(&self, points: &[(usize, Point)], inputs: &[f64]) -> Vec<Point> {
+    pub fn places_each(&self, points: &[(usize, Point)], inputs: &[f64]) -> Vec<[f64; 2]> {
         let points = points.iter();
         let points: Vec<(Link, Point)> = points
             .map(|(body, at)| (self.bodies[*body].link, *at))

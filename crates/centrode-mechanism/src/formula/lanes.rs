@@ -1,17 +1,17 @@
-//! Two numbers side by side, which every processor in use works on at once. Sums, products, quotients and roots alone, each rounded by itself: every processor finds
+//! Four numbers side by side: processors work on two or four at once, and on the next while one waits. Sums, products, quotients and roots alone, each rounded by itself: every processor finds
 //! the same bits.
 
 use std::f64::consts::{FRAC_1_SQRT_2, FRAC_2_PI, FRAC_PI_2, FRAC_PI_4, FRAC_PI_8, PI};
 
-use wide::f64x2;
+use wide::f64x4;
 
 use super::number::Number;
 
 /// Numbers side by side.
-pub(crate) const LANES: usize = 2;
+pub(crate) const LANES: usize = 4;
 
 /// Vector of that many numbers.
-pub(crate) type Lanes = f64x2;
+pub(crate) type Lanes = f64x4;
 
 /// Magic number that rounds: added and subtracted again it leaves a whole number, halves to the even one.
 const ROUNDING: f64 = 6_755_399_441_055_744.0;
@@ -59,37 +59,37 @@ const COS_PI_8: f64 = 0.923_879_532_511_286_7;
 
 /// Sum of `c[k]` (-z)^k: even and odd powers apart, two short chains instead of a long one.
 #[inline(always)]
-fn alternating<const COUNT: usize>(c: [f64; COUNT], z: f64x2) -> f64x2 {
+fn alternating<const COUNT: usize>(c: [f64; COUNT], z: f64x4) -> f64x4 {
     let zz = z * z;
-    let (mut even, mut odd) = (f64x2::from(c[COUNT - 2]), f64x2::from(c[COUNT - 1]));
+    let (mut even, mut odd) = (f64x4::from(c[COUNT - 2]), f64x4::from(c[COUNT - 1]));
     for pair in c[..COUNT - 2].rchunks_exact(2) {
-        even = f64x2::from(pair[0]) + zz * even;
-        odd = f64x2::from(pair[1]) + zz * odd;
+        even = f64x4::from(pair[0]) + zz * even;
+        odd = f64x4::from(pair[1]) + zz * odd;
     }
     even - z * odd
 }
 
 /// Nearest whole number of each lane.
 #[inline(always)]
-fn whole(x: f64x2) -> f64x2 {
-    let shift = f64x2::from(ROUNDING);
+fn whole(x: f64x4) -> f64x4 {
+    let shift = f64x4::from(ROUNDING);
     (x + shift) - shift
 }
 
 #[inline(always)]
-fn near_sin_cos(x: f64x2) -> (f64x2, f64x2) {
+fn near_sin_cos(x: f64x4) -> (f64x4, f64x4) {
     let n = whole(x * FRAC_2_PI);
     let r = QUARTER.into_iter().fold(x, |r, part| r - n * part);
     let z = r * r;
     let sin = r - r * z * alternating(SINE, z);
-    let cos = f64x2::ONE - z * alternating(COSINE, z);
+    let cos = f64x4::ONE - z * alternating(COSINE, z);
     // n = 2 half + odd, half = 2 turns + opposite; odd and opposite are -1, 0 or 1.
     let half = whole(n * 0.5);
     let odd = n - (half + half);
     let turns = whole(half * 0.5);
     let opposite = half - (turns + turns);
-    let sign = f64x2::ONE - (opposite + opposite) * opposite;
-    let even = odd.simd_eq(f64x2::ZERO);
+    let sign = f64x4::ONE - (opposite + opposite) * opposite;
+    let even = odd.simd_eq(f64x4::ZERO);
     (
         sign * even.bitselect(sin, odd * cos),
         sign * even.bitselect(cos, -(odd * sin)),
@@ -108,7 +108,7 @@ fn sin_cos_alone(x: f64) -> (f64, f64) {
     }
 }
 
-impl Number for f64x2 {
+impl Number for f64x4 {
     #[inline(always)]
     fn sqrt(self) -> Self {
         self.sqrt()
@@ -183,7 +183,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn lanes_turn_as_single_numbers_do(x in proptest::array::uniform2(-300.0..300.0_f64), far in 1.0..1e4_f64) {
+        fn lanes_turn_as_single_numbers_do(x in proptest::array::uniform4(-300.0..300.0_f64), far in 1.0..1e4_f64) {
             for scale in [1e-3, 0.1, 1.0, far] {
                 let inputs = x.map(|x| x * scale);
                 let (sin, cos) = Number::sin_cos(lanes(inputs));
@@ -198,8 +198,8 @@ mod tests {
 
         #[test]
         fn lanes_point_as_single_numbers_do(
-            direction in proptest::array::uniform2(0.0..TAU),
-            length in proptest::array::uniform2(1e-9..1e9_f64),
+            direction in proptest::array::uniform4(0.0..TAU),
+            length in proptest::array::uniform4(1e-9..1e9_f64),
         ) {
             let x: [f64; LANES] = std::array::from_fn(|i| length[i] * direction[i].cos());
             let y: [f64; LANES] = std::array::from_fn(|i| length[i] * direction[i].sin());
@@ -213,22 +213,26 @@ mod tests {
 
     #[test]
     fn lanes_are_exact_on_the_axes_and_keep_to_themselves() {
-        for (y, x) in [([0.0, 2.0], [5.0, 0.0]), ([0.0, -3.0], [-1.0, 0.0])] {
-            let found = Number::atan2(lanes(y), lanes(x)).to_array();
-            for lane in 0..LANES {
-                assert_eq!(found[lane], y[lane].atan2(x[lane]));
-            }
+        let (y, x) = ([0.0, 2.0, 0.0, -3.0], [5.0, 0.0, -1.0, 0.0]);
+        let found = Number::atan2(lanes(y), lanes(x)).to_array();
+        for lane in 0..LANES {
+            assert_eq!(found[lane], y[lane].atan2(x[lane]));
         }
         // Beyond FARTHEST and where there is no value, a lane takes no other with it.
-        for inputs in [[f64::NAN, 1.0], [2.0, f64::INFINITY], [1.0, 3.0 * FARTHEST]] {
+        for inputs in [
+            [f64::NAN, 1.0, 2.0, f64::INFINITY],
+            [1.0, 3.0 * FARTHEST, 0.1, -2.0],
+        ] {
             let (sin, _) = Number::sin_cos(lanes(inputs));
             for (found, input) in sin.to_array().into_iter().zip(inputs) {
                 assert!(found == input.sin() || (found.is_nan() && !input.is_finite()));
             }
         }
-        for (y, x) in [([f64::NAN, 1.0], [1.0, 2.0]), ([1.0; 2], [f64::NAN, 2.0])] {
-            let [none, some] = Number::atan2(lanes(y), lanes(x)).to_array();
-            assert!(none.is_nan() && (some - 0.5_f64.atan()).abs() < 1e-15);
+        let (y, x) = ([f64::NAN, 1.0, 1.0, 1.0], [1.0, 2.0, f64::NAN, 2.0]);
+        let [none, some, neither, other] = Number::atan2(lanes(y), lanes(x)).to_array();
+        assert!(none.is_nan() && neither.is_nan());
+        for found in [some, other] {
+            assert!((found - 0.5_f64.atan()).abs() < 1e-15);
         }
     }
 }

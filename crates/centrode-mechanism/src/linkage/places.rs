@@ -60,17 +60,20 @@ impl Linkage {
     /// # Panics
     /// Never for links of the linkage.
     #[must_use]
-    pub fn places_each(&self, points: &[(Link, Point)], inputs: &[f64]) -> Vec<Point> {
+    pub fn places_each(&self, points: &[(Link, Point)], inputs: &[f64]) -> Vec<[f64; 2]> {
         let needed = self.needed(points.iter().map(|(link, _)| link.0));
         let mut series = Series::<1, Lanes>::default();
-        let mut places = Vec::with_capacity(points.len() * inputs.len());
+        let count = points.len();
+        let mut places = vec![[0.0; 2]; count * inputs.len()];
         for (first, input) in chunks(inputs) {
             self.find(input, |step| needed[step], &mut series);
-            for lane in 0..LANES.min(inputs.len() - first) {
-                places.extend(points.iter().map(|(link, local)| {
-                    let (origin, axis) = series.frame(*link);
-                    origin.plus(axis.turned(local.coords)).value_of(lane)
-                }));
+            let lanes = LANES.min(inputs.len() - first);
+            for (number, (link, local)) in points.iter().enumerate() {
+                let (origin, axis) = series.frame(*link);
+                let place = origin.plus(axis.turned(local.coords));
+                for lane in 0..lanes {
+                    places[(first + lane) * count + number] = place.value_of(lane).into();
+                }
             }
         }
         places

@@ -103,7 +103,7 @@ impl SixBar {
     pub fn at_each(&self, inputs: &[f64]) -> Vec<SixBarPosition> {
         each(inputs, |input| {
             let moving = self.moving(input);
-            [moving.position(0), moving.position(1)]
+            std::array::from_fn(|lane| moving.position(lane))
         })
     }
 
@@ -126,7 +126,7 @@ impl SixBar {
         each(inputs, |input| {
             let [b, c, e] = self.places(input);
             let at = |lane| [b.value_of(lane), c.value_of(lane), e.value_of(lane)];
-            [at(0), at(1)]
+            std::array::from_fn(at)
         })
     }
 
@@ -147,10 +147,7 @@ impl SixBar {
     pub fn effector_angle_each(&self, inputs: &[f64]) -> Vec<MotionJet> {
         each(inputs, |input| {
             let effector = self.effector::<4, Lanes>(input);
-            [
-                MotionJet::of_lane(&effector, 0),
-                MotionJet::of_lane(&effector, 1),
-            ]
+            std::array::from_fn(|lane| MotionJet::of_lane(&effector, lane))
         })
     }
 
@@ -160,7 +157,7 @@ impl SixBar {
     pub fn effector_place_each(&self, inputs: &[f64]) -> Vec<f64> {
         each(inputs, |input| {
             let [angle] = self.effector::<1, Lanes>(input).0;
-            [angle.lane(0), angle.lane(1)]
+            std::array::from_fn(|lane| angle.lane(lane))
         })
     }
 

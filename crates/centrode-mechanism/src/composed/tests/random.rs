@@ -285,7 +285,7 @@ fn points_of_random_machines_side_by_side_are_those_at_single_inputs() {
         for &input in &inputs {
             for (point, &(body, at)) in points.iter().enumerate() {
                 let alone = composed.place(body, at, input);
-                let beside = *found.next().expect("a place");
+                let beside = Point::from(*found.next().expect("a place"));
                 let size = 1.0 + alone.coords.norm();
                 assert!(
                     (beside - alone).norm() < 1e-10 * size,
@@ -295,7 +295,7 @@ fn points_of_random_machines_side_by_side_are_those_at_single_inputs() {
                 let [single] = composed.places_each(&points[point..=point], &[input])[..] else {
                     panic!("one place");
                 };
-                assert_eq!(single, beside, "{seed}");
+                assert_eq!(Point::from(single), beside, "{seed}");
             }
         }
     }
