@@ -2,10 +2,10 @@
 
 mod curves;
 
-use centrode_geometry::{Point, Solid};
+use centrode_geometry::{MassProperties, Point, Solid};
 use centrode_mechanism::composed::Composed;
 use centrode_mechanism::machine::{Form, Machine};
-use nalgebra::Isometry2;
+use nalgebra::{Isometry2, Matrix3, Point3};
 
 use crate::drawing::{Color, Drawing, LineType, Shape};
 use crate::{Bundle, ExportError, Format, Options, Package, gear_pair};
@@ -15,6 +15,8 @@ const PROFILE: &str = "PROFILE";
 const HOLE: &str = "HOLE";
 const PATH: &str = "PATH";
 
+/// Mass and inertia of a body without any in a simulator model, kg and kg mm².
+const TINY: f64 = 1e-6;
 /// Points of the way of a point.
 const POINTS: u32 = 360;
 
@@ -68,8 +70,21 @@ pub fn files(
         package.solid(&gear.name, &title, solid)?;
     }
     package.drawing("assembly", |_| Ok(assembly(composed, &made)))?;
-    package.machine(|| Ok(made.clone()))?;
+    package.machine(|| Ok(with_masses(&made)))?;
     package.finish()
+}
+
+/// The machine with a mass for every body that moves, as a simulator needs it, next to nothing where it has none.
+fn with_masses(machine: &Machine) -> Machine {
+    let mut made = machine.clone();
+    for link in made.links.iter_mut().skip(1) {
+        link.mass.get_or_insert(MassProperties {
+            mass: TINY,
+            center: Point3::origin(),
+            inertia: Matrix3::identity() * TINY,
+        });
+    }
+    made
 }
 
 /// The plate of a link, and its gears.

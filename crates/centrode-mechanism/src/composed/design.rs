@@ -11,7 +11,7 @@ use super::{
 };
 use crate::design::DesignSpec;
 use crate::gear::design::rule::{
-    Rule, broken, count_in_range, file_name, finite, positive, single_line,
+    Rule, broken, count_in_range, file_name, finite, in_range, positive, single_line,
 };
 use crate::gear::design::{GearPairDesign, SpecError};
 
@@ -123,6 +123,10 @@ impl ComposedDesign {
                 );
             }
             body.validate().map_err(|e| e.inside(&key))?;
+            if let Some(width) = body.width {
+                let least = self.plates.least_width();
+                in_range(&format!("{key}.width"), width, [least, 1e9], " mm")?;
+            }
         }
         for (name, dyad) in &self.dyads {
             let key = format!("dyads.{name}");

@@ -171,6 +171,14 @@ pub enum ComposedError {
         /// Why.
         why: String,
     },
+    /// Something written that cannot be: a contour, a load.
+    #[error("{why}")]
+    Refused {
+        /// Key at fault.
+        key: String,
+        /// Why.
+        why: String,
+    },
     /// Anything else that a linkage cannot be.
     #[error("{error}")]
     Linkage {
@@ -181,7 +189,6 @@ pub enum ComposedError {
     },
 }
 
-/// Inputs at which a dyad closes, in words.
 /// Missing length, in words; none where the dyad only just reaches.
 fn short(missing: f64) -> String {
     if missing > 0.0 && missing < 1e9 {
@@ -193,6 +200,7 @@ fn short(missing: f64) -> String {
     }
 }
 
+/// Inputs at which a dyad closes, in words.
 fn closes(open: &[(f64, f64)]) -> String {
     if open.is_empty() {
         return "closes nowhere".into();
@@ -233,6 +241,7 @@ impl ComposedError {
             | Self::NoDyad { key, .. }
             | Self::NoGear { key, .. }
             | Self::NoMesh { key, .. }
+            | Self::Refused { key, .. }
             | Self::Linkage { key, .. } => key.clone(),
             Self::Pair { pair, error } => format!("pairs.{pair}.{}", error.key()),
             Self::Loose { body } => format!("bodies.{body}"),

@@ -7,28 +7,33 @@ mod body;
 mod build;
 mod corner;
 mod design;
+mod drawn;
 mod dyad;
 mod error;
 mod figure;
 mod gearing;
 mod gears;
+mod given_mass;
 mod goal;
 mod law;
 mod links;
 mod mesh;
+mod pieces;
 mod plates;
 mod points;
 mod resolve;
 #[cfg(test)]
 mod tests;
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use centrode_geometry::{Jet, Point};
+use centrode_geometry::{Jet, Outline, Point};
 
 pub use body::ComposedBodySpec;
 pub use corner::{ComposedPointsSpec, CornerSpec, Side};
 pub use design::{ComposedDesign, ComposedInputSpec};
+pub use drawn::ComposedCircleSpec;
 pub use dyad::{ComposedDyadSpec, DyadKind};
 pub use error::ComposedError;
 pub use figure::{ComposedFigure, FIGURE_FORMS, PointPart};
@@ -53,6 +58,8 @@ pub struct Composed {
     dyads: Vec<ComposedDyad>,
     pins: Vec<Pin>,
     points: BodyPoints,
+    /// Contours of the bodies that are drawn by hand, by name.
+    drawn: BTreeMap<String, Outline>,
     figures: Vec<ComposedFigure>,
     gears: Vec<ComposedGear>,
     meshes: Vec<Meshing>,
