@@ -3,6 +3,8 @@ use centrode_mechanism::design::DesignSpec;
 
 use super::*;
 
+mod loads;
+
 fn composed(text: &str) -> Composed {
     let design = ComposedDesign::from_toml(text).expect("a design");
     Composed::resolve(&design).expect("a machine")

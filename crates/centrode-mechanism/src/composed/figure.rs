@@ -1,10 +1,10 @@
 use centrode_geometry::Point;
 
 use super::points::Reference;
-use super::{Composed, ComposedError};
+use super::{Composed, ComposedError, Pin};
 
 /// Grammar of the figures of a composed machine: form, meaning, unit as shown.
-pub const FIGURE_FORMS: [[&str; 3]; 11] = [
+pub const FIGURE_FORMS: [[&str; 3]; 14] = [
     [
         "point.x",
         "x of a point: of body.point, or of a point whose name no other body has",
@@ -52,6 +52,21 @@ pub const FIGURE_FORMS: [[&str; 3]; 11] = [
         "least clearance of the plates of two bodies that overlap in height, over the cycle",
         "mm",
     ],
+    [
+        "input.torque",
+        "torque that the input needs at the design's speed, with inertia, weight and loads",
+        "N mm",
+    ],
+    [
+        "joint(body).force",
+        "force in the joint that carries a body, or joint(body-body) in the pin at which a dyad's bodies meet",
+        "N",
+    ],
+    [
+        "mesh(body).force",
+        "force along the normal of the teeth by which a body is moved",
+        "N",
+    ],
 ];
 
 /// A figure of a composed machine, found by its words.
@@ -80,6 +95,25 @@ pub enum ComposedFigure {
     Distance([(usize, Point); 2]),
     /// Least clearance of two bodies over the cycle, mm; their indices.
     Clearance([usize; 2]),
+    /// Torque of the input, N mm.
+    InputTorque,
+    /// Force in a joint, N; its index among the joints of the machine.
+    JointForce(usize),
+    /// Force in the pin that closes a loop, N; its index among the closures of the machine.
+    PinForce(usize),
+    /// Force along the normal of a mesh, N; its index among the meshes of the machine.
+    MeshForce(usize),
+}
+
+impl ComposedFigure {
+    /// Whether it is of forces, which the motion alone does not tell.
+    #[must_use]
+    pub fn is_of_forces(&self) -> bool {
+        matches!(
+            self,
+            Self::InputTorque | Self::JointForce(_) | Self::PinForce(_) | Self::MeshForce(_)
+        )
+    }
 }
 
 /// Component of a point's motion.
@@ -109,6 +143,9 @@ impl Composed {
                 .map(|[form, ..]| (*form).into())
                 .collect(),
         };
+        if let Some(found) = self.figure_of_forces(key, words) {
+            return found?.ok_or_else(none);
+        }
         if let Some((function, inside)) = words.split_once('(') {
             let inside = inside.strip_suffix(')').ok_or_else(none)?;
             let names: Vec<&str> = inside.split(',').map(str::trim).collect();
@@ -168,6 +205,39 @@ impl Composed {
         }
     }
 
+    /// A figure of the forces; none within where it is none of theirs after all.
+    fn figure_of_forces(
+        &self,
+        key: &str,
+        words: &str,
+    ) -> Option<Result<Option<ComposedFigure>, ComposedError>> {
+        if words == "input.torque" {
+            return Some(Ok(Some(ComposedFigure::InputTorque)));
+        }
+        let (function, name) = words.strip_suffix(").force")?.split_once('(')?;
+        let name = name.trim();
+        let body = || self.body_of(key, name);
+        Some(match function.trim() {
+            "joint" => match self.pins.iter().position(|pin| self.pair_name(pin) == name) {
+                Some(pin) => Ok(Some(ComposedFigure::PinForce(pin))),
+                // Each body but the frame is carried by the joint before it.
+                None => body().map(|body| body.checked_sub(1).map(ComposedFigure::JointForce)),
+            },
+            "mesh" => body().map(|body| {
+                let mesh = self.balanced_meshes().position(|mesh| mesh.moved == body);
+                mesh.map(ComposedFigure::MeshForce)
+            }),
+            _ => Ok(None),
+        })
+    }
+
+    /// Name of a pin that closes a loop: those of its two bodies.
+    fn pair_name(&self, pin: &Pin) -> String {
+        pin.bodies
+            .map(|body| self.bodies[body].name.as_str())
+            .join("-")
+    }
+
     /// Index of a body that a key names.
     fn body_of(&self, key: &str, name: &str) -> Result<usize, ComposedError> {
         self.body_named(name).ok_or_else(|| ComposedError::NoBody {
@@ -190,7 +260,8 @@ impl Composed {
         })
     }
 
-    /// Value of a figure at an input, in mm, rad, mm/s, m/s² or rad/s; none for a clearance, which is of the whole cycle.
+    /// Value of a figure at an input, in mm, rad, mm/s, m/s² or rad/s; none for a clearance, which is of the whole cycle, nor
+    /// for a force.
     #[must_use]
     pub fn value(&self, figure: &ComposedFigure, input: f64) -> Option<f64> {
         let speed = self.speed();
@@ -215,7 +286,11 @@ impl Composed {
                 let [p, q] = ends.map(|(body, at)| self.place(body, at, input));
                 (p - q).norm()
             }
-            ComposedFigure::Clearance(_) => return None,
+            ComposedFigure::Clearance(_)
+            | ComposedFigure::InputTorque
+            | ComposedFigure::JointForce(_)
+            | ComposedFigure::PinForce(_)
+            | ComposedFigure::MeshForce(_) => return None,
         })
     }
 }

@@ -1,5 +1,7 @@
 use centrode_geometry::{Point, SolidError};
 
+use super::gearing::Meshing;
+use super::load::ComposedLoad;
 use super::pieces::{GearPiece, Pieces};
 use super::{Composed, ComposedBody};
 use crate::machine::{
@@ -21,6 +23,11 @@ impl Composed {
                 period: self.period(),
                 speed: self.speed(),
             },
+            gravity: self
+                .design
+                .gravity
+                .map_or([0.0; 3], |[x, y]| [1e3 * x, 1e3 * y, 0.0]),
+            loads: self.loads.iter().flat_map(ComposedLoad::parts).collect(),
             ..Machine::default()
         };
         let meaning = "angle the driving shaft has turned by";
@@ -43,13 +50,7 @@ impl Composed {
                 joints: dyad.bodies.map(|body| body - 1),
             });
         }
-        // The frames of meshing links stand on the gears' axes.
-        let centred = |gear: &usize| self.gears[*gear].at == Point::origin();
-        for mesh in self
-            .meshes
-            .iter()
-            .filter(|mesh| mesh.gears.iter().all(centred))
-        {
+        for mesh in self.balanced_meshes() {
             let pair = &self.gears[mesh.gears[0]].pair;
             let body = |gear: usize| self.body_named(&self.gears[gear].body_name).unwrap_or(0);
             machine.meshes.push(GearMesh {
@@ -63,6 +64,13 @@ impl Composed {
         self.draw(&mut machine, &pieces);
         self.list(&mut machine, &pieces);
         Ok(machine)
+    }
+
+    /// Meshes whose force is known: the frames of their links stand on the gears' axes.
+    pub(super) fn balanced_meshes(&self) -> impl Iterator<Item = &Meshing> {
+        let centred = |gear: &usize| self.gears[*gear].at == Point::origin();
+        let meshes = self.meshes.iter();
+        meshes.filter(move |mesh| mesh.gears.iter().all(centred))
     }
 
     /// Lists the plates, the bodies of given masses and the gears as parts, each with the files of its name.

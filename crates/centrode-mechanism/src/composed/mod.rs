@@ -17,6 +17,7 @@ mod given_mass;
 mod goal;
 mod law;
 mod links;
+mod load;
 mod mesh;
 mod pieces;
 mod plates;
@@ -41,9 +42,11 @@ pub use gearing::ComposedGear;
 pub use gears::{ComposedGearSpec, ComposedLoopSpec, ComposedMeshSpec, GearRole};
 pub use goal::{ComposedGoalSpec, Over};
 pub use law::{ComposedLawError, ComposedLawSpec};
+pub use load::{ComposedLoadSpec, LoadAxes};
 pub use plates::ComposedPlatesSpec;
 
 use self::gearing::Meshing;
+use self::load::ComposedLoad;
 use self::points::BodyPoints;
 use crate::linkage::{Line, Link, Linkage};
 use crate::machine::JointKind;
@@ -63,6 +66,7 @@ pub struct Composed {
     figures: Vec<ComposedFigure>,
     gears: Vec<ComposedGear>,
     meshes: Vec<Meshing>,
+    loads: Vec<ComposedLoad>,
 }
 
 /// A body of a composed machine.
@@ -193,6 +197,16 @@ impl Composed {
     #[must_use]
     pub fn period(&self) -> f64 {
         self.linkage.period()
+    }
+
+    /// Inputs in a period at which a motion or a load may jump, ascending.
+    #[must_use]
+    pub fn breaks(&self) -> Vec<f64> {
+        let mut breaks = self.linkage.breaks().to_vec();
+        breaks.extend(self.loads.iter().flat_map(ComposedLoad::breaks));
+        breaks.sort_by(f64::total_cmp);
+        breaks.dedup();
+        breaks
     }
 
     /// Speed of the input, rad/s.

@@ -64,6 +64,7 @@ impl Composed {
         builder.build()?;
         builder.follow()?;
         builder.check_loops()?;
+        let loads = builder.loads()?;
         let mut made = Self {
             design: design.clone(),
             linkage: builder.linkage,
@@ -75,6 +76,7 @@ impl Composed {
             figures: Vec::new(),
             gears: builder.gears,
             meshes: builder.meshes,
+            loads,
         };
         made.check_drawn()?;
         let goals = design.goals.iter();
