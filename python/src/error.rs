@@ -71,6 +71,8 @@ raised! {
     ArmClearanceError { _ => MechanismError("arm.body"), }
     FeederForcesError { _ => MechanismError("plates"), }
     ForcesError { _ => MechanismError(""), }
+    LinkClearanceError { _ => MechanismError("plates"), }
+    SolidError { _ => MechanismError("plates"), }
     NotSearched { _ => MechanismError("optimise"), }
     NotWidened { _ => MechanismError("optimise"), }
     SearchError { _ => MechanismError("optimise"), }

@@ -192,3 +192,43 @@ def test_the_arms_of_a_train_follow_its_closed_form():
         step, name = 1e-4, f"arm-{number}.tip"
         slope = (machine.point(name, phi + step, 2) - machine.point(name, phi - step, 2)) / (2 * step)
         np.testing.assert_allclose(machine.point(name, phi, 3), slope, rtol=1e-5, atol=1e-2)
+
+
+CLEAR = """
+family = "machine"
+[frame.points]
+O = [0, 0]
+[bodies.crank]
+on = "frame.O"
+law = { ratio = 1 }
+plate = false
+[bodies.disc]
+fixed_to = "crank"
+circle = { center = [40, 0], radius = 5 }
+[bodies.far]
+fixed_to = "frame"
+layer = 9
+[obstacles.ground]
+below = -60
+[obstacles.post]
+circle = { center = [0, 62], radius = 3 }
+"""
+
+
+def test_clearances_are_those_of_the_drawing_over_the_cycle_and_at_inputs():
+    machine = ct.Machine.from_toml(CLEAR)
+    least, phi = machine.clearance("disc", "ground", tolerance=1e-6)
+    assert least == pytest.approx(15.0, abs=2e-6)
+    assert phi == pytest.approx(1.5 * math.pi, abs=1e-3)
+    found = machine.clearance("ground", "disc", PHI, tolerance=1e-6)
+    np.testing.assert_allclose(found, 60 + 40 * np.sin(PHI) - 5, atol=2e-6)
+    middle = 40 * np.stack([np.cos(PHI), np.sin(PHI)], axis=-1)
+    post = machine.clearance("disc", "post", PHI[:, None], tolerance=1e-6)
+    assert post.shape == (181, 1)
+    np.testing.assert_allclose(post[:, 0], np.linalg.norm(middle - [0, 62], axis=-1) - 8, atol=2e-6)
+    assert isinstance(machine.clearance("disc", "post", 0.5), float)
+    assert machine.clearance("disc", "far")[0] == math.inf
+    with pytest.raises(ct.DesignError, match="sky"):
+        machine.clearance("disc", "sky")
+    with pytest.raises(ct.DesignError, match="both on"):
+        machine.clearance("ground", "post")

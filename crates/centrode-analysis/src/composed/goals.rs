@@ -1,8 +1,10 @@
 use centrode_geometry::{Tolerance, extremes};
-use centrode_mechanism::composed::{ComposedFigure, ComposedGoalSpec, Over, PointPart};
+use centrode_mechanism::composed::{
+    ClearanceEnd, ComposedFigure, ComposedGoalSpec, Over, PointPart,
+};
 
+use super::clearance::composed_clearance;
 use super::{Made, ends};
-use crate::interference::between_links;
 use crate::{Goal, Unit};
 
 /// Accuracy of a clearance, as a share of a plate's width.
@@ -69,8 +71,8 @@ fn value(
     spec: &ComposedGoalSpec,
     ends: &[f64],
 ) -> (Option<f64>, Option<f64>) {
-    if let ComposedFigure::Clearance(bodies) = figure {
-        return clearance(made, *bodies);
+    if let ComposedFigure::Clearance(ends) = figure {
+        return clearance(made, *ends);
     }
     if figure.is_of_forces() {
         return match made.loaded() {
@@ -101,17 +103,19 @@ fn of(
     }
 }
 
-/// Least clearance of two bodies; infinite where their plates lie apart along the shafts.
-fn clearance(made: &Made<'_>, bodies: [usize; 2]) -> (Option<f64>, Option<f64>) {
-    let (Some(machine), Ok(tolerance)) = (
-        made.machine(),
-        Tolerance::new(ACCURACY * made.composed.design().plates.width),
-    ) else {
+/// Least clearance of two bodies; infinite where they lie apart along the shafts.
+fn clearance(made: &Made<'_>, ends: [ClearanceEnd; 2]) -> (Option<f64>, Option<f64>) {
+    let width = made.composed.design().plates.width;
+    let (Some(machine), Ok(tolerance)) = (made.machine(), Tolerance::new(ACCURACY * width)) else {
         return (None, None);
     };
-    match between_links(machine, bodies, tolerance) {
-        Ok(Some(found)) => (Some(found.least), Some(found.input)),
+    let inputs = [0.0, made.composed.period()];
+    match composed_clearance(made.composed, machine, ends, tolerance) {
         Ok(None) => (Some(f64::INFINITY), None),
+        Ok(Some(pair)) => match pair.over(inputs) {
+            Ok(found) => (Some(found.least), Some(found.input)),
+            Err(_) => (None, None),
+        },
         Err(_) => (None, None),
     }
 }

@@ -1,5 +1,6 @@
 //! Check of a composed machine.
 
+mod clearance;
 mod figures;
 mod forces;
 mod goals;
@@ -13,6 +14,7 @@ use centrode_geometry::{extremes, greatest, least, pieces};
 use centrode_mechanism::composed::Composed;
 use centrode_mechanism::machine::Machine;
 
+pub use self::clearance::composed_clearance;
 use self::figures::FIGURES;
 use self::forces::Loaded;
 use crate::forces::ForcesError;
@@ -49,7 +51,9 @@ pub fn check_composed(composed: &Composed) -> Report {
     if let (Some(machine), Some(loaded)) = (made.machine(), made.loaded()) {
         forces::forces(loaded, machine, &mut report);
     }
+    clearance::plates(&made, &mut report);
     let found = goals::goals(&made);
+    clearance::apart(composed, &found, &mut report);
     report.goals = found.iter().map(|found| found.goal.clone()).collect();
     report.blame_goals(|goal| Missed {
         input: found

@@ -3,6 +3,7 @@ use centrode_mechanism::design::DesignSpec;
 
 use super::*;
 
+mod clearances;
 mod loads;
 
 fn composed(text: &str) -> Composed {

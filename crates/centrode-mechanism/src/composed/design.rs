@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{
     ComposedBodySpec, ComposedDyadSpec, ComposedGearSpec, ComposedGoalSpec, ComposedLoadSpec,
-    ComposedLoopSpec, ComposedPlatesSpec, ComposedPointsSpec,
+    ComposedLoopSpec, ComposedObstacleSpec, ComposedPlatesSpec, ComposedPointsSpec,
 };
 use crate::design::DesignSpec;
 use crate::gear::design::rule::{
@@ -60,6 +60,9 @@ pub struct ComposedDesign {
     /// Loads by name.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub loads: BTreeMap<String, ComposedLoadSpec>,
+    /// Obstacles by name.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub obstacles: BTreeMap<String, ComposedObstacleSpec>,
     /// Goals by name.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub goals: BTreeMap<String, ComposedGoalSpec>,
@@ -96,8 +99,18 @@ impl DesignSpec for ComposedDesign {
     const ABOUT: &'static str = "A planar machine composed of bodies, laws and dyads.";
     const TEMPLATE: &'static str = include_str!("../../design/machine.toml");
     const TABLES: &'static [&'static str] = &[
-        "input", "frame", "bodies", "dyads", "pairs", "gears", "meshes", "plates", "loads",
-        "goals", "vary",
+        "input",
+        "frame",
+        "bodies",
+        "dyads",
+        "pairs",
+        "gears",
+        "meshes",
+        "plates",
+        "loads",
+        "obstacles",
+        "goals",
+        "vary",
     ];
 
     fn words(&self) -> [&str; 2] {
@@ -157,6 +170,11 @@ impl ComposedDesign {
             let key = format!("loads.{name}");
             file_name(&key, name)?;
             load.validate().map_err(|e| e.inside(&key))?;
+        }
+        for (name, obstacle) in &self.obstacles {
+            let key = format!("obstacles.{name}");
+            file_name(&key, name)?;
+            obstacle.validate().map_err(|e| e.inside(&key))?;
         }
         for (name, goal) in &self.goals {
             let key = format!("goals.{name}");

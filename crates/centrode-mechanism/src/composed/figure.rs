@@ -49,7 +49,7 @@ pub const FIGURE_FORMS: [[&str; 3]; 14] = [
     ],
     [
         "clearance(body, body)",
-        "least clearance of the plates of two bodies that overlap in height, over the cycle",
+        "least clearance of two bodies, plates and gears that overlap in height, or of a body and an obstacle, over the cycle",
         "mm",
     ],
     [
@@ -93,8 +93,8 @@ pub enum ComposedFigure {
     Transmission(usize),
     /// Distance of two points, mm: of each the index of its body and the place in its axes.
     Distance([(usize, Point); 2]),
-    /// Least clearance of two bodies over the cycle, mm; their indices.
-    Clearance([usize; 2]),
+    /// Least clearance of two bodies, or of a body and an obstacle, over the cycle, mm.
+    Clearance([ClearanceEnd; 2]),
     /// Torque of the input, N mm.
     InputTorque,
     /// Force in a joint, N; its index among the joints of the machine.
@@ -114,6 +114,15 @@ impl ComposedFigure {
             Self::InputTorque | Self::JointForce(_) | Self::PinForce(_) | Self::MeshForce(_)
         )
     }
+}
+
+/// Body or obstacle of a clearance.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+pub enum ClearanceEnd {
+    /// A body with its plate and gears; its index.
+    Body(usize),
+    /// An obstacle; its index.
+    Obstacle(usize),
 }
 
 /// Component of a point's motion.
@@ -164,13 +173,9 @@ impl Composed {
                     self.point_of(key, one)?,
                     self.point_of(key, other)?,
                 ])),
-                ("clearance", [one, other]) => {
-                    let bodies = [self.body_of(key, one)?, self.body_of(key, other)?];
-                    if bodies[0] == bodies[1] {
-                        return Err(none());
-                    }
-                    Ok(ComposedFigure::Clearance(bodies))
-                }
+                ("clearance", [one, other]) => self
+                    .clearance_ends(key, [one, other])
+                    .map(ComposedFigure::Clearance),
                 _ => Err(none()),
             };
         }
@@ -236,6 +241,55 @@ impl Composed {
         pin.bodies
             .map(|body| self.bodies[body].name.as_str())
             .join("-")
+    }
+
+    /// Bodies or obstacles that a key names, for their clearance.
+    ///
+    /// # Errors
+    /// [`ComposedError`] for a name that is neither's, and for two that stand on one body.
+    pub fn clearance_ends(
+        &self,
+        key: &str,
+        names: [&str; 2],
+    ) -> Result<[ClearanceEnd; 2], ComposedError> {
+        let end = |name: &str| {
+            let mut obstacles = self.obstacles().iter();
+            match obstacles.position(|obstacle| obstacle.name == name) {
+                Some(obstacle) => Ok(ClearanceEnd::Obstacle(obstacle)),
+                None => self.body_of(key, name).map(ClearanceEnd::Body),
+            }
+        };
+        let ends = [end(names[0])?, end(names[1])?];
+        let [one, other] = ends.map(|end| self.body_of_end(end));
+        if one == other {
+            let [first, second] = names;
+            return Err(ComposedError::Refused {
+                key: key.into(),
+                why: format!(
+                    "{first} and {second} are both on {}: their clearance stays what it is",
+                    self.bodies[one].name
+                ),
+            });
+        }
+        Ok(ends)
+    }
+
+    /// Index of the body that an end of a clearance moves with.
+    #[must_use]
+    pub fn body_of_end(&self, end: ClearanceEnd) -> usize {
+        match end {
+            ClearanceEnd::Body(body) => body,
+            ClearanceEnd::Obstacle(obstacle) => self.obstacles[obstacle].body,
+        }
+    }
+
+    /// Name of an end of a clearance.
+    #[must_use]
+    pub fn name_of_end(&self, end: ClearanceEnd) -> &str {
+        match end {
+            ClearanceEnd::Body(body) => &self.bodies[body].name,
+            ClearanceEnd::Obstacle(obstacle) => &self.obstacles[obstacle].name,
+        }
     }
 
     /// Index of a body that a key names.

@@ -217,5 +217,6 @@ impl Composed {
                 at: at.coords.into(),
             });
         machine.marks.extend(marks);
+        self.draw_obstacles(machine);
     }
 }

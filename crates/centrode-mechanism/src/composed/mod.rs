@@ -19,6 +19,7 @@ mod law;
 mod links;
 mod load;
 mod mesh;
+mod obstacle;
 mod pieces;
 mod plates;
 mod points;
@@ -37,12 +38,13 @@ pub use design::{ComposedDesign, ComposedInputSpec};
 pub use drawn::ComposedCircleSpec;
 pub use dyad::{ComposedDyadSpec, DyadKind};
 pub use error::ComposedError;
-pub use figure::{ComposedFigure, FIGURE_FORMS, PointPart};
+pub use figure::{ClearanceEnd, ComposedFigure, FIGURE_FORMS, PointPart};
 pub use gearing::ComposedGear;
 pub use gears::{ComposedGearSpec, ComposedLoopSpec, ComposedMeshSpec, GearRole};
 pub use goal::{ComposedGoalSpec, Over};
 pub use law::{ComposedLawError, ComposedLawSpec};
 pub use load::{ComposedLoadSpec, LoadAxes};
+pub use obstacle::{ComposedObstacle, ComposedObstacleSpec};
 pub use plates::ComposedPlatesSpec;
 
 use self::gearing::Meshing;
@@ -67,6 +69,7 @@ pub struct Composed {
     gears: Vec<ComposedGear>,
     meshes: Vec<Meshing>,
     loads: Vec<ComposedLoad>,
+    obstacles: Vec<ComposedObstacle>,
 }
 
 /// A body of a composed machine.

@@ -77,8 +77,10 @@ impl Composed {
             gears: builder.gears,
             meshes: builder.meshes,
             loads,
+            obstacles: Vec::new(),
         };
         made.check_drawn()?;
+        made.obstacles = made.obstacles_of_design()?;
         let goals = design.goals.iter();
         let figures = goals.map(|(name, goal)| {
             let figure = made.figure(&format!("goals.{name}.figure"), &goal.figure)?;
