@@ -1,10 +1,10 @@
 use std::cell::RefCell;
 
-use centrode_geometry::{Antiderivative, Extreme, greatest_each, pieces};
+use centrode_geometry::{Antiderivative, Extreme, greatest_each};
 use centrode_mechanism::composed::{Composed, ComposedFigure};
 use centrode_mechanism::machine::{JointKind, Machine};
 
-use super::PARTS;
+use super::ends;
 use crate::forces::{Balance, Forces, ForcesError};
 use crate::{Finding, Place, Report, Severity, Table, Unit};
 
@@ -16,19 +16,17 @@ pub(super) struct Loaded {
     balance: Balance,
     period: f64,
     /// Ends of the parts of a cycle between which all forces are smooth.
-    pub(super) ends: Vec<f64>,
+    ends: Vec<f64>,
     /// First reason why a state has no forces.
     failed: RefCell<Option<ForcesError>>,
 }
 
 impl Loaded {
     pub(super) fn new(composed: &Composed, machine: &Machine) -> Result<Self, ForcesError> {
-        let parts = PARTS * composed.design().input.turns;
-        let period = composed.period();
         Ok(Self {
             balance: Balance::new(machine.clone())?,
-            period,
-            ends: pieces(0.0, period, parts, &composed.breaks()),
+            period: composed.period(),
+            ends: ends(composed),
             failed: RefCell::new(None),
         })
     }

@@ -1,10 +1,10 @@
 use centrode_geometry::{Tolerance, extremes};
 use centrode_mechanism::composed::{
-    ClearanceEnd, ComposedFigure, ComposedGoalSpec, Over, PointPart,
+    ClearanceEnd, Composed, ComposedFigure, ComposedGoalSpec, Over, PointPart,
 };
 
 use super::clearance::composed_clearance;
-use super::{Made, ends};
+use super::{Made, ends, within};
 use crate::{Goal, Unit};
 
 /// Accuracy of a clearance, as a share of a plate's width.
@@ -26,9 +26,9 @@ pub(super) fn goals(made: &Made<'_>) -> Vec<Found> {
         .map(|(number, ((name, spec), figure))| {
             let (value, input) = value(made, figure, spec, &ends);
             let title = if spec.title.is_empty() {
-                &spec.figure
+                format!("{name}: {}", spec.words())
             } else {
-                &spec.title
+                spec.title.clone()
             };
             let unit = unit(figure);
             let kept = |shown: f64| shown / unit.factor();
@@ -39,7 +39,7 @@ pub(super) fn goals(made: &Made<'_>) -> Vec<Found> {
                 .fold(0.0, |size: f64, w| size.max(w.abs()));
             let usual = if size > 0.0 { size } else { kept(1.0) };
             let scale = spec.scale.map_or(usual, kept);
-            let about = (number, name.clone(), title.clone());
+            let about = (number, name.clone(), title);
             let goal = Goal::new(about, value, wanted, unit, scale);
             Found { goal, input }
         })
@@ -72,20 +72,26 @@ fn value(
     ends: &[f64],
 ) -> (Option<f64>, Option<f64>) {
     if let ComposedFigure::Clearance(ends) = figure {
-        return clearance(made, *ends);
+        return clearance(made, *ends, spec);
     }
     if figure.is_of_forces() {
         return match made.loaded() {
-            Some(Ok(loaded)) => of(spec, |input| loaded.value(figure, input), &loaded.ends),
+            Some(Ok(loaded)) => of(
+                made.composed,
+                spec,
+                |input| loaded.value(figure, input),
+                ends,
+            ),
             _ => (None, None),
         };
     }
     let at = |input: f64| made.composed.value(figure, input).unwrap_or(f64::NAN);
-    of(spec, at, ends)
+    of(made.composed, spec, at, ends)
 }
 
 /// A function of the input as a goal takes it, and the input at which it is found; none where it has no value.
 fn of(
+    composed: &Composed,
     spec: &ComposedGoalSpec,
     at: impl Fn(f64) -> f64,
     ends: &[f64],
@@ -95,7 +101,10 @@ fn of(
         let input = spec.at.unwrap_or(0.0);
         return (finite(at(input)), Some(input));
     };
-    let [least, greatest] = extremes(at, ends);
+    let [least, greatest] = match spec.within[..] {
+        [from, to] => extremes(at, &within(composed, from, to)),
+        _ => extremes(at, ends),
+    };
     match over {
         Over::Least => (finite(least.value), Some(least.input)),
         Over::Greatest => (finite(greatest.value), Some(greatest.input)),
@@ -104,12 +113,19 @@ fn of(
 }
 
 /// Least clearance of two bodies; infinite where they lie apart along the shafts.
-fn clearance(made: &Made<'_>, ends: [ClearanceEnd; 2]) -> (Option<f64>, Option<f64>) {
+fn clearance(
+    made: &Made<'_>,
+    ends: [ClearanceEnd; 2],
+    spec: &ComposedGoalSpec,
+) -> (Option<f64>, Option<f64>) {
     let width = made.composed.design().plates.width;
     let (Some(machine), Ok(tolerance)) = (made.machine(), Tolerance::new(ACCURACY * width)) else {
         return (None, None);
     };
-    let inputs = [0.0, made.composed.period()];
+    let inputs = match spec.within[..] {
+        [from, to] => [from, to],
+        _ => [0.0, made.composed.period()],
+    };
     match composed_clearance(made.composed, machine, ends, tolerance) {
         Ok(None) => (Some(f64::INFINITY), None),
         Ok(Some(pair)) => match pair.over(inputs) {

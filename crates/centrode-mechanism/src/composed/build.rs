@@ -7,7 +7,7 @@ use super::{
     ComposedBody, ComposedDyad, ComposedDyadSpec, ComposedError, DyadKind, Mount, Pin, Side,
 };
 use crate::linkage::{Branch, Coordinate, Joint, Line, Link, Linkage};
-use crate::machine::Constant;
+use crate::machine::{Constant, JointKind};
 use crate::transmission::Transmission;
 
 /// Parts of a cycle in each of which a slide has few extremes.
@@ -60,7 +60,11 @@ impl Builder<'_> {
             return Ok(());
         };
         let key = format!("bodies.{name}.on");
-        let law = law.resolve(design.input.turns, body.slides.is_some());
+        let by = match &law.by {
+            Some(by) => Some(self.turn_of(&format!("bodies.{name}.law.by"), by)?),
+            None => None,
+        };
+        let law = law.resolve(design.input.turns, body.slides.is_some(), by);
         let law = law.map_err(|error| ComposedError::Law {
             body: name.into(),
             error,
@@ -81,6 +85,21 @@ impl Builder<'_> {
             );
         }
         Ok(())
+    }
+
+    /// Turn on its own pin of a body that is there.
+    fn turn_of(&mut self, key: &str, name: &str) -> Result<Arc<dyn Transmission>, ComposedError> {
+        // Those of dyads before it.
+        self.follow()?;
+        let body = self.body_named(name);
+        let mount = body.and_then(|body| self.bodies[body].mount.as_ref());
+        match mount {
+            Some(mount) if mount.kind == JointKind::Turning => Ok(Arc::clone(&mount.law)),
+            _ => Err(ComposedError::NoTurn {
+                key: key.into(),
+                body: name.into(),
+            }),
+        }
     }
 
     pub(super) fn add_dyad(

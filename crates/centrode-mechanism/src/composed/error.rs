@@ -53,6 +53,16 @@ pub enum ComposedError {
         /// Name of the points.
         point: String,
     },
+    /// A body that cannot drive another by its turn.
+    #[error(
+        "body {body:?} does not turn on a pin: only a body that does can take the place of the input"
+    )]
+    NoTurn {
+        /// Key that names it.
+        key: String,
+        /// The body.
+        body: String,
+    },
     /// A body that is driven or tied twice.
     #[error("body {body:?} is held already by {by}: it can be held by one of them only")]
     HeldTwice {
@@ -239,6 +249,7 @@ impl ComposedError {
             | Self::NoDirection { key, .. }
             | Self::NoFigure { key, .. }
             | Self::NoDyad { key, .. }
+            | Self::NoTurn { key, .. }
             | Self::NoGear { key, .. }
             | Self::NoMesh { key, .. }
             | Self::Refused { key, .. }

@@ -56,7 +56,8 @@ fn a_constant_force_on_a_slider_crank_has_the_torque_of_virtual_work_and_the_for
         let load = "[loads.work]\non = \"ram.tool\"\nforce = [-150, 0]\n";
         let found = goals_of(&with("", "", &format!("{load}{goals}")));
         let value = |figure: &str| {
-            let goal = found.iter().find(|goal| goal.title == figure);
+            let name = figure.replace(['(', ')', '.'], "_");
+            let goal = found.iter().find(|goal| goal.name == name);
             goal.and_then(|goal| goal.value).expect("a figure")
         };
         let t = f64::to_radians(degrees);
