@@ -150,8 +150,8 @@ impl Machine {
     /// >>> import centrode as ct
     /// >>> leg = ct.Machine.from_toml(ct.template("machine") + "[obstacles.ground]\nbelow = -100")
     /// >>> least, phi = leg.clearance("shin", "ground")
-    /// >>> round(least, 2), round(leg.clearance("shin", "ground", phi), 2)
-    /// (0.0, 0.0)
+    /// >>> round(least, 1), round(leg.clearance("shin", "ground", phi), 1)
+    /// (4.2, 4.2)
     #[pyo3(signature = (first, second, phi=None, *, tolerance=1e-3))]
     fn clearance<'py>(
         &self,
@@ -162,7 +162,19 @@ impl Machine {
         tolerance: f64,
     ) -> Answer<Bound<'py, PyAny>> {
         let tolerance = plain_tolerance(tolerance)?;
-        let ends = self.0.clearance_ends("name", [first, second])?;
+        let bodies = self.0.bodies().iter().map(|body| body.name.as_str());
+        let obstacles = self.0.obstacles().iter();
+        let known: Vec<&str> = bodies.chain(obstacles.map(|o| o.name.as_str())).collect();
+        for (key, name) in [("first", first), ("second", second)] {
+            if !known.contains(&name) {
+                return Err(Raised::word(key, name, &known));
+            }
+        }
+        let ends = self.0.clearance_ends("second", [first, second]);
+        let ends = ends.map_err(|_| {
+            let rule = format!("must not be on the same body as {first}");
+            Raised::rule("second", &rule)
+        })?;
         let composed = Arc::clone(&self.0);
         let pair = wait(py, move || {
             let machine = composed.machine()?;

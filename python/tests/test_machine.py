@@ -230,5 +230,21 @@ def test_clearances_are_those_of_the_drawing_over_the_cycle_and_at_inputs():
     assert machine.clearance("disc", "far")[0] == math.inf
     with pytest.raises(ct.DesignError, match="sky"):
         machine.clearance("disc", "sky")
-    with pytest.raises(ct.DesignError, match="both on"):
+    with pytest.raises(ct.DesignError, match="same body"):
         machine.clearance("ground", "post")
+
+
+def test_obstacles_are_drawn_as_scenery_and_are_no_parts_and_bodies_without_mass_can_be_simulated(tmp_path):
+    ezdxf = pytest.importorskip("ezdxf")
+    machine = ct.Machine.from_toml(CLEAR)
+    machine.export(tmp_path, formats=["dxf", "mjcf"], tolerance=0.1)
+    drawing = ezdxf.readfile(tmp_path / "assembly.dxf")
+    assert drawing.layers.get("SCENERY").dxf.linetype.upper() == "PHANTOM"
+    scenery = [entity for entity in drawing.modelspace() if entity.dxf.layer == "SCENERY"]
+    assert len(scenery) >= 2
+    assert {part.name for part in machine.parts()} == {"frame", "disc", "far"}
+    assert not list(tmp_path.glob("ground*"))
+    mujoco = pytest.importorskip("mujoco")
+    model = mujoco.MjModel.from_xml_path(str(tmp_path / "machine.xml"))
+    crank = model.body("crank")
+    assert 0 < crank.mass[0] < 1e-5

@@ -45,7 +45,7 @@ fn a_disc_on_a_crank_clears_ground_wall_and_tray_as_the_drawing_tells() {
     let obstacles = "[obstacles.ground]\nbelow = -60\n\
         [obstacles.wall]\non = \"frame.P\"\noutline = [[-10, 30], [-10, 50], [10, 50], [10, 30]]\n\
         [obstacles.post]\ncircle = { center = [0, 62], radius = 3 }\n\
-        [obstacles.tray]\non = \"ram\"\nbelow = -58\n\
+        [obstacles.tray]\non = \"ram\"\ncircle = { center = [62, 70], radius = 3 }\n\
         [obstacles.high]\nbelow = 0\nheights = [500, 600]\n";
     let made = machine(3, obstacles);
     assert!((least(&made, ["disc", "ground"]) - 15.0).abs() < 2e-6);
@@ -54,8 +54,8 @@ fn a_disc_on_a_crank_clears_ground_wall_and_tray_as_the_drawing_tells() {
     let corner = 60.0_f64.hypot(30.0) - 45.0;
     assert!((least(&made, ["disc", "wall"]) - corner).abs() < 2e-6);
     assert!((least(&made, ["disc", "post"]) - 14.0).abs() < 2e-6);
-    // The tray moves with the ram: 40 sin t - 10 sin t is least at a right angle.
-    assert!((least(&made, ["disc", "tray"]) - 23.0).abs() < 2e-6);
+    // The tray's middle moves with the ram, along 0, 62 + 10 sin t: nearest at a right angle.
+    assert!((least(&made, ["disc", "tray"]) - 24.0).abs() < 2e-6);
     let links = made.machine().expect("plates");
     let ends = made.clearance_ends("key", ["disc", "high"]).expect("ends");
     let tolerance = Tolerance::new(1e-3).expect("positive");
