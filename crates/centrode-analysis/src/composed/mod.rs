@@ -17,6 +17,7 @@ use centrode_mechanism::machine::Machine;
 pub use self::clearance::composed_clearance;
 use self::figures::FIGURES;
 use self::forces::Loaded;
+pub use self::goals::composed_figures;
 use crate::forces::ForcesError;
 use crate::report::Missed;
 use crate::{Finding, Goal, Place, Report, Severity, Table, Unit};
