@@ -1,14 +1,17 @@
 use std::sync::Arc;
 
+use centrode_analysis::composed_clearance;
 use centrode_geometry::Point;
 use centrode_mechanism::composed::Composed;
-use pyo3::prelude::{Bound, PyClassInitializer, PyResult, Python, pyclass, pymethods};
+use pyo3::IntoPyObjectExt;
+use pyo3::prelude::{Bound, PyAny, PyClassInitializer, PyResult, Python, pyclass, pymethods};
 use pyo3::types::PyTuple;
 
 use crate::array::{Course, Values, row};
 use crate::design::Class;
-use crate::error::{Answer, Raised};
+use crate::error::{Answer, Raised, plain_tolerance};
 use crate::mechanism::Mechanism;
+use crate::wait::wait;
 
 /// A planar machine composed in its design file: bodies that turn, slide or are fixed, laws and dyads.
 ///
@@ -149,6 +152,74 @@ impl Machine {
             let place = [jet.point.coords, jet.first, jet.second, jet.third][order];
             [place.x, place.y, row(&made.angle(body, phi))[order]]
         }))
+    }
+
+    /// Clearance of two bodies, with their plates and gears, or of a body and an obstacle, mm, proven between samples to within
+    /// `tolerance` (mm): the least over the cycle and the input there, rad, or at inputs an array of the shape of `phi`.
+    /// Negative where they overlap: how deep one lies in the other. Infinite where they share no height along the shafts.
+    ///
+    /// Args:
+    ///     first: Name of a body or an obstacle.
+    ///     second: Name of another one.
+    ///     phi: Inputs, rad; left out, the whole cycle.
+    ///     tolerance: Accuracy, mm.
+    ///
+    /// Raises:
+    ///     DesignError: There is no such body or obstacle, or both are on one body.
+    ///
+    /// >>> import centrode as ct
+    /// >>> leg = ct.Machine.from_toml(ct.template("machine") + "[obstacles.ground]\nbelow = -100")
+    /// >>> least, phi = leg.clearance("shin", "ground")
+    /// >>> round(least, 1), round(leg.clearance("shin", "ground", phi), 1)
+    /// (4.2, 4.2)
+    #[pyo3(signature = (first, second, phi=None, *, tolerance=1e-3))]
+    fn clearance<'py>(
+        &self,
+        py: Python<'py>,
+        first: &str,
+        second: &str,
+        phi: Option<Values>,
+        tolerance: f64,
+    ) -> Answer<Bound<'py, PyAny>> {
+        let tolerance = plain_tolerance(tolerance)?;
+        let bodies = self.0.bodies().iter().map(|body| body.name.as_str());
+        let obstacles = self.0.obstacles().iter();
+        let known: Vec<&str> = bodies.chain(obstacles.map(|o| o.name.as_str())).collect();
+        for (key, name) in [("first", first), ("second", second)] {
+            if !known.contains(&name) {
+                return Err(Raised::word(key, name, &known));
+            }
+        }
+        let ends = self.0.clearance_ends("second", [first, second]);
+        let ends = ends.map_err(|_| {
+            let rule = format!("must not be on the same body as {first}");
+            Raised::rule("second", &rule)
+        })?;
+        let composed = Arc::clone(&self.0);
+        let pair = wait(py, move || {
+            let machine = composed.machine()?;
+            let pair = composed_clearance(&composed, &machine, ends, tolerance)?;
+            Ok::<_, Raised>(pair.map(Arc::new))
+        })??;
+        let Some(phi) = phi else {
+            let period = self.0.period();
+            let found = match pair {
+                None => (f64::INFINITY, f64::NAN),
+                Some(pair) => {
+                    let found = wait(py, move || pair.over([0.0, period]))??;
+                    (found.least, found.input)
+                }
+            };
+            return Ok(found.into_bound_py_any(py)?);
+        };
+        let course = Course::together(phi.finite()?, &[], move |inputs| {
+            let at = |input: &f64| match &pair {
+                None => Ok(f64::INFINITY),
+                Some(pair) => Ok(pair.at(*input)?.least),
+            };
+            inputs.iter().map(at).collect()
+        });
+        Ok(course.into_bound_py_any(py)?)
     }
 
     /// Transmission angle of a dyad at inputs, rad: 0 where it is stretched or folded, a right angle where it holds best.

@@ -1,6 +1,7 @@
 use std::error::Error;
 
 use centrode_analysis::forces::ForcesError;
+use centrode_analysis::interference::LinkClearanceError;
 use centrode_analysis::optimise::feeder::NotWidened;
 use centrode_analysis::optimise::{NotSearched, SearchError};
 use centrode_analysis::{ArmClearanceError, FeederForcesError};
@@ -71,6 +72,7 @@ raised! {
     ArmClearanceError { _ => MechanismError("arm.body"), }
     FeederForcesError { _ => MechanismError("plates"), }
     ForcesError { _ => MechanismError(""), }
+    LinkClearanceError { _ => MechanismError("plates"), }
     NotSearched { _ => MechanismError("optimise"), }
     NotWidened { _ => MechanismError("optimise"), }
     SearchError { _ => MechanismError("optimise"), }

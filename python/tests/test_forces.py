@@ -55,13 +55,13 @@ def joints(machine, about, phi):
     return found, known
 
 
-def inverse(machine, folder, phi):
+def inverse(machine, folder, phi, down=None):
     """Torque of the input by MuJoCo, N mm: forces of its tree of joints, each times its rate, with all loops open."""
     mujoco = pytest.importorskip("mujoco")
     machine.export(folder, formats=["csv", "mjcf"], tolerance=0.1)
     about = json.loads((folder / "motion.json").read_text())
     model = mujoco.MjModel.from_xml_path(str(folder / "machine.xml"))
-    model.opt.gravity[:] = DOWN[type(machine).__name__]
+    model.opt.gravity[:] = down or DOWN[type(machine).__name__]
     off = mujoco.mjtDisableBit
     model.opt.disableflags |= off.mjDSBL_CONTACT | off.mjDSBL_EQUALITY | off.mjDSBL_LIMIT
     model.dof_damping[:] = 0
@@ -169,3 +169,40 @@ def test_the_groove_hides_what_its_place_would_tell():
     family = shaft.force(phi)
     np.testing.assert_allclose(forces.guides["box_joint"].torque, family.torque, rtol=1e-9, atol=1e-9)
     np.testing.assert_allclose(forces.guides["box_joint"].normal, family.normal, rtol=1e-9, atol=1e-9)
+
+
+def test_weight_and_loads_of_a_composed_machine_are_those_of_mujoco_and_virtual_work(tmp_path):
+    text = (Path(__file__).resolve().parents[2] / "tests" / "designs" / "press.toml").read_text()
+    text = "gravity = [2.0, -9.81]\n" + text
+    text += """
+[bodies.ram]
+mass_kg = 3
+center = [4, -2]
+inertia_kg_mm2 = 900
+points = { tool = [20, 7] }
+[loads.work]
+on = "ram.tool"
+force = [-800, 60]
+[loads.drag]
+on = "rod.B"
+force = [5, -40]
+axes = "body"
+expression = "1 + 0.5*sin(2*phi)"
+[loads.brake]
+on = "crank"
+torque = 350
+"""
+    machine = ct.Machine.from_toml(text)
+    phi = np.random.default_rng(11).uniform(0.1, 6.0, 60)
+    torque, known = inverse(machine, tmp_path, phi, down=(2.0, -9.81, 0.0))
+    assert known.sum() >= 20
+    # What loads do on their ways, the input gives back.
+    tool, pin = machine.point("ram.tool", phi, 1), machine.point("rod.B", phi, 1)
+    turned = machine.body("rod", phi)[:, 2]
+    cos, sin = np.cos(turned), np.sin(turned)
+    drag = (1 + 0.5 * np.sin(2 * phi))[:, None] * np.stack([5 * cos + 40 * sin, 5 * sin - 40 * cos], axis=-1)
+    work = tool @ [-800.0, 60.0] + (drag * pin).sum(axis=-1) + 350 * machine.body("crank", phi, 1)[:, 2]
+    forces = machine.forces(phi)
+    size = np.abs(forces.input).max()
+    np.testing.assert_allclose(forces.input[known], (torque - work)[known], rtol=0, atol=1e-8 * size)
+    assert forces.joints["rod_joint"].shape == (60, 2)

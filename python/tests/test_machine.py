@@ -192,3 +192,59 @@ def test_the_arms_of_a_train_follow_its_closed_form():
         step, name = 1e-4, f"arm-{number}.tip"
         slope = (machine.point(name, phi + step, 2) - machine.point(name, phi - step, 2)) / (2 * step)
         np.testing.assert_allclose(machine.point(name, phi, 3), slope, rtol=1e-5, atol=1e-2)
+
+
+CLEAR = """
+family = "machine"
+[frame.points]
+O = [0, 0]
+[bodies.crank]
+on = "frame.O"
+law = { ratio = 1 }
+plate = false
+[bodies.disc]
+fixed_to = "crank"
+circle = { center = [40, 0], radius = 5 }
+[bodies.far]
+fixed_to = "frame"
+layer = 9
+[obstacles.ground]
+below = -60
+[obstacles.post]
+circle = { center = [0, 62], radius = 3 }
+"""
+
+
+def test_clearances_are_those_of_the_drawing_over_the_cycle_and_at_inputs():
+    machine = ct.Machine.from_toml(CLEAR)
+    least, phi = machine.clearance("disc", "ground", tolerance=1e-6)
+    assert least == pytest.approx(15.0, abs=2e-6)
+    assert phi == pytest.approx(1.5 * math.pi, abs=1e-3)
+    found = machine.clearance("ground", "disc", PHI, tolerance=1e-6)
+    np.testing.assert_allclose(found, 60 + 40 * np.sin(PHI) - 5, atol=2e-6)
+    middle = 40 * np.stack([np.cos(PHI), np.sin(PHI)], axis=-1)
+    post = machine.clearance("disc", "post", PHI[:, None], tolerance=1e-6)
+    assert post.shape == (181, 1)
+    np.testing.assert_allclose(post[:, 0], np.linalg.norm(middle - [0, 62], axis=-1) - 8, atol=2e-6)
+    assert isinstance(machine.clearance("disc", "post", 0.5), float)
+    assert machine.clearance("disc", "far")[0] == math.inf
+    with pytest.raises(ct.DesignError, match="sky"):
+        machine.clearance("disc", "sky")
+    with pytest.raises(ct.DesignError, match="same body"):
+        machine.clearance("ground", "post")
+
+
+def test_obstacles_are_drawn_as_scenery_and_are_no_parts_and_bodies_without_mass_can_be_simulated(tmp_path):
+    ezdxf = pytest.importorskip("ezdxf")
+    machine = ct.Machine.from_toml(CLEAR)
+    machine.export(tmp_path, formats=["dxf", "mjcf"], tolerance=0.1)
+    drawing = ezdxf.readfile(tmp_path / "assembly.dxf")
+    assert drawing.layers.get("SCENERY").dxf.linetype.upper() == "PHANTOM"
+    scenery = [entity for entity in drawing.modelspace() if entity.dxf.layer == "SCENERY"]
+    assert len(scenery) >= 2
+    assert {part.name for part in machine.parts()} == {"frame", "disc", "far"}
+    assert not list(tmp_path.glob("ground*"))
+    mujoco = pytest.importorskip("mujoco")
+    model = mujoco.MjModel.from_xml_path(str(tmp_path / "machine.xml"))
+    crank = model.body("crank")
+    assert 0 < crank.mass[0] < 1e-5

@@ -16,7 +16,7 @@ mod shaft;
 mod three_arm;
 mod unit;
 
-pub use composed::{check_composed, composed_figures};
+pub use composed::{check_composed, composed_clearance, composed_figures};
 pub use contact::Contact;
 pub use feeder::{
     Attainable, FeederForces, FeederForcesError, SixBarTolerances, SwingSpread, check_feeder,

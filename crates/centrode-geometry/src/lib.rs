@@ -33,6 +33,7 @@ mod poly_segment;
 mod quadrature;
 mod recent;
 mod roots;
+mod rounded;
 #[cfg(test)]
 mod shapes;
 mod shell;
@@ -58,6 +59,7 @@ pub use outline::{Arc, OpenOutline, Outline, Segment};
 pub use poly_segment::{PolySegment, SegmentJet};
 pub use recent::Recent;
 pub use roots::{bracketed_minimum, bracketed_root};
+pub use rounded::ShortSide;
 pub use shell::{Shell, ShellCurve, ShellEdge, ShellFace, ShellSurface};
 pub use solid::{Solid, SolidError};
 pub use tolerance::{BadTolerance, Tolerance};

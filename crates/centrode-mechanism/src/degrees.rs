@@ -50,6 +50,23 @@ pub(crate) mod option {
     }
 }
 
+/// Both ends of a range of angles that may be absent, degrees in the file.
+pub(crate) mod arc {
+    use super::{Deserialize, Deserializer, Serialize, Serializer, written};
+
+    #[allow(clippy::ref_option, reason = "the signature serde calls")]
+    pub(crate) fn serialize<S: Serializer>(r: &Option<[f64; 2]>, s: S) -> Result<S::Ok, S::Error> {
+        r.map(|ends| ends.map(written)).serialize(s)
+    }
+
+    pub(crate) fn deserialize<'de, D: Deserializer<'de>>(
+        d: D,
+    ) -> Result<Option<[f64; 2]>, D::Error> {
+        let ends = Option::<[f64; 2]>::deserialize(d)?;
+        Ok(ends.map(|ends| ends.map(f64::to_radians)))
+    }
+}
+
 /// Both ends of a range of angles, degrees in the file.
 pub(crate) mod range {
     use super::{Deserialize, Deserializer, Serialize, Serializer, written};

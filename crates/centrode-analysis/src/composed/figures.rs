@@ -1,5 +1,5 @@
 use crate::figure::{FigureGroup, row};
-use crate::unit::Unit::{Angle, Count, TurnsPerMinute};
+use crate::unit::Unit::{Angle, Count, MetrePerSecondSquared, NewtonMillimetre, TurnsPerMinute};
 
 /// Figures of a composed machine, in the order in which they are shown.
 #[rustfmt::skip]
@@ -12,5 +12,9 @@ pub(super) const FIGURES: &[FigureGroup] = &[FigureGroup {
         row("speed of the input", &["input_rpm"], TurnsPerMinute),
         row("repeats after", &["period"], Angle),
         row("least transmission angle", &["transmission_angle_min"], Angle),
+        row("free fall", &["gravity"], MetrePerSecondSquared),
+        row("least torque of the input", &["input_torque_min"], NewtonMillimetre),
+        row("greatest torque of the input", &["input_torque_max"], NewtonMillimetre),
+        row("mean torque of the input", &["input_torque_mean"], NewtonMillimetre),
     ],
 }];

@@ -1,8 +1,10 @@
 use centrode_geometry::{Tolerance, extremes};
-use centrode_mechanism::composed::{Composed, ComposedFigure, ComposedGoalSpec, Over, PointPart};
+use centrode_mechanism::composed::{
+    ClearanceEnd, Composed, ComposedFigure, ComposedGoalSpec, Over, PointPart,
+};
 
-use super::{ends, within};
-use crate::interference::between_links;
+use super::clearance::composed_clearance;
+use super::{Made, ends, within};
 use crate::{Goal, Table, Unit};
 
 /// Accuracy of a clearance, as a share of a plate's width.
@@ -15,13 +17,14 @@ pub(super) struct Found {
 }
 
 /// Every goal of a machine with its figure, in the order of their names.
-pub(super) fn goals(composed: &Composed) -> Vec<Found> {
+pub(super) fn goals(made: &Made<'_>) -> Vec<Found> {
+    let composed = made.composed;
     let ends = ends(composed);
     let specs = composed.design().goals.iter().zip(composed.figures());
     (1..)
         .zip(specs)
         .map(|(number, ((name, spec), figure))| {
-            let (value, input) = value(composed, figure, spec, &ends);
+            let (value, input) = value(made, figure, spec, &ends);
             let title = if spec.title.is_empty() {
                 format!("{name}: {}", spec.words())
             } else {
@@ -55,6 +58,8 @@ fn unit(figure: &ComposedFigure) -> Unit {
         ComposedFigure::Angle(_) | ComposedFigure::Swing(_) | ComposedFigure::Transmission(_) => {
             Unit::Angle
         }
+        ComposedFigure::InputTorque => Unit::NewtonMillimetre,
+        figure if figure.is_of_forces() => Unit::Newton,
         _ => Unit::Millimetre,
     }
 }
@@ -87,41 +92,72 @@ pub fn composed_figures(composed: &Composed) -> Vec<Table> {
 
 /// A figure as a goal takes it, and the input at which it is found.
 fn value(
-    composed: &Composed,
+    made: &Made<'_>,
     figure: &ComposedFigure,
     spec: &ComposedGoalSpec,
     ends: &[f64],
 ) -> (Option<f64>, Option<f64>) {
-    if let ComposedFigure::Clearance(bodies) = figure {
-        return clearance(composed, *bodies);
+    if let ComposedFigure::Clearance(ends) = figure {
+        return clearance(made, *ends, spec);
     }
-    let at = |input: f64| composed.value(figure, input).unwrap_or(f64::NAN);
+    if figure.is_of_forces() {
+        return match made.loaded() {
+            Some(Ok(loaded)) => of(
+                made.composed,
+                spec,
+                |input| loaded.value(figure, input),
+                ends,
+            ),
+            _ => (None, None),
+        };
+    }
+    let at = |input: f64| made.composed.value(figure, input).unwrap_or(f64::NAN);
+    of(made.composed, spec, at, ends)
+}
+
+/// A function of the input as a goal takes it, and the input at which it is found; none where it has no value.
+fn of(
+    composed: &Composed,
+    spec: &ComposedGoalSpec,
+    at: impl Fn(f64) -> f64,
+    ends: &[f64],
+) -> (Option<f64>, Option<f64>) {
+    let finite = |value: f64| value.is_finite().then_some(value);
     let Some(over) = spec.over else {
         let input = spec.at.unwrap_or(0.0);
-        return (Some(at(input)), Some(input));
+        return (finite(at(input)), Some(input));
     };
     let [least, greatest] = match spec.within[..] {
         [from, to] => extremes(at, &within(composed, from, to)),
         _ => extremes(at, ends),
     };
     match over {
-        Over::Least => (Some(least.value), Some(least.input)),
-        Over::Greatest => (Some(greatest.value), Some(greatest.input)),
-        Over::Span => (Some(greatest.value - least.value), None),
+        Over::Least => (finite(least.value), Some(least.input)),
+        Over::Greatest => (finite(greatest.value), Some(greatest.input)),
+        Over::Span => (finite(greatest.value - least.value), None),
     }
 }
 
-/// Least clearance of two bodies; infinite where their plates lie apart along the shafts.
-fn clearance(composed: &Composed, bodies: [usize; 2]) -> (Option<f64>, Option<f64>) {
-    let (Ok(machine), Ok(tolerance)) = (
-        composed.machine(),
-        Tolerance::new(ACCURACY * composed.design().plates.width),
-    ) else {
+/// Least clearance of two bodies; infinite where they lie apart along the shafts.
+fn clearance(
+    made: &Made<'_>,
+    ends: [ClearanceEnd; 2],
+    spec: &ComposedGoalSpec,
+) -> (Option<f64>, Option<f64>) {
+    let width = made.composed.design().plates.width;
+    let (Some(machine), Ok(tolerance)) = (made.machine(), Tolerance::new(ACCURACY * width)) else {
         return (None, None);
     };
-    match between_links(&machine, bodies, tolerance) {
-        Ok(Some(found)) => (Some(found.least), Some(found.input)),
+    let inputs = match spec.within[..] {
+        [from, to] => [from, to],
+        _ => [0.0, made.composed.period()],
+    };
+    match composed_clearance(made.composed, machine, ends, tolerance) {
         Ok(None) => (Some(f64::INFINITY), None),
+        Ok(Some(pair)) => match pair.over(inputs) {
+            Ok(found) => (Some(found.least), Some(found.input)),
+            Err(_) => (None, None),
+        },
         Err(_) => (None, None),
     }
 }

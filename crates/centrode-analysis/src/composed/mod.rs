@@ -1,16 +1,24 @@
 //! Check of a composed machine.
 
+mod clearance;
 mod figures;
+mod forces;
 mod goals;
 mod joints;
 #[cfg(test)]
 mod tests;
 
+use std::cell::OnceCell;
+
 use centrode_geometry::{extremes, greatest, least, pieces};
 use centrode_mechanism::composed::Composed;
+use centrode_mechanism::machine::Machine;
 
+pub use self::clearance::composed_clearance;
 use self::figures::FIGURES;
+use self::forces::Loaded;
 pub use self::goals::composed_figures;
+use crate::forces::ForcesError;
 use crate::report::Missed;
 use crate::{Finding, Goal, Place, Report, Severity, Table, Unit};
 
@@ -33,12 +41,20 @@ pub fn check_composed(composed: &Composed) -> Report {
     values.insert("input_rpm", composed.design().input.speed_rpm);
     values.insert("body_count", composed.bodies().len() as f64 - 1.0);
     values.insert("dyad_count", composed.dyads().len() as f64);
+    let [x, y] = composed.design().gravity.unwrap_or_default();
+    values.insert("gravity", x.hypot(y));
     let ends = ends(composed);
     dyads(composed, &ends, &mut report);
     joints::joints(composed, &ends, &mut report);
     joints::four_bars(composed, &mut report);
     points(composed, &ends, &mut report);
-    let found = goals::goals(composed);
+    let made = Made::new(composed);
+    if let (Some(machine), Some(loaded)) = (made.machine(), made.loaded()) {
+        forces::forces(loaded, machine, &mut report);
+    }
+    clearance::plates(&made, &mut report);
+    let found = goals::goals(&made);
+    clearance::apart(composed, &found, &mut report);
     report.goals = found.iter().map(|found| found.goal.clone()).collect();
     report.blame_goals(|goal| Missed {
         input: found
@@ -53,22 +69,54 @@ pub fn check_composed(composed: &Composed) -> Report {
 
 /// The goals of a composed machine with their figures.
 pub(crate) fn goals_of(composed: &Composed) -> Vec<Goal> {
-    let found = goals::goals(composed).into_iter();
+    let found = goals::goals(&Made::new(composed)).into_iter();
     found.map(|found| found.goal).collect()
 }
 
-/// Ends of the parts of a cycle between which all motion is smooth.
+/// A composed machine with what its checks share, each made when it is first asked for.
+struct Made<'a> {
+    composed: &'a Composed,
+    machine: OnceCell<Option<Machine>>,
+    loaded: OnceCell<Option<Result<Loaded, ForcesError>>>,
+}
+
+impl<'a> Made<'a> {
+    fn new(composed: &'a Composed) -> Self {
+        Self {
+            composed,
+            machine: OnceCell::new(),
+            loaded: OnceCell::new(),
+        }
+    }
+
+    /// Its bodies as links; none where a plate is no solid.
+    fn machine(&self) -> Option<&Machine> {
+        let made = || self.composed.machine().ok();
+        self.machine.get_or_init(made).as_ref()
+    }
+
+    /// Its forces; none where it has no links.
+    fn loaded(&self) -> Option<&Result<Loaded, ForcesError>> {
+        let made = || {
+            self.machine()
+                .map(|machine| Loaded::new(self.composed, machine))
+        };
+        self.loaded.get_or_init(made).as_ref()
+    }
+}
+
+/// Ends of the parts of a cycle between which all motion and load is smooth.
 fn ends(composed: &Composed) -> Vec<f64> {
     within(composed, 0.0, composed.period())
 }
 
-/// Ends of the parts of a stretch of inputs between which all motion is smooth.
+/// Ends of the parts of a stretch of inputs between which all motion and load is smooth.
 fn within(composed: &Composed, from: f64, to: f64) -> Vec<f64> {
-    let period = composed.period();
+    let (period, jumps) = (composed.period(), composed.breaks());
     let cycles = (from / period).floor() as i64..=(to / period).floor() as i64;
     let breaks: Vec<f64> = cycles
         .flat_map(|cycle| {
-            let breaks = composed.linkage().breaks().iter();
+            let breaks = jumps.iter();
             breaks.map(move |b| b + cycle as f64 * period)
         })
         .collect();

@@ -3,6 +3,9 @@ use centrode_mechanism::design::DesignSpec;
 
 use super::*;
 
+mod clearances;
+mod loads;
+
 fn composed(text: &str) -> Composed {
     let design = ComposedDesign::from_toml(text).expect("a design");
     Composed::resolve(&design).expect("a machine")

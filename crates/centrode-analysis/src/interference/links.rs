@@ -1,7 +1,10 @@
 use centrode_geometry::Tolerance;
-use centrode_mechanism::machine::{FrameJet, Joint, JointKind, Machine};
+use centrode_mechanism::machine::{FrameJet, Joint, JointKind, Machine, Surface};
 
-use super::{BodyError, Clearance, InterferenceError, MotionError, Moving, PoseJet, Shares};
+use super::{Body, BodyError, Clearance, InterferenceError, MotionError, Moving, PoseJet, Shares};
+
+/// Range of the input that counts as one place, rad.
+const MOMENT: f64 = 1e-9;
 
 /// Reason why the clearance of two links cannot be determined.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -38,56 +41,132 @@ impl From<MotionError> for LinkClearanceError {
 /// Least clearance, over one period of the input, of the contours with which two links of a machine touch others; none
 /// where no two of them overlap in height.
 ///
-/// Both links are seen from the nearest link that carries them. Clearances are mm, inputs rad, points in that link's
-/// frame; `pair` is the two links. `least` is above the true clearance by no more than the tolerance, `lower_bound` below
-/// it by no more, as [`clearance`](super::clearance) tells. Teeth in mesh overlap by their penetration.
-///
 /// # Errors
-/// [`LinkClearanceError`] for a link that is not there, and for a joint between the two that turns about another axis than z
-/// or slides along it.
+/// [`LinkClearanceError`] as for [`LinkPair::new`].
 pub fn between_links(
     machine: &Machine,
     links: [usize; 2],
     tolerance: Tolerance,
 ) -> Result<Option<Clearance>, LinkClearanceError> {
-    let count = machine.links.len();
-    if links[0] == links[1] || links.iter().any(|link| *link >= count) {
-        return Err(LinkClearanceError::Links { links, count });
-    }
-    let chains = apart(machine, links);
-    for joint in chains.iter().flatten() {
-        if !joint.is_planar() {
-            let link = machine.links[joint.child].name.clone();
-            return Err(LinkClearanceError::OutOfPlane { link });
+    let surfaces = links.map(|link| {
+        let own = machine.links.get(link).map(|link| &link.surfaces);
+        let own = own.into_iter().flatten();
+        own.map(|&index| &machine.surfaces[index]).collect()
+    });
+    let pair = LinkPair::new(machine, links, surfaces, tolerance)?;
+    pair.map(|pair| pair.over([0.0, machine.input.period]))
+        .transpose()
+}
+
+/// Contours that stand on two links of a machine, made ready for their clearance.
+#[derive(Clone, Debug)]
+pub struct LinkPair {
+    links: [usize; 2],
+    /// Joints that carry each link from the nearest one that carries both.
+    chains: [Vec<Joint>; 2],
+    /// The bodies, each with its link: 0 or 1.
+    bodies: Vec<(usize, Body)>,
+    /// Bodies that overlap in height.
+    pairs: Vec<[usize; 2]>,
+    shares: Shares,
+}
+
+impl LinkPair {
+    /// Makes contours ready that stand on two links: those of the links themselves or others; none where no two of them
+    /// overlap in height.
+    ///
+    /// # Errors
+    /// [`LinkClearanceError`] for a link that is not there, and for a joint between the two that turns about another axis
+    /// than z or slides along it.
+    pub fn new(
+        machine: &Machine,
+        links: [usize; 2],
+        surfaces: [Vec<&Surface>; 2],
+        tolerance: Tolerance,
+    ) -> Result<Option<Self>, LinkClearanceError> {
+        let count = machine.links.len();
+        if links[0] == links[1] || links.iter().any(|link| *link >= count) {
+            return Err(LinkClearanceError::Links { links, count });
         }
-    }
-    let shares = Shares::of(tolerance);
-    let inputs = [0.0, machine.input.period];
-    let mut bodies = Vec::new();
-    for (link, chain) in links.into_iter().zip(&chains) {
-        let height: f64 = chain.iter().map(|joint| joint.origin[2]).sum();
-        for &index in &machine.links[link].surfaces {
-            let surface = &machine.surfaces[index];
+        let chains = apart(machine, links);
+        for joint in chains.iter().flatten() {
+            if !joint.is_planar() {
+                let link = machine.links[joint.child].name.clone();
+                return Err(LinkClearanceError::OutOfPlane { link });
+            }
+        }
+        let height = |link: usize| -> f64 {
+            let chain = chains[link].iter();
+            chain.map(|joint| joint.origin[2]).sum()
+        };
+        let all: Vec<(usize, &Surface)> = surfaces
+            .iter()
+            .enumerate()
+            .flat_map(|(link, all)| all.iter().map(move |surface| (link, *surface)))
+            .collect();
+        let level = |&[i, j]: &[usize; 2]| {
+            let ((one, a), (other, b)) = (all[i], all[j]);
+            let [low, high] = a.span.map(|end| end + height(one));
+            let [bottom, top] = b.span.map(|end| end + height(other));
+            one != other && low < top && bottom < high
+        };
+        let count = all.len();
+        let pairs = (0..count).flat_map(|i| (i + 1..count).map(move |j| [i, j]));
+        let pairs: Vec<[usize; 2]> = pairs.filter(level).collect();
+        if pairs.is_empty() {
+            return Ok(None);
+        }
+        let shares = Shares::of(tolerance);
+        let bodies = all.iter().map(|(link, surface)| {
             let body = shares.body(std::slice::from_ref(&surface.outline))?;
-            let motion = shares.motion(&body, inputs, |input| pose(chain, input))?;
-            bodies.push((link, surface.span.map(|end| end + height), body, motion));
-        }
+            Ok((*link, body))
+        });
+        Ok(Some(Self {
+            links,
+            bodies: bodies.collect::<Result<_, BodyError>>()?,
+            chains: chains.map(|chain| chain.into_iter().cloned().collect()),
+            pairs,
+            shares,
+        }))
     }
-    let moving: Vec<Moving<'_>> = bodies
-        .iter()
-        .map(|(.., body, motion)| Moving { body, motion })
-        .collect();
-    let level = |[i, j]: &[usize; 2]| {
-        let ((one, [low, high], ..), (other, [bottom, top], ..)) = (&bodies[*i], &bodies[*j]);
-        one != other && low < top && bottom < high
-    };
-    let all = (0..bodies.len()).flat_map(|i| (i + 1..bodies.len()).map(move |j| [i, j]));
-    let pairs: Vec<[usize; 2]> = all.filter(level).collect();
-    let least = shares.least(&moving, &pairs, inputs)?;
-    Ok(least.map(|found| Clearance {
-        pair: links,
-        ..found
-    }))
+
+    /// Least clearance while the input runs from the first to the second of `inputs`.
+    ///
+    /// Both links are seen from the nearest link that carries them. Clearances are mm, inputs rad, points in that link's
+    /// frame; `pair` is the two links. `least` is above the true clearance by no more than the tolerance, `lower_bound`
+    /// below it by no more, as [`clearance`](super::clearance) tells. Teeth in mesh overlap by their penetration.
+    ///
+    /// # Errors
+    /// [`LinkClearanceError`] where inputs do not ascend or a pose is not finite.
+    pub fn over(&self, inputs: [f64; 2]) -> Result<Clearance, LinkClearanceError> {
+        let motions = self.bodies.iter().map(|(link, body)| {
+            let chain = &self.chains[*link];
+            self.shares.motion(body, inputs, |input| pose(chain, input))
+        });
+        let motions = motions.collect::<Result<Vec<_>, MotionError>>()?;
+        let moving: Vec<Moving<'_>> = self
+            .bodies
+            .iter()
+            .zip(&motions)
+            .map(|((_, body), motion)| Moving { body, motion })
+            .collect();
+        let least = self.shares.least(&moving, &self.pairs, inputs)?;
+        // There is a pair: it has a least distance.
+        let nowhere = MotionError::NotFinite { input: inputs[0] };
+        let found = least.ok_or(nowhere)?;
+        Ok(Clearance {
+            pair: self.links,
+            ..found
+        })
+    }
+
+    /// Clearance at an input, as [`over`](Self::over) tells of a range.
+    ///
+    /// # Errors
+    /// [`LinkClearanceError`] where a pose is not finite.
+    pub fn at(&self, input: f64) -> Result<Clearance, LinkClearanceError> {
+        self.over([input, input + MOMENT])
+    }
 }
 
 /// Joints that carry each of two links, from the nearest link that carries both.
@@ -108,7 +187,7 @@ fn apart(machine: &Machine, links: [usize; 2]) -> [Vec<&Joint>; 2] {
 }
 
 /// Pose of the last link of a chain in the frame of the link that carries the first, with its first derivative.
-fn pose(chain: &[&Joint], input: f64) -> PoseJet {
+fn pose(chain: &[Joint], input: f64) -> PoseJet {
     let mut frame = FrameJet::identity();
     // Turns are added up: an angle read from the frame would not be continuous.
     let (mut angle, mut turning) = (0.0, 0.0);
@@ -137,7 +216,7 @@ mod tests {
 
     use super::*;
     use centrode_geometry::{Outline, Point, Segment};
-    use centrode_mechanism::machine::{Constant, Input, Linear, Link, Surface};
+    use centrode_mechanism::machine::{Constant, Input, Linear, Link};
 
     fn square(half: f64) -> Outline {
         let corner = |x: f64, y: f64| Point::new(x * half, y * half);

@@ -12,7 +12,7 @@ use centrode_geometry::{Outline, Point, Tolerance};
 
 pub use body::{Body, BodyError};
 pub use later::Later;
-pub use links::{LinkClearanceError, between_links};
+pub use links::{LinkClearanceError, LinkPair, between_links};
 pub use motion::{Bend, Motion, MotionError, PoseJet, Rest, Tabulated, Uniform};
 
 use depth::deepest;

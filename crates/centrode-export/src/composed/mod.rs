@@ -2,10 +2,10 @@
 
 mod curves;
 
-use centrode_geometry::{Point, Solid};
+use centrode_geometry::{MassProperties, Point, Solid};
 use centrode_mechanism::composed::Composed;
-use centrode_mechanism::machine::{Form, Machine};
-use nalgebra::Isometry2;
+use centrode_mechanism::machine::{Form, LinePath, Machine};
+use nalgebra::{Isometry2, Matrix3, Point3};
 
 use crate::drawing::{Color, Drawing, LineType, Shape};
 use crate::{Bundle, ExportError, Format, Options, Package, gear_pair};
@@ -14,7 +14,10 @@ pub use curves::curves;
 const PROFILE: &str = "PROFILE";
 const HOLE: &str = "HOLE";
 const PATH: &str = "PATH";
+const SCENERY: &str = "SCENERY";
 
+/// Mass and inertia of a body without any in a simulator model, kg and kg mm².
+const TINY: f64 = 1e-6;
 /// Points of the way of a point.
 const POINTS: u32 = 360;
 
@@ -68,8 +71,21 @@ pub fn files(
         package.solid(&gear.name, &title, solid)?;
     }
     package.drawing("assembly", |_| Ok(assembly(composed, &made)))?;
-    package.machine(|| Ok(made.clone()))?;
+    package.machine(|| Ok(with_masses(&made)))?;
     package.finish()
+}
+
+/// The machine with a mass for every body that moves, as a simulator needs it, next to nothing where it has none.
+fn with_masses(machine: &Machine) -> Machine {
+    let mut made = machine.clone();
+    for link in made.links.iter_mut().skip(1) {
+        link.mass.get_or_insert(MassProperties {
+            mass: TINY,
+            center: Point3::origin(),
+            inertia: Matrix3::identity() * TINY,
+        });
+    }
+    made
 }
 
 /// The plate of a link, and its gears.
@@ -94,23 +110,47 @@ fn assembly(composed: &Composed, machine: &Machine) -> Drawing {
             _ => LineType::Continuous,
         };
         drawing = drawing.layer(&layer, Color::Foreground, line, 0.35);
-        let at = composed.place(index, Point::origin(), 0.0);
-        let turned = composed.angle(index, 0.0).position;
         for solid in plates(machine, index) {
-            contours(
-                &mut drawing,
-                &layer,
-                solid,
-                &Isometry2::new(at.coords, turned),
-            );
+            contours(&mut drawing, &layer, solid, &start(composed, index));
         }
     }
+    drawing = scenery(drawing, composed, machine);
     for (_, body, at) in composed.points().filter(|(_, body, _)| *body > 0) {
         let way = (0..=POINTS).map(|i| {
             let input = composed.period() * f64::from(i) / f64::from(POINTS);
             composed.place(body, at, input)
         });
         drawing.draw(PATH, Shape::Polyline(way.collect()));
+    }
+    drawing
+}
+
+/// Place of a body where the cycle begins.
+fn start(composed: &Composed, body: usize) -> Isometry2<f64> {
+    let at = composed.place(body, Point::origin(), 0.0);
+    Isometry2::new(at.coords, composed.angle(body, 0.0).position)
+}
+
+/// The drawing with the obstacles, as phantoms, where there are any.
+fn scenery(mut drawing: Drawing, composed: &Composed, machine: &Machine) -> Drawing {
+    if composed.obstacles().is_empty() {
+        return drawing;
+    }
+    drawing = drawing.layer(SCENERY, Color::Gray, LineType::Phantom, 0.25);
+    for obstacle in composed.obstacles() {
+        let place = start(composed, obstacle.body);
+        let sketch = machine.sketches.iter().find(|s| s.name == obstacle.name);
+        for line in sketch.iter().flat_map(|sketch| &sketch.lines) {
+            let shape = match &line.path {
+                LinePath::Contour(outline) => Shape::Contour(outline.transformed(&place)),
+                LinePath::Chain(ends) => {
+                    let ends = ends.iter().map(|at| place * Point::from(*at));
+                    Shape::Polyline(ends.collect())
+                }
+                LinePath::Trace(_) => continue,
+            };
+            drawing.draw(SCENERY, shape);
+        }
     }
     drawing
 }

@@ -6,10 +6,12 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::corner::points;
-use super::{ComposedLawSpec, ComposedMeshSpec, CornerSpec};
+use super::drawn::Drawn;
+use super::given_mass::GivenMass;
+use super::{ComposedCircleSpec, ComposedLawSpec, ComposedMeshSpec, CornerSpec};
 use crate::degrees;
 use crate::gear::design::SpecError;
-use crate::gear::design::rule::{Rule, broken, count_in_range, finite};
+use crate::gear::design::rule::{Rule, broken, count_in_range, finite, positive};
 
 /// A body of a composed machine: turning on a pin, sliding along a line, fixed to another body or made by a dyad.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
@@ -40,6 +42,33 @@ pub struct ComposedBodySpec {
     /// Place of its plate along the shafts, counted from the one next to the frame; left out, plates stack in order.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub layer: Option<u32>,
+    /// Whether it is drawn as a plate; left out, it is.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub plate: Option<bool>,
+    /// Corners of its plate in order, in the body's axes, mm; left out, the plate is drawn round its points.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub outline: Vec<[f64; 2]>,
+    /// Radius to which the corners of its outline are rounded, mm.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub corner_radius: Option<f64>,
+    /// Circle that its plate is.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub circle: Option<ComposedCircleSpec>,
+    /// Width of its plate round its points, mm; left out, that of all plates.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub width: Option<f64>,
+    /// Thickness of its plate, mm; left out, that of all plates.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub thickness: Option<f64>,
+    /// Mass without its gears, kg; left out, that of its plate.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mass_kg: Option<f64>,
+    /// Centre of mass of a given mass: x and y in the body's axes, mm; left out, that of its plate, or the origin.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub center: Option<[f64; 2]>,
+    /// Moment of inertia of a given mass about its centre, kg mm²; left out, that of the plate at the given mass.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub inertia_kg_mm2: Option<f64>,
     /// Motion of a body that turns or slides.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub law: Option<ComposedLawSpec>,
@@ -100,6 +129,53 @@ impl ComposedBodySpec {
             let slides = self.slides.is_some();
             law.validate(slides).map_err(|e| e.inside("law"))?;
         }
+        self.as_drawn()?;
         points(&self.points, &self.corners)
+    }
+
+    /// Checks its plate and mass.
+    fn as_drawn(&self) -> Result<(), SpecError> {
+        let drawn = self.drawn();
+        drawn.validate()?;
+        if !self.has_plate() {
+            let keys = [
+                ("outline", !self.outline.is_empty()),
+                ("circle", self.circle.is_some()),
+                ("width", self.width.is_some()),
+                ("thickness", self.thickness.is_some()),
+                ("layer", self.layer.is_some()),
+            ];
+            if let Some((key, _)) = keys.into_iter().find(|(_, given)| *given) {
+                return broken(key, Rule::Unused("for a body without a plate"));
+            }
+        }
+        if self.width.is_some() && drawn.is_given() {
+            return broken("width", Rule::Unused("but for a plate round points"));
+        }
+        for (key, value) in [("width", self.width), ("thickness", self.thickness)] {
+            positive(key, value.unwrap_or(1.0))?;
+        }
+        self.given_mass().validate(self.has_plate())
+    }
+
+    /// Whether it has a plate.
+    pub(super) fn has_plate(&self) -> bool {
+        self.plate != Some(false)
+    }
+
+    pub(super) fn drawn(&self) -> Drawn<'_> {
+        Drawn {
+            outline: &self.outline,
+            corner_radius: self.corner_radius,
+            circle: self.circle.as_ref(),
+        }
+    }
+
+    pub(super) fn given_mass(&self) -> GivenMass {
+        GivenMass {
+            mass: self.mass_kg,
+            center: self.center,
+            inertia: self.inertia_kg_mm2,
+        }
     }
 }

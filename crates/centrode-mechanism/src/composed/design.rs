@@ -6,12 +6,12 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{
-    ComposedBodySpec, ComposedDyadSpec, ComposedGearSpec, ComposedGoalSpec, ComposedLoopSpec,
-    ComposedPlatesSpec, ComposedPointsSpec,
+    ComposedBodySpec, ComposedDyadSpec, ComposedGearSpec, ComposedGoalSpec, ComposedLoadSpec,
+    ComposedLoopSpec, ComposedObstacleSpec, ComposedPlatesSpec, ComposedPointsSpec,
 };
 use crate::design::DesignSpec;
 use crate::gear::design::rule::{
-    Rule, broken, count_in_range, file_name, finite, positive, single_line,
+    Rule, broken, count_in_range, file_name, finite, in_range, positive, single_line,
 };
 use crate::gear::design::{GearPairDesign, SpecError};
 
@@ -54,6 +54,15 @@ pub struct ComposedDesign {
     /// The bodies as plates.
     #[serde(default)]
     pub plates: ComposedPlatesSpec,
+    /// Acceleration of free fall, m/s²: x and y; left out, there is no weight.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub gravity: Option<[f64; 2]>,
+    /// Loads by name.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub loads: BTreeMap<String, ComposedLoadSpec>,
+    /// Obstacles by name.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub obstacles: BTreeMap<String, ComposedObstacleSpec>,
     /// Goals by name.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub goals: BTreeMap<String, ComposedGoalSpec>,
@@ -90,7 +99,18 @@ impl DesignSpec for ComposedDesign {
     const ABOUT: &'static str = "A planar machine composed of bodies, laws and dyads.";
     const TEMPLATE: &'static str = include_str!("../../design/machine.toml");
     const TABLES: &'static [&'static str] = &[
-        "input", "frame", "bodies", "dyads", "pairs", "gears", "meshes", "plates", "goals", "vary",
+        "input",
+        "frame",
+        "bodies",
+        "dyads",
+        "pairs",
+        "gears",
+        "meshes",
+        "plates",
+        "loads",
+        "obstacles",
+        "goals",
+        "vary",
     ];
 
     fn words(&self) -> [&str; 2] {
@@ -123,6 +143,10 @@ impl ComposedDesign {
                 );
             }
             body.validate().map_err(|e| e.inside(&key))?;
+            if let Some(width) = body.width {
+                let least = self.plates.least_width();
+                in_range(&format!("{key}.width"), width, [least, 1e9], " mm")?;
+            }
         }
         for (name, dyad) in &self.dyads {
             let key = format!("dyads.{name}");
@@ -138,6 +162,19 @@ impl ComposedDesign {
             let key = format!("gears.{name}");
             file_name(&key, name)?;
             finite(&format!("{key}.mount_deg"), gear.mount)?;
+        }
+        for x in self.gravity.iter().flatten() {
+            finite("gravity", *x)?;
+        }
+        for (name, load) in &self.loads {
+            let key = format!("loads.{name}");
+            file_name(&key, name)?;
+            load.validate().map_err(|e| e.inside(&key))?;
+        }
+        for (name, obstacle) in &self.obstacles {
+            let key = format!("obstacles.{name}");
+            file_name(&key, name)?;
+            obstacle.validate().map_err(|e| e.inside(&key))?;
         }
         for (name, goal) in &self.goals {
             let key = format!("goals.{name}");

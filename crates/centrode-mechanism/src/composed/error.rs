@@ -181,6 +181,14 @@ pub enum ComposedError {
         /// Why.
         why: String,
     },
+    /// Something written that cannot be: a contour, a load.
+    #[error("{why}")]
+    Refused {
+        /// Key at fault.
+        key: String,
+        /// Why.
+        why: String,
+    },
     /// Anything else that a linkage cannot be.
     #[error("{error}")]
     Linkage {
@@ -244,6 +252,7 @@ impl ComposedError {
             | Self::NoTurn { key, .. }
             | Self::NoGear { key, .. }
             | Self::NoMesh { key, .. }
+            | Self::Refused { key, .. }
             | Self::Linkage { key, .. } => key.clone(),
             Self::Pair { pair, error } => format!("pairs.{pair}.{}", error.key()),
             Self::Loose { body } => format!("bodies.{body}"),

@@ -1,10 +1,10 @@
 use centrode_geometry::Point;
 
 use super::points::Reference;
-use super::{Composed, ComposedError};
+use super::{Composed, ComposedError, Pin};
 
 /// Grammar of the figures of a composed machine: form, meaning, unit as shown.
-pub const FIGURE_FORMS: [[&str; 3]; 11] = [
+pub const FIGURE_FORMS: [[&str; 3]; 14] = [
     [
         "point.x",
         "x of a point: of body.point, or of a point whose name no other body has",
@@ -49,8 +49,23 @@ pub const FIGURE_FORMS: [[&str; 3]; 11] = [
     ],
     [
         "clearance(body, body)",
-        "least clearance of the plates of two bodies that overlap in height, over the cycle",
+        "least clearance of two bodies, plates and gears that overlap in height, or of a body and an obstacle, over the cycle",
         "mm",
+    ],
+    [
+        "input.torque",
+        "torque that the input needs at the design's speed, with inertia, weight and loads",
+        "N mm",
+    ],
+    [
+        "joint(body).force",
+        "force in the joint that carries a body, or joint(body-body) in the pin at which a dyad's bodies meet",
+        "N",
+    ],
+    [
+        "mesh(body).force",
+        "force along the normal of the teeth by which a body is moved",
+        "N",
     ],
 ];
 
@@ -78,8 +93,36 @@ pub enum ComposedFigure {
     Transmission(usize),
     /// Distance of two points, mm: of each the index of its body and the place in its axes.
     Distance([(usize, Point); 2]),
-    /// Least clearance of two bodies over the cycle, mm; their indices.
-    Clearance([usize; 2]),
+    /// Least clearance of two bodies, or of a body and an obstacle, over the cycle, mm.
+    Clearance([ClearanceEnd; 2]),
+    /// Torque of the input, N mm.
+    InputTorque,
+    /// Force in a joint, N; its index among the joints of the machine.
+    JointForce(usize),
+    /// Force in the pin that closes a loop, N; its index among the closures of the machine.
+    PinForce(usize),
+    /// Force along the normal of a mesh, N; its index among the meshes of the machine.
+    MeshForce(usize),
+}
+
+impl ComposedFigure {
+    /// Whether it is of forces, which the motion alone does not tell.
+    #[must_use]
+    pub fn is_of_forces(&self) -> bool {
+        matches!(
+            self,
+            Self::InputTorque | Self::JointForce(_) | Self::PinForce(_) | Self::MeshForce(_)
+        )
+    }
+}
+
+/// Body or obstacle of a clearance.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+pub enum ClearanceEnd {
+    /// A body with its plate and gears; its index.
+    Body(usize),
+    /// An obstacle; its index.
+    Obstacle(usize),
 }
 
 /// Component of a point's motion.
@@ -109,6 +152,9 @@ impl Composed {
                 .map(|[form, ..]| (*form).into())
                 .collect(),
         };
+        if let Some(found) = self.figure_of_forces(key, words) {
+            return found?.ok_or_else(none);
+        }
         if let Some((function, inside)) = words.split_once('(') {
             let inside = inside.strip_suffix(')').ok_or_else(none)?;
             let names: Vec<&str> = inside.split(',').map(str::trim).collect();
@@ -127,13 +173,9 @@ impl Composed {
                     self.point_of(key, one)?,
                     self.point_of(key, other)?,
                 ])),
-                ("clearance", [one, other]) => {
-                    let bodies = [self.body_of(key, one)?, self.body_of(key, other)?];
-                    if bodies[0] == bodies[1] {
-                        return Err(none());
-                    }
-                    Ok(ComposedFigure::Clearance(bodies))
-                }
+                ("clearance", [one, other]) => self
+                    .clearance_ends(key, [one, other])
+                    .map(ComposedFigure::Clearance),
                 _ => Err(none()),
             };
         }
@@ -165,6 +207,88 @@ impl Composed {
                 }
             }
             _ => Err(none()),
+        }
+    }
+
+    /// A figure of the forces; none within where it is none of theirs after all.
+    fn figure_of_forces(
+        &self,
+        key: &str,
+        words: &str,
+    ) -> Option<Result<Option<ComposedFigure>, ComposedError>> {
+        if words == "input.torque" {
+            return Some(Ok(Some(ComposedFigure::InputTorque)));
+        }
+        let (function, name) = words.strip_suffix(").force")?.split_once('(')?;
+        let name = name.trim();
+        let body = || self.body_of(key, name);
+        Some(match function.trim() {
+            "joint" => match self.pins.iter().position(|pin| self.pair_name(pin) == name) {
+                Some(pin) => Ok(Some(ComposedFigure::PinForce(pin))),
+                // Each body but the frame is carried by the joint before it.
+                None => body().map(|body| body.checked_sub(1).map(ComposedFigure::JointForce)),
+            },
+            "mesh" => body().map(|body| {
+                let mesh = self.balanced_meshes().position(|mesh| mesh.moved == body);
+                mesh.map(ComposedFigure::MeshForce)
+            }),
+            _ => Ok(None),
+        })
+    }
+
+    /// Name of a pin that closes a loop: those of its two bodies.
+    fn pair_name(&self, pin: &Pin) -> String {
+        pin.bodies
+            .map(|body| self.bodies[body].name.as_str())
+            .join("-")
+    }
+
+    /// Bodies or obstacles that a key names, for their clearance.
+    ///
+    /// # Errors
+    /// [`ComposedError`] for a name that is neither's, and for two that stand on one body.
+    pub fn clearance_ends(
+        &self,
+        key: &str,
+        names: [&str; 2],
+    ) -> Result<[ClearanceEnd; 2], ComposedError> {
+        let end = |name: &str| {
+            let mut obstacles = self.obstacles().iter();
+            match obstacles.position(|obstacle| obstacle.name == name) {
+                Some(obstacle) => Ok(ClearanceEnd::Obstacle(obstacle)),
+                None => self.body_of(key, name).map(ClearanceEnd::Body),
+            }
+        };
+        let ends = [end(names[0])?, end(names[1])?];
+        let [one, other] = ends.map(|end| self.body_of_end(end));
+        if one == other {
+            let [first, second] = names;
+            return Err(ComposedError::Refused {
+                key: key.into(),
+                why: format!(
+                    "{first} and {second} are both on {}: their clearance stays what it is",
+                    self.bodies[one].name
+                ),
+            });
+        }
+        Ok(ends)
+    }
+
+    /// Index of the body that an end of a clearance moves with.
+    #[must_use]
+    pub fn body_of_end(&self, end: ClearanceEnd) -> usize {
+        match end {
+            ClearanceEnd::Body(body) => body,
+            ClearanceEnd::Obstacle(obstacle) => self.obstacles[obstacle].body,
+        }
+    }
+
+    /// Name of an end of a clearance.
+    #[must_use]
+    pub fn name_of_end(&self, end: ClearanceEnd) -> &str {
+        match end {
+            ClearanceEnd::Body(body) => &self.bodies[body].name,
+            ClearanceEnd::Obstacle(obstacle) => &self.obstacles[obstacle].name,
         }
     }
 
@@ -213,7 +337,8 @@ impl Composed {
         })
     }
 
-    /// Value of a figure at an input, in mm, rad, mm/s, m/s² or rad/s; none for a clearance, which is of the whole cycle.
+    /// Value of a figure at an input, in mm, rad, mm/s, m/s² or rad/s; none for a clearance, which is of the whole cycle, nor
+    /// for a force.
     #[must_use]
     pub fn value(&self, figure: &ComposedFigure, input: f64) -> Option<f64> {
         let speed = self.speed();
@@ -238,7 +363,11 @@ impl Composed {
                 let [p, q] = ends.map(|(body, at)| self.place(body, at, input));
                 (p - q).norm()
             }
-            ComposedFigure::Clearance(_) => return None,
+            ComposedFigure::Clearance(_)
+            | ComposedFigure::InputTorque
+            | ComposedFigure::JointForce(_)
+            | ComposedFigure::PinForce(_)
+            | ComposedFigure::MeshForce(_) => return None,
         })
     }
 }

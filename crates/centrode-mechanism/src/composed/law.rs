@@ -319,19 +319,14 @@ fn stretched(jet: &MotionJet, scale: f64) -> MotionJet {
     })
 }
 
-/// A formula as a law that repeats up to its growth over the period.
-fn expression(
+/// A formula that has values all over a period.
+pub(super) fn formula_of(
     text: &str,
-    start: f64,
     period: f64,
-) -> Result<Arc<dyn Transmission>, ComposedLawError> {
+) -> Result<impl Fn(f64) -> MotionJet + Send + Sync + use<>, ComposedLawError> {
     const LOOKS: u32 = 720;
     let formula = Formula::read(text).map_err(|e| ComposedLawError::Formula(e.to_string()))?;
-    let jet = move |input: f64| {
-        let mut jet = MotionJet::of(&formula.at(input));
-        jet.position += start;
-        jet
-    };
+    let jet = move |input: f64| MotionJet::of(&formula.at(input));
     for i in 0..=LOOKS {
         let input = period * f64::from(i) / f64::from(LOOKS);
         let MotionJet {
@@ -345,6 +340,21 @@ fn expression(
             return Err(ComposedLawError::NoValue { degrees });
         }
     }
+    Ok(jet)
+}
+
+/// A formula as a law that repeats up to its growth over the period.
+fn expression(
+    text: &str,
+    start: f64,
+    period: f64,
+) -> Result<Arc<dyn Transmission>, ComposedLawError> {
+    let formula = formula_of(text, period)?;
+    let jet = move |input: f64| {
+        let mut jet = formula(input);
+        jet.position += start;
+        jet
+    };
     let (first, last) = (jet(0.0), jet(period));
     for (what, start, end) in [
         ("its rate", first.velocity, last.velocity),

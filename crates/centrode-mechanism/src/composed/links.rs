@@ -1,5 +1,8 @@
-use centrode_geometry::{MassProperties, Point, SolidError};
+use centrode_geometry::{Point, SolidError};
 
+use super::gearing::Meshing;
+use super::load::ComposedLoad;
+use super::pieces::{GearPiece, Pieces};
 use super::{Composed, ComposedBody};
 use crate::machine::{
     Closure, Form, GearMesh, Input, Joint, JointKind, Line, LineRole, Link, LinkPoint, Machine,
@@ -20,14 +23,21 @@ impl Composed {
                 period: self.period(),
                 speed: self.speed(),
             },
+            gravity: self
+                .design
+                .gravity
+                .map_or([0.0; 3], |[x, y]| [1e3 * x, 1e3 * y, 0.0]),
+            loads: self.loads.iter().flat_map(ComposedLoad::parts).collect(),
             ..Machine::default()
         };
         let meaning = "angle the driving shaft has turned by";
         machine.column("input_angle_rad", "rad", meaning, Quantity::Input(1.0));
         let time = Quantity::Input(1.0 / self.speed());
         machine.column("time_s", "s", "time at the design's speed", time);
+        let pieces = (0..self.bodies.len()).map(|body| self.pieces(body));
+        let pieces = pieces.collect::<Result<Vec<_>, SolidError>>()?;
         for (index, body) in self.bodies.iter().enumerate() {
-            self.add_link(&mut machine, index)?;
+            self.add_link(&mut machine, index, &pieces[index]);
             if let Some(mount) = &body.mount {
                 self.add_joint(&mut machine, index, mount.carrier);
             }
@@ -40,13 +50,7 @@ impl Composed {
                 joints: dyad.bodies.map(|body| body - 1),
             });
         }
-        // The frames of meshing links stand on the gears' axes.
-        let centred = |gear: &usize| self.gears[*gear].at == Point::origin();
-        for mesh in self
-            .meshes
-            .iter()
-            .filter(|mesh| mesh.gears.iter().all(centred))
-        {
+        for mesh in self.balanced_meshes() {
             let pair = &self.gears[mesh.gears[0]].pair;
             let body = |gear: usize| self.body_named(&self.gears[gear].body_name).unwrap_or(0);
             machine.meshes.push(GearMesh {
@@ -57,52 +61,65 @@ impl Composed {
             });
         }
         self.add_points(&mut machine);
-        self.draw(&mut machine);
-        self.list(&mut machine)?;
+        self.draw(&mut machine, &pieces);
+        self.list(&mut machine, &pieces);
         Ok(machine)
     }
 
-    /// Lists the plates and gears as parts, each with the files of its name.
-    fn list(&self, machine: &mut Machine) -> Result<(), SolidError> {
-        for (index, body) in self.bodies.iter().enumerate() {
-            let Some(solid) = self.plate(index)? else {
-                continue;
+    /// Meshes whose force is known: the frames of their links stand on the gears' axes.
+    pub(super) fn balanced_meshes(&self) -> impl Iterator<Item = &Meshing> {
+        let centred = |gear: &usize| self.gears[*gear].at == Point::origin();
+        let meshes = self.meshes.iter();
+        meshes.filter(move |mesh| mesh.gears.iter().all(centred))
+    }
+
+    /// Lists the plates, the bodies of given masses and the gears as parts, each with the files of its name.
+    fn list(&self, machine: &mut Machine, pieces: &[Pieces<'_>]) {
+        for (index, (body, made)) in self.bodies.iter().zip(pieces).enumerate() {
+            let name = &body.name;
+            let place = match &made.plate {
+                Some(plate) => machine.place_on_edge(name, plate.outline()),
+                None if made.mass.is_none() => continue,
+                None => None,
             };
             machine.part(Part {
-                name: body.name.clone(),
+                name: name.clone(),
                 links: vec![index],
-                mass: Some(solid.mass_properties(self.design.plates.density).mass),
-                file: body.name.clone(),
-                place: machine.place_on_edge(&body.name, solid.outline()),
+                mass: made.mass.map(|own| own.mass),
+                file: made.plate.iter().map(|_| name.as_str()).collect(),
+                place,
                 ..Part::default()
             });
         }
-        for gear in &self.gears {
-            let solid = gear.solid(self.gear_bottom(gear))?;
-            let own = gear.gear();
+        let mut gears: Vec<(usize, &GearPiece<'_>)> = pieces
+            .iter()
+            .enumerate()
+            .flat_map(|(index, made)| made.gears.iter().map(move |gear| (index, gear)))
+            .collect();
+        gears.sort_by_key(|(_, piece)| &piece.gear.name);
+        for (index, piece) in gears {
+            let gear = piece.gear.gear();
             machine.part(Part {
-                name: gear.name.clone(),
-                links: self.body_named(&gear.body_name).into_iter().collect(),
-                material: own.body().material.clone(),
-                mass: Some(solid.mass_properties(own.body().density).mass),
-                file: gear.name.clone(),
-                remark: format!("{} teeth", own.tooth_count()),
-                place: machine.place_on_edge(&gear.body_name, solid.outline()),
+                name: piece.gear.name.clone(),
+                links: vec![index],
+                material: gear.body().material.clone(),
+                mass: Some(piece.mass.mass),
+                file: piece.gear.name.clone(),
+                remark: format!("{} teeth", gear.tooth_count()),
+                place: machine.place_on_edge(&piece.gear.body_name, piece.solid.outline()),
             });
         }
-        Ok(())
     }
 
-    /// Adds a body with its plate: shape, mass, surface to touch with.
-    fn add_link(&self, machine: &mut Machine, body: usize) -> Result<(), SolidError> {
+    /// Adds a body with its plate and gears: shape, mass, surfaces to touch with.
+    fn add_link(&self, machine: &mut Machine, body: usize, pieces: &Pieces<'_>) {
         let name = &self.bodies[body].name;
         let mut link = Link {
             name: name.clone(),
+            mass: pieces.together(),
             ..Link::default()
         };
-        let (mut solids, mut masses) = (Vec::new(), Vec::new());
-        if let Some(solid) = self.plate(body)? {
-            masses.push(solid.mass_properties(self.design.plates.density));
+        if let Some(solid) = &pieces.plate {
             link.surfaces.push(machine.surface(Surface {
                 name: name.clone(),
                 outline: solid.outline().clone(),
@@ -110,16 +127,13 @@ impl Composed {
                 teeth: Vec::new(),
                 coarseness: 1.0,
             }));
-            solids.push(solid);
         }
-        for gear in self.gears.iter().filter(|gear| gear.body_name == *name) {
-            let solid = gear.solid(self.gear_bottom(gear))?;
-            masses.push(solid.mass_properties(gear.gear().body().density));
-            link.surfaces.push(machine.surface(gear.surface(&solid)));
-            solids.push(solid);
+        for piece in &pieces.gears {
+            let surface = piece.gear.surface(&piece.solid);
+            link.surfaces.push(machine.surface(surface));
         }
+        let solids = pieces.solids();
         if !solids.is_empty() {
-            link.mass = MassProperties::together(&masses);
             link.shape = Some(machine.shape(Shape {
                 name: format!("links/{name}"),
                 part: String::new(),
@@ -127,7 +141,6 @@ impl Composed {
             }));
         }
         machine.link(link);
-        Ok(())
     }
 
     fn add_joint(&self, machine: &mut Machine, body: usize, carrier: usize) {
@@ -174,19 +187,20 @@ impl Composed {
     }
 
     /// Draws every body, and the ways of the points on which nothing is held.
-    fn draw(&self, machine: &mut Machine) {
+    fn draw(&self, machine: &mut Machine, pieces: &[Pieces<'_>]) {
         let followed = self.followed();
         let traced: Vec<usize> = (0..machine.points.len())
             .filter(|&point| followed.contains(&machine.points[point].name))
             .collect();
         for (index, body) in self.bodies.iter().enumerate() {
             let mut lines = Vec::new();
-            if let Some((outline, holes)) = self.contours(index) {
-                lines.push(Line::contour(LineRole::Body, &outline));
-                lines.extend(holes.iter().map(|hole| Line::contour(LineRole::Hole, hole)));
+            if let Some(plate) = &pieces[index].plate {
+                let holes = plate.holes().iter();
+                lines.push(Line::contour(LineRole::Body, plate.outline()));
+                lines.extend(holes.map(|hole| Line::contour(LineRole::Hole, hole)));
             }
-            let gears = self.gears.iter().filter(|gear| gear.body_name == body.name);
-            lines.extend(gears.flat_map(|gear| gear.lines()));
+            let gears = pieces[index].gears.iter();
+            lines.extend(gears.flat_map(|piece| piece.gear.lines()));
             if index == 0 {
                 let ways = traced.iter();
                 lines.extend(ways.map(|&point| Line::trace(LineRole::Trace, point)));
@@ -203,5 +217,6 @@ impl Composed {
                 at: at.coords.into(),
             });
         machine.marks.extend(marks);
+        self.draw_obstacles(machine);
     }
 }

@@ -7,40 +7,50 @@ mod body;
 mod build;
 mod corner;
 mod design;
+mod drawn;
 mod drive;
 mod dyad;
 mod error;
 mod figure;
 mod gearing;
 mod gears;
+mod given_mass;
 mod goal;
 mod law;
 mod links;
+mod load;
 mod mesh;
+mod obstacle;
+mod pieces;
 mod plates;
 mod points;
 mod resolve;
 #[cfg(test)]
 mod tests;
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use centrode_geometry::{Jet, Point};
+use centrode_geometry::{Jet, Outline, Point};
 
 pub use body::ComposedBodySpec;
 pub use corner::{ComposedPointsSpec, CornerSpec, Side};
 pub use design::{ComposedDesign, ComposedInputSpec};
+pub use drawn::ComposedCircleSpec;
 pub use drive::{IntermittentSpec, TraverseSpec};
 pub use dyad::{ComposedDyadSpec, DyadKind};
 pub use error::ComposedError;
-pub use figure::{ComposedFigure, FIGURE_FORMS, PointPart};
+pub use figure::{ClearanceEnd, ComposedFigure, FIGURE_FORMS, PointPart};
 pub use gearing::ComposedGear;
 pub use gears::{ComposedGearSpec, ComposedLoopSpec, ComposedMeshSpec, GearRole};
 pub use goal::{ComposedGoalSpec, Over};
 pub use law::{ComposedLawError, ComposedLawSpec};
+pub use load::{ComposedLoadSpec, LoadAxes};
+pub use obstacle::{ComposedObstacle, ComposedObstacleSpec};
 pub use plates::ComposedPlatesSpec;
 
 use self::gearing::Meshing;
+use self::load::ComposedLoad;
 use self::points::BodyPoints;
 use crate::linkage::{Line, Link, Linkage};
 use crate::machine::JointKind;
@@ -55,9 +65,13 @@ pub struct Composed {
     dyads: Vec<ComposedDyad>,
     pins: Vec<Pin>,
     points: BodyPoints,
+    /// Contours of the bodies that are drawn by hand, by name.
+    drawn: BTreeMap<String, Outline>,
     figures: Vec<ComposedFigure>,
     gears: Vec<ComposedGear>,
     meshes: Vec<Meshing>,
+    loads: Vec<ComposedLoad>,
+    obstacles: Vec<ComposedObstacle>,
 }
 
 /// A body of a composed machine.
@@ -188,6 +202,16 @@ impl Composed {
     #[must_use]
     pub fn period(&self) -> f64 {
         self.linkage.period()
+    }
+
+    /// Inputs in a period at which a motion or a load may jump, ascending.
+    #[must_use]
+    pub fn breaks(&self) -> Vec<f64> {
+        let mut breaks = self.linkage.breaks().to_vec();
+        breaks.extend(self.loads.iter().flat_map(ComposedLoad::breaks));
+        breaks.sort_by(f64::total_cmp);
+        breaks.dedup();
+        breaks
     }
 
     /// Speed of the input, rad/s.

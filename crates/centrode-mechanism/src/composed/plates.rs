@@ -1,13 +1,23 @@
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
-use centrode_geometry::{Outline, Point, Solid, SolidError};
+use centrode_geometry::{Outline, Point, Solid, SolidError, Tolerance};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::Composed;
 use super::design::FRAME;
+use super::{Composed, ComposedBody, ComposedDesign, ComposedError};
 use crate::gear::design::SpecError;
 use crate::gear::design::rule::{in_range, not_negative, positive};
+use crate::machine::JointKind;
+
+/// Greatest diameter of a pin as a share of its plate's width.
+const PIN: f64 = 0.9;
+/// Half length and half height of the block of a body that slides, as shares of a plate's width: higher than the plate.
+const BLOCK: [f64; 2] = [1.0, 0.6];
+/// Radius of its corners, as a share of a plate's width.
+const BLOCK_ROUNDING: f64 = 0.1;
+/// Accuracy of the check of a contour drawn by hand, as a share of its length.
+const CHECKED: f64 = 1e-6;
 
 /// The bodies as plates drawn round their points.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
@@ -47,39 +57,108 @@ impl ComposedPlatesSpec {
             positive(key, value)?;
         }
         not_negative("gap", self.gap)?;
-        let most = 0.9 * self.width;
+        let most = PIN * self.width;
         in_range("pin_diameter", self.pin_diameter, [0.0, most], " mm")
+    }
+
+    /// Least width of a plate that holds its pins, mm.
+    pub(super) fn least_width(&self) -> f64 {
+        self.pin_diameter / PIN
     }
 }
 
+/// Contours of the bodies that are drawn by hand, by name.
+pub(super) fn drawn(design: &ComposedDesign) -> Result<BTreeMap<String, Outline>, ComposedError> {
+    let mut all = BTreeMap::new();
+    for (name, body) in &design.bodies {
+        if let Some(outline) = body.drawn().contour(&format!("bodies.{name}"))? {
+            all.insert(name.clone(), outline);
+        }
+    }
+    Ok(all)
+}
+
 impl Composed {
-    /// Contour of a body's plate, round all its points, and the holes in it, where other bodies are pinned, in the body's
-    /// axes.
+    /// Contour of a body's plate, as drawn or round all its points, and the holes in it, where other bodies are pinned, in
+    /// the body's axes; none for a body without a plate.
     #[must_use]
     pub fn contours(&self, body: usize) -> Option<(Outline, Vec<Outline>)> {
-        let ComposedPlatesSpec {
-            width,
-            pin_diameter,
-            ..
-        } = self.design.plates;
-        let name = &self.bodies.get(body)?.name;
+        let own = self.bodies.get(body)?;
+        let name = &own.name;
         let points = self.points.get(name)?;
-        let mut circles: Vec<(Point, f64)> = points.values().map(|p| (p.at, 0.5 * width)).collect();
         let spec = self.design.bodies.get(name);
-        let fixed = spec.is_some_and(|body| body.fixed_to.is_some());
-        // A mesh places the axis of its body at the body's origin, which need not be a point.
-        let meshed = spec.is_some_and(|body| body.mesh.is_some());
-        if circles.is_empty() || fixed || meshed {
-            circles.push((Point::origin(), 0.5 * width));
+        if spec.is_some_and(|body| !body.has_plate()) {
+            return None;
         }
+        let meshed = spec.is_some_and(|body| body.mesh.is_some());
         let pinned = self.pinned();
         let pins = points
             .iter()
             .filter(|(point, at)| !at.own || pinned.contains(&format!("{name}.{point}")));
+        // A mesh places the axis of its body at the body's origin, which need not be a point.
         let axis = meshed.then(Point::origin);
         let holes = pins.map(|(_, point)| point.at).chain(axis);
-        let holes = holes.map(|at| Outline::circle(at, 0.5 * pin_diameter));
-        Some((Outline::hull(&circles)?, holes.collect()))
+        let pin = self.design.plates.pin_diameter;
+        let holes = holes.map(|at| Outline::circle(at, 0.5 * pin)).collect();
+        let outline = match self.drawn.get(name) {
+            Some(outline) => outline.clone(),
+            None => Outline::hull(&self.circles(own))?,
+        };
+        Some((outline, holes))
+    }
+
+    /// Circles round which a plate is drawn: about its points, and the corners of a block about the origin of one that slides.
+    fn circles(&self, body: &ComposedBody) -> Vec<(Point, f64)> {
+        let spec = self.design.bodies.get(&body.name);
+        let own = spec.and_then(|body| body.width);
+        let width = own.unwrap_or(self.design.plates.width);
+        let points = self.points.get(&body.name).into_iter().flatten();
+        let mut circles: Vec<(Point, f64)> = points.map(|(_, p)| (p.at, 0.5 * width)).collect();
+        let kind = body.mount.as_ref().map(|mount| mount.kind);
+        if let Some(JointKind::Sliding(_)) = kind {
+            let radius = BLOCK_ROUNDING * width;
+            let [x, y] = BLOCK.map(|half| half * width - radius);
+            let corners = [[x, y], [-x, y], [-x, -y], [x, -y]];
+            circles.extend(corners.map(|corner| (Point::from(corner), radius)));
+            return circles;
+        }
+        let at_origin = spec.is_some_and(|body| body.fixed_to.is_some() || body.mesh.is_some());
+        if circles.is_empty() || at_origin {
+            circles.push((Point::origin(), 0.5 * width));
+        }
+        circles
+    }
+
+    /// Checks that the bodies drawn by hand hold the holes of their pins.
+    pub(super) fn check_drawn(&self) -> Result<(), ComposedError> {
+        for (index, body) in self.bodies.iter().enumerate() {
+            let Some((outline, holes)) = self.contours(index) else {
+                continue;
+            };
+            if !self.drawn.contains_key(&body.name) {
+                continue;
+            }
+            let key = format!("bodies.{}.outline", body.name);
+            let wrong = |why: String| ComposedError::Refused {
+                key: key.clone(),
+                why,
+            };
+            let fine = Tolerance::new(CHECKED * outline.length().max(f64::MIN_POSITIVE));
+            let fine = fine.map_err(|error| wrong(error.to_string()))?;
+            for hole in holes {
+                let at = hole.centroid();
+                let plate = Solid::new(outline.clone(), vec![hole], 0.0, 1.0);
+                if plate.and_then(|plate| plate.mesh(fine)).is_err() {
+                    // Adding zero makes a negative zero positive.
+                    let [x, y] = [at.x, at.y].map(|x| (x * 1e6).round() / 1e6 + 0.0);
+                    return Err(wrong(format!(
+                        "the hole of {} mm for the pin at {x}, {y} mm does not lie within the outline",
+                        self.design.plates.pin_diameter
+                    )));
+                }
+            }
+        }
+        Ok(())
     }
 
     /// Points, by `body.point`, on which other bodies turn.
@@ -139,6 +218,13 @@ impl Composed {
         layer * (spec.thickness + spec.gap)
     }
 
+    /// Thickness of a body's plate, mm.
+    pub(super) fn thickness(&self, body: usize) -> f64 {
+        let spec = self.design.bodies.get(&self.bodies[body].name);
+        let own = spec.and_then(|body| body.thickness);
+        own.unwrap_or(self.design.plates.thickness)
+    }
+
     /// A body as a plate; none for one without a contour.
     ///
     /// # Errors
@@ -148,7 +234,7 @@ impl Composed {
             return Ok(None);
         };
         let bottom = self.bottom(body);
-        let top = bottom + self.design.plates.thickness;
+        let top = bottom + self.thickness(body);
         Solid::new(outline, holes, bottom, top).map(Some)
     }
 }

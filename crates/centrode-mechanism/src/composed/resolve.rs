@@ -6,6 +6,7 @@ use centrode_geometry::Point;
 use super::build::range;
 use super::design::FRAME;
 use super::gearing::{Meshing, gears_of};
+use super::plates::drawn;
 use super::points::{BodyPoints, Reference, points_of};
 use super::{
     Composed, ComposedBody, ComposedDesign, ComposedDyad, ComposedDyadSpec, ComposedError,
@@ -63,6 +64,7 @@ impl Composed {
         builder.build()?;
         builder.follow()?;
         builder.check_loops()?;
+        let loads = builder.loads()?;
         let mut made = Self {
             design: design.clone(),
             linkage: builder.linkage,
@@ -70,10 +72,15 @@ impl Composed {
             dyads: builder.dyads,
             pins: builder.pins,
             points: builder.points,
+            drawn: drawn(design)?,
             figures: Vec::new(),
             gears: builder.gears,
             meshes: builder.meshes,
+            loads,
+            obstacles: Vec::new(),
         };
+        made.check_drawn()?;
+        made.obstacles = made.obstacles_of_design()?;
         let goals = design.goals.iter();
         let figures = goals.map(|(name, goal)| {
             let figure = made.figure(&format!("goals.{name}.figure"), &goal.figure)?;

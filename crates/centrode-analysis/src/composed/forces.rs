@@ -1,0 +1,153 @@
+use std::cell::RefCell;
+
+use centrode_geometry::{Antiderivative, Extreme, greatest_each};
+use centrode_mechanism::composed::{Composed, ComposedFigure};
+use centrode_mechanism::machine::{JointKind, Machine};
+
+use super::ends;
+use crate::forces::{Balance, Forces, ForcesError};
+use crate::{Finding, Place, Report, Severity, Table, Unit};
+
+/// Figures that are followed together.
+const TOGETHER: usize = 8;
+
+/// A composed machine with its masses and loads, at the design's speed.
+pub(super) struct Loaded {
+    balance: Balance,
+    period: f64,
+    /// Ends of the parts of a cycle between which all forces are smooth.
+    ends: Vec<f64>,
+    /// First reason why a state has no forces.
+    failed: RefCell<Option<ForcesError>>,
+}
+
+impl Loaded {
+    pub(super) fn new(composed: &Composed, machine: &Machine) -> Result<Self, ForcesError> {
+        Ok(Self {
+            balance: Balance::new(machine.clone())?,
+            period: composed.period(),
+            ends: ends(composed),
+            failed: RefCell::new(None),
+        })
+    }
+
+    fn at(&self, input: f64) -> Option<Forces> {
+        let speed = self.balance.machine().input.speed;
+        match self.balance.at(input, speed) {
+            Ok(forces) => Some(forces),
+            Err(error) => {
+                self.failed.borrow_mut().get_or_insert(error);
+                None
+            }
+        }
+    }
+
+    /// A figure of the forces at an input, N or N mm; not a number where it is none of theirs or not determined.
+    pub(super) fn value(&self, figure: &ComposedFigure, input: f64) -> f64 {
+        let found = self.at(input);
+        found
+            .and_then(|forces| part(&forces, figure))
+            .unwrap_or(f64::NAN)
+    }
+
+    /// The greatest of each of several figures; minus infinity for one that is not determined.
+    fn greatest(&self, figures: &[ComposedFigure]) -> Vec<Extreme> {
+        let chunks = figures.chunks(TOGETHER).flat_map(|chunk| {
+            let values = |input: f64| -> [f64; TOGETHER] {
+                let forces = self.at(input);
+                let value = |figure| part(forces.as_ref()?, figure);
+                std::array::from_fn(|k| chunk.get(k).and_then(value).unwrap_or(f64::NAN))
+            };
+            let found = greatest_each(values, &self.ends);
+            found.into_iter().take(chunk.len())
+        });
+        chunks.collect()
+    }
+}
+
+/// A figure of the forces of a state.
+fn part(forces: &Forces, figure: &ComposedFigure) -> Option<f64> {
+    match *figure {
+        ComposedFigure::InputTorque => Some(forces.input_torque),
+        ComposedFigure::JointForce(joint) => {
+            let reaction = forces.joints.get(joint)?.reaction?;
+            Some(reaction.force.xy().norm())
+        }
+        ComposedFigure::PinForce(pin) => Some(forces.closures.get(pin)?.xy().norm()),
+        ComposedFigure::MeshForce(mesh) => Some(forces.meshes.get(mesh)?.normal?.abs()),
+        _ => None,
+    }
+}
+
+/// Torque of the input, and the greatest force of every joint, pin and mesh.
+pub(super) fn forces(loaded: &Result<Loaded, ForcesError>, machine: &Machine, report: &mut Report) {
+    let loaded = match loaded {
+        Ok(loaded) => loaded,
+        Err(error) => return undetermined(error, report),
+    };
+    let joints = machine.joints.iter().enumerate();
+    let moving = joints.filter(|(_, joint)| joint.kind != JointKind::Fixed);
+    let mut rows: Vec<(String, ComposedFigure)> = moving
+        .map(|(index, joint)| {
+            let name = machine.links[joint.child].name.clone();
+            (name, ComposedFigure::JointForce(index))
+        })
+        .collect();
+    let pair = |links: [usize; 2]| {
+        links
+            .map(|link| machine.links[link].name.as_str())
+            .join("-")
+    };
+    let pins = machine.closures.iter().enumerate();
+    rows.extend(pins.map(|(index, pin)| (pair(pin.links), ComposedFigure::PinForce(index))));
+    let joints = rows.len();
+    let meshes = machine.meshes.iter().enumerate();
+    rows.extend(meshes.map(|(index, mesh)| (pair(mesh.links), ComposedFigure::MeshForce(index))));
+    let figures: Vec<ComposedFigure> = rows.iter().map(|(_, figure)| *figure).collect();
+    let found = loaded.greatest(&figures);
+    let torque = |input: f64| loaded.value(&ComposedFigure::InputTorque, input);
+    let [low, high] = centrode_geometry::extremes(torque, &loaded.ends);
+    let mean = Antiderivative::of(torque, &loaded.ends).total() / loaded.period;
+    if let Some(error) = loaded.failed.borrow().as_ref() {
+        return undetermined(error, report);
+    }
+    let values = &mut report.values;
+    values.insert("input_torque_min", low.value);
+    values.insert("input_torque_max", high.value);
+    values.insert("input_torque_mean", mean);
+    let row = |((name, _), extreme): (&(String, ComposedFigure), &Extreme)| {
+        (extreme.value >= 0.0).then(|| (name.clone(), vec![extreme.value]))
+    };
+    let mut all = rows.iter().zip(&found);
+    let of_joints = all.by_ref().take(joints).filter_map(row).collect();
+    let of_meshes = all.filter_map(row).collect();
+    for (name, title, rows) in [
+        ("joint-forces", "Greatest force of joint", of_joints),
+        ("mesh-forces", "Greatest force of mesh", of_meshes),
+    ] {
+        let rows: Vec<(String, Vec<f64>)> = rows;
+        if !rows.is_empty() {
+            report.tables.push(Table {
+                name,
+                title,
+                unit: Unit::Newton,
+                columns: vec!["force".into()],
+                rows,
+            });
+        }
+    }
+}
+
+/// A note that the forces are not known.
+fn undetermined(error: &ForcesError, report: &mut Report) {
+    report.findings.push(Finding {
+        rule: "forces-undetermined",
+        severity: Severity::Note,
+        message: format!("there are no forces: {error}"),
+        measured: None,
+        required: None,
+        unit: Unit::Newton,
+        remedy: None,
+        place: Place::default(),
+    });
+}

@@ -1,0 +1,184 @@
+use centrode_geometry::{Tolerance, greatest, pieces};
+
+use super::*;
+
+/// A crank of 40 mm with a disc of radius 5 at its end and a ram on a line of its own, both of one layer.
+const CRANK: &str = r#"
+family = "machine"
+[frame.points]
+O = [0, 0]
+P = [70, 0]
+[bodies.crank]
+on = "frame.O"
+law = { ratio = 1 }
+plate = false
+[bodies.disc]
+fixed_to = "crank"
+layer = 3
+circle = { center = [40, 0], radius = 5 }
+[bodies.ram]
+on = "frame.P"
+slides_deg = 90
+law = { expression = "10*sin(phi)" }
+layer = LAYER
+outline = [[-8, -8], [8, -8], [8, 8], [-8, 8]]
+"#;
+
+fn machine(layer: u32, rest: &str) -> Composed {
+    composed(&format!(
+        "{}{rest}",
+        CRANK.replace("LAYER", &layer.to_string())
+    ))
+}
+
+fn least(made: &Composed, names: [&str; 2]) -> f64 {
+    let links = made.machine().expect("plates");
+    let ends = made.clearance_ends("key", names).expect("two ends");
+    let tolerance = Tolerance::new(1e-6).expect("positive");
+    let pair = composed_clearance(made, &links, ends, tolerance).expect("bodies");
+    let found = pair.expect("level").over([0.0, made.period()]);
+    found.expect("found").least
+}
+
+#[test]
+fn a_disc_on_a_crank_clears_ground_wall_and_tray_as_the_drawing_tells() {
+    let obstacles = "[obstacles.ground]\nbelow = -60\n\
+        [obstacles.wall]\non = \"frame.P\"\noutline = [[-10, 30], [-10, 50], [10, 50], [10, 30]]\n\
+        [obstacles.post]\ncircle = { center = [0, 62], radius = 3 }\n\
+        [obstacles.tray]\non = \"ram\"\ncircle = { center = [62, 70], radius = 3 }\n\
+        [obstacles.high]\nbelow = 0\nheights = [500, 600]\n";
+    let made = machine(3, obstacles);
+    assert!((least(&made, ["disc", "ground"]) - 15.0).abs() < 2e-6);
+    assert!((least(&made, ["ground", "disc"]) - 15.0).abs() < 2e-6);
+    // Nearest corner of the wall at (60, 30).
+    let corner = 60.0_f64.hypot(30.0) - 45.0;
+    assert!((least(&made, ["disc", "wall"]) - corner).abs() < 2e-6);
+    assert!((least(&made, ["disc", "post"]) - 14.0).abs() < 2e-6);
+    // The tray's middle moves with the ram, along 0, 62 + 10 sin t: nearest at a right angle.
+    assert!((least(&made, ["disc", "tray"]) - 24.0).abs() < 2e-6);
+    let links = made.machine().expect("plates");
+    let ends = made.clearance_ends("key", ["disc", "high"]).expect("ends");
+    let tolerance = Tolerance::new(1e-3).expect("positive");
+    assert!(
+        composed_clearance(&made, &links, ends, tolerance)
+            .expect("bodies")
+            .is_none()
+    );
+    let both = made
+        .clearance_ends("key", ["ram", "tray"])
+        .expect_err("one body");
+    assert!(
+        both.to_string().contains("ram and tray are both on ram"),
+        "{both}"
+    );
+    assert!(made.clearance_ends("key", ["ram", "trey"]).is_err());
+    // No part and no link, but drawn.
+    assert!(
+        links
+            .parts
+            .iter()
+            .all(|part| made.body_named(&part.name).is_some())
+    );
+    for name in ["ground", "wall", "post", "tray", "high"] {
+        assert!(links.figures.iter().any(|figure| figure.name == name));
+    }
+    assert_eq!(links.validate(), Ok(()));
+}
+
+#[test]
+fn a_disc_that_dips_into_the_ground_overlaps_it_by_the_depth_of_its_lowest_point() {
+    let made = machine(3, "[obstacles.ground]\nbelow = -41.5\n");
+    assert!((least(&made, ["disc", "ground"]) + 3.5).abs() < 2e-6);
+}
+
+#[test]
+fn a_goal_of_a_clearance_from_an_obstacle_has_its_figure_and_one_of_no_common_height_a_note() {
+    let goals = "[obstacles.ground]\nbelow = -60\n\
+        [goals.free]\nfigure = \"clearance(disc, ground)\"\nover = \"least\"\nat_least = 16\n\
+        [goals.pass]\nfigure = \"clearance(disc, ram)\"\nover = \"least\"\nat_least = 1\n";
+    let report = check_composed(&machine(2, goals));
+    assert!((report.goals[0].value.expect("a figure") - 15.0).abs() < 1e-3);
+    assert_eq!(report.goals[0].met(), Some(false));
+    assert_eq!(report.goals[1].value, Some(f64::INFINITY));
+    let note = report
+        .findings
+        .iter()
+        .find(|f| f.rule == "no-common-height");
+    let note = note.expect("a note");
+    assert!(note.message.contains("pass") || note.message.contains("disc and ram"));
+    let level = check_composed(&machine(3, goals));
+    assert!(level.findings.iter().all(|f| f.rule != "no-common-height"));
+    assert!(level.goals[1].value.expect("a figure").is_finite());
+}
+
+#[test]
+fn plates_of_one_layer_that_collide_are_found_with_the_depth_and_others_are_not() {
+    // The disc reaches 45 mm out, the ram begins at 62.
+    let apart = check_composed(&machine(3, ""));
+    assert!(apart.findings.iter().all(|f| f.rule != "plates-collide"));
+    let near = CRANK.replace("P = [70, 0]", "P = [50, 0]");
+    let other = check_composed(&composed(&near.replace("LAYER", "2")));
+    assert!(other.findings.iter().all(|f| f.rule != "plates-collide"));
+    let level = check_composed(&composed(&near.replace("LAYER", "3")));
+    let found = level.findings.iter().find(|f| f.rule == "plates-collide");
+    let found = found.expect("they collide");
+    // The disc's outermost point lies 45 - 42 mm behind the ram's face at the start, where both are level.
+    let depth = |t: f64| {
+        let disc = [40.0 * t.cos(), 40.0 * t.sin()];
+        let inside = [disc[0] + 5.0 - 42.0, disc[1] - 10.0 * t.sin()];
+        if inside[1].abs() < 8.0 {
+            inside[0]
+        } else {
+            0.0
+        }
+    };
+    let deepest = greatest(depth, &pieces(-0.2, 0.2, 4, &[])).value;
+    assert!((deepest - 3.0).abs() < 1e-9);
+    let measured = found.measured.expect("a depth");
+    assert!((measured + deepest).abs() < 2e-2, "{measured} {deepest}");
+    assert_eq!(found.place.part.as_deref(), Some("disc"));
+}
+
+#[test]
+fn obstacles_that_cannot_be_are_told_by_key() {
+    for (obstacle, key, told) in [
+        (
+            "",
+            "obstacles.tray.outline",
+            "give one of outline, circle and below",
+        ),
+        (
+            "below = 1\ncircle = { radius = 3 }",
+            "obstacles.tray.below",
+            "together with a shape",
+        ),
+        (
+            "below = 1\non = \"trolley\"",
+            "obstacles.tray.on",
+            "there is no body \"trolley\"",
+        ),
+        (
+            "below = 1\nheights = [3, 2]",
+            "obstacles.tray.heights",
+            "from less to more",
+        ),
+        (
+            "outline = [[0, 0], [1, 1], [1, 0], [0, 1]]",
+            "obstacles.tray.outline",
+            "crosses or touches itself",
+        ),
+    ] {
+        let text = format!(
+            "{}[obstacles.tray]\n{obstacle}\n",
+            CRANK.replace("LAYER", "1")
+        );
+        let error = match ComposedDesign::from_toml(&text) {
+            Err(error) => error.to_string(),
+            Ok(design) => {
+                let error = Composed::resolve(&design).expect_err(obstacle);
+                format!("{}: {error}", error.key())
+            }
+        };
+        assert!(error.contains(key) && error.contains(told), "{error}");
+    }
+}

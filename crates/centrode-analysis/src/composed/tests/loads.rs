@@ -1,0 +1,166 @@
+use std::f64::consts::TAU;
+
+use super::*;
+
+/// A slider-crank without masses: crank 30, rod 100 mm.
+const SLIDER_CRANK: &str = r#"
+family = "machine"
+GRAVITY
+[input]
+speed_rpm = 120
+[frame.points]
+O = [0, 0]
+[bodies.crank]
+on = "frame.O"
+law = { ratio = 1 }
+points = { A = [30, 0] }
+plate = false
+CRANK
+[bodies.rod]
+plate = false
+[bodies.ram]
+plate = false
+points = { tool = [12, 0] }
+[dyads.push]
+type = "RRP"
+from = "crank.A"
+lengths = [100]
+line = "frame.O"
+line_deg = 0
+side = "forward"
+bodies = ["rod", "ram"]
+joint = "B"
+"#;
+
+fn with(gravity: &str, crank: &str, rest: &str) -> Composed {
+    let text = SLIDER_CRANK.replace("GRAVITY", gravity);
+    composed(&format!("{}{rest}", text.replace("CRANK", crank)))
+}
+
+fn goal(figure: &str, degrees: f64) -> String {
+    let name = figure.replace(['(', ')', '.'], "_");
+    format!("[goals.{name}]\nfigure = \"{figure}\"\nat_deg = {degrees}\nat_least = 0\n")
+}
+
+#[test]
+fn a_constant_force_on_a_slider_crank_has_the_torque_of_virtual_work_and_the_forces_of_the_triangle()
+ {
+    for degrees in [20.0, 77.0, 150.0, 200.0, 310.0] {
+        let figures = [
+            "input.torque",
+            "joint(rod-ram).force",
+            "joint(ram).force",
+            "joint(crank).force",
+        ];
+        let goals: String = figures.map(|figure| goal(figure, degrees)).concat();
+        let load = "[loads.work]\non = \"ram.tool\"\nforce = [-150, 0]\n";
+        let found = goals_of(&with("", "", &format!("{load}{goals}")));
+        let value = |figure: &str| {
+            let name = figure.replace(['(', ')', '.'], "_");
+            let goal = found.iter().find(|goal| goal.name == name);
+            goal.and_then(|goal| goal.value).expect("a figure")
+        };
+        let t = f64::to_radians(degrees);
+        let (sin, cos) = t.sin_cos();
+        let root = (1e4 - 900.0 * sin * sin).sqrt();
+        let rate = -30.0 * sin - 900.0 * sin * cos / root;
+        let tan = 30.0 * sin / root;
+        for (figure, expected) in [
+            ("input.torque", 150.0 * rate),
+            ("joint(rod-ram).force", 150.0 * tan.hypot(1.0)),
+            ("joint(ram).force", 150.0 * tan.abs()),
+            ("joint(crank).force", 150.0 * tan.hypot(1.0)),
+        ] {
+            let off = (value(figure) - expected).abs();
+            assert!(off < 1e-10 * 4500.0, "{figure} at {degrees}: {off}");
+        }
+    }
+}
+
+#[test]
+fn the_mean_torque_times_a_turn_is_the_work_of_the_loads() {
+    let stroke = "[loads.work]\non = \"ram.tool\"\nforce = [-150, 0]\nover_deg = [180, 360]\n";
+    let past = "[loads.work]\non = \"ram.tool\"\nforce = [-75, 3]\nover_deg = [-180, 0]\nexpression = \"2\"\n";
+    for load in [stroke, past] {
+        let report = check_composed(&with("", "", load));
+        let value = |name: &str| report.values[name];
+        // The tool goes out by 60 mm against 150 N.
+        assert!((value("input_torque_mean") * TAU - 9000.0).abs() < 1e-8);
+        assert!(value("input_torque_min").abs() < 1e-10);
+        let rate = |t: f64| {
+            let (sin, cos) = t.sin_cos();
+            -30.0 * sin - 900.0 * sin * cos / (1e4 - 900.0 * sin * sin).sqrt()
+        };
+        let greatest = greatest(rate, &pieces(0.0, TAU, 16, &[])).value * 150.0;
+        assert!((value("input_torque_max") - greatest).abs() < 1e-9 * greatest);
+        let forces = table(&report, "joint-forces");
+        let names: Vec<&str> = forces.rows.iter().map(|(name, _)| name.as_str()).collect();
+        assert_eq!(names, ["crank", "rod", "ram", "rod-ram"]);
+    }
+    // Weight and inertia give back what they take.
+    let heavy = "mass_kg = 2\ncenter = [30, 10]\ninertia_kg_mm2 = 50";
+    let report = check_composed(&with("gravity = [1, -9.81]", heavy, ""));
+    let [low, high, mean] = ["min", "max", "mean"].map(|name| {
+        let key = format!("input_torque_{name}");
+        report.values[key.as_str()]
+    });
+    assert!(mean.abs() < 1e-10 * high, "{mean}");
+    // 2 kg at 10^(3/2) mm in a field of (1 + 9.81^2)^(1/2) m/s^2.
+    let greatest = 2.0 * 1000.0_f64.sqrt() * 9.81_f64.hypot(1.0);
+    assert!((high - greatest).abs() < 1e-9 * greatest && (low + greatest).abs() < 1e-9 * greatest);
+}
+
+#[test]
+fn a_force_in_the_axes_of_its_body_turns_with_it_and_a_torque_adds_up() {
+    let load = "[loads.brake]\non = \"crank.A\"\nforce = [7, -5]\naxes = \"body\"\n\
+                [loads.motor]\non = \"crank\"\ntorque = 100\nexpression = \"cos(phi)\"\n";
+    let goals = [0.0, 60.0, 200.0].map(|at| {
+        let goal = goal("input.torque", at);
+        goal.replace("[goals.input_torque]", &format!("[goals.at-{at}]"))
+    });
+    let found = goals_of(&with("", "", &format!("{load}{}", goals.concat())));
+    assert_eq!(found.len(), 3);
+    for goal in found {
+        let degrees: f64 = goal.name[3..].parse().expect("an angle");
+        let expected = 150.0 - 100.0 * degrees.to_radians().cos();
+        let value = goal.value.expect("a figure");
+        assert!((value - expected).abs() < 1e-10, "{degrees}: {value}");
+    }
+}
+
+#[test]
+fn loads_that_cannot_be_are_told_by_key() {
+    for (load, key, told) in [
+        (
+            "on = \"ram.tool\"",
+            "loads.work.force",
+            "give one of force and torque",
+        ),
+        (
+            "on = \"ram.tip\"\ntorque = 1",
+            "loads.work.on",
+            "has no point \"tip\"",
+        ),
+        (
+            "on = \"ram\"\ntorque = 1\nexpression = \"1/phi\"",
+            "loads.work.expression",
+            "no value at an input of 0 deg",
+        ),
+        (
+            "on = \"ram\"\ntorque = 1\nover_deg = [30, 390]",
+            "loads.work.over_deg",
+            "must end at another input than it begins",
+        ),
+    ] {
+        let text = SLIDER_CRANK.replace("GRAVITY", "").replace("CRANK", "");
+        let text = format!("{text}[loads.work]\n{load}\n");
+        let error = match ComposedDesign::from_toml(&text) {
+            Err(error) => error.to_string(),
+            Ok(design) => {
+                let error = Composed::resolve(&design).expect_err(load);
+                format!("{}: {error}", error.key())
+            }
+        };
+        assert!(error.contains(key) && error.contains(told), "{error}");
+    }
+}
