@@ -1,5 +1,6 @@
 //! Check of a composed machine.
 
+mod cams;
 mod figures;
 mod goals;
 mod joints;
@@ -36,6 +37,7 @@ pub fn check_composed(composed: &Composed) -> Report {
     dyads(composed, &ends, &mut report);
     joints::joints(composed, &ends, &mut report);
     joints::four_bars(composed, &mut report);
+    cams::cams(composed, &mut report);
     points(composed, &ends, &mut report);
     let found = goals::goals(composed);
     report.goals = found.iter().map(|found| found.goal.clone()).collect();

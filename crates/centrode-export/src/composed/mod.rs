@@ -8,7 +8,7 @@ use centrode_mechanism::machine::{Form, Machine};
 use nalgebra::Isometry2;
 
 use crate::drawing::{Color, Drawing, LineType, Shape};
-use crate::{Bundle, ExportError, Format, Options, Package, gear_pair};
+use crate::{Bundle, ExportError, Format, Options, Package, cam, gear_pair};
 pub use curves::curves;
 
 const PROFILE: &str = "PROFILE";
@@ -66,6 +66,10 @@ pub fn files(
         })?;
         let title = package.titled(&gear.name);
         package.solid(&gear.name, &title, solid)?;
+    }
+    for cam in composed.cams() {
+        let title = package.titled(&cam.name);
+        cam::add(&mut package, &cam.part, &title, options.tolerance)?;
     }
     package.drawing("assembly", |_| Ok(assembly(composed, &made)))?;
     package.machine(|| Ok(made.clone()))?;

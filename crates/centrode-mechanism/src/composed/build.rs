@@ -59,12 +59,16 @@ impl Builder<'_> {
         let (Some(on), Some(law)) = (&body.on, &body.law) else {
             return Ok(());
         };
+        let law = match &law.follows {
+            Some(cam) => self.following(name, body, cam)?,
+            None => law
+                .resolve(design.input.turns, body.slides.is_some())
+                .map_err(|error| ComposedError::Law {
+                    body: name.into(),
+                    error,
+                })?,
+        };
         let key = format!("bodies.{name}.on");
-        let law = law.resolve(design.input.turns, body.slides.is_some());
-        let law = law.map_err(|error| ComposedError::Law {
-            body: name.into(),
-            error,
-        })?;
         if let Some(angle) = body.slides {
             let (carrier, line) = self.line(&key, on, angle)?;
             let link = self.linkage.sliding(line, Arc::clone(&law));

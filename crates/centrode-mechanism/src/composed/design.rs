@@ -6,8 +6,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{
-    ComposedBodySpec, ComposedDyadSpec, ComposedGearSpec, ComposedGoalSpec, ComposedLoopSpec,
-    ComposedPlatesSpec, ComposedPointsSpec,
+    ComposedBodySpec, ComposedCamSpec, ComposedDyadSpec, ComposedGearSpec, ComposedGoalSpec,
+    ComposedLoopSpec, ComposedPlatesSpec, ComposedPointsSpec,
 };
 use crate::design::DesignSpec;
 use crate::gear::design::rule::{
@@ -51,6 +51,9 @@ pub struct ComposedDesign {
     /// Meshes by name, beside those that hold bodies.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub meshes: BTreeMap<String, ComposedLoopSpec>,
+    /// Disc cams by name, each on a body.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub cams: BTreeMap<String, ComposedCamSpec>,
     /// The bodies as plates.
     #[serde(default)]
     pub plates: ComposedPlatesSpec,
@@ -90,7 +93,8 @@ impl DesignSpec for ComposedDesign {
     const ABOUT: &'static str = "A planar machine composed of bodies, laws and dyads.";
     const TEMPLATE: &'static str = include_str!("../../design/machine.toml");
     const TABLES: &'static [&'static str] = &[
-        "input", "frame", "bodies", "dyads", "pairs", "gears", "meshes", "plates", "goals", "vary",
+        "input", "frame", "bodies", "dyads", "pairs", "gears", "meshes", "cams", "plates", "goals",
+        "vary",
     ];
 
     fn words(&self) -> [&str; 2] {
@@ -138,6 +142,11 @@ impl ComposedDesign {
             let key = format!("gears.{name}");
             file_name(&key, name)?;
             finite(&format!("{key}.mount_deg"), gear.mount)?;
+        }
+        for (name, cam) in &self.cams {
+            let key = format!("cams.{name}");
+            file_name(&key, name)?;
+            cam.validate().map_err(|e| e.inside(&key))?;
         }
         for (name, goal) in &self.goals {
             let key = format!("goals.{name}");

@@ -1,6 +1,7 @@
 use thiserror::Error;
 
 use super::ComposedLawError;
+use crate::cam::CamError;
 use crate::design::MechanismError;
 use crate::gear::GearPairError;
 use crate::gear::design::SpecError;
@@ -151,12 +152,28 @@ pub enum ComposedError {
         /// Why.
         error: Box<GearPairError>,
     },
-    /// A gear or pair that is not there.
+    /// A cam that cannot be cut.
+    #[error("{error}")]
+    Cam {
+        /// Name of the cam.
+        cam: String,
+        /// Why.
+        error: CamError,
+    },
+    /// A cam that cannot be followed.
+    #[error("{why}")]
+    NoFollower {
+        /// Key of the cam or of the body.
+        key: String,
+        /// Why.
+        why: String,
+    },
+    /// A gear, pair or cam that is not there.
     #[error("there is no {what} {name:?}; there are {}", if known.is_empty() { "none".to_owned() } else { known.join(", ") })]
     NoGear {
         /// Key that names it.
         key: String,
-        /// Kind: `gear` or `pair`.
+        /// Kind: `gear`, `pair` or `cam`.
         what: &'static str,
         /// Its name.
         name: String,
@@ -233,8 +250,10 @@ impl ComposedError {
             | Self::NoDyad { key, .. }
             | Self::NoGear { key, .. }
             | Self::NoMesh { key, .. }
+            | Self::NoFollower { key, .. }
             | Self::Linkage { key, .. } => key.clone(),
             Self::Pair { pair, error } => format!("pairs.{pair}.{}", error.key()),
+            Self::Cam { cam, error } => format!("cams.{cam}.{}", error.key()),
             Self::Loose { body } => format!("bodies.{body}"),
             Self::Law { body, error } => format!("bodies.{body}.law.{}", error.key()),
             Self::DoesNotClose { dyad, .. } => format!("dyads.{dyad}"),

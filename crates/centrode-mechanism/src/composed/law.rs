@@ -55,6 +55,9 @@ pub struct ComposedLawSpec {
     /// Rises, returns and dwells over one turn of the input, as for a cam.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub cam: Option<MotionSpec>,
+    /// Cam that moves the body as its follower.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub follows: Option<String>,
 }
 
 /// Reason why there is no such law.
@@ -119,6 +122,7 @@ impl ComposedLawSpec {
             ("table_deg", !self.table_angles.is_empty()),
             ("table", !self.table.is_empty()),
             ("cam", self.cam.is_some()),
+            ("follows", self.follows.is_some()),
         ];
         let mut motions = given.into_iter().filter(|(_, given)| *given);
         let first = motions.next();
@@ -127,7 +131,7 @@ impl ComposedLawSpec {
         }
         if first.is_none() && self.start_angle.is_none() && self.start.is_none() {
             let key = if slides { "start" } else { "start_deg" };
-            let keys = "start_deg, start, ratio, expression, table_deg, table and cam";
+            let keys = "start_deg, start, ratio, expression, table_deg, table, cam and follows";
             return broken(key, Rule::NeedsOneOf(keys));
         }
         let only = "but for a body that turns";
@@ -173,16 +177,21 @@ impl ComposedLawSpec {
         }
     }
 
-    /// The law over a period of so many turns of the input, of a body that slides or turns.
+    /// Start of the motion, rad or mm.
+    pub(super) fn offset(&self) -> f64 {
+        self.start_angle.or(self.start).unwrap_or(0.0)
+    }
+
+    /// The law over a period of so many turns of the input, of a body that slides or turns and follows no cam.
     ///
     /// # Errors
     /// [`ComposedLawError`] where it cannot be read, or does not come back.
-    pub fn resolve(
+    pub(super) fn resolve(
         &self,
         turns: u32,
         slides: bool,
     ) -> Result<Arc<dyn Transmission>, ComposedLawError> {
-        let start = self.start_angle.or(self.start).unwrap_or(0.0);
+        let start = self.offset();
         let period = TAU * f64::from(turns);
         let table = match (&self.table[..], &self.table_angles[..]) {
             ([], angles) => angles,

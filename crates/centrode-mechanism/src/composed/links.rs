@@ -1,6 +1,6 @@
 use centrode_geometry::{MassProperties, Point, SolidError};
 
-use super::{Composed, ComposedBody};
+use super::{Composed, ComposedBody, ComposedCam};
 use crate::machine::{
     Closure, Form, GearMesh, Input, Joint, JointKind, Line, LineRole, Link, LinkPoint, Machine,
     Mark, Part, Quantity, Shape, Surface,
@@ -90,6 +90,19 @@ impl Composed {
                 place: machine.place_on_edge(&gear.body_name, solid.outline()),
             });
         }
+        for cam in &self.cams {
+            let solid = cam.solid(self.cam_bottom(cam))?;
+            let own = cam.part.body();
+            machine.part(Part {
+                name: cam.name.clone(),
+                links: self.body_named(&cam.body_name).into_iter().collect(),
+                material: own.material.clone(),
+                mass: Some(solid.mass_properties(own.density).mass),
+                file: cam.name.clone(),
+                remark: format!("moves {}", cam.followers.join(", ")),
+                place: machine.place_on_edge(&cam.body_name, solid.outline()),
+            });
+        }
         Ok(())
     }
 
@@ -116,6 +129,12 @@ impl Composed {
             let solid = gear.solid(self.gear_bottom(gear))?;
             masses.push(solid.mass_properties(gear.gear().body().density));
             link.surfaces.push(machine.surface(gear.surface(&solid)));
+            solids.push(solid);
+        }
+        for cam in self.cams.iter().filter(|cam| cam.body_name == *name) {
+            let solid = cam.solid(self.cam_bottom(cam))?;
+            masses.push(solid.mass_properties(cam.part.body().density));
+            link.surfaces.push(machine.surface(cam.surface(&solid)));
             solids.push(solid);
         }
         if !solids.is_empty() {
@@ -187,6 +206,10 @@ impl Composed {
             }
             let gears = self.gears.iter().filter(|gear| gear.body_name == body.name);
             lines.extend(gears.flat_map(|gear| gear.lines()));
+            let cams = self.cams.iter().filter(|cam| cam.body_name == body.name);
+            lines.extend(cams.flat_map(ComposedCam::lines));
+            let roller = self.roller(&body.name);
+            lines.extend(roller.map(|roller| Line::contour(LineRole::Body, &roller)));
             if index == 0 {
                 let ways = traced.iter();
                 lines.extend(ways.map(|&point| Line::trace(LineRole::Trace, point)));

@@ -3,8 +3,11 @@
 //! A body has axes of its own. One that turns has its origin on its pin; one that slides has its first axis along its line;
 //! the bodies of a dyad have theirs as those of a [`Linkage`]. The input is the angle of the driving shaft, rad.
 
+mod axis;
 mod body;
 mod build;
+mod camming;
+mod cams;
 mod corner;
 mod design;
 mod dyad;
@@ -27,6 +30,11 @@ use std::sync::Arc;
 use centrode_geometry::{Jet, Point};
 
 pub use body::ComposedBodySpec;
+pub use camming::ComposedCam;
+pub use cams::{
+    ComposedCamSpec, ComposedFollowerSpec, ComposedSlidingRoller, ComposedSwingingFlat,
+    ComposedSwingingRoller,
+};
 pub use corner::{ComposedPointsSpec, CornerSpec, Side};
 pub use design::{ComposedDesign, ComposedInputSpec};
 pub use dyad::{ComposedDyadSpec, DyadKind};
@@ -56,6 +64,7 @@ pub struct Composed {
     figures: Vec<ComposedFigure>,
     gears: Vec<ComposedGear>,
     meshes: Vec<Meshing>,
+    cams: Vec<ComposedCam>,
 }
 
 /// A body of a composed machine.
@@ -174,6 +183,12 @@ impl Composed {
     #[must_use]
     pub fn gears(&self) -> &[ComposedGear] {
         &self.gears
+    }
+
+    /// Cams in the order of their names.
+    #[must_use]
+    pub fn cams(&self) -> &[ComposedCam] {
+        &self.cams
     }
 
     /// Figures of the goals, in the order of their names.

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::Composed;
 use super::design::FRAME;
+use super::points::ROLLER;
 use crate::gear::design::SpecError;
 use crate::gear::design::rule::{in_range, not_negative, positive};
 
@@ -95,7 +96,12 @@ impl Composed {
                 joint.flat_map(|joint| dyad.bodies.iter().map(move |b| format!("{b}.{joint}")));
             ends.chain(joint).collect::<Vec<_>>()
         });
-        on.chain(dyads).collect()
+        let following = design.bodies.iter().filter(|(_, body)| {
+            let law = body.law.as_ref();
+            law.is_some_and(|law| law.follows.is_some())
+        });
+        let rollers = following.map(|(name, _)| format!("{name}.{ROLLER}"));
+        on.chain(dyads).chain(rollers).collect()
     }
 
     /// Points worth following, among those that no other body is held by: given ones, or joints where there is none.

@@ -1,12 +1,19 @@
 use std::collections::BTreeMap;
 
 use centrode_geometry::{Point, Vector};
+use nalgebra::Rotation2;
 
 use super::design::FRAME;
-use super::{ComposedDesign, ComposedDyadSpec, ComposedError, CornerSpec, DyadKind};
+use super::{
+    ComposedBodySpec, ComposedCamSpec, ComposedDesign, ComposedDyadSpec, ComposedError, CornerSpec,
+    DyadKind,
+};
 
 /// Share of a triangle's sides by which they may fail to meet: rounding.
 const ROUNDING: f64 = 1e-14;
+
+/// Name of the point of a follower at its roller's centre.
+pub(super) const ROLLER: &str = "roller";
 
 /// Points of every body by name.
 pub(super) type BodyPoints = BTreeMap<String, BTreeMap<String, LocalPoint>>;
@@ -80,6 +87,27 @@ impl Reference {
     }
 }
 
+/// Cam that a body follows, with the key that says so.
+pub(super) fn followed_cam<'a>(
+    design: &'a ComposedDesign,
+    name: &str,
+    body: &ComposedBodySpec,
+) -> Result<Option<(String, &'a ComposedCamSpec)>, ComposedError> {
+    let Some(cam) = body.law.as_ref().and_then(|law| law.follows.as_ref()) else {
+        return Ok(None);
+    };
+    let key = format!("bodies.{name}.law.follows");
+    match design.cams.get(cam) {
+        Some(spec) => Ok(Some((key, spec))),
+        None => Err(ComposedError::NoGear {
+            key,
+            what: "cam",
+            name: cam.clone(),
+            known: design.cams.keys().cloned().collect(),
+        }),
+    }
+}
+
 /// The points of every body: those it is given, and those at which it is pinned to others.
 pub(super) fn points_of(design: &ComposedDesign) -> Result<BodyPoints, ComposedError> {
     let mut all = BodyPoints::new();
@@ -97,6 +125,18 @@ pub(super) fn points_of(design: &ComposedDesign) -> Result<BodyPoints, ComposedE
             add(&mut all, &key, [name, &pin], Point::origin(), false)?;
         }
     }
+    for (name, body) in &design.bodies {
+        let Some((key, cam)) = followed_cam(design, name, body)? else {
+            continue;
+        };
+        if let (Some(arm), Some(law)) = (cam.follower.arm(), &body.law) {
+            let at = match body.slides {
+                Some(_) => Point::new(arm - law.offset(), 0.0),
+                None => Rotation2::new(-law.offset()) * Point::new(arm, 0.0),
+            };
+            add(&mut all, &key, [name, ROLLER], at, true)?;
+        }
+    }
     for (name, dyad) in &design.dyads {
         pins(&format!("dyads.{name}"), dyad, &mut all)?;
     }
@@ -112,6 +152,9 @@ pub(super) fn points_of(design: &ComposedDesign) -> Result<BodyPoints, ComposedE
             add(&mut all, &key, [body, point], Point::from(*at), true)?;
         }
         place_corners(&format!("{key}.corners"), body, corners, &mut all)?;
+    }
+    for (name, cam) in &design.cams {
+        Reference::to_body(&cam.on).find(&format!("cams.{name}.on"), &all)?;
     }
     Ok(all)
 }

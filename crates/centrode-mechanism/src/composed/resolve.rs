@@ -6,10 +6,10 @@ use centrode_geometry::Point;
 use super::build::range;
 use super::design::FRAME;
 use super::gearing::{Meshing, gears_of};
-use super::points::{BodyPoints, Reference, points_of};
+use super::points::{BodyPoints, Reference, followed_cam, points_of};
 use super::{
-    Composed, ComposedBody, ComposedDesign, ComposedDyad, ComposedDyadSpec, ComposedError,
-    ComposedFigure, ComposedGear, Over, Pin,
+    Composed, ComposedBody, ComposedCam, ComposedDesign, ComposedDyad, ComposedDyadSpec,
+    ComposedError, ComposedFigure, ComposedGear, Over, Pin,
 };
 use crate::gear::design::{Rule, SpecError};
 use crate::linkage::{Coordinate, Link, Linkage, LinkageError, NotClosing};
@@ -32,6 +32,8 @@ pub(super) struct Builder<'a> {
     pub(super) pins: Vec<Pin>,
     pub(super) gears: Vec<ComposedGear>,
     pub(super) meshes: Vec<Meshing>,
+    /// Cams that a body follows already.
+    pub(super) cams: BTreeMap<String, ComposedCam>,
     /// Joints whose motion follows from the closed linkage, by the body they carry, and the key that holds it.
     pub(super) followed: Vec<(usize, Coordinate, String)>,
 }
@@ -48,6 +50,7 @@ impl Composed {
         let mut builder = Builder {
             gears: gears_of(design, &points)?,
             meshes: Vec::new(),
+            cams: BTreeMap::new(),
             points,
             linkage: Linkage::with_turns(design.input.turns),
             bodies: vec![ComposedBody {
@@ -63,6 +66,7 @@ impl Composed {
         builder.build()?;
         builder.follow()?;
         builder.check_loops()?;
+        builder.check_cams()?;
         let mut made = Self {
             design: design.clone(),
             linkage: builder.linkage,
@@ -73,6 +77,7 @@ impl Composed {
             figures: Vec::new(),
             gears: builder.gears,
             meshes: builder.meshes,
+            cams: builder.cams.into_values().collect(),
         };
         let goals = design.goals.iter();
         let figures = goals.map(|(name, goal)| {
@@ -203,6 +208,11 @@ impl<'a> Builder<'a> {
         {
             let with = self.gear(&format!("{key}.mesh.with"), &mesh.with)?;
             bodies.push(self.gears[with].body_name.clone());
+        }
+        if let Node::Body(name) = node
+            && let Some((_, cam)) = followed_cam(self.design, name, &self.design.bodies[*name])?
+        {
+            bodies.push(Reference::to_body(&cam.on).body);
         }
         Ok(bodies)
     }

@@ -3,6 +3,7 @@ use std::f64::consts::TAU;
 use super::*;
 use crate::design::{DesignFamily, DesignFile, DesignSpec};
 
+mod cams;
 mod gears;
 mod random;
 
