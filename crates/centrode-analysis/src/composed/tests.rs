@@ -244,3 +244,49 @@ fn a_search_finds_lengths_that_meet_the_goals() {
     assert!(best.iter().all(|goal| goal.met() == Some(true)), "{best:?}");
     assert!(ComposedProblem::new(&ComposedDesign::from_toml(MACHINE).expect("a design")).is_err());
 }
+
+#[test]
+fn a_cam_has_its_figures_and_one_that_is_too_small_is_told() {
+    const INDEX: &str = include_str!("../../../../tests/designs/index-table.toml");
+    let made = composed(INDEX);
+    let report = check_composed(&made);
+    let limits = made.cams()[0].disc().limits();
+    let row = |name: &str| table(&report, name).rows[0].1.clone();
+    assert_eq!(
+        row("cam-pressure-angles")[0],
+        limits.rise_pressure_angle.value
+    );
+    assert_eq!(row("cam-radii")[2], limits.least_radius.value);
+    let rules = |report: &Report| report.findings.iter().map(|f| f.rule).collect::<Vec<_>>();
+    assert!(
+        !rules(&report).contains(&"cam-undercut"),
+        "{:?}",
+        rules(&report)
+    );
+    let steep = limits.rise_pressure_angle.value > std::f64::consts::FRAC_PI_4;
+    assert_eq!(rules(&report).contains(&"cam-pressure-angle"), steep);
+    // A roller as large as the path's least radius of curvature leaves none of the profile's.
+    let largest = limits.largest_roller.expect("a roller").value;
+    let small = check_composed(&composed(
+        &INDEX
+            .replace(
+                "roller_radius = 6",
+                &format!("roller_radius = {}", 1.05 * largest),
+            )
+            .replace(
+                "base_radius = 32",
+                &format!("base_radius = {}", 38.0 - 1.05 * largest),
+            ),
+    ));
+    let told = small.findings.iter().find(|f| f.rule == "cam-undercut");
+    let told = told.expect("undercut");
+    assert!(
+        told.message.contains("cam still is undercut: lever cannot"),
+        "{}",
+        told.message
+    );
+    // The shaft's angle is the cam's here, some turn of four.
+    let input = told.place.input.expect("an input") % std::f64::consts::TAU;
+    let least = limits.largest_roller.expect("a roller").input;
+    assert!((input - least).abs() < 1e-6, "{input} {least}");
+}

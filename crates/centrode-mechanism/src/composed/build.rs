@@ -2,6 +2,7 @@ use std::sync::Arc;
 
 use centrode_geometry::{Point, extremes, pieces};
 
+use super::copying;
 use super::resolve::{Builder, blame};
 use super::{
     ComposedBody, ComposedDyad, ComposedDyadSpec, ComposedError, DyadKind, Mount, Pin, Side,
@@ -67,6 +68,10 @@ impl Builder<'_> {
                     body: name.into(),
                     error,
                 })?,
+        };
+        let law = match self.ahead.get(name) {
+            Some(&by) => copying::ahead(law, by),
+            None => law,
         };
         let key = format!("bodies.{name}.on");
         if let Some(angle) = body.slides {

@@ -136,8 +136,9 @@ impl ComposedCam {
 impl Composed {
     /// Height of a cam's lower face along the shafts, mm: cams lie one below the other, behind the gears.
     pub(super) fn cam_bottom(&self, cam: &ComposedCam) -> f64 {
-        let cams = self.design.cams.iter();
-        let upto = cams.take_while(|(name, _)| **name <= cam.name);
+        let cams = self.written.cams.iter();
+        let own = self.original(&cam.name);
+        let upto = cams.take_while(|(name, _)| name.as_str() <= own);
         let depth = upto.map(|(_, spec)| spec.body.width + self.design.plates.gap);
         self.gears_bottom() - depth.sum::<f64>()
     }

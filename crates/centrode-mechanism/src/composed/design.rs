@@ -6,8 +6,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{
-    ComposedBodySpec, ComposedCamSpec, ComposedDyadSpec, ComposedGearSpec, ComposedGoalSpec,
-    ComposedLoopSpec, ComposedPlatesSpec, ComposedPointsSpec,
+    ComposedBodySpec, ComposedCamSpec, ComposedCopiesSpec, ComposedDyadSpec, ComposedGearSpec,
+    ComposedGoalSpec, ComposedLoopSpec, ComposedPlatesSpec, ComposedPointsSpec,
 };
 use crate::design::DesignSpec;
 use crate::gear::design::rule::{
@@ -54,6 +54,9 @@ pub struct ComposedDesign {
     /// Disc cams by name, each on a body.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub cams: BTreeMap<String, ComposedCamSpec>,
+    /// Chains of bodies of which there are several, evenly spaced, by name.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub copies: BTreeMap<String, ComposedCopiesSpec>,
     /// The bodies as plates.
     #[serde(default)]
     pub plates: ComposedPlatesSpec,
@@ -93,8 +96,8 @@ impl DesignSpec for ComposedDesign {
     const ABOUT: &'static str = "A planar machine composed of bodies, laws and dyads.";
     const TEMPLATE: &'static str = include_str!("../../design/machine.toml");
     const TABLES: &'static [&'static str] = &[
-        "input", "frame", "bodies", "dyads", "pairs", "gears", "meshes", "cams", "plates", "goals",
-        "vary",
+        "input", "frame", "bodies", "dyads", "pairs", "gears", "meshes", "cams", "copies",
+        "plates", "goals", "vary",
     ];
 
     fn words(&self) -> [&str; 2] {
@@ -147,6 +150,11 @@ impl ComposedDesign {
             let key = format!("cams.{name}");
             file_name(&key, name)?;
             cam.validate().map_err(|e| e.inside(&key))?;
+        }
+        for (name, copies) in &self.copies {
+            let key = format!("copies.{name}");
+            file_name(&key, name)?;
+            copies.validate().map_err(|e| e.inside(&key))?;
         }
         for (name, goal) in &self.goals {
             let key = format!("goals.{name}");

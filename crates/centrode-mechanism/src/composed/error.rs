@@ -168,6 +168,22 @@ pub enum ComposedError {
         /// Why.
         why: String,
     },
+    /// Copies that cannot be.
+    #[error("{why}")]
+    NoCopies {
+        /// Key of the copies.
+        key: String,
+        /// Why.
+        why: String,
+    },
+    /// An error of a copy, none of its original.
+    #[error("of a copy: {error}")]
+    Copy {
+        /// Key of the original.
+        key: String,
+        /// The error of the copy.
+        error: Box<ComposedError>,
+    },
     /// A gear, pair or cam that is not there.
     #[error("there is no {what} {name:?}; there are {}", if known.is_empty() { "none".to_owned() } else { known.join(", ") })]
     NoGear {
@@ -251,6 +267,8 @@ impl ComposedError {
             | Self::NoGear { key, .. }
             | Self::NoMesh { key, .. }
             | Self::NoFollower { key, .. }
+            | Self::NoCopies { key, .. }
+            | Self::Copy { key, .. }
             | Self::Linkage { key, .. } => key.clone(),
             Self::Pair { pair, error } => format!("pairs.{pair}.{}", error.key()),
             Self::Cam { cam, error } => format!("cams.{cam}.{}", error.key()),

@@ -177,6 +177,13 @@ impl ComposedLawSpec {
         }
     }
 
+    /// Whether it moves the body by the input.
+    pub(super) fn moves(&self) -> bool {
+        let turns = self.ratio.is_some_and(|ratio| ratio != 0.0);
+        let table = !self.table_angles.is_empty() || !self.table.is_empty();
+        turns || table || self.expression.is_some() || self.cam.is_some()
+    }
+
     /// Start of the motion, rad or mm.
     pub(super) fn offset(&self) -> f64 {
         self.start_angle.or(self.start).unwrap_or(0.0)

@@ -1,4 +1,4 @@
-use centrode_geometry::{MassProperties, Point, SolidError};
+use centrode_geometry::{MassProperties, Point, Solid, SolidError};
 
 use super::{Composed, ComposedBody, ComposedCam};
 use crate::machine::{
@@ -62,48 +62,60 @@ impl Composed {
         Ok(machine)
     }
 
-    /// Lists the plates and gears as parts, each with the files of its name.
+    /// Lists the plates, gears and cams as parts, each with the files of its name; copies are pieces of one part.
     fn list(&self, machine: &mut Machine) -> Result<(), SolidError> {
         for (index, body) in self.bodies.iter().enumerate() {
             let Some(solid) = self.plate(index)? else {
                 continue;
             };
-            machine.part(Part {
+            let part = Part {
                 name: body.name.clone(),
-                links: vec![index],
                 mass: Some(solid.mass_properties(self.design.plates.density).mass),
-                file: body.name.clone(),
-                place: machine.place_on_edge(&body.name, solid.outline()),
                 ..Part::default()
-            });
+            };
+            self.add_part(machine, part, (&body.name, &solid));
         }
         for gear in &self.gears {
             let solid = gear.solid(self.gear_bottom(gear))?;
             let own = gear.gear();
-            machine.part(Part {
+            let part = Part {
                 name: gear.name.clone(),
-                links: self.body_named(&gear.body_name).into_iter().collect(),
                 material: own.body().material.clone(),
                 mass: Some(solid.mass_properties(own.body().density).mass),
-                file: gear.name.clone(),
                 remark: format!("{} teeth", own.tooth_count()),
-                place: machine.place_on_edge(&gear.body_name, solid.outline()),
-            });
+                ..Part::default()
+            };
+            self.add_part(machine, part, (&gear.body_name, &solid));
         }
         for cam in &self.cams {
             let solid = cam.solid(self.cam_bottom(cam))?;
             let own = cam.part.body();
-            machine.part(Part {
+            let part = Part {
                 name: cam.name.clone(),
-                links: self.body_named(&cam.body_name).into_iter().collect(),
                 material: own.material.clone(),
                 mass: Some(solid.mass_properties(own.density).mass),
-                file: cam.name.clone(),
                 remark: format!("moves {}", cam.followers.join(", ")),
-                place: machine.place_on_edge(&cam.body_name, solid.outline()),
-            });
+                ..Part::default()
+            };
+            self.add_part(machine, part, (&cam.body_name, &solid));
         }
         Ok(())
+    }
+
+    /// Lists a part of a body; a copy is one more piece of the original.
+    fn add_part(&self, machine: &mut Machine, part: Part, (body, solid): (&str, &Solid)) {
+        let link = self.body_named(body);
+        let original = self.original(&part.name);
+        if let Some(listed) = machine.parts.iter_mut().find(|part| part.name == original) {
+            listed.links.extend(link);
+            return;
+        }
+        machine.part(Part {
+            links: link.into_iter().collect(),
+            file: part.name.clone(),
+            place: machine.place_on_edge(body, solid.outline()),
+            ..part
+        });
     }
 
     /// Adds a body with its plate: shape, mass, surface to touch with.

@@ -8,6 +8,8 @@ mod body;
 mod build;
 mod camming;
 mod cams;
+mod copies;
+mod copying;
 mod corner;
 mod design;
 mod dyad;
@@ -35,6 +37,7 @@ pub use cams::{
     ComposedCamSpec, ComposedFollowerSpec, ComposedSlidingRoller, ComposedSwingingFlat,
     ComposedSwingingRoller,
 };
+pub use copies::ComposedCopiesSpec;
 pub use corner::{ComposedPointsSpec, CornerSpec, Side};
 pub use design::{ComposedDesign, ComposedInputSpec};
 pub use dyad::{ComposedDyadSpec, DyadKind};
@@ -46,6 +49,7 @@ pub use goal::{ComposedGoalSpec, Over};
 pub use law::{ComposedLawError, ComposedLawSpec};
 pub use plates::ComposedPlatesSpec;
 
+use self::copies::Expansion;
 use self::gearing::Meshing;
 use self::points::BodyPoints;
 use crate::linkage::{Line, Link, Linkage};
@@ -55,7 +59,10 @@ use crate::transmission::{MotionJet, Transmission};
 /// A composed machine: its bodies in the order in which they need each other, and their motion.
 #[derive(Clone, Debug)]
 pub struct Composed {
+    /// The design as written, and with its copies written out.
+    written: ComposedDesign,
     design: ComposedDesign,
+    expansion: Expansion,
     linkage: Linkage,
     bodies: Vec<ComposedBody>,
     dyads: Vec<ComposedDyad>,
@@ -158,7 +165,19 @@ impl Composed {
     /// The design as written.
     #[must_use]
     pub fn design(&self) -> &ComposedDesign {
+        &self.written
+    }
+
+    /// The design with its copies written out.
+    #[must_use]
+    pub fn whole(&self) -> &ComposedDesign {
         &self.design
+    }
+
+    /// Original of a body, dyad, gear or cam by its name: itself where it is no copy.
+    #[must_use]
+    pub fn original<'a>(&'a self, name: &'a str) -> &'a str {
+        self.expansion.original(name)
     }
 
     /// The machine as a linkage.

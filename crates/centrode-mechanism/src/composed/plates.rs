@@ -140,7 +140,10 @@ impl Composed {
         let layer = match written {
             _ if name == FRAME => -1.0,
             Some(layer) => f64::from(layer),
-            None => body as f64 - 1.0,
+            None => {
+                let original = self.body_named(self.original(name));
+                original.unwrap_or(body) as f64 - 1.0
+            }
         };
         layer * (spec.thickness + spec.gap)
     }

@@ -3,6 +3,7 @@ use std::collections::BTreeMap;
 use centrode_geometry::{Point, Vector};
 use nalgebra::Rotation2;
 
+use super::copies::Expansion;
 use super::design::FRAME;
 use super::{
     ComposedBodySpec, ComposedCamSpec, ComposedDesign, ComposedDyadSpec, ComposedError, CornerSpec,
@@ -109,7 +110,10 @@ pub(super) fn followed_cam<'a>(
 }
 
 /// The points of every body: those it is given, and those at which it is pinned to others.
-pub(super) fn points_of(design: &ComposedDesign) -> Result<BodyPoints, ComposedError> {
+pub(super) fn points_of(
+    design: &ComposedDesign,
+    expansion: &Expansion,
+) -> Result<BodyPoints, ComposedError> {
     let mut all = BodyPoints::new();
     all.insert(FRAME.into(), BTreeMap::new());
     for (name, body) in &design.bodies {
@@ -121,7 +125,7 @@ pub(super) fn points_of(design: &ComposedDesign) -> Result<BodyPoints, ComposedE
                 let names = vec![format!("body {name}")];
                 return Err(ComposedError::Ring { key, names });
             }
-            let pin = pin.point.unwrap_or_default();
+            let pin = expansion.pin(&pin);
             add(&mut all, &key, [name, &pin], Point::origin(), false)?;
         }
     }
@@ -138,7 +142,7 @@ pub(super) fn points_of(design: &ComposedDesign) -> Result<BodyPoints, ComposedE
         }
     }
     for (name, dyad) in &design.dyads {
-        pins(&format!("dyads.{name}"), dyad, &mut all)?;
+        pins(&format!("dyads.{name}"), (dyad, expansion), &mut all)?;
     }
     let frame = &design.frame;
     let of_frame = (FRAME.to_owned(), (FRAME, &frame.points, &frame.corners));
@@ -160,7 +164,11 @@ pub(super) fn points_of(design: &ComposedDesign) -> Result<BodyPoints, ComposedE
 }
 
 /// Adds the points at which a dyad's bodies are pinned, each in its body's axes.
-fn pins(key: &str, dyad: &ComposedDyadSpec, all: &mut BodyPoints) -> Result<(), ComposedError> {
+fn pins(
+    key: &str,
+    (dyad, expansion): (&ComposedDyadSpec, &Expansion),
+    all: &mut BodyPoints,
+) -> Result<(), ComposedError> {
     let [first, second] = &dyad.bodies;
     for body in &dyad.bodies {
         all.entry(body.clone()).or_default();
@@ -169,10 +177,8 @@ fn pins(key: &str, dyad: &ComposedDyadSpec, all: &mut BodyPoints) -> Result<(), 
     let along = |i: usize| Point::new(dyad.lengths.get(i).copied().unwrap_or(0.0), 0.0);
     let end = |word: &Option<String>, key: &str| -> Result<String, ComposedError> {
         let pin = word.as_ref().map(|word| Reference::to_point(key, word));
-        Ok(pin
-            .transpose()?
-            .and_then(|pin| pin.point)
-            .unwrap_or_default())
+        let pin = pin.transpose()?;
+        Ok(pin.map(|pin| expansion.pin(&pin)).unwrap_or_default())
     };
     let [from_key, to_key] = ["from", "to"].map(|end| format!("{key}.{end}"));
     let (from, to) = (end(&dyad.from, &from_key)?, end(&dyad.to, &to_key)?);

@@ -4,6 +4,7 @@ use std::sync::Arc;
 use centrode_geometry::Point;
 
 use super::build::range;
+use super::copies::Expansion;
 use super::design::FRAME;
 use super::gearing::{Meshing, gears_of};
 use super::points::{BodyPoints, Reference, followed_cam, points_of};
@@ -24,6 +25,8 @@ enum Node<'a> {
 /// A composed machine under construction.
 pub(super) struct Builder<'a> {
     pub(super) design: &'a ComposedDesign,
+    /// Inputs by which laws run ahead, by the body, rad.
+    pub(super) ahead: &'a BTreeMap<String, f64>,
     pub(super) points: BodyPoints,
     pub(super) linkage: Linkage,
     /// Bodies in the order of building, and those that dyads have yet to be followed for.
@@ -45,8 +48,20 @@ impl Composed {
     /// [`ComposedError`] naming the key at fault.
     pub fn resolve(design: &ComposedDesign) -> Result<Self, ComposedError> {
         design.validate()?;
+        match design.copies.is_empty() {
+            true => Self::built(design, design, Expansion::default()),
+            false => Self::with_copies(design),
+        }
+    }
+
+    /// Builds a design whose copies are written out.
+    pub(super) fn built(
+        written: &ComposedDesign,
+        design: &ComposedDesign,
+        expansion: Expansion,
+    ) -> Result<Self, ComposedError> {
         holders(design)?;
-        let points = points_of(design)?;
+        let points = points_of(design, &expansion)?;
         let mut builder = Builder {
             gears: gears_of(design, &points)?,
             meshes: Vec::new(),
@@ -61,6 +76,7 @@ impl Composed {
             dyads: Vec::new(),
             pins: Vec::new(),
             followed: Vec::new(),
+            ahead: &expansion.ahead,
             design,
         };
         builder.build()?;
@@ -68,6 +84,7 @@ impl Composed {
         builder.check_loops()?;
         builder.check_cams()?;
         let mut made = Self {
+            written: written.clone(),
             design: design.clone(),
             linkage: builder.linkage,
             bodies: builder.bodies,
@@ -78,6 +95,7 @@ impl Composed {
             gears: builder.gears,
             meshes: builder.meshes,
             cams: builder.cams.into_values().collect(),
+            expansion,
         };
         let goals = design.goals.iter();
         let figures = goals.map(|(name, goal)| {

@@ -4,6 +4,7 @@ use super::*;
 use crate::design::{DesignFamily, DesignFile, DesignSpec};
 
 mod cams;
+mod copies;
 mod gears;
 mod random;
 

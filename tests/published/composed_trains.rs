@@ -1,0 +1,122 @@
+use std::f64::consts::{PI, TAU};
+
+use centrode_geometry::{Point, Vector};
+use centrode_mechanism::composed::{Composed, ComposedDesign};
+use centrode_mechanism::design::DesignSpec as _;
+use centrode_mechanism::three_arm::ThreeArm;
+use centrode_mechanism::three_arm::design::ThreeArmDesign;
+use centrode_mechanism::transmission::MotionJet;
+
+use crate::data::file;
+
+fn text(name: &str) -> String {
+    std::fs::read_to_string(file(&format!("designs/{name}.toml"))).expect("shipped")
+}
+
+fn made(name: &str) -> Composed {
+    let design = ComposedDesign::from_toml(&text(name)).expect("a design");
+    Composed::resolve(&design).expect("a machine")
+}
+
+/// Greatest difference of two motions, whole turns aside.
+fn apart(one: &MotionJet, other: &MotionJet) -> f64 {
+    let turns = ((one.position - other.position) / TAU).round();
+    let position = one.position - other.position - TAU * turns;
+    let velocity = one.velocity - other.velocity;
+    position.abs().max(velocity.abs())
+}
+
+#[test]
+fn the_composed_transplanter_moves_as_the_family_of_its_own() {
+    let composed = made("rice-transplanter");
+    let design = ThreeArmDesign::from_toml(&text("three-arm-2021")).expect("a design");
+    let family = ThreeArm::resolve(&design).expect("a mechanism");
+    let pusher = family.pusher().expect("push rods");
+    for i in 0..90 {
+        let input = 0.0701 * f64::from(i);
+        for arm in 0..3 {
+            let name = |of: &str| match arm {
+                0 => of.to_owned(),
+                _ => format!("{of}-{}", arm + 1),
+            };
+            let body = |of: &str| composed.body_named(&name(of)).expect("there");
+            let near = |what: &str, off: f64| {
+                assert!(off < 1e-9, "{what} of arm {arm} at {input}: {off}");
+            };
+            let own = family.own_input(input, arm);
+            let train = family.train().at(own);
+            let planet = composed.angle(body("planet"), input);
+            near("planet", apart(&planet, &train.planet));
+            let idler = composed.angle(body("idler"), input);
+            near("idler", apart(&idler, &train.intermediate));
+            let tip = composed.point(body("arm"), Point::new(145.0, 0.0), input);
+            let theirs = family.tip(input, arm);
+            near("tip", (tip.point - theirs.position).norm());
+            near("tip's velocity", (tip.first - theirs.velocity).norm());
+            // Along its way, from where it is thrown out.
+            let rod = &composed.bodies()[body("rod")]
+                .mount
+                .as_ref()
+                .expect("held")
+                .law;
+            let (rod, theirs) = (rod.at(input), pusher.retraction(own));
+            near("rod", (rod.position + theirs.position).abs());
+            near("rod's velocity", (rod.velocity + theirs.velocity).abs());
+            let fork = composed.angle(body("fork"), input);
+            let fork = fork.plus(-1.0, &composed.angle(body("arm"), input));
+            let swung = pusher.fork_angle(&theirs);
+            near("fork's velocity", (fork.velocity - swung.velocity).abs());
+        }
+    }
+    let carrier = composed.body_named("carrier").expect("there");
+    let turned = composed.angle(carrier, 1.0).position;
+    assert!((turned - (86.0_f64.to_radians() - 1.0)).abs() < 1e-12);
+}
+
+/// The polynomial of fifth degree from 0 to a rise over a span, with one rate at both ends and no acceleration, by Hermite's
+/// basis in powers.
+fn quintic(rise: f64, span: f64, rate: f64, at: f64) -> f64 {
+    let (s, rest) = (at / span, rise - rate * span);
+    rate * at + rest * s * s * s * (10.0 - 15.0 * s + 6.0 * s * s)
+}
+
+#[test]
+fn the_indexing_table_stands_still_and_turns_by_a_quarter_a_turn_of_the_shaft() {
+    let index = made("index-table");
+    let [hub, table, lever] =
+        ["hub", "table", "lever"].map(|name| index.body_named(name).expect("there"));
+    let [rise, dwell] = [PI / 6.0, PI / 3.0];
+    let swing = |input: f64| {
+        let at = input.rem_euclid(TAU);
+        match at < dwell {
+            true => 0.5 * at,
+            false => rise + quintic(-rise, TAU - dwell, 0.5, at - dwell),
+        }
+    };
+    let start = |body: usize| index.angle(body, 0.0).position;
+    for i in 0..400 {
+        let input = 0.0631 * f64::from(i);
+        let turned = |body: usize| index.angle(body, input).position - start(body);
+        let expected = input - 2.0 * swing(input);
+        assert!(
+            (turned(lever) - input - swing(input)).abs() < 1e-12,
+            "{input}"
+        );
+        assert!((turned(hub) - expected).abs() < 1e-11, "{input}");
+        assert!((turned(table) + 0.25 * expected).abs() < 1e-11, "{input}");
+        if input.rem_euclid(TAU) < dwell - 1e-3 {
+            let jet = index.angle(table, input);
+            let size = jet
+                .velocity
+                .abs()
+                .max(jet.acceleration.abs())
+                .max(jet.jerk.abs());
+            assert!(size < 1e-12, "{input}: {jet:?}");
+        }
+    }
+    let whole = index.angle(table, index.period()).position - start(table);
+    assert!((whole + TAU).abs() < 1e-11);
+    let seat = index.point_named("table.seat").expect("a seat");
+    let radius = index.place(seat.0, seat.1, 1.0) - index.place(table, Point::origin(), 1.0);
+    assert!((Vector::norm(&radius) - 50.0).abs() < 1e-12);
+}
