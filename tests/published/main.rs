@@ -1,6 +1,7 @@
 //! Published figures, recomputed to 25 digits by the oracle.
 
 mod all_goals;
+mod composed;
 mod composed_trains;
 mod data;
 mod feeder;

@@ -1,7 +1,7 @@
 use centrode_geometry::{Tolerance, extremes};
 use centrode_mechanism::composed::{Composed, ComposedFigure, ComposedGoalSpec, Over, PointPart};
 
-use super::ends;
+use super::{ends, within};
 use crate::interference::between_links;
 use crate::{Goal, Unit};
 
@@ -23,9 +23,9 @@ pub(super) fn goals(composed: &Composed) -> Vec<Found> {
         .map(|(number, ((name, spec), figure))| {
             let (value, input) = value(composed, figure, spec, &ends);
             let title = if spec.title.is_empty() {
-                &spec.figure
+                format!("{name}: {}", spec.words())
             } else {
-                &spec.title
+                spec.title.clone()
             };
             let unit = unit(figure);
             let kept = |shown: f64| shown / unit.factor();
@@ -36,7 +36,7 @@ pub(super) fn goals(composed: &Composed) -> Vec<Found> {
                 .fold(0.0, |size: f64, w| size.max(w.abs()));
             let usual = if size > 0.0 { size } else { kept(1.0) };
             let scale = spec.scale.map_or(usual, kept);
-            let about = (number, name.clone(), title.clone());
+            let about = (number, name.clone(), title);
             let goal = Goal::new(about, value, wanted, unit, scale);
             Found { goal, input }
         })
@@ -74,7 +74,10 @@ fn value(
         let input = spec.at.unwrap_or(0.0);
         return (Some(at(input)), Some(input));
     };
-    let [least, greatest] = extremes(at, ends);
+    let [least, greatest] = match spec.within[..] {
+        [from, to] => extremes(at, &within(composed, from, to)),
+        _ => extremes(at, ends),
+    };
     match over {
         Over::Least => (Some(least.value), Some(least.input)),
         Over::Greatest => (Some(greatest.value), Some(greatest.input)),

@@ -60,9 +60,21 @@ pub(crate) fn goals_of(composed: &Composed) -> Vec<Goal> {
 
 /// Ends of the parts of a cycle between which all motion is smooth.
 fn ends(composed: &Composed) -> Vec<f64> {
-    let parts = PARTS * composed.design().input.turns;
-    let breaks = composed.linkage().breaks();
-    pieces(0.0, composed.period(), parts, breaks)
+    within(composed, 0.0, composed.period())
+}
+
+/// Ends of the parts of a stretch of inputs between which all motion is smooth.
+fn within(composed: &Composed, from: f64, to: f64) -> Vec<f64> {
+    let period = composed.period();
+    let cycles = (from / period).floor() as i64..=(to / period).floor() as i64;
+    let breaks: Vec<f64> = cycles
+        .flat_map(|cycle| {
+            let breaks = composed.linkage().breaks().iter();
+            breaks.map(move |b| b + cycle as f64 * period)
+        })
+        .collect();
+    let parts = (f64::from(PARTS) * (to - from) / std::f64::consts::TAU).ceil();
+    pieces(from, to, parts as u32, &breaks)
 }
 
 /// Transmission angles of the dyads.

@@ -188,7 +188,7 @@ fn every_form_of_figure_is_measured_as_its_closed_form_has_it() {
         .collect();
     assert_eq!(missed.len(), 1, "{missed:?}");
     assert!(
-        missed[0].contains("B.speed: 483.81 mm/s, missed by 482.81 mm/s"),
+        missed[0].contains("crank-speed: B.speed at 40 deg: 483.81 mm/s, missed by 482.81 mm/s"),
         "{missed:?}"
     );
 }

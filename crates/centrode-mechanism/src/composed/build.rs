@@ -5,10 +5,11 @@ use centrode_geometry::{Point, extremes, pieces};
 use super::copying;
 use super::resolve::{Builder, blame};
 use super::{
-    ComposedBody, ComposedDyad, ComposedDyadSpec, ComposedError, DyadKind, Mount, Pin, Side,
+    ComposedBody, ComposedDyad, ComposedDyadSpec, ComposedError, ComposedLawSpec, DyadKind, Mount,
+    Pin, Side,
 };
 use crate::linkage::{Branch, Coordinate, Joint, Line, Link, Linkage};
-use crate::machine::Constant;
+use crate::machine::{Constant, JointKind};
 use crate::transmission::Transmission;
 
 /// Parts of a cycle in each of which a slide has few extremes.
@@ -62,16 +63,7 @@ impl Builder<'_> {
         };
         let law = match &law.follows {
             Some(cam) => self.following(name, body, cam)?,
-            None => law
-                .resolve(design.input.turns, body.slides.is_some())
-                .map_err(|error| ComposedError::Law {
-                    body: name.into(),
-                    error,
-                })?,
-        };
-        let law = match self.ahead.get(name) {
-            Some(&by) => copying::ahead(law, by),
-            None => law,
+            None => self.law(name, law, body.slides.is_some())?,
         };
         let key = format!("bodies.{name}.on");
         if let Some(angle) = body.slides {
@@ -90,6 +82,43 @@ impl Builder<'_> {
             );
         }
         Ok(())
+    }
+
+    /// Motion of a body that slides or turns by a law.
+    fn law(
+        &mut self,
+        name: &str,
+        law: &ComposedLawSpec,
+        slides: bool,
+    ) -> Result<Arc<dyn Transmission>, ComposedError> {
+        let by = match &law.by {
+            Some(by) => Some(self.turn_of(&format!("bodies.{name}.law.by"), by)?),
+            None => None,
+        };
+        let law = law.resolve(self.design.input.turns, slides, by);
+        let law = law.map_err(|error| ComposedError::Law {
+            body: name.into(),
+            error,
+        })?;
+        Ok(match self.ahead.get(name) {
+            Some(&by) => copying::ahead(law, by),
+            None => law,
+        })
+    }
+
+    /// Turn on its own pin of a body that is there.
+    fn turn_of(&mut self, key: &str, name: &str) -> Result<Arc<dyn Transmission>, ComposedError> {
+        // Those of dyads before it.
+        self.follow()?;
+        let body = self.body_named(name);
+        let mount = body.and_then(|body| self.bodies[body].mount.as_ref());
+        match mount {
+            Some(mount) if mount.kind == JointKind::Turning => Ok(Arc::clone(&mount.law)),
+            _ => Err(ComposedError::NoTurn {
+                key: key.into(),
+                body: name.into(),
+            }),
+        }
     }
 
     pub(super) fn add_dyad(

@@ -352,7 +352,12 @@ impl Piece<'_> {
             }
             return Ok(copy);
         }
-        let moves = law.moves();
+        // What a copied body drives is copied with it.
+        let driven = law.by.as_ref().filter(|by| self.bodies.contains(*by));
+        let moves = law.moves() && driven.is_none();
+        if let Some(by) = driven.cloned() {
+            law.by = Some(format!("{by}-{}", self.number));
+        }
         if body.slides.is_none() {
             law.start_angle = self.direction(body.on.as_ref(), law.start_angle);
         }

@@ -54,6 +54,16 @@ pub enum ComposedError {
         /// Name of the points.
         point: String,
     },
+    /// A body that cannot drive another by its turn.
+    #[error(
+        "body {body:?} does not turn on a pin: only a body that does can take the place of the input"
+    )]
+    NoTurn {
+        /// Key that names it.
+        key: String,
+        /// The body.
+        body: String,
+    },
     /// A body that is driven or tied twice.
     #[error("body {body:?} is held already by {by}: it can be held by one of them only")]
     HeldTwice {
@@ -214,7 +224,6 @@ pub enum ComposedError {
     },
 }
 
-/// Inputs at which a dyad closes, in words.
 /// Missing length, in words; none where the dyad only just reaches.
 fn short(missing: f64) -> String {
     if missing > 0.0 && missing < 1e9 {
@@ -226,6 +235,7 @@ fn short(missing: f64) -> String {
     }
 }
 
+/// Inputs at which a dyad closes, in words.
 fn closes(open: &[(f64, f64)]) -> String {
     if open.is_empty() {
         return "closes nowhere".into();
@@ -264,6 +274,7 @@ impl ComposedError {
             | Self::NoDirection { key, .. }
             | Self::NoFigure { key, .. }
             | Self::NoDyad { key, .. }
+            | Self::NoTurn { key, .. }
             | Self::NoGear { key, .. }
             | Self::NoMesh { key, .. }
             | Self::NoFollower { key, .. }

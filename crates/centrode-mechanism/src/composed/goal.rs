@@ -26,6 +26,15 @@ pub struct ComposedGoalSpec {
     )]
     #[schemars(with = "Option<f64>")]
     pub at: Option<f64>,
+    /// Inputs between which the extreme is looked for, rad (degrees in the file); left out, the cycle.
+    #[serde(
+        default,
+        rename = "within_deg",
+        with = "degrees::list",
+        skip_serializing_if = "Vec::is_empty"
+    )]
+    #[schemars(with = "Vec<f64>")]
+    pub within: Vec<f64>,
     /// Least figure wanted.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub at_least: Option<f64>,
@@ -53,6 +62,18 @@ pub enum Over {
 }
 
 impl ComposedGoalSpec {
+    /// Figure and where it counts, in words.
+    #[must_use]
+    pub fn words(&self) -> String {
+        let figure = &self.figure;
+        match (self.over, self.at) {
+            (Some(Over::Least), _) => format!("least {figure}"),
+            (Some(Over::Greatest), _) => format!("greatest {figure}"),
+            (Some(Over::Span), _) => format!("span of {figure}"),
+            (None, at) => format!("{figure} at {} deg", at.unwrap_or(0.0).to_degrees()),
+        }
+    }
+
     /// Least and greatest figure wanted, in the unit shown.
     #[must_use]
     pub fn wanted(&self) -> [Option<f64>; 2] {
@@ -70,6 +91,19 @@ impl ComposedGoalSpec {
             _ => {}
         }
         finite("at_deg", self.at.unwrap_or(0.0))?;
+        for &end in &self.within {
+            finite("within_deg", end)?;
+        }
+        match self.within[..] {
+            [] => {}
+            _ if self.over.is_none() => return broken("within_deg", Rule::Unused("without over")),
+            [from, to] if from < to => {}
+            [from, to] => {
+                let rule = Rule::NotInOrder(from.to_degrees(), to.to_degrees());
+                return broken("within_deg", rule);
+            }
+            _ => return broken("within_deg", Rule::Needed("as two inputs, from and to")),
+        }
         for (key, value) in [("at_least", self.at_least), ("at_most", self.at_most)] {
             if value.is_some() && self.between.is_some() {
                 return broken(key, Rule::Excludes("between"));

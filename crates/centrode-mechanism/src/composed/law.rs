@@ -4,6 +4,7 @@ use std::sync::Arc;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::{IntermittentSpec, TraverseSpec};
 use crate::cam::design::MotionSpec;
 use crate::cam::{Motion, MotionError};
 use crate::degrees;
@@ -13,7 +14,7 @@ use crate::gear::design::rule::{Rule, broken, finite, in_range};
 use crate::gear::pitch::Interpolation;
 use crate::gear::pitch::periodic::Periodic;
 use crate::machine::Linear;
-use crate::transmission::{FromFn, MotionJet, Transmission};
+use crate::transmission::{Chain, FromFn, MotionJet, Transmission, TransmissionError};
 
 /// Greatest difference of a law's ends over a period that is rounding, as a share of its size or of 1 rad or mm.
 const ROUNDING: f64 = 1e-9;
@@ -58,6 +59,15 @@ pub struct ComposedLawSpec {
     /// Cam that moves the body as its follower.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub follows: Option<String>,
+    /// Turning and rest, as of a gear that an incomplete gear drives.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub intermittent: Option<IntermittentSpec>,
+    /// Strokes out and back, as of a slider in the groove of a spiral shaft.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub traverse: Option<TraverseSpec>,
+    /// Body whose turn on its own pin takes the place of the input.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub by: Option<String>,
 }
 
 /// Reason why there is no such law.
@@ -79,15 +89,32 @@ pub enum ComposedLawError {
     /// A table that makes no curve.
     #[error("{0}")]
     Table(String),
+    /// An intermittent drive or a groove that cannot be.
+    #[error("{why}")]
+    Drive {
+        /// Key of the drive.
+        key: &'static str,
+        /// The rule broken.
+        why: String,
+    },
+    /// A motion that never comes back as the body it follows does.
+    #[error(transparent)]
+    By(#[from] TransmissionError),
     /// A turning body that is not back in place after a period.
     #[error(
-        "turns the body by {turns} turns in the period of {period} turns of the input, which must be a whole number: set input.turns"
+        "turns the body by {turns} turns in the period of {period} turns of the input, and is not back: {}",
+        match least {
+            Some(least) => format!("set input.turns to {least} or a multiple of it"),
+            None => "no input.turns up to 60 bring it back".into(),
+        }
     )]
     NoWholeTurns {
         /// Turns of the body.
         turns: f64,
         /// Turns of the input.
         period: u32,
+        /// Least turns of the input after which it is back.
+        least: Option<u32>,
     },
     /// A motion that does not come back.
     #[error("{what} is {start} at the start of the period and {end} at its end")]
@@ -109,6 +136,8 @@ impl ComposedLawError {
             Self::Formula(_) | Self::NoValue { .. } | Self::Open { .. } => "expression".into(),
             Self::Cam(error) => format!("cam.{}", error.key()),
             Self::Table(_) => "table".into(),
+            Self::Drive { key, .. } => (*key).into(),
+            Self::By(_) => "by".into(),
             Self::NoWholeTurns { .. } => "ratio".into(),
         }
     }
@@ -123,6 +152,8 @@ impl ComposedLawSpec {
             ("table", !self.table.is_empty()),
             ("cam", self.cam.is_some()),
             ("follows", self.follows.is_some()),
+            ("intermittent", self.intermittent.is_some()),
+            ("traverse", self.traverse.is_some()),
         ];
         let mut motions = given.into_iter().filter(|(_, given)| *given);
         let first = motions.next();
@@ -131,8 +162,14 @@ impl ComposedLawSpec {
         }
         if first.is_none() && self.start_angle.is_none() && self.start.is_none() {
             let key = if slides { "start" } else { "start_deg" };
-            let keys = "start_deg, start, ratio, expression, table_deg, table, cam and follows";
+            let keys = "start_deg, start, ratio, expression, table_deg, table, cam, intermittent, traverse and follows";
             return broken(key, Rule::NeedsOneOf(keys));
+        }
+        if first.is_none() && self.by.is_some() {
+            return broken("by", Rule::Unused("but for a law that moves"));
+        }
+        if self.follows.is_some() && self.by.is_some() {
+            return broken("by", Rule::Excludes("follows"));
         }
         let only = "but for a body that turns";
         let strange: &[(&str, bool)] = if slides {
@@ -140,11 +177,13 @@ impl ComposedLawSpec {
                 ("start_deg", self.start_angle.is_some()),
                 ("ratio", self.ratio.is_some()),
                 ("table_deg", !self.table_angles.is_empty()),
+                ("intermittent", self.intermittent.is_some()),
             ]
         } else {
             &[
                 ("start", self.start.is_some()),
                 ("table", !self.table.is_empty()),
+                ("traverse", self.traverse.is_some()),
             ]
         };
         if let Some((key, _)) = strange.iter().find(|(_, given)| *given) {
@@ -164,6 +203,12 @@ impl ComposedLawSpec {
         for &value in self.table.iter().chain(&self.table_angles) {
             finite(if slides { "table" } else { "table_deg" }, value)?;
         }
+        if let Some(gears) = &self.intermittent {
+            gears.validate().map_err(|e| e.inside("intermittent"))?;
+        }
+        if let Some(groove) = &self.traverse {
+            groove.validate().map_err(|e| e.inside("traverse"))?;
+        }
         let Some(cam) = &self.cam else {
             return Ok(());
         };
@@ -181,7 +226,8 @@ impl ComposedLawSpec {
     pub(super) fn moves(&self) -> bool {
         let turns = self.ratio.is_some_and(|ratio| ratio != 0.0);
         let table = !self.table_angles.is_empty() || !self.table.is_empty();
-        turns || table || self.expression.is_some() || self.cam.is_some()
+        let drive = self.intermittent.is_some() || self.traverse.is_some();
+        turns || table || drive || self.expression.is_some() || self.cam.is_some()
     }
 
     /// Start of the motion, rad or mm.
@@ -189,7 +235,9 @@ impl ComposedLawSpec {
         self.start_angle.or(self.start).unwrap_or(0.0)
     }
 
-    /// The law over a period of so many turns of the input, of a body that slides or turns and follows no cam.
+    /// The law over a period of so many turns of the input, of a body that slides or turns and follows no
+    /// cam; `by` is the turn of the body that
+    /// takes the place of the input.
     ///
     /// # Errors
     /// [`ComposedLawError`] where it cannot be read, or does not come back.
@@ -197,50 +245,90 @@ impl ComposedLawSpec {
         &self,
         turns: u32,
         slides: bool,
+        by: Option<Arc<dyn Transmission>>,
     ) -> Result<Arc<dyn Transmission>, ComposedLawError> {
-        let start = self.offset();
         let period = TAU * f64::from(turns);
+        let law = match by {
+            None => self.motion(turns)?,
+            Some(by) => {
+                // A cycle of what it follows: its turns in the period, or one where it swings.
+                let turned = by.advance() * period / (by.period() * TAU);
+                let own = self.motion(turned.abs().round().max(1.0) as u32)?;
+                Arc::new(Chain::new(own, by)?)
+            }
+        };
+        let advance = law.advance() * period / law.period();
+        if slides && advance != 0.0 {
+            let what = "its place";
+            let start = law.at(0.0).position;
+            let end = start + advance;
+            return Err(ComposedLawError::Open { what, start, end });
+        }
+        let turned = advance / TAU;
+        let repeats = period / law.period();
+        if (turned - turned.round()).abs() > ROUNDING
+            || (repeats - repeats.round()).abs() > ROUNDING
+        {
+            return Err(ComposedLawError::NoWholeTurns {
+                turns: turned,
+                period: turns,
+                least: least_turns(law.as_ref()),
+            });
+        }
+        Ok(law)
+    }
+
+    /// The law by its own input over so many turns of that.
+    fn motion(&self, turns: u32) -> Result<Arc<dyn Transmission>, ComposedLawError> {
+        let start = self.offset();
         let table = match (&self.table[..], &self.table_angles[..]) {
             ([], angles) => angles,
             (places, _) => places,
         };
-        let law: Arc<dyn Transmission> = if let Some(text) = &self.expression {
-            expression(text, start, period)?
-        } else if !table.is_empty() {
+        let drive = |key: &'static str| move |why: String| ComposedLawError::Drive { key, why };
+        if let Some(text) = &self.expression {
+            return expression(text, start, TAU * f64::from(turns));
+        }
+        if !table.is_empty() {
             let samples: Vec<f64> = table.iter().map(|value| start + value).collect();
             let curve = Periodic::even("table", &samples, Interpolation::Quintic);
             let curve = curve.map_err(|e| ComposedLawError::Table(e.to_string()))?;
             let scale = 1.0 / f64::from(turns);
             let jumps = curve.breaks().into_iter().map(|b| b / scale).collect();
             let at = move |input: f64| stretched(&MotionJet::of(&curve.at(input * scale)), scale);
-            Arc::new(FromFn::new(period, 0.0, jumps, at))
-        } else if let Some(cam) = &self.cam {
-            let motion = Motion::resolve(cam)?;
-            let jumps = motion.breaks();
-            Arc::new(FromFn::new(TAU, 0.0, jumps, move |input| {
-                let mut jet = motion.at(input);
-                jet.position += start;
-                jet
-            }))
+            return Ok(Arc::new(FromFn::new(TAU / scale, 0.0, jumps, at)));
+        }
+        let moved: Arc<dyn Transmission> = if let Some(cam) = &self.cam {
+            Arc::new(Motion::resolve(cam)?)
+        } else if let Some(gears) = &self.intermittent {
+            gears.resolve().map_err(drive("intermittent"))?
+        } else if let Some(groove) = &self.traverse {
+            groove.resolve().map_err(drive("traverse"))?
         } else {
             let slope = self.ratio.unwrap_or(0.0);
-            Arc::new(Linear { start, slope })
+            return Ok(Arc::new(Linear { start, slope }));
         };
-        let advance = law.advance() * period / law.period();
-        if slides && advance != 0.0 {
-            let what = "its place";
-            let end = start + advance;
-            return Err(ComposedLawError::Open { what, start, end });
+        if start == 0.0 {
+            return Ok(moved);
         }
-        let turned = advance / TAU;
-        if (turned - turned.round()).abs() > ROUNDING {
-            return Err(ComposedLawError::NoWholeTurns {
-                turns: turned,
-                period: turns,
-            });
-        }
-        Ok(law)
+        let [period, advance] = [moved.period(), moved.advance()];
+        let shifted = FromFn::new(period, advance, moved.breaks(), move |input| {
+            let mut jet = moved.at(input);
+            jet.position += start;
+            jet
+        });
+        Ok(Arc::new(shifted))
     }
+}
+
+/// Least number of turns of the input, up to a limit, after which a motion is back, whole turns of its own aside.
+fn least_turns(law: &dyn Transmission) -> Option<u32> {
+    const MOST: u32 = 60;
+    let whole = |x: f64| (x - x.round()).abs() <= ROUNDING;
+    (1..=MOST).find(|&turns| {
+        let repeats = TAU * f64::from(turns) / law.period();
+        whole(repeats) && whole(repeats * law.advance() / TAU)
+    })
 }
 
 /// A jet by an input of which its own is `scale` times.

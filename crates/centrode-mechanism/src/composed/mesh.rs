@@ -121,6 +121,8 @@ impl MeshLaw {
             advance: 0.0,
             breaks: Vec::new(),
         };
+        // The cycle begins within half a turn of zero.
+        law.mount += TAU * (law.at(0.0).position / TAU).round();
         law.advance = law.at(period).position - law.at(0.0).position;
         law.breaks = law.jumps();
         law

@@ -12,6 +12,7 @@ mod copies;
 mod copying;
 mod corner;
 mod design;
+mod drive;
 mod dyad;
 mod error;
 mod figure;
@@ -40,6 +41,7 @@ pub use cams::{
 pub use copies::ComposedCopiesSpec;
 pub use corner::{ComposedPointsSpec, CornerSpec, Side};
 pub use design::{ComposedDesign, ComposedInputSpec};
+pub use drive::{IntermittentSpec, TraverseSpec};
 pub use dyad::{ComposedDyadSpec, DyadKind};
 pub use error::ComposedError;
 pub use figure::{ComposedFigure, FIGURE_FORMS, PointPart};

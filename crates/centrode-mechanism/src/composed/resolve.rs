@@ -222,6 +222,16 @@ impl<'a> Builder<'a> {
             bodies.push(reference.body);
         }
         if let Node::Body(name) = node
+            && let Some(by) = self.design.bodies[*name]
+                .law
+                .as_ref()
+                .and_then(|law| law.by.as_ref())
+        {
+            let reference = Reference::to_body(by);
+            reference.find(&format!("{key}.law.by"), &self.points)?;
+            bodies.push(reference.body);
+        }
+        if let Node::Body(name) = node
             && let Some(mesh) = &self.design.bodies[*name].mesh
         {
             let with = self.gear(&format!("{key}.mesh.with"), &mesh.with)?;

@@ -129,6 +129,36 @@ fn bad_files_are_told_by_key_and_line() {
         ),
         (
             "law = { ratio = 1 }",
+            "law = { ratio = 1, by = \"thigh\" }",
+            "wait for each other",
+        ),
+        (
+            "law = { ratio = 1 }",
+            "law = { ratio = 1, by = \"frame\" }",
+            "bodies.crank.law.by: body \"frame\" does not turn on a pin",
+        ),
+        (
+            "law = { ratio = 1 }",
+            "law = { start_deg = 1, by = \"thigh\" }",
+            "bodies.crank.law.by: has no meaning but for a law that moves",
+        ),
+        (
+            "law = { ratio = 1 }",
+            "law = { traverse = { lead = 20, holes = 14 } }",
+            "bodies.crank.law.traverse: has no meaning but for a body that slides",
+        ),
+        (
+            "law = { ratio = 1 }",
+            "law = { intermittent = { driver_pitches = 30, driven_pitches = 30, teeth = 30 } }",
+            "bodies.crank.law.intermittent: 30 teeth and the entry and exit take",
+        ),
+        (
+            "law = { ratio = 1 }",
+            "law = \"input\"",
+            "bodies.crank.law: invalid type: string \"input\", expected a table",
+        ),
+        (
+            "law = { ratio = 1 }",
             "law = {}",
             "bodies.crank.law.start_deg: is missing: give one of",
         ),

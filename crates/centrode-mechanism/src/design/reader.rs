@@ -179,9 +179,19 @@ impl<'a> Reader<'a> {
         let plain = message
             .replace("floating point", "number")
             .replace("expected f64", "expected a number")
-            .replace("expected u32", "expected a whole number, not negative")
-            .replace("expected struct ", "expected a table: ");
-        self.error(DesignFault::WrongType(plain), key, offset)
+            .replace("expected u32", "expected a whole number, not negative");
+        self.error(DesignFault::WrongType(tabled(&plain)), key, offset)
+    }
+}
+
+/// A message with a table where it names a type of Rust.
+fn tabled(message: &str) -> String {
+    match message.split_once("expected struct ") {
+        Some((before, after)) => {
+            let rest = after.trim_start_matches(|c: char| c.is_alphanumeric() || c == '_');
+            format!("{before}expected a table{rest}")
+        }
+        None => message.into(),
     }
 }
 

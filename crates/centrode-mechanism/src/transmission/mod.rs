@@ -1,15 +1,14 @@
 //! Transmission function of a joint: its position as a function of the machine's input.
 
+mod chain;
 mod inverse;
 
 use std::fmt;
-use std::sync::Arc;
-
-use centrode_geometry::bracketed_root;
 
 use crate::formula::{Number, Taylor};
 use crate::machine::Piecewise;
 
+pub use chain::Chain;
 pub use inverse::Inverse;
 
 /// A position and its first three derivatives with respect to the input.
@@ -182,73 +181,6 @@ impl<F: Fn(f64) -> MotionJet + Send + Sync> Transmission for FromFn<F> {
     }
 }
 
-/// One transmission driven by another: `outer` of `inner`.
-#[derive(Clone, Debug)]
-pub struct Chain {
-    inner: Arc<dyn Transmission>,
-    outer: Arc<dyn Transmission>,
-}
-
-impl Chain {
-    /// Chains two transmissions, which must fit: what `inner` advances in its period is the period of `outer`.
-    ///
-    /// # Errors
-    /// [`TransmissionError::Periods`] where it is not.
-    pub fn new(
-        outer: Arc<dyn Transmission>,
-        inner: Arc<dyn Transmission>,
-    ) -> Result<Self, TransmissionError> {
-        let (advance, period) = (inner.advance().abs(), outer.period());
-        if (advance - period).abs() <= 1e-9 * period {
-            Ok(Self { inner, outer })
-        } else {
-            Err(TransmissionError::Periods { advance, period })
-        }
-    }
-}
-
-impl Transmission for Chain {
-    fn at(&self, input: f64) -> MotionJet {
-        let inner = self.inner.at(input);
-        self.outer.at(inner.position).after(&inner)
-    }
-
-    fn period(&self) -> f64 {
-        self.inner.period()
-    }
-
-    fn advance(&self) -> f64 {
-        self.outer.advance() * self.inner.advance().signum()
-    }
-
-    fn breaks(&self) -> Vec<f64> {
-        let period = self.inner.period();
-        let start = self.inner.at(0.0).position;
-        let end = start + self.inner.advance();
-        let outer = self.outer.breaks().into_iter().map(|b| {
-            // The one of the outer function's repeated breaks that the period meets.
-            let low = start.min(end);
-            let position = low + (b - low).rem_euclid(self.outer.period());
-            root(self.inner.as_ref(), position, 0.0, period).rem_euclid(period)
-        });
-        sorted(self.inner.breaks().into_iter().chain(outer), period)
-    }
-}
-
-/// Input in `[low, high]` at which a monotone transmission has a position; the nearer end where none.
-fn root(of: &dyn Transmission, position: f64, low: f64, high: f64) -> f64 {
-    let off = |input: f64| of.at(input).position - position;
-    let (at_low, at_high) = (off(low), off(high));
-    if at_low * at_high > 0.0 {
-        return if at_low.abs() < at_high.abs() {
-            low
-        } else {
-            high
-        };
-    }
-    bracketed_root(off, low, high, at_low, at_high)
-}
-
 /// Ascending breaks, without those that differ by rounding only.
 pub(crate) fn sorted(breaks: impl Iterator<Item = f64>, period: f64) -> Vec<f64> {
     let mut breaks: Vec<f64> = breaks.collect();
@@ -264,7 +196,7 @@ pub(crate) fn sorted(breaks: impl Iterator<Item = f64>, period: f64) -> Vec<f64>
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum TransmissionError {
-    /// The driving one does not run through whole cycles of the driven one.
+    /// The driving one does not run through one cycle of the driven one.
     #[error(
         "a cycle of the driving motion advances it by {advance}, but the driven one repeats after {period}"
     )]
@@ -273,6 +205,18 @@ pub enum TransmissionError {
         advance: f64,
         /// Period of the driven one.
         period: f64,
+    },
+    /// No number of cycles of the driving one is a whole number of cycles of the driven one.
+    #[error(
+        "a cycle of the driving motion advances it by {advance}, and the driven one repeats after {period}: up to {most} cycles of the one are no whole number of the other"
+    )]
+    NoCommonCycle {
+        /// Advance of the driving one in a period.
+        advance: f64,
+        /// Period of the driven one.
+        period: f64,
+        /// Greatest number tried.
+        most: u32,
     },
     /// A motion that must run one way stops or runs back.
     #[error("the motion must run one way, but at the input {input} rad its velocity is {velocity}")]
@@ -288,6 +232,7 @@ pub enum TransmissionError {
 mod tests {
     use super::*;
     use std::f64::consts::TAU;
+    use std::sync::Arc;
 
     /// t + 0.3 sin t, and its mirror image.
     fn wavy(sign: f64) -> Arc<dyn Transmission> {
@@ -318,7 +263,7 @@ mod tests {
             let law = wavy(sign);
             let inverse: Arc<dyn Transmission> =
                 Arc::new(Inverse::new(law.clone()).expect("monotone"));
-            let there_and_back = Chain::new(inverse, law).expect("fits");
+            let there_and_back = Chain::cycle_for_cycle(inverse, law).expect("fits");
             for i in -20..=20 {
                 let t = 0.7 * f64::from(i);
                 let expected = MotionJet {
@@ -360,7 +305,7 @@ mod tests {
             jerk: -t.cos(),
         }));
         assert!(matches!(
-            Chain::new(wavy(1.0), half.clone()),
+            Chain::cycle_for_cycle(wavy(1.0), half.clone()),
             Err(TransmissionError::Periods { .. })
         ));
         assert!(matches!(

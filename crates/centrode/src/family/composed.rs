@@ -1,6 +1,6 @@
 use centrode_analysis::optimise::composed::ComposedProblem;
 use centrode_analysis::optimise::{DesignProblem, NotSearched};
-use centrode_analysis::{Report, check_composed};
+use centrode_analysis::{Report, Unit, check_composed};
 use centrode_export::page::{Curve, Handle, HandlePlane, Picture};
 use centrode_export::{Bundle, ExportError, Format, Options};
 use centrode_export::{composed, machine};
@@ -25,10 +25,10 @@ impl Mechanism for Composed {
             _ => format!("{count} {many}"),
         };
         format!(
-            "{}, {}; {} a minute",
+            "{}, {}; input at {}",
             count(self.bodies().len() - 1, "body", "bodies"),
             count(self.dyads().len(), "dyad", "dyads"),
-            self.design().input.speed_rpm
+            Unit::TurnsPerMinute.tell(self.design().input.speed_rpm)
         )
     }
 

@@ -183,8 +183,8 @@ impl Fork {
             velocity: way,
             ..MotionJet::default()
         });
-        let input = Chain::new(Arc::new(Inverse::new(arm_angle)?), Arc::new(since))?;
-        let retraction = Chain::new(retraction, Arc::new(input))?;
+        let input = Chain::cycle_for_cycle(Arc::new(Inverse::new(arm_angle)?), Arc::new(since))?;
+        let retraction = Chain::cycle_for_cycle(retraction, Arc::new(input))?;
         self.cam(Arc::new(retraction), base_radius, rotation)
     }
 }

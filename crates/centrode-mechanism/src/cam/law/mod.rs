@@ -131,7 +131,10 @@ impl LawSpec {
 
 /// Keys that may be given beside `kind`; a derived reader would overlook stray keys beside the plain kinds.
 #[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(
+    deny_unknown_fields,
+    expecting = "a table, as in { kind = \"cycloidal\" }"
+)]
 struct Written {
     kind: String,
     start: Option<Vec<f64>>,

@@ -1,0 +1,181 @@
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
+use centrode_geometry::{bracketed_root, pieces};
+
+use super::{MotionJet, Transmission, TransmissionError, sorted};
+
+/// Most cycles of the driving motion in one of the chain.
+const MOST: u32 = 1000;
+/// Greatest miss of whole cycles that is rounding, as a share of one.
+const ROUNDING: f64 = 1e-9;
+/// Parts of a turn in each of which the driving motion passes a place at most once.
+const PARTS: f64 = 64.0;
+
+/// One transmission driven by another: `outer` of `inner`, which may stop and run back.
+#[derive(Clone, Debug)]
+pub struct Chain {
+    inner: Arc<dyn Transmission>,
+    outer: Arc<dyn Transmission>,
+    /// Cycles of the driving motion in one of the chain, and of the driven one, below zero where it runs backwards.
+    cycles: (f64, f64),
+}
+
+impl Chain {
+    /// Chains two transmissions: the chain repeats after the least number of the driving one's cycles that brings the driven one
+    /// through whole cycles, or none.
+    ///
+    /// # Errors
+    /// [`TransmissionError::NoCommonCycle`] where there is no such number up to 1,000.
+    pub fn new(
+        outer: Arc<dyn Transmission>,
+        inner: Arc<dyn Transmission>,
+    ) -> Result<Self, TransmissionError> {
+        let (advance, period) = (inner.advance(), outer.period());
+        let once = advance / period;
+        let whole = |cycles: &f64| {
+            let turned = cycles * once;
+            (turned - turned.round()).abs() <= ROUNDING * turned.abs().max(1.0)
+        };
+        let cycles = (1..=MOST).map(f64::from).find(whole);
+        let most = MOST;
+        let cycles = cycles.ok_or(TransmissionError::NoCommonCycle {
+            advance,
+            period,
+            most,
+        })?;
+        let cycles = (cycles, (cycles * once).round());
+        Ok(Self {
+            inner,
+            outer,
+            cycles,
+        })
+    }
+
+    /// Chains two transmissions of which one runs through a cycle, either way, as the other does.
+    ///
+    /// # Errors
+    /// [`TransmissionError::Periods`] where it does not.
+    pub fn cycle_for_cycle(
+        outer: Arc<dyn Transmission>,
+        inner: Arc<dyn Transmission>,
+    ) -> Result<Self, TransmissionError> {
+        let (advance, period) = (inner.advance().abs(), outer.period());
+        match Self::new(outer, inner) {
+            Ok(chain) if chain.cycles.0 == 1.0 && chain.cycles.1.abs() == 1.0 => Ok(chain),
+            _ => Err(TransmissionError::Periods { advance, period }),
+        }
+    }
+}
+
+impl Transmission for Chain {
+    fn at(&self, input: f64) -> MotionJet {
+        let inner = self.inner.at(input);
+        self.outer.at(inner.position).after(&inner)
+    }
+
+    fn period(&self) -> f64 {
+        self.cycles.0 * self.inner.period()
+    }
+
+    fn advance(&self) -> f64 {
+        self.cycles.1 * self.outer.advance()
+    }
+
+    fn breaks(&self) -> Vec<f64> {
+        let (once, period, cycle) = (self.inner.period(), self.period(), self.outer.period());
+        let repeats = 0..self.cycles.0 as u32;
+        let own = self.inner.breaks();
+        let mut found: Vec<f64> = repeats
+            .flat_map(|i| own.iter().map(move |b| b + f64::from(i) * once))
+            .collect();
+        let of_outer = self.outer.breaks();
+        if of_outer.is_empty() {
+            return sorted(found.into_iter(), period);
+        }
+        let place = |input: f64| self.inner.at(input).position;
+        let parts = (PARTS * period / TAU).ceil() as u32;
+        for ends in pieces(0.0, period, parts, &found).windows(2) {
+            let (from, to) = (place(ends[0]), place(ends[1]));
+            let (low, high) = (from.min(to), from.max(to));
+            for b in &of_outer {
+                let mut at = b + cycle * ((low - b) / cycle).ceil();
+                while at <= high {
+                    let off = |input: f64| place(input) - at;
+                    found.push(bracketed_root(off, ends[0], ends[1], from - at, to - at));
+                    at += cycle;
+                }
+            }
+        }
+        found.iter_mut().for_each(|b| *b = b.rem_euclid(period));
+        sorted(found.into_iter(), period)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::machine::Linear;
+    use crate::transmission::FromFn;
+
+    /// Swing of 2 rad to either side.
+    fn swing() -> Arc<dyn Transmission> {
+        Arc::new(FromFn::new(TAU, 0.0, Vec::new(), |t: f64| {
+            let (sin, cos) = t.sin_cos();
+            MotionJet {
+                position: 2.0 * sin,
+                velocity: 2.0 * cos,
+                acceleration: -2.0 * sin,
+                jerk: -2.0 * cos,
+            }
+        }))
+    }
+
+    fn broken_at(at: f64) -> Arc<dyn Transmission> {
+        Arc::new(FromFn::new(TAU, TAU, vec![at], |t: f64| MotionJet {
+            position: t,
+            velocity: 1.0,
+            ..MotionJet::default()
+        }))
+    }
+
+    #[test]
+    fn a_swing_passes_a_break_on_its_way_there_and_back() {
+        let chain = Chain::new(broken_at(1.0), swing()).expect("a swing comes back");
+        let half = 0.5_f64.asin();
+        let wanted = [half, std::f64::consts::PI - half];
+        assert_eq!(chain.advance(), 0.0);
+        let found = chain.breaks();
+        assert_eq!(found.len(), 2, "{found:?}");
+        for (one, other) in found.iter().zip(wanted) {
+            assert!((one - other).abs() < 1e-14);
+        }
+    }
+
+    #[test]
+    fn a_slow_drive_takes_several_cycles_for_one() {
+        let slow = Arc::new(Linear {
+            start: 0.0,
+            slope: -2.0 / 3.0,
+        });
+        let chain = Chain::new(broken_at(1.0), slow).expect("three cycles");
+        assert_eq!(chain.period(), 3.0 * TAU);
+        assert_eq!(chain.advance(), -2.0 * TAU);
+        let found = chain.breaks();
+        assert_eq!(found.len(), 2);
+        for b in found {
+            let place = (-2.0 / 3.0 * b).rem_euclid(TAU);
+            assert!((place - 1.0).abs() < 1e-14);
+        }
+    }
+
+    #[test]
+    fn cycles_without_a_common_one_are_refused() {
+        let odd = Arc::new(Linear {
+            start: 0.0,
+            slope: 0.5_f64.sqrt(),
+        });
+        let error = Chain::new(broken_at(1.0), odd).expect_err("no common cycle");
+        assert!(error.to_string().contains("no whole number"), "{error}");
+    }
+}
