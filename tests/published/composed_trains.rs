@@ -120,3 +120,35 @@ fn the_indexing_table_stands_still_and_turns_by_a_quarter_a_turn_of_the_shaft() 
     let radius = index.place(seat.0, seat.1, 1.0) - index.place(table, Point::origin(), 1.0);
     assert!((Vector::norm(&radius) - 50.0).abs() < 1e-12);
 }
+
+#[test]
+fn a_train_of_two_different_pairs_moves_as_its_closed_form() {
+    let train = made("two-stage");
+    let driven = |e: f64, x: f64| x + 2.0 * (e * x.sin()).atan2(1.0 - e * x.cos());
+    let near = |found: f64, expected: f64| {
+        let turns = (found - expected) / TAU;
+        (turns - turns.round()).abs() * TAU < 1e-10
+    };
+    // Two centre distances of an ellipse's long axis each: from the perimeter that the teeth divide.
+    let distances = ["first-wheel", "second-wheel"].map(|name| {
+        let gear = train.gears().iter().find(|gear| gear.name == name);
+        gear.expect("there").pair.center_distance()
+    });
+    for i in 0..60 {
+        let input = 0.21 * f64::from(i) - 3.0;
+        for (piece, name) in ["", "-2"].into_iter().enumerate() {
+            let body = |of: &str| train.body_named(&format!("{of}{name}")).expect("there");
+            let carrier = input + PI * piece as f64;
+            let idler = carrier + driven(0.2, carrier - 40.0_f64.to_radians());
+            let leg = carrier + 20.0_f64.to_radians();
+            let planet = leg + driven(0.12, leg - idler - 30.0_f64.to_radians());
+            assert!(near(train.angle(body("idler"), input).position, idler));
+            assert!(near(train.angle(body("planet"), input).position, planet));
+            let way = |angle: f64| Vector::new(angle.cos(), angle.sin());
+            let axis = way(carrier) * distances[0] + way(leg) * distances[1];
+            let tip = axis + way(planet + 15.0_f64.to_radians()) * 100.0;
+            let found = train.place(body("arm"), Point::new(100.0, 0.0), input);
+            assert!((found.coords - tip).norm() < 1e-9, "{name} {input}");
+        }
+    }
+}

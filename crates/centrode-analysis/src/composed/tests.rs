@@ -265,28 +265,38 @@ fn a_cam_has_its_figures_and_one_that_is_too_small_is_told() {
     );
     let steep = limits.rise_pressure_angle.value > std::f64::consts::FRAC_PI_4;
     assert_eq!(rules(&report).contains(&"cam-pressure-angle"), steep);
-    // A roller as large as the path's least radius of curvature leaves none of the profile's.
-    let largest = limits.largest_roller.expect("a roller").value;
-    let small = check_composed(&composed(
-        &INDEX
-            .replace(
-                "roller_radius = 6",
-                &format!("roller_radius = {}", 1.05 * largest),
-            )
-            .replace(
-                "base_radius = 32",
-                &format!("base_radius = {}", 38.0 - 1.05 * largest),
-            ),
-    ));
-    let told = small.findings.iter().find(|f| f.rule == "cam-undercut");
-    let told = told.expect("undercut");
-    assert!(
-        told.message.contains("cam still is undercut: lever cannot"),
-        "{}",
-        told.message
+    // A rise and a return of 20 degrees each leave a point too sharp for the roller.
+    let hasty = composed(
+        r#"family = "machine"
+[frame.points]
+O = [0, 0]
+[bodies.shaft]
+on = "frame.O"
+law = { ratio = -1 }
+[bodies.rod]
+on = "frame.O"
+slides_deg = 0
+law = { follows = "push" }
+[cams.push]
+on = "shaft"
+base_radius = 20
+follower = { kind = "translating-roller", roller_radius = 6 }
+[cams.push.motion]
+segments = [
+    { kind = "rise", span_deg = 20, lift = 8 },
+    { kind = "return", span_deg = 20, lift = 8 },
+    { kind = "dwell", span_deg = 320 },
+]
+"#,
     );
-    // The shaft's angle is the cam's here, some turn of four.
-    let input = told.place.input.expect("an input") % std::f64::consts::TAU;
-    let least = limits.largest_roller.expect("a roller").input;
-    assert!((input - least).abs() < 1e-6, "{input} {least}");
+    let report = check_composed(&hasty);
+    let told = report.findings.iter().find(|f| f.rule == "cam-undercut");
+    let told = told.expect("undercut");
+    let message = "cam push is undercut: rod cannot follow its motion there";
+    assert_eq!(told.message, message);
+    // The angle of the shaft is that of the cam here.
+    let least = hasty.cams()[0].disc().limits().regularity.input;
+    let input = told.place.input.expect("an input");
+    assert!((input - least).abs() < 1e-9, "{input} {least}");
+    assert!(rules(&report).contains(&"cam-pressure-angle"));
 }
