@@ -10,7 +10,10 @@ use centrode_mechanism::transmission::MotionJet;
 use crate::data::file;
 
 fn text(name: &str) -> String {
-    std::fs::read_to_string(file(&format!("designs/{name}.toml"))).expect("shipped")
+    let folders =
+        ["designs", "published/data"].map(|folder| file(&format!("{folder}/{name}.toml")));
+    let found = folders.iter().find(|path| path.is_file());
+    std::fs::read_to_string(found.expect(name)).expect("text")
 }
 
 fn made(name: &str) -> Composed {
