@@ -1,5 +1,6 @@
 use std::sync::Arc;
 
+use centrode_geometry::Point;
 use centrode_mechanism::composed::Composed;
 use pyo3::prelude::{Bound, PyClassInitializer, PyResult, Python, pyclass, pymethods};
 use pyo3::types::PyTuple;
@@ -44,6 +45,17 @@ fn checked(order: usize) -> Answer<usize> {
             "order",
             &format!("must be 0 to 3, not {order}"),
         )),
+    }
+}
+
+impl Machine {
+    /// Places of points at inputs, worked out side by side.
+    fn at_each(&self, phi: Values, tail: &[usize], points: Vec<(usize, Point)>) -> Course {
+        let made = Arc::clone(&self.0);
+        Course::together(phi, tail, move |phi| {
+            let places = made.places_each(&points, phi).into_iter();
+            Ok(places.flat_map(|p| [p.x, p.y]).collect())
+        })
     }
 }
 
@@ -97,14 +109,23 @@ impl Machine {
             return Err(Raised::word("name", name, &known));
         };
         Ok(match checked(order)? {
-            0 => self.rows(phi, move |made, phi| {
-                made.place(body, at, phi).coords.into()
-            }),
+            0 => self.at_each(phi, &[2], vec![(body, at)]),
             _ => self.rows(phi, move |made, phi| {
                 let jet = made.point(body, at, phi);
                 [jet.first, jet.second, jet.third][order - 1].into()
             }),
         })
+    }
+
+    /// All points at inputs, mm: an array of the shape of `phi` and then (len(points), 2), in the order of `points`.
+    ///
+    /// >>> import centrode as ct
+    /// >>> leg = ct.Machine.from_toml(ct.template("machine"))
+    /// >>> leg.places([0.0, 0.1]).shape == (2, len(leg.points), 2)
+    /// True
+    fn places(&self, phi: Values) -> Course {
+        let points: Vec<(usize, Point)> = self.0.points().map(|(_, body, at)| (body, at)).collect();
+        self.at_each(phi, &[points.len(), 2], points)
     }
 
     /// A body at inputs: x and y of its origin, mm, and its angle, rad, without jumps, or their derivatives by the input: an

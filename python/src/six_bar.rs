@@ -78,10 +78,7 @@ impl SixBar {
     /// The effector's angle at a crank angle, rad; of an array, an array of the same shape.
     fn effector_angle(&self, phi: Values) -> Course {
         let six_bar = self.0;
-        Course::together(phi, &[], move |phi| {
-            let angles = six_bar.effector_angle_each(phi).into_iter();
-            Ok(angles.map(|jet| jet.position).collect())
-        })
+        Course::together(phi, &[], move |phi| Ok(six_bar.effector_place_each(phi)))
     }
 
     /// The effector's angle and its first three derivatives by the crank angle: an array of the shape of `phi` and

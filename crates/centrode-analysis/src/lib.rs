@@ -17,7 +17,7 @@ mod shaft;
 mod three_arm;
 mod unit;
 
-pub use composed::check_composed;
+pub use composed::{check_composed, composed_figures};
 pub use contact::Contact;
 pub use feeder::{
     Attainable, FeederForces, FeederForcesError, SixBarTolerances, SwingSpread, check_feeder,

@@ -63,6 +63,9 @@ pub(crate) struct Check {
     /// Print the report as JSON
     #[arg(long)]
     pub(crate) json: bool,
+    /// Print the figures that goals of this design can name, with their extremes over the cycle, instead of checking
+    #[arg(long)]
+    pub(crate) figures: bool,
 }
 
 #[derive(Debug, Args)]

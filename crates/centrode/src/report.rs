@@ -9,7 +9,7 @@ use centrode::analysis::{Report, Unit};
 use centrode::family::Mechanism;
 use serde::Serialize;
 
-pub(crate) use figures::{Section, sections};
+pub(crate) use figures::{Section, sections, write as write_figures};
 pub(crate) use findings::{Words, summary, words};
 pub(crate) use goals::{GoalWords, goal_words};
 

@@ -3,7 +3,7 @@ use centrode_mechanism::composed::{Composed, ComposedFigure, ComposedGoalSpec, O
 
 use super::{ends, within};
 use crate::interference::between_links;
-use crate::{Goal, Unit};
+use crate::{Goal, Table, Unit};
 
 /// Accuracy of a clearance, as a share of a plate's width.
 const ACCURACY: f64 = 1e-5;
@@ -57,6 +57,32 @@ fn unit(figure: &ComposedFigure) -> Unit {
         }
         _ => Unit::Millimetre,
     }
+}
+
+/// Least and greatest value over the cycle of each figure that a goal can name by one word, a table a unit.
+#[must_use]
+pub fn composed_figures(composed: &Composed) -> Vec<Table> {
+    let ends = ends(composed);
+    let mut tables: Vec<Table> = Vec::new();
+    for words in composed.figure_words() {
+        let Ok(figure) = composed.figure("", &words) else {
+            continue;
+        };
+        let unit = unit(&figure);
+        let at = |input: f64| composed.value(&figure, input).unwrap_or(f64::NAN);
+        let row = (words, extremes(at, &ends).map(|end| end.value).to_vec());
+        match tables.iter_mut().find(|table| table.unit == unit) {
+            Some(table) => table.rows.push(row),
+            None => tables.push(Table {
+                name: "figures",
+                title: "Figure",
+                unit,
+                columns: ["least", "greatest"].map(String::from).into(),
+                rows: vec![row],
+            }),
+        }
+    }
+    tables
 }
 
 /// A figure as a goal takes it, and the input at which it is found.

@@ -11,6 +11,7 @@ use centrode_geometry::{extremes, greatest, least, pieces};
 use centrode_mechanism::composed::Composed;
 
 use self::figures::FIGURES;
+pub use self::goals::composed_figures;
 use crate::report::Missed;
 use crate::{Finding, Goal, Place, Report, Severity, Table, Unit};
 

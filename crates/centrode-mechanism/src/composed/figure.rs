@@ -168,6 +168,29 @@ impl Composed {
         }
     }
 
+    /// Words of the figures of single points, bodies and dyads, for goals to name.
+    #[must_use]
+    pub fn figure_words(&self) -> Vec<String> {
+        use crate::machine::JointKind;
+        let all = |of: &str, parts: &[&str]| -> Vec<String> {
+            parts.iter().map(|part| format!("{of}.{part}")).collect()
+        };
+        let moving = self.points().filter(|(_, body, _)| *body > 0);
+        let of_points =
+            moving.flat_map(|(name, ..)| all(&name, &["x", "y", "speed", "acceleration"]));
+        let of_bodies = self.bodies.iter().skip(1).flat_map(|body| {
+            let joint = match body.mount.as_ref().map(|mount| mount.kind) {
+                Some(JointKind::Turning) => &["angle", "angular_speed", "swing"][..],
+                Some(JointKind::Sliding(_)) => &["angle", "angular_speed", "travel"],
+                _ => &["angle", "angular_speed"],
+            };
+            all(&body.name, joint)
+        });
+        let of_dyads = self.dyads.iter();
+        let of_dyads = of_dyads.map(|dyad| format!("transmission({})", dyad.name));
+        of_points.chain(of_bodies).chain(of_dyads).collect()
+    }
+
     /// Index of a body that a key names.
     fn body_of(&self, key: &str, name: &str) -> Result<usize, ComposedError> {
         self.body_named(name).ok_or_else(|| ComposedError::NoBody {

@@ -286,6 +286,20 @@ impl Composed {
         self.linkage.place(self.bodies[body].link, at, input)
     }
 
+    /// Places of points of bodies at each of many inputs, mm: all at the first input, then at the second and so on; see
+    /// [`Linkage::places_each`].
+    ///
+    /// # Panics
+    /// Never for indices of bodies.
+    #[must_use]
+    pub fn places_each(&self, points: &[(usize, Point)], inputs: &[f64]) -> Vec<Point> {
+        let points = points.iter();
+        let points: Vec<(Link, Point)> = points
+            .map(|(body, at)| (self.bodies[*body].link, *at))
+            .collect();
+        self.linkage.places_each(&points, inputs)
+    }
+
     /// Angle of a body's first axis by the input, without jumps, rad.
     #[must_use]
     pub fn angle(&self, body: usize, input: f64) -> MotionJet {

@@ -158,6 +158,11 @@ fn bad_files_are_told_by_key_and_line() {
             "bodies.crank.law: invalid type: string \"input\", expected a table",
         ),
         (
+            "points = { A = [15, 0] }",
+            "points = { A = [15, 0, 7] }",
+            "bodies.crank.points.A: must have 2 values, not 3",
+        ),
+        (
             "law = { ratio = 1 }",
             "law = {}",
             "bodies.crank.law.start_deg: is missing: give one of",

@@ -11,6 +11,8 @@ struct Entry {
     path: String,
     key: Range<usize>,
     value: Range<usize>,
+    /// Length of a list.
+    length: Option<usize>,
 }
 
 impl Keys {
@@ -27,6 +29,7 @@ impl Keys {
                 path: path.clone(),
                 key: key.span(),
                 value: value.span(),
+                length: value.get_ref().as_array().map(|list| list.len()),
             });
             // The parser refuses deep nesting, so this recursion is shallow.
             if let DeValue::Table(inner) = value.get_ref() {
@@ -44,6 +47,22 @@ impl Keys {
             }
             path = &path[..path.rfind('.')?];
         }
+    }
+
+    /// The first list that is longer than what was read of it: its key, its length, and how much was read.
+    ///
+    /// Serde reads a list of fixed length and leaves the rest.
+    pub(super) fn cut(&self, read: &toml::Table) -> Option<(&str, usize, usize)> {
+        self.0.iter().find_map(|entry| {
+            let (way, last) = entry.path.rsplit_once('.').unwrap_or(("", &entry.path));
+            let steps = way.split('.').filter(|step| !step.is_empty());
+            let table = steps
+                .into_iter()
+                .try_fold(read, |table, step| table.get(step)?.as_table())?;
+            let kept = table.get(last)?.as_array()?.len();
+            let length = entry.length.filter(|length| *length > kept)?;
+            Some((entry.path.as_str(), length, kept))
+        })
     }
 
     /// The innermost key whose name or value holds the byte `offset`.

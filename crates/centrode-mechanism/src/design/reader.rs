@@ -57,6 +57,12 @@ impl<'a> Reader<'a> {
             self.tagged(root.get_ref(), tagged)?;
         }
         let design = D::deserialize(Deserializer::from(root)).map_err(|e| self.shape(&e))?;
+        let read = toml::Table::try_from(&design).unwrap_or_default();
+        if let Some((key, length, kept)) = self.keys.cut(&read) {
+            let fault = DesignFault::WrongType(format!("must have {kept} values, not {length}"));
+            let offset = self.keys.offset(key).unwrap_or(0);
+            return Err(self.error(fault, key.into(), offset));
+        }
         design.rules().map_err(|SpecError { key, rule }| {
             let offset = self.keys.offset(&key).unwrap_or(0);
             self.error(DesignFault::Value(rule), key, offset)

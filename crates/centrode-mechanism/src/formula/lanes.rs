@@ -150,6 +150,13 @@ impl Number for f64x2 {
         self.simd_lt(Self::ZERO).bitselect(-angle, angle)
     }
 
+    const COUNT: usize = LANES;
+
+    #[inline(always)]
+    fn of_lanes(value: impl Fn(usize) -> f64) -> Self {
+        Self::from(std::array::from_fn(value))
+    }
+
     #[inline(always)]
     fn lane(self, lane: usize) -> f64 {
         self.as_array()[lane]

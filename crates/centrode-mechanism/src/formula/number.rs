@@ -17,6 +17,12 @@ pub(crate) trait Number:
     /// The direction of (x, y), where this is y; (0, 0) has none.
     fn atan2(self, x: Self) -> Self;
 
+    /// Numbers side by side.
+    const COUNT: usize;
+
+    /// Number made of a value for each lane.
+    fn of_lanes(value: impl Fn(usize) -> f64) -> Self;
+
     /// Value of one lane; a single number is its only one.
     fn lane(self, lane: usize) -> f64;
 
@@ -38,6 +44,13 @@ impl Number for f64 {
     #[inline]
     fn atan2(self, x: Self) -> Self {
         self.atan2(x)
+    }
+
+    const COUNT: usize = 1;
+
+    #[inline]
+    fn of_lanes(value: impl Fn(usize) -> f64) -> Self {
+        value(0)
     }
 
     #[inline]

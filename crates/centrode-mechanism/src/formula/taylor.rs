@@ -88,6 +88,40 @@ impl<const ORDERS: usize, T: Number> Taylor<ORDERS, T> {
         }
         a
     }
+
+    #[inline(always)]
+    pub(crate) fn sqrt(self) -> Self {
+        let mut s = [T::from(0.0); ORDERS];
+        s[0] = self.0[0].sqrt();
+        let nothing = |lane: usize| self.0.iter().all(|c| c.lane(lane) == 0.0);
+        if (0..T::COUNT).all(nothing) {
+            return self;
+        }
+        let inverse = T::from(0.5) / s[0];
+        for k in 1..ORDERS {
+            let mut known = T::from(0.0);
+            for i in 1..k {
+                known = known + s[i] * s[k - i];
+            }
+            s[k] = (self.0[k] - known) * inverse;
+        }
+        Self(s)
+    }
+
+    #[inline(always)]
+    pub(crate) fn reciprocal(self) -> Self {
+        let mut q = [T::from(0.0); ORDERS];
+        let r = T::from(1.0) / self.0[0];
+        q[0] = r;
+        for k in 1..ORDERS {
+            let mut known = T::from(0.0);
+            for i in 1..=k {
+                known = known + self.0[i] * q[k - i];
+            }
+            q[k] = -known * r;
+        }
+        Self(q)
+    }
 }
 
 impl<const ORDERS: usize> Taylor<ORDERS> {
@@ -107,17 +141,6 @@ impl<const ORDERS: usize> Taylor<ORDERS> {
             y[k] = (self.0[k] - known / k as f64) / g.0[0];
         }
         Self(y)
-    }
-
-    pub(crate) fn reciprocal(self) -> Self {
-        let mut q = [0.0; ORDERS];
-        let r = 1.0 / self.0[0];
-        q[0] = r;
-        for k in 1..ORDERS {
-            let known: f64 = (1..=k).map(|i| self.0[i] * q[k - i]).sum();
-            q[k] = -known * r;
-        }
-        Self(q)
     }
 
     pub(crate) fn sinh_cosh(self) -> (Self, Self) {
@@ -145,20 +168,6 @@ impl<const ORDERS: usize> Taylor<ORDERS> {
     pub(crate) fn asin(self) -> Self {
         let g = (Self::constant(1.0) - self * self).sqrt();
         self.integral_over(self.0[0].asin(), g)
-    }
-
-    pub(crate) fn sqrt(self) -> Self {
-        let mut s = [0.0; ORDERS];
-        s[0] = self.0[0].sqrt();
-        if self.0 == [0.0; ORDERS] {
-            return self;
-        }
-        let inverse = 0.5 / s[0];
-        for k in 1..ORDERS {
-            let known: f64 = (1..k).map(|i| s[i] * s[k - i]).sum();
-            s[k] = (self.0[k] - known) * inverse;
-        }
-        Self(s)
     }
 
     /// Power of the series to a constant exponent.

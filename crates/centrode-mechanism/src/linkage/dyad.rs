@@ -163,13 +163,13 @@ fn along<const N: usize, T: Number, L: Length<N, T>>(
 
 /// The slider on the line through `u` along the unit vector `e`, at the end of a bar from `p`.
 #[inline(always)]
-pub(crate) fn rrp<const N: usize>(
-    p: PointSeries<N>,
+pub(crate) fn rrp<const N: usize, T: Number>(
+    p: PointSeries<N, T>,
     length: f64,
-    u: PointSeries<N>,
-    e: PointSeries<N>,
+    u: PointSeries<N, T>,
+    e: PointSeries<N, T>,
     branch: Branch,
-) -> Closed<N> {
+) -> Closed<N, T> {
     let w = p.minus(u);
     let away = e.cross(w);
     let room = -(away * away - length * length);
@@ -184,12 +184,12 @@ pub(crate) fn rrp<const N: usize>(
 /// The direction of a link that turns about `q` and slides through the block at `p`, its line passing
 /// the pivot at the distance `offset` to the left.
 #[inline(always)]
-pub(crate) fn rpr<const N: usize>(
-    p: PointSeries<N>,
-    q: PointSeries<N>,
+pub(crate) fn rpr<const N: usize, T: Number>(
+    p: PointSeries<N, T>,
+    q: PointSeries<N, T>,
     offset: f64,
     branch: Branch,
-) -> Closed<N> {
+) -> Closed<N, T> {
     let w = p.minus(q);
     let s = w.dot(w);
     let room = s - offset * offset;
@@ -205,12 +205,12 @@ pub(crate) fn rpr<const N: usize>(
 
 /// The joint of two sliders, on the lines through `u` along `e` and through `v` along `f`.
 #[inline(always)]
-pub(crate) fn prp<const N: usize>(
-    u: PointSeries<N>,
-    e: PointSeries<N>,
-    v: PointSeries<N>,
-    f: PointSeries<N>,
-) -> Closed<N> {
+pub(crate) fn prp<const N: usize, T: Number>(
+    u: PointSeries<N, T>,
+    e: PointSeries<N, T>,
+    v: PointSeries<N, T>,
+    f: PointSeries<N, T>,
+) -> Closed<N, T> {
     let slant = e.cross(f);
     let along = v.minus(u).cross(f) * slant.reciprocal();
     let at = u.plus(e.times(along));

@@ -16,6 +16,7 @@ mod four_bar;
 mod laps;
 mod parts;
 mod pivots;
+mod places;
 mod point_series;
 mod pose;
 mod series;

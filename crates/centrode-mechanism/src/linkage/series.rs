@@ -6,20 +6,21 @@ use super::error::LinkageError;
 use super::parts::{Line, Link};
 use super::point_series::PointSeries;
 use super::pose::{Body, Pose};
-use crate::formula::Taylor;
-use crate::transmission::MotionJet;
+use crate::formula::{LANES, Number, Taylor};
+use crate::transmission::{MotionJet, Transmission};
 
 /// Joints and links while a pose is computed.
-pub(super) struct Series<const N: usize> {
-    joints: Vec<PointSeries<N>>,
+#[derive(Default)]
+pub(super) struct Series<const N: usize, T = f64> {
+    joints: Vec<PointSeries<N, T>>,
     /// Origin and first axis.
-    frames: Vec<(PointSeries<N>, PointSeries<N>)>,
+    frames: Vec<(PointSeries<N, T>, PointSeries<N, T>)>,
     /// Discriminant of every dyad: its room before it no longer closes.
-    pub(super) room: Vec<f64>,
+    pub(super) room: Vec<T>,
 }
 
-impl<const N: usize> Series<N> {
-    pub(super) fn line(&self, line: &Line) -> (PointSeries<N>, PointSeries<N>) {
+impl<const N: usize, T: Number> Series<N, T> {
+    pub(super) fn line(&self, line: &Line) -> (PointSeries<N, T>, PointSeries<N, T>) {
         let (origin, axis) = self.frames[line.link.0];
         let (sin, cos) = line.angle.sin_cos();
         let through = origin.plus(axis.turned(line.through.coords));
@@ -27,10 +28,21 @@ impl<const N: usize> Series<N> {
     }
 
     /// Origin and first axis of a link.
-    pub(super) fn frame(&self, link: Link) -> (PointSeries<N>, PointSeries<N>) {
+    pub(super) fn frame(&self, link: Link) -> (PointSeries<N, T>, PointSeries<N, T>) {
         self.frames[link.0]
     }
 
+    /// A law's series at one input or at several side by side.
+    fn law(law: &dyn Transmission, input: T) -> Taylor<N, T> {
+        let mut jets = [Taylor([0.0; N]); LANES];
+        for (lane, jet) in jets.iter_mut().enumerate().take(T::COUNT) {
+            *jet = law.at(input.lane(lane)).coefficients();
+        }
+        Taylor(std::array::from_fn(|k| T::of_lanes(|lane| jets[lane].0[k])))
+    }
+}
+
+impl<const N: usize> Series<N> {
     /// Sine of the angle at which a dyad holds: 0 where it is stretched or folded, 1 where it holds best.
     pub(super) fn hold(&self, step: &Step) -> Option<f64> {
         let unit = |v: PointSeries<N>| v.unit_now();
@@ -125,32 +137,48 @@ impl Linkage {
 
     /// Pose as series of order N - 1; where a dyad does not close, the joints after it are not numbers.
     pub(super) fn series<const N: usize>(&self, input: f64) -> Series<N> {
+        let mut series = Series::default();
+        self.find(input, |_| true, &mut series);
+        series
+    }
+
+    /// Finds the series of the steps that are needed, by their numbers, at one input or at several side by side.
+    pub(super) fn find<const N: usize, T: Number>(
+        &self,
+        input: T,
+        needed: impl Fn(usize) -> bool,
+        s: &mut Series<N, T>,
+    ) {
         let still = PointSeries::fixed(Point::origin());
-        let mut s = Series {
-            joints: Vec::with_capacity(self.owners.len()),
-            frames: Vec::with_capacity(self.links),
-            room: Vec::new(),
-        };
+        s.joints.clear();
+        s.frames.clear();
+        s.room.clear();
         s.frames
             .push((still, PointSeries::fixed(Point::new(1.0, 0.0))));
-        for step in &self.steps {
+        for (number, step) in self.steps.iter().enumerate() {
+            if !needed(number) {
+                let [links, joints] = step.makes();
+                s.frames.extend((0..links).map(|_| (still, still)));
+                s.joints.extend((0..joints).map(|_| still));
+                continue;
+            }
             match step {
                 Step::Point { link, local } => {
                     let (origin, axis) = s.frames[*link];
                     s.joints.push(origin.plus(axis.turned(*local)));
                 }
                 Step::Crank { pivot, phase } => {
-                    let axis = PointSeries::turning(input + *phase);
+                    let axis = PointSeries::turning(input + T::from(*phase));
                     s.frames.push((s.joints[*pivot], axis));
                 }
                 Step::Turning { pivot, law } => {
                     let (_, axis) = s.frames[self.owners[*pivot]];
-                    let turn = PointSeries::unit(law.at(input).coefficients());
+                    let turn = PointSeries::unit(Series::<N, T>::law(law.as_ref(), input));
                     s.frames.push((s.joints[*pivot], axis.times_unit(turn)));
                 }
                 Step::Sliding { line, law } => {
                     let (u, e) = s.line(line);
-                    let along: Taylor<N> = law.at(input).coefficients();
+                    let along = Series::<N, T>::law(law.as_ref(), input);
                     s.frames.push((u.plus(e.times(along)), e));
                 }
                 Step::Fixed { line } => {
@@ -220,6 +248,5 @@ impl Linkage {
                 }
             }
         }
-        s
     }
 }

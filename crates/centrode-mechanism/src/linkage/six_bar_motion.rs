@@ -39,13 +39,21 @@ impl<T: Number> Moving<T> {
     }
 }
 
-/// Results at each of many inputs, computed side by side; the last input pads an incomplete group.
+/// Inputs side by side, each with the number of its first; the last input pads an incomplete group.
+#[inline(always)]
+pub(super) fn chunks(inputs: &[f64]) -> impl Iterator<Item = (usize, Lanes)> + '_ {
+    let input = |index: usize| inputs[index.min(inputs.len() - 1)];
+    let firsts = (0..inputs.len()).step_by(LANES);
+    firsts.map(move |first| {
+        let lanes = std::array::from_fn(|lane| input(first + lane));
+        (first, Lanes::from(lanes))
+    })
+}
+
+/// Results at each of many inputs, computed side by side.
 #[inline(always)]
 fn each<R>(inputs: &[f64], at: impl Fn(Lanes) -> [R; LANES]) -> Vec<R> {
-    let chunks = 0..inputs.len().div_ceil(LANES);
-    let input = |index: usize| inputs[index.min(inputs.len() - 1)];
-    let chunk = |i: usize| Lanes::from(std::array::from_fn(|lane| input(LANES * i + lane)));
-    let answers: Vec<[R; LANES]> = chunks.map(|i| at(chunk(i))).collect();
+    let answers: Vec<[R; LANES]> = chunks(inputs).map(|(_, input)| at(input)).collect();
     let mut answers = answers.into_flattened();
     answers.truncate(inputs.len());
     answers
@@ -123,7 +131,7 @@ impl SixBar {
     }
 
     #[inline(always)]
-    fn effector<T: Number>(&self, input: T) -> Taylor<4, T> {
+    fn effector<const N: usize, T: Number>(&self, input: T) -> Taylor<N, T> {
         let [_, c] = self.joint_series(input);
         self.laps.unwrapped(self.way(c).angle())
     }
@@ -131,18 +139,28 @@ impl SixBar {
     /// The effector's angle and its derivatives by the crank angle, without jumps.
     #[must_use]
     pub fn effector_angle(&self, input: f64) -> MotionJet {
-        MotionJet::of(&self.effector(input))
+        MotionJet::of(&self.effector::<4, f64>(input))
     }
 
     /// Angle of the effector at each of many crank angles, computed like [`at_each`](Self::at_each).
     #[must_use]
     pub fn effector_angle_each(&self, inputs: &[f64]) -> Vec<MotionJet> {
         each(inputs, |input| {
-            let effector = self.effector(input);
+            let effector = self.effector::<4, Lanes>(input);
             [
                 MotionJet::of_lane(&effector, 0),
                 MotionJet::of_lane(&effector, 1),
             ]
+        })
+    }
+
+    /// Angle of the effector at each of many crank angles, without jumps and without derivatives, computed like
+    /// [`at_each`](Self::at_each).
+    #[must_use]
+    pub fn effector_place_each(&self, inputs: &[f64]) -> Vec<f64> {
+        each(inputs, |input| {
+            let [angle] = self.effector::<1, Lanes>(input).0;
+            [angle.lane(0), angle.lane(1)]
         })
     }
 

@@ -1,6 +1,6 @@
 use centrode_analysis::optimise::composed::ComposedProblem;
 use centrode_analysis::optimise::{DesignProblem, NotSearched};
-use centrode_analysis::{Report, Unit, check_composed};
+use centrode_analysis::{Report, Table, Unit, check_composed, composed_figures};
 use centrode_export::page::{Curve, Handle, HandlePlane, Picture};
 use centrode_export::{Bundle, ExportError, Format, Options};
 use centrode_export::{composed, machine};
@@ -34,6 +34,10 @@ impl Mechanism for Composed {
 
     fn check(&self) -> Report {
         check_composed(self)
+    }
+
+    fn figures(&self) -> Vec<Table> {
+        composed_figures(self)
     }
 
     fn curves(&self) -> Vec<Curve> {

@@ -2,7 +2,7 @@ use std::any::Any;
 use std::fmt::Debug;
 use std::sync::Arc;
 
-use centrode_analysis::Report;
+use centrode_analysis::{Report, Table};
 use centrode_export::page::{Curve, Picture};
 use centrode_export::{Bundle, ExportError, Format, Options};
 use centrode_mechanism::design::Design;
@@ -30,6 +30,11 @@ pub trait Mechanism: Any + Debug + Send + Sync {
     /// Report of [`Mechanism::check`] with the curves along the cycle that it yields.
     fn check_with_curves(&self) -> (Report, Vec<Curve>) {
         (self.check(), Vec::new())
+    }
+
+    /// Figures that a design of its family can name in goals, with their extremes over the cycle; empty where its goals are given.
+    fn figures(&self) -> Vec<Table> {
+        Vec::new()
     }
 
     /// Curves that are available at once.

@@ -120,7 +120,7 @@ fn section(table: &Table) -> Section {
 }
 
 /// Writes every table, then every figure in its group; figures of no group come last, as they are.
-pub(super) fn write(report: &Report, out: &mut impl Write) -> Result<()> {
+pub(crate) fn write(report: &Report, out: &mut impl Write) -> Result<()> {
     for section in sections(report) {
         let width = if section.columns.is_empty() { 0 } else { NAME };
         write!(out, "\n{HEADING}{:width$}{HEADING:#}", section.heading)?;

@@ -287,3 +287,16 @@ fn a_reader_that_leaves_is_no_failure() {
         assert_eq!(output.status.code(), Some(0), "{arguments:?}: {message}");
     }
 }
+
+#[test]
+fn the_figures_that_goals_can_name_are_listed_with_their_extremes() {
+    let listed = centrode(&["check", "--figures", &shipped("press.toml")]);
+    assert_eq!(listed.status.code(), Some(0), "{}", text(&listed.stderr));
+    let lines = text(&listed.stdout);
+    let travel = lines.lines().find(|line| line.contains("ram.travel"));
+    let travel: Vec<&str> = travel.expect("a travel").split_whitespace().collect();
+    assert_eq!(travel, ["ram.travel", "153.4527", "213.4527", "mm"]);
+    let none = centrode(&["check", "--figures", &shipped("feeder-2022.toml")]);
+    assert_eq!(none.status.code(), Some(2));
+    assert!(text(&none.stderr).contains("the goals of family \"feeder\" are given"));
+}

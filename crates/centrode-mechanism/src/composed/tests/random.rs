@@ -272,3 +272,31 @@ fn joints_of_random_machines_hang_together_as_their_linkages_do() {
         agrees(&made, &machine);
     }
 }
+
+#[test]
+fn points_of_random_machines_side_by_side_are_those_at_single_inputs() {
+    for seed in 1..=100 {
+        let composed = machine(seed);
+        let points: Vec<_> = composed.points().map(|(_, body, at)| (body, at)).collect();
+        let inputs: Vec<f64> = (0..7).map(|i| 0.9 * f64::from(i) - 1.0).collect();
+        let together = composed.places_each(&points, &inputs);
+        assert_eq!(together.len(), points.len() * inputs.len());
+        let mut found = together.iter();
+        for &input in &inputs {
+            for (point, &(body, at)) in points.iter().enumerate() {
+                let alone = composed.place(body, at, input);
+                let beside = *found.next().expect("a place");
+                let size = 1.0 + alone.coords.norm();
+                assert!(
+                    (beside - alone).norm() < 1e-10 * size,
+                    "{seed}: {beside} {alone}"
+                );
+                // One point alone takes only the bodies on which it depends.
+                let [single] = composed.places_each(&points[point..=point], &[input])[..] else {
+                    panic!("one place");
+                };
+                assert_eq!(single, beside, "{seed}");
+            }
+        }
+    }
+}
