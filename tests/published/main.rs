@@ -2,6 +2,7 @@
 
 mod all_goals;
 mod composed;
+mod composed_trains;
 mod data;
 mod feeder;
 mod pitch;

@@ -1,5 +1,6 @@
 //! Checks and searches of a mechanism: contact, clearance, undercut, goals.
 
+mod cam;
 mod composed;
 mod contact;
 mod feeder;

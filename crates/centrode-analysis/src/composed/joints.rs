@@ -63,7 +63,7 @@ pub(super) fn joints(composed: &Composed, ends: &[f64], report: &mut Report) {
 pub(super) fn four_bars(composed: &Composed, report: &mut Report) {
     let mut rows = Vec::new();
     for (dyad, spec) in composed.dyads().iter().filter_map(|dyad| {
-        let spec = composed.design().dyads.get(&dyad.name)?;
+        let spec = composed.whole().dyads.get(&dyad.name)?;
         (dyad.kind == DyadKind::TwoBars).then_some((dyad, spec))
     }) {
         let [Some(from), Some(to)] = [&spec.from, &spec.to].map(|word| {

@@ -1,5 +1,6 @@
 //! Check of a composed machine.
 
+mod cams;
 mod clearance;
 mod figures;
 mod forces;
@@ -47,6 +48,7 @@ pub fn check_composed(composed: &Composed) -> Report {
     dyads(composed, &ends, &mut report);
     joints::joints(composed, &ends, &mut report);
     joints::four_bars(composed, &mut report);
+    cams::cams(composed, &mut report);
     points(composed, &ends, &mut report);
     let made = Made::new(composed);
     if let (Some(machine), Some(loaded)) = (made.machine(), made.loaded()) {

@@ -247,3 +247,59 @@ fn a_search_finds_lengths_that_meet_the_goals() {
     assert!(best.iter().all(|goal| goal.met() == Some(true)), "{best:?}");
     assert!(ComposedProblem::new(&ComposedDesign::from_toml(MACHINE).expect("a design")).is_err());
 }
+
+#[test]
+fn a_cam_has_its_figures_and_one_that_is_too_small_is_told() {
+    const INDEX: &str = include_str!("../../../../tests/published/data/index-table.toml");
+    let made = composed(INDEX);
+    let report = check_composed(&made);
+    let limits = made.cams()[0].disc().limits();
+    let row = |name: &str| table(&report, name).rows[0].1.clone();
+    assert_eq!(
+        row("cam-pressure-angles")[0],
+        limits.rise_pressure_angle.value
+    );
+    assert_eq!(row("cam-radii")[2], limits.least_radius.value);
+    let rules = |report: &Report| report.findings.iter().map(|f| f.rule).collect::<Vec<_>>();
+    assert!(
+        !rules(&report).contains(&"cam-undercut"),
+        "{:?}",
+        rules(&report)
+    );
+    let steep = limits.rise_pressure_angle.value > std::f64::consts::FRAC_PI_4;
+    assert_eq!(rules(&report).contains(&"cam-pressure-angle"), steep);
+    // A rise and a return of 20 degrees each leave a point too sharp for the roller.
+    let hasty = composed(
+        r#"family = "machine"
+[frame.points]
+O = [0, 0]
+[bodies.shaft]
+on = "frame.O"
+law = { ratio = -1 }
+[bodies.rod]
+on = "frame.O"
+slides_deg = 0
+law = { follows = "push" }
+[cams.push]
+on = "shaft"
+base_radius = 20
+follower = { kind = "translating-roller", roller_radius = 6 }
+[cams.push.motion]
+segments = [
+    { kind = "rise", span_deg = 20, lift = 8 },
+    { kind = "return", span_deg = 20, lift = 8 },
+    { kind = "dwell", span_deg = 320 },
+]
+"#,
+    );
+    let report = check_composed(&hasty);
+    let told = report.findings.iter().find(|f| f.rule == "cam-undercut");
+    let told = told.expect("undercut");
+    let message = "cam push is undercut: rod cannot follow its motion there";
+    assert_eq!(told.message, message);
+    // The angle of the shaft is that of the cam here.
+    let least = hasty.cams()[0].disc().limits().regularity.input;
+    let input = told.place.input.expect("an input");
+    assert!((input - least).abs() < 1e-9, "{input} {least}");
+    assert!(rules(&report).contains(&"cam-pressure-angle"));
+}

@@ -4,6 +4,7 @@ use std::f64::consts::PI;
 
 use centrode_mechanism::three_arm::ThreeArm;
 
+use crate::cam::CheckedCam;
 use crate::{Finding, Place, Report, Severity, Unit};
 
 /// Pressure angle, rad, up to which a swinging follower runs well while it is lifted. VDI 2142 part 2.
@@ -11,11 +12,6 @@ const PRESSURE_ANGLE: f64 = PI / 4.0;
 
 /// Checks cam and fork; the return is left to the spring, which no pressure angle hinders.
 pub(crate) fn check_pusher(mechanism: &ThreeArm, report: &mut Report) {
-    let place = |input| Place {
-        part: Some("cam".into()),
-        input,
-        ..Place::default()
-    };
     let pusher = match mechanism.pusher() {
         Ok(pusher) => pusher,
         Err(error) => {
@@ -28,7 +24,10 @@ pub(crate) fn check_pusher(mechanism: &ThreeArm, report: &mut Report) {
                 required: None,
                 unit: Unit::Count,
                 remedy: None,
-                place: place(None),
+                place: Place {
+                    part: Some("cam".into()),
+                    ..Place::default()
+                },
             });
             return;
         }
@@ -39,33 +38,21 @@ pub(crate) fn check_pusher(mechanism: &ThreeArm, report: &mut Report) {
     values.insert("cam_radius_min", limits.least_radius.value);
     values.insert("cam_hollow_radius_min", limits.largest_wheel.value);
     values.insert("push_rod_stroke", pusher.stroke());
-    if limits.regularity.value <= 0.0 {
-        report.findings.push(Finding {
-            rule: "cam-undercut",
-            severity: Severity::Warning,
-            message: "the cam is undercut: the rod cannot follow its motion there".into(),
-            measured: Some(limits.least_radius.value),
-            required: Some(0.0),
-            unit: Unit::Millimetre,
-            remedy: Some("a longer cam.closing_deg or cam.release_deg, a larger cam.base_radius, or a smaller roller"),
-            place: place(Some(limits.regularity.input)),
-        });
-    }
-    if limits.rise_pressure_angle.value > PRESSURE_ANGLE {
-        report.findings.push(Finding {
-            rule: "cam-pressure-angle",
-            severity: Severity::Note,
-            message: format!(
-                "while the cam draws the rod back it pushes up to {:.1} deg off the fork's way",
-                limits.rise_pressure_angle.value.to_degrees()
-            ),
-            measured: Some(limits.rise_pressure_angle.value),
-            required: Some(PRESSURE_ANGLE),
-            unit: Unit::Angle,
-            remedy: Some("a longer cam.closing_deg or a larger cam.base_radius"),
-            place: place(Some(limits.rise_pressure_angle.input)),
-        });
-    }
+    let checked = CheckedCam {
+        part: "cam",
+        pressure_angle: PRESSURE_ANGLE,
+        undercut: "the cam is undercut: the rod cannot follow its motion there".into(),
+        pushes: [
+            "while the cam draws the rod back it pushes up to".into(),
+            "off the fork's way".into(),
+        ],
+        remedies: [
+            "a longer cam.closing_deg or cam.release_deg, a larger cam.base_radius, or a smaller roller",
+            "a longer cam.closing_deg or a larger cam.base_radius",
+        ],
+        input: &Some,
+    };
+    checked.report(&limits, report);
 }
 
 #[cfg(test)]

@@ -38,7 +38,20 @@ pub fn files(cam: &Cam, formats: &[Format], options: &Options) -> Result<Bundle,
     if let Some(format) = formats.iter().find(|format| !FORMATS.contains(format)) {
         return Err(ExportError::NoModel(*format));
     }
-    let (name, tolerance) = (cam.name(), options.tolerance);
+    let mut package = Package::new("a cam", [cam.name(), cam.title()], formats, options);
+    let title = package.design().to_owned();
+    add(&mut package, cam, &title, options.tolerance)?;
+    package.finish()
+}
+
+/// Adds the drawings, the solid and the profile of a cam to the files of a machine, named after the cam.
+pub(crate) fn add(
+    package: &mut Package<'_>,
+    cam: &Cam,
+    title: &str,
+    tolerance: Tolerance,
+) -> Result<(), ExportError> {
+    let name = cam.name();
     let contours = |curves| {
         let exact = Contours::new(cam, tolerance)?;
         Ok::<_, CamError>(match curves {
@@ -46,16 +59,14 @@ pub fn files(cam: &Cam, formats: &[Format], options: &Options) -> Result<Bundle,
             Curves::Splines => exact,
         })
     };
-    let mut package = Package::new("a cam", [name, cam.title()], formats, options);
     package.drawing(name, |curves| Ok(sheet::cam(&contours(curves)?)))?;
     package.drawing(&format!("{name}-assembly"), |curves| {
         Ok(sheet::assembly(cam, &contours(curves)?))
     })?;
-    package.solid(name, package.design(), || {
+    package.solid(name, title, || {
         solid(cam).map_err(ExportError::no_solid("cam"))
     })?;
-    package.table(name, name, || columns(cam, ROWS))?;
-    package.finish()
+    package.table(name, name, || columns(cam, ROWS))
 }
 
 /// The drawing of a cam, with exact contours.

@@ -8,7 +8,7 @@ use centrode_mechanism::machine::{Form, LinePath, Machine};
 use nalgebra::{Isometry2, Matrix3, Point3};
 
 use crate::drawing::{Color, Drawing, LineType, Shape};
-use crate::{Bundle, ExportError, Format, Options, Package, gear_pair};
+use crate::{Bundle, ExportError, Format, Options, Package, cam, gear_pair};
 pub use curves::curves;
 
 const PROFILE: &str = "PROFILE";
@@ -47,11 +47,18 @@ pub fn files(
     let named = [design.name.as_str(), design.title.as_str()];
     let mut package = Package::new("a composed machine", named, formats, options);
     package.finer_than(design.plates.pin_diameter, "pins' diameter")?;
+    // Copies have the files of their originals.
+    let is_copy = |name: &String| composed.original(name) != name;
     for (index, body) in composed.bodies().iter().enumerate() {
-        let Some(solid) = plates(&made, index).first() else {
+        let name = &body.name;
+        // A link's plate is the first of its solids.
+        let solid = plates(&made, index).first();
+        let Some(solid) = solid.filter(|_| composed.contours(index).is_some()) else {
             continue;
         };
-        let name = &body.name;
+        if is_copy(name) {
+            continue;
+        }
         package.drawing(name, |_| {
             let mut drawing = layers();
             contours(&mut drawing, PROFILE, solid, &Isometry2::identity());
@@ -60,7 +67,7 @@ pub fn files(
         let title = package.titled(name);
         package.solid(name, &title, || Ok(solid.clone()))?;
     }
-    for gear in composed.gears() {
+    for gear in composed.gears().iter().filter(|gear| !is_copy(&gear.name)) {
         let solid = || gear_pair::solid(&gear.pair, gear.member);
         package.drawing(&gear.name, |_| {
             let mut drawing = layers();
@@ -69,6 +76,10 @@ pub fn files(
         })?;
         let title = package.titled(&gear.name);
         package.solid(&gear.name, &title, solid)?;
+    }
+    for cam in composed.cams().iter().filter(|cam| !is_copy(&cam.name)) {
+        let title = package.titled(&cam.name);
+        cam::add(&mut package, &cam.part, &title, options.tolerance)?;
     }
     package.drawing("assembly", |_| Ok(assembly(composed, &made)))?;
     package.machine(|| Ok(with_masses(&made)))?;

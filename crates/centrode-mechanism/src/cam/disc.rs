@@ -317,7 +317,8 @@ impl DiscCam {
     }
 
     /// Distance of a sliding roller's centre along its slide on the base circle, mm; zero otherwise.
-    pub(super) fn start_distance(&self) -> f64 {
+    #[must_use]
+    pub fn start_distance(&self) -> f64 {
         self.start_distance
     }
 

@@ -2,9 +2,11 @@ use std::sync::Arc;
 
 use centrode_geometry::{Point, extremes, pieces};
 
+use super::copying;
 use super::resolve::{Builder, blame};
 use super::{
-    ComposedBody, ComposedDyad, ComposedDyadSpec, ComposedError, DyadKind, Mount, Pin, Side,
+    ComposedBody, ComposedDyad, ComposedDyadSpec, ComposedError, ComposedLawSpec, DyadKind, Mount,
+    Pin, Side,
 };
 use crate::linkage::{Branch, Coordinate, Joint, Line, Link, Linkage};
 use crate::machine::{Constant, JointKind};
@@ -59,16 +61,11 @@ impl Builder<'_> {
         let (Some(on), Some(law)) = (&body.on, &body.law) else {
             return Ok(());
         };
-        let key = format!("bodies.{name}.on");
-        let by = match &law.by {
-            Some(by) => Some(self.turn_of(&format!("bodies.{name}.law.by"), by)?),
-            None => None,
+        let law = match &law.follows {
+            Some(cam) => self.following(name, body, cam)?,
+            None => self.law(name, law, body.slides.is_some())?,
         };
-        let law = law.resolve(design.input.turns, body.slides.is_some(), by);
-        let law = law.map_err(|error| ComposedError::Law {
-            body: name.into(),
-            error,
-        })?;
+        let key = format!("bodies.{name}.on");
         if let Some(angle) = body.slides {
             let (carrier, line) = self.line(&key, on, angle)?;
             let link = self.linkage.sliding(line, Arc::clone(&law));
@@ -85,6 +82,28 @@ impl Builder<'_> {
             );
         }
         Ok(())
+    }
+
+    /// Motion of a body that slides or turns by a law.
+    fn law(
+        &mut self,
+        name: &str,
+        law: &ComposedLawSpec,
+        slides: bool,
+    ) -> Result<Arc<dyn Transmission>, ComposedError> {
+        let by = match &law.by {
+            Some(by) => Some(self.turn_of(&format!("bodies.{name}.law.by"), by)?),
+            None => None,
+        };
+        let law = law.resolve(self.design.input.turns, slides, by);
+        let law = law.map_err(|error| ComposedError::Law {
+            body: name.into(),
+            error,
+        })?;
+        Ok(match self.ahead.get(name) {
+            Some(&by) => copying::ahead(law, by),
+            None => law,
+        })
     }
 
     /// Turn on its own pin of a body that is there.

@@ -6,8 +6,9 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{
-    ComposedBodySpec, ComposedDyadSpec, ComposedGearSpec, ComposedGoalSpec, ComposedLoadSpec,
-    ComposedLoopSpec, ComposedObstacleSpec, ComposedPlatesSpec, ComposedPointsSpec,
+    ComposedBodySpec, ComposedCamSpec, ComposedCopiesSpec, ComposedDyadSpec, ComposedGearSpec,
+    ComposedGoalSpec, ComposedLoadSpec, ComposedLoopSpec, ComposedObstacleSpec, ComposedPlatesSpec,
+    ComposedPointsSpec,
 };
 use crate::design::DesignSpec;
 use crate::gear::design::rule::{
@@ -51,6 +52,12 @@ pub struct ComposedDesign {
     /// Meshes by name, beside those that hold bodies.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub meshes: BTreeMap<String, ComposedLoopSpec>,
+    /// Disc cams by name, each on a body.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub cams: BTreeMap<String, ComposedCamSpec>,
+    /// Chains of bodies of which there are several, evenly spaced, by name.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub copies: BTreeMap<String, ComposedCopiesSpec>,
     /// The bodies as plates.
     #[serde(default)]
     pub plates: ComposedPlatesSpec,
@@ -106,6 +113,8 @@ impl DesignSpec for ComposedDesign {
         "pairs",
         "gears",
         "meshes",
+        "cams",
+        "copies",
         "plates",
         "loads",
         "obstacles",
@@ -162,6 +171,16 @@ impl ComposedDesign {
             let key = format!("gears.{name}");
             file_name(&key, name)?;
             finite(&format!("{key}.mount_deg"), gear.mount)?;
+        }
+        for (name, cam) in &self.cams {
+            let key = format!("cams.{name}");
+            file_name(&key, name)?;
+            cam.validate().map_err(|e| e.inside(&key))?;
+        }
+        for (name, copies) in &self.copies {
+            let key = format!("copies.{name}");
+            file_name(&key, name)?;
+            copies.validate().map_err(|e| e.inside(&key))?;
         }
         for x in self.gravity.iter().flatten() {
             finite("gravity", *x)?;

@@ -1,6 +1,7 @@
 use thiserror::Error;
 
 use super::ComposedLawError;
+use crate::cam::CamError;
 use crate::design::MechanismError;
 use crate::gear::GearPairError;
 use crate::gear::design::SpecError;
@@ -161,12 +162,44 @@ pub enum ComposedError {
         /// Why.
         error: Box<GearPairError>,
     },
-    /// A gear or pair that is not there.
+    /// A cam that cannot be cut.
+    #[error("{error}")]
+    Cam {
+        /// Name of the cam.
+        cam: String,
+        /// Why.
+        error: CamError,
+    },
+    /// A cam that cannot be followed.
+    #[error("{why}")]
+    NoFollower {
+        /// Key of the cam or of the body.
+        key: String,
+        /// Why.
+        why: String,
+    },
+    /// Copies that cannot be.
+    #[error("{why}")]
+    NoCopies {
+        /// Key of the copies.
+        key: String,
+        /// Why.
+        why: String,
+    },
+    /// An error of a copy, none of its original.
+    #[error("of a copy: {error}")]
+    Copy {
+        /// Key of the original.
+        key: String,
+        /// The error of the copy.
+        error: Box<ComposedError>,
+    },
+    /// A gear, pair or cam that is not there.
     #[error("there is no {what} {name:?}; there are {}", if known.is_empty() { "none".to_owned() } else { known.join(", ") })]
     NoGear {
         /// Key that names it.
         key: String,
-        /// Kind: `gear` or `pair`.
+        /// Kind: `gear`, `pair` or `cam`.
         what: &'static str,
         /// Its name.
         name: String,
@@ -253,8 +286,12 @@ impl ComposedError {
             | Self::NoGear { key, .. }
             | Self::NoMesh { key, .. }
             | Self::Refused { key, .. }
+            | Self::NoFollower { key, .. }
+            | Self::NoCopies { key, .. }
+            | Self::Copy { key, .. }
             | Self::Linkage { key, .. } => key.clone(),
             Self::Pair { pair, error } => format!("pairs.{pair}.{}", error.key()),
+            Self::Cam { cam, error } => format!("cams.{cam}.{}", error.key()),
             Self::Loose { body } => format!("bodies.{body}"),
             Self::Law { body, error } => format!("bodies.{body}.law.{}", error.key()),
             Self::DoesNotClose { dyad, .. } => format!("dyads.{dyad}"),

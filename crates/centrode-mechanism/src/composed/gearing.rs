@@ -12,7 +12,7 @@ use super::{
 };
 use crate::gear::design::GearPairDesign;
 use crate::gear::{Gear, GearPair, Member, Role};
-use crate::machine::{JointKind, Line, LineRole, Surface};
+use crate::machine::{Line, LineRole, Surface};
 
 /// Samples of a turn of the input at which a loop of meshes is checked.
 const LOOKS: u32 = 720;
@@ -52,11 +52,13 @@ impl ComposedGear {
 
     /// The gear in its body's axes, from a height on.
     pub(super) fn solid(&self, bottom: f64) -> Result<Solid, SolidError> {
-        let (gear, place) = (self.gear(), self.place());
-        let moved = |outline: &Outline| outline.transformed(&place);
-        let bore = gear.bore().iter().map(moved).collect();
-        let top = bottom + gear.body().width;
-        Solid::new(moved(gear.outline()), bore, bottom, top)
+        let gear = self.gear();
+        let contours = (gear.outline(), gear.bore());
+        placed(
+            contours,
+            &self.place(),
+            [bottom, bottom + gear.body().width],
+        )
     }
 
     /// Its teeth: flanks and tips touch, fillets do not.
@@ -85,17 +87,33 @@ impl ComposedGear {
     }
 }
 
+/// A part with its bore in the axes of its body, between two heights.
+pub(super) fn placed(
+    (outline, bore): (&Outline, Option<Outline>),
+    place: &Isometry2<f64>,
+    [bottom, top]: [f64; 2],
+) -> Result<Solid, SolidError> {
+    let bore = bore.iter().map(|bore| bore.transformed(place)).collect();
+    Solid::new(outline.transformed(place), bore, bottom, top)
+}
+
 impl Composed {
     /// Height of a gear's lower face along the shafts, mm: pairs lie one below the other, behind the frame.
     pub(super) fn gear_bottom(&self, gear: &ComposedGear) -> f64 {
+        let own = gear.pair.name();
+        self.pairs_bottom(|name| name <= own)
+    }
+
+    /// Height of the lower face of the last pair, mm.
+    pub(super) fn gears_bottom(&self) -> f64 {
+        self.pairs_bottom(|_| true)
+    }
+
+    fn pairs_bottom(&self, counts: impl Fn(&str) -> bool) -> f64 {
         let plates = &self.design.plates;
         let width = |pair: &GearPairDesign| pair.driver.width.max(pair.driven.width) + plates.gap;
-        let own = gear.pair.name();
-        let upto = self
-            .design
-            .pairs
-            .iter()
-            .take_while(|(name, _)| name.as_str() <= own);
+        let upto = self.design.pairs.iter();
+        let upto = upto.take_while(|(name, _)| counts(name));
         let depth: f64 = upto.map(|(_, pair)| width(pair)).sum();
         -(plates.thickness + plates.gap) - depth
     }
@@ -193,49 +211,11 @@ impl Builder<'_> {
         Ok([one, other])
     }
 
-    /// Angle of a body by the input, from the joints that carry it, without jumps.
-    fn angle(&self, body: usize) -> Angle {
-        let Some(mount) = &self.bodies[body].mount else {
-            return Angle::default();
-        };
-        let mut angle = self.angle(mount.carrier).plus(mount.angle);
-        if mount.kind == JointKind::Turning {
-            angle.terms.push(Arc::clone(&mount.law));
-        }
-        angle
-    }
-
     /// Angle of a gear by the input.
     fn gear_angle(&self, gear: usize) -> Angle {
         let gear = &self.gears[gear];
         let body = self.body_named(&gear.body_name);
         self.angle(body.unwrap_or(0)).plus(gear.mount)
-    }
-
-    /// Axis of a gear in the axes of a body that carries it without moving it; none where it moves there.
-    fn axis_on(&self, carrier: usize, gear: usize) -> Option<Point> {
-        let gear = &self.gears[gear];
-        let body = self.body_named(&gear.body_name)?;
-        let size = SAME * gear.pair.center_distance();
-        let near = |one: Point, other: Point| (one - other).norm() <= size;
-        let mount = |index: usize| self.bodies[index].mount.as_ref();
-        let turns = |mount: &&Mount| mount.kind == JointKind::Turning;
-        if body == carrier {
-            return Some(gear.at);
-        }
-        let on_pin = near(gear.at, Point::origin());
-        let of_body = mount(body).filter(turns).filter(|_| on_pin);
-        if let Some(mount) = of_body.filter(|mount| mount.carrier == carrier) {
-            return Some(mount.at);
-        }
-        let of_carrier = mount(carrier).filter(turns);
-        let carried = of_carrier.filter(|mount| mount.carrier == body && near(mount.at, gear.at));
-        // Both on one pin of a third body.
-        let beside = || {
-            let (one, other) = (of_body?, of_carrier?);
-            (one.carrier == other.carrier && near(one.at, other.at)).then_some(other)
-        };
-        carried.or_else(beside).map(|_| Point::origin())
     }
 
     /// Adds a body that a mesh moves on its carrier.
@@ -262,13 +242,18 @@ impl Builder<'_> {
                 gear.name
             )));
         }
-        let axis = self.axis_on(carrier, with).ok_or_else(|| {
+        let pair = Arc::clone(&gear.pair);
+        let other = &self.gears[with];
+        let axis = self.body_named(&other.body_name).and_then(|body| {
+            let size = SAME * pair.center_distance();
+            self.axis_on(carrier, (body, other.at), size)
+        });
+        let axis = axis.ok_or_else(|| {
             wrong(format!(
                 "the axis of gear {} moves on body {on}, which must carry it",
-                self.gears[with].name
+                other.name
             ))
         })?;
-        let pair = Arc::clone(&gear.pair);
         let (sin, cos) = mesh.direction.sin_cos();
         let at = axis + Vector::new(cos, sin) * pair.center_distance();
         let is_driven = gear.member == Member::Driven;

@@ -56,6 +56,9 @@ pub struct ComposedLawSpec {
     /// Rises, returns and dwells over one turn of the input, as for a cam.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub cam: Option<MotionSpec>,
+    /// Cam that moves the body as its follower.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub follows: Option<String>,
     /// Turning and rest, as of a gear that an incomplete gear drives.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub intermittent: Option<IntermittentSpec>,
@@ -148,6 +151,7 @@ impl ComposedLawSpec {
             ("table_deg", !self.table_angles.is_empty()),
             ("table", !self.table.is_empty()),
             ("cam", self.cam.is_some()),
+            ("follows", self.follows.is_some()),
             ("intermittent", self.intermittent.is_some()),
             ("traverse", self.traverse.is_some()),
         ];
@@ -158,11 +162,14 @@ impl ComposedLawSpec {
         }
         if first.is_none() && self.start_angle.is_none() && self.start.is_none() {
             let key = if slides { "start" } else { "start_deg" };
-            let keys = "start_deg, start, ratio, expression, table_deg, table, cam, intermittent and traverse";
+            let keys = "start_deg, start, ratio, expression, table_deg, table, cam, intermittent, traverse and follows";
             return broken(key, Rule::NeedsOneOf(keys));
         }
         if first.is_none() && self.by.is_some() {
             return broken("by", Rule::Unused("but for a law that moves"));
+        }
+        if self.follows.is_some() && self.by.is_some() {
+            return broken("by", Rule::Excludes("follows"));
         }
         let only = "but for a body that turns";
         let strange: &[(&str, bool)] = if slides {
@@ -215,12 +222,26 @@ impl ComposedLawSpec {
         }
     }
 
-    /// The law over a period of so many turns of the input, of a body that slides or turns; `by` is the turn of the body that
+    /// Whether it moves the body by the input.
+    pub(super) fn moves(&self) -> bool {
+        let turns = self.ratio.is_some_and(|ratio| ratio != 0.0);
+        let table = !self.table_angles.is_empty() || !self.table.is_empty();
+        let drive = self.intermittent.is_some() || self.traverse.is_some();
+        turns || table || drive || self.expression.is_some() || self.cam.is_some()
+    }
+
+    /// Start of the motion, rad or mm.
+    pub(super) fn offset(&self) -> f64 {
+        self.start_angle.or(self.start).unwrap_or(0.0)
+    }
+
+    /// The law over a period of so many turns of the input, of a body that slides or turns and follows no
+    /// cam; `by` is the turn of the body that
     /// takes the place of the input.
     ///
     /// # Errors
     /// [`ComposedLawError`] where it cannot be read, or does not come back.
-    pub fn resolve(
+    pub(super) fn resolve(
         &self,
         turns: u32,
         slides: bool,
@@ -259,7 +280,7 @@ impl ComposedLawSpec {
 
     /// The law by its own input over so many turns of that.
     fn motion(&self, turns: u32) -> Result<Arc<dyn Transmission>, ComposedLawError> {
-        let start = self.start_angle.or(self.start).unwrap_or(0.0);
+        let start = self.offset();
         let table = match (&self.table[..], &self.table_angles[..]) {
             ([], angles) => angles,
             (places, _) => places,

@@ -1,8 +1,8 @@
-use centrode_geometry::{Point, SolidError};
+use centrode_geometry::{Outline, Point, SolidError};
 
 use super::gearing::Meshing;
 use super::load::ComposedLoad;
-use super::pieces::{GearPiece, Pieces};
+use super::pieces::Pieces;
 use super::{Composed, ComposedBody};
 use crate::machine::{
     Closure, Form, GearMesh, Input, Joint, JointKind, Line, LineRole, Link, LinkPoint, Machine,
@@ -73,45 +73,75 @@ impl Composed {
         meshes.filter(move |mesh| mesh.gears.iter().all(centred))
     }
 
-    /// Lists the plates, the bodies of given masses and the gears as parts, each with the files of its name.
+    /// Lists the plates, the bodies of given masses, the gears and the cams as parts, each with the files of its name; copies
+    /// are pieces of one part.
     fn list(&self, machine: &mut Machine, pieces: &[Pieces<'_>]) {
-        for (index, (body, made)) in self.bodies.iter().zip(pieces).enumerate() {
-            let name = &body.name;
-            let place = match &made.plate {
-                Some(plate) => machine.place_on_edge(name, plate.outline()),
-                None if made.mass.is_none() => continue,
-                None => None,
-            };
-            machine.part(Part {
-                name: name.clone(),
-                links: vec![index],
+        for (body, made) in self.bodies.iter().zip(pieces) {
+            let outline = made.plate.as_ref().map(|plate| plate.outline());
+            if outline.is_none() && made.mass.is_none() {
+                continue;
+            }
+            let part = Part {
+                name: body.name.clone(),
                 mass: made.mass.map(|own| own.mass),
-                file: made.plate.iter().map(|_| name.as_str()).collect(),
-                place,
                 ..Part::default()
-            });
+            };
+            self.add_part(machine, part, &body.name, outline);
         }
-        let mut gears: Vec<(usize, &GearPiece<'_>)> = pieces
-            .iter()
-            .enumerate()
-            .flat_map(|(index, made)| made.gears.iter().map(move |gear| (index, gear)))
-            .collect();
-        gears.sort_by_key(|(_, piece)| &piece.gear.name);
-        for (index, piece) in gears {
-            let gear = piece.gear.gear();
-            machine.part(Part {
-                name: piece.gear.name.clone(),
-                links: vec![index],
+        let mut gears: Vec<_> = pieces.iter().flat_map(|made| &made.gears).collect();
+        gears.sort_by_key(|piece| &piece.of.name);
+        for piece in gears {
+            let gear = piece.of.gear();
+            let part = Part {
+                name: piece.of.name.clone(),
                 material: gear.body().material.clone(),
                 mass: Some(piece.mass.mass),
-                file: piece.gear.name.clone(),
                 remark: format!("{} teeth", gear.tooth_count()),
-                place: machine.place_on_edge(&piece.gear.body_name, piece.solid.outline()),
-            });
+                ..Part::default()
+            };
+            self.add_part(
+                machine,
+                part,
+                &piece.of.body_name,
+                Some(piece.solid.outline()),
+            );
+        }
+        let mut cams: Vec<_> = pieces.iter().flat_map(|made| &made.cams).collect();
+        cams.sort_by_key(|piece| &piece.of.name);
+        for piece in cams {
+            let part = Part {
+                name: piece.of.name.clone(),
+                material: piece.of.part.body().material.clone(),
+                mass: Some(piece.mass.mass),
+                remark: format!("moves {}", piece.of.followers.join(", ")),
+                ..Part::default()
+            };
+            self.add_part(
+                machine,
+                part,
+                &piece.of.body_name,
+                Some(piece.solid.outline()),
+            );
         }
     }
 
-    /// Adds a body with its plate and gears: shape, mass, surfaces to touch with.
+    /// Lists a part of a body; a copy is one more piece of the original.
+    fn add_part(&self, machine: &mut Machine, part: Part, body: &str, outline: Option<&Outline>) {
+        let link = self.body_named(body);
+        let original = self.original(&part.name);
+        if let Some(listed) = machine.parts.iter_mut().find(|part| part.name == original) {
+            listed.links.extend(link);
+            return;
+        }
+        machine.part(Part {
+            links: link.into_iter().collect(),
+            file: outline.map_or_else(String::new, |_| part.name.clone()),
+            place: outline.and_then(|outline| machine.place_on_edge(body, outline)),
+            ..part
+        });
+    }
+
+    /// Adds a body with its plate, gears and cams: shape, mass, surfaces to touch with.
     fn add_link(&self, machine: &mut Machine, body: usize, pieces: &Pieces<'_>) {
         let name = &self.bodies[body].name;
         let mut link = Link {
@@ -129,7 +159,11 @@ impl Composed {
             }));
         }
         for piece in &pieces.gears {
-            let surface = piece.gear.surface(&piece.solid);
+            let surface = piece.of.surface(&piece.solid);
+            link.surfaces.push(machine.surface(surface));
+        }
+        for piece in &pieces.cams {
+            let surface = piece.of.surface(&piece.solid);
             link.surfaces.push(machine.surface(surface));
         }
         let solids = pieces.solids();
@@ -200,7 +234,11 @@ impl Composed {
                 lines.extend(holes.map(|hole| Line::contour(LineRole::Hole, hole)));
             }
             let gears = pieces[index].gears.iter();
-            lines.extend(gears.flat_map(|piece| piece.gear.lines()));
+            lines.extend(gears.flat_map(|piece| piece.of.lines()));
+            let cams = pieces[index].cams.iter();
+            lines.extend(cams.flat_map(|piece| piece.of.lines()));
+            let roller = self.roller(&body.name);
+            lines.extend(roller.map(|roller| Line::contour(LineRole::Body, &roller)));
             if index == 0 {
                 let ways = traced.iter();
                 lines.extend(ways.map(|&point| Line::trace(LineRole::Trace, point)));

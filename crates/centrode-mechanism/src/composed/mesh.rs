@@ -38,7 +38,7 @@ impl Angle {
     }
 
     /// Inputs below `period` where a derivative may jump, ascending.
-    fn breaks(&self, period: f64) -> Vec<f64> {
+    pub(super) fn breaks(&self, period: f64) -> Vec<f64> {
         let of = |law: &Arc<dyn Transmission>| {
             let (own, jumps) = (law.period(), law.breaks());
             let repeats = (period / own).round().max(1.0) as u32;
@@ -154,30 +154,43 @@ impl MeshLaw {
     fn jumps(&self) -> Vec<f64> {
         let mut found = self.other.breaks(self.period);
         found.extend(self.carrier.breaks(self.period));
-        let bends = self.mesh.rolling.breaks();
-        let cycle = self.mesh.rolling.period();
-        let count = LOOKS * (self.period / TAU).round().max(1.0) as u32;
-        let input = |i: u32| self.period * f64::from(i) / f64::from(count);
-        let mut before = self.polar(0.0);
-        for i in 1..=count {
-            if bends.is_empty() {
-                break;
-            }
-            let after = self.polar(input(i));
-            let (low, high) = (before.min(after), before.max(after));
-            for bend in &bends {
-                let at = bend + cycle * ((low - bend) / cycle).ceil();
-                if at < high {
-                    let off = |x: f64| self.polar(x) - at;
-                    let (from, to) = (input(i - 1), input(i));
-                    found.push(bracketed_root(off, from, to, before - at, after - at));
-                }
-            }
-            before = after;
-        }
+        let rolling = &self.mesh.rolling;
+        let bends = (&rolling.breaks()[..], rolling.period());
+        found.extend(crossings(|input| self.polar(input), bends, self.period));
         found.retain(|&b| b < self.period);
         sorted(found.into_iter(), self.period)
     }
+}
+
+/// Inputs of a period at which an angle meets one of some values, which repeat with a cycle of their own.
+pub(super) fn crossings(
+    angle: impl Fn(f64) -> f64,
+    (values, cycle): (&[f64], f64),
+    period: f64,
+) -> Vec<f64> {
+    let mut found = Vec::new();
+    if values.is_empty() {
+        return found;
+    }
+    let count = LOOKS * (period / TAU).round().max(1.0) as u32;
+    let input = |i: u32| period * f64::from(i) / f64::from(count);
+    let mut before = angle(0.0);
+    for i in 1..=count {
+        let after = angle(input(i));
+        let (low, high) = (before.min(after), before.max(after));
+        for value in values {
+            // One cycle to either side more, lest rounding hide a value met just at a sample.
+            let [first, last] = [low, high].map(|end| ((end - value) / cycle).round() as i64);
+            let met = (first - 1..=last + 1).map(|n| value + cycle * n as f64);
+            for at in met.filter(|at| (low..high).contains(at)) {
+                let off = |x: f64| angle(x) - at;
+                let (from, to) = (input(i - 1), input(i));
+                found.push(bracketed_root(off, from, to, before - at, after - at));
+            }
+        }
+        before = after;
+    }
+    found
 }
 
 impl Transmission for MeshLaw {

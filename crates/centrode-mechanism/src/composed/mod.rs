@@ -3,8 +3,13 @@
 //! A body has axes of its own. One that turns has its origin on its pin; one that slides has its first axis along its line;
 //! the bodies of a dyad have theirs as those of a [`Linkage`]. The input is the angle of the driving shaft, rad.
 
+mod axis;
 mod body;
 mod build;
+mod camming;
+mod cams;
+mod copies;
+mod copying;
 mod corner;
 mod design;
 mod drawn;
@@ -34,6 +39,12 @@ use std::sync::Arc;
 use centrode_geometry::{Jet, Outline, Point};
 
 pub use body::ComposedBodySpec;
+pub use camming::ComposedCam;
+pub use cams::{
+    ComposedCamSpec, ComposedFollowerSpec, ComposedSlidingRoller, ComposedSwingingFlat,
+    ComposedSwingingRoller,
+};
+pub use copies::ComposedCopiesSpec;
 pub use corner::{ComposedPointsSpec, CornerSpec, Side};
 pub use design::{ComposedDesign, ComposedInputSpec};
 pub use drawn::ComposedCircleSpec;
@@ -49,6 +60,7 @@ pub use load::{ComposedLoadSpec, LoadAxes};
 pub use obstacle::{ComposedObstacle, ComposedObstacleSpec};
 pub use plates::ComposedPlatesSpec;
 
+use self::copies::Expansion;
 use self::gearing::Meshing;
 use self::load::ComposedLoad;
 use self::points::BodyPoints;
@@ -59,7 +71,10 @@ use crate::transmission::{MotionJet, Transmission};
 /// A composed machine: its bodies in the order in which they need each other, and their motion.
 #[derive(Clone, Debug)]
 pub struct Composed {
+    /// The design as written, and with its copies written out.
+    written: ComposedDesign,
     design: ComposedDesign,
+    expansion: Expansion,
     linkage: Linkage,
     bodies: Vec<ComposedBody>,
     dyads: Vec<ComposedDyad>,
@@ -70,6 +85,7 @@ pub struct Composed {
     figures: Vec<ComposedFigure>,
     gears: Vec<ComposedGear>,
     meshes: Vec<Meshing>,
+    cams: Vec<ComposedCam>,
     loads: Vec<ComposedLoad>,
     obstacles: Vec<ComposedObstacle>,
 }
@@ -165,7 +181,19 @@ impl Composed {
     /// The design as written.
     #[must_use]
     pub fn design(&self) -> &ComposedDesign {
+        &self.written
+    }
+
+    /// The design with its copies written out.
+    #[must_use]
+    pub fn whole(&self) -> &ComposedDesign {
         &self.design
+    }
+
+    /// Original of a body, dyad, gear or cam by its name: itself where it is no copy.
+    #[must_use]
+    pub fn original<'a>(&'a self, name: &'a str) -> &'a str {
+        self.expansion.original(name)
     }
 
     /// The machine as a linkage.
@@ -190,6 +218,12 @@ impl Composed {
     #[must_use]
     pub fn gears(&self) -> &[ComposedGear] {
         &self.gears
+    }
+
+    /// Cams in the order of their names.
+    #[must_use]
+    pub fn cams(&self) -> &[ComposedCam] {
+        &self.cams
     }
 
     /// Figures of the goals, in the order of their names.

@@ -1,18 +1,19 @@
 use centrode_geometry::{MassProperties, Solid, SolidError};
 
-use super::{Composed, ComposedGear};
+use super::{Composed, ComposedCam, ComposedGear};
 
 /// What a body is made of.
 pub(super) struct Pieces<'a> {
     pub(super) plate: Option<Solid>,
     /// Mass of the plate, or the one given in its place.
     pub(super) mass: Option<MassProperties>,
-    pub(super) gears: Vec<GearPiece<'a>>,
+    pub(super) gears: Vec<Piece<'a, ComposedGear>>,
+    pub(super) cams: Vec<Piece<'a, ComposedCam>>,
 }
 
-/// A gear on a body.
-pub(super) struct GearPiece<'a> {
-    pub(super) gear: &'a ComposedGear,
+/// A gear or a cam on a body.
+pub(super) struct Piece<'a, T> {
+    pub(super) of: &'a T,
     pub(super) solid: Solid,
     pub(super) mass: MassProperties,
 }
@@ -21,18 +22,26 @@ impl Pieces<'_> {
     /// Mass of all of them; none without any.
     pub(super) fn together(&self) -> Option<MassProperties> {
         let gears = self.gears.iter().map(|gear| gear.mass);
-        MassProperties::together(&self.mass.into_iter().chain(gears).collect::<Vec<_>>())
+        let cams = self.cams.iter().map(|cam| cam.mass);
+        let all = self.mass.into_iter().chain(gears).chain(cams);
+        MassProperties::together(&all.collect::<Vec<_>>())
     }
 
-    /// Plate and gears.
+    /// Plate, gears and cams.
     pub(super) fn solids(&self) -> Vec<Solid> {
         let gears = self.gears.iter().map(|gear| &gear.solid);
-        self.plate.iter().chain(gears).cloned().collect()
+        let cams = self.cams.iter().map(|cam| &cam.solid);
+        self.plate
+            .iter()
+            .chain(gears)
+            .chain(cams)
+            .cloned()
+            .collect()
     }
 }
 
 impl Composed {
-    /// Plate, mass and gears of a body.
+    /// Plate, mass, gears and cams of a body.
     pub(super) fn pieces(&self, body: usize) -> Result<Pieces<'_>, SolidError> {
         let name = &self.bodies[body].name;
         let plate = self.plate(body)?;
@@ -47,12 +56,27 @@ impl Composed {
         let gears = gears.map(|gear| {
             let solid = gear.solid(self.gear_bottom(gear))?;
             let mass = solid.mass_properties(gear.gear().body().density);
-            Ok(GearPiece { gear, solid, mass })
+            Ok(Piece {
+                of: gear,
+                solid,
+                mass,
+            })
+        });
+        let cams = self.cams.iter().filter(|cam| cam.body_name == *name);
+        let cams = cams.map(|cam| {
+            let solid = cam.solid(self.cam_bottom(cam))?;
+            let mass = solid.mass_properties(cam.part.body().density);
+            Ok(Piece {
+                of: cam,
+                solid,
+                mass,
+            })
         });
         Ok(Pieces {
             plate,
             mass,
             gears: gears.collect::<Result<_, SolidError>>()?,
+            cams: cams.collect::<Result<_, SolidError>>()?,
         })
     }
 }

@@ -5,6 +5,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::design::FRAME;
+use super::points::ROLLER;
 use super::{Composed, ComposedBody, ComposedDesign, ComposedError};
 use crate::gear::design::SpecError;
 use crate::gear::design::rule::{in_range, not_negative, positive};
@@ -174,7 +175,12 @@ impl Composed {
                 joint.flat_map(|joint| dyad.bodies.iter().map(move |b| format!("{b}.{joint}")));
             ends.chain(joint).collect::<Vec<_>>()
         });
-        on.chain(dyads).collect()
+        let following = design.bodies.iter().filter(|(_, body)| {
+            let law = body.law.as_ref();
+            law.is_some_and(|law| law.follows.is_some())
+        });
+        let rollers = following.map(|(name, _)| format!("{name}.{ROLLER}"));
+        on.chain(dyads).chain(rollers).collect()
     }
 
     /// Points worth following, among those that no other body is held by: given ones, or joints where there is none.
@@ -213,7 +219,10 @@ impl Composed {
         let layer = match written {
             _ if name == FRAME => -1.0,
             Some(layer) => f64::from(layer),
-            None => body as f64 - 1.0,
+            None => {
+                let original = self.body_named(self.original(name));
+                original.unwrap_or(body) as f64 - 1.0
+            }
         };
         layer * (spec.thickness + spec.gap)
     }

@@ -1,12 +1,20 @@
 use std::collections::BTreeMap;
 
 use centrode_geometry::{Point, Vector};
+use nalgebra::Rotation2;
 
+use super::copies::Expansion;
 use super::design::FRAME;
-use super::{ComposedDesign, ComposedDyadSpec, ComposedError, CornerSpec, DyadKind};
+use super::{
+    ComposedBodySpec, ComposedCamSpec, ComposedDesign, ComposedDyadSpec, ComposedError, CornerSpec,
+    DyadKind,
+};
 
 /// Share of a triangle's sides by which they may fail to meet: rounding.
 const ROUNDING: f64 = 1e-14;
+
+/// Name of the point of a follower at its roller's centre.
+pub(super) const ROLLER: &str = "roller";
 
 /// Points of every body by name.
 pub(super) type BodyPoints = BTreeMap<String, BTreeMap<String, LocalPoint>>;
@@ -80,8 +88,32 @@ impl Reference {
     }
 }
 
+/// Cam that a body follows, with the key that says so.
+pub(super) fn followed_cam<'a>(
+    design: &'a ComposedDesign,
+    name: &str,
+    body: &ComposedBodySpec,
+) -> Result<Option<(String, &'a ComposedCamSpec)>, ComposedError> {
+    let Some(cam) = body.law.as_ref().and_then(|law| law.follows.as_ref()) else {
+        return Ok(None);
+    };
+    let key = format!("bodies.{name}.law.follows");
+    match design.cams.get(cam) {
+        Some(spec) => Ok(Some((key, spec))),
+        None => Err(ComposedError::NoGear {
+            key,
+            what: "cam",
+            name: cam.clone(),
+            known: design.cams.keys().cloned().collect(),
+        }),
+    }
+}
+
 /// The points of every body: those it is given, and those at which it is pinned to others.
-pub(super) fn points_of(design: &ComposedDesign) -> Result<BodyPoints, ComposedError> {
+pub(super) fn points_of(
+    design: &ComposedDesign,
+    expansion: &Expansion,
+) -> Result<BodyPoints, ComposedError> {
     let mut all = BodyPoints::new();
     all.insert(FRAME.into(), BTreeMap::new());
     for (name, body) in &design.bodies {
@@ -93,12 +125,24 @@ pub(super) fn points_of(design: &ComposedDesign) -> Result<BodyPoints, ComposedE
                 let names = vec![format!("body {name}")];
                 return Err(ComposedError::Ring { key, names });
             }
-            let pin = pin.point.unwrap_or_default();
+            let pin = expansion.pin(&pin);
             add(&mut all, &key, [name, &pin], Point::origin(), false)?;
         }
     }
+    for (name, body) in &design.bodies {
+        let Some((key, cam)) = followed_cam(design, name, body)? else {
+            continue;
+        };
+        if let (Some(arm), Some(law)) = (cam.follower.arm(), &body.law) {
+            let at = match body.slides {
+                Some(_) => Point::new(arm - law.offset(), 0.0),
+                None => Rotation2::new(-law.offset()) * Point::new(arm, 0.0),
+            };
+            add(&mut all, &key, [name, ROLLER], at, true)?;
+        }
+    }
     for (name, dyad) in &design.dyads {
-        pins(&format!("dyads.{name}"), dyad, &mut all)?;
+        pins(&format!("dyads.{name}"), (dyad, expansion), &mut all)?;
     }
     let frame = &design.frame;
     let of_frame = (FRAME.to_owned(), (FRAME, &frame.points, &frame.corners));
@@ -113,11 +157,18 @@ pub(super) fn points_of(design: &ComposedDesign) -> Result<BodyPoints, ComposedE
         }
         place_corners(&format!("{key}.corners"), body, corners, &mut all)?;
     }
+    for (name, cam) in &design.cams {
+        Reference::to_body(&cam.on).find(&format!("cams.{name}.on"), &all)?;
+    }
     Ok(all)
 }
 
 /// Adds the points at which a dyad's bodies are pinned, each in its body's axes.
-fn pins(key: &str, dyad: &ComposedDyadSpec, all: &mut BodyPoints) -> Result<(), ComposedError> {
+fn pins(
+    key: &str,
+    (dyad, expansion): (&ComposedDyadSpec, &Expansion),
+    all: &mut BodyPoints,
+) -> Result<(), ComposedError> {
     let [first, second] = &dyad.bodies;
     for body in &dyad.bodies {
         all.entry(body.clone()).or_default();
@@ -126,10 +177,8 @@ fn pins(key: &str, dyad: &ComposedDyadSpec, all: &mut BodyPoints) -> Result<(), 
     let along = |i: usize| Point::new(dyad.lengths.get(i).copied().unwrap_or(0.0), 0.0);
     let end = |word: &Option<String>, key: &str| -> Result<String, ComposedError> {
         let pin = word.as_ref().map(|word| Reference::to_point(key, word));
-        Ok(pin
-            .transpose()?
-            .and_then(|pin| pin.point)
-            .unwrap_or_default())
+        let pin = pin.transpose()?;
+        Ok(pin.map(|pin| expansion.pin(&pin)).unwrap_or_default())
     };
     let [from_key, to_key] = ["from", "to"].map(|end| format!("{key}.{end}"));
     let (from, to) = (end(&dyad.from, &from_key)?, end(&dyad.to, &to_key)?);

@@ -4,13 +4,14 @@ use std::sync::Arc;
 use centrode_geometry::Point;
 
 use super::build::range;
+use super::copies::Expansion;
 use super::design::FRAME;
 use super::gearing::{Meshing, gears_of};
 use super::plates::drawn;
-use super::points::{BodyPoints, Reference, points_of};
+use super::points::{BodyPoints, Reference, followed_cam, points_of};
 use super::{
-    Composed, ComposedBody, ComposedDesign, ComposedDyad, ComposedDyadSpec, ComposedError,
-    ComposedFigure, ComposedGear, Over, Pin,
+    Composed, ComposedBody, ComposedCam, ComposedDesign, ComposedDyad, ComposedDyadSpec,
+    ComposedError, ComposedFigure, ComposedGear, Over, Pin,
 };
 use crate::gear::design::{Rule, SpecError};
 use crate::linkage::{Coordinate, Link, Linkage, LinkageError, NotClosing};
@@ -25,6 +26,8 @@ enum Node<'a> {
 /// A composed machine under construction.
 pub(super) struct Builder<'a> {
     pub(super) design: &'a ComposedDesign,
+    /// Inputs by which laws run ahead, by the body, rad.
+    pub(super) ahead: &'a BTreeMap<String, f64>,
     pub(super) points: BodyPoints,
     pub(super) linkage: Linkage,
     /// Bodies in the order of building, and those that dyads have yet to be followed for.
@@ -33,6 +36,8 @@ pub(super) struct Builder<'a> {
     pub(super) pins: Vec<Pin>,
     pub(super) gears: Vec<ComposedGear>,
     pub(super) meshes: Vec<Meshing>,
+    /// Cams that a body follows already.
+    pub(super) cams: BTreeMap<String, ComposedCam>,
     /// Joints whose motion follows from the closed linkage, by the body they carry, and the key that holds it.
     pub(super) followed: Vec<(usize, Coordinate, String)>,
 }
@@ -44,11 +49,24 @@ impl Composed {
     /// [`ComposedError`] naming the key at fault.
     pub fn resolve(design: &ComposedDesign) -> Result<Self, ComposedError> {
         design.validate()?;
+        match design.copies.is_empty() {
+            true => Self::built(design, design, Expansion::default()),
+            false => Self::with_copies(design),
+        }
+    }
+
+    /// Builds a design whose copies are written out.
+    pub(super) fn built(
+        written: &ComposedDesign,
+        design: &ComposedDesign,
+        expansion: Expansion,
+    ) -> Result<Self, ComposedError> {
         holders(design)?;
-        let points = points_of(design)?;
+        let points = points_of(design, &expansion)?;
         let mut builder = Builder {
             gears: gears_of(design, &points)?,
             meshes: Vec::new(),
+            cams: BTreeMap::new(),
             points,
             linkage: Linkage::with_turns(design.input.turns),
             bodies: vec![ComposedBody {
@@ -59,13 +77,16 @@ impl Composed {
             dyads: Vec::new(),
             pins: Vec::new(),
             followed: Vec::new(),
+            ahead: &expansion.ahead,
             design,
         };
         builder.build()?;
         builder.follow()?;
         builder.check_loops()?;
+        builder.check_cams()?;
         let loads = builder.loads()?;
         let mut made = Self {
+            written: written.clone(),
             design: design.clone(),
             linkage: builder.linkage,
             bodies: builder.bodies,
@@ -76,6 +97,8 @@ impl Composed {
             figures: Vec::new(),
             gears: builder.gears,
             meshes: builder.meshes,
+            cams: builder.cams.into_values().collect(),
+            expansion,
             loads,
             obstacles: Vec::new(),
         };
@@ -220,6 +243,11 @@ impl<'a> Builder<'a> {
         {
             let with = self.gear(&format!("{key}.mesh.with"), &mesh.with)?;
             bodies.push(self.gears[with].body_name.clone());
+        }
+        if let Node::Body(name) = node
+            && let Some((_, cam)) = followed_cam(self.design, name, &self.design.bodies[*name])?
+        {
+            bodies.push(Reference::to_body(&cam.on).body);
         }
         Ok(bodies)
     }

@@ -3,6 +3,8 @@ use std::f64::consts::TAU;
 use super::*;
 use crate::design::{DesignFamily, DesignFile, DesignSpec};
 
+mod cams;
+mod copies;
 mod drawn;
 mod gears;
 mod random;

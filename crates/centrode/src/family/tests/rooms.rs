@@ -43,6 +43,17 @@ const TYPES: [&str; 11] = [
     "ComposedDesign",
 ];
 
+/// Types and words of the family of composed machines, and of gear pairs, which are its elements.
+const COMPOSED: [&str; 4] = [
+    "Composed",
+    "ComposedDesign",
+    "GearPairDesign",
+    "\"machine\"",
+];
+
+/// Rooms of other families that a composed machine has nothing of.
+const FOREIGN: [&str; 4] = ["three_arm::", "feeder::", "moving_box::", "arm::"];
+
 /// Every source file below a folder, tests aside.
 fn sources(folder: &Path, found: &mut Vec<PathBuf>) {
     for entry in fs::read_dir(folder).expect("a folder") {
@@ -105,6 +116,26 @@ fn no_family_is_named_outside_its_rooms() {
         named_in_rooms > 50,
         "only {named_in_rooms} files of families"
     );
+}
+
+#[test]
+fn a_composed_machine_knows_no_other_family() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let mut files = Vec::new();
+    for room in ["mechanism", "analysis", "export"] {
+        let folder = root.join(format!("crates/centrode-{room}/src/composed"));
+        sources(&folder, &mut files);
+    }
+    assert!(files.len() > 25, "only {} files", files.len());
+    for path in files {
+        let source = fs::read_to_string(&path).expect("text");
+        let mut found = named(&source);
+        found.retain(|word| !COMPOSED.contains(&word.as_str()));
+        let uses = source.lines().filter(|line| line.contains("use "));
+        let foreign = uses.filter(|line| FOREIGN.iter().any(|room| line.contains(room)));
+        found.extend(foreign.map(String::from));
+        assert!(found.is_empty(), "{}: {found:?}", path.display());
+    }
 }
 
 #[test]

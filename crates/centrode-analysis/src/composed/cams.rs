@@ -1,0 +1,63 @@
+use std::f64::consts::{FRAC_PI_4, FRAC_PI_6};
+
+use centrode_mechanism::composed::Composed;
+
+use crate::cam::CheckedCam;
+use crate::{Report, Table, Unit};
+
+/// Pressure angles up to which a sliding and a swinging follower run well while they are lifted, rad. VDI 2142 part 2.
+const PRESSURE_ANGLES: [f64; 2] = [FRAC_PI_6, FRAC_PI_4];
+
+/// Pressure angles and radii of the cams, over the whole of each.
+pub(super) fn cams(composed: &Composed, report: &mut Report) {
+    let (mut angles, mut radii) = (Vec::new(), Vec::new());
+    for cam in composed.cams() {
+        let disc = cam.disc();
+        let limits = disc.limits();
+        let [rise, fall] = [limits.rise_pressure_angle, limits.return_pressure_angle];
+        let input = |angle: f64| cam.inputs(angle, composed.period()).first().copied();
+        angles.push((cam.name.clone(), vec![rise.value, fall.value]));
+        let (least, greatest) = cam.part.radii();
+        let [convex, hollow] = [limits.least_radius.value, limits.largest_wheel.value];
+        radii.push((cam.name.clone(), vec![least, greatest, convex, hollow]));
+        let swings = disc.follower().swings();
+        let checked = CheckedCam {
+            part: &cam.name,
+            pressure_angle: PRESSURE_ANGLES[usize::from(swings)],
+            undercut: format!(
+                "cam {} is undercut: {} cannot follow its motion there",
+                cam.name,
+                cam.followers.join(", ")
+            ),
+            pushes: [
+                format!("while cam {} lifts its follower it pushes up to", cam.name),
+                "off the way of what it lifts".into(),
+            ],
+            remedies: [
+                "a longer span_deg, a larger base_radius, or a smaller roller",
+                "a longer span_deg or a larger base_radius",
+            ],
+            input: &input,
+        };
+        checked.report(&limits, report);
+    }
+    if angles.is_empty() {
+        return;
+    }
+    report.tables.push(Table {
+        name: "cam-pressure-angles",
+        title: "Greatest pressure angle of cam",
+        unit: Unit::Angle,
+        columns: ["rise", "return"].map(String::from).into(),
+        rows: angles,
+    });
+    report.tables.push(Table {
+        name: "cam-radii",
+        title: "Radius of cam, and least radii of curvature",
+        unit: Unit::Millimetre,
+        columns: ["least", "greatest", "convex", "hollow"]
+            .map(String::from)
+            .into(),
+        rows: radii,
+    });
+}

@@ -1,0 +1,346 @@
+//! Cams in their places, and the motions of what follows them.
+
+use std::f64::consts::{PI, TAU};
+use std::sync::Arc;
+
+use centrode_geometry::{Outline, Point, Solid, SolidError, Tolerance, Vector};
+use nalgebra::Isometry2;
+
+use super::gearing::placed;
+use super::mesh::{Angle, crossings};
+use super::points::{ROLLER, Reference};
+use super::resolve::Builder;
+use super::{Composed, ComposedBodySpec, ComposedCamSpec, ComposedError};
+use crate::cam::design::{Follower, Turn};
+use crate::cam::{Cam, DiscCam, Motion};
+use crate::machine::{Line, LineRole, Surface};
+use crate::transmission::{FromFn, MotionJet, Transmission, sorted};
+
+/// Greatest difference of lengths, as a share of the longer one, or of turns that is rounding.
+const ROUNDING: f64 = 1e-9;
+/// Movement of an axis, as a share of the base radius, below which it stands still.
+const SAME: f64 = 1e-12;
+/// Accuracy of the pitch curve in the picture, as a share of the base radius.
+const DRAWN: f64 = 1e-6;
+
+/// A cam of a composed machine.
+#[derive(Clone, Debug)]
+pub struct ComposedCam {
+    /// Name.
+    pub name: String,
+    /// Name of its body.
+    pub(super) body_name: String,
+    /// The finished cam.
+    pub part: Arc<Cam>,
+    /// Place of its axis in the body's axes, mm.
+    pub at: Point,
+    /// Angle of its own axes against the body's, rad.
+    pub mount: f64,
+    /// Names of the bodies that follow it.
+    pub followers: Vec<String>,
+    /// Turn of the cam against what carries its follower, without jumps, in its own sense of rotation, rad: zero where its
+    /// motion begins.
+    turn: Turned,
+}
+
+/// Turn of a cam by the input.
+#[derive(Clone, Debug)]
+struct Turned {
+    cam: Angle,
+    carrier: Angle,
+    /// Direction on the carrier of the slide, or to the pin, rad.
+    direction: f64,
+    sense: f64,
+}
+
+impl Turned {
+    fn at(&self, input: f64) -> MotionJet {
+        let mut turn = self.cam.at(input).plus(-1.0, &self.carrier.at(input));
+        turn.position -= self.direction;
+        MotionJet::default().plus(self.sense, &turn)
+    }
+
+    /// Inputs of a period at which a derivative of a motion by this turn may jump.
+    fn breaks(&self, motion: &dyn Transmission, period: f64) -> Vec<f64> {
+        let own = (&motion.breaks()[..], motion.period());
+        let mut found = crossings(|input| self.at(input).position, own, period);
+        found.extend(self.cam.breaks(period));
+        found.extend(self.carrier.breaks(period));
+        found.retain(|&input| input < period);
+        sorted(found.into_iter(), period)
+    }
+}
+
+impl ComposedCam {
+    /// The exact cam.
+    #[must_use]
+    pub fn disc(&self) -> &DiscCam {
+        self.part.disc()
+    }
+
+    /// Angle the cam has turned in its own sense against what carries its follower, rad, by the input: zero where its motion
+    /// begins. Of several followers, that of the first.
+    #[must_use]
+    pub fn turn(&self, input: f64) -> MotionJet {
+        self.turn.at(input)
+    }
+
+    /// Inputs of a period at which the cam has turned by an angle, rad, or by whole turns more.
+    #[must_use]
+    pub fn inputs(&self, angle: f64, period: f64) -> Vec<f64> {
+        crossings(
+            |input| self.turn.at(input).position,
+            (&[angle], TAU),
+            period,
+        )
+    }
+
+    /// Place of the cam's axes in those of its body.
+    fn place(&self) -> Isometry2<f64> {
+        Isometry2::new(self.at.coords, self.mount)
+    }
+
+    /// The cam in its body's axes, from a height on.
+    pub(super) fn solid(&self, bottom: f64) -> Result<Solid, SolidError> {
+        let contours = (self.part.profile().outline(), self.part.bore());
+        let top = bottom + self.part.body().width;
+        placed(contours, &self.place(), [bottom, top])
+    }
+
+    /// Its contour to touch with.
+    pub(super) fn surface(&self, solid: &Solid) -> Surface {
+        Surface {
+            name: format!("{}-profile", self.name),
+            outline: solid.outline().clone(),
+            span: [solid.bottom(), solid.top()],
+            teeth: Vec::new(),
+            coarseness: 1.0,
+        }
+    }
+
+    /// Contour, bore and path of the roller's centre in its body's axes.
+    pub(super) fn lines(&self) -> Vec<Line> {
+        let place = self.place();
+        let line = |role, outline: &Outline| Line::contour(role, &outline.transformed(&place));
+        let mut lines = vec![line(LineRole::Body, self.part.profile().outline())];
+        lines.extend(self.part.bore().map(|bore| line(LineRole::Hole, &bore)));
+        let disc = self.disc();
+        let path = Tolerance::new(DRAWN * disc.base_radius())
+            .ok()
+            .and_then(|tolerance| disc.pitch_curve(tolerance).ok().flatten());
+        lines.extend(path.map(|path| line(LineRole::Pitch, &path)));
+        lines
+    }
+}
+
+impl Composed {
+    /// Height of a cam's lower face along the shafts, mm: cams lie one below the other, behind the gears.
+    pub(super) fn cam_bottom(&self, cam: &ComposedCam) -> f64 {
+        let cams = self.written.cams.iter();
+        let own = self.original(&cam.name);
+        let upto = cams.take_while(|(name, _)| name.as_str() <= own);
+        let depth = upto.map(|(_, spec)| spec.body.width + self.design.plates.gap);
+        self.gears_bottom() - depth.sum::<f64>()
+    }
+
+    /// Roller of a body that follows a cam, in the body's axes; none for a flat face or a point.
+    pub(super) fn roller(&self, body: &str) -> Option<Outline> {
+        let follows = |cam: &&ComposedCam| cam.followers.iter().any(|name| name == body);
+        let disc = self.cams.iter().find(follows)?.disc();
+        let radius = disc.follower().roller_radius()?;
+        let at = self.points.get(body)?.get(ROLLER)?.at;
+        (radius > 0.0).then(|| Outline::circle(at, radius))
+    }
+}
+
+impl Builder<'_> {
+    /// Motion of a body that follows a cam.
+    ///
+    /// With gamma the angle of the cam, delta that of the slide or of the way from the cam's axis to the body's pin, both
+    /// against the carrier, and s the cam's sense of rotation, the cam has turned by s (gamma - delta).
+    pub(super) fn following(
+        &mut self,
+        name: &str,
+        body: &ComposedBodySpec,
+        cam: &str,
+    ) -> Result<Arc<dyn Transmission>, ComposedError> {
+        let (key, cam_key) = (format!("bodies.{name}.law.follows"), format!("cams.{cam}"));
+        let wrong = |key: &str, why: String| {
+            let key = key.into();
+            Err(ComposedError::NoFollower { key, why })
+        };
+        let design = self.design;
+        let spec = &design.cams[cam];
+        let words = ["slides", "turns"].map(|word| format!("a body that {word}"));
+        let swings = spec.follower.swings();
+        if swings == body.slides.is_some() {
+            let [own, other] = [&words[usize::from(!swings)], &words[usize::from(swings)]];
+            return wrong(
+                &key,
+                format!("cam {cam} has a follower on {other}, not on {own}"),
+            );
+        }
+        // The laws of dyads before it.
+        self.follow()?;
+        let on = body.on.as_deref().unwrap_or_default();
+        let (carrier, pin) = self.place(&format!("bodies.{name}.on"), on)?;
+        let seat = Reference::to_body(&spec.on);
+        let at = seat.find(&format!("{cam_key}.on"), &self.points)?;
+        let cam_body = self.body_named(&seat.body).unwrap_or(0);
+        let Some(axis) = self.axis_on(carrier, (cam_body, at), SAME * spec.base_radius) else {
+            let why = format!(
+                "the axis of cam {cam} moves on body {}, which must carry it",
+                self.bodies[carrier].name
+            );
+            return wrong(&key, why);
+        };
+        let way = pin - axis;
+        let (direction, distance, along) = match body.slides {
+            Some(direction) => {
+                let unit = Vector::new(direction.cos(), direction.sin());
+                (direction, unit.perp(&way), unit.dot(&way))
+            }
+            None => (way.y.atan2(way.x), way.norm(), 0.0),
+        };
+        let (what, written) = spec.follower.written();
+        if let Some(written) = written
+            && (written - distance).abs() > ROUNDING * distance.abs().max(written.abs())
+        {
+            let why = format!("is {written} mm, but body {name} is held at {distance} mm");
+            return wrong(&format!("{cam_key}.follower.{what}"), why);
+        }
+        let mut turn = Turned {
+            cam: self.angle(cam_body).plus(spec.mount),
+            carrier: self.angle(carrier),
+            direction,
+            sense: 1.0,
+        };
+        let period = self.linkage.period();
+        let turns = (turn.at(period).position - turn.at(0.0).position) / TAU;
+        if (turns - turns.round()).abs() > ROUNDING {
+            let why = format!(
+                "cam {cam} makes {turns:.9} turns against body {} in the period of {} turns of the input, which must be a whole number: set input.turns",
+                self.bodies[carrier].name, design.input.turns
+            );
+            return wrong(&key, why);
+        }
+        let rotation = match (spec.rotation, turns.round()) {
+            (None, turns) if turns < 0.0 => Turn::Clockwise,
+            (None, _) => Turn::CounterClockwise,
+            (Some(rotation), turns) if turns * rotation.sign() < 0.0 => {
+                let why = format!(
+                    "cam {cam} makes {turns} turns (counter-clockwise positive) against body {}, on which {name} follows it: it turns the other way",
+                    self.bodies[carrier].name
+                );
+                return wrong(&format!("{cam_key}.rotation"), why);
+            }
+            (Some(rotation), _) => rotation,
+        };
+        turn.sense = rotation.sign();
+        let follower = spec.follower.at(distance);
+        let part = self.cut(name, cam, spec, (follower, rotation))?;
+        let disc = part.disc().clone();
+        let start = body
+            .law
+            .as_ref()
+            .map_or(0.0, super::ComposedLawSpec::offset);
+        let sense = spec.follower.sense();
+        let zero = start
+            + match disc.follower() {
+                Follower::TranslatingRoller(_) => disc.start_distance() - along,
+                Follower::TranslatingFlat(_) => disc.base_radius() - along,
+                _ => wrapped(direction + PI + sense * disc.start_angle()),
+            };
+        let breaks = turn.breaks(disc.motion(), period);
+        let made = self.cams.entry(cam.into()).or_insert_with(|| ComposedCam {
+            name: cam.into(),
+            body_name: seat.body.clone(),
+            part,
+            at,
+            mount: spec.mount,
+            followers: Vec::new(),
+            turn: turn.clone(),
+        });
+        made.followers.push(name.into());
+        let at = move |input: f64| {
+            let turned = turn.at(input);
+            let lift = disc.motion().at(turned.position).after(&turned);
+            let mut own = MotionJet::default().plus(sense, &lift);
+            own.position += zero;
+            own
+        };
+        Ok(Arc::new(FromFn::new(period, 0.0, breaks, at)))
+    }
+
+    /// The cam for a follower: that of those before it, whose follower must be held alike.
+    fn cut(
+        &self,
+        name: &str,
+        cam: &str,
+        spec: &ComposedCamSpec,
+        (follower, rotation): (Follower, Turn),
+    ) -> Result<Arc<Cam>, ComposedError> {
+        if let Some(made) = self.cams.get(cam) {
+            let disc = made.disc();
+            let (own, other) = (held(&follower), held(disc.follower()));
+            let off = (own - other).abs() > ROUNDING * own.abs().max(other.abs());
+            if off || disc.rotation() != rotation {
+                let key = format!("bodies.{name}.law.follows");
+                let why = match off {
+                    true => format!("is held {own} mm from the axis of cam {cam}"),
+                    false => format!("sees cam {cam} turn the other way"),
+                };
+                let first = &made.followers[0];
+                let but = if off {
+                    format!(", but {first} {other} mm")
+                } else {
+                    format!(" than {first} does")
+                };
+                let why = format!("body {name} {why}{but}: one profile cannot move both");
+                return Err(ComposedError::NoFollower { key, why });
+            }
+            return Ok(Arc::clone(&made.part));
+        }
+        let blame = |error| {
+            let cam = cam.into();
+            ComposedError::Cam { cam, error }
+        };
+        let motion = Motion::resolve(&spec.motion).map_err(|error| blame(error.into()))?;
+        let disc = DiscCam::new(Arc::new(motion), follower, spec.base_radius, rotation);
+        let part = Cam::new(disc.map_err(blame)?, cam, spec.body.clone());
+        part.map(Arc::new).map_err(blame)
+    }
+
+    /// Checks that every cam has a follower, and a name of its own.
+    pub(super) fn check_cams(&self) -> Result<(), ComposedError> {
+        for name in self.design.cams.keys() {
+            let gear = self.gears.iter().any(|gear| gear.name == *name);
+            let why = if gear || self.points.contains_key(name) {
+                let what = if gear { "gear" } else { "body" };
+                format!("a {what} is named {name}, too: their files would be one")
+            } else if self.cams.contains_key(name) {
+                continue;
+            } else {
+                format!("no body follows cam {name}: give one law = {{ follows = {name:?} }}")
+            };
+            let key = format!("cams.{name}");
+            return Err(ComposedError::NoFollower { key, why });
+        }
+        Ok(())
+    }
+}
+
+/// Distance of a follower's slide or pivot from the axis, mm.
+fn held(follower: &Follower) -> f64 {
+    match follower {
+        Follower::TranslatingRoller(follower) => follower.offset,
+        Follower::TranslatingFlat(_) => 0.0,
+        Follower::SwingingRoller(follower) => follower.center_distance,
+        Follower::SwingingFlat(follower) => follower.center_distance,
+    }
+}
+
+/// An angle less whole turns, from -pi to pi.
+fn wrapped(angle: f64) -> f64 {
+    angle - TAU * (angle / TAU).round()
+}

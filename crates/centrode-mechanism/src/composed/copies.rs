@@ -1,0 +1,399 @@
+//! Copies of a chain of bodies, evenly spaced: a design written out without them.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::f64::consts::TAU;
+
+use centrode_geometry::Point;
+use nalgebra::Rotation2;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::design::FRAME;
+use super::points::{BodyPoints, Reference};
+use super::{ComposedBodySpec, ComposedDesign, ComposedDyadSpec, ComposedError};
+use crate::gear::design::SpecError;
+use crate::gear::design::rule::{Rule, broken, count_in_range};
+
+/// Most pieces of a chain.
+const MOST: u32 = 60;
+
+/// Copies of a chain of bodies, evenly spaced about the origin of a body.
+#[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct ComposedCopiesSpec {
+    /// Bodies that are copied, with the dyads, gears and cams that are theirs; the second of `arm` is `arm-2`.
+    pub bodies: Vec<String>,
+    /// Number of pieces in all.
+    pub count: u32,
+    /// Body about whose origin they are spaced; the frame where left out.
+    #[serde(default = "frame")]
+    pub about: String,
+}
+
+fn frame() -> String {
+    FRAME.into()
+}
+
+impl ComposedCopiesSpec {
+    pub(super) fn validate(&self) -> Result<(), SpecError> {
+        count_in_range("count", self.count, 2, MOST)?;
+        match self.bodies.is_empty() {
+            true => broken("bodies", Rule::Needed("to be copied")),
+            false => Ok(()),
+        }
+    }
+
+    /// Turn of a piece against the first, rad.
+    pub(super) fn turn(&self, piece: u32) -> f64 {
+        TAU * f64::from(piece) / f64::from(self.count)
+    }
+}
+
+/// Words of a design that is written out.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Expansion {
+    /// Originals of bodies, dyads, gears, cams and meshes, by the names of their copies.
+    pub(super) originals: BTreeMap<String, String>,
+    /// Pins' names by the points, `body.point`, that stand for them on the body about which copies are spaced.
+    pins: BTreeMap<String, String>,
+    /// Inputs by which laws run ahead of those of the originals, by the body, rad.
+    pub(super) ahead: BTreeMap<String, f64>,
+}
+
+impl Expansion {
+    /// Name of the pin of a body on a point.
+    pub(super) fn pin(&self, on: &Reference) -> String {
+        let point = on.point.as_deref().unwrap_or_default();
+        let pin = self.pins.get(&format!("{}.{point}", on.body));
+        pin.map_or(point, String::as_str).to_owned()
+    }
+
+    /// Original of a body, dyad, gear, cam or mesh: itself where it is no copy.
+    pub(super) fn original<'a>(&'a self, name: &'a str) -> &'a str {
+        self.originals.get(name).map_or(name, String::as_str)
+    }
+
+    /// Key of the original in place of that of a copy.
+    pub(super) fn written(&self, key: &str) -> String {
+        let parts = key.split('.').enumerate();
+        let parts = parts.map(|(i, part)| if i == 1 { self.original(part) } else { part });
+        parts.collect::<Vec<_>>().join(".")
+    }
+}
+
+/// Motion of the body about which copies are spaced.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Spin {
+    /// It stands still.
+    Still,
+    /// It turns evenly: its rate, rad per rad of the input.
+    Even(f64),
+    /// It turns one way, unevenly: the sign.
+    Uneven(f64),
+}
+
+/// One piece of a chain under copying.
+struct Piece<'a> {
+    whole: &'a mut ComposedDesign,
+    expansion: &'a mut Expansion,
+    points: &'a BodyPoints,
+    key: String,
+    about: &'a str,
+    bodies: &'a BTreeSet<String>,
+    number: u32,
+    /// Turn against the first piece, rad.
+    turn: f64,
+    spin: Spin,
+}
+
+/// Writes out the copies of a chain, whose originals are there.
+pub(super) fn add(
+    whole: &mut ComposedDesign,
+    expansion: &mut Expansion,
+    points: &BodyPoints,
+    (name, spin): (&str, Spin),
+) -> Result<(), ComposedError> {
+    let design = whole.clone();
+    let spec = &design.copies[name];
+    let bodies: BTreeSet<String> = spec.bodies.iter().cloned().collect();
+    for piece in 1..spec.count {
+        let mut piece = Piece {
+            whole: &mut *whole,
+            expansion: &mut *expansion,
+            points,
+            key: format!("copies.{name}"),
+            about: &spec.about,
+            bodies: &bodies,
+            number: piece + 1,
+            turn: spec.turn(piece),
+            spin,
+        };
+        piece.add(&design)?;
+    }
+    Ok(())
+}
+
+impl Piece<'_> {
+    fn wrong(&self, why: String) -> ComposedError {
+        let key = self.key.clone();
+        ComposedError::NoCopies { key, why }
+    }
+
+    /// Name of the copy of something.
+    fn name(&mut self, of: &str, taken: bool) -> Result<String, ComposedError> {
+        let name = self.copy(of);
+        if taken {
+            return Err(self.wrong(format!(
+                "there is a {name} already, the name of a copy of {of}"
+            )));
+        }
+        self.expansion.originals.insert(name.clone(), of.into());
+        Ok(name)
+    }
+
+    fn copy(&self, of: &str) -> String {
+        format!("{of}-{}", self.number)
+    }
+
+    fn is_about(&self, body: &str) -> bool {
+        body == self.about
+    }
+
+    /// A reference as the copy has it: to a copy, to a point turned about the middle, or to the same.
+    fn word(&mut self, key: &str, word: &str) -> Result<String, ComposedError> {
+        let on = Reference::to_body(word);
+        let Some(point) = &on.point else {
+            let copied = self.bodies.contains(&on.body);
+            return Ok(if copied { self.copy(word) } else { word.into() });
+        };
+        if self.bodies.contains(&on.body) {
+            return Ok(format!("{}.{point}", self.copy(&on.body)));
+        }
+        let at = on.find(key, self.points)?;
+        if !self.is_about(&on.body) || at == Point::origin() {
+            return Ok(word.into());
+        }
+        let name = self.copy(point);
+        let made = format!("{}.{name}", on.body);
+        if self.expansion.pins.contains_key(&made) {
+            return Ok(made);
+        }
+        let known = self.points.get(&on.body);
+        if known.is_some_and(|points| points.contains_key(&name)) {
+            let body = &on.body;
+            return Err(self.wrong(format!(
+                "body {body} has a point {name} already, the name of point {point} of a copy"
+            )));
+        }
+        let at = Rotation2::new(self.turn) * at;
+        let points = match on.body.as_str() {
+            FRAME => &mut self.whole.frame.points,
+            body => &mut self.whole.bodies.entry(body.into()).or_default().points,
+        };
+        points.insert(name, [at.x, at.y]);
+        self.expansion.pins.insert(made.clone(), point.clone());
+        Ok(made)
+    }
+
+    fn optional(
+        &mut self,
+        key: &str,
+        word: &Option<String>,
+    ) -> Result<Option<String>, ComposedError> {
+        word.as_ref().map(|word| self.word(key, word)).transpose()
+    }
+
+    /// A direction in the axes of the body that a word names.
+    fn direction(&self, word: Option<&String>, direction: Option<f64>) -> Option<f64> {
+        let about = word.is_some_and(|word| self.is_about(&Reference::to_body(word).body));
+        match about {
+            true => Some(direction.unwrap_or(0.0) + self.turn),
+            false => direction,
+        }
+    }
+
+    fn add(&mut self, design: &ComposedDesign) -> Result<(), ComposedError> {
+        let beside = self.beside(design)?;
+        for name in self.bodies {
+            // The bodies of dyads need no table of their own.
+            if let Some(body) = design.bodies.get(name) {
+                let copy = self.body(name, body, &beside)?;
+                let taken = self.whole.bodies.contains_key(&self.copy(name));
+                let name = self.name(name, taken)?;
+                self.whole.bodies.insert(name, copy);
+            } else {
+                self.name(name, false)?;
+            }
+        }
+        for (name, dyad) in &design.dyads {
+            let own = dyad
+                .bodies
+                .iter()
+                .filter(|body| self.bodies.contains(*body));
+            match own.count() {
+                0 => continue,
+                1 => {
+                    return Err(self.wrong(format!(
+                        "of the bodies {} and {} of dyad {name} one would be copied: name both",
+                        dyad.bodies[0], dyad.bodies[1]
+                    )));
+                }
+                _ => {}
+            }
+            let copy = self.dyad(name, dyad)?;
+            let taken = self.whole.dyads.contains_key(&self.copy(name));
+            let name = self.name(name, taken)?;
+            self.whole.dyads.insert(name, copy);
+        }
+        for name in &beside {
+            if let Some(gear) = design.gears.get(name) {
+                let mut copy = gear.clone();
+                copy.on = self.word(&format!("gears.{name}.on"), &gear.on)?;
+                copy.mount = self.mounted(&gear.on, gear.mount);
+                let taken = self.whole.gears.contains_key(&self.copy(name));
+                let name = self.name(name, taken)?;
+                self.whole.gears.insert(name, copy);
+            }
+            if let Some(cam) = design.cams.get(name) {
+                let mut copy = cam.clone();
+                copy.on = self.word(&format!("cams.{name}.on"), &cam.on)?;
+                copy.mount = self.mounted(&cam.on, cam.mount);
+                let taken = self.whole.cams.contains_key(&self.copy(name));
+                let name = self.name(name, taken)?;
+                self.whole.cams.insert(name, copy);
+            }
+        }
+        for (name, mesh) in &design.meshes {
+            let mut copy = mesh.clone();
+            for gear in copy.gears.iter_mut().filter(|gear| beside.contains(*gear)) {
+                *gear = self.copy(gear);
+            }
+            if copy != *mesh {
+                let taken = self.whole.meshes.contains_key(&self.copy(name));
+                let name = self.name(name, taken)?;
+                self.whole.meshes.insert(name, copy);
+            }
+        }
+        Ok(())
+    }
+
+    /// Names of the gears and cams that are copied: those on bodies that are, and, beside the middle of the body about which
+    /// they are spaced, those that move such bodies.
+    fn beside(&self, design: &ComposedDesign) -> Result<BTreeSet<String>, ComposedError> {
+        let own = self
+            .bodies
+            .iter()
+            .filter_map(|name| design.bodies.get(name));
+        let moving: BTreeSet<&String> = own
+            .flat_map(|body| {
+                let gear = body.mesh.as_ref().map(|mesh| &mesh.with);
+                let cam = body.law.as_ref().and_then(|law| law.follows.as_ref());
+                gear.into_iter().chain(cam)
+            })
+            .collect();
+        let gears = design
+            .gears
+            .iter()
+            .map(|(name, gear)| ("gears", name, &gear.on));
+        let cams = design
+            .cams
+            .iter()
+            .map(|(name, cam)| ("cams", name, &cam.on));
+        let mut found = BTreeSet::new();
+        for (table, name, on) in gears.chain(cams) {
+            let seat = Reference::to_body(on);
+            let aside = || {
+                let at = seat.find(&format!("{table}.{name}.on"), self.points)?;
+                Ok::<bool, ComposedError>(at != Point::origin())
+            };
+            if self.bodies.contains(&seat.body)
+                || (self.is_about(&seat.body) && moving.contains(name) && aside()?)
+            {
+                found.insert(name.clone());
+            }
+        }
+        Ok(found)
+    }
+
+    /// Angle at which a gear or cam is mounted on the body that a word names.
+    fn mounted(&self, on: &String, mount: f64) -> f64 {
+        self.direction(Some(on), Some(mount)).unwrap_or(mount)
+    }
+
+    fn body(
+        &mut self,
+        name: &str,
+        body: &ComposedBodySpec,
+        beside: &BTreeSet<String>,
+    ) -> Result<ComposedBodySpec, ComposedError> {
+        let key = format!("bodies.{name}");
+        let mut copy = body.clone();
+        copy.on = self.optional(&format!("{key}.on"), &body.on)?;
+        copy.fixed_to = self.optional(&format!("{key}.fixed_to"), &body.fixed_to)?;
+        copy.slides = body
+            .slides
+            .and_then(|slides| self.direction(body.on.as_ref(), Some(slides)));
+        if body.fixed_to.is_some() {
+            copy.turned = self.direction(body.fixed_to.as_ref(), body.turned);
+        }
+        if let (Some(mesh), Some(own)) = (&body.mesh, &mut copy.mesh) {
+            own.gear = self.copy(&mesh.gear);
+            if beside.contains(&mesh.with) {
+                own.with = self.copy(&mesh.with);
+            }
+            own.direction = self.mounted(body.on.as_ref().unwrap_or(&mesh.gear), mesh.direction);
+        }
+        let Some(law) = &mut copy.law else {
+            return Ok(copy);
+        };
+        if let Some(cam) = law.follows.as_mut() {
+            if beside.contains(cam) {
+                *cam = self.copy(cam);
+            }
+            return Ok(copy);
+        }
+        // What a copied body drives is copied with it.
+        let driven = law.by.as_ref().filter(|by| self.bodies.contains(*by));
+        let moves = law.moves() && driven.is_none();
+        if let Some(by) = driven.cloned() {
+            law.by = Some(format!("{by}-{}", self.number));
+        }
+        if body.slides.is_none() {
+            law.start_angle = self.direction(body.on.as_ref(), law.start_angle);
+        }
+        let ahead = match self.spin {
+            Spin::Even(rate) if rate > 0.0 => self.turn / rate,
+            Spin::Even(rate) => (self.turn - TAU) / rate,
+            Spin::Uneven(_) if moves => {
+                let why = format!(
+                    "body {} turns unevenly: of a body with a law of its own, {name}, there are no copies about it",
+                    self.about
+                );
+                let key = format!("{key}.law");
+                return Err(ComposedError::NoCopies { key, why });
+            }
+            _ => 0.0,
+        };
+        if moves && ahead != 0.0 {
+            self.expansion.ahead.insert(self.copy(name), ahead);
+        }
+        Ok(copy)
+    }
+
+    fn dyad(
+        &mut self,
+        name: &str,
+        dyad: &ComposedDyadSpec,
+    ) -> Result<ComposedDyadSpec, ComposedError> {
+        let key = |end: &str| format!("dyads.{name}.{end}");
+        let mut copy = dyad.clone();
+        copy.bodies = dyad.bodies.each_ref().map(|body| self.copy(body));
+        copy.from = self.optional(&key("from"), &dyad.from)?;
+        copy.to = self.optional(&key("to"), &dyad.to)?;
+        copy.line = self.optional(&key("line"), &dyad.line)?;
+        copy.second_line = self.optional(&key("second_line"), &dyad.second_line)?;
+        copy.direction = self.direction(dyad.line.as_ref(), dyad.direction);
+        copy.second_direction = self.direction(dyad.second_line.as_ref(), dyad.second_direction);
+        Ok(copy)
+    }
+}

@@ -1,0 +1,235 @@
+//! Machines with copies: made of the design written out, and held against the originals.
+
+use std::collections::BTreeMap;
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
+use centrode_geometry::{Extreme, Point, bracketed_root, greatest, pieces};
+use nalgebra::Rotation2;
+
+use super::copies::{self, ComposedCopiesSpec, Expansion, Spin};
+use super::{Composed, ComposedDesign, ComposedError};
+use crate::transmission::{FromFn, Transmission, sorted};
+
+/// Inputs of a turn at which copies are held against their originals.
+const LOOKS: u32 = 120;
+/// Parts of a turn of the input in each of which a mismatch has few extremes.
+const PARTS: u32 = 24;
+/// Greatest mismatch that is rounding: mm, as a share of a length of 1 mm or of the machine's, and rad.
+const ROUNDING: f64 = 1e-8;
+/// Change of a rate, as a share of it, below which a body turns evenly.
+const EVEN: f64 = 1e-12;
+
+/// A law that runs ahead of another.
+pub(super) fn ahead(law: Arc<dyn Transmission>, by: f64) -> Arc<dyn Transmission> {
+    let (period, advance) = (law.period(), law.advance());
+    let breaks = law.breaks().into_iter();
+    let breaks = sorted(breaks.map(|b| (b - by).rem_euclid(period)), period);
+    Arc::new(FromFn::new(period, advance, breaks, move |input| {
+        law.at(input + by)
+    }))
+}
+
+impl Composed {
+    /// Resolves a design with copies: first without them, then written out.
+    pub(super) fn with_copies(design: &ComposedDesign) -> Result<Self, ComposedError> {
+        let bare = ComposedDesign {
+            copies: BTreeMap::new(),
+            goals: BTreeMap::new(),
+            vary: BTreeMap::new(),
+            ..design.clone()
+        };
+        let one = Self::built(&bare, &bare, Expansion::default())?;
+        let (mut whole, mut expansion) = (design.clone(), Expansion::default());
+        for (name, spec) in &design.copies {
+            let key = format!("copies.{name}");
+            one.can_copy(design, &key, spec)?;
+            let spin = one.spin(&key, &spec.about)?;
+            copies::add(&mut whole, &mut expansion, &one.points, (name, spin))?;
+        }
+        let originals = expansion.clone();
+        let made = Self::built(design, &whole, expansion);
+        let made = made.map_err(|error| match originals.written(&error.key()) {
+            key if key == error.key() => error,
+            key => ComposedError::Copy {
+                key,
+                error: Box::new(error),
+            },
+        })?;
+        for (name, spec) in &design.copies {
+            made.check_copies(&format!("copies.{name}"), spec)?;
+        }
+        Ok(made)
+    }
+
+    /// Checks that bodies of copies are there, and each in one chain only.
+    fn can_copy(
+        &self,
+        design: &ComposedDesign,
+        key: &str,
+        spec: &ComposedCopiesSpec,
+    ) -> Result<(), ComposedError> {
+        let known = || self.bodies.iter().map(|body| body.name.clone()).collect();
+        let named = spec.bodies.iter().map(|body| (body, "bodies"));
+        for (body, word) in named.chain([(&spec.about, "about")]) {
+            if self.body_named(body).is_none() {
+                return Err(ComposedError::NoBody {
+                    key: format!("{key}.{word}"),
+                    body: body.clone(),
+                    known: known(),
+                });
+            }
+        }
+        let times = |body: &String| {
+            let all = design.copies.values().flat_map(|copies| &copies.bodies);
+            all.filter(|other| *other == body).count()
+        };
+        let wrong = |word: &str, why: String| {
+            let key = format!("{key}.{word}");
+            Err(ComposedError::NoCopies { key, why })
+        };
+        if let Some(body) = spec.bodies.iter().find(|body| times(body) > 1) {
+            return wrong("bodies", format!("body {body} would be copied twice"));
+        }
+        if let Some(body) = spec
+            .bodies
+            .iter()
+            .find(|body| *body == super::design::FRAME)
+        {
+            return wrong("bodies", format!("the {body} stands still: there is one"));
+        }
+        match times(&spec.about) {
+            0 => Ok(()),
+            _ => wrong("about", format!("body {} is copied itself", spec.about)),
+        }
+    }
+
+    /// Motion of the body about which copies are spaced.
+    fn spin(&self, key: &str, about: &str) -> Result<Spin, ComposedError> {
+        let body = self.body_named(about).unwrap_or(0);
+        let ends = self.parts();
+        let rate = |input: f64| self.angle(body, input).velocity;
+        let [low, high] = centrode_geometry::extremes(rate, &ends);
+        let size = low.value.abs().max(high.value.abs());
+        if high.value - low.value <= EVEN * size {
+            return Ok(if size == 0.0 {
+                Spin::Still
+            } else {
+                Spin::Even(high.value)
+            });
+        }
+        if low.value * high.value > 0.0 {
+            return Ok(Spin::Uneven(low.value.signum()));
+        }
+        let back = if high.value + low.value > 0.0 {
+            low
+        } else {
+            high
+        };
+        Err(ComposedError::NoCopies {
+            key: format!("{key}.about"),
+            why: format!(
+                "body {about} turns to and fro, at an input of {:.4} deg with {:.6} of the input's speed: copies about it need one that stands still or turns one way",
+                back.input.to_degrees(),
+                back.value
+            ),
+        })
+    }
+
+    /// Ends of the parts of a cycle between which all motion is smooth.
+    fn parts(&self) -> Vec<f64> {
+        let parts = PARTS * self.design.input.turns;
+        pieces(0.0, self.period(), parts, self.linkage.breaks())
+    }
+
+    /// Checks that each copy stands as its original does where the body in the middle has turned on.
+    fn check_copies(&self, key: &str, spec: &ComposedCopiesSpec) -> Result<(), ComposedError> {
+        let about = self.body_named(&spec.about).unwrap_or(0);
+        let spin = self.spin(key, &spec.about)?;
+        let count = LOOKS * self.design.input.turns;
+        let size = self.points().map(|(.., at)| at.coords.norm());
+        let size = size.fold(1.0, f64::max);
+        for (name, piece) in spec
+            .bodies
+            .iter()
+            .flat_map(|name| (1..spec.count).map(move |k| (name, k)))
+        {
+            let copied = format!("{name}-{}", piece + 1);
+            let (Some(body), Some(copy)) = (self.body_named(name), self.body_named(&copied)) else {
+                continue;
+            };
+            let turn = spec.turn(piece);
+            let off = |input: f64| self.off(about, (body, copy), (spin, turn), input);
+            let bad = |input: &f64| {
+                let [length, angle] = off(*input);
+                length > ROUNDING * size || angle > ROUNDING
+            };
+            let looks = (0..count).map(|i| self.period() * f64::from(i) / f64::from(count));
+            if looks.into_iter().any(|input| bad(&input)) {
+                let ends = self.parts();
+                let [length, angle] = [0, 1].map(|i| greatest(|input| off(input)[i], &ends));
+                return Err(ComposedError::NoCopies {
+                    key: key.into(),
+                    why: repeats([name, &copied, &spec.about], turn, [length, angle]),
+                });
+            }
+        }
+        Ok(())
+    }
+
+    /// Distance and angle by which a copy is off where its original stands when the body in the middle has turned on.
+    fn off(
+        &self,
+        about: usize,
+        (body, copy): (usize, usize),
+        (spin, turn): (Spin, f64),
+        input: f64,
+    ) -> [f64; 2] {
+        let origin = Point::origin();
+        let pose = |body: usize, input: f64| {
+            let at = self.place(body, origin, input);
+            (at, self.angle(body, input).position)
+        };
+        let (mut at, mut angle) = match spin {
+            Spin::Still => pose(body, input),
+            _ => pose(body, self.later(about, (spin, turn), input)),
+        };
+        if spin == Spin::Still {
+            let middle = self.place(about, origin, input);
+            at = middle + Rotation2::new(turn) * (at - middle);
+            angle += turn;
+        }
+        let (found, turned) = pose(copy, input);
+        let off = turned - angle;
+        [(found - at).norm(), (off - TAU * (off / TAU).round()).abs()]
+    }
+
+    /// Input at which the body in the middle has turned on by an angle, whole turns aside.
+    fn later(&self, about: usize, (spin, turn): (Spin, f64), input: f64) -> f64 {
+        let angle = |input: f64| self.angle(about, input).position;
+        let sign = match spin {
+            Spin::Even(rate) | Spin::Uneven(rate) => rate.signum(),
+            Spin::Still => return input,
+        };
+        let wanted = angle(input) + if sign > 0.0 { turn } else { turn - TAU };
+        let end = input + self.period();
+        let off = |input: f64| angle(input) - wanted;
+        bracketed_root(off, input, end, off(input), off(end))
+    }
+}
+
+/// Words of a chain that does not repeat.
+fn repeats([name, copy, about]: [&str; 3], turn: f64, [length, angle]: [Extreme; 2]) -> String {
+    let degrees = turn.to_degrees();
+    let what = match about {
+        super::design::FRAME => format!("as {name} does, turned by {degrees:.4} deg"),
+        _ => format!("where {name} does when {about} has turned {degrees:.4} deg further"),
+    };
+    format!(
+        "the train does not repeat: {copy} does not stand {what}, but is up to {:.6} mm off (at an input of {:.4} deg) and {:.6} deg (at {:.4} deg)",
+        length.value,
+        length.input.to_degrees(),
+        angle.value.to_degrees(),
+        angle.input.to_degrees()
+    )
+}
