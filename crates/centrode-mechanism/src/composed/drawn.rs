@@ -10,13 +10,21 @@ use crate::gear::design::rule::{Rule, broken, finite, not_negative, positive};
 
 /// A circle on a body.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
-#[serde(deny_unknown_fields)]
+#[serde(default, deny_unknown_fields)]
 pub struct ComposedCircleSpec {
     /// Centre: x and y in the body's axes, mm.
-    #[serde(default)]
     pub center: [f64; 2],
     /// Radius, mm.
     pub radius: f64,
+}
+
+impl Default for ComposedCircleSpec {
+    fn default() -> Self {
+        Self {
+            center: [0.0; 2],
+            radius: 10.0,
+        }
+    }
 }
 
 /// A contour as written: a polygon or a circle, or none.

@@ -19,8 +19,8 @@ const MOST_PITCHES: u32 = 1000;
 ///
 /// N teeth turn the driven gear by N of its pitches while the driver turns by N of its own and the entry angle; over the rest of
 /// the driver's turn it is locked. Entry and exit bring it to speed along 10 u³ - 15 u⁴ + 6 u⁵.
-#[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
+#[serde(default, deny_unknown_fields)]
 pub struct IntermittentSpec {
     /// Pitches all round the driver, with teeth or not.
     pub driver_pitches: u32,
@@ -30,39 +30,56 @@ pub struct IntermittentSpec {
     pub teeth: u32,
     /// Driver angle over which the driven gear is brought to speed and, at the end, to rest, rad (degrees in the file); 0: its
     /// speed jumps.
-    #[serde(rename = "entry_deg", with = "degrees", default)]
+    #[serde(rename = "entry_deg", with = "degrees")]
     #[schemars(with = "f64")]
     pub entry: f64,
 }
 
 /// Motion of a slider in the groove of a variable-speed spiral shaft: strokes out and back with a reversal at either end.
-#[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
+#[serde(default, deny_unknown_fields)]
 pub struct TraverseSpec {
     /// Lead, mm a turn of the shaft.
     pub lead: f64,
     /// Places a lead apart from one end of a stroke to the other.
     pub holes: u32,
     /// Radius of the shaft, mm, which a law along the helix needs.
-    #[serde(default = "usual_radius")]
     pub radius: f64,
     /// Turn of the shaft at which the stroke out begins, rad (degrees in the file).
-    #[serde(rename = "pick_deg", with = "degrees", default)]
+    #[serde(rename = "pick_deg", with = "degrees")]
     #[schemars(with = "f64")]
     pub pick: f64,
     /// Distance of the stroke back from the stroke out, mm towards the near end.
-    #[serde(default)]
     pub return_offset: f64,
     /// Speed along the shaft.
-    #[serde(default)]
     pub law: SpeedLaw,
     /// Reversal at both ends.
-    #[serde(default)]
     pub reversal: Reversal,
 }
 
-fn usual_radius() -> f64 {
-    15.0
+impl Default for IntermittentSpec {
+    fn default() -> Self {
+        Self {
+            driver_pitches: 40,
+            driven_pitches: 30,
+            teeth: 30,
+            entry: 0.0,
+        }
+    }
+}
+
+impl Default for TraverseSpec {
+    fn default() -> Self {
+        Self {
+            lead: 20.0,
+            holes: 14,
+            radius: 15.0,
+            pick: 0.0,
+            return_offset: 0.0,
+            law: SpeedLaw::default(),
+            reversal: Reversal::default(),
+        }
+    }
 }
 
 impl IntermittentSpec {

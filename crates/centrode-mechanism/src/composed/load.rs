@@ -7,7 +7,7 @@ use centrode_geometry::Point;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::law::formula_of;
+use super::course::formula_of;
 use super::points::Reference;
 use super::resolve::Builder;
 use super::{ComposedError, ComposedLawError};

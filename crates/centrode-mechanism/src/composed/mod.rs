@@ -11,6 +11,7 @@ mod cams;
 mod copies;
 mod copying;
 mod corner;
+mod course;
 mod design;
 mod drawn;
 mod drive;

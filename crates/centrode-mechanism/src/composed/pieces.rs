@@ -2,7 +2,7 @@ use centrode_geometry::{MassProperties, Solid, SolidError};
 
 use super::{Composed, ComposedCam, ComposedGear};
 
-/// What a body is made of.
+/// Pieces of which a body is made.
 pub(super) struct Pieces<'a> {
     pub(super) plate: Option<Solid>,
     /// Mass of the plate, or the one given in its place.

@@ -6,7 +6,7 @@ use super::series::Series;
 use super::six_bar_motion::chunks;
 use crate::formula::{LANES, Lanes};
 
-/// What a step takes: joints and links by their numbers.
+/// Joints and links that a step needs, by their numbers.
 #[derive(Default)]
 struct Takes {
     joints: Vec<usize>,
