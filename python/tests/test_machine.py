@@ -183,6 +183,11 @@ def test_the_arms_of_a_train_follow_its_closed_form():
         second = phi + side + math.radians(20) + math.pi
         # The inverse of the pair of ellipses: eccentricity with its sign changed.
         planet = second - driven(idler - second, -k)
+        # A mesh begins its cycle within half a turn of zero.
+        for name, angle in ((f"idler-{number}", idler), (f"planet-{number}", planet)):
+            angle -= 2.0 * math.pi * np.round((angle - machine.body(name, phi)[:, 2])[0] / (2.0 * math.pi))
+            begin = machine.body(name, 0.0)[2] - machine.body("carrier", 0.0)[2]
+            assert abs(begin) <= math.pi + 1e-12
         np.testing.assert_allclose(machine.body(f"idler-{number}", phi)[:, 2], idler, atol=1e-11)
         np.testing.assert_allclose(machine.body(f"planet-{number}", phi)[:, 2], planet, atol=1e-11)
         axis = a * np.stack([np.cos(first) - np.cos(second), np.sin(first) - np.sin(second)], axis=1)
