@@ -2,7 +2,8 @@
 
     python benches/peers/jansen.py [--rounds 5]
 
-Each round runs both, one after the other, on one core and on arrays in Python; the best of each counts. Both find the same foot.
+Each round runs both, one after the other, on one core and on arrays in Python; the best of each counts. Both find the
+same foot.
 """
 
 import argparse

@@ -105,12 +105,12 @@ fn frame(machine: &Composed, body: usize, input: f64) -> Isometry2<f64> {
 
 #[test]
 fn every_follower_stays_on_its_cam_whatever_turns() {
-    for drive in 0..DRIVES.len() {
+    for (drive, (_, seat, ..)) in DRIVES.iter().enumerate() {
         for follower in 0..FOLLOWERS.len() {
             let machine = made(&text(follower, drive));
             let body = |name: &str| machine.body_named(name).expect("there");
             let (cam, lever) = (&machine.cams()[0], body("lever"));
-            let on = body(DRIVES[drive].1.split('.').next().expect("a name"));
+            let on = body(seat.split('.').next().expect("a name"));
             let (disc, roller) = (cam.disc(), machine.point_named("lever.roller"));
             assert_eq!(roller.is_some(), disc.follower().roller_radius().is_some());
             for i in 0..97 {
