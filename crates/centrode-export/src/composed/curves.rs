@@ -5,14 +5,15 @@ use centrode_mechanism::machine::JointKind;
 
 use crate::page::Curve;
 
-/// Samples of one turn of the input.
+/// Samples of one turn of the input, and the most of all turns.
 const SAMPLES: u32 = 720;
+const MOST: u32 = 7200;
 
 /// Angle of every body along the cycle, place and speed of those that slide, and the least transmission angle of all dyads, where
 /// there are any.
 #[must_use]
 pub fn curves(composed: &Composed) -> Vec<Curve> {
-    let samples = SAMPLES * composed.design().input.turns;
+    let samples = MOST.min(SAMPLES * composed.design().input.turns);
     let input = |i: u32| composed.period() * f64::from(i) / f64::from(samples);
     let input: Vec<f64> = (0..=samples).map(input).collect();
     let shown = |chart: Cow<'static, str>, unit: &'static str, f: &dyn Fn(f64) -> f64| {
