@@ -13,6 +13,7 @@ use super::{
 use crate::gear::design::GearPairDesign;
 use crate::gear::{Gear, GearPair, Member, Role};
 use crate::machine::{Line, LineRole, Surface};
+use crate::transmission::Remembered;
 
 /// Samples of a turn of the input at which a loop of meshes is checked.
 const LOOKS: u32 = 720;
@@ -271,7 +272,8 @@ impl Builder<'_> {
                 self.design.input.turns
             )));
         }
-        let law = Arc::new(law.with_whole_turns());
+        // Trains and dyads beyond ask for it again and again.
+        let law = Arc::new(Remembered::new(law.with_whole_turns()));
         let of_carrier = self
             .points
             .entry(self.bodies[carrier].name.clone())

@@ -15,6 +15,7 @@ use super::{
 };
 use crate::gear::design::{Rule, SpecError};
 use crate::linkage::{Coordinate, Link, Linkage, LinkageError, NotClosing};
+use crate::transmission::Remembered;
 
 /// Body or dyad to build, in whatever order its needs allow.
 #[derive(Clone, Copy)]
@@ -315,7 +316,7 @@ impl<'a> Builder<'a> {
             })?;
             let range = range(&law, &self.linkage);
             if let Some(mount) = &mut self.bodies[body].mount {
-                mount.follow(Arc::new(law), range);
+                mount.follow(Arc::new(Remembered::new(law)), range);
             }
         }
         Ok(())

@@ -77,19 +77,41 @@ impl Linkage {
         let Some(step) = self.dyads().nth(dyad) else {
             return intervals;
         };
+        let needed = self.needed_by_dyad(dyad);
+        let series = |input: f64| {
+            let mut series = Series::<1>::default();
+            self.find(input, |step| needed[step], &mut series);
+            series
+        };
         // Two guides close but where they are parallel: on the side on which the cycle begins.
-        let side = slant(step, &self.series::<1>(0.0)).map(f64::signum);
+        let side = slant(step, &series(0.0)).map(f64::signum);
         let room = |input: f64| {
-            let series = self.series::<1>(input);
+            let series = series(input);
             match (side, slant(step, &series)) {
                 (Some(side), Some(slant)) => side * slant,
-                _ => series.room[dyad],
+                // Of the dyads that are needed it is the last.
+                _ => series.room.last().copied().unwrap_or(f64::NAN),
             }
         };
         let parts = intervals.into_iter();
         parts
             .flat_map(|interval| positive(&room, interval))
             .collect()
+    }
+
+    /// The steps on which a dyad depends, itself among them.
+    fn needed_by_dyad(&self, dyad: usize) -> Vec<bool> {
+        let (mut link, mut before) = (1, 0);
+        for step in &self.steps {
+            if step.is_dyad() {
+                if before == dyad {
+                    break;
+                }
+                before += 1;
+            }
+            link += step.makes()[0];
+        }
+        self.needed(std::iter::once(link))
     }
 
     /// First input above zero at which the linkage does not close, and the dyad at fault.

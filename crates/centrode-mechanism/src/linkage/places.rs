@@ -1,4 +1,4 @@
-use centrode_geometry::Point;
+use centrode_geometry::{Point, Vector};
 
 use super::assembly::{Linkage, Step};
 use super::parts::{Line, Link};
@@ -79,8 +79,29 @@ impl Linkage {
         places
     }
 
+    /// Place (mm) and velocity (mm per radian of the input) of each of several points of links, given in their axes in mm, at
+    /// an input; of the links on which these depend alone.
+    ///
+    /// Not finite where the linkage does not close.
+    ///
+    /// # Panics
+    /// Never for links of the linkage.
+    #[must_use]
+    pub fn moving(&self, points: &[(Link, Point)], input: f64) -> Vec<(Point, Vector)> {
+        let needed = self.needed(points.iter().map(|(link, _)| link.0));
+        let mut series = Series::<2>::default();
+        self.find(input, |step| needed[step], &mut series);
+        let moving = |(link, local): &(Link, Point)| {
+            let (origin, axis) = series.frame(*link);
+            let place = origin.plus(axis.turned(local.coords));
+            let velocity = Vector::new(place.x.0[1], place.y.0[1]);
+            (place.value(), velocity)
+        };
+        points.iter().map(moving).collect()
+    }
+
     /// The steps on which links depend.
-    fn needed(&self, links: impl Iterator<Item = usize>) -> Vec<bool> {
+    pub(super) fn needed(&self, links: impl Iterator<Item = usize>) -> Vec<bool> {
         let mut link_is = vec![false; self.links];
         let mut joint_is = vec![false; self.owners.len()];
         links.for_each(|link| link_is[link] = true);

@@ -2,6 +2,7 @@
 
 mod chain;
 mod inverse;
+mod remembered;
 
 use std::fmt;
 
@@ -10,6 +11,7 @@ use crate::machine::Piecewise;
 
 pub use chain::Chain;
 pub use inverse::Inverse;
+pub(crate) use remembered::Remembered;
 
 /// A position and its first three derivatives with respect to the input.
 ///
