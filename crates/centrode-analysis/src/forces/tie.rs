@@ -131,7 +131,11 @@ impl Tie {
                 let along = [along, axis.cross(&along)];
                 Some(Lines { at, along })
             }
-            TieKind::Mesh(_) => pitch_point([one, other], axis),
+            TieKind::Mesh(i) => {
+                let [_, center] = machine.meshes[i].axes;
+                let center = other.place + other.turn * Vector3::from(center);
+                pitch_point([one, other], center, axis)
+            }
             TieKind::Contact(i) => {
                 let contact = &machine.contacts[i];
                 let at = other.place + other.turn * Vector3::from(contact.at);
@@ -160,7 +164,9 @@ impl Tie {
         };
         let angle = machine.meshes[i].pressure_angle.unwrap_or(0.0);
         let [tangent, across] = lines.along;
-        let apart = across * across.dot(&(lines.at - driver.place)).signum();
+        let [center, _] = machine.meshes[i].axes;
+        let center = driver.place + driver.turn * Vector3::from(center);
+        let apart = across * across.dot(&(lines.at - center)).signum();
         let normal = tangent * angle.cos() + apart * angle.sin().copysign(angle * size);
         Lines {
             along: [normal, across],
@@ -170,16 +176,20 @@ impl Tie {
 }
 
 /// Pitch point of two links, the pole of their motion against each other, and unit vectors along the pitch curves there and
-/// across them: the tangent turns the driven gear counter-clockwise.
+/// across them: the tangent turns the driven gear counter-clockwise about its centre.
 ///
 /// The pitch curves roll on each other, so the acceleration of one against the other at the pole is square to them.
-fn pitch_point([driver, driven]: [&LinkMotion; 2], axis: Vector3<f64>) -> Option<Lines> {
+fn pitch_point(
+    [driver, driven]: [&LinkMotion; 2],
+    center: Vector3<f64>,
+    axis: Vector3<f64>,
+) -> Option<Lines> {
     let turning = axis.dot(&(driven.spin[0] - driver.spin[0]));
     let slip = driven.way[0] - driver.point(driven.place)[0];
     let at = driven.place + axis.cross(&slip) / turning;
     let rolled = driven.point(at)[1] - driver.point(at)[1];
     let tangent = axis.cross(&rolled).try_normalize(0.0)?;
-    let moment = axis.dot(&(at - driven.place).cross(&tangent));
+    let moment = axis.dot(&(at - center).cross(&tangent));
     let tangent = tangent * moment.signum();
     let finite = tangent.iter().chain(at.iter()).all(|x| x.is_finite());
     finite.then(|| Lines {

@@ -47,6 +47,7 @@ fn teeth_of_an_elliptic_pair_push_square_to_its_pitch_curves() {
         joint: 1,
         copy: 0,
         pressure_angle: Some(alpha),
+        axes: Default::default(),
     });
     pair.loads.push(torque(2, -500.0));
     let balance = Balance::new(pair).expect("a machine");
