@@ -5,6 +5,7 @@ use super::*;
 
 mod clearances;
 mod loads;
+mod seats;
 
 fn composed(text: &str) -> Composed {
     let design = ComposedDesign::from_toml(text).expect("a design");
