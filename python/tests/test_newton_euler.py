@@ -35,7 +35,9 @@ class System:
 
     def __init__(self, random):
         self.random = random
-        self.text = f'family = "machine"\ngravity = {GRAVITY.tolist()}\n[input]\nspeed_rpm = {random.uniform(30, 200)}\n'
+        self.text = (
+            f'family = "machine"\ngravity = {GRAVITY.tolist()}\n[input]\nspeed_rpm = {random.uniform(30, 200)}\n'
+        )
         self.tables = {}
         self.masses = {}
         self.joints = []  # body, carrier, kind
