@@ -170,11 +170,15 @@ impl Mount {
     }
 
     /// Sets the motion, and the range of a slide.
-    fn follow(&mut self, law: Arc<dyn Transmission>, range: [f64; 2]) {
-        self.law = law;
+    fn follow(
+        &mut self,
+        law: Arc<dyn Transmission>,
+        range: impl Fn(&dyn Transmission) -> [f64; 2],
+    ) {
         if let JointKind::Sliding(of) = &mut self.kind {
-            *of = range;
+            *of = range(law.as_ref());
         }
+        self.law = law;
     }
 }
 

@@ -314,9 +314,10 @@ impl<'a> Builder<'a> {
                 },
                 error => blame(&key)(error),
             })?;
-            let range = range(&law, &self.linkage);
+            let linkage = &self.linkage;
             if let Some(mount) = &mut self.bodies[body].mount {
-                mount.follow(Arc::new(Remembered::new(law)), range);
+                let law = Arc::new(Remembered::new(law));
+                mount.follow(law, |law| range(law, linkage));
             }
         }
         Ok(())

@@ -170,7 +170,10 @@ fn positive(room: &dyn Fn(f64) -> f64, (low, high): (f64, f64)) -> Vec<(f64, f64
     for i in 1..count as usize {
         let [a, b, c] = [looks[i - 1], looks[i], looks[i + 1]];
         let sign = if b.1 > 0.0 { 1.0 } else { -1.0 };
-        if a.1 * sign > b.1 * sign && c.1 * sign >= b.1 * sign && a.1 * sign > 0.0 {
+        // Eight times the depth of the parabola through the samples, twice that of a kink.
+        let deep = sign * (a.1 - 2.0 * b.1 + c.1);
+        let dips = a.1 * sign > b.1 * sign && c.1 * sign >= b.1 * sign && a.1 * sign > 0.0;
+        if dips && sign * b.1 <= deep {
             let (at, least) = bracketed_minimum(|x| sign * room(x), a.0, c.0);
             if least < 0.0 {
                 looks.push((at, sign * least));
