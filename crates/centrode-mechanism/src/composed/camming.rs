@@ -7,14 +7,14 @@ use centrode_geometry::{Outline, Point, Solid, SolidError, Tolerance, Vector};
 use nalgebra::Isometry2;
 
 use super::gearing::placed;
-use super::mesh::{Angle, crossings};
+use super::mesh::Angle;
 use super::points::{ROLLER, Reference};
 use super::resolve::Builder;
 use super::{Composed, ComposedBodySpec, ComposedCamSpec, ComposedError};
 use crate::cam::design::{Follower, Turn};
 use crate::cam::{Cam, DiscCam, Motion};
 use crate::machine::{Line, LineRole, Surface};
-use crate::transmission::{FromFn, MotionJet, Transmission, sorted};
+use crate::transmission::{FromFn, MotionJet, Transmission, crossings, sorted};
 
 /// Greatest difference of lengths, as a share of the longer one, or of turns that is rounding.
 const ROUNDING: f64 = 1e-9;
@@ -62,12 +62,11 @@ impl Turned {
 
     /// Inputs of a period at which a derivative of a motion by this turn may jump.
     fn breaks(&self, motion: &dyn Transmission, period: f64) -> Vec<f64> {
-        let own = (&motion.breaks()[..], motion.period());
-        let mut found = crossings(|input| self.at(input).position, own, period);
-        found.extend(self.cam.breaks(period));
+        let mut found = self.cam.breaks(period);
         found.extend(self.carrier.breaks(period));
-        found.retain(|&input| input < period);
-        sorted(found.into_iter(), period)
+        let own = (&motion.breaks()[..], motion.period());
+        let met = crossings(|input| self.at(input).position, own, period, &found);
+        sorted(found.into_iter().chain(met), period)
     }
 }
 
@@ -92,6 +91,7 @@ impl ComposedCam {
             |input| self.turn.at(input).position,
             (&[angle], TAU),
             period,
+            &[],
         )
     }
 
