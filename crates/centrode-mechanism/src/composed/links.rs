@@ -60,6 +60,7 @@ impl Composed {
                 pressure_angle: Some(pair.design().tool.pressure_angle()),
             });
         }
+        machine.contacts = self.contacts();
         self.add_points(&mut machine);
         self.draw(&mut machine, &pieces);
         self.list(&mut machine, &pieces);

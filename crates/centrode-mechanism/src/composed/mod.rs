@@ -23,6 +23,7 @@ mod gears;
 mod given_mass;
 mod goal;
 mod law;
+mod limits;
 mod links;
 mod load;
 mod mesh;
@@ -33,6 +34,7 @@ mod points;
 mod resolve;
 #[cfg(test)]
 mod tests;
+mod touching;
 
 use std::collections::BTreeMap;
 use std::sync::Arc;

@@ -8,6 +8,7 @@ mod copies;
 mod drawn;
 mod gears;
 mod random;
+mod trains;
 
 fn read(text: &str) -> ComposedDesign {
     ComposedDesign::from_toml(text).expect("a design")
