@@ -12,11 +12,13 @@ mod copies;
 mod copying;
 mod corner;
 mod course;
+mod cutting;
 mod design;
 mod drawn;
 mod drive;
 mod dyad;
 mod error;
+mod expansion;
 mod figure;
 mod gearing;
 mod gears;
@@ -31,6 +33,7 @@ mod pieces;
 mod plates;
 mod points;
 mod resolve;
+mod seating;
 #[cfg(test)]
 mod tests;
 
@@ -61,7 +64,7 @@ pub use load::{ComposedLoadSpec, LoadAxes};
 pub use obstacle::{ComposedObstacle, ComposedObstacleSpec};
 pub use plates::ComposedPlatesSpec;
 
-use self::copies::Expansion;
+use self::expansion::Expansion;
 use self::gearing::Meshing;
 use self::load::ComposedLoad;
 use self::points::BodyPoints;
