@@ -1,4 +1,4 @@
-use centrode_mechanism::machine::{JointKind, Machine};
+use centrode_mechanism::machine::{JointKind, Machine, PitchCurves};
 use nalgebra::Vector3;
 
 use super::ForcesError;
@@ -109,7 +109,7 @@ impl Tie {
     }
 
     /// Place and components of the force: of teeth along the tangent of the pitch curves. None where links that mesh stand
-    /// still on each other.
+    /// still on each other and their pitch curves are not given.
     pub(super) fn lines(
         &self,
         machine: &Machine,
@@ -132,7 +132,10 @@ impl Tie {
                 let along = [along, axis.cross(&along)];
                 Some(Lines { at, along })
             }
-            TieKind::Mesh(_) => pitch_point([one, other], axis),
+            TieKind::Mesh(i) => match &machine.meshes[i].pitch {
+                Some(pitch) => known_pitch_point(pitch, [one, other], axis),
+                None => pitch_point([one, other], axis),
+            },
             TieKind::Contact(i) => {
                 let contact = &machine.contacts[i];
                 if let Some(line) = &contact.line {
@@ -188,7 +191,33 @@ fn pitch_point([driver, driven]: [&LinkMotion; 2], axis: Vector3<f64>) -> Option
     let slip = driven.way[0] - driver.point(driven.place)[0];
     let at = driven.place + axis.cross(&slip) / turning;
     let rolled = driven.point(at)[1] - driver.point(at)[1];
-    let tangent = axis.cross(&rolled).try_normalize(0.0)?;
+    along_pitch(at, axis.cross(&rolled), driven, axis)
+}
+
+/// Pitch point of two links and unit vectors there, as of [`pitch_point`], by their pitch curves: whether they turn or rest.
+fn known_pitch_point(
+    pitch: &PitchCurves,
+    [driver, driven]: [&LinkMotion; 2],
+    axis: Vector3<f64>,
+) -> Option<Lines> {
+    let apart = driven.place - driver.place;
+    let along = apart - axis * axis.dot(&apart);
+    let own = driver.turn.tr_mul(&along);
+    let [radius, slope] = pitch.radius(own.y.atan2(own.x), along.norm());
+    let out = along.try_normalize(0.0)?;
+    let round = axis.cross(&out);
+    let at = driven.place - along + out * radius;
+    along_pitch(at, out * slope + round * radius, driven, axis)
+}
+
+/// Lines of a mesh at its pitch point by a tangent of the pitch curves, either way.
+fn along_pitch(
+    at: Vector3<f64>,
+    tangent: Vector3<f64>,
+    driven: &LinkMotion,
+    axis: Vector3<f64>,
+) -> Option<Lines> {
+    let tangent = tangent.try_normalize(0.0)?;
     let moment = axis.dot(&(at - driven.place).cross(&tangent));
     let tangent = tangent * moment.signum();
     let finite = tangent.iter().chain(at.iter()).all(|x| x.is_finite());

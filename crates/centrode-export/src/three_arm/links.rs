@@ -283,6 +283,7 @@ impl Builder<'_> {
                 joint,
                 copy,
                 pressure_angle,
+                pitch: None,
             });
         }
         let level = mechanism.arm_level();

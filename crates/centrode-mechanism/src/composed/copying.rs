@@ -7,7 +7,8 @@ use std::sync::Arc;
 use centrode_geometry::{Extreme, Point, bracketed_root, greatest, pieces};
 use nalgebra::Rotation2;
 
-use super::copies::{self, ComposedCopiesSpec, Expansion, Spin};
+use super::copies::{self, ComposedCopiesSpec, Spin};
+use super::expansion::Expansion;
 use super::{Composed, ComposedDesign, ComposedError};
 use crate::transmission::{FromFn, Transmission, sorted};
 

@@ -1,3 +1,5 @@
+use std::sync::Arc;
+
 use centrode_geometry::{Outline, Point, SolidError};
 
 use super::gearing::Meshing;
@@ -6,7 +8,7 @@ use super::pieces::Pieces;
 use super::{Composed, ComposedBody};
 use crate::machine::{
     Closure, Form, GearMesh, Input, Joint, JointKind, Line, LineRole, Link, LinkPoint, Machine,
-    Mark, Part, Quantity, Shape, Surface,
+    Mark, Part, PitchCurves, Quantity, Shape, Surface,
 };
 
 impl Composed {
@@ -51,13 +53,19 @@ impl Composed {
             });
         }
         for mesh in self.balanced_meshes() {
-            let pair = &self.gears[mesh.gears[0]].pair;
+            let driver = &self.gears[mesh.gears[0]];
+            let pair = &driver.pair;
             let body = |gear: usize| self.body_named(&self.gears[gear].body_name).unwrap_or(0);
             machine.meshes.push(GearMesh {
                 links: mesh.gears.map(body),
                 joint: mesh.moved - 1,
                 copy: 0,
                 pressure_angle: Some(pair.design().tool.pressure_angle()),
+                // Gears that dwell still hold each other.
+                pitch: Some(PitchCurves {
+                    driven: Arc::new(pair.rolling().clone()),
+                    zero: driver.mount,
+                }),
             });
         }
         machine.contacts = self.contacts();

@@ -5,6 +5,7 @@ use crate::design::{DesignFamily, DesignFile, DesignSpec};
 
 mod cams;
 mod copies;
+mod cutting;
 mod drawn;
 mod gears;
 mod random;

@@ -23,7 +23,7 @@ pub struct Closure {
 /// Two links that touch by their teeth.
 ///
 /// The frame of each stands on the axis of its gear.
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct GearMesh {
     /// Indices of the driving and the driven link.
@@ -34,6 +34,37 @@ pub struct GearMesh {
     pub copy: usize,
     /// Angle of a flank's normal through the pitch point against the pitch curves, rad; none where flanks have no common one.
     pub pressure_angle: Option<f64>,
+    /// The pitch curves; left out, they are found from how the gears turn on each other, which they must then do.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub pitch: Option<PitchCurves>,
+}
+
+/// Pitch curves of two gears that roll on each other outside.
+#[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct PitchCurves {
+    /// Angle of the driven gear by the polar angle of the pitch point on the driver, rad: its rate is the ratio of their radii.
+    #[serde(with = "plain::laws")]
+    #[schemars(with = "plain::laws::File")]
+    pub driven: Arc<dyn Transmission>,
+    /// Direction of the driver's polar angle zero in the axes of the driving link, rad.
+    pub zero: f64,
+}
+
+impl PitchCurves {
+    /// Radius of the driver's pitch curve in a direction in the axes of the driving link, mm, and its change by a radian of
+    /// that, for a distance of the axes (mm).
+    ///
+    /// With i the ratio of the radii and a the distance of the axes, r = a i / (1 + i).
+    #[must_use]
+    pub fn radius(&self, direction: f64, distance: f64) -> [f64; 2] {
+        let jet = self.driven.at(direction - self.zero);
+        let whole = 1.0 + jet.velocity;
+        [
+            distance * jet.velocity / whole,
+            distance * jet.acceleration / (whole * whole),
+        ]
+    }
 }
 
 /// A roller or pin of one link on a curve of another: cam and follower, pin and slot.

@@ -112,6 +112,10 @@ impl Machine {
         for mesh in &self.meshes {
             let angle = mesh.pressure_angle.as_slice();
             all.push(("the pressure angle of a mesh", angle, &acute));
+            if let Some(pitch) = &mesh.pitch {
+                let zero = std::slice::from_ref(&pitch.zero);
+                all.push(("the zero of a mesh's pitch curves", zero, &finite));
+            }
         }
         for contact in &self.contacts {
             all.push(("a place of a contact", &contact.at, &finite));
