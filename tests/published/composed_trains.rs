@@ -1,11 +1,12 @@
 use std::f64::consts::{PI, TAU};
 
-use centrode_geometry::{Point, Vector};
+use centrode_geometry::{Point, Vector, extremes};
 use centrode_mechanism::composed::{Composed, ComposedDesign};
 use centrode_mechanism::design::DesignSpec as _;
 use centrode_mechanism::three_arm::ThreeArm;
 use centrode_mechanism::three_arm::design::ThreeArmDesign;
 use centrode_mechanism::transmission::MotionJet;
+use nalgebra::Rotation2;
 
 use crate::data::file;
 
@@ -74,6 +75,82 @@ fn the_composed_transplanter_moves_as_the_family_of_its_own() {
     let carrier = composed.body_named("carrier").expect("there");
     let turned = composed.angle(carrier, 1.0).position;
     assert!((turned - (86.0_f64.to_radians() - 1.0)).abs() < 1e-12);
+}
+
+#[test]
+fn the_cam_in_every_arm_is_that_of_the_family_of_its_own() {
+    let composed = made("rice-transplanter");
+    let design = ThreeArmDesign::from_toml(&text("three-arm-2021")).expect("a design");
+    let family = ThreeArm::resolve(&design).expect("a mechanism");
+    let pusher = family.pusher().expect("push rods");
+    let theirs = pusher.cam().disc();
+    let names: Vec<&str> = composed.cams().iter().map(|cam| &*cam.name).collect();
+    assert_eq!(names, ["opener", "opener-2", "opener-3"]);
+    // Their axes stand at an angle on the carrier; those of the composed cams, not mounted at one, along it.
+    let (angle, sense) = (pusher.cam_angle(), theirs.rotation().sign());
+    let carrier = composed.body_named("carrier").expect("there");
+    for (arm, cam) in composed.cams().iter().enumerate() {
+        let disc = cam.disc();
+        assert_eq!(disc.rotation(), theirs.rotation());
+        for i in 0..720 {
+            let turn = 0.5_f64.to_radians() * f64::from(i);
+            let point = theirs.contact(turn + sense * angle).point;
+            let off = (disc.contact(turn).point - Rotation2::new(angle) * point).norm();
+            assert!(off < 1e-9, "{arm} {turn}: {off}");
+        }
+        let radii = [cam.part.radii(), pusher.cam().radii()];
+        assert!((radii[0].0 - radii[1].0).abs() < 1e-9);
+        assert!((radii[0].1 - radii[1].1).abs() < 1e-9);
+        // And each is touched by the roller of its fork all round.
+        let end = if arm == 0 {
+            String::new()
+        } else {
+            format!("-{}", arm + 1)
+        };
+        let (fork, roller) = composed
+            .point_named(&format!("fork{end}.roller"))
+            .expect("there");
+        for i in 0..180 {
+            let input = 0.0351 * f64::from(i);
+            let turned = composed.angle(carrier, input).position + cam.mount;
+            let at = disc.contact(cam.turn(input).position).point;
+            let touched =
+                composed.place(carrier, cam.at, input) + Rotation2::new(turned) * at.coords;
+            let far = (touched - composed.place(fork, roller, input)).norm();
+            assert!((far - 4.0).abs() < 1e-10, "{arm} {input}: {far}");
+        }
+    }
+}
+
+#[test]
+fn the_composed_transplanter_has_the_goals_of_the_family_of_its_own() {
+    let composed = made("rice-transplanter");
+    let design = ThreeArmDesign::from_toml(&text("three-arm-2021")).expect("a design");
+    let theirs = ThreeArm::resolve(&design).expect("a mechanism").figures();
+    let value = |words: &str, input: f64| {
+        let figure = composed.figure("", words).expect("a figure");
+        composed.value(&figure, input).expect("a value")
+    };
+    let own = |words: &str, degrees: f64| value(words, degrees.to_radians());
+    let goal = |name: &str| &composed.design().goals[name];
+    let at = |name: &str| goal(name).at.expect("an input").to_degrees();
+    let picking = own("clamp.angle", at("picking"));
+    let planting = own("clamp.angle", at("planting"));
+    assert!(
+        (picking - theirs.pick_angle).abs() < 1e-9,
+        "{picking} {theirs:?}"
+    );
+    assert!(
+        (planting + theirs.push_angle).abs() < 1e-9,
+        "{planting} {theirs:?}"
+    );
+    let ends: Vec<f64> = (0..=60).map(|i| TAU * f64::from(i) / 60.0).collect();
+    let [low, high] = extremes(|input| value("arm.tip.y", input), &ends);
+    let height = high.value - low.value;
+    assert!(
+        (height - theirs.trajectory_height).abs() < 1e-9,
+        "{height} {theirs:?}"
+    );
 }
 
 /// The polynomial of fifth degree from 0 to a rise over a span, with one rate at both ends and no acceleration, by Hermite's

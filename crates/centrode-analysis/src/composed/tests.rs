@@ -4,6 +4,7 @@ use centrode_mechanism::design::DesignSpec;
 use super::*;
 
 mod clearances;
+mod followers;
 mod loads;
 mod seats;
 
@@ -251,7 +252,7 @@ fn a_search_finds_lengths_that_meet_the_goals() {
 
 #[test]
 fn a_cam_has_its_figures_and_one_that_is_too_small_is_told() {
-    const INDEX: &str = include_str!("../../../../tests/published/data/index-table.toml");
+    const INDEX: &str = include_str!("../../../../tests/designs/index-table.toml");
     let made = composed(INDEX);
     let report = check_composed(&made);
     let limits = made.cams()[0].disc().limits();

@@ -1,4 +1,4 @@
-use centrode_mechanism::machine::{JointKind, Machine};
+use centrode_mechanism::machine::{JointKind, Machine, PitchCurves};
 use nalgebra::Vector3;
 
 use super::ForcesError;
@@ -109,12 +109,13 @@ impl Tie {
     }
 
     /// Place and components of the force: of teeth along the tangent of the pitch curves. None where links that mesh stand
-    /// still on each other.
+    /// still on each other and their pitch curves are not given.
     pub(super) fn lines(
         &self,
         machine: &Machine,
         motions: &[LinkMotion],
         axes: &[Vector3<f64>],
+        input: f64,
     ) -> Option<Lines> {
         let axis = self.normal.map_or(Vector3::z(), |joint| axes[joint]);
         let [one, other] = self.links.map(|link| &motions[link]);
@@ -132,12 +133,25 @@ impl Tie {
                 Some(Lines { at, along })
             }
             TieKind::Mesh(i) => {
-                let [_, center] = machine.meshes[i].axes;
-                let center = other.place + other.turn * Vector3::from(center);
-                pitch_point([one, other], center, axis)
+                let mesh = &machine.meshes[i];
+                let centers = [(one, mesh.axes[0]), (other, mesh.axes[1])];
+                let centers = centers.map(|(link, at)| link.place + link.turn * Vector3::from(at));
+                match &mesh.pitch {
+                    Some(pitch) => known_pitch_point(pitch, one, centers, axis),
+                    None => pitch_point([one, other], centers[1], axis),
+                }
             }
             TieKind::Contact(i) => {
                 let contact = &machine.contacts[i];
+                if let Some(line) = &contact.line {
+                    let [at, along] = line.at(input).map(|v| other.turn * Vector3::from(v));
+                    let at = other.place + at;
+                    let finite = at.iter().chain(along.iter()).all(|x| x.is_finite());
+                    return finite.then_some(Lines {
+                        at,
+                        along: [along; 2],
+                    });
+                }
                 let at = other.place + other.turn * Vector3::from(contact.at);
                 let normal = match contact.normal {
                     Some(normal) => one.turn * Vector3::from(normal),
@@ -188,7 +202,34 @@ fn pitch_point(
     let slip = driven.way[0] - driver.point(driven.place)[0];
     let at = driven.place + axis.cross(&slip) / turning;
     let rolled = driven.point(at)[1] - driver.point(at)[1];
-    let tangent = axis.cross(&rolled).try_normalize(0.0)?;
+    along_pitch(at, axis.cross(&rolled), center, axis)
+}
+
+/// Pitch point of two links and unit vectors there, as of [`pitch_point`], by their pitch curves: whether they turn or rest.
+fn known_pitch_point(
+    pitch: &PitchCurves,
+    driver: &LinkMotion,
+    [from, to]: [Vector3<f64>; 2],
+    axis: Vector3<f64>,
+) -> Option<Lines> {
+    let apart = to - from;
+    let along = apart - axis * axis.dot(&apart);
+    let own = driver.turn.tr_mul(&along);
+    let [radius, slope] = pitch.radius(own.y.atan2(own.x), along.norm());
+    let out = along.try_normalize(0.0)?;
+    let round = axis.cross(&out);
+    let at = to - along + out * radius;
+    along_pitch(at, out * slope + round * radius, to, axis)
+}
+
+/// Lines of a mesh at its pitch point by a tangent of the pitch curves, either way.
+fn along_pitch(
+    at: Vector3<f64>,
+    tangent: Vector3<f64>,
+    center: Vector3<f64>,
+    axis: Vector3<f64>,
+) -> Option<Lines> {
+    let tangent = tangent.try_normalize(0.0)?;
     let moment = axis.dot(&(at - center).cross(&tangent));
     let tangent = tangent * moment.signum();
     let finite = tangent.iter().chain(at.iter()).all(|x| x.is_finite());

@@ -57,6 +57,7 @@ pub fn drawn(pair: &GearPair) -> Machine {
         copy: 0,
         pressure_angle: Some(pair.design().tool.pressure_angle()),
         axes: Default::default(),
+        pitch: None,
     });
     machine.column(
         "driver_angle_rad",

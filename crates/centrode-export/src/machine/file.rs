@@ -67,6 +67,10 @@ pub(super) fn in_pieces(machine: &Machine) -> Machine {
     for joint in &mut plain.joints {
         joint.law = Arc::new(joint.law.pieces());
     }
+    let pitches = plain.meshes.iter_mut().flat_map(|mesh| &mut mesh.pitch);
+    for pitch in pitches {
+        pitch.driven = Arc::new(pitch.driven.pieces());
+    }
     let columns = plain.columns.iter_mut().map(|column| &mut column.quantity);
     let own = plain
         .figures

@@ -336,6 +336,7 @@ fn hang(
         copy: 0,
         pressure_angle: Some(gears.pair.design().tool.pressure_angle()),
         axes: Default::default(),
+        pitch: None,
     });
     joint
 }

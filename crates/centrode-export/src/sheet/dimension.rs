@@ -11,6 +11,9 @@ const BEYOND: f64 = 2.0;
 /// Step by which a leader is moved to run clear of words, mm, and the most steps.
 const CLEARING: f64 = 1.5;
 const TRIES: u32 = 40;
+/// Air beside the words of a dimension, mm, and what they are moved by to keep it whatever the rounding.
+const AIR: f64 = 1.0;
+const NUDGE: f64 = 1e-6;
 /// Distance of an extension line from its feature, mm.
 const CLEAR: f64 = 0.8;
 
@@ -18,10 +21,23 @@ impl Draft {
     /// Draws a dimension between two points, measured along a direction, its line through `at`.
     ///
     /// Words that do not fit between the arrows are put beyond the second point.
-    pub fn dimension(&mut self, [a, b]: [Point; 2], along: Vector, at: Point, words: &str) {
+    pub fn dimension(&mut self, ends: [Point; 2], along: Vector, at: Point, words: &str) {
+        self.dimension_clear_of(ends, along, at, words, &[]);
+    }
+
+    /// Draws a dimension whose words leave lines square to it free, given by their places along the direction, mm.
+    pub(crate) fn dimension_clear_of(
+        &mut self,
+        [a, b]: [Point; 2],
+        along: Vector,
+        at: Point,
+        words: &str,
+        lines: &[f64],
+    ) {
         let mut along = along.normalize();
         let upwards = along.x.abs() < 1e-9;
-        if along.x < -1e-9 || (upwards && along.y < 0.0) {
+        let turned = along.x < -1e-9 || (upwards && along.y < 0.0);
+        if turned {
             along = -along;
         }
         let up = Vector::new(-along.y, along.x);
@@ -41,7 +57,11 @@ impl Draft {
         let length = (end - start).norm();
         let width = lettering::width(words, self.letters);
         let rotation = along.y.atan2(along.x);
-        let (inside, between, middle) = fitting(length, width);
+        let (inside, between, usual) = fitting(length, width);
+        let origin = start.coords.dot(&along);
+        let sign = if turned { -1.0 } else { 1.0 };
+        let lines: Vec<f64> = lines.iter().map(|line| sign * line - origin).collect();
+        let middle = clear_middle((length, width), (between, usual), &lines);
         let (from, to) = if inside {
             (start, end)
         } else {
@@ -50,7 +70,7 @@ impl Draft {
         let to = if between {
             to
         } else {
-            end + along * (ARROW + 2.0 + width)
+            end + along * (ARROW + 2.0 + width + (middle - usual))
         };
         self.line(Pen::Dimension, from, to);
         let sense = if inside { along } else { -along };
@@ -160,12 +180,35 @@ fn fitting(length: f64, width: f64) -> (bool, bool, f64) {
     (inside, between, middle)
 }
 
+/// Middle of the words of a dimension nearest to the usual one at which they leave lines free, mm from its start; the usual one
+/// where there is none. Words between the arrows stay there, others move outwards.
+fn clear_middle((length, width): (f64, f64), (between, usual): (bool, f64), lines: &[f64]) -> f64 {
+    let half = 0.5 * width + AIR;
+    let free = |middle: &f64| lines.iter().all(|line| (line - middle).abs() > half);
+    let allowed = |middle: &f64| {
+        let [low, high] = match between {
+            true => [half, length - half],
+            false => [usual, f64::INFINITY],
+        };
+        (low..=high).contains(middle)
+    };
+    // Just beside one of the lines.
+    let beside = lines.iter().flat_map(|line| [line - half, line + half]);
+    let beside = beside.flat_map(|middle| [middle - NUDGE, middle + NUDGE]);
+    let mut middles: Vec<f64> = beside.filter(allowed).collect();
+    middles.push(usual);
+    middles.retain(free);
+    let away = |middle: &f64| steady((middle - usual).abs());
+    middles.sort_by(|a, b| away(a).total_cmp(&away(b)).then(b.total_cmp(a)));
+    middles.first().copied().unwrap_or(usual)
+}
+
 /// Stretch of its line that the words of a dimension take with some air, mm.
 pub(crate) fn dimension_words([a, b]: [f64; 2], words: &str, letters: f64) -> [f64; 2] {
     let width = lettering::width(words, letters);
     let (_, _, middle) = fitting((b - a).abs(), width);
     let middle = a.min(b) + middle;
-    [-1.0, 1.0].map(|side| middle + side * (0.5 * width + 1.0))
+    [-1.0, 1.0].map(|side| middle + side * (0.5 * width + AIR))
 }
 
 /// Room above the line of a note, mm.
@@ -182,6 +225,37 @@ fn below(words: &[String], letters: f64) -> f64 {
 mod tests {
     use super::*;
     use crate::drawing::Shape;
+
+    #[test]
+    fn words_of_a_dimension_leave_the_lines_of_others_free() {
+        let ends = [Point::new(10.0, 0.0), Point::new(110.0, 0.0)];
+        let middle = |ends: [Point; 2], along: Vector, lines: &[f64]| {
+            let mut draft = Draft::default();
+            draft.dimension_clear_of(ends, along, Point::new(0.0, -20.0), "100", lines);
+            let found = draft
+                .into_entities()
+                .into_iter()
+                .find_map(|e| match e.shape {
+                    Shape::Text(text) => Some(text.at.x),
+                    _ => None,
+                });
+            found.expect("words")
+        };
+        let half = 0.5 * lettering::width("100", 3.5) + AIR;
+        let x = Vector::x();
+        assert!((middle(ends, x, &[]) - 60.0).abs() < 1e-9);
+        assert!((middle(ends, x, &[40.0, 90.0]) - 60.0).abs() < 1e-9);
+        assert!((middle(ends, x, &[59.0]) - 59.0 - half).abs() < 1e-5);
+        assert!((middle(ends, x, &[61.0]) - 61.0 + half).abs() < 1e-5);
+        // Both nearest gaps are too narrow.
+        let found = middle(ends, x, &[58.0, 62.0, 62.0 + 1.5 * half]);
+        assert!((found - 58.0 + half).abs() < 1e-5, "{found}");
+        assert!((middle(ends, -x, &[-61.0]) - 61.0 + half).abs() < 1e-5);
+        // Words beside their arrows move outwards.
+        let short = [Point::new(0.0, 0.0), Point::new(2.0, 0.0)];
+        let line = middle(short, x, &[]);
+        assert!((middle(short, x, &[line]) - line - half).abs() < 1e-5);
+    }
 
     #[test]
     fn notes_keep_their_order_their_distance_and_the_free_band() {

@@ -284,6 +284,7 @@ impl Builder<'_> {
                 copy,
                 pressure_angle,
                 axes: Default::default(),
+                pitch: None,
             });
         }
         let level = mechanism.arm_level();

@@ -1,25 +1,21 @@
 //! Cams in their places, and the motions of what follows them.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::TAU;
 use std::sync::Arc;
 
-use centrode_geometry::{Outline, Point, Solid, SolidError, Tolerance, Vector};
+use centrode_geometry::{Outline, Point, Solid, SolidError, Tolerance};
 use nalgebra::Isometry2;
 
 use super::gearing::placed;
-use super::mesh::{Angle, crossings};
 use super::points::{ROLLER, Reference};
 use super::resolve::Builder;
+use super::seating::{ROUNDING, Seat, Turned, wrong};
 use super::{Composed, ComposedBodySpec, ComposedCamSpec, ComposedError};
 use crate::cam::design::{Follower, Turn};
 use crate::cam::{Cam, DiscCam, Motion};
 use crate::machine::{Line, LineRole, Surface};
-use crate::transmission::{FromFn, MotionJet, Transmission, sorted};
+use crate::transmission::{FromFn, MotionJet, Transmission, crossings};
 
-/// Greatest difference of lengths, as a share of the longer one, or of turns that is rounding.
-const ROUNDING: f64 = 1e-9;
-/// Movement of an axis, as a share of the base radius, below which it stands still.
-const SAME: f64 = 1e-12;
 /// Accuracy of the pitch curve in the picture, as a share of the base radius.
 const DRAWN: f64 = 1e-6;
 
@@ -43,34 +39,6 @@ pub struct ComposedCam {
     turn: Turned,
 }
 
-/// Turn of a cam by the input.
-#[derive(Clone, Debug)]
-struct Turned {
-    cam: Angle,
-    carrier: Angle,
-    /// Direction on the carrier of the slide, or to the pin, rad.
-    direction: f64,
-    sense: f64,
-}
-
-impl Turned {
-    fn at(&self, input: f64) -> MotionJet {
-        let mut turn = self.cam.at(input).plus(-1.0, &self.carrier.at(input));
-        turn.position -= self.direction;
-        MotionJet::default().plus(self.sense, &turn)
-    }
-
-    /// Inputs of a period at which a derivative of a motion by this turn may jump.
-    fn breaks(&self, motion: &dyn Transmission, period: f64) -> Vec<f64> {
-        let own = (&motion.breaks()[..], motion.period());
-        let mut found = crossings(|input| self.at(input).position, own, period);
-        found.extend(self.cam.breaks(period));
-        found.extend(self.carrier.breaks(period));
-        found.retain(|&input| input < period);
-        sorted(found.into_iter(), period)
-    }
-}
-
 impl ComposedCam {
     /// The exact cam.
     #[must_use]
@@ -92,6 +60,7 @@ impl ComposedCam {
             |input| self.turn.at(input).position,
             (&[angle], TAU),
             period,
+            &[],
         )
     }
 
@@ -164,80 +133,16 @@ impl Builder<'_> {
         body: &ComposedBodySpec,
         cam: &str,
     ) -> Result<Arc<dyn Transmission>, ComposedError> {
-        let (key, cam_key) = (format!("bodies.{name}.law.follows"), format!("cams.{cam}"));
-        let wrong = |key: &str, why: String| {
-            let key = key.into();
-            Err(ComposedError::NoFollower { key, why })
-        };
-        let design = self.design;
-        let spec = &design.cams[cam];
-        let words = ["slides", "turns"].map(|word| format!("a body that {word}"));
-        let swings = spec.follower.swings();
-        if swings == body.slides.is_some() {
-            let [own, other] = [&words[usize::from(!swings)], &words[usize::from(swings)]];
-            return wrong(
-                &key,
-                format!("cam {cam} has a follower on {other}, not on {own}"),
-            );
-        }
+        let key = format!("bodies.{name}.law.follows");
+        let spec = &self.design.cams[cam];
         // The laws of dyads before it.
         self.follow()?;
         let on = body.on.as_deref().unwrap_or_default();
-        let (carrier, pin) = self.place(&format!("bodies.{name}.on"), on)?;
-        let seat = Reference::to_body(&spec.on);
-        let at = seat.find(&format!("{cam_key}.on"), &self.points)?;
-        let cam_body = self.body_named(&seat.body).unwrap_or(0);
-        let Some(axis) = self.axis_on(carrier, (cam_body, at), SAME * spec.base_radius) else {
-            let why = format!(
-                "the axis of cam {cam} moves on body {}, which must carry it",
-                self.bodies[carrier].name
-            );
-            return wrong(&key, why);
-        };
-        let way = pin - axis;
-        let (direction, distance, along) = match body.slides {
-            Some(direction) => {
-                let unit = Vector::new(direction.cos(), direction.sin());
-                (direction, unit.perp(&way), unit.dot(&way))
-            }
-            None => (way.y.atan2(way.x), way.norm(), 0.0),
-        };
-        let (what, written) = spec.follower.written();
-        if let Some(written) = written
-            && (written - distance).abs() > ROUNDING * distance.abs().max(written.abs())
-        {
-            let why = format!("is {written} mm, but body {name} is held at {distance} mm");
-            return wrong(&format!("{cam_key}.follower.{what}"), why);
-        }
-        let mut turn = Turned {
-            cam: self.angle(cam_body).plus(spec.mount),
-            carrier: self.angle(carrier),
-            direction,
-            sense: 1.0,
-        };
+        let held = self.place(&format!("bodies.{name}.on"), on)?;
+        let seat = self.seat(&key, (name, body.slides), (cam, spec), held)?;
+        let (turn, rotation, _) = self.turned(&key, name, (cam, spec), &seat)?;
         let period = self.linkage.period();
-        let turns = (turn.at(period).position - turn.at(0.0).position) / TAU;
-        if (turns - turns.round()).abs() > ROUNDING {
-            let why = format!(
-                "cam {cam} makes {turns:.9} turns against body {} in the period of {} turns of the input, which must be a whole number: set input.turns",
-                self.bodies[carrier].name, design.input.turns
-            );
-            return wrong(&key, why);
-        }
-        let rotation = match (spec.rotation, turns.round()) {
-            (None, turns) if turns < 0.0 => Turn::Clockwise,
-            (None, _) => Turn::CounterClockwise,
-            (Some(rotation), turns) if turns * rotation.sign() < 0.0 => {
-                let why = format!(
-                    "cam {cam} makes {turns} turns (counter-clockwise positive) against body {}, on which {name} follows it: it turns the other way",
-                    self.bodies[carrier].name
-                );
-                return wrong(&format!("{cam_key}.rotation"), why);
-            }
-            (Some(rotation), _) => rotation,
-        };
-        turn.sense = rotation.sign();
-        let follower = spec.follower.at(distance);
+        let follower = spec.follower.at(seat.distance);
         let part = self.cut(name, cam, spec, (follower, rotation))?;
         let disc = part.disc().clone();
         let start = body
@@ -245,23 +150,9 @@ impl Builder<'_> {
             .as_ref()
             .map_or(0.0, super::ComposedLawSpec::offset);
         let sense = spec.follower.sense();
-        let zero = start
-            + match disc.follower() {
-                Follower::TranslatingRoller(_) => disc.start_distance() - along,
-                Follower::TranslatingFlat(_) => disc.base_radius() - along,
-                _ => wrapped(direction + PI + sense * disc.start_angle()),
-            };
+        let zero = start + seat.lowest(&disc, sense);
         let breaks = turn.breaks(disc.motion(), period);
-        let made = self.cams.entry(cam.into()).or_insert_with(|| ComposedCam {
-            name: cam.into(),
-            body_name: seat.body.clone(),
-            part,
-            at,
-            mount: spec.mount,
-            followers: Vec::new(),
-            turn: turn.clone(),
-        });
-        made.followers.push(name.into());
+        self.add_cam(name, (cam, spec), &seat, part, turn.clone());
         let at = move |input: f64| {
             let turned = turn.at(input);
             let lift = disc.motion().at(turned.position).after(&turned);
@@ -270,6 +161,27 @@ impl Builder<'_> {
             own
         };
         Ok(Arc::new(FromFn::new(period, 0.0, breaks, at)))
+    }
+
+    /// Adds a follower of a cam, and the cam with the first.
+    pub(super) fn add_cam(
+        &mut self,
+        follower: &str,
+        (cam, spec): (&str, &ComposedCamSpec),
+        seat: &Seat,
+        part: Arc<Cam>,
+        turn: Turned,
+    ) {
+        let made = self.cams.entry(cam.into()).or_insert_with(|| ComposedCam {
+            name: cam.into(),
+            body_name: Reference::to_body(&spec.on).body,
+            part,
+            at: seat.at,
+            mount: spec.mount,
+            followers: Vec::new(),
+            turn,
+        });
+        made.followers.push(follower.into());
     }
 
     /// The cam for a follower: that of those before it, whose follower must be held alike.
@@ -285,7 +197,6 @@ impl Builder<'_> {
             let (own, other) = (held(&follower), held(disc.follower()));
             let off = (own - other).abs() > ROUNDING * own.abs().max(other.abs());
             if off || disc.rotation() != rotation {
-                let key = format!("bodies.{name}.law.follows");
                 let why = match off {
                     true => format!("is held {own} mm from the axis of cam {cam}"),
                     false => format!("sees cam {cam} turn the other way"),
@@ -297,7 +208,7 @@ impl Builder<'_> {
                     format!(" than {first} does")
                 };
                 let why = format!("body {name} {why}{but}: one profile cannot move both");
-                return Err(ComposedError::NoFollower { key, why });
+                return wrong(&format!("bodies.{name}.law.follows"), why);
             }
             return Ok(Arc::clone(&made.part));
         }
@@ -305,7 +216,12 @@ impl Builder<'_> {
             let cam = cam.into();
             ComposedError::Cam { cam, error }
         };
-        let motion = Motion::resolve(&spec.motion).map_err(|error| blame(error.into()))?;
+        let Some(motion) = &spec.motion else {
+            let other = spec.cut_to.as_deref().unwrap_or_default();
+            let why = format!("cam {cam} is cut to the motion of body {other}, and moves no other");
+            return wrong(&format!("bodies.{name}.law.follows"), why);
+        };
+        let motion = Motion::resolve(motion).map_err(|error| blame(error.into()))?;
         let disc = DiscCam::new(Arc::new(motion), follower, spec.base_radius, rotation);
         let part = Cam::new(disc.map_err(blame)?, cam, spec.body.clone());
         part.map(Arc::new).map_err(blame)
@@ -323,8 +239,7 @@ impl Builder<'_> {
             } else {
                 format!("no body follows cam {name}: give one law = {{ follows = {name:?} }}")
             };
-            let key = format!("cams.{name}");
-            return Err(ComposedError::NoFollower { key, why });
+            return wrong(&format!("cams.{name}"), why);
         }
         Ok(())
     }
@@ -338,9 +253,4 @@ fn held(follower: &Follower) -> f64 {
         Follower::SwingingRoller(follower) => follower.center_distance,
         Follower::SwingingFlat(follower) => follower.center_distance,
     }
-}
-
-/// An angle less whole turns, from -pi to pi.
-fn wrapped(angle: f64) -> f64 {
-    angle - TAU * (angle / TAU).round()
 }

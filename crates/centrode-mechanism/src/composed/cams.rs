@@ -16,6 +16,10 @@ use crate::gear::design::{BodySpec, SpecError};
 pub struct ComposedCamSpec {
     /// Point of a body on which its axis is, `frame.O`; or the body alone for its origin.
     pub on: String,
+    /// Body, or a point of one, at which the axis is where that body is carried: `arm` for a cam about the pin of an arm; left
+    /// out, the axis is where `on` says.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub about: Option<String>,
     /// Angle at which it is mounted, of its own axes against the body's, rad (degrees in the file): where its motion begins,
     /// its x axis points along the slide of its follower, or to the follower's pin.
     #[serde(default, rename = "mount_deg", with = "degrees")]
@@ -30,7 +34,11 @@ pub struct ComposedCamSpec {
     /// Follower that rides on it.
     pub follower: ComposedFollowerSpec,
     /// Motion of the follower by the turn of the cam against the body that carries the follower.
-    pub motion: MotionSpec,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub motion: Option<MotionSpec>,
+    /// Body that moves already, by its own law or by others, to whose motion the cam is cut: in place of `motion`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub cut_to: Option<String>,
     /// Width, bore and material.
     #[serde(default)]
     pub body: BodySpec,
@@ -158,9 +166,15 @@ impl ComposedCamSpec {
         let (_, written) = self.follower.written();
         let follower = self.follower.at(written.unwrap_or(1.0));
         follower.validate().map_err(|e| e.inside("follower"))?;
-        self.motion.validate().map_err(|e| e.inside("motion"))?;
         self.body.validate().map_err(|e| e.inside("body"))?;
-        match (self.follower.swings(), self.motion.swings()) {
+        let motion = match (&self.motion, &self.cut_to) {
+            (Some(motion), None) => motion,
+            (None, Some(_)) => return Ok(()),
+            (Some(_), Some(_)) => return broken("cut_to", Rule::Excludes("motion")),
+            (None, None) => return broken("motion", Rule::NeedsOneOf("motion and cut_to")),
+        };
+        motion.validate().map_err(|e| e.inside("motion"))?;
+        match (self.follower.swings(), motion.swings()) {
             (true, Some(false)) => broken("motion", Rule::Stroke("swing_deg")),
             (false, Some(true)) => broken("motion", Rule::Stroke("lift")),
             _ => Ok(()),

@@ -7,7 +7,8 @@ use std::sync::Arc;
 use centrode_geometry::{Extreme, Point, bracketed_root, greatest, pieces};
 use nalgebra::Rotation2;
 
-use super::copies::{self, ComposedCopiesSpec, Expansion, Spin};
+use super::copies::{self, ComposedCopiesSpec, Spin};
+use super::expansion::Expansion;
 use super::{Composed, ComposedDesign, ComposedError};
 use crate::transmission::{FromFn, Transmission, sorted};
 
@@ -35,6 +36,9 @@ impl Composed {
     pub(super) fn with_copies(design: &ComposedDesign) -> Result<Self, ComposedError> {
         let bare = ComposedDesign {
             copies: BTreeMap::new(),
+            // These may name copies.
+            loads: BTreeMap::new(),
+            obstacles: BTreeMap::new(),
             goals: BTreeMap::new(),
             vary: BTreeMap::new(),
             ..design.clone()

@@ -1,3 +1,5 @@
+use std::sync::Arc;
+
 use centrode_geometry::{Outline, Point, SolidError};
 
 use super::load::ComposedLoad;
@@ -5,7 +7,7 @@ use super::pieces::Pieces;
 use super::{Composed, ComposedBody};
 use crate::machine::{
     Closure, Form, GearMesh, Input, Joint, JointKind, Line, LineRole, Link, LinkPoint, Machine,
-    Mark, Part, Quantity, Shape, Surface,
+    Mark, Part, PitchCurves, Quantity, Shape, Surface,
 };
 
 impl Composed {
@@ -50,7 +52,8 @@ impl Composed {
             });
         }
         for mesh in &self.meshes {
-            let pair = &self.gears[mesh.gears[0]].pair;
+            let driver = &self.gears[mesh.gears[0]];
+            let pair = &driver.pair;
             let body = |gear: usize| self.body_named(&self.gears[gear].body_name).unwrap_or(0);
             let axis = |gear: usize| {
                 let at = self.gears[gear].at;
@@ -62,8 +65,14 @@ impl Composed {
                 copy: 0,
                 pressure_angle: Some(pair.design().tool.pressure_angle()),
                 axes: mesh.gears.map(axis),
+                // Gears that dwell still hold each other.
+                pitch: Some(PitchCurves {
+                    driven: Arc::new(pair.rolling().clone()),
+                    zero: driver.mount,
+                }),
             });
         }
+        machine.contacts = self.contacts();
         self.add_points(&mut machine);
         self.draw(&mut machine, &pieces);
         self.list(&mut machine, &pieces);

@@ -17,6 +17,8 @@ const PIN: f64 = 0.9;
 const BLOCK: [f64; 2] = [1.0, 0.6];
 /// Radius of its corners, as a share of a plate's width.
 const BLOCK_ROUNDING: f64 = 0.1;
+/// Distance of two pins, as a share of their diameter, below which they are one.
+const ONE: f64 = 1e-6;
 /// Accuracy of the check of a contour drawn by hand, as a share of its length.
 const CHECKED: f64 = 1e-6;
 
@@ -98,8 +100,15 @@ impl Composed {
             .filter(|(point, at)| !at.own || pinned.contains(&format!("{name}.{point}")));
         // A mesh places the axis of its body at the body's origin, which need not be a point.
         let axis = meshed.then(Point::origin);
-        let holes = pins.map(|(_, point)| point.at).chain(axis);
         let pin = self.design.plates.pin_diameter;
+        // Shafts on one axis, as of a carrier and of a gear in its middle, share a hole.
+        let mut holes: Vec<Point> = Vec::new();
+        for at in pins.map(|(_, point)| point.at).chain(axis) {
+            if holes.iter().all(|hole| (at - hole).norm() > ONE * pin) {
+                holes.push(at);
+            }
+        }
+        let holes = holes.into_iter();
         let holes = holes.map(|at| Outline::circle(at, 0.5 * pin)).collect();
         let outline = match self.drawn.get(name) {
             Some(outline) => outline.clone(),
@@ -179,7 +188,9 @@ impl Composed {
             let law = body.law.as_ref();
             law.is_some_and(|law| law.follows.is_some())
         });
-        let rollers = following.map(|(name, _)| format!("{name}.{ROLLER}"));
+        let cut = design.cams.values().filter_map(|cam| cam.cut_to.as_ref());
+        let rollers = following.map(|(name, _)| name).chain(cut);
+        let rollers = rollers.map(|name| format!("{name}.{ROLLER}"));
         on.chain(dyads).chain(rollers).collect()
     }
 

@@ -3,8 +3,8 @@ use std::collections::BTreeMap;
 use centrode_geometry::{Point, Vector};
 use nalgebra::Rotation2;
 
-use super::copies::Expansion;
 use super::design::FRAME;
+use super::expansion::Expansion;
 use super::{
     ComposedBodySpec, ComposedCamSpec, ComposedDesign, ComposedDyadSpec, ComposedError, CornerSpec,
     DyadKind,
@@ -15,6 +15,9 @@ const ROUNDING: f64 = 1e-14;
 
 /// Name of the point of a follower at its roller's centre.
 pub(super) const ROLLER: &str = "roller";
+
+/// Name of the point of a follower where its flat face touches the base circle of a cam that is cut to it.
+pub(super) const FACE: &str = "face";
 
 /// Points of every body by name.
 pub(super) type BodyPoints = BTreeMap<String, BTreeMap<String, LocalPoint>>;
@@ -159,6 +162,9 @@ pub(super) fn points_of(
     }
     for (name, cam) in &design.cams {
         Reference::to_body(&cam.on).find(&format!("cams.{name}.on"), &all)?;
+        if let Some(about) = &cam.about {
+            Reference::to_body(about).find(&format!("cams.{name}.about"), &all)?;
+        }
     }
     Ok(all)
 }

@@ -4,8 +4,8 @@ use std::sync::Arc;
 use centrode_geometry::Point;
 
 use super::build::range;
-use super::copies::Expansion;
 use super::design::FRAME;
+use super::expansion::Expansion;
 use super::gearing::{Meshing, gears_of};
 use super::plates::drawn;
 use super::points::{BodyPoints, Reference, followed_cam, points_of};
@@ -83,6 +83,7 @@ impl Composed {
         };
         builder.build()?;
         builder.follow()?;
+        builder.cut_cams()?;
         builder.check_loops()?;
         builder.check_cams()?;
         let loads = builder.loads()?;
@@ -103,6 +104,7 @@ impl Composed {
             loads,
             obstacles: Vec::new(),
         };
+        made.check_names()?;
         made.check_drawn()?;
         made.obstacles = made.obstacles_of_design()?;
         let goals = design.goals.iter();
@@ -248,7 +250,9 @@ impl<'a> Builder<'a> {
         if let Node::Body(name) = node
             && let Some((_, cam)) = followed_cam(self.design, name, &self.design.bodies[*name])?
         {
-            bodies.push(Reference::to_body(&cam.on).body);
+            let about = cam.about.iter().map(|about| about.as_str());
+            let seats = about.chain([cam.on.as_str()]);
+            bodies.extend(seats.map(|word| Reference::to_body(word).body));
         }
         Ok(bodies)
     }

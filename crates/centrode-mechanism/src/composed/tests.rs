@@ -5,9 +5,11 @@ use crate::design::{DesignFamily, DesignFile, DesignSpec};
 
 mod cams;
 mod copies;
+mod cutting;
 mod drawn;
 mod gears;
 mod random;
+mod trains;
 
 fn read(text: &str) -> ComposedDesign {
     ComposedDesign::from_toml(text).expect("a design")

@@ -4,6 +4,7 @@ use centrode_geometry::{Extreme, bracketed_minimum, bracketed_root, greatest, pi
 
 use super::assembly::{Linkage, Step};
 use super::error::LinkageError;
+use super::places::Needed;
 use super::series::Series;
 
 /// Samples over a turn of the input in the search for where dyads cease to close.
@@ -80,7 +81,7 @@ impl Linkage {
         let needed = self.needed_by_dyad(dyad);
         let series = |input: f64| {
             let mut series = Series::<1>::default();
-            self.find(input, |step| needed[step], &mut series);
+            self.find(input, |part| needed.has(part), &mut series);
             series
         };
         // Two guides close but where they are parallel: on the side on which the cycle begins.
@@ -100,7 +101,7 @@ impl Linkage {
     }
 
     /// The steps on which a dyad depends, itself among them.
-    fn needed_by_dyad(&self, dyad: usize) -> Vec<bool> {
+    fn needed_by_dyad(&self, dyad: usize) -> Needed {
         let (mut link, mut before) = (1, 0);
         for step in &self.steps {
             if step.is_dyad() {
@@ -111,7 +112,7 @@ impl Linkage {
             }
             link += step.makes()[0];
         }
-        self.needed(std::iter::once(link))
+        self.needed(std::iter::empty(), std::iter::once(link))
     }
 
     /// First input above zero at which the linkage does not close, and the dyad at fault.

@@ -3,6 +3,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use super::assembly::Linkage;
 use super::error::LinkageError;
 use super::parts::{Line, Link};
+use super::places::Needed;
 use super::series::Series;
 use crate::formula::Taylor;
 use crate::transmission::{MotionJet, Transmission};
@@ -45,7 +46,7 @@ impl Linkage {
         };
         self.know_link(link)?;
         let found = LinkTransmission {
-            needed: self.needed(of.links().into_iter()),
+            needed: self.needed(std::iter::empty(), of.links().into_iter()),
             linkage: self.clone(),
             of,
             knots: Vec::new(),
@@ -145,8 +146,8 @@ impl<const N: usize> Series<N> {
 pub struct LinkTransmission {
     linkage: Linkage,
     of: Coordinate,
-    /// Whether each step of the linkage is one on which the coordinate depends.
-    needed: Vec<bool>,
+    /// Parts of the linkage on which the coordinate depends.
+    needed: Needed,
     /// Inputs and the unwrapped angle there; between two of them it changes by less than a quarter turn. None for a slide.
     knots: Vec<(f64, f64)>,
     advance: f64,
@@ -157,7 +158,7 @@ impl LinkTransmission {
     fn coordinate<const N: usize>(&self, input: f64) -> Taylor<N> {
         let mut series = Series::default();
         self.linkage
-            .find(input, |step| self.needed[step], &mut series);
+            .find(input, |part| self.needed.has(part), &mut series);
         series.coordinate(&self.of)
     }
 }

@@ -1,7 +1,12 @@
 //! Connections of links beside the tree of joints.
 
+use std::sync::Arc;
+
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+
+use super::plain;
+use crate::transmission::Transmission;
 
 /// A pin through two links beside the tree of joints.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
@@ -16,7 +21,7 @@ pub struct Closure {
 }
 
 /// Two links that touch by their teeth.
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct GearMesh {
     /// Indices of the driving and the driven link.
@@ -30,6 +35,9 @@ pub struct GearMesh {
     /// Places of the axes of the two gears in the frames of their links, mm; left out, the axes stand on the frames' origins.
     #[serde(default, skip_serializing_if = "at_origins")]
     pub axes: [[f64; 3]; 2],
+    /// The pitch curves; left out, they are found from how the gears turn on each other, which they must then do.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub pitch: Option<PitchCurves>,
 }
 
 /// Whether two places are the origins of their frames.
@@ -37,8 +45,36 @@ fn at_origins(places: &[[f64; 3]; 2]) -> bool {
     *places == [[0.0; 3]; 2]
 }
 
+/// Pitch curves of two gears that roll on each other outside.
+#[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct PitchCurves {
+    /// Angle of the driven gear by the polar angle of the pitch point on the driver, rad: its rate is the ratio of their radii.
+    #[serde(with = "plain::laws")]
+    #[schemars(with = "plain::laws::File")]
+    pub driven: Arc<dyn Transmission>,
+    /// Direction of the driver's polar angle zero in the axes of the driving link, rad.
+    pub zero: f64,
+}
+
+impl PitchCurves {
+    /// Radius of the driver's pitch curve in a direction in the axes of the driving link, mm, and its change by a radian of
+    /// that, for a distance of the axes (mm).
+    ///
+    /// With i the ratio of the radii and a the distance of the axes, r = a i / (1 + i).
+    #[must_use]
+    pub fn radius(&self, direction: f64, distance: f64) -> [f64; 2] {
+        let jet = self.driven.at(direction - self.zero);
+        let whole = 1.0 + jet.velocity;
+        [
+            distance * jet.velocity / whole,
+            distance * jet.acceleration / (whole * whole),
+        ]
+    }
+}
+
 /// A roller or pin of one link on a curve of another: cam and follower, pin and slot.
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Contact {
     /// Indices of the link with the curve and of the link with the roller.
@@ -50,6 +86,33 @@ pub struct Contact {
     /// Direction of the force in the frame of the first link, for a straight slot; none for a curve: square to the way of
     /// the roller along it.
     pub normal: Option<[f64; 3]>,
+    /// The line along which the force acts, where it is known whether the links move or rest: of a cam and its follower.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub line: Option<ContactLine>,
+}
+
+/// Line along which the force of a contact acts, in the axes of its second link, by the input.
+#[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct ContactLine {
+    /// Direction, rad.
+    #[serde(with = "plain::laws")]
+    #[schemars(with = "plain::laws::File")]
+    pub angle: Arc<dyn Transmission>,
+    /// Moment of a unit force along it about the link's origin, mm.
+    #[serde(with = "plain::laws")]
+    #[schemars(with = "plain::laws::File")]
+    pub arm: Arc<dyn Transmission>,
+}
+
+impl ContactLine {
+    /// Point of the line nearest to the link's origin, mm, and the unit vector along it, at an input.
+    #[must_use]
+    pub fn at(&self, input: f64) -> [[f64; 3]; 2] {
+        let arm = self.arm.at(input).position;
+        let (sin, cos) = self.angle.at(input).position.sin_cos();
+        [[arm * sin, -arm * cos, 0.0], [cos, sin, 0.0]]
+    }
 }
 
 /// A groove of a turning link that moves a joint led by that link's.

@@ -160,6 +160,7 @@ fn mesh(angle: f64) -> GearMesh {
         copy: 0,
         pressure_angle: Some(angle),
         axes: Default::default(),
+        pitch: None,
     }
 }
 

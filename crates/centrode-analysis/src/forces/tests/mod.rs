@@ -11,7 +11,7 @@ use centrode_geometry::{Jet, MassProperties, Point};
 use centrode_mechanism::linkage::{Branch, Line, Link as Bar, Linkage, LinkageError};
 use centrode_mechanism::machine::{
     Axes, Closure, Constant, Contact, FrameJet, GearMesh, Input, Joint, Linear, Link, Load,
-    Machine, Quantity,
+    Machine, PitchCurves, Quantity,
 };
 use centrode_mechanism::transmission::{FromFn, MotionJet, Transmission};
 use nalgebra::{Matrix3, Point3};
@@ -155,6 +155,7 @@ fn gears(load: f64) -> Machine {
         copy: 0,
         pressure_angle: Some(20_f64.to_radians()),
         axes: Default::default(),
+        pitch: None,
     });
     found.loads.push(torque(2, load));
     found
@@ -174,7 +175,7 @@ fn what_has_no_single_answer_is_refused_by_name() {
     twice.joint(Joint::turning(0, third, turning(1.0)).at([60.0, 60.0, 0.0]));
     twice.meshes.push(GearMesh {
         links: [third, 2],
-        ..twice.meshes[0]
+        ..twice.meshes[0].clone()
     });
     let told = refused(twice);
     for words in [

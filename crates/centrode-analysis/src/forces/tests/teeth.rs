@@ -48,6 +48,7 @@ fn teeth_of_an_elliptic_pair_push_square_to_its_pitch_curves() {
         copy: 0,
         pressure_angle: Some(alpha),
         axes: Default::default(),
+        pitch: None,
     });
     pair.loads.push(torque(2, -500.0));
     let balance = Balance::new(pair).expect("a machine");
@@ -77,5 +78,64 @@ fn teeth_of_an_elliptic_pair_push_square_to_its_pitch_curves() {
             1e-10,
         );
         near(forces.input_torque, 500.0 * ratio(t), 1e-9);
+    }
+}
+
+#[test]
+fn teeth_of_gears_that_rest_hold_their_load_along_the_normal_of_their_pitch_curves() {
+    // An ellipse on its mate about a focus of each, turned in and out by a law that stands still at zero.
+    let (k, a) = (0.3_f64, 50.0);
+    let driven = move |t: f64| {
+        let below = 1.0 + k * k - 2.0 * k * t.cos();
+        MotionJet {
+            position: 2.0 * ((1.0 + k) / (1.0 - k) * (0.5 * t).tan()).atan(),
+            velocity: (1.0 - k * k) / below,
+            acceleration: -(1.0 - k * k) * 2.0 * k * t.sin() / (below * below),
+            jerk: 0.0,
+        }
+    };
+    let (start, mount) = (0.8_f64, 0.25);
+    let swing = move |x: f64| MotionJet {
+        position: start + 0.5 * x.sin().powi(2),
+        velocity: 0.5 * (2.0 * x).sin(),
+        acceleration: (2.0 * x).cos(),
+        jerk: -2.0 * (2.0 * x).sin(),
+    };
+    let mut pair = machine(&["frame", "driver", "driven"]);
+    let turned = move |x| {
+        let mut jet = MotionJet::default().plus(-1.0, &swing(x));
+        jet.position -= mount;
+        jet
+    };
+    pair.joint(Joint::turning(0, 1, law(turned)));
+    let follows = law(move |x| driven(swing(x).position).after(&swing(x)));
+    pair.joint(Joint::turning(0, 2, follows).at([2.0 * a, 0.0, 0.0]));
+    let alpha = 20_f64.to_radians();
+    pair.meshes.push(GearMesh {
+        links: [1, 2],
+        joint: 1,
+        copy: 0,
+        pressure_angle: Some(alpha),
+        axes: Default::default(),
+        pitch: Some(PitchCurves {
+            driven: law(driven),
+            zero: mount,
+        }),
+    });
+    pair.loads.push(torque(2, -500.0));
+    let balance = Balance::new(pair).expect("a machine");
+    for x in [0.0, 1e-7, 1e-3, 0.4] {
+        let t = swing(x).position;
+        let r = a * (1.0 - k * k) / (1.0 - k * t.cos());
+        let slope = -r * k * t.sin() / (1.0 - k * t.cos());
+        let tangent = Vector3::new(slope, r, 0.0).normalize();
+        let outward = Vector3::new(r, -slope, 0.0).normalize();
+        let forces = balance.at(x, 0.0).expect("held");
+        let mesh = forces.meshes[0];
+        assert!((mesh.at - Vector3::new(r, 0.0, 0.0)).norm() < 1e-12);
+        let push = outward * alpha.sin() - tangent * alpha.cos();
+        assert!((mesh.force.normalize() - push).norm() < 1e-12, "{x}");
+        let arm = mesh.at - Vector3::new(2.0 * a, 0.0, 0.0);
+        near(arm.cross(&mesh.force).z, 500.0, 1e-12);
     }
 }

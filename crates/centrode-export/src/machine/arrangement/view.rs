@@ -111,7 +111,10 @@ impl View<'_> {
                     Along::Y => Point::new(whole.max.x + far, 0.0),
                 };
                 let ends = dimension.ends.map(|end| end * k);
-                draft.dimension(ends, dimension.direction(), at, &dimension.words());
+                let along = dimension.direction();
+                let lines = rows[row + 1..].iter().flat_map(|later| later.ends);
+                let lines: Vec<f64> = lines.map(|end| end.coords.dot(&along) * k).collect();
+                draft.dimension_clear_of(ends, along, at, &dimension.words(), &lines);
             }
         }
     }

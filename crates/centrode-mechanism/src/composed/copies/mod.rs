@@ -3,7 +3,7 @@
 mod dyads;
 mod loads;
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 use std::f64::consts::TAU;
 
 use centrode_geometry::Point;
@@ -12,8 +12,9 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::design::FRAME;
+use super::expansion::Expansion;
 use super::points::{BodyPoints, Reference};
-use super::{ComposedBodySpec, ComposedDesign, ComposedError};
+use super::{ComposedBodySpec, ComposedCamSpec, ComposedDesign, ComposedError};
 use crate::gear::design::SpecError;
 use crate::gear::design::rule::{Rule, broken, count_in_range};
 
@@ -49,38 +50,6 @@ impl ComposedCopiesSpec {
     /// Turn of a piece against the first, rad.
     pub(super) fn turn(&self, piece: u32) -> f64 {
         TAU * f64::from(piece) / f64::from(self.count)
-    }
-}
-
-/// Words of a design that is written out.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Expansion {
-    /// Originals of bodies, dyads, gears, cams and meshes, by the names of their copies.
-    pub(super) originals: BTreeMap<String, String>,
-    /// Pins' names by the points, `body.point`, that stand for them on the body about which copies are spaced.
-    pins: BTreeMap<String, String>,
-    /// Inputs by which laws and loads run ahead of those of the originals, by `body` and `loads.load`, rad.
-    pub(super) ahead: BTreeMap<String, f64>,
-}
-
-impl Expansion {
-    /// Name of the pin of a body on a point.
-    pub(super) fn pin(&self, on: &Reference) -> String {
-        let point = on.point.as_deref().unwrap_or_default();
-        let pin = self.pins.get(&format!("{}.{point}", on.body));
-        pin.map_or(point, String::as_str).to_owned()
-    }
-
-    /// Original of a body, dyad, gear, cam or mesh: itself where it is no copy.
-    pub(super) fn original<'a>(&'a self, name: &'a str) -> &'a str {
-        self.originals.get(name).map_or(name, String::as_str)
-    }
-
-    /// Key of the original in place of that of a copy.
-    pub(super) fn written(&self, key: &str) -> String {
-        let parts = key.split('.').enumerate();
-        let parts = parts.map(|(i, part)| if i == 1 { self.original(part) } else { part });
-        parts.collect::<Vec<_>>().join(".")
     }
 }
 
@@ -260,6 +229,8 @@ impl Piece<'_> {
             if let Some(cam) = design.cams.get(name) {
                 let mut copy = cam.clone();
                 copy.on = self.word(&format!("cams.{name}.on"), &cam.on)?;
+                copy.about = self.optional(&format!("cams.{name}.about"), &cam.about)?;
+                copy.cut_to = self.optional(&format!("cams.{name}.cut_to"), &cam.cut_to)?;
                 copy.mount = self.mounted(&cam.on, cam.mount);
                 let taken = self.whole.cams.contains_key(&self.copy(name));
                 let name = self.name(name, taken)?;
@@ -302,7 +273,8 @@ impl Piece<'_> {
             .cams
             .iter()
             .map(|(name, cam)| ("cams", name, &cam.on));
-        let mut found = BTreeSet::new();
+        let cut = design.cams.iter().filter(|(_, cam)| self.is_cut(cam));
+        let mut found: BTreeSet<String> = cut.map(|(name, _)| name.clone()).collect();
         for (table, name, on) in gears.chain(cams) {
             let seat = Reference::to_body(on);
             let aside = || {
@@ -316,6 +288,13 @@ impl Piece<'_> {
             }
         }
         Ok(found)
+    }
+
+    /// Whether a cam is cut to a body that is copied.
+    fn is_cut(&self, cam: &ComposedCamSpec) -> bool {
+        cam.cut_to
+            .as_ref()
+            .is_some_and(|body| self.bodies.contains(body))
     }
 
     /// Angle at which a gear or cam is mounted on the body that a word names.
