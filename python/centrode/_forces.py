@@ -10,9 +10,10 @@ from ._slider_force import SliderForce
 class Forces:
     """Forces of a machine at inputs: numbers or arrays of the shape of the inputs, forces with their components last.
 
-    Components are along the axes of the first link: x and y for a machine in a plane, x, y and z for one in space. Joints have
-    names of their own, as "crank_joint", and meshes those of their two links, as "driver-driven"; of a `Machine`, joints are
-    named after the bodies that they carry and meshes after those that they move, as in its design: "crank", "wheel".
+    Components are along the axes of the first link: x and y for a machine in a plane, x, y and z for one in space.
+    Joints have names of their own, as "crank_joint", and meshes those of their two links, as "driver-driven"; of a
+    `Machine`, joints are named after the bodies that they carry and meshes after those that they move, as in its
+    design: "crank", "wheel".
     """
 
     __module__ = "centrode"

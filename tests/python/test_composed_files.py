@@ -3,11 +3,11 @@
 import json
 import subprocess
 import sys
-import tomllib
 
 import mujoco
 import numpy as np
 import pytest
+import tomllib
 from conftest import ROOT, centrode
 from reading import rows
 
