@@ -1,21 +1,20 @@
-use centrode_geometry::extremes;
 use centrode_mechanism::composed::{Composed, DyadKind};
 use centrode_mechanism::linkage::{Branch, FourBar};
 use centrode_mechanism::machine::JointKind;
 
+use super::motion::Motion;
 use crate::{Report, Table, Unit};
 
 /// Swings and strokes of joints that come back, and the inputs of their dead centres.
-pub(super) fn joints(composed: &Composed, ends: &[f64], report: &mut Report) {
+pub(super) fn joints(composed: &Composed, motion: &Motion, report: &mut Report) {
     let (mut swings, mut centres) = (Vec::new(), Vec::new());
     let mut strokes = Vec::new();
-    for body in composed.bodies() {
+    for (body, &[low, high]) in composed.bodies().iter().zip(&motion.joints) {
         let Some(mount) = &body.mount else { continue };
         let comes_back = mount.law.advance() == 0.0;
         if mount.kind == JointKind::Fixed || !comes_back {
             continue;
         }
-        let [low, high] = extremes(|input| mount.law.at(input).position, ends);
         if high.value - low.value == 0.0 {
             continue;
         }
