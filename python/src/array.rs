@@ -1,9 +1,11 @@
 //! `NumPy` arrays in and out.
 
-use centrode_geometry::{Mesh, Point};
+use std::sync::mpsc::Sender;
+
+use centrode_geometry::{Cancel, Mesh, Point};
 use centrode_mechanism::transmission::MotionJet;
 use numpy::ndarray::{Array2, ArrayD};
-use numpy::{Element, IntoPyArray, PyArray2, PyArrayDyn, PyArrayMethods};
+use numpy::{Element, IntoPyArray, PyArray2, PyArrayDyn, PyArrayMethods, PyUntypedArrayMethods};
 use pyo3::IntoPyObjectExt;
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::{
@@ -11,13 +13,18 @@ use pyo3::prelude::{
 };
 use pyo3::sync::PyOnceLock;
 use pyo3::types::{PyDict, PyDictMethods};
+use rayon::prelude::{IndexedParallelIterator, ParallelIterator, ParallelSlice};
 
 use crate::error::{Answer, finite};
-use crate::wait::wait;
+use crate::wait::{attend, wait};
 
 /// Numbers in an array of any shape, or a single one: whatever `NumPy` makes real numbers of.
 #[derive(Clone, Debug)]
-pub(crate) struct Values(ArrayD<f64>);
+pub(crate) struct Values {
+    shape: Vec<usize>,
+    /// Row after row.
+    flat: Vec<f64>,
+}
 
 /// A list of numbers.
 #[derive(Debug)]
@@ -30,7 +37,10 @@ impl<'a, 'py> FromPyObject<'a, 'py> for Values {
         static ASARRAY: PyOnceLock<Py<PyAny>> = PyOnceLock::new();
         let py = object.py();
         if let Ok(number) = object.extract::<f64>() {
-            return Ok(Self(ArrayD::from_elem(vec![], number)));
+            return Ok(Self {
+                shape: Vec::new(),
+                flat: vec![number],
+            });
         }
         let asarray = ASARRAY.import(py, "numpy", "asarray")?;
         if object.is_none() {
@@ -49,7 +59,15 @@ impl<'a, 'py> FromPyObject<'a, 'py> for Values {
         options.set_item("dtype", "float64")?;
         let array = asarray.call((given,), Some(&options))?;
         let array = array.cast_into::<PyArrayDyn<f64>>()?;
-        Ok(Self(array.readonly().as_array().to_owned()))
+        let array = array.readonly();
+        let flat = match array.as_slice() {
+            Ok(flat) if array.is_c_contiguous() => flat.to_vec(),
+            _ => array.as_array().iter().copied().collect(),
+        };
+        Ok(Self {
+            shape: array.shape().to_vec(),
+            flat,
+        })
     }
 }
 
@@ -57,13 +75,13 @@ impl<'a, 'py> FromPyObject<'a, 'py> for Numbers {
     type Error = PyErr;
 
     fn extract(object: Borrowed<'a, 'py, PyAny>) -> PyResult<Self> {
-        let Values(array) = Values::extract(object)?;
-        if array.ndim() == 1 {
-            Ok(Self(array.iter().copied().collect()))
+        let Values { shape, flat } = Values::extract(object)?;
+        if shape.len() == 1 {
+            Ok(Self(flat))
         } else {
             Err(PyValueError::new_err(format!(
                 "must be a list of numbers, not an array of {} dimensions",
-                array.ndim()
+                shape.len()
             )))
         }
     }
@@ -72,23 +90,23 @@ impl<'a, 'py> FromPyObject<'a, 'py> for Numbers {
 impl Values {
     /// The length of a list, none for a single number; none at all for an array of more dimensions.
     pub(crate) fn length(&self) -> Option<Option<usize>> {
-        match self.0.shape() {
+        match self.shape[..] {
             [] => Some(None),
-            [length] => Some(Some(*length)),
+            [length] => Some(Some(length)),
             _ => None,
         }
     }
 
     /// The numbers, if all are finite: a function of an angle has no value anywhere else.
     pub(crate) fn finite(self) -> Answer<Self> {
-        for &value in &self.0 {
-            finite("every input", value)?;
+        match self.flat.iter().find(|value| !value.is_finite()) {
+            Some(&value) => finite("every input", value).map(|_| self),
+            None => Ok(self),
         }
-        Ok(self)
     }
 
     pub(crate) fn into_flat(self) -> Vec<f64> {
-        self.0.iter().copied().collect()
+        self.flat
     }
 }
 
@@ -103,22 +121,30 @@ pub(crate) fn list(numbers: Option<Numbers>) -> Vec<f64> {
     numbers.map_or_else(Vec::new, Numbers::into_vec)
 }
 
-/// Numbers of all answers, one after the other.
-type Answers = dyn FnOnce(&[f64]) -> Answer<Vec<f64>> + Send;
+/// Numbers in a block of answers that is worked out and handed over at once.
+const BLOCK: usize = 1 << 14;
+
+/// Numbers of the answers at some numbers, one after the other.
+enum Answers {
+    /// Worked out block by block, on every core.
+    Blocks(Box<dyn Fn(&[f64]) -> Vec<f64> + Send + Sync>),
+    /// Worked out together.
+    All(Box<dyn FnOnce(&[f64]) -> Answer<Vec<f64>> + Send>),
+}
 
 /// Answers at numbers, worked out as they are handed to Python: of the shape of the numbers, and then of that of one
 /// answer.
 pub(crate) struct Course {
     values: Values,
     tail: Vec<usize>,
-    answers: Box<Answers>,
+    answers: Answers,
 }
 
 impl Course {
     /// A number for each.
-    pub(crate) fn each(values: Values, f: impl Fn(f64) -> f64 + Send + 'static) -> Self {
-        Self::together(values, &[], move |all| {
-            Ok(all.iter().map(|&value| f(value)).collect())
+    pub(crate) fn each(values: Values, f: impl Fn(f64) -> f64 + Send + Sync + 'static) -> Self {
+        Self::by_blocks(values, &[], move |block| {
+            block.iter().map(|&value| f(value)).collect()
         })
     }
 
@@ -126,14 +152,27 @@ impl Course {
     pub(crate) fn arrays<const COUNT: usize>(
         values: Values,
         tail: &[usize],
-        f: impl Fn(f64) -> [f64; COUNT] + Send + 'static,
+        f: impl Fn(f64) -> [f64; COUNT] + Send + Sync + 'static,
     ) -> Self {
-        Self::together(values, tail, move |all| {
-            Ok(all.iter().flat_map(|&value| f(value)).collect())
+        Self::by_blocks(values, tail, move |block| {
+            block.iter().flat_map(|&value| f(value)).collect()
         })
     }
 
-    /// Arrays of the shape `tail` that are worked out for all numbers at once.
+    /// Arrays of the shape `tail` that are worked out for many numbers at once.
+    pub(crate) fn by_blocks(
+        values: Values,
+        tail: &[usize],
+        f: impl Fn(&[f64]) -> Vec<f64> + Send + Sync + 'static,
+    ) -> Self {
+        Self {
+            values,
+            tail: tail.to_vec(),
+            answers: Answers::Blocks(Box::new(f)),
+        }
+    }
+
+    /// Arrays of the shape `tail` that are worked out for all numbers together.
     pub(crate) fn together(
         values: Values,
         tail: &[usize],
@@ -142,7 +181,7 @@ impl Course {
         Self {
             values,
             tail: tail.to_vec(),
-            answers: Box::new(f),
+            answers: Answers::All(Box::new(f)),
         }
     }
 }
@@ -153,14 +192,20 @@ impl<'py> IntoPyObject<'py> for Course {
     type Error = PyErr;
 
     fn into_pyobject(self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let Values(values) = self.values.finite()?;
-        let shape = [values.shape(), &self.tail].concat();
-        let answers = self.answers;
-        let given = Values(values).into_flat();
-        let found = match given.as_slice() {
-            // Other threads are not worth waking for one number.
-            [_] => answers(&given)?,
-            _ => wait(py, move || answers(&given))??,
+        let Values { shape, flat: given } = self.values.finite()?;
+        let each: usize = self.tail.iter().product();
+        let shape = [shape, self.tail].concat();
+        // Other threads are not worth waking for one number.
+        let is_one = given.len() == 1;
+        let found = match self.answers {
+            Answers::Blocks(f) if given.len() * each > BLOCK => {
+                let block = (BLOCK / each.max(1)).max(1);
+                return in_blocks(py, shape, (given, block, each), f);
+            }
+            Answers::Blocks(f) if is_one => f(&given),
+            Answers::Blocks(f) => wait(py, move || f(&given))?,
+            Answers::All(f) if is_one => f(&given)?,
+            Answers::All(f) => wait(py, move || f(&given))??,
         };
         if let ([], &[number]) = (&shape[..], &found[..]) {
             return number.into_bound_py_any(py);
@@ -169,6 +214,38 @@ impl<'py> IntoPyObject<'py> for Course {
         let array = array.map_err(|error| PyValueError::new_err(error.to_string()))?;
         Ok(array.into_pyarray(py).into_any())
     }
+}
+
+/// Answers worked out side by side and written to their array block by block: `NumPy` has memory of its own for great arrays,
+/// in which pages come many at once.
+fn in_blocks(
+    py: Python<'_>,
+    shape: Vec<usize>,
+    (given, block, each): (Vec<f64>, usize, usize),
+    f: Box<dyn Fn(&[f64]) -> Vec<f64> + Send + Sync>,
+) -> PyResult<Bound<'_, PyAny>> {
+    static EMPTY: PyOnceLock<Py<PyAny>> = PyOnceLock::new();
+    let array = EMPTY.import(py, "numpy", "empty")?.call1((shape,))?;
+    let array = array.cast_into::<PyArrayDyn<f64>>()?;
+    let mut room = array.readwrite();
+    let room = room.as_slice_mut()?;
+    let job = move |told: &Sender<(usize, Vec<f64>)>| {
+        let under = Cancel::current();
+        let blocks = given.par_chunks(block).enumerate().panic_fuse();
+        blocks.for_each(|(number, block_of)| {
+            let _scope = under.enter();
+            // Nobody listens any more where the call has ended.
+            let _ = told.send((number * block * each, f(block_of)));
+        });
+    };
+    attend(py, job, |(start, found): (usize, Vec<f64>)| {
+        let of_block = room.get_mut(start..start + found.len());
+        of_block
+            .into_iter()
+            .for_each(|of_block| of_block.copy_from_slice(&found));
+        Ok(())
+    })?;
+    Ok(array.into_any())
 }
 
 /// A coordinate and its first three derivatives.

@@ -37,7 +37,7 @@ pub(crate) trait Class: PyClass {
     fn each(
         &self,
         inputs: Values,
-        f: impl Fn(&Self::Machine, f64) -> f64 + Send + 'static,
+        f: impl Fn(&Self::Machine, f64) -> f64 + Send + Sync + 'static,
     ) -> Course {
         let machine = Arc::clone(self.machine());
         Course::each(inputs, move |input| f(&machine, input))
@@ -47,7 +47,7 @@ pub(crate) trait Class: PyClass {
     fn rows<const COUNT: usize>(
         &self,
         inputs: Values,
-        f: impl Fn(&Self::Machine, f64) -> [f64; COUNT] + Send + 'static,
+        f: impl Fn(&Self::Machine, f64) -> [f64; COUNT] + Send + Sync + 'static,
     ) -> Course {
         let machine = Arc::clone(self.machine());
         Course::arrays(inputs, &[COUNT], move |input| f(&machine, input))

@@ -69,16 +69,16 @@ impl SixBar {
     ///        [290.519775, 127.845833]])
     fn position(&self, phi: Values) -> Course {
         let six_bar = self.0;
-        Course::together(phi, &[3, 2], move |phi| {
+        Course::by_blocks(phi, &[3, 2], move |phi| {
             let joints = six_bar.joints_each(phi).into_iter().flatten();
-            Ok(joints.flat_map(|joint| [joint.x, joint.y]).collect())
+            joints.flat_map(|joint| [joint.x, joint.y]).collect()
         })
     }
 
     /// The effector's angle at a crank angle, rad; of an array, an array of the same shape.
     fn effector_angle(&self, phi: Values) -> Course {
         let six_bar = self.0;
-        Course::together(phi, &[], move |phi| Ok(six_bar.effector_place_each(phi)))
+        Course::by_blocks(phi, &[], move |phi| six_bar.effector_place_each(phi))
     }
 
     /// The effector's angle and its first three derivatives by the crank angle: an array of the shape of `phi` and
@@ -90,18 +90,18 @@ impl SixBar {
     /// True
     fn effector_motion(&self, phi: Values) -> Course {
         let six_bar = self.0;
-        Course::together(phi, &[4], move |phi| {
+        Course::by_blocks(phi, &[4], move |phi| {
             let angles = six_bar.effector_angle_each(phi);
-            Ok(angles.iter().flat_map(row).collect())
+            angles.iter().flat_map(row).collect()
         })
     }
 
     /// The effector's tip E at a crank angle, mm: an array of the shape of `phi` and then (2,).
     fn effector_tip(&self, phi: Values) -> Course {
         let six_bar = self.0;
-        Course::together(phi, &[2], move |phi| {
+        Course::by_blocks(phi, &[2], move |phi| {
             let joints = six_bar.joints_each(phi).into_iter();
-            Ok(joints.flat_map(|[_, _, e]| [e.x, e.y]).collect())
+            joints.flat_map(|[_, _, e]| [e.x, e.y]).collect()
         })
     }
 

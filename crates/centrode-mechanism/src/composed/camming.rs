@@ -7,7 +7,6 @@ use centrode_geometry::{Outline, Point, Solid, SolidError, Tolerance};
 use nalgebra::Isometry2;
 
 use super::gearing::placed;
-use super::mesh::crossings;
 use super::points::{ROLLER, Reference};
 use super::resolve::Builder;
 use super::seating::{ROUNDING, Seat, Turned, wrong};
@@ -15,7 +14,7 @@ use super::{Composed, ComposedBodySpec, ComposedCamSpec, ComposedError};
 use crate::cam::design::{Follower, Turn};
 use crate::cam::{Cam, DiscCam, Motion};
 use crate::machine::{Line, LineRole, Surface};
-use crate::transmission::{FromFn, MotionJet, Transmission};
+use crate::transmission::{FromFn, MotionJet, Transmission, crossings};
 
 /// Accuracy of the pitch curve in the picture, as a share of the base radius.
 const DRAWN: f64 = 1e-6;
@@ -61,6 +60,7 @@ impl ComposedCam {
             |input| self.turn.at(input).position,
             (&[angle], TAU),
             period,
+            &[],
         )
     }
 

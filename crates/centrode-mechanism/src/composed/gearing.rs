@@ -1,10 +1,10 @@
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
 use centrode_geometry::{Outline, Point, Solid, SolidError, Vector};
 use nalgebra::Isometry2;
 
-use super::mesh::{Angle, Mesh, MeshLaw};
+use super::mesh::{Angle, Mesh, MeshedBody};
 use super::points::{LocalPoint, Reference};
 use super::resolve::{Builder, blame};
 use super::{
@@ -257,21 +257,29 @@ impl Builder<'_> {
         let (sin, cos) = mesh.direction.sin_cos();
         let at = axis + Vector::new(cos, sin) * pair.center_distance();
         let is_driven = gear.member == Member::Driven;
-        let law = MeshLaw::new(
-            Arc::new(pair.rolling().clone()),
-            (is_driven, mesh.direction),
-            (self.angle(carrier), self.gear_angle(with)),
-            gear.mount,
-            self.linkage.period(),
-        );
-        if law.unsteady().abs() > ROUNDING {
+        let on_carrier = self.angle(carrier);
+        let mesh = Mesh {
+            rolling: Arc::new(pair.rolling().clone()),
+            lambda: on_carrier.plus(if is_driven {
+                mesh.direction
+            } else {
+                mesh.direction + PI
+            }),
+        };
+        let moved = MeshedBody {
+            mesh,
+            is_driven,
+            other: self.gear_angle(with),
+            carrier: on_carrier.plus(gear.mount),
+        };
+        let (law, turns) = moved.law(self.linkage.period());
+        if (turns - turns.round()).abs() > ROUNDING {
             return Err(wrong(format!(
                 "turns body {name} by {} turns on {on} in the period of {} turns of the input, which must be a whole number: set input.turns",
-                (crate::transmission::Transmission::advance(&law) / TAU * 1e9).round() / 1e9,
+                (turns * 1e9).round() / 1e9,
                 self.design.input.turns
             )));
         }
-        let law = Arc::new(law.with_whole_turns());
         let of_carrier = self
             .points
             .entry(self.bodies[carrier].name.clone())

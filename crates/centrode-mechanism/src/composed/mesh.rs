@@ -1,13 +1,8 @@
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::TAU;
 use std::sync::Arc;
 
-use centrode_geometry::bracketed_root;
-
 use crate::gear::Rolling;
-use crate::transmission::{MotionJet, Transmission, sorted};
-
-/// Looks at a turn of the input in the search for where a pitch curve's bends jump.
-const LOOKS: u32 = 720;
+use crate::transmission::{FromFn, MotionJet, Transmission, crossings, repeated, sorted};
 
 /// Sum of a constant and joint coordinates: the angle of a body, or of a gear on it, without jumps.
 #[derive(Clone, Debug, Default)]
@@ -39,14 +34,7 @@ impl Angle {
 
     /// Inputs below `period` where a derivative may jump, ascending.
     pub(super) fn breaks(&self, period: f64) -> Vec<f64> {
-        let of = |law: &Arc<dyn Transmission>| {
-            let (own, jumps) = (law.period(), law.breaks());
-            let repeats = (period / own).round().max(1.0) as u32;
-            (0..repeats).flat_map(move |i| {
-                let jumps = jumps.clone().into_iter();
-                jumps.map(move |b| b + f64::from(i) * own)
-            })
-        };
+        let of = |law: &Arc<dyn Transmission>| repeated(&**law, period);
         self.terms.iter().flat_map(of).collect()
     }
 }
@@ -83,60 +71,24 @@ impl Mesh {
 
 /// Coordinate of a body that a mesh moves: its angle against the one that carries it.
 #[derive(Clone, Debug)]
-pub(super) struct MeshLaw {
-    mesh: Mesh,
+pub(super) struct MeshedBody {
+    pub(super) mesh: Mesh,
     /// Whether the body's gear is the driven one of its pair.
-    is_driven: bool,
+    pub(super) is_driven: bool,
     /// Angle of the other gear.
-    other: Angle,
-    /// Angle of the carrier, and that at which the body's gear is mounted.
-    carrier: Angle,
-    mount: f64,
-    period: f64,
-    advance: f64,
-    breaks: Vec<f64>,
+    pub(super) other: Angle,
+    /// Angle of the carrier and, added to it, that at which the body's gear is mounted.
+    pub(super) carrier: Angle,
 }
 
-impl MeshLaw {
-    /// The law over a period, of a body whose gear is in a direction on its carrier from the other.
-    pub(super) fn new(
-        rolling: Arc<Rolling>,
-        (is_driven, direction): (bool, f64),
-        (carrier, other): (Angle, Angle),
-        mount: f64,
-        period: f64,
-    ) -> Self {
-        let turned = if is_driven { direction } else { direction + PI };
-        let mesh = Mesh {
-            rolling,
-            lambda: carrier.plus(turned),
+impl MeshedBody {
+    fn at(&self, input: f64) -> MotionJet {
+        let other = self.other.at(input);
+        let own = match self.is_driven {
+            true => self.mesh.driven(&other, input),
+            false => self.mesh.driver(&other, input),
         };
-        let mut law = Self {
-            mesh,
-            is_driven,
-            other,
-            carrier,
-            mount,
-            period,
-            advance: 0.0,
-            breaks: Vec::new(),
-        };
-        // The cycle begins within half a turn of zero.
-        law.mount += TAU * (law.at(0.0).position / TAU).round();
-        law.advance = law.at(period).position - law.at(0.0).position;
-        law.breaks = law.jumps();
-        law
-    }
-
-    /// Growth over the period less the nearest whole turns.
-    pub(super) fn unsteady(&self) -> f64 {
-        self.advance - TAU * (self.advance / TAU).round()
-    }
-
-    /// Sets the growth over the period to the nearest whole turns, from which it is off by rounding.
-    pub(super) fn with_whole_turns(self) -> Self {
-        let advance = TAU * (self.advance / TAU).round();
-        Self { advance, ..self }
+        own.plus(-1.0, &self.carrier.at(input))
     }
 
     /// The driver's polar angle at an input.
@@ -151,68 +103,22 @@ impl MeshLaw {
     }
 
     /// Inputs at which a derivative may jump: of the angles it is made of, and where a bend of the pitch curve jumps.
-    fn jumps(&self) -> Vec<f64> {
-        let mut found = self.other.breaks(self.period);
-        found.extend(self.carrier.breaks(self.period));
+    fn breaks(&self, period: f64) -> Vec<f64> {
+        let mut found = self.other.breaks(period);
+        found.extend(self.carrier.breaks(period));
         let rolling = &self.mesh.rolling;
         let bends = (&rolling.breaks()[..], rolling.period());
-        found.extend(crossings(|input| self.polar(input), bends, self.period));
-        found.retain(|&b| b < self.period);
-        sorted(found.into_iter(), self.period)
-    }
-}
-
-/// Inputs of a period at which an angle meets one of some values, which repeat with a cycle of their own.
-pub(super) fn crossings(
-    angle: impl Fn(f64) -> f64,
-    (values, cycle): (&[f64], f64),
-    period: f64,
-) -> Vec<f64> {
-    let mut found = Vec::new();
-    if values.is_empty() {
-        return found;
-    }
-    let count = LOOKS * (period / TAU).round().max(1.0) as u32;
-    let input = |i: u32| period * f64::from(i) / f64::from(count);
-    let mut before = angle(0.0);
-    for i in 1..=count {
-        let after = angle(input(i));
-        let (low, high) = (before.min(after), before.max(after));
-        for value in values {
-            // One cycle to either side more, lest rounding hide a value met just at a sample.
-            let [first, last] = [low, high].map(|end| ((end - value) / cycle).round() as i64);
-            let met = (first - 1..=last + 1).map(|n| value + cycle * n as f64);
-            for at in met.filter(|at| (low..high).contains(at)) {
-                let off = |x: f64| angle(x) - at;
-                let (from, to) = (input(i - 1), input(i));
-                found.push(bracketed_root(off, from, to, before - at, after - at));
-            }
-        }
-        before = after;
-    }
-    found
-}
-
-impl Transmission for MeshLaw {
-    fn at(&self, input: f64) -> MotionJet {
-        let other = self.other.at(input);
-        let mut own = match self.is_driven {
-            true => self.mesh.driven(&other, input),
-            false => self.mesh.driver(&other, input),
-        };
-        own.position -= self.mount;
-        own.plus(-1.0, &self.carrier.at(input))
+        let met = crossings(|input| self.polar(input), bends, period, &found);
+        sorted(found.into_iter().chain(met), period)
     }
 
-    fn period(&self) -> f64 {
-        self.period
-    }
-
-    fn advance(&self) -> f64 {
-        self.advance
-    }
-
-    fn breaks(&self) -> Vec<f64> {
-        self.breaks.clone()
+    /// The coordinate by the input, from within half a turn of zero on, and the turns by which it grows over a period.
+    pub(super) fn law(mut self, period: f64) -> (Arc<dyn Transmission>, f64) {
+        self.carrier.start += TAU * (self.at(0.0).position / TAU).round();
+        let advance = self.at(period).position - self.at(0.0).position;
+        let whole = TAU * (advance / TAU).round();
+        let breaks = self.breaks(period);
+        let law = FromFn::new(period, whole, breaks, move |input| self.at(input));
+        (Arc::new(law), advance / TAU)
     }
 }

@@ -4,12 +4,12 @@ use std::f64::consts::{PI, TAU};
 
 use centrode_geometry::{Point, Vector};
 
-use super::mesh::{Angle, crossings};
+use super::mesh::Angle;
 use super::resolve::Builder;
 use super::{ComposedCamSpec, ComposedError};
 use crate::cam::DiscCam;
 use crate::cam::design::{Follower, Turn};
-use crate::transmission::{MotionJet, Transmission, sorted};
+use crate::transmission::{MotionJet, Transmission, crossings, sorted};
 
 /// Greatest difference of lengths, as a share of the longer one, or of turns that is rounding.
 pub(super) const ROUNDING: f64 = 1e-9;
@@ -64,16 +64,15 @@ impl Turned {
     /// Inputs of a period at which a derivative of a motion by this turn may jump.
     pub(super) fn breaks(&self, motion: &dyn Transmission, period: f64) -> Vec<f64> {
         let own = (&motion.breaks()[..], motion.period());
-        let mut found = crossings(|input| self.at(input).position, own, period);
-        found.extend(self.jumps(period));
-        sorted(found.into_iter().filter(|&input| input < period), period)
+        let jumps: Vec<f64> = self.jumps(period).collect();
+        let met = crossings(|input| self.at(input).position, own, period, &jumps);
+        sorted(jumps.into_iter().chain(met), period)
     }
 
     /// Inputs of a period at which a derivative of the turn itself may jump.
     pub(super) fn jumps(&self, period: f64) -> impl Iterator<Item = f64> + use<> {
         let [cam, carrier] = [&self.cam, &self.carrier].map(|angle| angle.breaks(period));
-        let jumps = cam.into_iter().chain(carrier);
-        jumps.filter(move |&input| input < period)
+        cam.into_iter().chain(carrier)
     }
 }
 

@@ -6,7 +6,7 @@ use super::assembly::{Linkage, Step};
 use super::error::LinkageError;
 use super::parts::{Joint, Line, Link};
 use super::pose::Body;
-use crate::transmission::{MotionJet, Transmission, sorted};
+use crate::transmission::{MotionJet, Transmission, repeated, sorted};
 
 impl Step {
     /// Whether it closes a loop.
@@ -113,11 +113,8 @@ impl Linkage {
 
     /// Notes where a law's derivatives jump.
     fn follow(&mut self, law: &dyn Transmission) {
-        let (of_law, period) = (law.period(), self.period);
-        let repeats = (period / of_law).round().max(1.0) as u32;
-        let jumps = law.breaks();
-        let all = (0..repeats).flat_map(|i| jumps.iter().map(move |b| b + f64::from(i) * of_law));
-        let all: Vec<f64> = all.chain(self.breaks.iter().copied()).collect();
-        self.breaks = sorted(all.into_iter(), period);
+        let of_law = repeated(law, self.period);
+        let all = of_law.into_iter().chain(self.breaks.iter().copied());
+        self.breaks = sorted(all, self.period);
     }
 }

@@ -19,6 +19,7 @@ mod pivots;
 mod places;
 mod point_series;
 mod pose;
+mod refilled;
 mod series;
 mod six_bar;
 mod six_bar_motion;

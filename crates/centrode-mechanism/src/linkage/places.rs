@@ -2,9 +2,8 @@ use centrode_geometry::Point;
 
 use super::assembly::{Linkage, Step};
 use super::parts::{Line, Link};
-use super::series::Series;
-use super::six_bar_motion::chunks;
-use crate::formula::{LANES, Lanes};
+use super::series::{Part, Series};
+use crate::formula::{LANES, Lanes, chunks};
 
 /// Joints and links that a step needs, by their numbers.
 #[derive(Default)]
@@ -50,6 +49,30 @@ impl Step {
     }
 }
 
+/// Place of a point: a joint, or a point of a link.
+enum Source {
+    Joint(usize),
+    Of(Link, Point),
+}
+
+/// What some joints and links depend on.
+#[derive(Clone, Debug)]
+pub(super) struct Needed {
+    steps: Vec<bool>,
+    frames: Vec<bool>,
+}
+
+impl Needed {
+    /// Whether a part is among it.
+    #[inline(always)]
+    pub(super) fn has(&self, part: Part) -> bool {
+        match part {
+            Part::Step(number) => self.steps[number],
+            Part::Frame(link) => self.frames[link],
+        }
+    }
+}
+
 impl Linkage {
     /// Places of points of links, given in their axes in mm, at each of many inputs, mm: all points at the first input, then
     /// at the second and so on; equal to [`place`](Self::place) but for a few units in the last place, computed side by side,
@@ -61,49 +84,97 @@ impl Linkage {
     /// Never for links of the linkage.
     #[must_use]
     pub fn places_each(&self, points: &[(Link, Point)], inputs: &[f64]) -> Vec<[f64; 2]> {
-        let needed = self.needed(points.iter().map(|(link, _)| link.0));
+        let source = |(link, local): &(Link, Point)| match self.joint_at(*link, *local) {
+            Some(joint) => Source::Joint(joint),
+            None => Source::Of(*link, *local),
+        };
+        let sources: Vec<Source> = points.iter().map(source).collect();
+        let joints = sources.iter().filter_map(|source| match source {
+            Source::Joint(joint) => Some(*joint),
+            Source::Of(..) => None,
+        });
+        let links = sources.iter().filter_map(|source| match source {
+            Source::Of(link, _) => Some(link.0),
+            Source::Joint(_) => None,
+        });
+        let needed = self.needed(joints, links);
         let mut series = Series::<1, Lanes>::default();
-        let count = points.len();
-        let mut places = vec![[0.0; 2]; count * inputs.len()];
+        let mut now = Vec::with_capacity(sources.len());
+        let mut places = Vec::with_capacity(sources.len() * inputs.len());
         for (first, input) in chunks(inputs) {
-            self.find(input, |step| needed[step], &mut series);
-            let lanes = LANES.min(inputs.len() - first);
-            for (number, (link, local)) in points.iter().enumerate() {
-                let (origin, axis) = series.frame(*link);
-                let place = origin.plus(axis.turned(local.coords));
-                for lane in 0..lanes {
-                    places[(first + lane) * count + number] = place.value_of(lane).into();
+            self.find(input, |part| needed.has(part), &mut series);
+            now.clear();
+            now.extend(sources.iter().map(|source| match source {
+                Source::Joint(joint) => series.joint(*joint),
+                Source::Of(link, local) => {
+                    let (origin, axis) = series.frame(*link);
+                    origin.plus(axis.turned(local.coords))
                 }
+            }));
+            for lane in 0..LANES.min(inputs.len() - first) {
+                places.extend(
+                    now.iter()
+                        .map(|place| <[f64; 2]>::from(place.value_of(lane))),
+                );
             }
         }
         places
     }
 
-    /// The steps on which links depend.
-    fn needed(&self, links: impl Iterator<Item = usize>) -> Vec<bool> {
-        let mut link_is = vec![false; self.links];
+    /// The joint at a point of a link, given in its axes, where there is one.
+    fn joint_at(&self, link: Link, local: Point) -> Option<usize> {
+        let (mut links, mut joints) = (1, 0);
+        for step in &self.steps {
+            let own = link.0.checked_sub(links);
+            let along = |length: f64| local == Point::new(length, 0.0);
+            let found = match step {
+                Step::Point {
+                    link: of,
+                    local: at,
+                } => (*of == link.0 && *at == local.coords).then_some(joints),
+                Step::Rrr { lengths, .. } => match own {
+                    Some(0) if along(lengths.0) => Some(joints),
+                    Some(1) if along(lengths.1) => Some(joints),
+                    _ => None,
+                },
+                _ => None,
+            };
+            if found.is_some() {
+                return found;
+            }
+            let makes = step.makes();
+            (links, joints) = (links + makes[0], joints + makes[1]);
+        }
+        None
+    }
+
+    /// The steps on which joints and links depend, by their numbers, and the links of which more than joints is needed.
+    pub(super) fn needed(
+        &self,
+        joints: impl Iterator<Item = usize>,
+        links: impl Iterator<Item = usize>,
+    ) -> Needed {
+        let mut frames = vec![false; self.links];
         let mut joint_is = vec![false; self.owners.len()];
-        links.for_each(|link| link_is[link] = true);
+        links.for_each(|link| frames[link] = true);
+        joints.for_each(|joint| joint_is[joint] = true);
         let (mut first_link, mut first_joint) = (self.links, self.owners.len());
-        let mut needed = vec![false; self.steps.len()];
+        let mut steps = vec![false; self.steps.len()];
         for (number, step) in self.steps.iter().enumerate().rev() {
             let [links, joints] = step.makes();
             first_link -= links;
             first_joint -= joints;
-            needed[number] = link_is[first_link..first_link + links].contains(&true)
+            steps[number] = frames[first_link..first_link + links].contains(&true)
                 || joint_is[first_joint..first_joint + joints].contains(&true);
-            if needed[number] {
+            if steps[number] {
                 let takes = step.takes(&self.owners);
-                takes
-                    .links
-                    .into_iter()
-                    .for_each(|link| link_is[link] = true);
+                takes.links.into_iter().for_each(|link| frames[link] = true);
                 takes
                     .joints
                     .into_iter()
                     .for_each(|joint| joint_is[joint] = true);
             }
         }
-        needed
+        Needed { steps, frames }
     }
 }

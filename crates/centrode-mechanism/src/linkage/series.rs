@@ -6,17 +6,36 @@ use super::error::LinkageError;
 use super::parts::{Line, Link};
 use super::point_series::PointSeries;
 use super::pose::{Body, Pose};
+use super::refilled::Refilled;
 use crate::formula::{LANES, Number, Taylor};
 use crate::transmission::{MotionJet, Transmission};
 
 /// Joints and links while a pose is computed.
-#[derive(Default)]
 pub(super) struct Series<const N: usize, T = f64> {
-    joints: Vec<PointSeries<N, T>>,
+    joints: Refilled<PointSeries<N, T>>,
     /// Origin and first axis.
-    frames: Vec<(PointSeries<N, T>, PointSeries<N, T>)>,
+    frames: Refilled<(PointSeries<N, T>, PointSeries<N, T>)>,
     /// Discriminant of every dyad: its room before it no longer closes.
-    pub(super) room: Vec<T>,
+    pub(super) room: Refilled<T>,
+}
+
+/// Part of a linkage that others need.
+#[derive(Clone, Copy)]
+pub(super) enum Part {
+    /// A step, by its number.
+    Step(usize),
+    /// A link's origin and axis, by its number.
+    Frame(usize),
+}
+
+impl<const N: usize, T> Default for Series<N, T> {
+    fn default() -> Self {
+        Self {
+            joints: Refilled::default(),
+            frames: Refilled::default(),
+            room: Refilled::default(),
+        }
+    }
 }
 
 impl<const N: usize, T: Number> Series<N, T> {
@@ -30,6 +49,11 @@ impl<const N: usize, T: Number> Series<N, T> {
     /// Origin and first axis of a link.
     pub(super) fn frame(&self, link: Link) -> (PointSeries<N, T>, PointSeries<N, T>) {
         self.frames[link.0]
+    }
+
+    /// Place of a joint.
+    pub(super) fn joint(&self, joint: usize) -> PointSeries<N, T> {
+        self.joints[joint]
     }
 
     /// A law's series at one input or at several side by side.
@@ -142,24 +166,24 @@ impl Linkage {
         series
     }
 
-    /// Finds the series of the steps that are needed, by their numbers, at one input or at several side by side.
+    /// Finds the series of what is needed, at one input or at several side by side.
     pub(super) fn find<const N: usize, T: Number>(
         &self,
         input: T,
-        needed: impl Fn(usize) -> bool,
+        needed: impl Fn(Part) -> bool,
         s: &mut Series<N, T>,
     ) {
         let still = PointSeries::fixed(Point::origin());
-        s.joints.clear();
-        s.frames.clear();
-        s.room.clear();
+        s.joints.restart();
+        s.frames.restart();
+        s.room.restart();
         s.frames
             .push((still, PointSeries::fixed(Point::new(1.0, 0.0))));
         for (number, step) in self.steps.iter().enumerate() {
-            if !needed(number) {
+            if !needed(Part::Step(number)) {
                 let [links, joints] = step.makes();
-                s.frames.extend((0..links).map(|_| (still, still)));
-                s.joints.extend((0..joints).map(|_| still));
+                (0..links).for_each(|_| s.frames.leave((still, still)));
+                (0..joints).for_each(|_| s.joints.leave(still));
                 continue;
             }
             match step {
@@ -194,8 +218,13 @@ impl Linkage {
                 } => {
                     let (p, q) = (s.joints[*p], s.joints[*q]);
                     let Closed { at, room } = rrr(p, q, *lengths, *branch);
-                    s.frames.push((p, at.minus(p).times(1.0 / lengths.0)));
-                    s.frames.push((q, at.minus(q).times(1.0 / lengths.1)));
+                    for (end, length) in [(p, lengths.0), (q, lengths.1)] {
+                        if needed(Part::Frame(s.frames.next())) {
+                            s.frames.push((end, at.minus(end).times(1.0 / length)));
+                        } else {
+                            s.frames.leave((still, still));
+                        }
+                    }
                     s.joints.push(at);
                     s.room.push(room);
                 }

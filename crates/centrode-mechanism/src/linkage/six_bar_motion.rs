@@ -3,7 +3,7 @@ use centrode_geometry::{Jet, Point};
 use super::four_bar::joints;
 use super::point_series::PointSeries;
 use super::six_bar::SixBar;
-use crate::formula::{LANES, Lanes, Number, Taylor};
+use crate::formula::{LANES, Lanes, Number, Taylor, chunks};
 use crate::transmission::MotionJet;
 
 /// Positions and motion of a six-bar at one crank angle, per radian of crank angle.
@@ -37,17 +37,6 @@ impl<T: Number> Moving<T> {
             effector: MotionJet::of_lane(&self.effector, lane),
         }
     }
-}
-
-/// Inputs side by side, each with the number of its first; the last input pads an incomplete group.
-#[inline(always)]
-pub(super) fn chunks(inputs: &[f64]) -> impl Iterator<Item = (usize, Lanes)> + '_ {
-    let input = |index: usize| inputs[index.min(inputs.len() - 1)];
-    let firsts = (0..inputs.len()).step_by(LANES);
-    firsts.map(move |first| {
-        let lanes = std::array::from_fn(|lane| input(first + lane));
-        (first, Lanes::from(lanes))
-    })
 }
 
 /// Results at each of many inputs, computed side by side.

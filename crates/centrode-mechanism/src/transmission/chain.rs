@@ -1,16 +1,11 @@
-use std::f64::consts::TAU;
 use std::sync::Arc;
 
-use centrode_geometry::{bracketed_root, pieces};
-
-use super::{MotionJet, Transmission, TransmissionError, sorted};
+use super::{MotionJet, Transmission, TransmissionError, crossings, repeated, sorted};
 
 /// Most cycles of the driving motion in one of the chain.
 const MOST: u32 = 1000;
 /// Greatest miss of whole cycles that is rounding, as a share of one.
 const ROUNDING: f64 = 1e-9;
-/// Parts of a turn in each of which the driving motion passes a place at most once.
-const PARTS: f64 = 64.0;
 
 /// One transmission driven by another: `outer` of `inner`, which may stop and run back.
 #[derive(Clone, Debug)]
@@ -83,37 +78,19 @@ impl Transmission for Chain {
     }
 
     fn breaks(&self) -> Vec<f64> {
-        let (once, period, cycle) = (self.inner.period(), self.period(), self.outer.period());
-        let repeats = 0..self.cycles.0 as u32;
-        let own = self.inner.breaks();
-        let mut found: Vec<f64> = repeats
-            .flat_map(|i| own.iter().map(move |b| b + f64::from(i) * once))
-            .collect();
-        let of_outer = self.outer.breaks();
-        if of_outer.is_empty() {
-            return sorted(found.into_iter(), period);
-        }
+        let period = self.period();
+        let own = repeated(&*self.inner, period);
+        let of_outer = (&self.outer.breaks()[..], self.outer.period());
         let place = |input: f64| self.inner.at(input).position;
-        let parts = (PARTS * period / TAU).ceil() as u32;
-        for ends in pieces(0.0, period, parts, &found).windows(2) {
-            let (from, to) = (place(ends[0]), place(ends[1]));
-            let (low, high) = (from.min(to), from.max(to));
-            for b in &of_outer {
-                let mut at = b + cycle * ((low - b) / cycle).ceil();
-                while at <= high {
-                    let off = |input: f64| place(input) - at;
-                    found.push(bracketed_root(off, ends[0], ends[1], from - at, to - at));
-                    at += cycle;
-                }
-            }
-        }
-        found.iter_mut().for_each(|b| *b = b.rem_euclid(period));
-        sorted(found.into_iter(), period)
+        let met = crossings(place, of_outer, period, &own);
+        sorted(own.into_iter().chain(met), period)
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use std::f64::consts::TAU;
+
     use super::*;
     use crate::machine::Linear;
     use crate::transmission::FromFn;

@@ -1,5 +1,6 @@
 //! Transmission function of a joint: its position as a function of the machine's input.
 
+mod breaks;
 mod chain;
 mod inverse;
 
@@ -8,6 +9,7 @@ use std::fmt;
 use crate::formula::{Number, Taylor};
 use crate::machine::Piecewise;
 
+pub(crate) use breaks::{crossings, repeated, sorted};
 pub use chain::Chain;
 pub use inverse::Inverse;
 
@@ -179,17 +181,6 @@ impl<F: Fn(f64) -> MotionJet + Send + Sync> Transmission for FromFn<F> {
     fn breaks(&self) -> Vec<f64> {
         self.breaks.clone()
     }
-}
-
-/// Ascending breaks, without those that differ by rounding only.
-pub(crate) fn sorted(breaks: impl Iterator<Item = f64>, period: f64) -> Vec<f64> {
-    let mut breaks: Vec<f64> = breaks.collect();
-    breaks.sort_by(f64::total_cmp);
-    breaks.dedup_by(|b, a| *b - *a <= 1e-12 * period);
-    if breaks.len() > 1 && breaks[0] + period - breaks[breaks.len() - 1] <= 1e-12 * period {
-        breaks.pop();
-    }
-    breaks
 }
 
 /// Reason why transmissions do not go together.
