@@ -35,6 +35,18 @@ impl Source {
         }
     }
 
+    /// Refuses to write over the design.
+    pub(crate) fn keep_from(&self, output: &Path) -> Result<(), Failure> {
+        let [own, other] = [Path::new(&self.name), output].map(|path| path.canonicalize().ok());
+        if own.is_some() && own == other {
+            let path = output.display();
+            return Err(Failure::Usage(format!(
+                "{path} is the design: name another file to write"
+            )));
+        }
+        Ok(())
+    }
+
     /// Source of a text that is in no file.
     pub(crate) fn of_text(text: &str) -> Self {
         Self {

@@ -16,6 +16,15 @@ use crate::progress::Progress;
 /// Prints the response of a design's figures to one of its numbers.
 pub(crate) fn run(command: &Response, out: &mut impl Write) -> Result<ExitCode, Failure> {
     let source = Source::open(&command.design)?;
+    if let Some(path) = &command.csv {
+        source.keep_from(path)?;
+    }
+    for (word, end) in [("--from", command.from), ("--to", command.to)] {
+        if !end.is_finite() {
+            let why = format!("{word} must be a finite number, not {end}");
+            return Err(Failure::Usage(why));
+        }
+    }
     let file = source.design()?;
     let key = file.design().key_of(&command.parameter);
     let steps = f64::from(command.count - 1);

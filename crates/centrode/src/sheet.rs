@@ -14,6 +14,7 @@ use crate::progress::Progress;
 /// Writes a design's page as one file that needs no other.
 pub(crate) fn run(command: &Report, out: &mut impl Write) -> Result<ExitCode, Failure> {
     let source = Source::open(&command.design)?;
+    source.keep_from(&command.output)?;
     let design = source.design()?;
     let progress = Progress::new(2);
     progress.step("resolving the design");

@@ -4,6 +4,7 @@ use centrode_mechanism::design::DesignSpec;
 use super::*;
 
 mod clearances;
+mod followers;
 mod loads;
 
 fn composed(text: &str) -> Composed {

@@ -42,6 +42,7 @@ impl Wrench {
 /// Motion of the links, and what each joint must supply to what it carries.
 struct State<'a> {
     machine: &'a Machine,
+    input: f64,
     jets: Vec<MotionJet>,
     links: Vec<LinkMotion>,
     axes: Vec<Vector3<f64>>,
@@ -135,6 +136,7 @@ impl<'a> State<'a> {
         let joints = machine.joints.len();
         let mut state = Self {
             machine,
+            input,
             jets: machine.joints.iter().map(|j| j.law.at(input)).collect(),
             links: vec![LinkMotion::still(); machine.links.len()],
             axes: vec![Vector3::zeros(); joints],
@@ -265,7 +267,7 @@ impl<'a> State<'a> {
     fn tied(&self, ties: &[Tie]) -> Option<Vec<(Lines, [f64; 2])>> {
         let lines = ties
             .iter()
-            .map(|tie| tie.lines(self.machine, &self.links, &self.axes));
+            .map(|tie| tie.lines(self.machine, &self.links, &self.axes, self.input));
         let mut lines: Vec<Lines> = lines.collect::<Option<_>>()?;
         let mut sizes = self.solved(ties, &lines)?;
         let mut leans = false;

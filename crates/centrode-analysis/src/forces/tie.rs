@@ -115,6 +115,7 @@ impl Tie {
         machine: &Machine,
         motions: &[LinkMotion],
         axes: &[Vector3<f64>],
+        input: f64,
     ) -> Option<Lines> {
         let axis = self.normal.map_or(Vector3::z(), |joint| axes[joint]);
         let [one, other] = self.links.map(|link| &motions[link]);
@@ -137,6 +138,15 @@ impl Tie {
             },
             TieKind::Contact(i) => {
                 let contact = &machine.contacts[i];
+                if let Some(line) = &contact.line {
+                    let [at, along] = line.at(input).map(|v| other.turn * Vector3::from(v));
+                    let at = other.place + at;
+                    let finite = at.iter().chain(along.iter()).all(|x| x.is_finite());
+                    return finite.then_some(Lines {
+                        at,
+                        along: [along; 2],
+                    });
+                }
                 let at = other.place + other.turn * Vector3::from(contact.at);
                 let normal = match contact.normal {
                     Some(normal) => one.turn * Vector3::from(normal),

@@ -33,6 +33,7 @@ impl Builder<'_> {
             joint,
             at: [pusher.fork_spec().arm_length, 0.0, 0.0],
             normal: None,
+            line: None,
         });
         let name = format!("push_rod_{k}");
         let rod = self.bodied(&name, Some(limbs.rod));
@@ -51,6 +52,7 @@ impl Builder<'_> {
                 joint,
                 at: [pin.x, pin.y, 0.0],
                 normal: Some([-slot.y, slot.x, 0.0]),
+                line: None,
             });
         }
         let spring = self.mechanism.arm_sizes().spring;

@@ -36,6 +36,9 @@ impl Composed {
     pub(super) fn with_copies(design: &ComposedDesign) -> Result<Self, ComposedError> {
         let bare = ComposedDesign {
             copies: BTreeMap::new(),
+            // These may name copies.
+            loads: BTreeMap::new(),
+            obstacles: BTreeMap::new(),
             goals: BTreeMap::new(),
             vary: BTreeMap::new(),
             ..design.clone()

@@ -127,7 +127,11 @@ impl DesignSpec for ComposedDesign {
     }
 
     fn rules(&self) -> Result<(), SpecError> {
-        self.validate()
+        self.validate()?;
+        if self.bodies.is_empty() && self.dyads.is_empty() {
+            return broken("bodies", Rule::Needed("beside the frame, at least one"));
+        }
+        self.check_sizes()
     }
 }
 

@@ -68,6 +68,7 @@ impl Composed {
                 }),
             });
         }
+        machine.contacts = self.contacts();
         self.add_points(&mut machine);
         self.draw(&mut machine, &pieces);
         self.list(&mut machine, &pieces);

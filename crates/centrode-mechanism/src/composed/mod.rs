@@ -25,6 +25,7 @@ mod gears;
 mod given_mass;
 mod goal;
 mod law;
+mod limits;
 mod links;
 mod load;
 mod mesh;
@@ -36,6 +37,7 @@ mod resolve;
 mod seating;
 #[cfg(test)]
 mod tests;
+mod touching;
 
 use std::collections::BTreeMap;
 use std::sync::Arc;

@@ -181,9 +181,9 @@ impl Composed {
                 Some(below) => {
                     let [low, high] = self.width_seen(obstacle.body);
                     let ends = [Point::new(low, below), Point::new(high, below)];
-                    Line::chain(LineRole::Ground, &ends)
+                    Line::chain(LineRole::Beside, &ends)
                 }
-                None => Line::contour(LineRole::Ground, &obstacle.outline),
+                None => Line::contour(LineRole::Beside, &obstacle.outline),
             };
             let sketch = machine.sketch(&obstacle.name, vec![line]);
             machine.draw(&obstacle.name, obstacle.body, sketch);

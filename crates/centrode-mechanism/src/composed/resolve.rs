@@ -103,6 +103,7 @@ impl Composed {
             loads,
             obstacles: Vec::new(),
         };
+        made.check_names()?;
         made.check_drawn()?;
         made.obstacles = made.obstacles_of_design()?;
         let goals = design.goals.iter();

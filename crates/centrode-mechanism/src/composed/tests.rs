@@ -9,6 +9,7 @@ mod cutting;
 mod drawn;
 mod gears;
 mod random;
+mod trains;
 
 fn read(text: &str) -> ComposedDesign {
     ComposedDesign::from_toml(text).expect("a design")

@@ -14,6 +14,7 @@ pub use family::{Design, DesignFamily, DesignSpec, Tagged};
 pub use fault::{DesignError, DesignFault, MechanismError};
 pub use file::DesignFile;
 pub use number::NumberedDesign;
+pub(crate) use number::numbers_of;
 pub use schema::json_schema;
 
 #[cfg(test)]

@@ -1,5 +1,7 @@
 use std::sync::Arc;
 
+use serde::Serialize;
+
 use super::fault::nearest;
 use super::{Design, DesignError, DesignFamily, DesignFault, DesignFile};
 
@@ -19,23 +21,35 @@ enum Step {
     Index(usize),
 }
 
-/// Keys of all numbers at and below a value.
-fn numbers(value: &toml::Value, key: &str, found: &mut Vec<String>) {
+/// Visits all numbers at and below a value, each by its key.
+fn numbers(value: &toml::Value, key: &str, visit: &mut impl FnMut(&str, f64)) {
     match value {
-        toml::Value::Integer(_) | toml::Value::Float(_) => found.push(key.to_owned()),
+        toml::Value::Integer(whole) => visit(key, *whole as f64),
+        toml::Value::Float(number) => visit(key, *number),
         toml::Value::Array(list) => {
             for (i, value) in list.iter().enumerate() {
-                numbers(value, &format!("{key}[{i}]"), found);
+                numbers(value, &format!("{key}[{i}]"), visit);
             }
         }
         toml::Value::Table(table) => {
             let dot = if key.is_empty() { "" } else { "." };
             for (name, value) in table {
-                numbers(value, &format!("{key}{dot}{name}"), found);
+                numbers(value, &format!("{key}{dot}{name}"), visit);
             }
         }
         _ => {}
     }
+}
+
+/// Every number of a design by its key, in the file's units; none of what cannot be written.
+pub(crate) fn numbers_of(design: &impl Serialize) -> Vec<(String, f64)> {
+    let mut found = Vec::new();
+    if let Ok(root) = toml::Value::try_from(design) {
+        numbers(&root, "", &mut |key, number| {
+            found.push((key.to_owned(), number));
+        });
+    }
+    found
 }
 
 /// The steps of a path; `None` where it is none.
@@ -60,7 +74,7 @@ impl NumberedDesign {
         let root: toml::Value = toml::from_str(text)
             .map_err(|e| DesignError::at_start(DesignFault::NotWritable(e.to_string())))?;
         let mut known = Vec::new();
-        numbers(&root, "", &mut known);
+        numbers(&root, "", &mut |key, _| known.push(key.to_owned()));
         let unknown = || DesignError {
             key: key.chars().take(80).collect(),
             ..DesignError::at_start(DesignFault::UnknownKey {

@@ -68,7 +68,7 @@ impl PitchCurves {
 }
 
 /// A roller or pin of one link on a curve of another: cam and follower, pin and slot.
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Contact {
     /// Indices of the link with the curve and of the link with the roller.
@@ -80,6 +80,33 @@ pub struct Contact {
     /// Direction of the force in the frame of the first link, for a straight slot; none for a curve: square to the way of
     /// the roller along it.
     pub normal: Option<[f64; 3]>,
+    /// The line along which the force acts, where it is known whether the links move or rest: of a cam and its follower.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub line: Option<ContactLine>,
+}
+
+/// Line along which the force of a contact acts, in the axes of its second link, by the input.
+#[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct ContactLine {
+    /// Direction, rad.
+    #[serde(with = "plain::laws")]
+    #[schemars(with = "plain::laws::File")]
+    pub angle: Arc<dyn Transmission>,
+    /// Moment of a unit force along it about the link's origin, mm.
+    #[serde(with = "plain::laws")]
+    #[schemars(with = "plain::laws::File")]
+    pub arm: Arc<dyn Transmission>,
+}
+
+impl ContactLine {
+    /// Point of the line nearest to the link's origin, mm, and the unit vector along it, at an input.
+    #[must_use]
+    pub fn at(&self, input: f64) -> [[f64; 3]; 2] {
+        let arm = self.arm.at(input).position;
+        let (sin, cos) = self.angle.at(input).position.sin_cos();
+        [[arm * sin, -arm * cos, 0.0], [cos, sin, 0.0]]
+    }
 }
 
 /// A groove of a turning link that moves a joint led by that link's.

@@ -25,7 +25,7 @@ use serde::{Deserialize, Serialize};
 use crate::transmission::Transmission;
 
 pub use arrangement::{Arrangement, Axis, Callout, Datum, Dimension, Place};
-pub use contact::{Closure, Contact, GearMesh, Guide, GuideForce, PitchCurves};
+pub use contact::{Closure, Contact, ContactLine, GearMesh, Guide, GuideForce, PitchCurves};
 pub use figure::{Figure, Line, LinePath, LineRole, Mark, Seat, Sketch};
 pub use jet::{FrameJet, PointJet};
 pub use joint::{Joint, JointKind};

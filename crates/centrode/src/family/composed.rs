@@ -69,6 +69,7 @@ impl Resolved for Composed {
     const NOUN: &'static str = "a composed machine";
 
     fn resolve(design: &ComposedDesign) -> Result<Self, MechanismError> {
+        design.check_vary()?;
         Ok(Self::resolve(design)?)
     }
 

@@ -116,6 +116,7 @@ fn a_cam_pushes_its_roller_square_to_its_curve() {
         joint: 1,
         at: [arm, 0.0, 0.0],
         normal: None,
+        line: None,
     });
     found.loads.push(torque(2, 700.0));
     let balance = Balance::new(found).expect("a machine");

@@ -10,7 +10,7 @@ use super::super::{
 use crate::machine::Machine;
 
 /// Small repeatable random numbers (Numerical Recipes' ranqd1).
-struct Random(u32);
+pub(super) struct Random(pub(super) u32);
 
 impl Random {
     fn next(&mut self) -> u32 {
@@ -18,16 +18,16 @@ impl Random {
         self.0 >> 8
     }
 
-    fn within(&mut self, low: f64, high: f64) -> f64 {
+    pub(super) fn within(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * f64::from(self.next()) / f64::from(1 << 24)
     }
 
-    fn below(&mut self, count: usize) -> usize {
+    pub(super) fn below(&mut self, count: usize) -> usize {
         self.next() as usize % count
     }
 
     /// A name that says nothing of when it was given.
-    fn name(&mut self, number: usize) -> String {
+    pub(super) fn name(&mut self, number: usize) -> String {
         let letter = char::from(b'a' + (self.next() % 26) as u8);
         format!("{letter}{number}")
     }
