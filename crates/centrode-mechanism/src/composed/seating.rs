@@ -74,8 +74,7 @@ impl Turned {
     /// Inputs of a period at which a derivative of the turn itself may jump.
     pub(super) fn jumps(&self, period: f64) -> impl Iterator<Item = f64> + use<> {
         let [cam, carrier] = [&self.cam, &self.carrier].map(|angle| angle.breaks(period));
-        let jumps = cam.into_iter().chain(carrier);
-        jumps.filter(move |&input| input < period)
+        cam.into_iter().chain(carrier)
     }
 }
 
