@@ -1,9 +1,18 @@
+use std::f64::consts::TAU;
+
+use centrode_geometry::{Extreme, bracketed_root};
 use centrode_mechanism::composed::{Composed, DyadKind};
 use centrode_mechanism::linkage::{Branch, FourBar};
 use centrode_mechanism::machine::JointKind;
+use centrode_mechanism::transmission::Transmission;
 
 use super::motion::Motion;
 use crate::{Report, Table, Unit};
+
+/// Distance, as a share of a turn, within which a dead centre lies of the extreme that is found by places alone.
+const NEAR: f64 = 1e-5;
+/// Difference of places, as a share of a stroke, that is rounding.
+const ROUNDING: f64 = 1e-12;
 
 /// Swings and strokes of joints that come back, and the inputs of their dead centres.
 pub(super) fn joints(composed: &Composed, motion: &Motion, report: &mut Report) {
@@ -24,7 +33,9 @@ pub(super) fn joints(composed: &Composed, motion: &Motion, report: &mut Report) 
             _ => &mut swings,
         };
         rows.push((body.name.clone(), span));
-        centres.push((body.name.clone(), vec![low.input, high.input]));
+        let stroke = high.value - low.value;
+        let dead = [low, high].map(|found| dead_centre(mount.law.as_ref(), &found, stroke));
+        centres.push((body.name.clone(), dead.to_vec()));
     }
     let mut add = |name, title, unit, columns: [&str; 3], rows: Vec<(String, Vec<f64>)>| {
         if rows.is_empty() {
@@ -56,6 +67,27 @@ pub(super) fn joints(composed: &Composed, motion: &Motion, report: &mut Report) 
         inputs,
         centres,
     );
+}
+
+/// Input at which a motion stands in an extreme: where its speed is zero, and in the first turn of several alike.
+fn dead_centre(law: &dyn Transmission, found: &Extreme, stroke: f64) -> f64 {
+    let alike = |input: &f64| {
+        let off = law.at(*input).position - found.value;
+        *input >= 0.0 && off.abs() <= ROUNDING * stroke
+    };
+    let turns = (found.input / TAU).floor() as u32;
+    let mut earlier = (1..=turns)
+        .rev()
+        .map(|turn| found.input - TAU * f64::from(turn));
+    let input = earlier.find(alike).unwrap_or(found.input);
+    let speed = |input: f64| law.at(input).velocity;
+    let [from, to] = [-1.0, 1.0].map(|side| input + side * NEAR * TAU);
+    let [before, after] = [from, to].map(speed);
+    match before * after < 0.0 {
+        true => bracketed_root(speed, from, to, before, after),
+        // A dwell, or a corner.
+        false => input,
+    }
 }
 
 /// Grashof's margin of every dyad RRR between a body that turns and the body that carries it.

@@ -12,7 +12,9 @@ use super::seating::{Seat, Turned, wrong};
 use super::{ComposedCamSpec, ComposedError, Mount};
 use crate::cam::{Cam, CamError, DiscCam};
 use crate::machine::JointKind;
-use crate::transmission::{FromFn, Inverse, MotionJet, Transmission, TransmissionError, sorted};
+use crate::transmission::{
+    FromFn, Inverse, MotionJet, Transmission, TransmissionError, repeated, sorted,
+};
 
 /// Parts of a turn of the input, or of the cam, in each of which a motion has few extremes.
 const PARTS: u32 = 24;
@@ -126,12 +128,7 @@ impl Builder<'_> {
             );
             return wrong(key, why);
         }
-        let own = law.breaks();
-        let repeats = (period / law.period()).round().max(1.0) as u32;
-        let of_law = (0..repeats).flat_map(|i| {
-            let before = f64::from(i) * law.period();
-            own.iter().map(move |b| b + before)
-        });
+        let of_law = repeated(&*law, period).into_iter();
         let breaks = sorted(of_law.chain(turn.jumps(period)), period);
         let parts = PARTS * self.design.input.turns;
         let ends = pieces(0.0, period, parts, &breaks);

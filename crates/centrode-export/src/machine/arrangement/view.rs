@@ -219,6 +219,8 @@ fn note_beside(draft: &mut Draft, notes: &[Note]) {
 fn label(draft: &mut Draft, at: Point, words: &str) -> bool {
     let letters = draft.lettering();
     let width = lettering::width(words, letters);
+    // Some letters hang below the line.
+    let below = lettering::ink(words, letters).min.y.min(0.0);
     for room in ROOM {
         for i in 0..DIRECTIONS {
             let angle = (f64::from(i) + 1.0) * std::f64::consts::TAU / f64::from(DIRECTIONS);
@@ -228,7 +230,7 @@ fn label(draft: &mut Draft, at: Point, words: &str) -> bool {
             let low = at.y + room * sin - 0.5 * letters * (1.0 - sin.signum() * sin.abs().sqrt());
             let corner = Point::new(left, low);
             let around = Bounds {
-                min: corner - Vector::repeat(0.5),
+                min: corner + Vector::new(-0.5, below - 0.5),
                 max: corner + Vector::new(width + 0.5, letters + 0.5),
             };
             if !draft.touches(around) {
@@ -284,6 +286,27 @@ fn permute<T>(items: &mut [T], fixed: usize, call: &mut impl FnMut(&[T])) {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_name_leaves_lines_below_its_hanging_letters_free() {
+        let mut draft = Draft::lettered(3.5);
+        let below = |y: f64| [Point::new(-30.0, y), Point::new(30.0, y)];
+        // Between two lines there is room for a name on its line, not for letters that hang below it.
+        for [from, to] in [below(-3.0), below(2.0)] {
+            draft.line(Pen::Outline, from, to);
+        }
+        assert!(label(&mut draft, Point::new(0.0, -0.5), "pin"));
+        let entities = draft.into_entities();
+        let placed = entities.iter().find_map(|entity| match &entity.shape {
+            Shape::Text(text) => Some(text.at.y),
+            _ => None,
+        });
+        let y = placed.expect("a name");
+        let ink = lettering::ink("pin", 3.5);
+        for line in [-3.0, 2.0] {
+            assert!(!(y + ink.min.y..y + ink.max.y).contains(&line), "{y}");
+        }
+    }
 
     #[test]
     fn extension_lines_run_through_no_words_of_dimensions_nearer_to_the_view() {
