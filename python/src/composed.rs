@@ -4,12 +4,15 @@ use centrode_analysis::composed_clearance;
 use centrode_geometry::Point;
 use centrode_mechanism::composed::Composed;
 use pyo3::IntoPyObjectExt;
-use pyo3::prelude::{Bound, PyAny, PyClassInitializer, PyResult, Python, pyclass, pymethods};
+use pyo3::prelude::{
+    Bound, PyAny, PyClassInitializer, PyRef, PyResult, Python, pyclass, pymethods,
+};
 use pyo3::types::PyTuple;
 
 use crate::array::{Course, Values, row};
 use crate::design::Class;
 use crate::error::{Answer, Raised, plain_tolerance};
+use crate::forces::Names;
 use crate::mechanism::Mechanism;
 use crate::wait::wait;
 
@@ -220,6 +223,36 @@ impl Machine {
             inputs.iter().map(at).collect()
         });
         Ok(course.into_bound_py_any(py)?)
+    }
+
+    /// Forces at inputs, rad, that turn evenly, by the design's names: `input` the torque that the input needs, N mm; `joints`
+    /// the force on each body by its name, N along x and y of the frame; `closures` that on the second body of the pin that
+    /// closes a dyad, by both; `meshes` that along the normal of the teeth that move a body, by its name, N.
+    ///
+    /// Inertia, weight and the loads of the design count; friction and play are left out. `drives` is the torque (N mm) or
+    /// force (N) of what moves a body: zero where teeth or a dyad do.
+    ///
+    /// Args:
+    ///     phi: Inputs, rad.
+    ///     speed: Speed of the input, rad/s; left out, the design's. Zero holds it still.
+    ///
+    /// Raises:
+    ///     MechanismError: A part cannot be made, more than one thing holds a body, or no force balances the load.
+    ///
+    /// >>> import centrode as ct
+    /// >>> forces = ct.Machine.from_toml(ct.template("machine")).forces([0.0, 1.0])
+    /// >>> list(forces.joints)
+    /// ['crank', 'lower-rod', 'rocker', 'upper-rod', 'thigh', 'tie', 'shin']
+    /// >>> forces.joints["thigh"].shape
+    /// (2, 2)
+    #[pyo3(signature = (phi, *, speed=None))]
+    fn forces<'py>(
+        slf: PyRef<'py, Self>,
+        py: Python<'py>,
+        phi: Values,
+        speed: Option<f64>,
+    ) -> Answer<Bound<'py, PyAny>> {
+        slf.as_super().forces_by(py, phi, speed, Names::OF_BODIES)
     }
 
     /// Transmission angle of a dyad at inputs, rad: 0 where it is stretched or folded, a right angle where it holds best.

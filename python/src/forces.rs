@@ -41,12 +41,42 @@ impl Found {
     }
 }
 
+/// Names of the joints and meshes of a machine, by their numbers.
+#[derive(Clone, Copy)]
+pub(crate) struct Names {
+    joint: fn(&Machine, usize) -> String,
+    mesh: fn(&Machine, usize) -> String,
+}
+
+impl Names {
+    /// Joints by their own names, meshes by both links.
+    pub(crate) const OF_LINKS: Self = Self {
+        joint: |machine, joint| machine.joint_name(joint),
+        mesh: |machine, mesh| pair(machine, machine.meshes[mesh].links),
+    };
+
+    /// Joints by the bodies that they carry, meshes by those that they move.
+    pub(crate) const OF_BODIES: Self = Self {
+        joint: carried,
+        mesh: |machine, mesh| carried(machine, machine.meshes[mesh].joint),
+    };
+}
+
+fn carried(machine: &Machine, joint: usize) -> String {
+    machine.links[machine.joints[joint].child].name.clone()
+}
+
+fn pair(machine: &Machine, links: [usize; 2]) -> String {
+    let names = links.map(|link| machine.links[link].name.as_str());
+    names.join("-")
+}
+
 /// The record of the forces at inputs and a speed, rad/s.
 pub(crate) fn found(
     py: Python<'_>,
     machine: Arc<Machine>,
-    inputs: Values,
-    speed: f64,
+    (inputs, speed): (Values, f64),
+    names: Names,
 ) -> Answer<Bound<'_, PyAny>> {
     let balance = Balance::new(Arc::clone(&machine))?;
     let components = if balance.is_planar() { 2 } else { 3 };
@@ -60,16 +90,21 @@ pub(crate) fn found(
         all: Arc::new(all),
         components,
     };
-    Ok(named(py, &machine, &found)?)
+    Ok(named(py, &machine, &found, names)?)
 }
 
 /// The parts of the record, each by its name.
-fn named<'py>(py: Python<'py>, machine: &Machine, found: &Found) -> PyResult<Bound<'py, PyAny>> {
+fn named<'py>(
+    py: Python<'py>,
+    machine: &Machine,
+    found: &Found,
+    names: Names,
+) -> PyResult<Bound<'py, PyAny>> {
     let [drives, joints, closures] = [(); 3].map(|()| PyDict::new(py));
     let [meshes, contacts, guides] = [(); 3].map(|()| PyDict::new(py));
     let mut undetermined = Vec::new();
     for (index, about) in machine.joints.iter().enumerate() {
-        let name = machine.joint_name(index);
+        let name = (names.joint)(machine, index);
         if about.kind != JointKind::Fixed {
             drives.set_item(&name, found.number(move |f| f.joints[index].drive))?;
         }
@@ -86,21 +121,16 @@ fn named<'py>(py: Python<'py>, machine: &Machine, found: &Found) -> PyResult<Bou
         };
         joints.set_item(&name, found.force(force))?;
     }
-    let pair = |links: [usize; 2]| {
-        links
-            .map(|link| machine.links[link].name.as_str())
-            .join("-")
-    };
     for (index, closure) in machine.closures.iter().enumerate() {
         let force = found.force(move |forces| forces.closures[index].into());
-        closures.set_item(pair(closure.links), force)?;
+        closures.set_item(pair(machine, closure.links), force)?;
     }
     for (index, contact) in machine.contacts.iter().enumerate() {
         let force = found.force(move |forces| forces.contacts[index].into());
-        contacts.set_item(pair(contact.links), force)?;
+        contacts.set_item(pair(machine, contact.links), force)?;
     }
     for (index, mesh) in machine.meshes.iter().enumerate() {
-        let name = pair(mesh.links);
+        let name = (names.mesh)(machine, index);
         if mesh.pressure_angle.is_none() {
             undetermined.push(name);
             continue;
@@ -117,7 +147,7 @@ fn named<'py>(py: Python<'py>, machine: &Machine, found: &Found) -> PyResult<Bou
             part(|f| f.torque),
             part(|f| f.push),
         ];
-        let name = machine.joint_name(guide.joint);
+        let name = (names.joint)(machine, guide.joint);
         guides.set_item(name, record::slider_force(py, parts)?)?;
     }
     let input = found.number(|forces| forces.input_torque);

@@ -205,4 +205,7 @@ torque = 350
     forces = machine.forces(phi)
     size = np.abs(forces.input).max()
     np.testing.assert_allclose(forces.input[known], (torque - work)[known], rtol=0, atol=1e-8 * size)
-    assert forces.joints["rod_joint"].shape == (60, 2)
+    assert forces.joints["rod"].shape == (60, 2)
+    assert list(forces.joints) == list(machine.bodies[1:])
+    assert (list(forces.meshes), list(forces.closures)) == (["crank"], ["rod-ram"])
+    assert forces.meshes["crank"].shape == forces.drives["shaft"].shape == forces.input.shape == (60,)

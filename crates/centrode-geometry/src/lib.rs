@@ -48,7 +48,9 @@ pub use convex::{ConvexPieces, convex_hull, convex_pieces};
 pub use crossing::Crossing;
 pub use crossings::{Unresolved, crossings, self_crossings};
 pub use curve::{Curve, Jet};
-pub use extreme::{Extreme, extremes, greatest, greatest_each, least, pieces};
+pub use extreme::{
+    Extreme, extremes, greatest, greatest_each, greatest_of, least, pieces, rounding,
+};
 pub use flatten::Sample;
 pub use loops::{Kept, LoopError, without_loops};
 pub use mass::{MassProperties, VolumeMoments};

@@ -7,12 +7,14 @@ use centrode::meshing;
 use centrode_export::machine::tabulated;
 use centrode_export::{Bundle, Format};
 use centrode_mechanism::machine::Machine;
-use pyo3::prelude::{PyClassInitializer, PyResult, Python};
+use pyo3::prelude::{Bound, PyAny, PyClassInitializer, PyResult, Python};
 
 use super::Mechanism;
+use crate::array::Values;
 use crate::design::named;
-use crate::error::{Answer, tolerance as within};
+use crate::error::{Answer, finite, tolerance as within};
 use crate::files;
+use crate::forces::{self, Names};
 use crate::wait::wait;
 
 impl Mechanism {
@@ -42,6 +44,19 @@ impl Mechanism {
         }
         let made = self.ask(py, |machine| machine.machine().map(tabulated))??;
         Ok(Arc::clone(self.1.get_or_init(|| Arc::new(made))))
+    }
+
+    /// Forces at inputs and a speed, by names.
+    pub(crate) fn forces_by<'py>(
+        &self,
+        py: Python<'py>,
+        phi: Values,
+        speed: Option<f64>,
+        names: Names,
+    ) -> Answer<Bound<'py, PyAny>> {
+        let machine = self.links(py)?;
+        let speed = finite("speed", speed.unwrap_or(machine.input.speed))?;
+        forces::found(py, machine, (phi.finite()?, speed), names)
     }
 
     pub(super) fn bundle(

@@ -15,9 +15,9 @@ use pyo3::types::{PyDict, PyTuple, PyType};
 
 use crate::array::{Course, Values};
 use crate::design::{object, of_class, path_loaded, read};
-use crate::error::{Answer, finite};
+use crate::error::Answer;
 use crate::files;
-use crate::forces;
+use crate::forces::Names;
 use crate::made::{Reduced, by_design};
 use crate::record;
 use crate::search;
@@ -201,9 +201,7 @@ impl Mechanism {
         phi: Values,
         speed: Option<f64>,
     ) -> Answer<Bound<'py, PyAny>> {
-        let machine = self.links(py)?;
-        let speed = finite("speed", speed.unwrap_or(machine.input.speed))?;
-        forces::found(py, machine, phi.finite()?, speed)
+        self.forces_by(py, phi, speed, Names::OF_LINKS)
     }
 
     /// The parts that a shop makes or buys for the machine, in the order of its parts list.

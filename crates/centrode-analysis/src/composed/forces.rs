@@ -1,15 +1,12 @@
 use std::cell::RefCell;
 
-use centrode_geometry::{Antiderivative, Extreme, greatest_each};
+use centrode_geometry::{Antiderivative, Extreme, greatest_of, rounding};
 use centrode_mechanism::composed::{Composed, ComposedFigure};
 use centrode_mechanism::machine::{JointKind, Machine};
 
 use super::ends;
 use crate::forces::{Balance, Forces, ForcesError};
 use crate::{Finding, Place, Report, Severity, Table, Unit};
-
-/// Figures that are followed together.
-const TOGETHER: usize = 8;
 
 /// A composed machine with its masses and loads, at the design's speed.
 pub(super) struct Loaded {
@@ -50,18 +47,25 @@ impl Loaded {
             .unwrap_or(f64::NAN)
     }
 
-    /// The greatest of each of several figures; minus infinity for one that is not determined.
-    fn greatest(&self, figures: &[ComposedFigure]) -> Vec<Extreme> {
-        let chunks = figures.chunks(TOGETHER).flat_map(|chunk| {
-            let values = |input: f64| -> [f64; TOGETHER] {
-                let forces = self.at(input);
-                let value = |figure| part(forces.as_ref()?, figure);
-                std::array::from_fn(|k| chunk.get(k).and_then(value).unwrap_or(f64::NAN))
-            };
-            let found = greatest_each(values, &self.ends);
-            found.into_iter().take(chunk.len())
-        });
-        chunks.collect()
+    /// The greatest of each of several figures, each times a factor; minus infinity for one that is not determined.
+    fn greatest(&self, figures: &[(ComposedFigure, f64)]) -> Vec<Extreme> {
+        let all = |input: f64, values: &mut Vec<f64>| {
+            let forces = self.at(input);
+            let value = |figure| part(forces.as_ref()?, figure);
+            let figures = figures.iter();
+            values.extend(figures.map(|(of, factor)| factor * value(of).unwrap_or(f64::NAN)));
+        };
+        let one = |k: usize, input: f64| {
+            let (figure, factor) = &figures[k];
+            factor * self.value(figure, input)
+        };
+        greatest_of(
+            figures.len(),
+            all,
+            one,
+            |_, value| rounding(value),
+            &self.ends,
+        )
     }
 }
 
@@ -103,17 +107,20 @@ pub(super) fn forces(loaded: &Result<Loaded, ForcesError>, machine: &Machine, re
     let joints = rows.len();
     let meshes = machine.meshes.iter().enumerate();
     rows.extend(meshes.map(|(index, mesh)| (pair(mesh.links), ComposedFigure::MeshForce(index))));
-    let figures: Vec<ComposedFigure> = rows.iter().map(|(_, figure)| *figure).collect();
-    let found = loaded.greatest(&figures);
+    let greatest = rows.iter().map(|(_, figure)| (*figure, 1.0));
+    let torques = [-1.0, 1.0].map(|factor| (ComposedFigure::InputTorque, factor));
+    let found = loaded.greatest(&greatest.chain(torques).collect::<Vec<_>>());
+    let (low, high) = (-found[rows.len()].value, found[rows.len() + 1].value);
     let torque = |input: f64| loaded.value(&ComposedFigure::InputTorque, input);
-    let [low, high] = centrode_geometry::extremes(torque, &loaded.ends);
-    let mean = Antiderivative::of(torque, &loaded.ends).total() / loaded.period;
+    // Where the torque is next to nothing its rounding need not be followed.
+    let size = high.abs().max(low.abs());
+    let mean = Antiderivative::of_size(torque, &loaded.ends, size).total() / loaded.period;
     if let Some(error) = loaded.failed.borrow().as_ref() {
         return undetermined(error, report);
     }
     let values = &mut report.values;
-    values.insert("input_torque_min", low.value);
-    values.insert("input_torque_max", high.value);
+    values.insert("input_torque_min", low);
+    values.insert("input_torque_max", high);
     values.insert("input_torque_mean", mean);
     let row = |((name, _), extreme): (&(String, ComposedFigure), &Extreme)| {
         (extreme.value >= 0.0).then(|| (name.clone(), vec![extreme.value]))

@@ -1,11 +1,12 @@
 use std::f64::consts::TAU;
 
-use centrode_geometry::{Extreme, bracketed_root, extremes};
+use centrode_geometry::{Extreme, bracketed_root};
 use centrode_mechanism::composed::{Composed, DyadKind};
 use centrode_mechanism::linkage::{Branch, FourBar};
 use centrode_mechanism::machine::JointKind;
 use centrode_mechanism::transmission::Transmission;
 
+use super::motion::Motion;
 use crate::{Report, Table, Unit};
 
 /// Distance, as a share of a turn, within which a dead centre lies of the extreme that is found by places alone.
@@ -14,16 +15,15 @@ const NEAR: f64 = 1e-5;
 const ROUNDING: f64 = 1e-12;
 
 /// Swings and strokes of joints that come back, and the inputs of their dead centres.
-pub(super) fn joints(composed: &Composed, ends: &[f64], report: &mut Report) {
+pub(super) fn joints(composed: &Composed, motion: &Motion, report: &mut Report) {
     let (mut swings, mut centres) = (Vec::new(), Vec::new());
     let mut strokes = Vec::new();
-    for body in composed.bodies() {
+    for (body, &[low, high]) in composed.bodies().iter().zip(&motion.joints) {
         let Some(mount) = &body.mount else { continue };
         let comes_back = mount.law.advance() == 0.0;
         if mount.kind == JointKind::Fixed || !comes_back {
             continue;
         }
-        let [low, high] = extremes(|input| mount.law.at(input).position, ends);
         if high.value - low.value == 0.0 {
             continue;
         }

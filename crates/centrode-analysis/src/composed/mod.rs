@@ -6,12 +6,13 @@ mod figures;
 mod forces;
 mod goals;
 mod joints;
+mod motion;
 #[cfg(test)]
 mod tests;
 
 use std::cell::OnceCell;
 
-use centrode_geometry::{extremes, greatest, least, pieces};
+use centrode_geometry::pieces;
 use centrode_mechanism::composed::Composed;
 use centrode_mechanism::machine::Machine;
 
@@ -19,6 +20,7 @@ pub use self::clearance::composed_clearance;
 use self::figures::FIGURES;
 use self::forces::Loaded;
 pub use self::goals::composed_figures;
+use self::motion::Motion;
 use crate::forces::ForcesError;
 use crate::report::Missed;
 use crate::{Finding, Goal, Place, Report, Severity, Table, Unit};
@@ -44,12 +46,12 @@ pub fn check_composed(composed: &Composed) -> Report {
     values.insert("dyad_count", composed.dyads().len() as f64);
     let [x, y] = composed.design().gravity.unwrap_or_default();
     values.insert("gravity", x.hypot(y));
-    let ends = ends(composed);
-    dyads(composed, &ends, &mut report);
-    joints::joints(composed, &ends, &mut report);
+    let motion = Motion::of(composed, &ends(composed));
+    dyads(composed, &motion, &mut report);
+    joints::joints(composed, &motion, &mut report);
     joints::four_bars(composed, &mut report);
     cams::cams(composed, &mut report);
-    points(composed, &ends, &mut report);
+    points(composed, motion, &mut report);
     let made = Made::new(composed);
     if let (Some(machine), Some(loaded)) = (made.machine(), made.loaded()) {
         forces::forces(loaded, machine, &mut report);
@@ -127,11 +129,9 @@ fn within(composed: &Composed, from: f64, to: f64) -> Vec<f64> {
 }
 
 /// Transmission angles of the dyads.
-fn dyads(composed: &Composed, ends: &[f64], report: &mut Report) {
+fn dyads(composed: &Composed, motion: &Motion, report: &mut Report) {
     let mut rows = Vec::new();
-    for (index, dyad) in composed.dyads().iter().enumerate() {
-        let angle = |input: f64| composed.transmission_angles(input)[index];
-        let [low, high] = [least(angle, ends), greatest(angle, ends)];
+    for (dyad, &[low, high]) in composed.dyads().iter().zip(&motion.angles) {
         let row = vec![low.value, low.input, high.value, high.input];
         rows.push((dyad.name.clone(), row));
         let worst = report.values.get("transmission_angle_min").copied();
@@ -170,17 +170,11 @@ fn dyads(composed: &Composed, ends: &[f64], report: &mut Report) {
 }
 
 /// Reach and speed of every point that moves.
-fn points(composed: &Composed, ends: &[f64], report: &mut Report) {
+fn points(composed: &Composed, motion: Motion, report: &mut Report) {
     let (mut reach, mut speed) = (Vec::new(), Vec::new());
-    for (name, body, at) in composed.points().filter(|(_, body, _)| *body > 0) {
-        let place = |input: f64| composed.place(body, at, input);
-        let [left, right] = extremes(|input| place(input).x, ends);
-        let [low, high] = extremes(|input| place(input).y, ends);
-        let sides = [left, right, low, high].map(|extreme| extreme.value);
-        reach.push((name.clone(), sides.to_vec()));
-        let rate = |input: f64| composed.point(body, at, input).first.norm();
-        let fastest = greatest(rate, ends).value * composed.speed();
-        speed.push((name, vec![fastest]));
+    for point in motion.points {
+        reach.push((point.name.clone(), point.sides.to_vec()));
+        speed.push((point.name, vec![point.fastest * composed.speed()]));
     }
     if reach.is_empty() {
         return;

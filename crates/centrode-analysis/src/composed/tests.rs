@@ -6,6 +6,7 @@ use super::*;
 mod clearances;
 mod followers;
 mod loads;
+mod seats;
 
 fn composed(text: &str) -> Composed {
     let design = ComposedDesign::from_toml(text).expect("a design");

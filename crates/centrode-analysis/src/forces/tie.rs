@@ -132,10 +132,15 @@ impl Tie {
                 let along = [along, axis.cross(&along)];
                 Some(Lines { at, along })
             }
-            TieKind::Mesh(i) => match &machine.meshes[i].pitch {
-                Some(pitch) => known_pitch_point(pitch, [one, other], axis),
-                None => pitch_point([one, other], axis),
-            },
+            TieKind::Mesh(i) => {
+                let mesh = &machine.meshes[i];
+                let centers = [(one, mesh.axes[0]), (other, mesh.axes[1])];
+                let centers = centers.map(|(link, at)| link.place + link.turn * Vector3::from(at));
+                match &mesh.pitch {
+                    Some(pitch) => known_pitch_point(pitch, one, centers, axis),
+                    None => pitch_point([one, other], centers[1], axis),
+                }
+            }
             TieKind::Contact(i) => {
                 let contact = &machine.contacts[i];
                 if let Some(line) = &contact.line {
@@ -173,7 +178,9 @@ impl Tie {
         };
         let angle = machine.meshes[i].pressure_angle.unwrap_or(0.0);
         let [tangent, across] = lines.along;
-        let apart = across * across.dot(&(lines.at - driver.place)).signum();
+        let [center, _] = machine.meshes[i].axes;
+        let center = driver.place + driver.turn * Vector3::from(center);
+        let apart = across * across.dot(&(lines.at - center)).signum();
         let normal = tangent * angle.cos() + apart * angle.sin().copysign(angle * size);
         Lines {
             along: [normal, across],
@@ -183,42 +190,47 @@ impl Tie {
 }
 
 /// Pitch point of two links, the pole of their motion against each other, and unit vectors along the pitch curves there and
-/// across them: the tangent turns the driven gear counter-clockwise.
+/// across them: the tangent turns the driven gear counter-clockwise about its centre.
 ///
 /// The pitch curves roll on each other, so the acceleration of one against the other at the pole is square to them.
-fn pitch_point([driver, driven]: [&LinkMotion; 2], axis: Vector3<f64>) -> Option<Lines> {
+fn pitch_point(
+    [driver, driven]: [&LinkMotion; 2],
+    center: Vector3<f64>,
+    axis: Vector3<f64>,
+) -> Option<Lines> {
     let turning = axis.dot(&(driven.spin[0] - driver.spin[0]));
     let slip = driven.way[0] - driver.point(driven.place)[0];
     let at = driven.place + axis.cross(&slip) / turning;
     let rolled = driven.point(at)[1] - driver.point(at)[1];
-    along_pitch(at, axis.cross(&rolled), driven, axis)
+    along_pitch(at, axis.cross(&rolled), center, axis)
 }
 
 /// Pitch point of two links and unit vectors there, as of [`pitch_point`], by their pitch curves: whether they turn or rest.
 fn known_pitch_point(
     pitch: &PitchCurves,
-    [driver, driven]: [&LinkMotion; 2],
+    driver: &LinkMotion,
+    [from, to]: [Vector3<f64>; 2],
     axis: Vector3<f64>,
 ) -> Option<Lines> {
-    let apart = driven.place - driver.place;
+    let apart = to - from;
     let along = apart - axis * axis.dot(&apart);
     let own = driver.turn.tr_mul(&along);
     let [radius, slope] = pitch.radius(own.y.atan2(own.x), along.norm());
     let out = along.try_normalize(0.0)?;
     let round = axis.cross(&out);
-    let at = driven.place - along + out * radius;
-    along_pitch(at, out * slope + round * radius, driven, axis)
+    let at = to - along + out * radius;
+    along_pitch(at, out * slope + round * radius, to, axis)
 }
 
 /// Lines of a mesh at its pitch point by a tangent of the pitch curves, either way.
 fn along_pitch(
     at: Vector3<f64>,
     tangent: Vector3<f64>,
-    driven: &LinkMotion,
+    center: Vector3<f64>,
     axis: Vector3<f64>,
 ) -> Option<Lines> {
     let tangent = tangent.try_normalize(0.0)?;
-    let moment = axis.dot(&(at - driven.place).cross(&tangent));
+    let moment = axis.dot(&(at - center).cross(&tangent));
     let tangent = tangent * moment.signum();
     let finite = tangent.iter().chain(at.iter()).all(|x| x.is_finite());
     finite.then(|| Lines {

@@ -56,6 +56,7 @@ pub fn drawn(pair: &GearPair) -> Machine {
         joint,
         copy: 0,
         pressure_angle: Some(pair.design().tool.pressure_angle()),
+        axes: Default::default(),
         pitch: None,
     });
     machine.column(

@@ -335,6 +335,7 @@ fn hang(
         joint: turning,
         copy: 0,
         pressure_angle: Some(gears.pair.design().tool.pressure_angle()),
+        axes: Default::default(),
         pitch: None,
     });
     joint

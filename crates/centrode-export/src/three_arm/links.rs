@@ -283,6 +283,7 @@ impl Builder<'_> {
                 joint,
                 copy,
                 pressure_angle,
+                axes: Default::default(),
                 pitch: None,
             });
         }

@@ -100,10 +100,15 @@ impl Builder<'_> {
             body: name.into(),
             error,
         })?;
-        Ok(match self.ahead.get(name) {
+        Ok(self.ahead_of(name, law))
+    }
+
+    /// The law of a copy that runs ahead of the original's, by its name; any other as it is.
+    pub(super) fn ahead_of(&self, name: &str, law: Arc<dyn Transmission>) -> Arc<dyn Transmission> {
+        match self.ahead.get(name) {
             Some(&by) => copying::ahead(law, by),
             None => law,
-        })
+        }
     }
 
     /// Turn on its own pin of a body that is there.

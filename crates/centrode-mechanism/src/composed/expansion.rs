@@ -11,7 +11,7 @@ pub(super) struct Expansion {
     pub(super) originals: BTreeMap<String, String>,
     /// Pins' names by the points, `body.point`, that stand for them on the body about which copies are spaced.
     pub(super) pins: BTreeMap<String, String>,
-    /// Inputs by which laws run ahead of those of the originals, by the body, rad.
+    /// Inputs by which laws and loads run ahead of those of the originals, by `body` and `loads.load`, rad.
     pub(super) ahead: BTreeMap<String, f64>,
 }
 

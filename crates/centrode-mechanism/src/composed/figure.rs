@@ -229,7 +229,7 @@ impl Composed {
                 None => body().map(|body| body.checked_sub(1).map(ComposedFigure::JointForce)),
             },
             "mesh" => body().map(|body| {
-                let mesh = self.balanced_meshes().position(|mesh| mesh.moved == body);
+                let mesh = self.meshes.iter().position(|mesh| mesh.moved == body);
                 mesh.map(ComposedFigure::MeshForce)
             }),
             _ => Ok(None),

@@ -2,7 +2,6 @@ use std::sync::Arc;
 
 use centrode_geometry::{Outline, Point, SolidError};
 
-use super::gearing::Meshing;
 use super::load::ComposedLoad;
 use super::pieces::Pieces;
 use super::{Composed, ComposedBody};
@@ -52,15 +51,20 @@ impl Composed {
                 joints: dyad.bodies.map(|body| body - 1),
             });
         }
-        for mesh in self.balanced_meshes() {
+        for mesh in &self.meshes {
             let driver = &self.gears[mesh.gears[0]];
             let pair = &driver.pair;
             let body = |gear: usize| self.body_named(&self.gears[gear].body_name).unwrap_or(0);
+            let axis = |gear: usize| {
+                let at = self.gears[gear].at;
+                [at.x, at.y, 0.0]
+            };
             machine.meshes.push(GearMesh {
                 links: mesh.gears.map(body),
                 joint: mesh.moved - 1,
                 copy: 0,
                 pressure_angle: Some(pair.design().tool.pressure_angle()),
+                axes: mesh.gears.map(axis),
                 // Gears that dwell still hold each other.
                 pitch: Some(PitchCurves {
                     driven: Arc::new(pair.rolling().clone()),
@@ -73,13 +77,6 @@ impl Composed {
         self.draw(&mut machine, &pieces);
         self.list(&mut machine, &pieces);
         Ok(machine)
-    }
-
-    /// Meshes whose force is known: the frames of their links stand on the gears' axes.
-    pub(super) fn balanced_meshes(&self) -> impl Iterator<Item = &Meshing> {
-        let centred = |gear: &usize| self.gears[*gear].at == Point::origin();
-        let meshes = self.meshes.iter();
-        meshes.filter(move |mesh| mesh.gears.iter().all(centred))
     }
 
     /// Lists the plates, the bodies of given masses, the gears and the cams as parts, each with the files of its name; copies

@@ -157,7 +157,7 @@ impl Builder<'_> {
                     LoadAxes::World => Axes::World,
                     LoadAxes::Body => Axes::Link,
                 },
-                factor: spec.factor(&key, self.design.input.turns)?,
+                factor: self.ahead_of(&key, spec.factor(&key, self.design.input.turns)?),
             })
         };
         self.design.loads.iter().map(load).collect()

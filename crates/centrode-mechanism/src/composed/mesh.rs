@@ -2,7 +2,9 @@ use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use crate::gear::Rolling;
-use crate::transmission::{FromFn, MotionJet, Transmission, crossings, repeated, sorted};
+use crate::transmission::{
+    FromFn, MotionJet, Remembered, Transmission, crossings, repeated, sorted,
+};
 
 /// Sum of a constant and joint coordinates: the angle of a body, or of a gear on it, without jumps.
 #[derive(Clone, Debug, Default)]
@@ -119,6 +121,7 @@ impl MeshedBody {
         let whole = TAU * (advance / TAU).round();
         let breaks = self.breaks(period);
         let law = FromFn::new(period, whole, breaks, move |input| self.at(input));
-        (Arc::new(law), advance / TAU)
+        // Trains and dyads beyond ask for it again and again.
+        (Arc::new(Remembered::new(law)), advance / TAU)
     }
 }

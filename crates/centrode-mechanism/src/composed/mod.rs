@@ -42,7 +42,7 @@ mod touching;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use centrode_geometry::{Jet, Outline, Point};
+use centrode_geometry::{Jet, Outline, Point, Vector};
 
 pub use body::ComposedBodySpec;
 pub use camming::ComposedCam;
@@ -175,11 +175,15 @@ impl Mount {
     }
 
     /// Sets the motion, and the range of a slide.
-    fn follow(&mut self, law: Arc<dyn Transmission>, range: [f64; 2]) {
-        self.law = law;
+    fn follow(
+        &mut self,
+        law: Arc<dyn Transmission>,
+        range: impl Fn(&dyn Transmission) -> [f64; 2],
+    ) {
         if let JointKind::Sliding(of) = &mut self.kind {
-            *of = range;
+            *of = range(law.as_ref());
         }
+        self.law = law;
     }
 }
 
@@ -327,11 +331,25 @@ impl Composed {
     /// Never for indices of bodies.
     #[must_use]
     pub fn places_each(&self, points: &[(usize, Point)], inputs: &[f64]) -> Vec<[f64; 2]> {
+        self.linkage.places_each(&self.on_links(points), inputs)
+    }
+
+    /// Place (mm) and velocity (mm per radian of the input) of each of several points of bodies at an input; see
+    /// [`Linkage::moving`].
+    ///
+    /// # Panics
+    /// Never for indices of bodies.
+    #[must_use]
+    pub fn moving(&self, points: &[(usize, Point)], input: f64) -> Vec<(Point, Vector)> {
+        self.linkage.moving(&self.on_links(points), input)
+    }
+
+    /// Points of bodies as points of links.
+    fn on_links(&self, points: &[(usize, Point)]) -> Vec<(Link, Point)> {
         let points = points.iter();
-        let points: Vec<(Link, Point)> = points
+        points
             .map(|(body, at)| (self.bodies[*body].link, *at))
-            .collect();
-        self.linkage.places_each(&points, inputs)
+            .collect()
     }
 
     /// Angle of a body's first axis by the input, without jumps, rad.

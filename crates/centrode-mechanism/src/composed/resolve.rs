@@ -15,6 +15,7 @@ use super::{
 };
 use crate::gear::design::{Rule, SpecError};
 use crate::linkage::{Coordinate, Link, Linkage, LinkageError, NotClosing};
+use crate::transmission::Remembered;
 
 /// Body or dyad to build, in whatever order its needs allow.
 #[derive(Clone, Copy)]
@@ -317,9 +318,10 @@ impl<'a> Builder<'a> {
                 },
                 error => blame(&key)(error),
             })?;
-            let range = range(&law, &self.linkage);
+            let linkage = &self.linkage;
             if let Some(mount) = &mut self.bodies[body].mount {
-                mount.follow(Arc::new(law), range);
+                let law = Arc::new(Remembered::new(law));
+                mount.follow(law, |law| range(law, linkage));
             }
         }
         Ok(())

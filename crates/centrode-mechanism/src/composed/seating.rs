@@ -2,7 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use centrode_geometry::{Point, Vector};
+use centrode_geometry::{Point, Vector, extremes, pieces};
 
 use super::mesh::Angle;
 use super::resolve::Builder;
@@ -13,6 +13,8 @@ use crate::transmission::{MotionJet, Transmission, crossings, sorted};
 
 /// Greatest difference of lengths, as a share of the longer one, or of turns that is rounding.
 pub(super) const ROUNDING: f64 = 1e-9;
+/// Parts of a turn of the input in each of which the turn of a cam has few extremes.
+const PARTS: u32 = 24;
 /// Movement of an axis, as a share of the base radius, below which it stands still.
 const SAME: f64 = 1e-12;
 
@@ -163,6 +165,15 @@ impl Builder<'_> {
             let why = format!(
                 "cam {cam} makes {turns:.9} turns against body {carrier} in the period of {} turns of the input, which must be a whole number: set input.turns",
                 self.design.input.turns
+            );
+            return wrong(key, why);
+        }
+        let jumps: Vec<f64> = turn.jumps(period).collect();
+        let parts = pieces(0.0, period, PARTS * self.design.input.turns, &jumps);
+        let [slow, fast] = extremes(|input| turn.at(input).velocity, &parts);
+        if slow.value.abs().max(fast.value) <= ROUNDING {
+            let why = format!(
+                "cam {cam} does not turn against body {carrier}, on which {name} follows it"
             );
             return wrong(key, why);
         }

@@ -4,6 +4,7 @@ use centrode_geometry::{Extreme, bracketed_minimum, bracketed_root, greatest, pi
 
 use super::assembly::{Linkage, Step};
 use super::error::LinkageError;
+use super::places::Needed;
 use super::series::Series;
 
 /// Samples over a turn of the input in the search for where dyads cease to close.
@@ -77,19 +78,41 @@ impl Linkage {
         let Some(step) = self.dyads().nth(dyad) else {
             return intervals;
         };
+        let needed = self.needed_by_dyad(dyad);
+        let series = |input: f64| {
+            let mut series = Series::<1>::default();
+            self.find(input, |part| needed.has(part), &mut series);
+            series
+        };
         // Two guides close but where they are parallel: on the side on which the cycle begins.
-        let side = slant(step, &self.series::<1>(0.0)).map(f64::signum);
+        let side = slant(step, &series(0.0)).map(f64::signum);
         let room = |input: f64| {
-            let series = self.series::<1>(input);
+            let series = series(input);
             match (side, slant(step, &series)) {
                 (Some(side), Some(slant)) => side * slant,
-                _ => series.room[dyad],
+                // Of the dyads that are needed it is the last.
+                _ => series.room.last().copied().unwrap_or(f64::NAN),
             }
         };
         let parts = intervals.into_iter();
         parts
             .flat_map(|interval| positive(&room, interval))
             .collect()
+    }
+
+    /// The steps on which a dyad depends, itself among them.
+    fn needed_by_dyad(&self, dyad: usize) -> Needed {
+        let (mut link, mut before) = (1, 0);
+        for step in &self.steps {
+            if step.is_dyad() {
+                if before == dyad {
+                    break;
+                }
+                before += 1;
+            }
+            link += step.makes()[0];
+        }
+        self.needed(std::iter::empty(), std::iter::once(link))
     }
 
     /// First input above zero at which the linkage does not close, and the dyad at fault.
@@ -148,7 +171,10 @@ fn positive(room: &dyn Fn(f64) -> f64, (low, high): (f64, f64)) -> Vec<(f64, f64
     for i in 1..count as usize {
         let [a, b, c] = [looks[i - 1], looks[i], looks[i + 1]];
         let sign = if b.1 > 0.0 { 1.0 } else { -1.0 };
-        if a.1 * sign > b.1 * sign && c.1 * sign >= b.1 * sign && a.1 * sign > 0.0 {
+        // Eight times the depth of the parabola through the samples, twice that of a kink.
+        let deep = sign * (a.1 - 2.0 * b.1 + c.1);
+        let dips = a.1 * sign > b.1 * sign && c.1 * sign >= b.1 * sign && a.1 * sign > 0.0;
+        if dips && sign * b.1 <= deep {
             let (at, least) = bracketed_minimum(|x| sign * room(x), a.0, c.0);
             if least < 0.0 {
                 looks.push((at, sign * least));

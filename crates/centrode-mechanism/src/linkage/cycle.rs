@@ -3,6 +3,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use super::assembly::Linkage;
 use super::error::LinkageError;
 use super::parts::{Line, Link};
+use super::places::Needed;
 use super::series::Series;
 use crate::formula::Taylor;
 use crate::transmission::{MotionJet, Transmission};
@@ -44,15 +45,17 @@ impl Linkage {
             }
         };
         self.know_link(link)?;
+        let found = LinkTransmission {
+            needed: self.needed(std::iter::empty(), of.links().into_iter()),
+            linkage: self.clone(),
+            of,
+            knots: Vec::new(),
+            advance: 0.0,
+        };
         if matches!(of, Coordinate::Along { .. }) {
-            return Ok(LinkTransmission {
-                linkage: self.clone(),
-                of,
-                knots: Vec::new(),
-                advance: 0.0,
-            });
+            return Ok(found);
         }
-        let angle = |input: f64| self.series::<2>(input).coordinate(&of).0;
+        let angle = |input: f64| found.coordinate::<2>(input).0;
         let [start, _] = angle(0.0);
         let mut knots = vec![(0.0, start)];
         let count = STEPS * (self.period / TAU).round().max(1.0) as u32;
@@ -81,10 +84,9 @@ impl Linkage {
         }
         let turned = knots[knots.len() - 1].1 - start;
         Ok(LinkTransmission {
-            linkage: self.clone(),
-            of,
             advance: TAU * (turned / TAU).round(),
             knots,
+            ..found
         })
     }
 }
@@ -113,6 +115,16 @@ pub enum Coordinate {
     },
 }
 
+impl Coordinate {
+    /// Numbers of the two links whose place against each other it tells.
+    fn links(&self) -> [usize; 2] {
+        match self {
+            Self::Angle { link, against } => [link.0, against.0],
+            Self::Along { link, line } => [link.0, line.link.0],
+        }
+    }
+}
+
 impl<const N: usize> Series<N> {
     /// A joint's coordinate; an angle as its principal value.
     fn coordinate(&self, of: &Coordinate) -> Taylor<N> {
@@ -134,9 +146,21 @@ impl<const N: usize> Series<N> {
 pub struct LinkTransmission {
     linkage: Linkage,
     of: Coordinate,
+    /// Parts of the linkage on which the coordinate depends.
+    needed: Needed,
     /// Inputs and the unwrapped angle there; between two of them it changes by less than a quarter turn. None for a slide.
     knots: Vec<(f64, f64)>,
     advance: f64,
+}
+
+impl LinkTransmission {
+    /// The coordinate as a series; an angle as its principal value.
+    fn coordinate<const N: usize>(&self, input: f64) -> Taylor<N> {
+        let mut series = Series::default();
+        self.linkage
+            .find(input, |part| self.needed.has(part), &mut series);
+        series.coordinate(&self.of)
+    }
 }
 
 impl Transmission for LinkTransmission {
@@ -144,7 +168,7 @@ impl Transmission for LinkTransmission {
         let period = self.linkage.period;
         let turns = (input / period).floor();
         let within = (input - turns * period).clamp(0.0, period);
-        let mut jet = MotionJet::of(&self.linkage.series::<4>(within).coordinate(&self.of));
+        let mut jet = MotionJet::of(&self.coordinate::<4>(within));
         let knot = self.knots.partition_point(|k| k.0 <= within);
         if let Some(&(_, near)) = self.knots.get(knot.wrapping_sub(1)) {
             jet.position = near + wrapped(jet.position - near) + turns * self.advance;

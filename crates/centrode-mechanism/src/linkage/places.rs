@@ -1,4 +1,4 @@
-use centrode_geometry::Point;
+use centrode_geometry::{Point, Vector};
 
 use super::assembly::{Linkage, Step};
 use super::parts::{Line, Link};
@@ -119,6 +119,27 @@ impl Linkage {
             }
         }
         places
+    }
+
+    /// Place (mm) and velocity (mm per radian of the input) of each of several points of links, given in their axes in mm, at
+    /// an input; of the links on which these depend alone.
+    ///
+    /// Not finite where the linkage does not close.
+    ///
+    /// # Panics
+    /// Never for links of the linkage.
+    #[must_use]
+    pub fn moving(&self, points: &[(Link, Point)], input: f64) -> Vec<(Point, Vector)> {
+        let needed = self.needed(std::iter::empty(), points.iter().map(|(link, _)| link.0));
+        let mut series = Series::<2>::default();
+        self.find(input, |part| needed.has(part), &mut series);
+        let moving = |(link, local): &(Link, Point)| {
+            let (origin, axis) = series.frame(*link);
+            let place = origin.plus(axis.turned(local.coords));
+            let velocity = Vector::new(place.x.0[1], place.y.0[1]);
+            (place.value(), velocity)
+        };
+        points.iter().map(moving).collect()
     }
 
     /// The joint at a point of a link, given in its axes, where there is one.

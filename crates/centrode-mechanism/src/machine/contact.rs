@@ -21,8 +21,6 @@ pub struct Closure {
 }
 
 /// Two links that touch by their teeth.
-///
-/// The frame of each stands on the axis of its gear.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct GearMesh {
@@ -34,9 +32,17 @@ pub struct GearMesh {
     pub copy: usize,
     /// Angle of a flank's normal through the pitch point against the pitch curves, rad; none where flanks have no common one.
     pub pressure_angle: Option<f64>,
+    /// Places of the axes of the two gears in the frames of their links, mm; left out, the axes stand on the frames' origins.
+    #[serde(default, skip_serializing_if = "at_origins")]
+    pub axes: [[f64; 3]; 2],
     /// The pitch curves; left out, they are found from how the gears turn on each other, which they must then do.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub pitch: Option<PitchCurves>,
+}
+
+/// Whether two places are the origins of their frames.
+fn at_origins(places: &[[f64; 3]; 2]) -> bool {
+    *places == [[0.0; 3]; 2]
 }
 
 /// Pitch curves of two gears that roll on each other outside.

@@ -112,6 +112,7 @@ impl Machine {
         for mesh in &self.meshes {
             let angle = mesh.pressure_angle.as_slice();
             all.push(("the pressure angle of a mesh", angle, &acute));
+            all.push(("the axis of a gear", mesh.axes.as_flattened(), &finite));
             if let Some(pitch) = &mesh.pitch {
                 let zero = std::slice::from_ref(&pitch.zero);
                 all.push(("the zero of a mesh's pitch curves", zero, &finite));

@@ -159,6 +159,7 @@ fn mesh(angle: f64) -> GearMesh {
         joint: 0,
         copy: 0,
         pressure_angle: Some(angle),
+        axes: Default::default(),
         pitch: None,
     }
 }

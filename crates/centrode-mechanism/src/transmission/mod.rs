@@ -3,6 +3,7 @@
 mod breaks;
 mod chain;
 mod inverse;
+mod remembered;
 
 use std::fmt;
 
@@ -12,6 +13,7 @@ use crate::machine::Piecewise;
 pub(crate) use breaks::{crossings, repeated, sorted};
 pub use chain::Chain;
 pub use inverse::Inverse;
+pub(crate) use remembered::Remembered;
 
 /// A position and its first three derivatives with respect to the input.
 ///

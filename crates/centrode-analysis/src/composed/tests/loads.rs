@@ -1,5 +1,7 @@
 use std::f64::consts::TAU;
 
+use centrode_geometry::greatest;
+
 use super::*;
 
 /// A slider-crank without masses: crank 30, rod 100 mm.

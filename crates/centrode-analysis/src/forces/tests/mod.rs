@@ -154,6 +154,7 @@ fn gears(load: f64) -> Machine {
         joint: 1,
         copy: 0,
         pressure_angle: Some(20_f64.to_radians()),
+        axes: Default::default(),
         pitch: None,
     });
     found.loads.push(torque(2, load));

@@ -47,6 +47,7 @@ fn teeth_of_an_elliptic_pair_push_square_to_its_pitch_curves() {
         joint: 1,
         copy: 0,
         pressure_angle: Some(alpha),
+        axes: Default::default(),
         pitch: None,
     });
     pair.loads.push(torque(2, -500.0));
@@ -115,6 +116,7 @@ fn teeth_of_gears_that_rest_hold_their_load_along_the_normal_of_their_pitch_curv
         joint: 1,
         copy: 0,
         pressure_angle: Some(alpha),
+        axes: Default::default(),
         pitch: Some(PitchCurves {
             driven: law(driven),
             zero: mount,

@@ -277,6 +277,12 @@ fn bad_cams_are_told_by_their_key_with_both_numbers() {
         ),
         (
             &sliding,
+            "ratio = -2, ".into(),
+            String::new(),
+            "bodies.lever.law.follows: cam push does not turn against body frame, on which lever follows it",
+        ),
+        (
+            &sliding,
             "bore = 6".into(),
             "bore = 60".into(),
             "cams.push.body.bore: the bore reaches 30 mm",

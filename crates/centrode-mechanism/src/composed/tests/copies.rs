@@ -116,7 +116,11 @@ bodies = ["lever", "dial", "bar", "block"]
 count = 3
 about = "carrier"
 "#;
-    let machine = made(text);
+    // Loads and obstacles may name copies.
+    let on_copies = "[loads.x]\non = \"lever-2.A\"\nforce = [1, 0]\n[obstacles.o]\non = \"dial-3\"\ncircle = { center = [0, 0], radius = 3 }\n";
+    let machine = made(&format!("{text}{on_copies}"));
+    let seat = machine.body_named("dial-3");
+    assert_eq!(Some(machine.obstacles()[0].body), seat);
     for i in 0..60 {
         let input = 0.21 * f64::from(i);
         for piece in 1..3 {

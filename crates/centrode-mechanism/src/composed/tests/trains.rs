@@ -27,12 +27,12 @@ impl Pair {
         };
         // The mate, too, closes after a turn: Newton's method with a slope by differences.
         for _ in 0..40 {
-            let off = pair.turned(TAU) - TAU;
+            let off = pair.rolled(TAU) - TAU;
             let nudged = Self {
                 distance: pair.distance + 1e-4,
                 ..pair
             };
-            let slope = (nudged.turned(TAU) - TAU - off) / 1e-4;
+            let slope = (nudged.rolled(TAU) - TAU - off) / 1e-4;
             pair.distance -= off / slope;
         }
         pair
@@ -43,18 +43,22 @@ impl Pair {
         radius / (self.distance - radius)
     }
 
-    /// Turn of the mate from where the pitch point is in the direction zero, by three-point Gauss panels.
-    fn turned(&self, phi: f64) -> f64 {
-        let turns = (phi / TAU).floor();
-        let (rest, panels) = (phi - turns * TAU, 240);
-        let half = 0.5 * rest / f64::from(panels);
+    /// Turn of the mate while the pitch point goes from the direction zero to another, by three-point Gauss panels.
+    fn rolled(&self, phi: f64) -> f64 {
+        let panels = 240;
+        let half = 0.5 * phi / f64::from(panels);
         let sum = |i: i32| {
             let middle = half * f64::from(2 * i + 1);
             let far = half * 0.6_f64.sqrt();
-            (5.0 * (self.ratio(middle - far) + self.ratio(middle + far)) + 8.0 * self.ratio(middle))
-                / 9.0
+            let ends = self.ratio(middle - far) + self.ratio(middle + far);
+            (5.0 * ends + 8.0 * self.ratio(middle)) / 9.0
         };
-        turns * TAU + half * (0..panels).map(sum).sum::<f64>()
+        half * (0..panels).map(sum).sum::<f64>()
+    }
+
+    fn turned(&self, phi: f64) -> f64 {
+        let turns = (phi / TAU).floor();
+        turns * TAU + self.rolled(phi - turns * TAU)
     }
 
     /// Direction of the pitch point for a turn of the mate.
@@ -144,7 +148,7 @@ fn random_trains_roll_as_newtons_method_finds() {
             before.clone_from(body);
         }
         text += &format!(
-            "[dyads.push]\ntype = \"RRP\"\nfrom = \"{before}.W\"\nlengths = [700]\nline = \"frame.O\"\nline_deg = 0\nside = \"forward\"\nbodies = [\"rod\", \"ram\"]\n"
+            "[dyads.push]\ntype = \"RRP\"\nfrom = \"{before}.W\"\nlengths = [700]\nline = \"frame.O\"\nline_deg = 0\nside = \"forward\"\nbodies = [\"rod\", \"ram\"]\njoint = \"B\"\n"
         );
         let train = made(&text);
         let angle = |name: &str, input: f64| {

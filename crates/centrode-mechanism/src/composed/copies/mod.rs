@@ -1,5 +1,8 @@
 //! Copies of a chain of bodies, evenly spaced: a design written out without them.
 
+mod dyads;
+mod loads;
+
 use std::collections::BTreeSet;
 use std::f64::consts::TAU;
 
@@ -11,7 +14,7 @@ use serde::{Deserialize, Serialize};
 use super::design::FRAME;
 use super::expansion::Expansion;
 use super::points::{BodyPoints, Reference};
-use super::{ComposedBodySpec, ComposedCamSpec, ComposedDesign, ComposedDyadSpec, ComposedError};
+use super::{ComposedBodySpec, ComposedCamSpec, ComposedDesign, ComposedError};
 use crate::gear::design::SpecError;
 use crate::gear::design::rule::{Rule, broken, count_in_range};
 
@@ -245,7 +248,7 @@ impl Piece<'_> {
                 self.whole.meshes.insert(name, copy);
             }
         }
-        Ok(())
+        self.loads(design)
     }
 
     /// Names of the gears and cams that are copied: those on bodies that are, and, beside the middle of the body about which
@@ -340,39 +343,34 @@ impl Piece<'_> {
         if body.slides.is_none() {
             law.start_angle = self.direction(body.on.as_ref(), law.start_angle);
         }
-        let ahead = match self.spin {
-            Spin::Even(rate) if rate > 0.0 => self.turn / rate,
-            Spin::Even(rate) => (self.turn - TAU) / rate,
-            Spin::Uneven(_) if moves => {
-                let why = format!(
-                    "body {} turns unevenly: of a body with a law of its own, {name}, there are no copies about it",
-                    self.about
-                );
-                let key = format!("{key}.law");
-                return Err(ComposedError::NoCopies { key, why });
-            }
-            _ => 0.0,
-        };
-        if moves && ahead != 0.0 {
-            self.expansion.ahead.insert(self.copy(name), ahead);
+        if moves {
+            let what = format!("a body with a law of its own, {name}");
+            let ahead = self.ahead(&format!("{key}.law"), &what)?;
+            self.run_ahead(self.copy(name), ahead);
         }
         Ok(copy)
     }
 
-    fn dyad(
-        &mut self,
-        name: &str,
-        dyad: &ComposedDyadSpec,
-    ) -> Result<ComposedDyadSpec, ComposedError> {
-        let key = |end: &str| format!("dyads.{name}.{end}");
-        let mut copy = dyad.clone();
-        copy.bodies = dyad.bodies.each_ref().map(|body| self.copy(body));
-        copy.from = self.optional(&key("from"), &dyad.from)?;
-        copy.to = self.optional(&key("to"), &dyad.to)?;
-        copy.line = self.optional(&key("line"), &dyad.line)?;
-        copy.second_line = self.optional(&key("second_line"), &dyad.second_line)?;
-        copy.direction = self.direction(dyad.line.as_ref(), dyad.direction);
-        copy.second_direction = self.direction(dyad.second_line.as_ref(), dyad.second_direction);
-        Ok(copy)
+    /// Input by which a function of the input runs ahead for the copy.
+    fn ahead(&self, key: &str, what: &str) -> Result<f64, ComposedError> {
+        match self.spin {
+            Spin::Even(rate) if rate > 0.0 => Ok(self.turn / rate),
+            Spin::Even(rate) => Ok((self.turn - TAU) / rate),
+            Spin::Still => Ok(0.0),
+            Spin::Uneven(_) => {
+                let about = self.about;
+                let why =
+                    format!("body {about} turns unevenly: of {what}, there are no copies about it");
+                let key = key.into();
+                Err(ComposedError::NoCopies { key, why })
+            }
+        }
+    }
+
+    /// Notes that a law or load runs ahead of the original's.
+    fn run_ahead(&mut self, name: String, ahead: f64) {
+        if ahead != 0.0 {
+            self.expansion.ahead.insert(name, ahead);
+        }
     }
 }

@@ -1,0 +1,73 @@
+use super::{LEG, made, read, refused};
+use crate::design::Design;
+
+#[test]
+fn numbers_beyond_any_machine_are_refused_by_key() {
+    for (from, to, told) in [
+        (
+            "width = 8",
+            "width = 1e9",
+            "plates.width: must be -100000 to 100000 mm, not 1000000000 mm",
+        ),
+        (
+            "[frame.points]",
+            "[frame.points]\nfar = [0, 3e5]",
+            "frame.points.far[1]: must be -100000 to 100000 mm, not 300000 mm",
+        ),
+        (
+            "[frame.points]",
+            "[obstacles.x]\ncircle = { center = [0, 0], radius = 1e12 }\n[frame.points]",
+            "obstacles.x.circle.radius: must be -100000 to 100000 mm",
+        ),
+        (
+            "[frame.points]",
+            "[loads.x]\non = \"crank\"\ntorque = 1e10\n[frame.points]",
+            "loads.x.torque: must be -1000000000 to 1000000000",
+        ),
+    ] {
+        let text = LEG.replacen(from, to, 1);
+        assert_ne!(text, LEG);
+        let found = refused(&text);
+        assert!(found.contains(told), "{found}\n  {told}");
+    }
+    let bare = "family = \"machine\"\n[frame.points]\nO = [0, 0]\n";
+    let found = refused(bare);
+    assert!(
+        found.contains("bodies: is needed beside the frame"),
+        "{found}"
+    );
+}
+
+#[test]
+fn parts_whose_files_would_have_one_name_are_refused() {
+    let more =
+        |name: &str| format!("{LEG}\n[bodies.{name}]\non = \"frame.O\"\nlaw = {{ ratio = 1 }}\n");
+    for (name, told) in [
+        ("Crank", "would have one name"),
+        ("assembly", "a file of the whole machine is named assembly"),
+        ("con", "is no name for a file"),
+    ] {
+        let found = refused(&more(name));
+        assert!(found.contains(told), "{found}");
+    }
+    made(&more("winch"));
+}
+
+#[test]
+fn a_search_moves_numbers_of_the_machine_alone() {
+    let goal = "[goals.low]\nfigure = \"foot.y\"\nover = \"least\"\nat_least = -90\n";
+    for (key, told) in [
+        ("goals.low.at_least", "says what is wanted"),
+        ("input.turns", "says what is wanted"),
+        ("bodies.crank.points.Z[0]", "unknown key"),
+    ] {
+        let design = read(&format!("{LEG}\n{goal}[vary]\n\"{key}\" = [1, 2]\n"));
+        let error = design.check_vary().expect_err(key);
+        assert_eq!(error.key(), format!("vary.{key}"));
+        assert!(error.to_string().contains(told), "{error}");
+    }
+    let known = "bodies.crank.points.A[0]";
+    let design = read(&format!("{LEG}\n{goal}[vary]\n\"{known}\" = [1, 2]\n"));
+    assert_eq!(design.check_vary(), Ok(()));
+    assert!(Design::numbered(&design, known).is_ok());
+}
