@@ -124,12 +124,17 @@ pub(crate) fn list(numbers: Option<Numbers>) -> Vec<f64> {
 /// Numbers in a block of answers that is worked out and handed over at once.
 const BLOCK: usize = 1 << 14;
 
-/// Numbers of the answers at some numbers, one after the other.
+/// Numbers of the answers at a block of numbers, one after the other.
+type OfBlock = dyn Fn(&[f64]) -> Vec<f64> + Send + Sync;
+
+/// Numbers of the answers at all numbers.
+type OfAll = dyn FnOnce(&[f64]) -> Answer<Vec<f64>> + Send;
+
 enum Answers {
     /// Worked out block by block, on every core.
-    Blocks(Box<dyn Fn(&[f64]) -> Vec<f64> + Send + Sync>),
+    Blocks(Box<OfBlock>),
     /// Worked out together.
-    All(Box<dyn FnOnce(&[f64]) -> Answer<Vec<f64>> + Send>),
+    All(Box<OfAll>),
 }
 
 /// Answers at numbers, worked out as they are handed to Python: of the shape of the numbers, and then of that of one
@@ -222,7 +227,7 @@ fn in_blocks(
     py: Python<'_>,
     shape: Vec<usize>,
     (given, block, each): (Vec<f64>, usize, usize),
-    f: Box<dyn Fn(&[f64]) -> Vec<f64> + Send + Sync>,
+    f: Box<OfBlock>,
 ) -> PyResult<Bound<'_, PyAny>> {
     static EMPTY: PyOnceLock<Py<PyAny>> = PyOnceLock::new();
     let array = EMPTY.import(py, "numpy", "empty")?.call1((shape,))?;

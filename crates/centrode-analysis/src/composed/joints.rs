@@ -34,7 +34,9 @@ pub(super) fn joints(composed: &Composed, motion: &Motion, report: &mut Report) 
         };
         rows.push((body.name.clone(), span));
         let stroke = high.value - low.value;
-        let dead = [low, high].map(|found| dead_centre(mount.law.as_ref(), &found, stroke));
+        let period = composed.period();
+        let dead = |found| dead_centre(mount.law.as_ref(), &found, (stroke, period));
+        let dead = [low, high].map(dead);
         centres.push((body.name.clone(), dead.to_vec()));
     }
     let mut add = |name, title, unit, columns: [&str; 3], rows: Vec<(String, Vec<f64>)>| {
@@ -70,7 +72,7 @@ pub(super) fn joints(composed: &Composed, motion: &Motion, report: &mut Report) 
 }
 
 /// Input at which a motion stands in an extreme: where its speed is zero, and in the first turn of several alike.
-fn dead_centre(law: &dyn Transmission, found: &Extreme, stroke: f64) -> f64 {
+fn dead_centre(law: &dyn Transmission, found: &Extreme, (stroke, period): (f64, f64)) -> f64 {
     let alike = |input: &f64| {
         let off = law.at(*input).position - found.value;
         *input >= 0.0 && off.abs() <= ROUNDING * stroke
@@ -83,10 +85,14 @@ fn dead_centre(law: &dyn Transmission, found: &Extreme, stroke: f64) -> f64 {
     let speed = |input: f64| law.at(input).velocity;
     let [from, to] = [-1.0, 1.0].map(|side| input + side * NEAR * TAU);
     let [before, after] = [from, to].map(speed);
-    match before * after < 0.0 {
-        true => bracketed_root(speed, from, to, before, after),
+    if before * after >= 0.0 {
         // A dwell, or a corner.
-        false => input,
+        return input;
+    }
+    let root = bracketed_root(speed, from, to, before, after);
+    match root.abs() <= ROUNDING {
+        true => 0.0,
+        false => root.rem_euclid(period),
     }
 }
 

@@ -55,7 +55,7 @@ enum Source {
     Of(Link, Point),
 }
 
-/// What some joints and links depend on.
+/// Joints and links on which some of them depend.
 #[derive(Clone, Debug)]
 pub(super) struct Needed {
     steps: Vec<bool>,
