@@ -9,8 +9,8 @@ use crate::page::Curve;
 const SAMPLES: u32 = 720;
 const MOST: u32 = 7200;
 
-/// Angle of every body along the cycle, place and speed of those that slide, and the least transmission angle of all dyads, where
-/// there are any.
+/// Angle of every body along the cycle, place and speed of those that slide, pressure angle of every cam, and the least
+/// transmission angle of all dyads, where there are any.
 #[must_use]
 pub fn curves(composed: &Composed) -> Vec<Curve> {
     let samples = MOST.min(SAMPLES * composed.design().input.turns);
@@ -40,6 +40,13 @@ pub fn curves(composed: &Composed) -> Vec<Curve> {
             let rate = |phi| mount.law.at(phi).velocity * speed;
             all.push(shown(format!("Speed of {name}").into(), "mm/s", &rate));
         }
+    }
+    for cam in composed.cams() {
+        let leans = |phi| cam.disc().contact(cam.turn(phi).position).pressure_angle;
+        all.push(curve(
+            format!("Pressure angle of {}", cam.name).into(),
+            &leans,
+        ));
     }
     if !composed.dyads().is_empty() {
         all.push(curve("Least transmission angle".into(), &|phi| {

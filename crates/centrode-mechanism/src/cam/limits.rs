@@ -1,6 +1,6 @@
 //! Margins of a cam: pressure angle, radii of curvature, undercut.
 
-use centrode_geometry::{Extreme, bracketed_root, extremes, greatest, least};
+use centrode_geometry::{Extreme, bracketed_root, greatest_each};
 
 use super::disc::DiscCam;
 
@@ -33,33 +33,33 @@ impl DiscCam {
     /// Pressure angles and radii of curvature over a turn.
     #[must_use]
     pub fn limits(&self) -> Limits {
-        let ends = self.ends();
-        let pressure = |sign: f64| {
-            greatest(
-                |input| {
-                    let contact = self.contact(input);
-                    if sign * contact.motion.velocity > 0.0 {
-                        contact.pressure_angle.abs()
-                    } else {
-                        0.0
-                    }
-                },
-                &ends,
-            )
+        let flat = self.follower().roller_radius().is_none();
+        let all = |input: f64| {
+            let contact = self.contact(input);
+            let pressure = |sign: f64| match sign * contact.motion.velocity > 0.0 {
+                true => contact.pressure_angle.abs(),
+                false => 0.0,
+            };
+            let either = if flat {
+                contact.face
+            } else {
+                contact.pitch_curvature
+            };
+            let either = either.unwrap_or(0.0);
+            let irregular = -contact.regularity;
+            [pressure(1.0), pressure(-1.0), irregular, either, -either]
+        };
+        let [rise, fall, irregular, most, least] = greatest_each(all, &self.ends());
+        let regularity = Extreme {
+            value: -irregular.value,
+            ..irregular
         };
         let radius_of = |curvature: Extreme| Extreme {
             input: curvature.input,
             value: 1.0 / curvature.value.max(0.0),
         };
-        let regularity = least(|input| self.contact(input).regularity, &ends);
-        let roller = self.follower().roller_radius().map(|roller| {
-            let pitch = |input: f64| self.contact(input).pitch_curvature.unwrap_or(0.0);
-            (
-                roller,
-                radius_of(greatest(pitch, &ends)),
-                radius_of(greatest(|input| -pitch(input), &ends)),
-            )
-        });
+        let roller = self.follower().roller_radius();
+        let roller = roller.map(|roller| (roller, radius_of(most), radius_of(least)));
         let (least_radius, largest_wheel) = match roller {
             Some((roller, convex, hollow)) => (
                 Extreme {
@@ -82,18 +82,13 @@ impl DiscCam {
                 },
             ),
         };
-        let face = roller.is_none().then(|| {
-            let place = |input: f64| self.contact(input).face.unwrap_or(0.0);
-            let [low, high] = extremes(place, &ends);
-            (low.value, high.value)
-        });
         Limits {
-            rise_pressure_angle: pressure(1.0),
-            return_pressure_angle: pressure(-1.0),
+            rise_pressure_angle: rise,
+            return_pressure_angle: fall,
             largest_roller: roller.map(|(_, convex, _)| convex),
             least_radius,
             largest_wheel,
-            face,
+            face: flat.then_some((-least.value, most.value)),
             regularity,
         }
     }
