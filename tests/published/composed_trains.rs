@@ -11,10 +11,8 @@ use nalgebra::Rotation2;
 use crate::data::file;
 
 fn text(name: &str) -> String {
-    let folders =
-        ["designs", "published/data"].map(|folder| file(&format!("{folder}/{name}.toml")));
-    let found = folders.iter().find(|path| path.is_file());
-    std::fs::read_to_string(found.expect(name)).expect("text")
+    let path = file(&format!("designs/{name}.toml"));
+    std::fs::read_to_string(path).expect("text")
 }
 
 fn made(name: &str) -> Composed {
@@ -32,7 +30,7 @@ fn apart(one: &MotionJet, other: &MotionJet) -> f64 {
 
 #[test]
 fn the_composed_transplanter_moves_as_the_family_of_its_own() {
-    let composed = made("rice-transplanter");
+    let composed = made("composed-three-arm");
     let design = ThreeArmDesign::from_toml(&text("three-arm-2021")).expect("a design");
     let family = ThreeArm::resolve(&design).expect("a mechanism");
     let pusher = family.pusher().expect("push rods");
@@ -79,7 +77,7 @@ fn the_composed_transplanter_moves_as_the_family_of_its_own() {
 
 #[test]
 fn the_cam_in_every_arm_is_that_of_the_family_of_its_own() {
-    let composed = made("rice-transplanter");
+    let composed = made("composed-three-arm");
     let design = ThreeArmDesign::from_toml(&text("three-arm-2021")).expect("a design");
     let family = ThreeArm::resolve(&design).expect("a mechanism");
     let pusher = family.pusher().expect("push rods");
@@ -124,7 +122,7 @@ fn the_cam_in_every_arm_is_that_of_the_family_of_its_own() {
 
 #[test]
 fn the_composed_transplanter_has_the_goals_of_the_family_of_its_own() {
-    let composed = made("rice-transplanter");
+    let composed = made("composed-three-arm");
     let design = ThreeArmDesign::from_toml(&text("three-arm-2021")).expect("a design");
     let theirs = ThreeArm::resolve(&design).expect("a mechanism").figures();
     let value = |words: &str, input: f64| {
