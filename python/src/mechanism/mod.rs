@@ -15,7 +15,7 @@ use pyo3::types::{PyDict, PyTuple, PyType};
 
 use crate::array::{Course, Values};
 use crate::design::{object, of_class, path_loaded, read};
-use crate::error::Answer;
+use crate::error::{Answer, Raised, finite};
 use crate::files;
 use crate::forces::Names;
 use crate::made::{Reduced, by_design};
@@ -279,6 +279,12 @@ impl Mechanism {
         whole: bool,
     ) -> Answer<Bound<'py, PyDict>> {
         let family = *self.family()?;
+        if values.is_empty() {
+            return Err(Raised::rule("values", "must be at least one number"));
+        }
+        for &value in &values {
+            finite("values", value)?;
+        }
         let key = self.0.design().key_of(parameter);
         let depth = if whole { Depth::Whole } else { Depth::Motion };
         let found = self.ask(py, move |machine| {

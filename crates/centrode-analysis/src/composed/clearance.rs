@@ -1,5 +1,5 @@
-use centrode_geometry::Tolerance;
-use centrode_mechanism::composed::{ClearanceEnd, Composed, ComposedFigure};
+use centrode_geometry::{Tolerance, least};
+use centrode_mechanism::composed::{ClearanceEnd, Composed, ComposedFigure, ComposedGear};
 use centrode_mechanism::machine::{JointKind, Machine, Surface};
 
 use super::Made;
@@ -64,26 +64,106 @@ pub(super) fn plates(made: &Made<'_>, report: &mut Report) {
         let [one, other] = links.map(|link| machine.links[link].name.as_str());
         report.findings.push(Finding {
             rule: "plates-collide",
-            severity: Severity::Error,
-            message: format!(
-                "the plates of {one} and {other} share a height and overlap by {} at an input of {}",
-                Unit::Millimetre.tell(-found.least),
-                Unit::Angle.tell(found.input)
-            ),
-            measured: Some(found.least),
-            required: Some(0.0),
-            unit: Unit::Millimetre,
             remedy: Some("another layer for one of them, or a narrower plate"),
-            place: Place {
-                part: Some(one.to_owned()),
-                input: Some(found.input),
-                ..Place::default()
-            },
+            ..collision(
+                &format!("the plates of {one} and {other}"),
+                one,
+                [found.least, found.input],
+            )
         });
     }
 }
 
-/// Whether two links are held together by a joint or pin, or do not move against each other.
+/// Two parts that overlap at an input, by how much (mm, below zero).
+fn collision(what: &str, part: &str, [least, input]: [f64; 2]) -> Finding {
+    Finding {
+        rule: "",
+        severity: Severity::Error,
+        message: format!(
+            "{what} share a height and overlap by {} at an input of {}",
+            Unit::Millimetre.tell(-least),
+            Unit::Angle.tell(input)
+        ),
+        measured: Some(least),
+        required: Some(0.0),
+        unit: Unit::Millimetre,
+        remedy: None,
+        place: Place {
+            part: Some(part.to_owned()),
+            input: Some(input),
+            ..Place::default()
+        },
+    }
+}
+
+/// Gears that share a height and collide, among those that are not to mesh.
+pub(super) fn gears(made: &Made<'_>, ends: &[f64], report: &mut Report) {
+    let composed = made.composed;
+    let tolerance = Tolerance::new(ACCURACY * composed.design().plates.width);
+    let (Some(machine), Ok(tolerance)) = (made.machine(), tolerance) else {
+        return;
+    };
+    let all: Vec<(&ComposedGear, usize, f64)> = composed
+        .gears()
+        .iter()
+        .filter_map(|gear| {
+            let corners = gear.gear().outline().flatten(tolerance);
+            let far = corners.iter().map(|at| at.coords.norm());
+            let far = far.fold(0.0, f64::max) + tolerance.mm();
+            Some((gear, composed.body_named(gear.body_name())?, far))
+        })
+        .collect();
+    let loops = &composed.whole().meshes;
+    for (i, (one, first, reach)) in all.iter().enumerate() {
+        for (other, second, far) in &all[i + 1..] {
+            let both = [*first, *second];
+            let meshes = machine.meshes.iter();
+            let meshed = meshes.clone().any(|mesh| mesh.links == both)
+                || meshes.clone().any(|mesh| mesh.links == [*second, *first])
+                || loops
+                    .values()
+                    .any(|mesh| mesh.gears.contains(&one.name) && mesh.gears.contains(&other.name));
+            if meshed || stands_on(machine, both) {
+                continue;
+            }
+            // Gears whose axes keep farther apart than their teeth reach cost no more than this.
+            let apart = |input: f64| {
+                let [a, b] = [(one, *first), (other, *second)]
+                    .map(|(gear, body)| composed.place(body, gear.at, input));
+                (a - b).norm()
+            };
+            if least(apart, ends).value > reach + far {
+                continue;
+            }
+            let surface = |gear: &ComposedGear, body: usize| -> Vec<&Surface> {
+                let own = machine.links[body].surfaces.iter();
+                let own = own.map(|&index| &machine.surfaces[index]);
+                let name = gear.surface_name();
+                own.filter(|surface| surface.name == name).collect()
+            };
+            let surfaces = [surface(one, *first), surface(other, *second)];
+            let Ok(Some(pair)) = LinkPair::new(machine, both, surfaces, tolerance) else {
+                continue;
+            };
+            let Ok(found) = pair.over([0.0, composed.period()]) else {
+                continue;
+            };
+            if found.least < -tolerance.mm() {
+                report.findings.push(Finding {
+                    rule: "gears-collide",
+                    remedy: Some("fewer copies, smaller gears, or gears of another pair, which lies at another height"),
+                    ..collision(
+                        &format!("gears {} and {}", one.name, other.name),
+                        &one.name,
+                        [found.least, found.input],
+                    )
+                });
+            }
+        }
+    }
+}
+
+/// Whether two links are held together by a joint or pin, or stand on each other.
 fn held(machine: &Machine, links: [usize; 2]) -> bool {
     let [one, other] = links;
     let meet = |[a, b]: [usize; 2]| [a, b] == [one, other] || [b, a] == [one, other];
@@ -92,7 +172,12 @@ fn held(machine: &Machine, links: [usize; 2]) -> bool {
         .clone()
         .any(|joint| meet([joint.parent, joint.child]));
     let pinned = machine.closures.iter().any(|pin| meet(pin.links));
-    let still = |link: usize| {
+    joined || pinned || stands_on(machine, links)
+}
+
+/// Whether two links do not move against each other.
+fn stands_on(machine: &Machine, links: [usize; 2]) -> bool {
+    let [one, other] = links.map(|link| {
         let mut root = link;
         for joint in machine.carriers(link) {
             if joint.kind != JointKind::Fixed {
@@ -101,8 +186,8 @@ fn held(machine: &Machine, links: [usize; 2]) -> bool {
             root = joint.parent;
         }
         root
-    };
-    joined || pinned || still(one) == still(other)
+    });
+    one == other
 }
 
 /// A note for every goal of a clearance between what shares no height, which is infinite.

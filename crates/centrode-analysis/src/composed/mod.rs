@@ -57,6 +57,7 @@ pub fn check_composed(composed: &Composed) -> Report {
         forces::forces(loaded, machine, &mut report);
     }
     clearance::plates(&made, &mut report);
+    clearance::gears(&made, &ends(composed), &mut report);
     let found = goals::goals(&made);
     clearance::apart(composed, &found, &mut report);
     report.goals = found.iter().map(|found| found.goal.clone()).collect();

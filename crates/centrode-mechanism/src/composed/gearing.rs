@@ -45,6 +45,18 @@ impl ComposedGear {
         self.pair.gear(self.member)
     }
 
+    /// Name of its body.
+    #[must_use]
+    pub fn body_name(&self) -> &str {
+        &self.body_name
+    }
+
+    /// Name of its surface in the machine.
+    #[must_use]
+    pub fn surface_name(&self) -> String {
+        format!("{}-teeth", self.name)
+    }
+
     /// Place of the gear's axes in those of its body.
     fn place(&self) -> Isometry2<f64> {
         Isometry2::new(self.at.coords, self.mount)
@@ -68,7 +80,7 @@ impl ComposedGear {
         };
         let segments = self.gear().roles().iter().zip(self.gear().owners());
         Surface {
-            name: format!("{}-teeth", self.name),
+            name: self.surface_name(),
             outline: solid.outline().clone(),
             span: [solid.bottom(), solid.top()],
             teeth: segments.map(touches).collect(),

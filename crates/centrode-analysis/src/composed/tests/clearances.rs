@@ -182,3 +182,46 @@ fn obstacles_that_cannot_be_are_told_by_key() {
         assert!(error.contains(key) && error.contains(told), "{error}");
     }
 }
+
+#[test]
+fn gears_that_overlap_without_a_mesh_are_found() {
+    let wheels = |count: u32| {
+        composed(&format!(
+            r#"
+family = "machine"
+[frame.points]
+O = [0, 0]
+[bodies.carrier]
+on = "frame.O"
+law = {{ ratio = 1 }}
+[bodies.wheel]
+on = "carrier"
+mesh = {{ gear = "outer", with = "sun", direction_deg = 0 }}
+[pairs.round]
+pitch = {{ kind = "circle", module = 2, tooth_count = 20 }}
+teeth = {{ backlash = 0.05 }}
+[gears]
+sun = {{ pair = "round", role = "driver", on = "frame.O" }}
+outer = {{ pair = "round", role = "driven", on = "wheel" }}
+[copies.ring]
+bodies = ["wheel"]
+count = {count}
+about = "carrier"
+"#
+        ))
+    };
+    let collisions = |count: u32| {
+        let report = check_composed(&wheels(count));
+        let found = report.findings.into_iter();
+        found
+            .filter(|found| found.rule == "gears-collide")
+            .collect::<Vec<_>>()
+    };
+    // Four wheels of 20 teeth stand 56.57 mm apart and reach 22 mm each; ten stand 24.7 mm apart.
+    assert!(collisions(4).is_empty());
+    let found = collisions(10);
+    assert!(found.len() >= 10, "{}", found.len());
+    let told = "gears outer and outer-2 share a height and overlap by ";
+    assert!(found.iter().any(|found| found.message.contains(told)));
+    assert!(found.iter().all(|f| f.measured.is_some_and(|m| m < -10.0)));
+}
