@@ -27,12 +27,15 @@ pub fn composed_clearance(
     let links = ends.map(|end| composed.body_of_end(end));
     let surfaces = ends.map(|end| match end {
         ClearanceEnd::Obstacle(obstacle) => vec![&obstacles[obstacle]],
-        ClearanceEnd::Body(body) => {
-            let own = machine.links[body].surfaces.iter();
-            own.map(|&index| &machine.surfaces[index]).collect()
-        }
+        ClearanceEnd::Body(body) => surfaces(machine, body).collect(),
     });
     LinkPair::new(machine, links, surfaces, tolerance)
+}
+
+/// Surfaces of a link.
+fn surfaces(machine: &Machine, link: usize) -> impl Iterator<Item = &Surface> {
+    let own = machine.links[link].surfaces.iter();
+    own.map(|&index| &machine.surfaces[index])
 }
 
 /// Plates that share a height and collide, among those that no joint holds together.
@@ -44,40 +47,46 @@ pub(super) fn plates(made: &Made<'_>, report: &mut Report) {
     };
     let count = machine.links.len();
     let plate = |link: usize| -> Vec<&Surface> {
-        let own = machine.links[link].surfaces.iter();
-        let own = own.map(|&index| &machine.surfaces[index]);
+        let own = surfaces(machine, link);
         own.filter(|surface| surface.teeth.is_empty()).collect()
     };
     let pairs = (0..count).flat_map(|i| (i + 1..count).map(move |j| [i, j]));
     for links in pairs.filter(|links| !held(machine, *links)) {
-        // Plates at other heights cost no more than a look at their ends.
-        let Ok(Some(pair)) = LinkPair::new(machine, links, links.map(plate), tolerance) else {
+        let Some(found) = overlap(machine, links, links.map(plate), tolerance) else {
             continue;
         };
-        let Ok(found) = pair.over([0.0, composed.period()]) else {
-            continue;
-        };
-        // What touches, as plates side by side on one line do, does not collide.
-        if found.least >= -tolerance.mm() {
-            continue;
-        }
         let [one, other] = links.map(|link| machine.links[link].name.as_str());
         report.findings.push(Finding {
-            rule: "plates-collide",
             remedy: Some("another layer for one of them, or a narrower plate"),
             ..collision(
+                "plates-collide",
                 &format!("the plates of {one} and {other}"),
                 one,
-                [found.least, found.input],
+                found,
             )
         });
     }
 }
 
+/// Least clearance (mm) of some surfaces of two links over the cycle, and the input there, where they overlap.
+///
+/// What touches, as plates side by side on one line do, does not; surfaces at other heights cost no more than a look at their
+/// ends.
+fn overlap(
+    machine: &Machine,
+    links: [usize; 2],
+    surfaces: [Vec<&Surface>; 2],
+    tolerance: Tolerance,
+) -> Option<[f64; 2]> {
+    let pair = LinkPair::new(machine, links, surfaces, tolerance).ok()??;
+    let found = pair.over([0.0, machine.input.period]).ok()?;
+    (found.least < -tolerance.mm()).then_some([found.least, found.input])
+}
+
 /// Two parts that overlap at an input, by how much (mm, below zero).
-fn collision(what: &str, part: &str, [least, input]: [f64; 2]) -> Finding {
+fn collision(rule: &'static str, what: &str, part: &str, [least, input]: [f64; 2]) -> Finding {
     Finding {
-        rule: "",
+        rule,
         severity: Severity::Error,
         message: format!(
             "{what} share a height and overlap by {} at an input of {}",
@@ -117,12 +126,10 @@ pub(super) fn gears(made: &Made<'_>, ends: &[f64], report: &mut Report) {
     for (i, (one, first, reach)) in all.iter().enumerate() {
         for (other, second, far) in &all[i + 1..] {
             let both = [*first, *second];
-            let meshes = machine.meshes.iter();
-            let meshed = meshes.clone().any(|mesh| mesh.links == both)
-                || meshes.clone().any(|mesh| mesh.links == [*second, *first])
-                || loops
-                    .values()
-                    .any(|mesh| mesh.gears.contains(&one.name) && mesh.gears.contains(&other.name));
+            let mut meshes = machine.meshes.iter();
+            let mut loops = loops.values().map(|mesh| &mesh.gears);
+            let meshed = meshes.any(|mesh| meet(mesh.links, both))
+                || loops.any(|gears| gears.contains(&one.name) && gears.contains(&other.name));
             if meshed || stands_on(machine, both) {
                 continue;
             }
@@ -135,27 +142,20 @@ pub(super) fn gears(made: &Made<'_>, ends: &[f64], report: &mut Report) {
             if least(apart, ends).value > reach + far {
                 continue;
             }
-            let surface = |gear: &ComposedGear, body: usize| -> Vec<&Surface> {
-                let own = machine.links[body].surfaces.iter();
-                let own = own.map(|&index| &machine.surfaces[index]);
+            let teeth = |gear: &ComposedGear, body: usize| -> Vec<&Surface> {
                 let name = gear.surface_name();
+                let own = surfaces(machine, body);
                 own.filter(|surface| surface.name == name).collect()
             };
-            let surfaces = [surface(one, *first), surface(other, *second)];
-            let Ok(Some(pair)) = LinkPair::new(machine, both, surfaces, tolerance) else {
-                continue;
-            };
-            let Ok(found) = pair.over([0.0, composed.period()]) else {
-                continue;
-            };
-            if found.least < -tolerance.mm() {
+            let teeth = [teeth(one, *first), teeth(other, *second)];
+            if let Some(found) = overlap(machine, both, teeth, tolerance) {
                 report.findings.push(Finding {
-                    rule: "gears-collide",
                     remedy: Some("fewer copies, smaller gears, or gears of another pair, which lies at another height"),
                     ..collision(
+                        "gears-collide",
                         &format!("gears {} and {}", one.name, other.name),
                         &one.name,
-                        [found.least, found.input],
+                        found,
                     )
                 });
             }
@@ -163,15 +163,16 @@ pub(super) fn gears(made: &Made<'_>, ends: &[f64], report: &mut Report) {
     }
 }
 
+/// Whether two pairs of links are the same, in either order.
+fn meet([a, b]: [usize; 2], links: [usize; 2]) -> bool {
+    [a, b] == links || [b, a] == links
+}
+
 /// Whether two links are held together by a joint or pin, or stand on each other.
 fn held(machine: &Machine, links: [usize; 2]) -> bool {
-    let [one, other] = links;
-    let meet = |[a, b]: [usize; 2]| [a, b] == [one, other] || [b, a] == [one, other];
-    let joints = machine.joints.iter();
-    let joined = joints
-        .clone()
-        .any(|joint| meet([joint.parent, joint.child]));
-    let pinned = machine.closures.iter().any(|pin| meet(pin.links));
+    let mut joints = machine.joints.iter();
+    let joined = joints.any(|joint| meet([joint.parent, joint.child], links));
+    let pinned = machine.closures.iter().any(|pin| meet(pin.links, links));
     joined || pinned || stands_on(machine, links)
 }
 

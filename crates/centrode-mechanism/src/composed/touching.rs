@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-use centrode_geometry::{Point, Vector};
+use centrode_geometry::{Point, Recent, Vector};
 use nalgebra::Rotation2;
 
 use super::points::ROLLER;
@@ -14,6 +14,9 @@ use crate::transmission::{FromFn, MotionJet, Transmission};
 impl Composed {
     /// Contacts of the cams with the bodies that follow them and that nothing else holds in their motion.
     pub(super) fn contacts(&self) -> Vec<Contact> {
+        if self.cams.is_empty() {
+            return Vec::new();
+        }
         let own = Arc::new(self.clone());
         let cams = self.cams.iter().enumerate();
         let both =
@@ -39,20 +42,25 @@ impl Composed {
         let first = self.pushed(cam, [curve, follower], 0.0).0;
         let near =
             move |angle: f64| first + (angle - first) - TAU * ((angle - first) / TAU).round();
-        let law = |of: fn((f64, f64)) -> f64, direction: bool| -> Arc<dyn Transmission> {
-            let own = Arc::clone(own);
+        // Both laws of a line are asked for at the same inputs.
+        let last = Arc::new(Recent::new());
+        let law = |of: fn((f64, f64)) -> f64| -> Arc<dyn Transmission> {
+            let (own, last) = (Arc::clone(own), Arc::clone(&last));
             let at = move |input: f64| {
-                let value = of(own.pushed(&own.cams[index], [curve, follower], input));
+                let line = last.get(&input.to_bits(), || {
+                    let pushed = own.pushed(&own.cams[index], [curve, follower], input);
+                    (near(pushed.0), pushed.1)
+                });
                 MotionJet {
-                    position: if direction { near(value) } else { value },
+                    position: of(line),
                     ..MotionJet::default()
                 }
             };
             Arc::new(FromFn::new(self.period(), 0.0, mount.law.breaks(), at))
         };
         let line = ContactLine {
-            angle: law(|(angle, _)| angle, true),
-            arm: law(|(_, arm)| arm, false),
+            angle: law(|(angle, _)| angle),
+            arm: law(|(_, arm)| arm),
         };
         Some(Contact {
             links: [curve, follower],
