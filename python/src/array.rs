@@ -1,8 +1,6 @@
 //! `NumPy` arrays in and out.
 
-use std::sync::mpsc::Sender;
-
-use centrode_geometry::{Cancel, Mesh, Point};
+use centrode_geometry::{Cancel, Mesh, Point, checkpoint};
 use centrode_mechanism::transmission::MotionJet;
 use numpy::ndarray::{Array2, ArrayD};
 use numpy::{Element, IntoPyArray, PyArray2, PyArrayDyn, PyArrayMethods, PyUntypedArrayMethods};
@@ -13,10 +11,10 @@ use pyo3::prelude::{
 };
 use pyo3::sync::PyOnceLock;
 use pyo3::types::{PyDict, PyDictMethods};
-use rayon::prelude::{IndexedParallelIterator, ParallelIterator, ParallelSlice};
+use rayon::prelude::{IndexedParallelIterator, ParallelIterator, ParallelSlice, ParallelSliceMut};
 
 use crate::error::{Answer, finite};
-use crate::wait::{attend, wait};
+use crate::wait::{wait, wait_here};
 
 /// Numbers in an array of any shape, or a single one: whatever `NumPy` makes real numbers of.
 #[derive(Clone, Debug)]
@@ -124,8 +122,8 @@ pub(crate) fn list(numbers: Option<Numbers>) -> Vec<f64> {
 /// Numbers in a block of answers that is worked out and handed over at once.
 const BLOCK: usize = 1 << 14;
 
-/// Numbers of the answers at a block of numbers, one after the other.
-type OfBlock = dyn Fn(&[f64]) -> Vec<f64> + Send + Sync;
+/// Writes the answers at a block of numbers, one after the other.
+type OfBlock = dyn Fn(&[f64], &mut [f64]) + Send + Sync;
 
 /// Numbers of the answers at all numbers.
 type OfAll = dyn FnOnce(&[f64]) -> Answer<Vec<f64>> + Send;
@@ -148,9 +146,7 @@ pub(crate) struct Course {
 impl Course {
     /// A number for each.
     pub(crate) fn each(values: Values, f: impl Fn(f64) -> f64 + Send + Sync + 'static) -> Self {
-        Self::by_blocks(values, &[], move |block| {
-            block.iter().map(|&value| f(value)).collect()
-        })
+        Self::arrays(values, &[], move |value| [f(value)])
     }
 
     /// An array for each, its shape `tail`.
@@ -159,16 +155,19 @@ impl Course {
         tail: &[usize],
         f: impl Fn(f64) -> [f64; COUNT] + Send + Sync + 'static,
     ) -> Self {
-        Self::by_blocks(values, tail, move |block| {
-            block.iter().flat_map(|&value| f(value)).collect()
+        Self::by_blocks(values, tail, move |block, answers| {
+            put(block, answers, |&value| {
+                checkpoint();
+                f(value)
+            });
         })
     }
 
-    /// Arrays of the shape `tail` that are worked out for many numbers at once.
+    /// Arrays of the shape `tail` that are worked out, and written, for many numbers at once.
     pub(crate) fn by_blocks(
         values: Values,
         tail: &[usize],
-        f: impl Fn(&[f64]) -> Vec<f64> + Send + Sync + 'static,
+        f: impl Fn(&[f64], &mut [f64]) + Send + Sync + 'static,
     ) -> Self {
         Self {
             values,
@@ -205,10 +204,17 @@ impl<'py> IntoPyObject<'py> for Course {
         let found = match self.answers {
             Answers::Blocks(f) if given.len() * each > BLOCK => {
                 let block = (BLOCK / each.max(1)).max(1);
-                return in_blocks(py, shape, (given, block, each), f);
+                return in_blocks(py, shape, (&given, block, each), &*f);
             }
-            Answers::Blocks(f) if is_one => f(&given),
-            Answers::Blocks(f) => wait(py, move || f(&given))?,
+            Answers::Blocks(f) => {
+                let mut found = vec![0.0; given.len() * each];
+                if is_one {
+                    f(&given, &mut found);
+                } else {
+                    wait_here(py, || f(&given, &mut found))?;
+                }
+                found
+            }
             Answers::All(f) if is_one => f(&given)?,
             Answers::All(f) => wait(py, move || f(&given))??,
         };
@@ -221,36 +227,41 @@ impl<'py> IntoPyObject<'py> for Course {
     }
 }
 
-/// Answers worked out side by side and written to their array block by block: `NumPy` has memory of its own for great arrays,
-/// in which pages come many at once.
-fn in_blocks(
-    py: Python<'_>,
+/// Answers worked out side by side and written straight to their array: `NumPy` has memory of its own for great arrays, in
+/// which pages come many at once.
+fn in_blocks<'py>(
+    py: Python<'py>,
     shape: Vec<usize>,
-    (given, block, each): (Vec<f64>, usize, usize),
-    f: Box<OfBlock>,
-) -> PyResult<Bound<'_, PyAny>> {
+    (given, block, each): (&[f64], usize, usize),
+    f: &OfBlock,
+) -> PyResult<Bound<'py, PyAny>> {
     static EMPTY: PyOnceLock<Py<PyAny>> = PyOnceLock::new();
     let array = EMPTY.import(py, "numpy", "empty")?.call1((shape,))?;
     let array = array.cast_into::<PyArrayDyn<f64>>()?;
     let mut room = array.readwrite();
     let room = room.as_slice_mut()?;
-    let job = move |told: &Sender<(usize, Vec<f64>)>| {
+    wait_here(py, || {
         let under = Cancel::current();
-        let blocks = given.par_chunks(block).enumerate().panic_fuse();
-        blocks.for_each(|(number, block_of)| {
+        let answers = room.par_chunks_mut(block * each);
+        let blocks = given.par_chunks(block).zip(answers).panic_fuse();
+        blocks.for_each(|(of_given, of_answers)| {
             let _scope = under.enter();
-            // Nobody listens any more where the call has ended.
-            let _ = told.send((number * block * each, f(block_of)));
+            f(of_given, of_answers);
         });
-    };
-    attend(py, job, |(start, found): (usize, Vec<f64>)| {
-        let of_block = room.get_mut(start..start + found.len());
-        of_block
-            .into_iter()
-            .for_each(|of_block| of_block.copy_from_slice(&found));
-        Ok(())
     })?;
     Ok(array.into_any())
+}
+
+/// Writes the numbers of each thing to their place among the answers.
+pub(crate) fn put<T, const COUNT: usize>(
+    things: &[T],
+    answers: &mut [f64],
+    numbers: impl Fn(&T) -> [f64; COUNT],
+) {
+    let (answers, _) = answers.as_chunks_mut();
+    for (answer, thing) in answers.iter_mut().zip(things) {
+        *answer = numbers(thing);
+    }
 }
 
 /// A coordinate and its first three derivatives.

@@ -58,8 +58,8 @@ impl Machine {
     /// Places of points at inputs, worked out side by side.
     fn at_each(&self, phi: Values, tail: &[usize], points: Vec<(usize, Point)>) -> Course {
         let made = Arc::clone(&self.0);
-        Course::by_blocks(phi, tail, move |phi| {
-            made.places_each(&points, phi).into_flattened()
+        Course::by_blocks(phi, tail, move |phi, places| {
+            made.write_places(&points, phi, places.as_chunks_mut().0);
         })
     }
 }

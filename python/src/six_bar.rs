@@ -4,7 +4,7 @@ use centrode_geometry::Point;
 use centrode_mechanism::linkage::{self, FourBar};
 use pyo3::prelude::{Bound, PyAny, PyResult, Python, pyclass, pymethods};
 
-use crate::array::{Course, Rows, Values, row};
+use crate::array::{Course, Rows, Values, put, row};
 use crate::error::Answer;
 use crate::made::{Reduced, by};
 use crate::record::{self, Keywords};
@@ -69,16 +69,18 @@ impl SixBar {
     ///        [290.519775, 127.845833]])
     fn position(&self, phi: Values) -> Course {
         let six_bar = self.0;
-        Course::by_blocks(phi, &[3, 2], move |phi| {
-            let joints = six_bar.joints_each(phi).into_iter().flatten();
-            joints.flat_map(|joint| [joint.x, joint.y]).collect()
+        Course::by_blocks(phi, &[3, 2], move |phi, joints| {
+            let found = six_bar.joints_each(phi);
+            put(found.as_flattened(), joints, |joint| [joint.x, joint.y]);
         })
     }
 
     /// The effector's angle at a crank angle, rad; of an array, an array of the same shape.
     fn effector_angle(&self, phi: Values) -> Course {
         let six_bar = self.0;
-        Course::by_blocks(phi, &[], move |phi| six_bar.effector_place_each(phi))
+        Course::by_blocks(phi, &[], move |phi, angles| {
+            angles.copy_from_slice(&six_bar.effector_place_each(phi));
+        })
     }
 
     /// The effector's angle and its first three derivatives by the crank angle: an array of the shape of `phi` and
@@ -90,18 +92,16 @@ impl SixBar {
     /// True
     fn effector_motion(&self, phi: Values) -> Course {
         let six_bar = self.0;
-        Course::by_blocks(phi, &[4], move |phi| {
-            let angles = six_bar.effector_angle_each(phi);
-            angles.iter().flat_map(row).collect()
+        Course::by_blocks(phi, &[4], move |phi, angles| {
+            put(&six_bar.effector_angle_each(phi), angles, row);
         })
     }
 
     /// The effector's tip E at a crank angle, mm: an array of the shape of `phi` and then (2,).
     fn effector_tip(&self, phi: Values) -> Course {
         let six_bar = self.0;
-        Course::by_blocks(phi, &[2], move |phi| {
-            let joints = six_bar.joints_each(phi).into_iter();
-            joints.flat_map(|[_, _, e]| [e.x, e.y]).collect()
+        Course::by_blocks(phi, &[2], move |phi, tips| {
+            put(&six_bar.joints_each(phi), tips, |[_, _, e]| [e.x, e.y]);
         })
     }
 

@@ -1,9 +1,9 @@
 use std::panic::resume_unwind;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
-use std::thread::Builder;
+use std::thread::{self, Builder, scope};
 use std::time::Duration;
 
-use centrode_geometry::Cancel;
+use centrode_geometry::{Cancel, Cancelled};
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::{PyErr, PyResult, Python};
 
@@ -27,29 +27,60 @@ pub(crate) fn wait<T: Send + 'static>(
 pub(crate) fn attend<T: Send + 'static, N: Send + 'static>(
     py: Python<'_>,
     job: impl FnOnce(&Sender<N>) -> T + Send + 'static,
-    mut heed: impl FnMut(N) -> PyResult<()>,
+    heed: impl FnMut(N) -> PyResult<()>,
 ) -> PyResult<T> {
     let cancel = Cancel::default();
-    let (told, mut news) = channel();
+    let (told, news) = channel();
     let under = cancel.clone();
     let worker = Builder::new()
         .stack_size(STACK)
         .spawn(move || under.run(|| job(&told)))?;
-    let ended = loop {
+    hear(py, news, &cancel, heed)?;
+    outcome(worker.join())
+}
+
+/// Does a job on what the caller holds, like [`wait`], which ends with the job in any case.
+pub(crate) fn wait_here<T: Send>(py: Python<'_>, job: impl FnOnce() -> T + Send) -> PyResult<T> {
+    let cancel = Cancel::default();
+    let (end, news) = channel::<()>();
+    let under = cancel.clone();
+    scope(|scope| {
+        let job = move || {
+            let _end = end;
+            under.run(job)
+        };
+        let worker = Builder::new().stack_size(STACK).spawn_scoped(scope, job)?;
+        hear(py, news, &cancel, |()| Ok(()))?;
+        // Its last news is that it has ended: it holds nobody up.
+        outcome(worker.join())
+    })
+}
+
+/// Heeds the news of a job till it has ended.
+fn hear<N: Send>(
+    py: Python<'_>,
+    mut news: Receiver<N>,
+    cancel: &Cancel,
+    mut heed: impl FnMut(N) -> PyResult<()>,
+) -> PyResult<()> {
+    loop {
         let heard;
         (news, heard) = next(py, news);
         let fine = match heard {
             Ok(told) => heed(told),
             Err(RecvTimeoutError::Timeout) => Ok(()),
-            Err(RecvTimeoutError::Disconnected) => break Ok(()),
+            Err(RecvTimeoutError::Disconnected) => return Ok(()),
         };
         if let Err(error) = fine.and_then(|()| py.check_signals()) {
             cancel.cancel();
-            break Err(error);
+            return ended_after(py, news, error);
         }
-    };
-    ended.or_else(|error| ended_after(py, news, error))?;
-    match worker.join() {
+    }
+}
+
+/// The answer of a job that has ended.
+fn outcome<T>(joined: thread::Result<Result<T, Cancelled>>) -> PyResult<T> {
+    match joined {
         Ok(Ok(answer)) => Ok(answer),
         Ok(Err(cancelled)) => Err(PyRuntimeError::new_err(cancelled.to_string())),
         Err(panic) => resume_unwind(panic),

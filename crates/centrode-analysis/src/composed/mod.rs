@@ -2,6 +2,7 @@
 
 mod cams;
 mod clearance;
+mod collisions;
 mod figures;
 mod forces;
 mod goals;
@@ -56,8 +57,7 @@ pub fn check_composed(composed: &Composed) -> Report {
     if let (Some(machine), Some(loaded)) = (made.machine(), made.loaded()) {
         forces::forces(loaded, machine, &mut report);
     }
-    clearance::plates(&made, &mut report);
-    clearance::gears(&made, &ends(composed), &mut report);
+    collisions::collisions(&made, &ends(composed), &mut report);
     let found = goals::goals(&made);
     clearance::apart(composed, &found, &mut report);
     report.goals = found.iter().map(|found| found.goal.clone()).collect();

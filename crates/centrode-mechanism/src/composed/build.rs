@@ -105,7 +105,7 @@ impl Builder<'_> {
 
     /// The law of a copy that runs ahead of the original's, by its name; any other as it is.
     pub(super) fn ahead_of(&self, name: &str, law: Arc<dyn Transmission>) -> Arc<dyn Transmission> {
-        match self.ahead.get(name) {
+        match self.expansion.ahead.get(name) {
             Some(&by) => copying::ahead(law, by),
             None => law,
         }

@@ -43,7 +43,7 @@ impl Composed {
             vary: BTreeMap::new(),
             ..design.clone()
         };
-        let one = Self::built(&bare, &bare, Expansion::default())?;
+        let one = Self::built(&bare, &bare, Expansion::default(), None)?;
         let (mut whole, mut expansion) = (design.clone(), Expansion::default());
         for (name, spec) in &design.copies {
             let key = format!("copies.{name}");
@@ -52,7 +52,7 @@ impl Composed {
             copies::add(&mut whole, &mut expansion, &one.points, (name, spin))?;
         }
         let originals = expansion.clone();
-        let made = Self::built(design, &whole, expansion);
+        let made = Self::built(design, &whole, expansion, Some(&one));
         let made = made.map_err(|error| match originals.written(&error.key()) {
             key if key == error.key() => error,
             key => ComposedError::Copy {

@@ -75,8 +75,10 @@ impl Builder<'_> {
         let held = (mount.carrier, mount.at);
         let seat = self.seat(&key, (name, slides), (cam, spec), held)?;
         let (turn, rotation, turns) = self.turned(&key, name, (cam, spec), &seat)?;
-        let moved = self.moved(&key, (cam, name), &mount, (&turn, spec.follower.sense()))?;
-        let motion = moved.by_turn(&key, &turn, turns, &self.bodies[seat.carrier].name)?;
+        let point = match spec.follower.arm() {
+            Some(_) => ROLLER,
+            None => FACE,
+        };
         let blame = |error: CamError| match error.key().as_str() {
             "motion" => ComposedError::NoFollower {
                 key: key.clone(),
@@ -87,20 +89,22 @@ impl Builder<'_> {
                 ComposedError::Cam { cam, error }
             }
         };
-        let follower = spec.follower.at(seat.distance);
-        let disc = DiscCam::new(motion, follower, spec.base_radius, rotation).map_err(blame)?;
-        let at = touching(
-            &disc,
-            &seat,
-            &mount,
-            &moved,
-            turn.at(moved.low.input).position,
-        );
-        let part = Cam::new(disc, cam, spec.body.clone()).map_err(blame)?;
-        let point = match spec.follower.arm() {
-            Some(_) => ROLLER,
-            None => FACE,
+        let (disc, at) = match self.cut_before(cam, (name, point)) {
+            Some(cut) => cut,
+            None => {
+                let sense = spec.follower.sense();
+                let moved = self.moved(&key, (cam, name), &mount, (&turn, sense))?;
+                let carrier = &self.bodies[seat.carrier].name;
+                let motion = moved.by_turn(&key, &turn, turns, carrier)?;
+                let follower = spec.follower.at(seat.distance);
+                let disc = DiscCam::new(motion, follower, spec.base_radius, rotation);
+                let disc = disc.map_err(blame)?;
+                let turned = turn.at(moved.low.input).position;
+                let at = touching(&disc, &seat, &mount, &moved, turned);
+                (disc, at)
+            }
         };
+        let part = Cam::new(disc, cam, spec.body.clone()).map_err(blame)?;
         let points = self.points.entry(name.into()).or_default();
         let made = LocalPoint { at, own: true };
         if points.insert(point.into(), made).is_some() {
@@ -109,6 +113,15 @@ impl Builder<'_> {
         }
         self.add_cam(name, (cam, spec), &seat, Arc::new(part), turn);
         Ok(())
+    }
+
+    /// The cam of which one is a copy, as it was cut, and the point of its follower.
+    fn cut_before(&self, cam: &str, (body, point): (&str, &str)) -> Option<(DiscCam, Point)> {
+        let (bare, _) = self.original(body)?;
+        let [cam, body] = [cam, body].map(|name| self.expansion.original(name));
+        let cut = bare.cams().iter().find(|cut| cut.name == cam)?;
+        let at = bare.points.get(body)?.get(point)?.at;
+        Some((cut.part.disc().clone(), at))
     }
 
     /// Motion of a body on its carrier, which must come back and not jump.

@@ -334,6 +334,15 @@ impl Composed {
         self.linkage.places_each(&self.on_links(points), inputs)
     }
 
+    /// Writes [`places_each`](Self::places_each), as far as there is room; see [`Linkage::write_places`].
+    ///
+    /// # Panics
+    /// Never for indices of bodies.
+    pub fn write_places(&self, points: &[(usize, Point)], inputs: &[f64], places: &mut [[f64; 2]]) {
+        let points = self.on_links(points);
+        self.linkage.write_places(&points, inputs, places);
+    }
+
     /// Place (mm) and velocity (mm per radian of the input) of each of several points of bodies at an input; see
     /// [`Linkage::moving`].
     ///

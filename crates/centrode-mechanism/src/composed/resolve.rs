@@ -15,6 +15,7 @@ use super::{
 };
 use crate::gear::design::{Rule, SpecError};
 use crate::linkage::{Coordinate, Link, Linkage, LinkageError, NotClosing};
+use crate::machine::JointKind;
 use crate::transmission::Remembered;
 
 /// Body or dyad to build, in whatever order its needs allow.
@@ -27,8 +28,10 @@ enum Node<'a> {
 /// A composed machine under construction.
 pub(super) struct Builder<'a> {
     pub(super) design: &'a ComposedDesign,
-    /// Inputs by which laws run ahead, by the body, rad.
-    pub(super) ahead: &'a BTreeMap<String, f64>,
+    /// Words of what is copied, among them the inputs by which laws run ahead.
+    pub(super) expansion: &'a Expansion,
+    /// The machine without its copies, where it has some: its slides and cams are those of the copies, too.
+    pub(super) bare: Option<&'a Composed>,
     pub(super) points: BodyPoints,
     pub(super) linkage: Linkage,
     /// Bodies in the order of building, and those that dyads have yet to be followed for.
@@ -51,16 +54,17 @@ impl Composed {
     pub fn resolve(design: &ComposedDesign) -> Result<Self, ComposedError> {
         design.validate()?;
         match design.copies.is_empty() {
-            true => Self::built(design, design, Expansion::default()),
+            true => Self::built(design, design, Expansion::default(), None),
             false => Self::with_copies(design),
         }
     }
 
-    /// Builds a design whose copies are written out.
+    /// Builds a design whose copies are written out, `bare` being the machine without them.
     pub(super) fn built(
         written: &ComposedDesign,
         design: &ComposedDesign,
         expansion: Expansion,
+        bare: Option<&Self>,
     ) -> Result<Self, ComposedError> {
         holders(design)?;
         let points = points_of(design, &expansion)?;
@@ -78,7 +82,8 @@ impl Composed {
             dyads: Vec::new(),
             pins: Vec::new(),
             followed: Vec::new(),
-            ahead: &expansion.ahead,
+            expansion: &expansion,
+            bare,
             design,
         };
         builder.build()?;
@@ -292,6 +297,12 @@ impl<'a> Builder<'a> {
         Ok((index.unwrap_or(0), at))
     }
 
+    /// The machine without copies and, there, a body or that of which it is a copy.
+    pub(super) fn original(&self, body: &str) -> Option<(&'a Composed, usize)> {
+        let bare = self.bare?;
+        Some((bare, bare.body_named(self.expansion.original(body))?))
+    }
+
     /// Follows the joints of the dyads over the cycle, over which all of them must close.
     pub(super) fn follow(&mut self) -> Result<(), ComposedError> {
         if let Some(NotClosing {
@@ -318,10 +329,17 @@ impl<'a> Builder<'a> {
                 },
                 error => blame(&key)(error),
             })?;
-            let linkage = &self.linkage;
+            let (linkage, original) = (&self.linkage, self.original(&self.bodies[body].name));
+            let known =
+                original.and_then(
+                    |(bare, body)| match bare.bodies[body].mount.as_ref()?.kind {
+                        JointKind::Sliding(range) => Some(range),
+                        _ => None,
+                    },
+                );
             if let Some(mount) = &mut self.bodies[body].mount {
                 let law = Arc::new(Remembered::new(law));
-                mount.follow(law, |law| range(law, linkage));
+                mount.follow(law, |law| known.unwrap_or_else(|| range(law, linkage)));
             }
         }
         Ok(())

@@ -13,15 +13,12 @@ pub(crate) const LANES: usize = 4;
 /// Vector of that many numbers.
 pub(crate) type Lanes = f64x4;
 
-/// Inputs side by side, each with the number of its first; the last input pads an incomplete group.
+/// Inputs side by side; the last one pads an incomplete group.
 #[inline(always)]
-pub(crate) fn chunks(inputs: &[f64]) -> impl Iterator<Item = (usize, Lanes)> + '_ {
+pub(crate) fn groups(inputs: &[f64]) -> impl Iterator<Item = Lanes> + '_ {
     let input = |index: usize| inputs[index.min(inputs.len() - 1)];
     let firsts = (0..inputs.len()).step_by(LANES);
-    firsts.map(move |first| {
-        let lanes = std::array::from_fn(|lane| input(first + lane));
-        (first, Lanes::from(lanes))
-    })
+    firsts.map(move |first| Lanes::from(std::array::from_fn(|lane| input(first + lane))))
 }
 
 /// Magic number that rounds: added and subtracted again it leaves a whole number, halves to the even one.

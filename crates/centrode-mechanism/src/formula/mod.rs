@@ -5,7 +5,7 @@ mod number;
 mod parser;
 mod taylor;
 
-pub(crate) use lanes::{LANES, Lanes, chunks};
+pub(crate) use lanes::{LANES, Lanes, groups};
 pub(crate) use number::Number;
 pub(crate) use parser::FormulaError;
 pub(crate) use taylor::Taylor;

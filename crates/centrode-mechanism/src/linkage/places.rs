@@ -3,7 +3,7 @@ use centrode_geometry::{Point, Vector};
 use super::assembly::{Linkage, Step};
 use super::parts::{Line, Link};
 use super::series::{Part, Series};
-use crate::formula::{LANES, Lanes, chunks};
+use crate::formula::{LANES, Lanes, groups};
 
 /// Joints and links that a step needs, by their numbers.
 #[derive(Default)]
@@ -84,6 +84,16 @@ impl Linkage {
     /// Never for links of the linkage.
     #[must_use]
     pub fn places_each(&self, points: &[(Link, Point)], inputs: &[f64]) -> Vec<[f64; 2]> {
+        let mut places = vec![[0.0; 2]; points.len() * inputs.len()];
+        self.write_places(points, inputs, &mut places);
+        places
+    }
+
+    /// Writes [`places_each`](Self::places_each), as far as there is room: a block of an array of its caller.
+    ///
+    /// # Panics
+    /// Never for links of the linkage.
+    pub fn write_places(&self, points: &[(Link, Point)], inputs: &[f64], places: &mut [[f64; 2]]) {
         let source = |(link, local): &(Link, Point)| match self.joint_at(*link, *local) {
             Some(joint) => Source::Joint(joint),
             None => Source::Of(*link, *local),
@@ -99,26 +109,22 @@ impl Linkage {
         });
         let needed = self.needed(joints, links);
         let mut series = Series::<1, Lanes>::default();
-        let mut now = Vec::with_capacity(sources.len());
-        let mut places = Vec::with_capacity(sources.len() * inputs.len());
-        for (first, input) in chunks(inputs) {
+        for (input, group) in groups(inputs).zip(places.chunks_mut(LANES * points.len().max(1))) {
             self.find(input, |part| needed.has(part), &mut series);
-            now.clear();
-            now.extend(sources.iter().map(|source| match source {
-                Source::Joint(joint) => series.joint(*joint),
-                Source::Of(link, local) => {
-                    let (origin, axis) = series.frame(*link);
-                    origin.plus(axis.turned(local.coords))
+            for (number, source) in sources.iter().enumerate() {
+                let place = match source {
+                    Source::Joint(joint) => series.joint(*joint),
+                    Source::Of(link, local) => {
+                        let (origin, axis) = series.frame(*link);
+                        origin.plus(axis.turned(local.coords))
+                    }
+                };
+                let of_lanes = group.iter_mut().skip(number).step_by(points.len());
+                for (lane, written) in of_lanes.enumerate() {
+                    *written = place.value_of(lane).into();
                 }
-            }));
-            for lane in 0..LANES.min(inputs.len() - first) {
-                places.extend(
-                    now.iter()
-                        .map(|place| <[f64; 2]>::from(place.value_of(lane))),
-                );
             }
         }
-        places
     }
 
     /// Place (mm) and velocity (mm per radian of the input) of each of several points of links, given in their axes in mm, at

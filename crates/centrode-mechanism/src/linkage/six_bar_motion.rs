@@ -3,7 +3,7 @@ use centrode_geometry::{Jet, Point};
 use super::four_bar::joints;
 use super::point_series::PointSeries;
 use super::six_bar::SixBar;
-use crate::formula::{LANES, Lanes, Number, Taylor, chunks};
+use crate::formula::{LANES, Lanes, Number, Taylor, groups};
 use crate::transmission::MotionJet;
 
 /// Positions and motion of a six-bar at one crank angle, per radian of crank angle.
@@ -42,7 +42,7 @@ impl<T: Number> Moving<T> {
 /// Results at each of many inputs, computed side by side.
 #[inline(always)]
 fn each<R>(inputs: &[f64], at: impl Fn(Lanes) -> [R; LANES]) -> Vec<R> {
-    let answers: Vec<[R; LANES]> = chunks(inputs).map(|(_, input)| at(input)).collect();
+    let answers: Vec<[R; LANES]> = groups(inputs).map(at).collect();
     let mut answers = answers.into_flattened();
     answers.truncate(inputs.len());
     answers

@@ -1,0 +1,211 @@
+//! Plates and gears that collide.
+
+use centrode_geometry::{Point, Tolerance, greatest_of};
+use centrode_mechanism::composed::Composed;
+use centrode_mechanism::machine::{JointKind, Machine, Surface};
+use nalgebra::center;
+
+use super::Made;
+use super::clearance::surfaces;
+use crate::interference::LinkPair;
+use crate::{Finding, Place, Report, Severity, Unit};
+
+/// Accuracy to which parts are looked over for collisions, as a share of a plate's width.
+const ACCURACY: f64 = 1e-3;
+
+/// Accuracy to which it is found how near the circles around two parts come, as a share of their distance.
+const SLACK: f64 = 0.05;
+
+/// Surfaces of a link that belong to one part, and a circle around them.
+struct Piece<'a> {
+    name: &'a str,
+    link: usize,
+    surfaces: Vec<&'a Surface>,
+    center: Point,
+    radius: f64,
+}
+
+impl<'a> Piece<'a> {
+    /// The part; none where it has no surface.
+    fn new(
+        name: &'a str,
+        link: usize,
+        surfaces: Vec<&'a Surface>,
+        tolerance: Tolerance,
+    ) -> Option<Self> {
+        let corners = |surface: &&Surface| surface.outline.flatten(tolerance);
+        let corners: Vec<Point> = surfaces.iter().flat_map(corners).collect();
+        let first = *corners.first()?;
+        let both = corners.iter().fold((first, first), |(low, high), at| {
+            (
+                low.coords.inf(&at.coords).into(),
+                high.coords.sup(&at.coords).into(),
+            )
+        });
+        let center = center(&both.0, &both.1);
+        let far = corners.iter().map(|at| (at - center).norm());
+        Some(Self {
+            name,
+            link,
+            surfaces,
+            center,
+            radius: far.fold(0.0, f64::max) + tolerance.mm(),
+        })
+    }
+}
+
+/// Plates, and gears that are not to mesh, that share a height and collide.
+pub(super) fn collisions(made: &Made<'_>, ends: &[f64], report: &mut Report) {
+    let composed = made.composed;
+    let tolerance = Tolerance::new(ACCURACY * composed.design().plates.width);
+    let (Some(machine), Ok(tolerance)) = (made.machine(), tolerance) else {
+        return;
+    };
+    let plate = |link: usize| {
+        let own = surfaces(machine, link).filter(|surface| surface.teeth.is_empty());
+        Piece::new(&machine.links[link].name, link, own.collect(), tolerance)
+    };
+    let plates: Vec<Piece<'_>> = (0..machine.links.len()).filter_map(plate).collect();
+    let may_collide = |pair: [&Piece<'_>; 2]| !held(machine, pair.map(|piece| piece.link));
+    for ([one, other], found) in
+        overlaps(composed, machine, (&plates, may_collide), (ends, tolerance))
+    {
+        report.findings.push(Finding {
+            remedy: Some("another layer for one of them, or a narrower plate"),
+            ..collision(
+                "plates-collide",
+                &format!("the plates of {} and {}", one.name, other.name),
+                one.name,
+                found,
+            )
+        });
+    }
+    let gears = composed.gears().iter().filter_map(|gear| {
+        let (link, name) = (composed.body_named(gear.body_name())?, gear.surface_name());
+        let own = surfaces(machine, link).filter(|surface| surface.name == name);
+        Piece::new(&gear.name, link, own.collect(), tolerance)
+    });
+    let gears: Vec<Piece<'_>> = gears.collect();
+    let may_collide = |pair: [&Piece<'_>; 2]| !is_meshed(composed, machine, pair);
+    for ([one, other], found) in
+        overlaps(composed, machine, (&gears, may_collide), (ends, tolerance))
+    {
+        report.findings.push(Finding {
+            remedy: Some("fewer copies, smaller gears, or gears of another pair, which lies at another height"),
+            ..collision(
+                "gears-collide",
+                &format!("gears {} and {}", one.name, other.name),
+                one.name,
+                found,
+            )
+        });
+    }
+}
+
+/// Pairs of parts that overlap within the cycle, each with the least clearance (mm) and the input there, among those that
+/// may collide.
+///
+/// What touches, as plates side by side on one line do, does not overlap; parts whose circles keep apart, and parts at other
+/// heights, cost no more than that look.
+fn overlaps<'a>(
+    composed: &Composed,
+    machine: &Machine,
+    (pieces, may_collide): (&'a [Piece<'a>], impl Fn([&Piece<'a>; 2]) -> bool),
+    (ends, tolerance): (&[f64], Tolerance),
+) -> Vec<([&'a Piece<'a>; 2], [f64; 2])> {
+    let numbers = 0..pieces.len();
+    let pairs = numbers.flat_map(|i| (i + 1..pieces.len()).map(move |k| [i, k]));
+    let pairs: Vec<[usize; 2]> = pairs
+        .filter(|pair| may_collide(pair.map(|number| &pieces[number])))
+        .collect();
+    let centers: Vec<(usize, Point)> = pieces.iter().map(|p| (p.link, p.center)).collect();
+    let together = |input: f64, values: &mut Vec<f64>| {
+        let places = composed.moving(&centers, input);
+        let near = |&[i, k]: &[usize; 2]| -(places[i].0 - places[k].0).norm();
+        values.extend(pairs.iter().map(near));
+    };
+    let alone = |pair: usize, input: f64| {
+        let places = composed.moving(&pairs[pair].map(|number| centers[number]), input);
+        -(places[0].0 - places[1].0).norm()
+    };
+    let slack = |distance: f64| SLACK * distance.abs();
+    let nearest = greatest_of(pairs.len(), together, alone, |_, v| slack(v), ends);
+    let near = pairs.iter().zip(nearest).filter_map(|(pair, nearest)| {
+        let pair = pair.map(|number| &pieces[number]);
+        let reach = pair[0].radius + pair[1].radius;
+        (-nearest.value - slack(nearest.value) <= reach).then_some(pair)
+    });
+    near.filter_map(|pair| {
+        let surfaces = pair.map(|piece| piece.surfaces.clone());
+        let links = pair.map(|piece| piece.link);
+        let ready = LinkPair::new(machine, links, surfaces, tolerance).ok()??;
+        let found = ready.over([0.0, machine.input.period]).ok()?;
+        (found.least < -tolerance.mm()).then_some((pair, [found.least, found.input]))
+    })
+    .collect()
+}
+
+/// Two parts that overlap at an input, by how much (mm, below zero).
+fn collision(rule: &'static str, what: &str, part: &str, [least, input]: [f64; 2]) -> Finding {
+    Finding {
+        rule,
+        severity: Severity::Error,
+        message: format!(
+            "{what} share a height and overlap by {} at an input of {}",
+            Unit::Millimetre.tell(-least),
+            Unit::Angle.tell(input)
+        ),
+        measured: Some(least),
+        required: Some(0.0),
+        unit: Unit::Millimetre,
+        remedy: None,
+        place: Place {
+            part: Some(part.to_owned()),
+            input: Some(input),
+            ..Place::default()
+        },
+    }
+}
+
+/// Whether two gears are to mesh, or stand on each other.
+fn is_meshed(composed: &Composed, machine: &Machine, [one, other]: [&Piece<'_>; 2]) -> bool {
+    let both = [one.link, other.link];
+    let mut meshes = machine.meshes.iter();
+    let mut loops = composed.whole().meshes.values();
+    let is_of = |gears: &[String; 2]| {
+        [one, other]
+            .iter()
+            .all(|gear| gears.iter().any(|name| name == gear.name))
+    };
+    meshes.any(|mesh| meet(mesh.links, both))
+        || loops.any(|mesh| is_of(&mesh.gears))
+        || stands_on(machine, both)
+}
+
+/// Whether two pairs of links are the same, in either order.
+fn meet([a, b]: [usize; 2], links: [usize; 2]) -> bool {
+    [a, b] == links || [b, a] == links
+}
+
+/// Whether two links are held together by a joint or pin, or stand on each other.
+fn held(machine: &Machine, links: [usize; 2]) -> bool {
+    let mut joints = machine.joints.iter();
+    let joined = joints.any(|joint| meet([joint.parent, joint.child], links));
+    let pinned = machine.closures.iter().any(|pin| meet(pin.links, links));
+    joined || pinned || stands_on(machine, links)
+}
+
+/// Whether two links do not move against each other.
+fn stands_on(machine: &Machine, links: [usize; 2]) -> bool {
+    let [one, other] = links.map(|link| {
+        let mut root = link;
+        for joint in machine.carriers(link) {
+            if joint.kind != JointKind::Fixed {
+                break;
+            }
+            root = joint.parent;
+        }
+        root
+    });
+    one == other
+}
