@@ -3,7 +3,10 @@ use std::cell::OnceCell;
 use centrode_geometry::{Outline, Point, Segment, SegmentJet, Vector};
 use centrode_mechanism::gear::{Gear, Role};
 
-use super::span::{self, Span};
+use super::{
+    span::{self, Span},
+    tree::{Run, Tree},
+};
 
 /// Change of direction at a joint above which it is a corner, rad: far above the rounding of a fitted
 /// joint, far below a tip edge.
@@ -125,8 +128,8 @@ pub(super) struct Halves {
 #[derive(Debug)]
 pub(super) struct Body<'a> {
     pub(super) parts: Vec<Part<'a>>,
-    /// Centres and radii of their circles, side by side, since every pose visits all of them.
-    pub(super) circles: Vec<(Point, f64)>,
+    /// Circles around runs of them.
+    pub(super) tree: Tree,
     /// Bounds of the parts' curvatures, computed when first needed.
     curvatures: Vec<OnceCell<(f64, f64)>>,
     /// Halves of the parts, computed when first needed.
@@ -136,13 +139,14 @@ pub(super) struct Body<'a> {
     /// Greatest distance from the axis.
     reach: f64,
     /// Greatest distance from the axis of the outline near a direction, sector by sector of the body's own plane.
-    sectors: [f64; SECTORS],
+    sectors: Vec<f64>,
     /// Distance, mm, within which it counts as near.
     grown: f64,
 }
 
-/// Number of sectors in which a body's reach is kept.
+/// Least number of sectors in which a body's reach is kept, and of parts to a sector of a body that has more.
 const SECTORS: usize = 72;
+const PARTS: usize = 8;
 
 impl<'a> Body<'a> {
     /// Bodies of two gears that are searched for each other within so many mm.
@@ -156,20 +160,30 @@ impl<'a> Body<'a> {
 
     /// Whether a point lies in the body, by the parity of crossings with a ray to the right.
     pub(super) fn contains(&self, point: Point) -> bool {
-        let side = |p: &Point| p.y > point.y;
-        let crossings = self.circles.iter().zip(&self.parts).map(|(circle, part)| {
-            let (center, radius) = circle;
-            if (center.y - point.y).abs() > *radius || center.x + radius < point.x {
-                0
-            } else if center.x - radius > point.x {
-                // Whatever happens in a part wholly to the right, its ends determine the parity.
-                usize::from(side(&part.ends[0]) != side(&part.ends[1]))
-            } else {
-                let [start, end] = part.ends;
-                stretch_crossings(part.segment, (-1.0, 1.0), (start, end), &part.span, point)
-            }
-        });
-        crossings.sum::<usize>() % 2 == 1
+        let crossings = self.tree.root().map(|run| self.crossings(&run, point));
+        crossings.is_some_and(|count| count % 2 == 1)
+    }
+
+    /// Crossings of a run of parts with the ray from a point to the right, to their parity.
+    fn crossings(&self, run: &Run, point: Point) -> usize {
+        let (center, radius) = (run.center, run.radius);
+        if (center.y - point.y).abs() > radius || center.x + radius < point.x {
+            0
+        } else if center.x - radius > point.x {
+            // Whatever happens in a run wholly to the right, its ends determine the parity.
+            let ends = [
+                self.parts[run.first].ends[0],
+                self.parts[run.last()].ends[1],
+            ];
+            let [start, end] = ends.map(|p| p.y > point.y);
+            usize::from(start != end)
+        } else if let Some(part) = run.single().map(|part| &self.parts[part]) {
+            let [start, end] = part.ends;
+            stretch_crossings(part.segment, (-1.0, 1.0), (start, end), &part.span, point)
+        } else {
+            let halves = self.tree.halves(run);
+            halves.iter().map(|half| self.crossings(half, point)).sum()
+        }
     }
 
     fn new(parts: Vec<Part<'a>>, grown: f64) -> Self {
@@ -180,7 +194,12 @@ impl<'a> Body<'a> {
         Self {
             curvatures: vec![OnceCell::new(); parts.len()],
             halves: vec![OnceCell::new(); parts.len()],
-            circles: parts.iter().map(|p| (p.center, p.radius)).collect(),
+            tree: Tree::new(
+                &parts
+                    .iter()
+                    .map(|p| (p.center, p.radius))
+                    .collect::<Vec<_>>(),
+            ),
             core: parts
                 .iter()
                 .map(clear_of_axis)
@@ -196,7 +215,8 @@ impl<'a> Body<'a> {
     pub(super) fn is_near(&self, point: &Vector, near: f64) -> bool {
         let squared = point.norm_squared();
         let within = |reach: f64| squared < (reach + near).powi(2);
-        within(self.reach) && (near > self.grown || within(self.sectors[sector(point)]))
+        within(self.reach)
+            && (near > self.grown || within(self.sectors[sector(point, self.sectors.len())]))
     }
 
     /// Part of a flank and its neighbours on the same flank.
@@ -236,35 +256,36 @@ fn clear_of_axis(part: &Part<'_>) -> f64 {
 }
 
 /// Sector of a direction, by its share of the perimeter of a square.
-fn sector(direction: &Vector) -> usize {
+fn sector(direction: &Vector, count: usize) -> usize {
     let share = direction.y / (direction.x.abs() + direction.y.abs());
     let round = if direction.x < 0.0 {
         2.0 - share
     } else {
         (4.0 + share) % 4.0
     };
-    ((0.25 * round * SECTORS as f64) as usize).min(SECTORS - 1)
+    ((0.25 * round * count as f64) as usize).min(count - 1)
 }
 
 /// Reach by sector of the parts, grown by a distance.
-fn sectors(parts: &[Part<'_>], grown: f64) -> [f64; SECTORS] {
-    let mut out = [0.0_f64; SECTORS];
+fn sectors(parts: &[Part<'_>], grown: f64) -> Vec<f64> {
+    let all = SECTORS.max(parts.len() / PARTS);
+    let mut out = vec![0.0_f64; all];
     for part in parts {
         let away = part.center.coords.norm();
         let far = away + part.radius;
         let sin = (part.radius + grown) / away;
         // A part around the axis itself, or reaching it, is in every sector.
         if sin.is_nan() || sin >= 1.0 {
-            out = out.map(|r| r.max(far));
+            out.iter_mut().for_each(|r| *r = r.max(far));
             continue;
         }
         let cos = (1.0 - sin * sin).sqrt();
         let across = Vector::new(-part.center.y, part.center.x);
         let [first, last] =
-            [-sin, sin].map(|sin| sector(&(part.center.coords * cos + across * sin)));
-        let count = (last + SECTORS - first) % SECTORS;
+            [-sin, sin].map(|sin| sector(&(part.center.coords * cos + across * sin), all));
+        let count = (last + all - first) % all;
         for k in first..=first + count {
-            out[k % SECTORS] = out[k % SECTORS].max(far);
+            out[k % all] = out[k % all].max(far);
         }
     }
     out

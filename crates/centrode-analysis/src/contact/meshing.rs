@@ -1,3 +1,5 @@
+use std::cell::Cell;
+
 use centrode_geometry::{Point, Vector, checkpoint};
 use centrode_mechanism::gear::GearPair;
 
@@ -7,6 +9,7 @@ use super::{
     places::{Candidates, Kind, Place, SHALLOW},
     stretch::Stretch,
     touch::{self, Pose, Touch},
+    tree::Run,
     turning::{Hit, Limits, Turning},
 };
 
@@ -50,6 +53,8 @@ pub(super) struct Meshing<'a> {
     pub(super) close: f64,
     /// Parameters at which parts faced each other at the sample before.
     pub(super) memory: Vec<(usize, usize, (f64, f64))>,
+    /// Places of the driver's parts among the posed ones of a pose, where they are at all.
+    pub(super) slots: Vec<Cell<usize>>,
 }
 
 impl<'a> Meshing<'a> {
@@ -62,6 +67,7 @@ impl<'a> Meshing<'a> {
             stretches: parts
                 .map(|(j, part)| Stretch::of(j, part, |p| *p, |v| *v))
                 .collect(),
+            slots: vec![Cell::new(0); driver.parts.len()],
             driver,
             driven,
             module: pair.module(),
@@ -289,12 +295,23 @@ impl<'a> Meshing<'a> {
         let both = |on_driver: Point, on_driven: Point| {
             driver.contains(on_driver) && driven.contains(on_driven)
         };
-        self.driver.parts.iter().map(inner).any(|p| {
+        let deep = SHALLOW * self.module;
+        let on_driver = |run: &Run| {
+            let center = pose.back(&run.center).coords;
+            driven.is_near(&center, run.radius + deep)
+        };
+        let on_driven = |run: &Run| {
+            let center = pose.place(&run.center).coords;
+            driver.is_near(&center, run.radius + deep)
+        };
+        driver.tree.any(&on_driver, &|i| {
+            let p = inner(&driver.parts[i]);
             let back = pose.back(&p);
-            self.driven.is_near(&back.coords, 0.0) && both(p, back)
-        }) || self.driven.parts.iter().map(inner).any(|p| {
+            driven.is_near(&back.coords, 0.0) && both(p, back)
+        }) || driven.tree.any(&on_driven, &|j| {
+            let p = inner(&driven.parts[j]);
             let placed = pose.place(&p);
-            self.driver.is_near(&placed.coords, 0.0) && both(placed, p)
+            driver.is_near(&placed.coords, 0.0) && both(placed, p)
         })
     }
 

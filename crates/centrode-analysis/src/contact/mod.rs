@@ -12,6 +12,7 @@ mod stretch;
 #[cfg(test)]
 mod tests;
 mod touch;
+mod tree;
 mod turning;
 
 use centrode_mechanism::gear::design::Addendum;

@@ -1,6 +1,6 @@
 //! Points at which the outlines of two gears face each other in one pose.
 
-use centrode_geometry::{Vector, checkpoint};
+use centrode_geometry::{Point, Vector, checkpoint};
 use centrode_mechanism::gear::Role;
 
 use super::{
@@ -8,6 +8,7 @@ use super::{
     meshing::Meshing,
     stretch::Stretch,
     touch::{self, Pose, Touch},
+    tree::Near,
 };
 
 /// Depth, in modules, up to which a penetration is accepted without a second test.
@@ -47,33 +48,27 @@ impl Meshing<'_> {
         let mut out = Candidates {
             posed: Vec::with_capacity(64),
             pairs: Vec::with_capacity(512),
-            clash: 0.0,
+            clash: self.driver.tree.deepest(&pose.axis, self.driven.core),
         };
-        let mut circles = Vec::with_capacity(64);
-        // Two bodies can meet only where each lies within the other's reach in that direction.
-        for (i, (center, radius)) in self.driver.circles.iter().enumerate() {
-            let center = pose.back(center).coords;
-            if self.driven.is_near(&center, radius + near) {
-                out.clash = out.clash.max(self.driven.core - center.norm() - radius);
+        let search = Near {
+            driver: &self.driver.tree,
+            driven: &self.driven.tree,
+            near,
+            place: |p: &Point| pose.back(p),
+        };
+        search.pairs(|i, j| {
+            let slot = &self.slots[i];
+            let known = |k: &usize| out.posed.get(*k).is_some_and(|(s, _)| s.part == i);
+            let k = Some(slot.get()).filter(known).unwrap_or_else(|| {
                 let part = &self.driver.parts[i];
                 let stretch = Stretch::of(i, part, |p| pose.back(p), |v| pose.turn_back(v));
                 let normals = part.normals.turned(pose.turn_back(&part.normals.direction));
-                circles.push((center, radius + near));
+                slot.set(out.posed.len());
                 out.posed.push((stretch, normals));
-            }
-        }
-        for (j, (center, radius)) in self.driven.circles.iter().enumerate() {
-            if self
-                .driver
-                .is_near(&pose.place(center).coords, radius + near)
-            {
-                for (k, (other, reach)) in circles.iter().enumerate() {
-                    if (other - center.coords).norm_squared() < (radius + reach).powi(2) {
-                        out.pairs.push((k, j));
-                    }
-                }
-            }
-        }
+                slot.get()
+            });
+            out.pairs.push((k, j));
+        });
         out
     }
 
