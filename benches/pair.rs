@@ -2,11 +2,11 @@
 
 use std::hint::black_box;
 
-use centrode_analysis::{Contact, check_contact};
+use centrode_analysis::{Contact, check, check_contact};
 use centrode_geometry::Tolerance;
 use centrode_mechanism::gear::GearPair;
 use centrode_mechanism::gear::design::{Addendum, GearPairDesign};
-use centrode_mechanism::gear::pitch::{Bspline, Ellipse, PitchSpec};
+use centrode_mechanism::gear::pitch::{Bspline, Circle, EccentricCircle, Ellipse, PitchSpec};
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 
 fn elliptic(tooth_count: u32) -> GearPairDesign {
@@ -46,6 +46,9 @@ fn whole(c: &mut Criterion) {
     group.bench_function("findings and limits", |b| {
         b.iter(|| check_contact(black_box(&pair), &contact));
     });
+    group.bench_function("all", |b| {
+        b.iter(|| check(&resolve(black_box(&design))));
+    });
     group.finish();
 
     let mut group = c.benchmark_group("pair/2021");
@@ -58,18 +61,47 @@ fn whole(c: &mut Criterion) {
     group.finish();
 }
 
+/// Circle of 3:2, and a circle of half its radius off its centre.
+fn circular(tooth_count: u32) -> GearPairDesign {
+    let mut design = GearPairDesign::new(PitchSpec::Circle(Circle {
+        module: Some(2.0),
+        tooth_count: Some(tooth_count),
+        ..Circle::default()
+    }));
+    design.mean_ratio = [3, 2];
+    design
+}
+
+fn eccentric(tooth_count: u32) -> GearPairDesign {
+    GearPairDesign::new(PitchSpec::EccentricCircle(EccentricCircle {
+        eccentricity: 0.5,
+        module: Some(2.0),
+        tooth_count: Some(tooth_count),
+        ..EccentricCircle::default()
+    }))
+}
+
 fn against_tooth_count(c: &mut Criterion) {
     let mut group = c.benchmark_group("pair/tooth count");
-    for z in [17, 23, 47, 95, 191] {
-        let design = elliptic(z);
-        group.throughput(Throughput::Elements(u64::from(2 * z)));
-        group.bench_with_input(BenchmarkId::new("generate", z), &design, |b, design| {
-            b.iter(|| GearPair::resolve(design).expect("a pair"));
-        });
-        let pair = GearPair::resolve(&design).expect("a pair");
-        group.bench_with_input(BenchmarkId::new("prove", z), &pair, |b, pair| {
-            b.iter(|| Contact::of(pair));
-        });
+    // Seventeen teeth are undercut: contact is looked for at twelve times as many inputs.
+    let kinds: [(&str, fn(u32) -> GearPairDesign, &[u32]); 3] = [
+        ("ellipse", elliptic, &[17, 23, 30, 100, 300, 1000, 3000]),
+        ("circle 3:2", circular, &[30, 100, 300, 1000, 3000]),
+        ("eccentric circle", eccentric, &[30, 100, 300, 1000, 3000]),
+    ];
+    for (kind, make, sizes) in kinds {
+        for &z in sizes {
+            let design = make(z);
+            group.throughput(Throughput::Elements(u64::from(2 * z)));
+            group.sample_size(if z < 1000 { 50 } else { 10 });
+            let generate = BenchmarkId::new(format!("{kind}/generate"), z);
+            group.bench_with_input(generate, &design, |b, design| {
+                b.iter(|| GearPair::resolve(design).expect("a pair"));
+            });
+            let pair = GearPair::resolve(&design).expect("a pair");
+            let prove = BenchmarkId::new(format!("{kind}/prove"), z);
+            group.bench_with_input(prove, &pair, |b, pair| b.iter(|| Contact::of(pair)));
+        }
     }
     group.finish();
 }

@@ -134,6 +134,8 @@ pub(super) struct Body<'a> {
     curvatures: Vec<OnceCell<(f64, f64)>>,
     /// Halves of the parts, computed when first needed.
     halves: Vec<OnceCell<Halves>>,
+    /// Points just inside the starts of the parts, computed when first needed; none where the body is thinner there.
+    inner: Vec<OnceCell<Option<Point>>>,
     /// Radius of the core: the distance from the axis within which there is nothing but the body.
     pub(super) core: f64,
     /// Greatest distance from the axis.
@@ -172,7 +174,7 @@ impl<'a> Body<'a> {
         } else if center.x - radius > point.x {
             // Whatever happens in a run wholly to the right, its ends determine the parity.
             let ends = [
-                self.parts[run.first].ends[0],
+                self.parts[run.first()].ends[0],
                 self.parts[run.last()].ends[1],
             ];
             let [start, end] = ends.map(|p| p.y > point.y);
@@ -194,6 +196,7 @@ impl<'a> Body<'a> {
         Self {
             curvatures: vec![OnceCell::new(); parts.len()],
             halves: vec![OnceCell::new(); parts.len()],
+            inner: vec![OnceCell::new(); parts.len()],
             tree: Tree::new(
                 &parts
                     .iter()
@@ -234,6 +237,16 @@ impl<'a> Body<'a> {
     pub(super) fn curvature(&self, part: usize) -> (f64, f64) {
         let bounds = || span::curvature(self.parts[part].segment, -1.0, 1.0);
         *self.curvatures[part].get_or_init(bounds)
+    }
+
+    /// Point at a small depth, the same at every call, below the start of a part; `None` where the body is not so thick.
+    pub(super) fn inner(&self, part: usize, depth: f64) -> Option<Point> {
+        *self.inner[part].get_or_init(|| {
+            let start = &self.parts[part];
+            let along = start.span.tangents[0].normalize();
+            let point = start.ends[0] + Vector::new(-along.y, along.x) * depth;
+            self.contains(point).then_some(point)
+        })
     }
 
     /// Middle of a part and bounds of its halves.

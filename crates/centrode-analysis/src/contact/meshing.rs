@@ -5,7 +5,7 @@ use centrode_mechanism::gear::GearPair;
 
 use super::{
     Contact,
-    body::{Body, Part},
+    body::Body,
     places::{Candidates, Kind, Place, SHALLOW},
     stretch::Stretch,
     touch::{self, Pose, Touch},
@@ -288,13 +288,6 @@ impl<'a> Meshing<'a> {
     fn lie_deep(&self, phi: f64, angle: f64) -> bool {
         let pose = Pose::new(phi, angle, self.pair.center_distance());
         let (driver, driven) = (&self.driver, &self.driven);
-        let inner = |part: &Part<'_>| {
-            let along = part.span.tangents[0].normalize();
-            part.ends[0] + Vector::new(-along.y, along.x) * (SHALLOW * self.module)
-        };
-        let both = |on_driver: Point, on_driven: Point| {
-            driver.contains(on_driver) && driven.contains(on_driven)
-        };
         let deep = SHALLOW * self.module;
         let on_driver = |run: &Run| {
             let center = pose.back(&run.center).coords;
@@ -305,13 +298,15 @@ impl<'a> Meshing<'a> {
             driver.is_near(&center, run.radius + deep)
         };
         driver.tree.any(&on_driver, &|i| {
-            let p = inner(&driver.parts[i]);
-            let back = pose.back(&p);
-            driven.is_near(&back.coords, 0.0) && both(p, back)
+            driver.inner(i, deep).is_some_and(|p| {
+                let back = pose.back(&p);
+                driven.is_near(&back.coords, 0.0) && driven.contains(back)
+            })
         }) || driven.tree.any(&on_driven, &|j| {
-            let p = inner(&driven.parts[j]);
-            let placed = pose.place(&p);
-            driver.is_near(&placed.coords, 0.0) && both(placed, p)
+            driven.inner(j, deep).is_some_and(|p| {
+                let placed = pose.place(&p);
+                driver.is_near(&placed.coords, 0.0) && driver.contains(placed)
+            })
         })
     }
 

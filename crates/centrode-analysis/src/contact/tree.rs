@@ -1,7 +1,7 @@
 //! Circles around runs of neighbouring parts of a contour, halved down to the single parts: they tell what of a contour
 //! may be near something without looking at all of it.
 
-use centrode_geometry::{Point, Vector};
+use centrode_geometry::{Bounds, Point, Vector};
 
 /// Run of neighbouring parts with a circle around them.
 #[derive(Clone, Copy, Debug)]
@@ -9,21 +9,25 @@ pub(super) struct Run {
     pub(super) center: Point,
     pub(super) radius: f64,
     /// First part.
-    pub(super) first: usize,
+    first: u32,
     /// Number of parts.
-    count: usize,
+    count: u32,
     /// Index in the tree.
-    at: usize,
+    at: u32,
 }
 
 impl Run {
     /// The part, where the run is no more than one.
     pub(super) fn single(&self) -> Option<usize> {
-        (self.count == 1).then_some(self.first)
+        (self.count == 1).then_some(self.first())
+    }
+
+    pub(super) fn first(&self) -> usize {
+        self.first as usize
     }
 
     pub(super) fn last(&self) -> usize {
-        self.first + self.count - 1
+        (self.first + self.count - 1) as usize
     }
 }
 
@@ -45,24 +49,20 @@ impl Tree {
         tree
     }
 
-    fn grow(&mut self, circles: &[(Point, f64)], first: usize) -> (Point, f64) {
-        let at = self.runs.len();
-        let (center, radius) = circles[0];
+    fn grow(&mut self, circles: &[(Point, f64)], first: usize) {
+        let (center, radius) = around(circles);
         self.runs.push(Run {
             center,
             radius,
-            first,
-            count: circles.len(),
-            at,
+            first: first as u32,
+            count: circles.len() as u32,
+            at: self.runs.len() as u32,
         });
         if circles.len() > 1 {
-            let middle = half(circles.len());
-            let one = self.grow(&circles[..middle], first);
-            let other = self.grow(&circles[middle..], first + middle);
-            let whole = around(one, other);
-            (self.runs[at].center, self.runs[at].radius) = whole;
+            let middle = half(circles.len() as u32) as usize;
+            self.grow(&circles[..middle], first);
+            self.grow(&circles[middle..], first + middle);
         }
-        (self.runs[at].center, self.runs[at].radius)
     }
 
     /// The run of all parts.
@@ -72,8 +72,7 @@ impl Tree {
 
     /// Both halves of a run of more than one part.
     pub(super) fn halves(&self, run: &Run) -> [Run; 2] {
-        let next = run.at + 1;
-        [self.runs[next], self.runs[run.at + 2 * half(run.count)]]
+        [run.at + 1, run.at + 2 * half(run.count)].map(|at| self.runs[at as usize])
     }
 
     /// Whether a part is found that passes both tests, looked for only in runs that pass the first.
@@ -119,33 +118,33 @@ impl Tree {
     }
 }
 
-fn half(count: usize) -> usize {
+fn half(count: u32) -> u32 {
     count.div_ceil(2)
 }
 
-/// Circle around two circles.
-fn around((a, r): (Point, f64), (b, s): (Point, f64)) -> (Point, f64) {
-    let distance = (b - a).norm();
-    if distance + s <= r {
-        return (a, r);
+/// Circle around circles, about the middle of their centres' box.
+fn around(circles: &[(Point, f64)]) -> (Point, f64) {
+    if let [one] = circles {
+        return *one;
     }
-    if distance + r <= s {
-        return (b, s);
-    }
-    let radius = 0.5 * (distance + r + s);
-    let center = a + (b - a) * ((radius - r) / distance);
-    // The rounding of the centre.
-    let rounding = 4.0 * f64::EPSILON * (center.coords.norm() + radius);
-    (center, radius + rounding)
+    let bounds = circles.iter().fold(Bounds::EMPTY, |b, c| b.with(c.0));
+    let center = nalgebra::center(&bounds.min, &bounds.max);
+    let reach = circles.iter().map(|(c, r)| (c - center).norm() + r);
+    (
+        center,
+        reach.fold(0.0, f64::max) * (1.0 + 4.0 * f64::EPSILON),
+    )
 }
 
 /// Run of the driver with its circle in the driven gear's axes.
 #[derive(Clone, Copy, Debug)]
 struct Posed {
-    run: Run,
     center: Vector,
     /// Radius, and the distance within which something is near.
     reach: f64,
+    first: u32,
+    count: u32,
+    at: u32,
 }
 
 /// Search for the parts of two contours that are near each other.
@@ -164,16 +163,18 @@ impl<F: Fn(&Point) -> Point> Near<'_, F> {
     pub(super) fn pairs(&self, mut found: impl FnMut(usize, usize)) {
         if let (Some(a), Some(b)) = (self.driver.root(), self.driven.root()) {
             let mut runs = Vec::with_capacity(256);
-            runs.push(self.posed(a));
+            runs.push(self.posed(&a));
             self.meet(&b, 0, &mut runs, &mut found);
         }
     }
 
-    fn posed(&self, run: Run) -> Posed {
+    fn posed(&self, run: &Run) -> Posed {
         Posed {
             center: (self.place)(&run.center).coords,
             reach: run.radius + self.near,
-            run,
+            first: run.first,
+            count: run.count,
+            at: run.at,
         }
     }
 
@@ -187,12 +188,13 @@ impl<F: Fn(&Point) -> Point> Near<'_, F> {
     ) {
         let start = runs.len();
         for k in from..start {
-            self.sift(runs[k], b, runs);
+            let a = runs[k];
+            self.sift(&a, b, runs);
         }
         if runs.len() > start {
             if let Some(j) = b.single() {
                 for a in &runs[start..] {
-                    found(a.run.first, j);
+                    found(a.first as usize, j);
                 }
             } else {
                 for half in self.driven.halves(b) {
@@ -204,15 +206,15 @@ impl<F: Fn(&Point) -> Point> Near<'_, F> {
     }
 
     /// Adds what of a driver's run is near a run of the driven gear, in runs no longer than that one.
-    fn sift(&self, a: Posed, b: &Run, out: &mut Vec<Posed>) {
+    fn sift(&self, a: &Posed, b: &Run, out: &mut Vec<Posed>) {
         if (a.center - b.center.coords).norm_squared() >= (b.radius + a.reach).powi(2) {
             return;
         }
-        if a.run.count == 1 || (b.count > 1 && a.run.count <= b.count) {
-            out.push(a);
+        if a.count == 1 || (b.count > 1 && a.count <= b.count) {
+            out.push(*a);
         } else {
-            for half in self.driver.halves(&a.run) {
-                self.sift(self.posed(half), b, out);
+            for at in [a.at + 1, a.at + 2 * half(a.count)] {
+                self.sift(&self.posed(&self.driver.runs[at as usize]), b, out);
             }
         }
     }

@@ -150,7 +150,7 @@ fn greatest_pressure_angle(pair: &GearPair) -> (f64, f64) {
     let mut greatest = (0.0, 0.0);
     for i in 0..SAMPLES {
         let t = rolling.parameter(length * f64::from(i) / f64::from(SAMPLES));
-        let point = pair.pitch_point(rolling.angle(t));
+        let point = pair.pitch_point_at(t);
         let angle = point.pressure_angle.max(point.reverse_pressure_angle);
         if angle > greatest.0 {
             greatest = (angle, point.input);

@@ -7,7 +7,7 @@ use super::{
     profile::{FlankPlan, ToothPlan, Top},
     rolling::{Member, Rolling},
     tool::{Corner, Tool},
-    tooth_passage::{Candidate, Reaches, ToothPassage},
+    tooth_passage::{Candidate, Poses, Reaches, ToothPassage},
 };
 
 /// Least share of a straight rack's flank speed kept at the end of a trimmed flank: below it the
@@ -66,6 +66,8 @@ impl Fitting<'_> {
                 tooth.trailing.crossing + turns,
             ]
         };
+        let middle = 0.5 * (driver[0].leading.crossing + driver[0].trailing.crossing);
+        let mut poses = Poses::new(self.rolling, middle + 0.25 * pitch, pitch);
         for k in 0..meshes as usize {
             checkpoint();
             let i = k % first;
@@ -80,7 +82,7 @@ impl Fitting<'_> {
                     index.div_euclid(last as isize) as f64 * lengths[1],
                 );
                 let middle = 0.25 * (one[0] + one[1] + two[0] + two[1]);
-                let Some(passage) = ToothPassage::about(self.rolling, self.tool, middle, pitch)
+                let Some(passage) = ToothPassage::about(&mut poses, self.tool, middle, pitch)
                 else {
                     continue;
                 };

@@ -77,8 +77,16 @@ impl GearPair {
     /// Radii, curvatures and pressure angles where the pitch curves touch at a driver angle.
     #[must_use]
     pub fn pitch_point(&self, phi: f64) -> PitchPoint {
+        PitchPoint {
+            input: phi,
+            ..self.pitch_point_at(self.rolling().parameter_at_angle(phi))
+        }
+    }
+
+    /// Radii, curvatures and pressure angles where the pitch curves touch at a parameter of the driver's.
+    #[must_use]
+    pub fn pitch_point_at(&self, t: f64) -> PitchPoint {
         let rolling = self.rolling();
-        let t = rolling.parameter_at_angle(phi);
         let [driver, driven] = [Member::Driver, Member::Driven].map(|m| rolling.frame(m, t));
         let radial = driver.point.coords.normalize();
         let inclination = driver
@@ -87,7 +95,7 @@ impl GearPair {
             .atan2(radial.perp(&driver.tangent));
         let alpha = self.teeth().tool.pressure_angle;
         PitchPoint {
-            input: phi,
+            input: rolling.angle(t),
             driver_radius: driver.point.coords.norm(),
             driven_radius: driven.point.coords.norm(),
             driver_curvature: driver.curvature,

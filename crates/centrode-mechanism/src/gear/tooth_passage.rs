@@ -1,6 +1,10 @@
 //! Interference of teeth away from their contact, where a pitch curve is concave.
 
-use centrode_geometry::Point;
+use std::cell::{Cell, OnceCell, RefCell};
+use std::collections::VecDeque;
+use std::rc::Rc;
+
+use centrode_geometry::{Point, Vector, checkpoint};
 
 use super::{
     flank::{Flank, Side},
@@ -13,6 +17,8 @@ const POSES: u32 = 20;
 /// Number of chords, each with its bulge, that approximate a flank, and a tip.
 const FLANK_CHORDS: u32 = 24;
 const TIP_CHORDS: u32 = 6;
+/// Chords within one circle that keeps them from being looked at one by one.
+const GROUP: usize = 6;
 /// Penetration that may be the approximation's own, as a share of the pitch.
 const PENETRATION: f64 = 3e-5;
 /// Safety factor on a limiting reach; covers what lies between sampled poses.
@@ -32,6 +38,58 @@ pub(crate) struct Candidate {
     pub(crate) depths: [f64; 2],
 }
 
+/// Poses of both gears, evenly spaced along the pitch curves, found once for all the passages that share them.
+#[derive(Debug)]
+pub(crate) struct Poses<'a> {
+    rolling: &'a Rolling,
+    /// Arc length of pose 0, and of a step.
+    origin: f64,
+    step: f64,
+    /// Number of the first pose kept.
+    first: i64,
+    kept: VecDeque<(Frame, Frame)>,
+}
+
+impl<'a> Poses<'a> {
+    /// Poses about the arc length `middle` of a passage, and about all others half pitches from it.
+    pub(crate) fn new(rolling: &'a Rolling, middle: f64, pitch: f64) -> Self {
+        Self {
+            rolling,
+            origin: middle,
+            step: pitch / f64::from(POSES),
+            first: 0,
+            kept: VecDeque::new(),
+        }
+    }
+
+    /// The poses within a pitch and a half of an arc length.
+    fn about(&mut self, middle: f64) -> Vec<(Frame, Frame)> {
+        let count = 3 * i64::from(POSES) + 1;
+        let from = ((middle - self.origin) / self.step).round() as i64 - count / 2;
+        let end = self.first + self.kept.len() as i64;
+        if from < self.first || from > end {
+            self.kept.clear();
+            self.first = from;
+        }
+        for number in self.first + self.kept.len() as i64..from + count {
+            let arc = self.origin + self.step * number as f64;
+            let t = self.rolling.parameter(arc);
+            let pose = [Member::Driver, Member::Driven].map(|m| self.rolling.frame(m, t));
+            self.kept.push_back((pose[0], pose[1]));
+        }
+        // The passages of a tooth come in order, those of the next begin three half pitches back at most.
+        while from - self.first > count {
+            self.kept.pop_front();
+            self.first += 1;
+        }
+        let skipped = (from - self.first) as usize;
+        self.kept
+            .range(skipped..skipped + count as usize)
+            .copied()
+            .collect()
+    }
+}
+
 /// A driver tooth and a driven tooth that pass near each other.
 #[derive(Debug)]
 pub(crate) struct ToothPassage<'a> {
@@ -39,27 +97,65 @@ pub(crate) struct ToothPassage<'a> {
     tool: &'a Tool,
     pitch: f64,
     poses: Vec<(Frame, Frame)>,
+    /// The pose at which teeth penetrated last: others most often do there too.
+    foul: Cell<usize>,
+}
+
+/// A tooth of which a share of the reaches is kept, with its shapes as far as they have been asked for.
+struct Trimmed<'a> {
+    candidate: &'a Candidate,
+    whole: OnceCell<Rc<Shape>>,
+    shapes: RefCell<Vec<(f64, Rc<Shape>)>>,
+}
+
+impl<'a> Trimmed<'a> {
+    fn new(candidate: &'a Candidate) -> Self {
+        Self {
+            candidate,
+            whole: OnceCell::new(),
+            shapes: RefCell::default(),
+        }
+    }
+
+    fn reaches(&self, share: f64) -> Reaches {
+        self.candidate.reaches.map(|r| r * share)
+    }
+
+    fn shape(&self, passage: &ToothPassage<'_>, share: f64) -> Rc<Shape> {
+        let new = || {
+            let reaches = self.reaches(share);
+            Rc::new(Shape::of(
+                passage,
+                &Candidate {
+                    reaches,
+                    ..*self.candidate
+                },
+            ))
+        };
+        if share == 1.0 {
+            return self.whole.get_or_init(new).clone();
+        }
+        let mut shapes = self.shapes.borrow_mut();
+        if let Some((_, known)) = shapes.iter().find(|(known, _)| *known == share) {
+            return known.clone();
+        }
+        let shape = new();
+        shapes.push((share, shape.clone()));
+        shape
+    }
 }
 
 impl<'a> ToothPassage<'a> {
     /// Sets up the passage of two teeth about the arc length `middle`, or nothing where both pitch curves are
     /// convex for a pitch and a half around: the rack's straight flank then keeps the teeth apart.
     pub(crate) fn about(
-        rolling: &'a Rolling,
+        poses: &mut Poses<'a>,
         tool: &'a Tool,
         middle: f64,
         pitch: f64,
     ) -> Option<Self> {
-        let poses: Vec<(Frame, Frame)> = (0..=3 * POSES)
-            .map(|i| {
-                let arc = middle + pitch * (f64::from(i) / f64::from(POSES) - 1.5);
-                let t = rolling.parameter(arc);
-                (
-                    rolling.frame(Member::Driver, t),
-                    rolling.frame(Member::Driven, t),
-                )
-            })
-            .collect();
+        let rolling = poses.rolling;
+        let poses = poses.about(middle);
         let concave = poses
             .iter()
             .any(|(a, b)| a.curvature < 0.0 || b.curvature < 0.0);
@@ -68,41 +164,40 @@ impl<'a> ToothPassage<'a> {
             tool,
             pitch,
             poses,
+            foul: Cell::new(0),
         })
     }
 
     /// Shortens one tooth or the other, whichever costs less, or both, until they penetrate nowhere.
     pub(crate) fn clear(&self, driver: &Candidate, driven: &Candidate) -> (Reaches, Reaches) {
-        let cut = |candidate: &Candidate, share: f64| Candidate {
-            reaches: candidate.reaches.map(|r| r * share),
-            ..*candidate
+        let (driver, driven) = (Trimmed::new(driver), Trimmed::new(driven));
+        let penetrate = |[first, second]: [f64; 2]| {
+            checkpoint();
+            self.penetrate(&driver.shape(self, first), &driven.shape(self, second))
         };
-        if !self.penetrate(driver, driven) {
-            return (driver.reaches, driven.reaches);
+        if !penetrate([1.0, 1.0]) {
+            return (driver.candidate.reaches, driven.candidate.reaches);
         }
         let ways = [(true, false), (false, true), (true, true)];
         let settled = ways.map(|(first, second)| {
-            let pair = |share: f64| {
-                (
-                    if first { cut(driver, share) } else { *driver },
-                    if second { cut(driven, share) } else { *driven },
-                )
-            };
-            let share = longest(|share| {
-                let (a, b) = pair(share);
-                self.penetrate(&a, &b)
-            });
-            let (a, b) = pair(share);
-            let foul = share == 0.0 && self.penetrate(&a, &b);
-            let kept: f64 = a.reaches.iter().chain(&b.reaches).sum();
-            (if foul { -1.0 } else { kept }, a.reaches, b.reaches)
+            let shares = |share: f64| [first, second].map(|cut| if cut { share } else { 1.0 });
+            let share = longest(|share| penetrate(shares(share)));
+            let foul = share == 0.0 && penetrate(shares(share));
+            let (a, b) = (
+                driver.reaches(shares(share)[0]),
+                driven.reaches(shares(share)[1]),
+            );
+            let kept: f64 = a.iter().chain(&b).sum();
+            (if foul { -1.0 } else { kept }, a, b)
         });
         let best = settled.into_iter().max_by(|a, b| a.0.total_cmp(&b.0));
-        best.map_or((driver.reaches, driven.reaches), |(_, a, b)| (a, b))
+        best.map_or(
+            (driver.candidate.reaches, driven.candidate.reaches),
+            |(_, a, b)| (a, b),
+        )
     }
 
-    fn penetrate(&self, driver: &Candidate, driven: &Candidate) -> bool {
-        let (one, two) = (Shape::of(self, driver), Shape::of(self, driven));
+    fn penetrate(&self, one: &Shape, two: &Shape) -> bool {
         let deep = |points: &[Point], carried: &dyn Fn(&Point) -> Point, shape: &Shape| {
             points.iter().any(|p| {
                 let there = carried(p);
@@ -112,14 +207,21 @@ impl<'a> ToothPassage<'a> {
                         .is_some_and(|d| d > PENETRATION * self.pitch && d < 0.5 * self.pitch)
             })
         };
-        self.poses.iter().any(|(a, b)| {
+        let at = |number: usize| {
+            let (a, b) = &self.poses[number];
             let forth = |p: &Point| carry(a, b, p);
             let back = |p: &Point| carry(b, a, p);
             if (forth(&one.middle) - two.middle).norm() > one.radius + two.radius {
                 return false;
             }
-            deep(&one.places, &forth, &two) || deep(&two.places, &back, &one)
-        })
+            deep(&one.places, &forth, two) || deep(&two.places, &back, one)
+        };
+        let last = self.foul.get();
+        if at(last) {
+            return true;
+        }
+        let found = (0..self.poses.len()).find(|&number| number != last && at(number));
+        found.inspect(|&number| self.foul.set(number)).is_some()
     }
 }
 
@@ -149,6 +251,8 @@ struct Shape {
     places: Vec<Point>,
     /// Height of the curve above the middle of each chord, out of the material.
     bulges: Vec<f64>,
+    /// Circles around groups of chords.
+    groups: Vec<(Point, f64)>,
     /// Sign: +1 where the material lies to the left of the walk.
     material: f64,
     middle: Point,
@@ -206,9 +310,14 @@ impl Shape {
             .iter()
             .map(|p| (p - middle).norm())
             .fold(0.0, f64::max);
+        let groups = (0..places.len() - 1)
+            .step_by(GROUP)
+            .map(|from| group(&places[from..places.len().min(from + GROUP + 1)]))
+            .collect();
         Self {
             places,
             bulges,
+            groups,
             material,
             middle,
             radius,
@@ -220,28 +329,47 @@ impl Shape {
         let mut nearest = f64::INFINITY;
         let mut depth = None;
         let last = self.places.len() - 2;
-        for (k, pair) in self.places.windows(2).enumerate() {
-            let chord = pair[1] - pair[0];
-            let from = point - pair[0];
-            let share = from.dot(&chord) / chord.norm_squared();
-            if (k == 0 && share < 0.0) || (k == last && share > 1.0) {
-                let end = if k == 0 { pair[0] } else { pair[1] };
-                let distance = (point - end).norm_squared();
-                if distance < nearest {
-                    (nearest, depth) = (distance, None);
-                }
+        let distance = |(center, radius): &(Point, f64)| ((point - center).norm(), *radius);
+        // Some place of each group is no farther than its circle's far side.
+        let within = self.groups.iter().map(distance).map(|(d, r)| d + r);
+        let within = within.fold(f64::INFINITY, f64::min) * (1.0 + 1e-9);
+        for (number, group) in self.groups.iter().enumerate() {
+            let (away, radius) = distance(group);
+            if away - radius > within {
                 continue;
             }
-            let distance = (from - chord * share.clamp(0.0, 1.0)).norm_squared();
-            if distance < nearest {
-                nearest = distance;
+            let first = number * GROUP;
+            for k in first..=last.min(first + GROUP - 1) {
+                let pair = &self.places[k..=k + 1];
+                let chord: Vector = pair[1] - pair[0];
+                let from = point - pair[0];
+                let share = from.dot(&chord) / chord.norm_squared();
+                if (k == 0 && share < 0.0) || (k == last && share > 1.0) {
+                    let end = if k == 0 { pair[0] } else { pair[1] };
+                    let distance = (point - end).norm_squared();
+                    if distance < nearest {
+                        (nearest, depth) = (distance, None);
+                    }
+                    continue;
+                }
                 let share = share.clamp(0.0, 1.0);
-                let chordal = distance.sqrt() * chord.perp(&from).signum() * self.material;
-                depth = Some(chordal + 4.0 * share * (1.0 - share) * self.bulges[k]);
+                let distance = (from - chord * share).norm_squared();
+                if distance < nearest {
+                    nearest = distance;
+                    let chordal = distance.sqrt() * chord.perp(&from).signum() * self.material;
+                    depth = Some(chordal + 4.0 * share * (1.0 - share) * self.bulges[k]);
+                }
             }
         }
         depth
     }
+}
+
+/// Circle around neighbouring places of a curve.
+fn group(places: &[Point]) -> (Point, f64) {
+    let center = nalgebra::center(&places[0], &places[places.len() - 1]);
+    let away = places.iter().map(|p| (p - center).norm());
+    (center, away.fold(0.0, f64::max))
 }
 
 /// The bulge of every chord of a smooth part, by second differences.
