@@ -66,6 +66,10 @@ pub(crate) struct Check {
     /// Print the figures that goals of this design can name, with their extremes over the cycle, instead of checking
     #[arg(long)]
     pub(crate) figures: bool,
+    /// Print changed designs that mend what the check finds, worked out: for gear pairs, from how many teeth on the flanks
+    /// alone carry the motion
+    #[arg(long, conflicts_with = "figures")]
+    pub(crate) remedy: bool,
 }
 
 #[derive(Debug, Args)]

@@ -1,4 +1,4 @@
-use centrode_geometry::{Extreme, checkpoint, extremes};
+use centrode_geometry::{Extreme, checkpoint, extremes, greatest};
 
 use super::{
     design::GearPairDesign,
@@ -84,8 +84,7 @@ impl GearPair {
     }
 
     /// Radii, curvatures and pressure angles where the pitch curves touch at a parameter of the driver's.
-    #[must_use]
-    pub fn pitch_point_at(&self, t: f64) -> PitchPoint {
+    fn pitch_point_at(&self, t: f64) -> PitchPoint {
         let rolling = self.rolling();
         let [driver, driven] = [Member::Driver, Member::Driven].map(|m| rolling.frame(m, t));
         let radial = driver.point.coords.normalize();
@@ -102,6 +101,21 @@ impl GearPair {
             driven_curvature: driven.curvature,
             pressure_angle: (alpha - inclination).abs(),
             reverse_pressure_angle: (alpha + inclination).abs(),
+        }
+    }
+
+    /// Greatest pressure angle over the cycle, whichever way the driver pushes, and the driver angle at which it is, rad.
+    #[must_use]
+    pub fn greatest_pressure_angle(&self) -> Extreme {
+        let rolling = self.rolling();
+        let steeper = |t: f64| {
+            let point = self.pitch_point_at(t);
+            point.pressure_angle.max(point.reverse_pressure_angle)
+        };
+        let found = greatest(steeper, &rolling.pieces());
+        Extreme {
+            input: rolling.angle(found.input),
+            ..found
         }
     }
 

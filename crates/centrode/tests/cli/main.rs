@@ -296,7 +296,63 @@ fn the_figures_that_goals_can_name_are_listed_with_their_extremes() {
     let travel = lines.lines().find(|line| line.contains("ram.travel"));
     let travel: Vec<&str> = travel.expect("a travel").split_whitespace().collect();
     assert_eq!(travel, ["ram.travel", "153.4527", "213.4527", "mm"]);
+    let checked = centrode(&["check", "--json", &shipped("press.toml")]);
+    let checked: serde_json::Value = serde_json::from_slice(&checked.stdout).expect("JSON");
+    let listed = centrode(&["check", "--figures", "--json", &shipped("press.toml")]);
+    let listed: serde_json::Value = serde_json::from_slice(&listed.stdout).expect("JSON");
+    let row = |report: &serde_json::Value, name: &str| -> Vec<f64> {
+        let tables = report["tables"].as_array().expect("tables");
+        let mut rows = tables
+            .iter()
+            .flat_map(|table| table["rows"].as_array().expect("rows"));
+        let row = rows.find(|row| row[0] == name).expect("a row");
+        row[1]
+            .as_array()
+            .expect("numbers")
+            .iter()
+            .filter_map(serde_json::Value::as_f64)
+            .collect()
+    };
+    let torque =
+        ["input_torque_min", "input_torque_max"].map(|name| checked["values"][name].as_f64());
+    assert_eq!(
+        row(&listed, "input.torque")
+            .into_iter()
+            .map(Some)
+            .collect::<Vec<_>>(),
+        torque
+    );
+    for (named, told) in [
+        ("joint(crank).force", "crank"),
+        ("mesh(crank).force", "shaft-crank"),
+    ] {
+        assert_eq!(row(&listed, named)[1..], row(&checked, told)[..], "{named}");
+    }
     let none = centrode(&["check", "--figures", &shipped("feeder-2022.toml")]);
     assert_eq!(none.status.code(), Some(2));
     assert!(text(&none.stderr).contains("the goals of family \"feeder\" are given"));
+}
+
+#[test]
+fn a_remedy_is_a_design_that_mends_what_the_check_finds() {
+    let weak = b"family = \"gear-pair\"\npitch = { kind = \"ratio\", expression = \"1 + 0.45*cos(2*phi)\", module = 2, tooth_count = 24 }\n";
+    let found = fed(&["check", "--remedy", "-"], weak);
+    assert_eq!(found.status.code(), Some(0), "{}", text(&found.stderr));
+    let design = text(&found.stdout);
+    assert!(
+        design.starts_with("# fitted teeth carry the motion by their flanks alone from 31 teeth of the driver on: of module 1.5484 mm on these pitch curves, or of 2.0000 mm on curves 1.2917 times as large\n"),
+        "{design}"
+    );
+    let mended = fed(&["check", "--json", "-"], design.as_bytes());
+    assert_eq!(mended.status.code(), Some(0), "{}", text(&mended.stdout));
+    let report: serde_json::Value = serde_json::from_slice(&mended.stdout).expect("JSON");
+    assert!(report["values"]["transmission_error_max"].as_f64() < Some(1e-9));
+    assert_eq!(report["values"]["driver_tooth_count"], 31.0);
+    let json = fed(&["check", "--remedy", "--json", "-"], weak);
+    let json: serde_json::Value = serde_json::from_slice(&json.stdout).expect("JSON");
+    let told = json["remedies"][0]["design"].as_str().expect("a design");
+    assert!(design.ends_with(&format!("{told}\n")), "{told}");
+    let none = centrode(&["check", "--remedy", &shipped("press.toml")]);
+    assert_eq!(none.status.code(), Some(2));
+    assert!(text(&none.stderr).contains("no remedy is known for this design"));
 }
