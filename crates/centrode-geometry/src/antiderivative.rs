@@ -7,11 +7,6 @@ const NOISE: f64 = 3e-14;
 /// Halvings after which a panel is accepted as it is: the integrand is then not analytic there.
 const DEEPEST: u32 = 12;
 
-/// Steps of Newton's method after which a root is bracketed instead.
-const MOST_STEPS: u32 = 8;
-/// Step, as a share of the panel, after which nothing but rounding is left.
-const LAST_STEP: f64 = 1e-9;
-
 /// Antiderivative of a function from the start of an interval, to the float limit, by Chebyshev series.
 ///
 /// The interval is cut at the function's breaks and then halved until the Chebyshev series of the
@@ -136,40 +131,15 @@ impl Antiderivative {
         self.at_panel(after.clamp(1, self.panels.len()) - 1, t)
     }
 
-    /// Clenshaw's sums of the even and the odd terms of a panel, side by side: T of order 2k in u is that of order k in
-    /// w = 2 u^2 - 1.
     fn at_panel(&self, index: usize, t: f64) -> f64 {
         let (a, b) = (self.ends[index], self.ends[index + 1]);
         let u = ((t - a) - (b - t)) / (b - a);
         let panel = &self.panels[index];
-        let w = 2.0 * u * u - 1.0;
-        let (mut d, mut dd) = ([panel.integral[NODES], 0.0], [0.0; 2]);
-        for pair in panel.integral[..NODES].as_chunks::<2>().0.iter().rev() {
-            let next = [0, 1].map(|k| 2.0 * w * d[k] - dd[k] + pair[k]);
-            (d, dd) = (next, d);
+        let (mut d, mut dd) = (0.0, 0.0);
+        for &c in panel.integral[1..].iter().rev() {
+            (d, dd) = (2.0 * u * d - dd + c, d);
         }
-        panel.before + ((d[0] - w * dd[0]) + u * (d[1] - dd[1]))
-    }
-
-    /// The integral on a panel and its derivative.
-    fn jet_on_panel(&self, index: usize, t: f64) -> (f64, f64) {
-        let (a, b) = (self.ends[index], self.ends[index + 1]);
-        let u = ((t - a) - (b - t)) / (b - a);
-        let panel = &self.panels[index];
-        let w = 2.0 * u * u - 1.0;
-        let (mut d, mut dd) = ([panel.integral[NODES], 0.0], [0.0; 2]);
-        // Derivatives of both by w.
-        let (mut e, mut ee) = ([0.0; 2], [0.0; 2]);
-        for pair in panel.integral[..NODES].as_chunks::<2>().0.iter().rev() {
-            let slope = [0, 1].map(|k| 2.0 * (d[k] + w * e[k]) - ee[k]);
-            let next = [0, 1].map(|k| 2.0 * w * d[k] - dd[k] + pair[k]);
-            (e, ee) = (slope, e);
-            (d, dd) = (next, d);
-        }
-        let value = panel.before + ((d[0] - w * dd[0]) + u * (d[1] - dd[1]));
-        let even = 4.0 * u * (e[0] - dd[0] - w * ee[0]);
-        let odd = (d[1] - dd[1]) + 4.0 * u * u * (e[1] - ee[1]);
-        (value, (even + odd) * 2.0 / (b - a))
+        panel.before + (u * d - dd + panel.integral[0])
     }
 
     /// Argument at which the integral of a positive function reaches `value`, between zero and the total.
@@ -189,30 +159,6 @@ impl Antiderivative {
         }
         if high <= 0.0 {
             return b;
-        }
-        // Newton's method within a bracket; one step after the last would be below rounding.
-        let (mut left, mut right) = (a, b);
-        let mut t = a + (b - a) * (low / (low - high));
-        for _ in 0..MOST_STEPS {
-            crate::checkpoint();
-            let (reached, slope) = self.jet_on_panel(index, t);
-            let over = reached - value;
-            if over == 0.0 {
-                return t;
-            }
-            if over < 0.0 {
-                left = t;
-            } else {
-                right = t;
-            }
-            let next = t - over / slope;
-            if (next - t).abs() < LAST_STEP * (b - a) {
-                return next.clamp(a, b);
-            }
-            if !(left < next && next < right) {
-                break;
-            }
-            t = next;
         }
         bracketed_root(|t| self.at_panel(index, t) - value, a, b, low, high)
     }

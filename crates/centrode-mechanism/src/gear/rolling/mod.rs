@@ -85,12 +85,6 @@ pub struct Rolling {
 /// Share of the period within which two parameters are the same but for rounding.
 const SAME: f64 = 1e-12;
 
-/// Steps of Newton's method after which a root is bracketed instead.
-const MOST_STEPS: u32 = 6;
-
-/// Step, as a share of the period, after which nothing but rounding is left.
-const LAST_STEP: f64 = 1e-10;
-
 /// A pitch radius that is the least or the greatest, and the parameter it is at.
 #[derive(Clone, Copy, Debug)]
 struct Extreme {
@@ -188,20 +182,6 @@ impl Rolling {
         let wanted = phi - turns * TAU;
         let angle = |t: f64| self.polar_angle(t, &self.curve.at(t)) - wanted;
         let (low, high) = (self.start, self.start + period);
-        // Newton's method, which most curves need a step or two of; where it strays the root is bracketed.
-        let mut t = low + period * (wanted / TAU);
-        for _ in 0..MOST_STEPS {
-            let jet = self.curve.at(t);
-            let slope = jet.point.coords.perp(&jet.first) / jet.point.coords.norm_squared();
-            let step = (self.polar_angle(t, &jet) - wanted) / slope;
-            if !(low <= t - step && t - step <= high) {
-                break;
-            }
-            t -= step;
-            if step.abs() < LAST_STEP * period {
-                return t + turns * period;
-            }
-        }
         let (f_low, f_high) = (-wanted, TAU - wanted);
         bracketed_root(angle, low, high, f_low, f_high) + turns * period
     }
