@@ -81,10 +81,13 @@ fn eccentric(tooth_count: u32) -> GearPairDesign {
     }))
 }
 
+/// A design by its driver's tooth count.
+type Make = fn(u32) -> GearPairDesign;
+
 fn against_tooth_count(c: &mut Criterion) {
     let mut group = c.benchmark_group("pair/tooth count");
     // Seventeen teeth are undercut: contact is looked for at twelve times as many inputs.
-    let kinds: [(&str, fn(u32) -> GearPairDesign, &[u32]); 3] = [
+    let kinds: [(&str, Make, &[u32]); 3] = [
         ("ellipse", elliptic, &[17, 23, 30, 100, 300, 1000, 3000]),
         ("circle 3:2", circular, &[30, 100, 300, 1000, 3000]),
         ("eccentric circle", eccentric, &[30, 100, 300, 1000, 3000]),
