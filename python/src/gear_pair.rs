@@ -326,7 +326,7 @@ impl GearPair {
     /// changed; a kind that does not up to 600 teeth is left out. Takes as long as a dozen pairs or two.
     ///
     /// >>> import centrode as ct
-    /// >>> pitch = ct.pitch.ratio("1 + 0.45*cos(2*phi)", module=2, tooth_count=24)
+    /// >>> pitch = ct.pitch.from_ratio("1 + 0.45*cos(2*phi)", module=2, tooth_count=24)
     /// >>> [(found.addendum, found.least_tooth_count) for found in ct.GearPair(pitch).remedies()]
     /// [('fitted', 31)]
     fn remedies<'py>(&self, py: Python<'py>) -> Answer<Bound<'py, PyTuple>> {
