@@ -8,6 +8,9 @@ use super::ends;
 use crate::forces::{Balance, Forces, ForcesError};
 use crate::{Finding, Place, Report, Severity, Table, Unit};
 
+/// Rounding of the torque, in that of a single product of a force and an arm.
+const ROUNDING: f64 = 1e3;
+
 /// A composed machine with its masses and loads, at the design's speed.
 pub(super) struct Loaded {
     balance: Balance,
@@ -113,12 +116,12 @@ pub(super) fn forces(loaded: &Result<Loaded, ForcesError>, machine: &Machine, re
     let found = loaded.greatest(&greatest.chain(torques).collect::<Vec<_>>());
     let (low, high) = (-found[rows.len()].value, found[rows.len() + 1].value);
     let torque = |input: f64| loaded.value(&ComposedFigure::InputTorque, input);
-    // Where the torque is next to nothing its rounding, that of the moments of all forces, need not be followed.
+    // The rounding of the torque, that of the moments of all forces, need not be followed.
     let force = found[..rows.len()].iter().map(|found| found.value);
     let force = force.fold(0.0, f64::max);
     let arms = machine.joints.iter().map(|joint| joint.origin);
     let arm = arms.map(|[x, y, _]| x.hypot(y)).fold(0.0, f64::max);
-    let size = high.abs().max(low.abs()).max(force * arm);
+    let size = ROUNDING * high.abs().max(low.abs()).max(force * arm);
     let mean = Antiderivative::of_size(torque, &loaded.ends, size).total() / loaded.period;
     if let Some(error) = loaded.failed.borrow().as_ref() {
         return undetermined(error, report);

@@ -15,7 +15,7 @@ mod tests;
 use std::cell::OnceCell;
 use std::sync::Arc;
 
-use centrode_geometry::pieces;
+use centrode_geometry::{Cancel, pieces};
 use centrode_mechanism::composed::Composed;
 use centrode_mechanism::machine::Machine;
 
@@ -49,13 +49,27 @@ pub fn check_composed(composed: &Composed) -> Report {
     values.insert("dyad_count", composed.dyads().len() as f64);
     let [x, y] = composed.design().gravity.unwrap_or_default();
     values.insert("gravity", x.hypot(y));
-    let motion = Motion::of(composed, &ends(composed));
+    let under = Cancel::current();
+    // Teeth take about as long as the motion, of which they know nothing.
+    let (pairs, motion) = rayon::join(
+        || {
+            let _scope = under.enter();
+            pairs::checked(composed)
+        },
+        || {
+            let _scope = under.enter();
+            Motion::of(composed, &ends(composed))
+        },
+    );
     dyads(composed, &motion, &mut report);
     joints::joints(composed, &motion, &mut report);
     joints::four_bars(composed, &mut report);
     cams::cams(composed, &mut report);
     points(composed, motion, &mut report);
-    let made = Made::new(composed);
+    let made = Made {
+        pairs: OnceCell::from(pairs),
+        ..Made::new(composed)
+    };
     if let (Some(machine), Some(loaded)) = (made.machine(), made.loaded()) {
         forces::forces(loaded, machine, &mut report);
     }

@@ -6,6 +6,7 @@ use super::assembly::{Linkage, Step};
 use super::error::LinkageError;
 use super::parts::{Joint, Line, Link};
 use super::pose::Body;
+use super::series::Series;
 use crate::transmission::{MotionJet, Transmission, repeated, sorted};
 
 impl Step {
@@ -99,7 +100,7 @@ impl Linkage {
         }
     }
 
-    /// Place of a link's point, given in its axes in mm, at an input, mm.
+    /// Place of a link's point, given in its axes in mm, at an input, mm; of the links on which it depends alone.
     ///
     /// Not finite where the linkage does not close.
     ///
@@ -107,7 +108,10 @@ impl Linkage {
     /// Never for a link of the linkage.
     #[must_use]
     pub fn place(&self, link: Link, local: Point, input: f64) -> Point {
-        let (origin, axis) = self.series::<1>(input).frame(link);
+        let needed = self.needed(std::iter::empty(), std::iter::once(link.0));
+        let mut series = Series::<1>::default();
+        self.find(input, |part| needed.has(part), &mut series);
+        let (origin, axis) = series.frame(link);
         origin.plus(axis.turned(local.coords)).value()
     }
 
