@@ -1,12 +1,18 @@
 //! Removal of loops from closed chains of curves.
 
+use std::cmp::Ordering;
+
 use crate::{
-    Bounds, Segment, Tolerance,
+    Bounds, Point, Segment, Tolerance, Vector,
+    containment::winding,
     crossings::{Unresolved, crossings, self_crossings},
 };
 
-/// Greatest number of passes; each may find loops which the one before laid bare.
-const MOST_PASSES: u32 = 16;
+/// Share of a segment's parameter within which crossings are one, and a crossing is at the segment's end.
+const SAME: f64 = 1e-11;
+
+/// Stretches between crossings, the longest ones, whose winding number is counted as well as summed up.
+const COUNTED: usize = 16;
 
 /// Error of a closed chain that has no contour.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -22,9 +28,9 @@ pub enum LoopError {
         /// Cause.
         cause: Unresolved,
     },
-    /// Loops that remain after the greatest number of passes.
-    #[error("its contour still crosses itself at segments {} and {} after its loops were cut off {MOST_PASSES} times", .segments[0], .segments[1])]
-    Endless {
+    /// Crossings of which one was overlooked: the contour would have to be on both sides of itself.
+    #[error("its contour crosses itself at segments {} and {} in a way that does not fit the other crossings", .segments[0], .segments[1])]
+    Inconsistent {
         /// Two segments that cross, counted from 0.
         segments: [usize; 2],
     },
@@ -49,161 +55,308 @@ impl Kept {
             to: 1.0,
         }
     }
-
-    fn is_whole(&self) -> bool {
-        (self.from, self.to) == (-1.0, 1.0)
-    }
-
-    /// The part of `self` that a second cut keeps.
-    fn cut(&self, again: &Self) -> Self {
-        let at = |u: f64| self.from + 0.5 * (1.0 + u) * (self.to - self.from);
-        Self {
-            index: self.index,
-            from: if again.from == -1.0 {
-                self.from
-            } else {
-                at(again.from)
-            },
-            to: if again.to == 1.0 {
-                self.to
-            } else {
-                at(again.to)
-            },
-        }
-    }
 }
 
-/// Loop of a chain: segment and parameter where it opens, and where it closes; closing segments are counted on beyond
-/// the last.
-type Loop = (usize, f64, usize, f64);
+/// Place of a chain: segment, and parameter from -1 to below 1.
+type Place = (usize, f64);
 
-/// Cuts the loops off a closed chain of segments: where the chain crosses itself the part between the two passes is
-/// dropped, and so are loops laid bare by that.
+/// The chain passing through one of its crossings, one of two times.
+#[derive(Clone, Copy, Debug)]
+struct Passage {
+    place: Place,
+    /// Number of the crossing.
+    crossing: usize,
+    /// Change of the winding number on the left of the chain.
+    rise: i32,
+}
+
+/// Contour of a closed chain of segments that crosses itself: the outer edge of the largest region round which the chain
+/// winds in its own sense, counter-clockwise or not, at least once.
 ///
-/// `near(i, j)` says whether segment `j`, after `i`, may take part in a loop with it: longer detours
-/// are left alone. The chain is cut open at a place no loop covers.
+/// Loops of undercut, of pointed tips, and of offsets beyond the radius of curvature wind the other way, or twice, and are
+/// dropped; so are whole pieces that are cut off. The winding number on the left changes by one at each crossing; so the
+/// crossings alone tell which stretches are the edge.
 ///
 /// # Errors
-/// [`LoopError`] where every place of the chain lies in a loop, or where its crossings with itself cannot be
-/// determined.
+/// [`LoopError`] where there is no such region, or where the chain's crossings with itself cannot be determined.
 pub fn without_loops(
     segments: &[Segment],
-    near: impl Fn(usize, usize) -> bool,
+    counter_clockwise: bool,
     tolerance: Tolerance,
 ) -> Result<Vec<Kept>, LoopError> {
-    let mut left: Vec<Kept> = (0..segments.len()).map(Kept::whole).collect();
-    let mut last = [0, 0];
-    for _ in 0..MOST_PASSES {
-        let found = loops(segments, &left, &near, tolerance)?;
-        let Some(first) = found.first() else {
-            return Ok(left);
-        };
-        last = [first.0, first.2].map(|i| left[i % left.len()].index);
-        let kept = cut(found, left.len()).ok_or(LoopError::Everywhere)?;
-        if kept.len() == left.len() && kept.iter().all(Kept::is_whole) {
-            return Ok(left);
-        }
-        left = kept.iter().map(|k| left[k.index].cut(k)).collect();
-    }
-    Err(LoopError::Endless { segments: last })
-}
-
-/// Every loop of a chain of parts of segments.
-fn loops(
-    segments: &[Segment],
-    left: &[Kept],
-    near: impl Fn(usize, usize) -> bool,
-    tolerance: Tolerance,
-) -> Result<Vec<Loop>, LoopError> {
-    let count = left.len();
-    let unresolved = |i: usize, j: usize| {
-        let segments = [left[i].index, left[j].index];
-        move |cause| LoopError::Unresolved { segments, cause }
+    let chain = Chain {
+        segments,
+        boxes: segments.iter().map(|s| s.enclosure(-1.0, 1.0)).collect(),
+        tolerance,
     };
-    let chain: Vec<Segment> = left
-        .iter()
-        .map(|k| segments[k.index].part(k.from, k.to))
-        .collect();
-    let boxes: Vec<Bounds> = chain.iter().map(|s| s.enclosure(-1.0, 1.0)).collect();
-    let mut found = Vec::new();
-    for i in 0..count {
-        for (u, v) in self_crossings(&chain[i], tolerance).map_err(unresolved(i, i))? {
-            found.push((i, u.min(v), i, u.max(v)));
+    let passages = chain.passages()?;
+    if passages.is_empty() {
+        return Ok((0..segments.len()).map(Kept::whole).collect());
+    }
+    let others = others(&passages);
+    let left = chain.left(&passages, &others)?;
+    // The edge has the region on the left, or on the right where the chain is clockwise.
+    let inside = i32::from(counter_clockwise);
+    let sense = if counter_clockwise { 1.0 } else { -1.0 };
+    let mut seen: Vec<bool> = left.iter().map(|w| *w != inside).collect();
+    let mut best: (f64, Vec<Kept>) = (0.0, Vec::new());
+    for first in 0..passages.len() {
+        let (mut kept, mut at) = (Vec::new(), first);
+        while !seen[at] {
+            seen[at] = true;
+            let end = (at + 1) % passages.len();
+            chain.stretch(passages[at].place, passages[end].place, &mut kept);
+            // At a crossing the edge goes over to the other strand.
+            at = others[end];
         }
-        for step in 1..=count / 2 {
-            let j = (i + step) % count;
-            if !near(left[i].index, left[j].index) {
-                break;
-            }
-            if step > 1 && !boxes[i].meets(&boxes[j]) {
-                continue;
-            }
-            let crossings = crossings(&chain[i], &chain[j], step == 1, tolerance);
-            for (u, v) in crossings.map_err(unresolved(i, j))? {
-                found.push((i, u, i + step, v));
-            }
+        let area = sense * chain.area(&kept);
+        if area > best.0 {
+            best = (area, kept);
         }
     }
-    Ok(found)
+    let mut kept = best.1;
+    if kept.is_empty() {
+        return Err(LoopError::Everywhere);
+    }
+    let along = |k: &Kept| (k.index, k.from);
+    let first = (0..kept.len()).min_by(|&a, &b| order(&along(&kept[a]), &along(&kept[b])));
+    kept.rotate_left(first.unwrap_or(0));
+    Ok(kept)
 }
 
-/// Parts of a chain of `count` segments without its loops; `None` where they cover every segment.
-fn cut(mut found: Vec<Loop>, count: usize) -> Option<Vec<Kept>> {
-    // Start at a segment no loop reaches into.
-    let mut covered = vec![false; count];
-    for &(i, _, j, _) in &found {
-        for k in i..=j {
-            covered[k % count] = true;
+fn order(a: &Place, b: &Place) -> Ordering {
+    a.0.cmp(&b.0).then(a.1.total_cmp(&b.1))
+}
+
+/// The other passage of each one's crossing.
+fn others(passages: &[Passage]) -> Vec<usize> {
+    let mut of_crossing = vec![usize::MAX; passages.len() / 2];
+    let mut others = vec![0; passages.len()];
+    for (k, passage) in passages.iter().enumerate() {
+        let first = &mut of_crossing[passage.crossing];
+        if *first == usize::MAX {
+            *first = k;
+        } else {
+            (others[k], others[*first]) = (*first, k);
         }
     }
-    let origin = covered.iter().position(|c| !c)?;
-    for loop_ in &mut found {
-        let shift = (loop_.0 + count - origin) % count;
-        loop_.2 = shift + (loop_.2 - loop_.0);
-        loop_.0 = shift;
-    }
-    found.sort_by(|x, y| {
-        (x.0, x.1)
-            .partial_cmp(&(y.0, y.1))
-            .unwrap_or(std::cmp::Ordering::Equal)
-    });
-    let mut kept = Vec::with_capacity(count);
-    let (mut index, mut from) = (0, -1.0);
-    let mut next = found.iter().peekable();
-    while index < count {
-        // The next loop that opens at or after the present place.
-        while next.peek().is_some_and(|l| (l.0, l.1) < (index, from)) {
-            next.next();
-        }
-        let segment = (index + origin) % count;
-        match next.peek() {
-            Some(l) if l.0 == index => {
-                if l.1 > from {
-                    kept.push(Kept {
-                        index: segment,
-                        from,
-                        to: l.1,
-                    });
+    others
+}
+
+struct Chain<'a> {
+    segments: &'a [Segment],
+    boxes: Vec<Bounds>,
+    tolerance: Tolerance,
+}
+
+impl Chain<'_> {
+    /// Every passage through a crossing, in order along the chain.
+    fn passages(&self) -> Result<Vec<Passage>, LoopError> {
+        let count = self.segments.len();
+        let mut found: Vec<(Place, Place, i32)> = Vec::new();
+        let mut add = |i: usize, j: usize, list: Result<Vec<(f64, f64)>, Unresolved>| {
+            let segments = [i.min(j), i.max(j)];
+            for (u, v) in list.map_err(|cause| LoopError::Unresolved { segments, cause })? {
+                let (p, q) = (self.place(i, u), self.place(j, v));
+                if self.are_one(p, q) {
+                    continue;
                 }
-                // Of the loops opening here the longest is dropped whole.
-                (index, from) = (l.2, l.3);
-            }
-            _ => {
-                if from < 1.0 {
-                    kept.push(Kept {
-                        index: segment,
-                        from,
-                        to: 1.0,
-                    });
+                let (one, other) = (self.segments[i].at(u).first, self.segments[j].at(v).first);
+                let rise = if one.perp(&other) < 0.0 { 1 } else { -1 };
+                let this = if order(&p, &q) == Ordering::Less {
+                    (p, q, rise)
+                } else {
+                    (q, p, -rise)
+                };
+                // At a joint both segments tell of the crossing, or of a touch from one side.
+                let same = |f: &(Place, Place, i32)| {
+                    self.are_one(f.0, this.0) && self.are_one(f.1, this.1)
+                };
+                match found.iter().position(same) {
+                    Some(k) if found[k].2 == this.2 => {}
+                    Some(k) => drop(found.swap_remove(k)),
+                    None => found.push(this),
                 }
-                (index, from) = (index + 1, -1.0);
+            }
+            Ok(())
+        };
+        for (i, segment) in self.segments.iter().enumerate() {
+            add(i, i, self_crossings(segment, self.tolerance))?;
+        }
+        for (i, j) in self.meeting() {
+            let (i, j) = if (j + 1) % count == i { (j, i) } else { (i, j) };
+            let joined = (i + 1) % count == j;
+            let list = crossings(&self.segments[i], &self.segments[j], joined, self.tolerance);
+            add(i, j, list)?;
+        }
+        let mut passages: Vec<Passage> = Vec::with_capacity(2 * found.len());
+        for (crossing, (p, q, rise)) in found.into_iter().enumerate() {
+            for (place, rise) in [(p, rise), (q, -rise)] {
+                passages.push(Passage {
+                    place,
+                    crossing,
+                    rise,
+                });
             }
         }
+        passages.sort_by(|a, b| order(&a.place, &b.place));
+        Ok(passages)
     }
-    // Back to the order of the input.
-    let turn = kept.iter().position(|k| k.index < origin).unwrap_or(0);
-    kept.rotate_left(turn);
-    Some(kept)
+
+    /// Pairs of segments that follow each other or whose boxes meet.
+    fn meeting(&self) -> Vec<(usize, usize)> {
+        let (boxes, count) = (&self.boxes, self.segments.len());
+        let follow = |i: usize, j: usize| (i + 1) % count == j || (j + 1) % count == i;
+        let mut pairs: Vec<(usize, usize)> = (0..count)
+            .map(|i| (i, (i + 1) % count))
+            .filter(|&(i, j)| i != j && (count > 2 || i < j))
+            .collect();
+        // Sweep from left to right.
+        let mut sorted: Vec<usize> = (0..count).collect();
+        sorted.sort_by(|&a, &b| boxes[a].min.x.total_cmp(&boxes[b].min.x));
+        let mut active: Vec<usize> = Vec::new();
+        for i in sorted {
+            crate::checkpoint();
+            active.retain(|&j| boxes[j].max.x >= boxes[i].min.x);
+            let meets = |&&j: &&usize| !follow(i, j) && boxes[i].meets(&boxes[j]);
+            pairs.extend(active.iter().filter(meets).map(|&j| (i.min(j), i.max(j))));
+            active.push(i);
+        }
+        pairs.sort_unstable();
+        pairs
+    }
+
+    /// A place; the end of a segment is the start of the next.
+    fn place(&self, index: usize, u: f64) -> Place {
+        if u >= 1.0 - SAME {
+            ((index + 1) % self.segments.len(), -1.0)
+        } else {
+            (index, if u <= -1.0 + SAME { -1.0 } else { u })
+        }
+    }
+
+    fn are_one(&self, p: Place, q: Place) -> bool {
+        p.0 == q.0 && (p.1 - q.1).abs() <= SAME
+    }
+
+    /// Winding number on the left of the chain after each passage.
+    fn left(&self, passages: &[Passage], others: &[usize]) -> Result<Vec<i32>, LoopError> {
+        let count = passages.len();
+        let mut left: Vec<i32> = passages
+            .iter()
+            .scan(0, |w, passage| {
+                *w += passage.rise;
+                Some(*w)
+            })
+            .collect();
+        let doubt = |k: usize| LoopError::Inconsistent {
+            segments: [passages[k].place.0, passages[others[k]].place.0],
+        };
+        // Round a crossing the four stretches share four winding numbers.
+        for k in 0..count {
+            if left[(k + count - 1) % count] != left[others[k]] {
+                return Err(doubt(k));
+            }
+        }
+        let mut longest: Vec<(f64, usize)> = (0..count)
+            .map(|k| {
+                let mut kept = Vec::new();
+                self.stretch(
+                    passages[k].place,
+                    passages[(k + 1) % count].place,
+                    &mut kept,
+                );
+                (kept.iter().map(|k| self.chord(k).norm()).sum(), k)
+            })
+            .collect();
+        longest.sort_by(|a, b| b.0.total_cmp(&a.0));
+        longest.truncate(COUNTED);
+        let mut base = None;
+        for &(_, k) in &longest {
+            let mut kept = Vec::new();
+            self.stretch(
+                passages[k].place,
+                passages[(k + 1) % count].place,
+                &mut kept,
+            );
+            let longer = |a: &&Kept, b: &&Kept| {
+                let lengths = [a, b].map(|k| self.chord(k).norm());
+                lengths[0].total_cmp(&lengths[1])
+            };
+            let Some(part) = kept.iter().max_by(longer) else {
+                continue;
+            };
+            let own = self.winding_beside(part.index, 0.5 * (part.from + part.to)) - left[k];
+            if *base.get_or_insert(own) != own {
+                return Err(doubt(k));
+            }
+        }
+        let base = base.unwrap_or(0);
+        left.iter_mut().for_each(|w| *w += base);
+        Ok(left)
+    }
+
+    /// Winding number of the chain about a point a little to the left of one of its own.
+    fn winding_beside(&self, index: usize, u: f64) -> i32 {
+        let segment = &self.segments[index];
+        let tangent = segment.tangent(u);
+        let aside = Vector::new(-tangent.y, tangent.x) * (10.0 * self.tolerance.mm());
+        let point = segment.at(u).point + aside;
+        let level = |b: &Bounds| b.min.y <= point.y && b.max.y >= point.y && b.max.x >= point.x;
+        let places = self.segments.iter().zip(&self.boxes);
+        places
+            .filter(|(_, b)| level(b))
+            .map(|(s, _)| winding(s, point))
+            .sum()
+    }
+
+    /// Parts of segments from one place on to another.
+    fn stretch(&self, from: Place, to: Place, kept: &mut Vec<Kept>) {
+        let count = self.segments.len();
+        let (mut index, mut start) = from;
+        let mut steps = (to.0 + count - from.0) % count;
+        if steps == 0 && to.1 <= from.1 {
+            steps = count;
+        }
+        for _ in 0..steps {
+            kept.push(Kept {
+                index,
+                from: start,
+                to: 1.0,
+            });
+            (index, start) = ((index + 1) % count, -1.0);
+        }
+        if to.1 > start {
+            kept.push(Kept {
+                index,
+                from: start,
+                to: to.1,
+            });
+        }
+    }
+
+    fn chord(&self, kept: &Kept) -> Vector {
+        let segment = &self.segments[kept.index];
+        segment.at(kept.to).point - segment.at(kept.from).point
+    }
+
+    /// Area, about, within parts that follow one another.
+    fn area(&self, kept: &[Kept]) -> f64 {
+        const CHORDS: u32 = 4;
+        let places = kept.iter().flat_map(|k| {
+            (0..CHORDS).map(|i| {
+                let u = k.from + (k.to - k.from) * f64::from(i) / f64::from(CHORDS);
+                self.segments[k.index].at(u).point
+            })
+        });
+        let points: Vec<Point> = places.collect();
+        let next = points.iter().cycle().skip(1);
+        0.5 * points
+            .iter()
+            .zip(next)
+            .map(|(p, q)| p.coords.perp(&q.coords))
+            .sum::<f64>()
+    }
 }
 
 #[cfg(test)]
@@ -222,12 +375,7 @@ mod tests {
         let chain: Vec<Segment> = (0..4)
             .map(|i| Segment::Line(square[i], square[(i + 1) % 4]))
             .collect();
-        let kept = without_loops(
-            &chain,
-            |i, j| (j + chain.len() - i) % chain.len() <= 3,
-            fine(),
-        )
-        .expect("sound");
+        let kept = without_loops(&chain, true, fine()).expect("sound");
         assert_eq!(kept.len(), 4);
     }
 
@@ -246,12 +394,7 @@ mod tests {
         let chain: Vec<Segment> = (0..7)
             .map(|i| Segment::Line(points[i], points[(i + 1) % 7]))
             .collect();
-        let kept = without_loops(
-            &chain,
-            |i, j| (j + chain.len() - i) % chain.len() <= 3,
-            fine(),
-        )
-        .expect("sound");
+        let kept = without_loops(&chain, true, fine()).expect("sound");
         let at = |k: &Kept| {
             (
                 chain[k.index].at(k.from).point,
@@ -272,7 +415,7 @@ mod tests {
         let chain: Vec<Segment> = (0..4)
             .map(|i| Segment::Line(corners[i], corners[(i + 1) % 4]))
             .collect();
-        let refused = without_loops(&chain, |_, _| true, fine());
+        let refused = without_loops(&chain, true, fine());
         let named = LoopError::Unresolved {
             segments: [0, 1],
             cause: Unresolved::NotFinite,
@@ -294,7 +437,7 @@ mod tests {
         chain.extend(detour(b, 3.0));
         chain.push(Segment::Poly(there.reversed()));
         chain.extend(detour(a, -3.0));
-        let refused = without_loops(&chain, |_, _| true, fine());
+        let refused = without_loops(&chain, true, fine());
         assert!(
             matches!(
                 refused,
@@ -310,7 +453,7 @@ mod tests {
             .map(|i| Segment::Line(eight[i], eight[(i + 1) % 4]))
             .collect();
         assert_eq!(
-            without_loops(&chain, |_, _| true, fine()).map(|kept| kept.len()),
+            without_loops(&chain, true, fine()).map(|kept| kept.len()),
             Err(LoopError::Everywhere)
         );
     }

@@ -84,16 +84,16 @@ impl Cutter<'_> {
             );
             teeth.push(self.tooth(k as u32, plan, &next, &mut pieces));
         }
-        let kept = self.without_loops(&pieces, plans.len() as u32)?;
+        let kept = self.without_loops(&pieces)?;
         self.join(&pieces, &kept, teeth)
     }
 
     /// Parts of the pieces without their loops.
-    fn without_loops(&self, pieces: &[Piece], teeth: u32) -> Result<Vec<Kept>, ProfileError> {
+    fn without_loops(&self, pieces: &[Piece]) -> Result<Vec<Kept>, ProfileError> {
         let segments: Vec<Segment> = pieces.iter().map(|p| p.poly.into()).collect();
-        // Up to the end of the next tooth: a longer detour is not one tooth's own.
-        let near = |i: usize, j: usize| (pieces[j].tooth + teeth - pieces[i].tooth) % teeth <= 1;
-        without_loops(&segments, near, self.tolerance).map_err(|cause| match cause {
+        // The driven gear is rolled clockwise.
+        let counter_clockwise = self.member == Member::Driver;
+        without_loops(&segments, counter_clockwise, self.tolerance).map_err(|cause| match cause {
             LoopError::Everywhere => ProfileError::Looped {
                 member: self.member,
             },
