@@ -27,7 +27,9 @@ pub(crate) fn winding(segment: &Segment, point: Point) -> i32 {
             continue;
         }
         // Whatever happens in a part wholly to the right, its ends tell the count.
-        if box_.min.x > point.x || depth >= 50 {
+        // The box of a part that is all rounding no longer shrinks with it.
+        let all_rounding = depth >= 20 && (end - start).amax() <= 1e-12 * start.coords.amax();
+        if box_.min.x > point.x || depth >= 50 || all_rounding {
             count += i32::from(side(end.y)) - i32::from(side(start.y));
             continue;
         }

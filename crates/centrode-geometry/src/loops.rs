@@ -11,6 +11,9 @@ use crate::{
 /// Share of a segment's parameter within which crossings are one, and a crossing is at the segment's end.
 const SAME: f64 = 1e-11;
 
+/// Greatest number of passes; each may find loops which the one before laid bare.
+const MOST_PASSES: u32 = 16;
+
 /// Stretches between crossings, the longest ones, whose winding number is counted as well as summed up.
 const COUNTED: usize = 16;
 
@@ -27,6 +30,12 @@ pub enum LoopError {
         segments: [usize; 2],
         /// Cause.
         cause: Unresolved,
+    },
+    /// Loops that remain after the greatest number of passes.
+    #[error("its contour still crosses itself at segments {} and {} after its loops were cut off {MOST_PASSES} times", .segments[0], .segments[1])]
+    Endless {
+        /// Two segments that cross, counted from 0.
+        segments: [usize; 2],
     },
     /// Crossings of which one was overlooked: the contour would have to be on both sides of itself.
     #[error("its contour crosses itself at segments {} and {} in a way that does not fit the other crossings", .segments[0], .segments[1])]
@@ -53,6 +62,24 @@ impl Kept {
             index,
             from: -1.0,
             to: 1.0,
+        }
+    }
+
+    /// The part of `self` that a second cut keeps.
+    fn cut(&self, again: &Self) -> Self {
+        let at = |u: f64| self.from + 0.5 * (1.0 + u) * (self.to - self.from);
+        Self {
+            index: self.index,
+            from: if again.from == -1.0 {
+                self.from
+            } else {
+                at(again.from)
+            },
+            to: if again.to == 1.0 {
+                self.to
+            } else {
+                at(again.to)
+            },
         }
     }
 }
@@ -84,44 +111,45 @@ pub fn without_loops(
     counter_clockwise: bool,
     tolerance: Tolerance,
 ) -> Result<Vec<Kept>, LoopError> {
-    let chain = Chain {
-        segments,
-        boxes: segments.iter().map(|s| s.enclosure(-1.0, 1.0)).collect(),
-        tolerance,
-    };
-    let passages = chain.passages()?;
-    if passages.is_empty() {
-        return Ok((0..segments.len()).map(Kept::whole).collect());
-    }
-    let others = others(&passages);
-    let left = chain.left(&passages, &others)?;
-    // The edge has the region on the left, or on the right where the chain is clockwise.
-    let inside = i32::from(counter_clockwise);
-    let sense = if counter_clockwise { 1.0 } else { -1.0 };
-    let mut seen: Vec<bool> = left.iter().map(|w| *w != inside).collect();
-    let mut best: (f64, Vec<Kept>) = (0.0, Vec::new());
-    for first in 0..passages.len() {
-        let (mut kept, mut at) = (Vec::new(), first);
-        while !seen[at] {
-            seen[at] = true;
-            let end = (at + 1) % passages.len();
-            chain.stretch(passages[at].place, passages[end].place, &mut kept);
-            // At a crossing the edge goes over to the other strand.
-            at = others[end];
+    let mut left: Vec<Kept> = (0..segments.len()).map(Kept::whole).collect();
+    let mut last = [0, 0];
+    // A crossing may be found only after the loop it lies in is gone.
+    for _ in 0..MOST_PASSES {
+        let parts: Vec<Segment> = left
+            .iter()
+            .map(|k| segments[k.index].part(k.from, k.to))
+            .collect();
+        let chain = Chain::new(&parts, tolerance);
+        let named = |cause| named(cause, &left);
+        let passages = chain.passages().map_err(named)?;
+        if passages.is_empty() {
+            return Ok(left);
         }
-        let area = sense * chain.area(&kept);
-        if area > best.0 {
-            best = (area, kept);
+        let others = others(&passages);
+        last = [0, others[0]].map(|k| left[passages[k].place.0].index);
+        let winding = chain.left(&passages, &others).map_err(named)?;
+        let kept = chain.edge(&passages, &others, &winding, counter_clockwise);
+        if kept.is_empty() {
+            return Err(LoopError::Everywhere);
         }
+        left = kept.iter().map(|k| left[k.index].cut(k)).collect();
     }
-    let mut kept = best.1;
-    if kept.is_empty() {
-        return Err(LoopError::Everywhere);
+    Err(LoopError::Endless { segments: last })
+}
+
+/// An error of a chain of parts, with the segments they are parts of.
+fn named(error: LoopError, parts: &[Kept]) -> LoopError {
+    let own = |segments: [usize; 2]| segments.map(|i| parts[i].index);
+    match error {
+        LoopError::Unresolved { segments, cause } => LoopError::Unresolved {
+            segments: own(segments),
+            cause,
+        },
+        LoopError::Inconsistent { segments } => LoopError::Inconsistent {
+            segments: own(segments),
+        },
+        other => other,
     }
-    let along = |k: &Kept| (k.index, k.from);
-    let first = (0..kept.len()).min_by(|&a, &b| order(&along(&kept[a]), &along(&kept[b])));
-    kept.rotate_left(first.unwrap_or(0));
-    Ok(kept)
 }
 
 fn order(a: &Place, b: &Place) -> Ordering {
@@ -149,7 +177,48 @@ struct Chain<'a> {
     tolerance: Tolerance,
 }
 
-impl Chain<'_> {
+impl<'a> Chain<'a> {
+    fn new(segments: &'a [Segment], tolerance: Tolerance) -> Self {
+        Self {
+            segments,
+            boxes: segments.iter().map(|s| s.enclosure(-1.0, 1.0)).collect(),
+            tolerance,
+        }
+    }
+
+    /// Edge of the largest region, of all stretches that have such a region on their inner side.
+    fn edge(
+        &self,
+        passages: &[Passage],
+        others: &[usize],
+        left: &[i32],
+        counter_clockwise: bool,
+    ) -> Vec<Kept> {
+        // The region is on the left, or on the right where the chain is clockwise.
+        let inside = i32::from(counter_clockwise);
+        let sense = if counter_clockwise { 1.0 } else { -1.0 };
+        let mut seen: Vec<bool> = left.iter().map(|w| *w != inside).collect();
+        let mut best: (f64, Vec<Kept>) = (0.0, Vec::new());
+        for first in 0..passages.len() {
+            let (mut kept, mut at) = (Vec::new(), first);
+            while !seen[at] {
+                seen[at] = true;
+                kept.extend(self.between(passages, at));
+                // At a crossing the edge goes over to the other strand.
+                at = others[(at + 1) % passages.len()];
+            }
+            let area = sense * self.area(&kept);
+            if area > best.0 {
+                best = (area, kept);
+            }
+        }
+        let mut kept = best.1;
+        let along = |k: &Kept| (k.index, k.from);
+        let first = (0..kept.len()).min_by(|&a, &b| order(&along(&kept[a]), &along(&kept[b])));
+        kept.rotate_left(first.unwrap_or(0));
+        kept
+    }
+
     /// Every passage through a crossing, in order along the chain.
     fn passages(&self) -> Result<Vec<Passage>, LoopError> {
         let count = self.segments.len();
@@ -158,11 +227,18 @@ impl Chain<'_> {
             let segments = [i.min(j), i.max(j)];
             for (u, v) in list.map_err(|cause| LoopError::Unresolved { segments, cause })? {
                 let (p, q) = (self.place(i, u), self.place(j, v));
-                if self.are_one(p, q) {
+                let (one, other) = (self.segments[i].at(u), self.segments[j].at(v));
+                // Ends meet only within rounding after a cut.
+                let apart = (one.point - self.segments[i].end()).norm();
+                let joined = (i + 1) % count == j && apart <= 0.1 * self.tolerance.mm();
+                if joined || self.are_one(p, q) {
                     continue;
                 }
-                let (one, other) = (self.segments[i].at(u).first, self.segments[j].at(v).first);
-                let rise = if one.perp(&other) < 0.0 { 1 } else { -1 };
+                let rise = if one.first.perp(&other.first) < 0.0 {
+                    1
+                } else {
+                    -1
+                };
                 let this = if order(&p, &q) == Ordering::Less {
                     (p, q, rise)
                 } else {
@@ -259,31 +335,15 @@ impl Chain<'_> {
             }
         }
         let mut longest: Vec<(f64, usize)> = (0..count)
-            .map(|k| {
-                let mut kept = Vec::new();
-                self.stretch(
-                    passages[k].place,
-                    passages[(k + 1) % count].place,
-                    &mut kept,
-                );
-                (kept.iter().map(|k| self.chord(k).norm()).sum(), k)
-            })
+            .map(|k| (self.between(passages, k).map(|k| self.length(&k)).sum(), k))
             .collect();
         longest.sort_by(|a, b| b.0.total_cmp(&a.0));
         longest.truncate(COUNTED);
+        let least = longest.first().map_or(0.0, |l| l.0.min(1e4 * self.aside()));
         let mut base = None;
-        for &(_, k) in &longest {
-            let mut kept = Vec::new();
-            self.stretch(
-                passages[k].place,
-                passages[(k + 1) % count].place,
-                &mut kept,
-            );
-            let longer = |a: &&Kept, b: &&Kept| {
-                let lengths = [a, b].map(|k| self.chord(k).norm());
-                lengths[0].total_cmp(&lengths[1])
-            };
-            let Some(part) = kept.iter().max_by(longer) else {
+        for &(_, k) in longest.iter().filter(|l| l.0 >= least) {
+            let longer = |a: &Kept, b: &Kept| self.length(a).total_cmp(&self.length(b));
+            let Some(part) = self.between(passages, k).max_by(longer) else {
                 continue;
             };
             let own = self.winding_beside(part.index, 0.5 * (part.from + part.to)) - left[k];
@@ -300,7 +360,7 @@ impl Chain<'_> {
     fn winding_beside(&self, index: usize, u: f64) -> i32 {
         let segment = &self.segments[index];
         let tangent = segment.tangent(u);
-        let aside = Vector::new(-tangent.y, tangent.x) * (10.0 * self.tolerance.mm());
+        let aside = Vector::new(-tangent.y, tangent.x) * self.aside();
         let point = segment.at(u).point + aside;
         let level = |b: &Bounds| b.min.y <= point.y && b.max.y >= point.y && b.max.x >= point.x;
         let places = self.segments.iter().zip(&self.boxes);
@@ -310,34 +370,36 @@ impl Chain<'_> {
             .sum()
     }
 
-    /// Parts of segments from one place on to another.
-    fn stretch(&self, from: Place, to: Place, kept: &mut Vec<Kept>) {
+    /// Parts of segments from a passage to the next.
+    fn between(&self, passages: &[Passage], k: usize) -> impl Iterator<Item = Kept> + use<> {
         let count = self.segments.len();
-        let (mut index, mut start) = from;
-        let mut steps = (to.0 + count - from.0) % count;
-        if steps == 0 && to.1 <= from.1 {
-            steps = count;
-        }
-        for _ in 0..steps {
-            kept.push(Kept {
-                index,
-                from: start,
-                to: 1.0,
-            });
-            (index, start) = ((index + 1) % count, -1.0);
-        }
-        if to.1 > start {
-            kept.push(Kept {
-                index,
-                from: start,
-                to: to.1,
-            });
-        }
+        let (first, start) = passages[k].place;
+        let (last, end) = passages[(k + 1) % passages.len()].place;
+        let ahead = (last + count - first) % count;
+        let steps = if ahead == 0 && end <= start {
+            count
+        } else {
+            ahead
+        };
+        (0..=steps)
+            .map(move |step| Kept {
+                index: (first + step) % count,
+                from: if step == 0 { start } else { -1.0 },
+                to: if step == steps { end } else { 1.0 },
+            })
+            .filter(|part| part.to > part.from)
     }
 
-    fn chord(&self, kept: &Kept) -> Vector {
+    /// Length of a part's chord.
+    fn length(&self, kept: &Kept) -> f64 {
         let segment = &self.segments[kept.index];
-        segment.at(kept.to).point - segment.at(kept.from).point
+        (segment.at(kept.to).point - segment.at(kept.from).point).norm()
+    }
+
+    /// Distance from the chain at which its winding number is counted, far beyond rounding and the tolerance.
+    fn aside(&self) -> f64 {
+        let whole = self.boxes.iter().fold(Bounds::EMPTY, |b, o| b.union(*o));
+        (10.0 * self.tolerance.mm()).max(1e-9 * whole.diagonal())
     }
 
     /// Area, about, within parts that follow one another.
