@@ -1,6 +1,8 @@
 use std::f64::consts::{PI, TAU};
 
-use centrode_geometry::{Point, Vector, extremes};
+use centrode_analysis::between_arms;
+use centrode_analysis::composed_clearance;
+use centrode_geometry::{Outline, Point, Segment, Tolerance, Vector, extremes};
 use centrode_mechanism::composed::{Composed, ComposedDesign};
 use centrode_mechanism::design::DesignSpec as _;
 use centrode_mechanism::three_arm::ThreeArm;
@@ -148,6 +150,55 @@ fn the_composed_transplanter_has_the_goals_of_the_family_of_its_own() {
     assert!(
         (height - theirs.trajectory_height).abs() < 1e-9,
         "{height} {theirs:?}"
+    );
+}
+
+/// Lines and arcs of an outline as a design has them, in axes turned back by an angle.
+fn corners(outline: &Outline, turned: f64) -> String {
+    let corner = |segment: &Segment| {
+        let at = Rotation2::new(-turned) * segment.start();
+        match segment {
+            Segment::Arc(arc) => format!("[{:?}, {:?}, {:?}]", at.x, at.y, arc.bulge),
+            _ => format!("[{:?}, {:?}]", at.x, at.y),
+        }
+    };
+    let corners: Vec<String> = outline.segments().iter().map(corner).collect();
+    format!("outline = [{}]", corners.join(", "))
+}
+
+#[test]
+fn arms_of_the_composed_transplanter_keep_as_clear_of_each_other_as_those_of_the_family_of_its_own()
+{
+    let design = ThreeArmDesign::from_toml(&text("three-arm-2021")).expect("a design");
+    let family = ThreeArm::resolve(&design).expect("a mechanism");
+    let arm = family.arm_body().expect("an arm");
+    let fine = Tolerance::new(2e-8).expect("positive");
+    let theirs = between_arms(&family, &arm, fine).expect("determined");
+    let theirs = theirs.expect("three arms");
+    // Its x axis points to the tip.
+    let outline = corners(arm.outline(), arm.tip().y.atan2(arm.tip().x));
+    let drawn =
+        text("composed-three-arm").replace("[bodies.arm]", &format!("[bodies.arm]\n{outline}"));
+    let composed = ComposedDesign::from_toml(&drawn).expect("a design");
+    let composed = Composed::resolve(&composed).expect("a machine");
+    let machine = composed.machine().expect("links");
+    let clearance = |tolerance: Tolerance, inputs: [f64; 2]| {
+        let ends = composed.clearance_ends("", ["arm", "arm-2"]);
+        let ends = ends.expect("bodies");
+        let pair = composed_clearance(&composed, &machine, ends, tolerance).expect("bodies");
+        let pair = pair.expect("in one plane");
+        pair.over(inputs).expect("determined")
+    };
+    let coarse = Tolerance::new(1e-5).expect("positive");
+    let found = clearance(coarse, [0.0, TAU]);
+    assert!(
+        (found.least - theirs.least).abs() < coarse.mm(),
+        "{found:?}"
+    );
+    let found = clearance(fine, [found.input - 0.01, found.input + 0.01]);
+    assert!(
+        (found.least - theirs.least).abs() < 1e-9,
+        "{found:?} {theirs:?}"
     );
 }
 

@@ -28,7 +28,8 @@ impl Loaded {
         })
     }
 
-    fn at(&self, input: f64) -> Option<Forces> {
+    /// Forces at an input; none where they are not determined.
+    pub(super) fn at(&self, input: f64) -> Option<Forces> {
         let speed = self.balance.machine().input.speed;
         match self.balance.at(input, speed) {
             Ok(forces) => Some(forces),
@@ -69,8 +70,8 @@ impl Loaded {
     }
 }
 
-/// A figure of the forces of a state.
-fn part(forces: &Forces, figure: &ComposedFigure) -> Option<f64> {
+/// A figure of the forces of a state, N or N mm; none where it is none of theirs or not determined.
+pub(super) fn part(forces: &Forces, figure: &ComposedFigure) -> Option<f64> {
     match *figure {
         ComposedFigure::InputTorque => Some(forces.input_torque),
         ComposedFigure::JointForce(joint) => {

@@ -1,10 +1,11 @@
-use centrode_geometry::{Tolerance, extremes};
+use centrode_geometry::{Tolerance, extremes, greatest_of, rounding};
 use centrode_mechanism::composed::{
     ClearanceEnd, Composed, ComposedFigure, ComposedGoalSpec, Over, PointPart,
 };
 
 use super::clearance::composed_clearance;
-use super::{Made, ends, within};
+use super::{Made, ends, forces, within};
+use crate::forces::Forces;
 use crate::{Goal, Table, Unit};
 
 /// Accuracy of a clearance, as a share of a plate's width.
@@ -64,18 +65,47 @@ fn unit(figure: &ComposedFigure) -> Unit {
     }
 }
 
-/// Least and greatest value over the cycle of each figure that a goal can name by one word, a table a unit.
+/// Least and greatest value over the cycle of each figure that a goal can name by one word, a table a unit; without those that
+/// are not determined.
 #[must_use]
 pub fn composed_figures(composed: &Composed) -> Vec<Table> {
-    let ends = ends(composed);
+    let made = Made::new(composed);
+    let loaded = made.loaded().and_then(|loaded| loaded.as_ref().ok());
+    let words = composed.figure_words().into_iter();
+    let (words, figures): (Vec<String>, Vec<ComposedFigure>) = words
+        .filter_map(|words| {
+            let figure = composed.figure("", &words).ok()?;
+            Some((words, figure))
+        })
+        .unzip();
+    let value = |figure: &ComposedFigure, forces: Option<&Forces>, input: f64| {
+        let moving = composed.value(figure, input);
+        moving.or_else(|| forces::part(forces?, figure))
+    };
+    let both = |value: Option<f64>| {
+        let value = value.unwrap_or(f64::NAN);
+        [-value, value]
+    };
+    let all = |input: f64, values: &mut Vec<f64>| {
+        let forces = loaded.and_then(|loaded| loaded.at(input));
+        let of = |figure| both(value(figure, forces.as_ref(), input));
+        values.extend(figures.iter().flat_map(of));
+    };
+    let one = |k: usize, input: f64| {
+        let figure = &figures[k / 2];
+        let loaded = loaded.filter(|_| figure.is_of_forces());
+        let forces = loaded.and_then(|loaded| loaded.at(input));
+        both(value(figure, forces.as_ref(), input))[k % 2]
+    };
+    let count = 2 * figures.len();
+    let found = greatest_of(count, all, one, |_, v| rounding(v), &ends(composed));
     let mut tables: Vec<Table> = Vec::new();
-    for words in composed.figure_words() {
-        let Ok(figure) = composed.figure("", &words) else {
+    for ((words, figure), found) in words.into_iter().zip(&figures).zip(found.chunks(2)) {
+        let unit = unit(figure);
+        let row = (words, vec![-found[0].value, found[1].value]);
+        if !row.1.iter().all(|end| end.is_finite()) {
             continue;
-        };
-        let unit = unit(&figure);
-        let at = |input: f64| composed.value(&figure, input).unwrap_or(f64::NAN);
-        let row = (words, extremes(at, &ends).map(|end| end.value).to_vec());
+        }
         match tables.iter_mut().find(|table| table.unit == unit) {
             Some(table) => table.rows.push(row),
             None => tables.push(Table {

@@ -8,7 +8,9 @@ use serde::{Deserialize, Serialize};
 use super::corner::points;
 use super::drawn::Drawn;
 use super::given_mass::GivenMass;
-use super::{ComposedCircleSpec, ComposedLawSpec, ComposedMeshSpec, CornerSpec};
+use super::{
+    ComposedCircleSpec, ComposedCornerSpec, ComposedLawSpec, ComposedMeshSpec, CornerSpec,
+};
 use crate::degrees;
 use crate::gear::design::SpecError;
 use crate::gear::design::rule::{Rule, broken, count_in_range, finite, positive};
@@ -47,7 +49,7 @@ pub struct ComposedBodySpec {
     pub plate: Option<bool>,
     /// Corners of its plate in order, in the body's axes, mm; left out, the plate is drawn round its points.
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub outline: Vec<[f64; 2]>,
+    pub outline: Vec<ComposedCornerSpec>,
     /// Radius to which the corners of its outline are rounded, mm.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub corner_radius: Option<f64>,

@@ -1,7 +1,8 @@
 use centrode_geometry::Point;
 
 use super::points::Reference;
-use super::{Composed, ComposedError, Pin};
+use super::{Composed, ComposedBody, ComposedError, Pin};
+use crate::machine::JointKind;
 
 /// Grammar of the figures of a composed machine: form, meaning, unit as shown.
 pub const FIGURE_FORMS: [[&str; 3]; 14] = [
@@ -197,12 +198,8 @@ impl Composed {
             "swing" | "travel" => {
                 let body = self.body_of(key, of)?;
                 match (part, kind(body)) {
-                    ("swing", Some(crate::machine::JointKind::Turning)) => {
-                        Ok(ComposedFigure::Swing(body))
-                    }
-                    ("travel", Some(crate::machine::JointKind::Sliding(_))) => {
-                        Ok(ComposedFigure::Travel(body))
-                    }
+                    ("swing", Some(JointKind::Turning)) => Ok(ComposedFigure::Swing(body)),
+                    ("travel", Some(JointKind::Sliding(_))) => Ok(ComposedFigure::Travel(body)),
                     _ => Err(none()),
                 }
             }
@@ -292,10 +289,10 @@ impl Composed {
         }
     }
 
-    /// Words of the figures of single points, bodies and dyads, for goals to name.
+    /// Words of the figures of single points, bodies, dyads and meshes, of the torque and of the forces in joints, for goals
+    /// to name.
     #[must_use]
     pub fn figure_words(&self) -> Vec<String> {
-        use crate::machine::JointKind;
         let all = |of: &str, parts: &[&str]| -> Vec<String> {
             parts.iter().map(|part| format!("{of}.{part}")).collect()
         };
@@ -312,7 +309,24 @@ impl Composed {
         });
         let of_dyads = self.dyads.iter();
         let of_dyads = of_dyads.map(|dyad| format!("transmission({})", dyad.name));
-        of_points.chain(of_bodies).chain(of_dyads).collect()
+        let motions = of_points.chain(of_bodies).chain(of_dyads);
+        let moves = |body: &&ComposedBody| {
+            let mount = body.mount.as_ref();
+            mount.is_some_and(|mount| mount.kind != JointKind::Fixed)
+        };
+        let carried = self.bodies.iter().filter(moves);
+        let carried = carried.map(|body| body.name.clone());
+        let pins = self.pins.iter().map(|pin| self.pair_name(pin));
+        let of_joints = carried
+            .chain(pins)
+            .map(|name| format!("joint({name}).force"));
+        let meshes = self.meshes.iter();
+        let of_meshes = meshes.map(|mesh| format!("mesh({}).force", self.bodies[mesh.moved].name));
+        motions
+            .chain(["input.torque".to_owned()])
+            .chain(of_joints)
+            .chain(of_meshes)
+            .collect()
     }
 
     /// Index of a body that a key names.

@@ -53,7 +53,7 @@ pub use cams::{
 pub use copies::ComposedCopiesSpec;
 pub use corner::{ComposedPointsSpec, CornerSpec, Side};
 pub use design::{ComposedDesign, ComposedInputSpec};
-pub use drawn::ComposedCircleSpec;
+pub use drawn::{ComposedCircleSpec, ComposedCornerSpec};
 pub use drive::{IntermittentSpec, TraverseSpec};
 pub use dyad::{ComposedDyadSpec, DyadKind};
 pub use error::ComposedError;

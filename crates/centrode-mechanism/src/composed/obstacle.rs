@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use super::drawn::Drawn;
 use super::points::Reference;
-use super::{Composed, ComposedCircleSpec, ComposedError, Mount};
+use super::{Composed, ComposedCircleSpec, ComposedCornerSpec, ComposedError, Mount};
 use crate::gear::design::SpecError;
 use crate::gear::design::rule::{Rule, broken, finite};
 use crate::machine::{JointKind, Line, LineRole, Machine, Surface};
@@ -26,7 +26,7 @@ pub struct ComposedObstacleSpec {
     pub on: Option<String>,
     /// Corners of its shape in order, in the body's axes, mm.
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub outline: Vec<[f64; 2]>,
+    pub outline: Vec<ComposedCornerSpec>,
     /// Radius to which its corners are rounded, mm.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub corner_radius: Option<f64>,

@@ -296,6 +296,38 @@ fn the_figures_that_goals_can_name_are_listed_with_their_extremes() {
     let travel = lines.lines().find(|line| line.contains("ram.travel"));
     let travel: Vec<&str> = travel.expect("a travel").split_whitespace().collect();
     assert_eq!(travel, ["ram.travel", "153.4527", "213.4527", "mm"]);
+    let checked = centrode(&["check", "--json", &shipped("press.toml")]);
+    let checked: serde_json::Value = serde_json::from_slice(&checked.stdout).expect("JSON");
+    let listed = centrode(&["check", "--figures", "--json", &shipped("press.toml")]);
+    let listed: serde_json::Value = serde_json::from_slice(&listed.stdout).expect("JSON");
+    let row = |report: &serde_json::Value, name: &str| -> Vec<f64> {
+        let tables = report["tables"].as_array().expect("tables");
+        let mut rows = tables
+            .iter()
+            .flat_map(|table| table["rows"].as_array().expect("rows"));
+        let row = rows.find(|row| row[0] == name).expect("a row");
+        row[1]
+            .as_array()
+            .expect("numbers")
+            .iter()
+            .filter_map(serde_json::Value::as_f64)
+            .collect()
+    };
+    let torque =
+        ["input_torque_min", "input_torque_max"].map(|name| checked["values"][name].as_f64());
+    assert_eq!(
+        row(&listed, "input.torque")
+            .into_iter()
+            .map(Some)
+            .collect::<Vec<_>>(),
+        torque
+    );
+    for (named, told) in [
+        ("joint(crank).force", "crank"),
+        ("mesh(crank).force", "shaft-crank"),
+    ] {
+        assert_eq!(row(&listed, named)[1..], row(&checked, told)[..], "{named}");
+    }
     let none = centrode(&["check", "--figures", &shipped("feeder-2022.toml")]);
     assert_eq!(none.status.code(), Some(2));
     assert!(text(&none.stderr).contains("the goals of family \"feeder\" are given"));

@@ -127,11 +127,45 @@ fn a_body_without_a_plate_is_neither_drawn_nor_a_part_unless_its_mass_is_given()
 }
 
 #[test]
+fn sides_of_an_outline_may_be_arcs_either_way_round() {
+    // Half a circle of 20 mm, and a slot with round ends of 6 mm, written clockwise.
+    for (corners, area) in [
+        ("[[-20, 5, 1], [20, 5]]", 200.0 * PI),
+        (
+            "[[-15, 6], [15, 6, -1], [15, -6], [-15, -6, -1]]",
+            360.0 + 36.0 * PI,
+        ),
+    ] {
+        let composed = made(&with("", &format!("outline = {corners}")));
+        let ram = composed.body_named("ram").expect("a ram");
+        let (outline, _) = composed.contours(ram).expect("a plate");
+        assert!((outline.area() - area).abs() < 1e-11, "{}", outline.area());
+        assert!(outline.is_counter_clockwise());
+    }
+}
+
+#[test]
 fn contours_and_masses_that_cannot_be_are_told_by_key() {
     for (ram, told) in [
         (
             "outline = [[0, 0], [1, 0]]",
             "bodies.ram.outline: is needed with three corners or more",
+        ),
+        (
+            "outline = [[0, 0], [1, 0, 1, 2], [3, 4]]",
+            "a corner is x and y, or x, y and the bulge of the side that begins there, not 4 numbers",
+        ),
+        (
+            "outline = [[-20, 0, 1], [20, 0, 101]]",
+            "bodies.ram.outline: must be -100 to 100, not 101",
+        ),
+        (
+            "outline = [[-20, 0, 1], [20, 0, 1]]\ncorner_radius = 3",
+            "bodies.ram.corner_radius: cannot be given together with arcs in the outline",
+        ),
+        (
+            "outline = [[-20, 0, 1], [20, 0], [20, 30], [10, -30]]",
+            "bodies.ram.outline: the outline crosses or touches itself at",
         ),
         (
             "outline = [[-20, -20], [20, 20], [20, -20], [-20, 20]]",
