@@ -486,7 +486,7 @@ mod tests {
     }
 
     #[test]
-    fn a_chain_that_runs_back_on_itself_is_an_error_and_one_that_is_all_loop_too() {
+    fn a_chain_that_runs_back_on_itself_is_an_error_that_names_the_segments() {
         let p = Point::new;
         // There and back on the same arc, with a detour at either end.
         let there = crate::PolySegment::fit(|t| p(t.cos(), t.sin()), 0.0, 0.5, fine())[0];
@@ -510,13 +510,59 @@ mod tests {
             ),
             "{refused:?}"
         );
-        let eight = [p(0.0, 0.0), p(4.0, 4.0), p(4.0, 0.0), p(0.0, 4.0)];
-        let chain: Vec<Segment> = (0..4)
-            .map(|i| Segment::Line(eight[i], eight[(i + 1) % 4]))
-            .collect();
-        assert_eq!(
-            without_loops(&chain, true, fine()).map(|kept| kept.len()),
-            Err(LoopError::Everywhere)
-        );
+    }
+
+    fn polygon(corners: &[(f64, f64)]) -> Vec<Segment> {
+        let points: Vec<Point> = corners.iter().map(|&(x, y)| Point::new(x, y)).collect();
+        let next = points.iter().cycle().skip(1);
+        let lines = points.iter().zip(next);
+        lines.map(|(p, q)| Segment::Line(*p, *q)).collect()
+    }
+
+    fn indices(chain: &[Segment], counter_clockwise: bool) -> Result<Vec<usize>, LoopError> {
+        let kept = without_loops(chain, counter_clockwise, fine())?;
+        Ok(kept.iter().map(|k| k.index).collect())
+    }
+
+    #[test]
+    fn of_an_eight_the_lobe_of_the_sense_asked_for_is_left() {
+        let eight = polygon(&[(0.0, 0.0), (4.0, 4.0), (4.0, 0.0), (0.0, 4.0)]);
+        assert_eq!(indices(&eight, true), Ok(vec![0, 2, 3]));
+        assert_eq!(indices(&eight, false), Ok(vec![0, 1, 2]));
+    }
+
+    #[test]
+    fn a_star_is_left_with_its_outer_edge_or_is_an_error_where_it_turns_the_other_way() {
+        let corner = |k: u32| {
+            let angle = std::f64::consts::TAU * 2.0 * f64::from(k) / 5.0;
+            (angle.cos(), angle.sin())
+        };
+        let star = polygon(&[0, 1, 2, 3, 4].map(corner));
+        let kept = without_loops(&star, true, fine()).expect("an edge");
+        assert_eq!(kept.len(), 10);
+        let short = (kept[0].to - kept[0].from) / 2.0;
+        assert!((short - 0.5 * (3.0 - 5_f64.sqrt())).abs() < 1e-12);
+        assert_eq!(indices(&star, false), Err(LoopError::Everywhere));
+    }
+
+    #[test]
+    fn a_piece_behind_a_neck_whose_walls_cross_is_dropped_however_long() {
+        let pinched = polygon(&[
+            (0.0, -5.0),
+            (10.0, -5.0),
+            (10.0, -0.5),
+            (14.0, 1.0),
+            (18.0, -0.5),
+            (18.0, -2.0),
+            (22.0, -2.0),
+            (22.0, 2.0),
+            (18.0, 2.0),
+            (18.0, 0.5),
+            (14.0, -1.0),
+            (10.0, 0.5),
+            (10.0, 5.0),
+            (0.0, 5.0),
+        ]);
+        assert_eq!(indices(&pinched, true), Ok(vec![0, 1, 2, 10, 11, 12, 13]));
     }
 }
