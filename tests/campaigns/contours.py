@@ -1,9 +1,9 @@
 """Random gears of every pitch curve, tool, fit, ratio and shift, sound and hopeless ones: is every contour a contour?
 
-Each is looked at as polygons by GEOS, which shares nothing with the crates: as a ring within 1e-6 of the module it must be
-simple and counter-clockwise, and have the area told; a ring that is not simple is looked at within 1e-9. Of every
-`--fine` gears one is looked at within 1e-9 at once. A gear scaled by a power of two must be the same, scaled. Prints what
-failed with its design, how many designs are refused and why.
+Each is looked at as polygons by GEOS, which shares nothing with the crates: as a ring within 1e-6 of the module it must
+be simple and counter-clockwise, and have the area told; a ring that is not simple is looked at within 1e-9. Of every
+`--fine` pairs one is looked at within 1e-9 at once. A gear 8 times as large must be the same, scaled. Prints what failed
+with its design, and how many designs are refused and why.
 
     python tests/campaigns/contours.py --gears 10000 --seed 1 --jobs 2
 """
@@ -117,7 +117,7 @@ def transmission(random):
 
 
 def conjugate(random):
-    of, lobes = CURVES[random.choice([name for name in CURVES if name != "conjugate"])](random)
+    of, _ = CURVES[random.choice([name for name in CURVES if name != "conjugate"])](random)
     of = {**of, "module": 1.0, "tooth_count": 30}
     turns = int(random.integers(1, 3))
     return {"kind": "conjugate", "mean_ratio": [turns, 1], "of": of}, turns
