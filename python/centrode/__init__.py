@@ -40,6 +40,7 @@ from ._goal import Goal
 from ._optimised import Optimised
 from ._over_pins import OverPins
 from ._part import Part
+from ._remedy import PairRemedy
 from ._report import Finding, Place, Report, Table
 from ._sheet import Drawing, Sheets
 from ._six_bar import DeadCenters
@@ -75,6 +76,7 @@ __all__ = [
     "MovingBox",
     "Optimised",
     "OverPins",
+    "PairRemedy",
     "Part",
     "Pitch",
     "PitchError",

@@ -14,6 +14,7 @@ from ._goal import Goal
 from ._optimised import Optimised
 from ._over_pins import OverPins
 from ._part import Part
+from ._remedy import PairRemedy
 from ._report import Report
 from ._sheet import Drawing, Sheets
 from ._six_bar import DeadCenters
@@ -711,6 +712,7 @@ class GearPair(Mechanism):
     @overload
     def reverse_pressure_angle(self, phi: ArrayLike) -> NDArray[float64]: ...
     def conjugate(self) -> Pitch: ...
+    def remedies(self) -> tuple[PairRemedy, ...]: ...
     def contact(self, per_pitch: _Count = 8, *, inputs: ArrayLike | None = None) -> Contact: ...
     def sheet(
         self,

@@ -92,11 +92,20 @@ def sweep(
         return _variants(designs, over, inputs, executor, chunk, attempts)
     if isinstance(designs, str | ThreeArm):
         raise TypeError("designs must be several designs, or over must say what varies")
-    texts = [design if isinstance(design, str) else design.to_toml() for design in designs]
+    texts = [_text(number, design) for number, design in enumerate(designs)]
     if executor is None:
         return _figures(texts)
     chunks = [texts[i : i + chunk] for i in range(0, len(texts), chunk)]
     return [figures for part in _spread(_figures, chunks, executor, attempts) for figures in part]
+
+
+def _text(number: int, design: str | Mechanism) -> str:
+    """The design file of one of many designs."""
+    if isinstance(design, str):
+        return design
+    if isinstance(design, Mechanism):
+        return design.to_toml()
+    raise TypeError(f"designs[{number}] must be a design file as text or a mechanism, not {type(design).__name__}")
 
 
 def _variants(

@@ -10,6 +10,7 @@ use pyo3::prelude::{
 use pyo3::types::PyTuple;
 
 use crate::array::{Course, Values, row};
+use crate::count::Count;
 use crate::design::Class;
 use crate::error::{Answer, Raised, plain_tolerance};
 use crate::forces::Names;
@@ -44,14 +45,8 @@ impl Class for Machine {
 }
 
 /// The order of a derivative, none to the third.
-fn checked(order: usize) -> Answer<usize> {
-    match order {
-        0..=3 => Ok(order),
-        _ => Err(Raised::rule(
-            "order",
-            &format!("must be 0 to 3, not {order}"),
-        )),
-    }
+fn checked(order: Count) -> Answer<usize> {
+    Ok(order.within("order", 0, 3)? as usize)
 }
 
 impl Machine {
@@ -106,14 +101,15 @@ impl Machine {
     ///
     /// Raises:
     ///     DesignError: There is no such point.
-    #[pyo3(signature = (name, phi, order=0))]
-    fn point(&self, name: &str, phi: Values, order: usize) -> Answer<Course> {
+    #[pyo3(signature = (name, phi, order=Count::Fits(0)), text_signature = "($self, name, phi, order=0)")]
+    fn point(&self, name: &str, phi: Values, order: Count) -> Answer<Course> {
         let Some((body, at)) = self.0.point_named(name) else {
             let known: Vec<String> = self.0.points().map(|(name, ..)| name).collect();
             let known: Vec<&str> = known.iter().map(String::as_str).collect();
             return Err(Raised::word("name", name, &known));
         };
-        Ok(match checked(order)? {
+        let order = checked(order)?;
+        Ok(match order {
             0 => self.at_each(phi, &[2], vec![(body, at)]),
             _ => self.rows(phi, move |made, phi| {
                 let jet = made.point(body, at, phi);
@@ -143,8 +139,8 @@ impl Machine {
     ///
     /// Raises:
     ///     DesignError: There is no such body.
-    #[pyo3(signature = (name, phi, order=0))]
-    fn body(&self, name: &str, phi: Values, order: usize) -> Answer<Course> {
+    #[pyo3(signature = (name, phi, order=Count::Fits(0)), text_signature = "($self, name, phi, order=0)")]
+    fn body(&self, name: &str, phi: Values, order: Count) -> Answer<Course> {
         let Some(body) = self.0.body_named(name) else {
             let known: Vec<&str> = self.0.bodies().iter().map(|b| b.name.as_str()).collect();
             return Err(Raised::word("name", name, &known));

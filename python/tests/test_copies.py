@@ -102,6 +102,7 @@ def objects():
         ct.Place("driver", (1,), 0.5),
         ct.Table("a", "b", "mm", ("c",), {"d": (1.0,)}),
         arms.arm_clearance(),
+        ct.PairRemedy("full", 23, pair),
         feeder.optimise("de", evaluations=100),
         *(made("why") if not issubclass(made, ct.DesignError) else made("why", "key", 3, 4)
           for made in CLASSES if issubclass(made, Exception)),

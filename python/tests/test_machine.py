@@ -97,8 +97,10 @@ def test_names_are_those_of_the_file():
     for call in (machine.point, machine.body, machine.transmission_angle):
         with pytest.raises(ct.DesignError, match="name must be one of"):
             call("nose", 0.0)
-    with pytest.raises(ct.DesignError, match="order must be 0 to 3, not 4"):
+    with pytest.raises(ct.DesignError, match="order must be a whole number from 0 to 3, not 4"):
         machine.point("foot", 0.0, 4)
+    with pytest.raises(ct.DesignError, match="order must be a whole number from 0 to 3, not -1"):
+        machine.body("shin", 0.0, -1)
     assert pickle.loads(pickle.dumps(machine)) == machine
 
 
@@ -140,6 +142,8 @@ def test_goals_response_and_search_go_the_ways_of_all_families():
     found = machine.optimise("cma-es", seed=1, evaluations=400)
     assert found.ended == "target"
     assert all(goal.met for goal in found.mechanism.goals())
+    with pytest.raises(TypeError, match=r"designs\[1\] must be a design file as text or a mechanism, not int"):
+        ct.sweep([machine, 1])  # type: ignore[list-item]
     one, none = ct.sweep([machine, "family = 1"])
     assert one["stride"] == stride.value
     assert none is None

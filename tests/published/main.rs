@@ -7,5 +7,6 @@ mod data;
 mod feeder;
 mod pitch;
 mod shaft;
+mod strong_laws;
 mod teeth;
 mod three_arm;

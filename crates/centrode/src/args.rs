@@ -66,6 +66,10 @@ pub(crate) struct Check {
     /// Print the figures that goals of this design can name, with their extremes over the cycle, instead of checking
     #[arg(long)]
     pub(crate) figures: bool,
+    /// Print changed designs that mend what the check finds, worked out: for gear pairs, from how many teeth on the flanks
+    /// alone carry the motion
+    #[arg(long, conflicts_with = "figures")]
+    pub(crate) remedy: bool,
 }
 
 #[derive(Debug, Args)]
@@ -198,7 +202,7 @@ fn tolerance(word: &str) -> Result<Tolerance, String> {
 
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Example: centrode optimise arms.toml --method de --seed 1 --evaluations 20000 -o better.toml\n\nThe table [optimise] of the design says what may move and how far. Ctrl-C ends the search and keeps the best so far; --resume goes on from the search stored beside the output. Where the bounds allow no design that reaches the goals, the search says how near they let it come; --widen then writes the design with the least widening.\n\nExit status: 0 every goal is reached; 1 some are not (the file is written all the same); 2 no search, a bad design file, or the file cannot be written."
+    after_help = "Example: centrode optimise arms.toml --method de --seed 1 --evaluations 20000 -o better.toml\n\nA table of the design says what may move and how far: [optimise] of a three-arm, [bounds] of a feeder, [vary] of a machine. Ctrl-C ends the search and keeps the best so far; --resume goes on from the search stored beside the output. Where the bounds allow no design that reaches the goals, the search says how near they let it come; --widen then writes the design with the least widening.\n\nExit status: 0 every goal is reached; 1 some are not (the file is written all the same); 2 no search, a bad design file, or the file cannot be written."
 )]
 pub(crate) struct Optimise {
     /// Design file, or - for standard input

@@ -2,6 +2,8 @@ use std::io::Write;
 use std::process::ExitCode;
 
 use centrode::analysis::Report;
+use centrode::family::Mechanism;
+use centrode::mechanism::design::{Design, DesignError};
 
 use crate::args::Check;
 use crate::failure::Failure;
@@ -36,6 +38,12 @@ pub(crate) fn run(command: &Check, out: &mut impl Write) -> Result<ExitCode, Fai
         }
         return Ok(ExitCode::SUCCESS);
     }
+    if command.remedy {
+        progress.step("looking for remedies");
+        let found = mechanism.remedies();
+        drop(progress);
+        return remedies(command, mechanism.as_ref(), &found, out);
+    }
     progress.step("checking");
     let report = mechanism.check();
     drop(progress);
@@ -45,4 +53,37 @@ pub(crate) fn run(command: &Check, out: &mut impl Write) -> Result<ExitCode, Fai
         report::write(mechanism.as_ref(), &report, out)?;
     }
     Ok(ExitCode::from(u8::from(!report.ok())))
+}
+
+/// Prints changed designs, each with what it does.
+fn remedies(
+    command: &Check,
+    mechanism: &dyn Mechanism,
+    found: &[(String, Box<dyn Design>)],
+    out: &mut impl Write,
+) -> Result<ExitCode, Failure> {
+    if found.is_empty() {
+        let family = mechanism.design().family().word;
+        return Err(Failure::Usage(format!(
+            "no remedy is known for this design of family {family:?}: only those of gear-pair whose flanks carry the motion with 600 teeth or fewer have one"
+        )));
+    }
+    let designs: Vec<(&str, String)> = found
+        .iter()
+        .map(|(words, design)| Ok((words.as_str(), design.to_toml()?)))
+        .collect::<Result<_, DesignError>>()
+        .map_err(|error| Failure::Files(Box::new(error)))?;
+    if command.json {
+        let all: Vec<_> = designs
+            .iter()
+            .map(|(words, design)| serde_json::json!({ "words": words, "design": design }))
+            .collect();
+        let all = serde_json::json!({ "remedies": all });
+        writeln!(out, "{all:#}")?;
+        return Ok(ExitCode::SUCCESS);
+    }
+    for (words, design) in designs {
+        writeln!(out, "# {words}\n{design}")?;
+    }
+    Ok(ExitCode::SUCCESS)
 }

@@ -31,7 +31,7 @@ pub(super) fn goals(made: &Made<'_>) -> Vec<Found> {
             } else {
                 spec.title.clone()
             };
-            let unit = unit(figure);
+            let unit = unit(made, figure);
             let kept = |shown: f64| shown / unit.factor();
             let wanted = spec.wanted().map(|end| end.map(kept));
             let size = wanted
@@ -48,8 +48,12 @@ pub(super) fn goals(made: &Made<'_>) -> Vec<Found> {
 }
 
 /// Unit of a figure.
-fn unit(figure: &ComposedFigure) -> Unit {
+fn unit(made: &Made<'_>, figure: &ComposedFigure) -> Unit {
     match figure {
+        ComposedFigure::OfPair { pair, figure } => {
+            let unit = made.pairs().get(*pair).and_then(|own| own.unit(figure));
+            unit.unwrap_or(Unit::Number)
+        }
         ComposedFigure::Point { part, .. } => match part {
             PointPart::X | PointPart::Y => Unit::Millimetre,
             PointPart::Speed => Unit::MillimetrePerSecond,
@@ -101,7 +105,7 @@ pub fn composed_figures(composed: &Composed) -> Vec<Table> {
     let found = greatest_of(count, all, one, |_, v| rounding(v), &ends(composed));
     let mut tables: Vec<Table> = Vec::new();
     for ((words, figure), found) in words.into_iter().zip(&figures).zip(found.chunks(2)) {
-        let unit = unit(figure);
+        let unit = unit(&made, figure);
         let row = (words, vec![-found[0].value, found[1].value]);
         if !row.1.iter().all(|end| end.is_finite()) {
             continue;
@@ -129,6 +133,11 @@ fn value(
 ) -> (Option<f64>, Option<f64>) {
     if let ComposedFigure::Clearance(ends) = figure {
         return clearance(made, *ends, spec);
+    }
+    if let ComposedFigure::OfPair { pair, figure } = figure {
+        let own = made.pairs().get(*pair);
+        let value = own.and_then(|own| own.values.get(figure).copied());
+        return (value.filter(|value| value.is_finite()), None);
     }
     if figure.is_of_forces() {
         return match made.loaded() {

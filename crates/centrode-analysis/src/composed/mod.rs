@@ -8,10 +8,12 @@ mod forces;
 mod goals;
 mod joints;
 mod motion;
+mod pairs;
 #[cfg(test)]
 mod tests;
 
 use std::cell::OnceCell;
+use std::sync::Arc;
 
 use centrode_geometry::pieces;
 use centrode_mechanism::composed::Composed;
@@ -57,6 +59,7 @@ pub fn check_composed(composed: &Composed) -> Report {
     if let (Some(machine), Some(loaded)) = (made.machine(), made.loaded()) {
         forces::forces(loaded, machine, &mut report);
     }
+    pairs::pairs(&made, &mut report);
     collisions::collisions(&made, &ends(composed), &mut report);
     let found = goals::goals(&made);
     clearance::apart(composed, &found, &mut report);
@@ -83,6 +86,7 @@ struct Made<'a> {
     composed: &'a Composed,
     machine: OnceCell<Option<Machine>>,
     loaded: OnceCell<Option<Result<Loaded, ForcesError>>>,
+    pairs: OnceCell<Vec<Arc<Report>>>,
 }
 
 impl<'a> Made<'a> {
@@ -91,6 +95,7 @@ impl<'a> Made<'a> {
             composed,
             machine: OnceCell::new(),
             loaded: OnceCell::new(),
+            pairs: OnceCell::new(),
         }
     }
 
@@ -98,6 +103,11 @@ impl<'a> Made<'a> {
     fn machine(&self) -> Option<&Machine> {
         let made = || self.composed.machine().ok();
         self.machine.get_or_init(made).as_ref()
+    }
+
+    /// Checks of its gear pairs.
+    fn pairs(&self) -> &[Arc<Report>] {
+        self.pairs.get_or_init(|| pairs::checked(self.composed))
     }
 
     /// Its forces; none where it has no links.

@@ -7,6 +7,7 @@ mod clearances;
 mod followers;
 mod loads;
 mod seats;
+mod teeth;
 
 fn composed(text: &str) -> Composed {
     let design = ComposedDesign::from_toml(text).expect("a design");

@@ -1,11 +1,13 @@
 //! Check of a gear pair.
 
 mod figures;
+mod remedies;
 mod remedy;
 mod teeth;
 
 use std::f64::consts::PI;
 
+use centrode_geometry::Extreme;
 use centrode_mechanism::gear::{GearPair, Limits, Member, ToolKind};
 
 use self::remedy::remedy;
@@ -13,6 +15,7 @@ use self::teeth::teeth;
 use crate::{Contact, Finding, Place, Report, Severity, Unit};
 
 pub(crate) use figures::FIGURES;
+pub use remedies::{PairRemedy, remedies};
 
 /// Penetration, in modules, above which two outlines are reported to interfere.
 const OVERLAP: f64 = 1e-6;
@@ -110,7 +113,10 @@ fn pitch_curves(pair: &GearPair, limits: &Limits, report: &mut Report) {
             });
         }
     }
-    let (steepest, input) = greatest_pressure_angle(pair);
+    let Extreme {
+        input,
+        value: steepest,
+    } = pair.greatest_pressure_angle();
     report.values.insert("pressure_angle_max", steepest);
     if steepest > PRESSURE_ANGLE {
         report.findings.push(Finding {
@@ -141,29 +147,15 @@ fn pitch_curves(pair: &GearPair, limits: &Limits, report: &mut Report) {
 /// Pressure angle above which friction is commonly considered a danger, rad.
 const PRESSURE_ANGLE: f64 = 50.0 * PI / 180.0;
 
-/// Greatest pressure angle, between the common normal and the driven gear's direction of motion at the pitch point,
-/// over both flanks, and its input.
-fn greatest_pressure_angle(pair: &GearPair) -> (f64, f64) {
-    const SAMPLES: u32 = 360;
-    let rolling = pair.rolling();
-    let length = rolling.pitch_length(Member::Driver);
-    let mut greatest = (0.0, 0.0);
-    for i in 0..SAMPLES {
-        let t = rolling.parameter(length * f64::from(i) / f64::from(SAMPLES));
-        let point = pair.pitch_point(rolling.angle(t));
-        let angle = point.pressure_angle.max(point.reverse_pressure_angle);
-        if angle > greatest.0 {
-            greatest = (angle, point.input);
-        }
-    }
-    greatest
-}
-
 /// Transmission error, rad, up to which the flanks carry the motion.
 pub(crate) fn allowed_error(pair: &GearPair) -> f64 {
-    // Backlash thins the flanks: they are then conjugate only to the first order of it.
+    LOST.max(thinned(pair))
+}
+
+/// Transmission error that play brings, rad: it thins the flanks, which are then conjugate only to the first order of it.
+fn thinned(pair: &GearPair) -> f64 {
     let a = pair.center_distance();
-    LOST.max(2.0 * (pair.backlash() / a).powi(2) * a / pair.module())
+    2.0 * (pair.backlash() / a).powi(2) * a / pair.module()
 }
 
 fn mesh(pair: &GearPair, contact: &Contact, report: &mut Report) {

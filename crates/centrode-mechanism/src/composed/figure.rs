@@ -1,11 +1,12 @@
 use centrode_geometry::Point;
 
+use super::clearance_end::ClearanceEnd;
 use super::points::Reference;
 use super::{Composed, ComposedBody, ComposedError, Pin};
 use crate::machine::JointKind;
 
 /// Grammar of the figures of a composed machine: form, meaning, unit as shown.
-pub const FIGURE_FORMS: [[&str; 3]; 14] = [
+pub const FIGURE_FORMS: [[&str; 3]; 15] = [
     [
         "point.x",
         "x of a point: of body.point, or of a point whose name no other body has",
@@ -68,6 +69,11 @@ pub const FIGURE_FORMS: [[&str; 3]; 14] = [
         "force along the normal of the teeth by which a body is moved",
         "N",
     ],
+    [
+        "pair(pair).figure",
+        "figure of the check of a gear pair by its key, pair(drive).contact_ratio_mean: the teeth by themselves, over their own cycle",
+        "as there",
+    ],
 ];
 
 /// A figure of a composed machine, found by its words.
@@ -104,6 +110,13 @@ pub enum ComposedFigure {
     PinForce(usize),
     /// Force along the normal of a mesh, N; its index among the meshes of the machine.
     MeshForce(usize),
+    /// A figure of the check of a gear pair, which does not change with the input.
+    OfPair {
+        /// The pair's number among [`Composed::pairs`].
+        pair: usize,
+        /// Key of the figure.
+        figure: &'static str,
+    },
 }
 
 impl ComposedFigure {
@@ -115,15 +128,6 @@ impl ComposedFigure {
             Self::InputTorque | Self::JointForce(_) | Self::PinForce(_) | Self::MeshForce(_)
         )
     }
-}
-
-/// Body or obstacle of a clearance.
-#[derive(Clone, Copy, Debug, Eq, PartialEq)]
-pub enum ClearanceEnd {
-    /// A body with its plate and gears; its index.
-    Body(usize),
-    /// An obstacle; its index.
-    Obstacle(usize),
 }
 
 /// Component of a point's motion.
@@ -155,6 +159,9 @@ impl Composed {
         };
         if let Some(found) = self.figure_of_forces(key, words) {
             return found?.ok_or_else(none);
+        }
+        if let Some(found) = self.figure_of_pair(key, words) {
+            return found;
         }
         if let Some((function, inside)) = words.split_once('(') {
             let inside = inside.strip_suffix(')').ok_or_else(none)?;
@@ -240,55 +247,6 @@ impl Composed {
             .join("-")
     }
 
-    /// Bodies or obstacles that a key names, for their clearance.
-    ///
-    /// # Errors
-    /// [`ComposedError`] for a name that is neither's, and for two that stand on one body.
-    pub fn clearance_ends(
-        &self,
-        key: &str,
-        names: [&str; 2],
-    ) -> Result<[ClearanceEnd; 2], ComposedError> {
-        let end = |name: &str| {
-            let mut obstacles = self.obstacles().iter();
-            match obstacles.position(|obstacle| obstacle.name == name) {
-                Some(obstacle) => Ok(ClearanceEnd::Obstacle(obstacle)),
-                None => self.body_of(key, name).map(ClearanceEnd::Body),
-            }
-        };
-        let ends = [end(names[0])?, end(names[1])?];
-        let [one, other] = ends.map(|end| self.body_of_end(end));
-        if one == other {
-            let [first, second] = names;
-            return Err(ComposedError::Refused {
-                key: key.into(),
-                why: format!(
-                    "{first} and {second} are both on {}: their clearance stays what it is",
-                    self.bodies[one].name
-                ),
-            });
-        }
-        Ok(ends)
-    }
-
-    /// Index of the body that an end of a clearance moves with.
-    #[must_use]
-    pub fn body_of_end(&self, end: ClearanceEnd) -> usize {
-        match end {
-            ClearanceEnd::Body(body) => body,
-            ClearanceEnd::Obstacle(obstacle) => self.obstacles[obstacle].body,
-        }
-    }
-
-    /// Name of an end of a clearance.
-    #[must_use]
-    pub fn name_of_end(&self, end: ClearanceEnd) -> &str {
-        match end {
-            ClearanceEnd::Body(body) => &self.bodies[body].name,
-            ClearanceEnd::Obstacle(obstacle) => &self.obstacles[obstacle].name,
-        }
-    }
-
     /// Words of the figures of single points, bodies, dyads and meshes, of the torque and of the forces in joints, for goals
     /// to name.
     #[must_use]
@@ -330,7 +288,7 @@ impl Composed {
     }
 
     /// Index of a body that a key names.
-    fn body_of(&self, key: &str, name: &str) -> Result<usize, ComposedError> {
+    pub(super) fn body_of(&self, key: &str, name: &str) -> Result<usize, ComposedError> {
         self.body_named(name).ok_or_else(|| ComposedError::NoBody {
             key: key.into(),
             body: name.into(),
@@ -351,8 +309,8 @@ impl Composed {
         })
     }
 
-    /// Value of a figure at an input, in mm, rad, mm/s, m/s² or rad/s; none for a clearance, which is of the whole cycle, nor
-    /// for a force.
+    /// Value of a figure at an input, in mm, rad, mm/s, m/s² or rad/s; none for a clearance, which is of the whole cycle, for a
+    /// force, nor for a figure of a pair.
     #[must_use]
     pub fn value(&self, figure: &ComposedFigure, input: f64) -> Option<f64> {
         let speed = self.speed();
@@ -381,7 +339,8 @@ impl Composed {
             | ComposedFigure::InputTorque
             | ComposedFigure::JointForce(_)
             | ComposedFigure::PinForce(_)
-            | ComposedFigure::MeshForce(_) => return None,
+            | ComposedFigure::MeshForce(_)
+            | ComposedFigure::OfPair { .. } => return None,
         })
     }
 }

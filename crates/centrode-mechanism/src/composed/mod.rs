@@ -8,6 +8,7 @@ mod body;
 mod build;
 mod camming;
 mod cams;
+mod clearance_end;
 mod copies;
 mod copying;
 mod corner;
@@ -30,6 +31,7 @@ mod links;
 mod load;
 mod mesh;
 mod obstacle;
+mod pair_figure;
 mod pieces;
 mod plates;
 mod points;
@@ -50,6 +52,7 @@ pub use cams::{
     ComposedCamSpec, ComposedFollowerSpec, ComposedSlidingRoller, ComposedSwingingFlat,
     ComposedSwingingRoller,
 };
+pub use clearance_end::ClearanceEnd;
 pub use copies::ComposedCopiesSpec;
 pub use corner::{ComposedPointsSpec, CornerSpec, Side};
 pub use design::{ComposedDesign, ComposedInputSpec};
@@ -57,13 +60,14 @@ pub use drawn::{ComposedCircleSpec, ComposedCornerSpec};
 pub use drive::{IntermittentSpec, TraverseSpec};
 pub use dyad::{ComposedDyadSpec, DyadKind};
 pub use error::ComposedError;
-pub use figure::{ClearanceEnd, ComposedFigure, FIGURE_FORMS, PointPart};
+pub use figure::{ComposedFigure, FIGURE_FORMS, PointPart};
 pub use gearing::ComposedGear;
 pub use gears::{ComposedGearSpec, ComposedLoopSpec, ComposedMeshSpec, GearRole};
 pub use goal::{ComposedGoalSpec, Over};
 pub use law::{ComposedLawError, ComposedLawSpec};
 pub use load::{ComposedLoadSpec, LoadAxes};
 pub use obstacle::{ComposedObstacle, ComposedObstacleSpec};
+pub use pair_figure::PAIR_FIGURES;
 pub use plates::ComposedPlatesSpec;
 
 use self::expansion::Expansion;

@@ -1,4 +1,4 @@
-use centrode_geometry::{Extreme, checkpoint, extremes};
+use centrode_geometry::{Extreme, checkpoint, extremes, greatest};
 
 use super::{
     design::GearPairDesign,
@@ -94,6 +94,21 @@ impl GearPair {
             driven_curvature: driven.curvature,
             pressure_angle: (alpha - inclination).abs(),
             reverse_pressure_angle: (alpha + inclination).abs(),
+        }
+    }
+
+    /// Greatest pressure angle over the cycle, whichever way the driver pushes, and the driver angle at which it is, rad.
+    #[must_use]
+    pub fn greatest_pressure_angle(&self) -> Extreme {
+        let rolling = self.rolling();
+        let steeper = |t: f64| {
+            let point = self.pitch_point(rolling.angle(t));
+            point.pressure_angle.max(point.reverse_pressure_angle)
+        };
+        let found = greatest(steeper, &rolling.pieces());
+        Extreme {
+            input: rolling.angle(found.input),
+            ..found
         }
     }
 

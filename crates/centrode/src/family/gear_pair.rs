@@ -1,11 +1,11 @@
-use centrode_analysis::{Contact, Report, check, check_contact};
+use centrode_analysis::{Contact, PairRemedy, Report, check, check_contact, remedies};
 use centrode_export::page::{Curve, Picture};
 use centrode_export::{Bundle, ExportError, Format, Options};
 use centrode_export::{gear_pair, machine};
 use centrode_geometry::Tolerance;
 use centrode_mechanism::design::{Design, MechanismError};
 use centrode_mechanism::gear::GearPair;
-use centrode_mechanism::gear::design::GearPairDesign;
+use centrode_mechanism::gear::design::{Addendum, GearPairDesign};
 use centrode_mechanism::machine::Machine;
 
 use super::contact::contact_curves;
@@ -14,6 +14,27 @@ use super::{Mechanism, PartName, Resolved};
 
 /// Tolerance of the picture, as a share of the module: a tenth of a pixel when a tooth is as high as a hand.
 const DRAWN: f64 = 2e-3;
+
+/// A remedy in words.
+fn words(pair: &GearPair, remedy: &PairRemedy) -> String {
+    let teeth = match remedy.addendum {
+        Addendum::Full => "full teeth",
+        Addendum::Fitted => "fitted teeth",
+    };
+    let (least, written) = (remedy.least_tooth_count, pair.driver().tooth_count());
+    let start = format!(
+        "{teeth} carry the motion by their flanks alone from {least} teeth of the driver on"
+    );
+    if least <= written {
+        return format!("{start}: with the {written} written, too");
+    }
+    let share = f64::from(least) / f64::from(written);
+    format!(
+        "{start}: of module {:.4} mm on these pitch curves, or of {:.4} mm on curves {share:.4} times as large",
+        pair.module() / share,
+        pair.module()
+    )
+}
 
 impl Mechanism for GearPair {
     fn design(&self) -> &dyn Design {
@@ -32,6 +53,15 @@ impl Mechanism for GearPair {
     fn check_with_curves(&self) -> (Report, Vec<Curve>) {
         let contact = Contact::of(self);
         (check_contact(self, &contact), contact_curves(&contact))
+    }
+
+    fn remedies(&self) -> Vec<(String, Box<dyn Design>)> {
+        let found = remedies(self).into_iter();
+        found
+            .map(|remedy| -> (String, Box<dyn Design>) {
+                (words(self, &remedy), Box::new(remedy.design))
+            })
+            .collect()
     }
 
     fn curves(&self) -> Vec<Curve> {

@@ -37,6 +37,11 @@ pub trait Mechanism: Any + Debug + Send + Sync {
         Vec::new()
     }
 
+    /// Changed designs that mend what the check finds, worked out, each with what it does in words; empty where none is known.
+    fn remedies(&self) -> Vec<(String, Box<dyn Design>)> {
+        Vec::new()
+    }
+
     /// Curves that are available at once.
     fn curves(&self) -> Vec<Curve>;
 

@@ -153,6 +153,15 @@ impl GearPairDesign {
     pub fn driver_tooth_count(&self) -> Option<u32> {
         self.tooth_count.or(self.pitch.tooth_count())
     }
+
+    /// The design with another number of teeth on the driver, on pitch curves of the same size: the module changes.
+    #[must_use]
+    pub fn with_tooth_count(&self, teeth: u32) -> Self {
+        let mut changed = self.clone();
+        changed.pitch.set_tooth_count(teeth);
+        changed.tooth_count = self.tooth_count.map(|_| teeth);
+        changed
+    }
 }
 
 fn greatest_common_divisor(a: u32, b: u32) -> u32 {

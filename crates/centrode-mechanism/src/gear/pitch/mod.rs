@@ -157,6 +157,28 @@ impl PitchSpec {
         }
     }
 
+    /// Gives it another number of teeth, where it has one: on a curve of the same size, so that the module changes.
+    pub(crate) fn set_tooth_count(&mut self, teeth: u32) {
+        let (module, count) = match self {
+            Self::Circle(spec) => (&mut spec.module, &mut spec.tooth_count),
+            Self::EccentricCircle(spec) => (&mut spec.module, &mut spec.tooth_count),
+            Self::Ellipse(spec) => (&mut spec.module, &mut spec.tooth_count),
+            Self::LobedEllipse(spec) => (&mut spec.module, &mut spec.tooth_count),
+            Self::Limacon(spec) => (&mut spec.module, &mut spec.tooth_count),
+            Self::Bspline(spec) => (&mut spec.module, &mut spec.tooth_count),
+            Self::Bezier(spec) => (&mut spec.module, &mut spec.tooth_count),
+            Self::Polar(spec) => (&mut spec.module, &mut spec.tooth_count),
+            Self::Transmission(spec) => (&mut spec.module, &mut spec.tooth_count),
+            Self::Ratio(spec) => (&mut spec.module, &mut spec.tooth_count),
+            Self::Conjugate(spec) => (&mut spec.module, &mut spec.tooth_count),
+        };
+        let Some(count) = count else { return };
+        if let Some(module) = module {
+            *module *= f64::from(*count) / f64::from(teeth);
+        }
+        *count = teeth;
+    }
+
     fn draft(&self) -> Result<Draft, PitchError> {
         match self {
             Self::Circle(spec) => spec.draft(),

@@ -1,0 +1,21 @@
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Literal
+
+if TYPE_CHECKING:
+    from ._centrode import GearPair
+
+
+@dataclass(frozen=True, slots=True)
+class PairRemedy:
+    """Teeth that carry the motion of a pair by their flanks alone."""
+
+    __module__ = "centrode"
+
+    addendum: Literal["full", "fitted"]
+    """Height of the teeth."""
+    least_tooth_count: int
+    """Least tooth count of the driver at which they do."""
+    pair: GearPair
+    """The pair with such teeth, as many as it had where those are enough."""

@@ -1,0 +1,189 @@
+//! Laws that ask much of teeth: other people's stress tests, and how many teeth they need.
+
+use std::f64::consts::{PI, SQRT_2, TAU};
+
+use centrode_analysis::{check, remedies};
+use centrode_mechanism::gear::design::{Addendum, GearPairDesign, Rack, ToolSpec};
+use centrode_mechanism::gear::pitch::{PitchSpec, Polar, Ratio, Transmission};
+use centrode_mechanism::gear::{GearPair, Member, ToothSide};
+use serde::Deserialize;
+
+use crate::data::{cases, file};
+
+/// Transmission error up to which flanks carry the motion, rad.
+const CARRIED: f64 = 1e-9;
+
+#[derive(Deserialize)]
+struct Law {
+    name: String,
+    radius: String,
+    teeth: u32,
+    #[serde(default = "even")]
+    mean_ratio: [u32; 2],
+    passes: bool,
+}
+
+fn even() -> [u32; 2] {
+    [1, 1]
+}
+
+/// The transmission error of a design's pair, rad, and whether its check finds no error.
+fn error(design: &GearPairDesign) -> (f64, bool) {
+    let report = check(&GearPair::resolve(design).expect("a pair"));
+    (report.values["transmission_error_max"], report.ok())
+}
+
+fn in_words((error, ok): (f64, bool)) -> String {
+    if ok && error <= CARRIED {
+        return "carries".into();
+    }
+    let text = format!("{error:.1e}");
+    let (digits, power) = text.split_once('e').expect("a power of ten");
+    let power: i32 = power.parse().expect("a number");
+    format!("{digits}e{power:+03} rad").replace("+-", "-")
+}
+
+/// Rows of the table in the docs, cell by cell.
+fn rows() -> Vec<Vec<String>> {
+    let text = std::fs::read_to_string(file("../docs/strong-laws.md")).expect("the docs");
+    let rows = text.lines().filter(|line| line.starts_with("| "));
+    let cells = |line: &str| {
+        let cells = line.trim_matches('|').split('|');
+        cells.map(|cell| cell.trim().to_owned()).collect()
+    };
+    rows.skip(1).map(cells).collect()
+}
+
+#[test]
+fn the_table_of_strong_laws_in_the_docs_is_what_the_teeth_do() {
+    let laws: Vec<Law> = cases("strong_laws");
+    let rows = rows();
+    assert_eq!(laws.len(), rows.len());
+    std::thread::scope(|scope| {
+        for (law, row) in laws.iter().zip(&rows) {
+            scope.spawn(move || {
+                let pitch = PitchSpec::Polar(Polar {
+                    expression: Some(law.radius.clone()),
+                    module: Some(1.0),
+                    tooth_count: Some(law.teeth),
+                    ..Polar::default()
+                });
+                let mut design = GearPairDesign::new(pitch);
+                design.mean_ratio = law.mean_ratio;
+                let full = in_words(error(&design));
+                design.teeth.addendum = Addendum::Fitted;
+                let fitted = in_words(error(&design));
+                let expected = if law.passes { "passes" } else { "fails" };
+                let found: [&str; 5] = [
+                    &law.name.replace('_', " "),
+                    &law.teeth.to_string(),
+                    expected,
+                    &full,
+                    &fitted,
+                ];
+                assert_eq!(found.map(str::to_owned).as_slice(), row);
+                assert!(!law.passes || fitted == "carries", "{}", law.name);
+            });
+        }
+    });
+}
+
+fn by_ratio(expression: &str, teeth: u32, addendum: Addendum) -> GearPairDesign {
+    let mut design = GearPairDesign::new(PitchSpec::Ratio(Ratio {
+        expression: Some(expression.into()),
+        module: Some(2.0),
+        tooth_count: Some(teeth),
+        ..Ratio::default()
+    }));
+    design.teeth.addendum = addendum;
+    design
+}
+
+#[test]
+fn a_strong_law_is_carried_from_the_tooth_count_on_that_is_named_and_not_below() {
+    let weak = by_ratio("1 + 0.45*cos(2*phi)", 24, Addendum::Fitted);
+    assert!(error(&weak).0 > CARRIED);
+    let found = remedies(&GearPair::resolve(&weak).expect("a pair"));
+    let [remedy] = &found[..] else {
+        panic!("{found:?}");
+    };
+    assert_eq!(
+        (remedy.addendum, remedy.least_tooth_count),
+        (Addendum::Fitted, 31)
+    );
+    let sound = error(&remedy.design);
+    assert!(sound.0 <= CARRIED && sound.1, "{sound:?}");
+    // On pitch curves of the same size.
+    let size = |design: &GearPairDesign| {
+        let pair = GearPair::resolve(design).expect("a pair");
+        (pair.driver().tooth_count(), pair.center_distance())
+    };
+    let [(before, own), (after, made)] = [size(&weak), size(&remedy.design)];
+    assert_eq!((before, after), (24, 31));
+    assert!((own - made).abs() < 1e-12 * own);
+    let one_below = weak.with_tooth_count(30);
+    assert!(error(&one_below).0 > CARRIED);
+}
+
+#[test]
+fn the_strongest_law_is_carried_by_the_tooth_count_that_the_docs_name_and_not_by_one_fewer() {
+    let carries = |teeth: u32| {
+        let law = by_ratio("1 + 0.5*cos(3*phi)", teeth, Addendum::Fitted);
+        let (error, ok) = error(&law);
+        ok && error <= CARRIED
+    };
+    let [named, fewer] = std::thread::scope(|scope| {
+        let both = [414, 413].map(|teeth| scope.spawn(move || carries(teeth)));
+        both.map(|job| job.join().expect("checked"))
+    });
+    assert!(named && !fewer);
+}
+
+/// Figures of Baesel, arXiv:1905.02642: psi = phi - (2 - sqrt 2) sin phi, 14 teeth, module 2, 20 degrees, dedendum 1.2, tip radius
+/// 0.3.
+fn published() -> GearPair {
+    let mut design = GearPairDesign::new(PitchSpec::Transmission(Transmission {
+        expression: Some("phi - (2 - sqrt(2))*sin(phi)".into()),
+        module: Some(2.0),
+        tooth_count: Some(14),
+        ..Transmission::default()
+    }));
+    design.tool = ToolSpec::Rack(Rack {
+        dedendum_coefficient: 1.2,
+        tip_radius_coefficient: 0.3,
+        ..Rack::default()
+    });
+    GearPair::resolve(&design).expect("a pair")
+}
+
+#[test]
+fn teeth_of_the_published_pair_stand_where_the_paper_has_them() {
+    let pair = published();
+    assert!((pair.center_distance() - 28.4385).abs() < 5e-5);
+    let printed = [
+        0.0, 0.674_065, 1.188_77, 1.630_10, 2.032_97, 2.413_17, 2.780_37, PI, 3.502_82,
+    ];
+    let rolling = pair.rolling();
+    for (tooth, angle) in pair.driver().teeth().iter().zip(printed) {
+        let middle = 0.5 * (tooth.leading.crossing + tooth.trailing.crossing);
+        let found = rolling.angle(rolling.parameter(middle)).rem_euclid(TAU);
+        assert!((found - angle).abs() < 6e-6, "{found} {angle}");
+        // The law's own arc length: half the perimeter over pi a tooth.
+        let length = rolling.pitch_length(Member::Driver) / 14.0;
+        assert!((length - TAU).abs() < 1e-12);
+    }
+    let ratio = pair.driven_angle(1.0) - (1.0 - (2.0 - SQRT_2) * 1.0_f64.sin());
+    assert!(ratio.abs() < 1e-12);
+}
+
+#[test]
+fn of_the_published_driver_two_flanks_alone_are_free_of_undercut() {
+    let pair = published();
+    let free = |side: &ToothSide| side.undercut == 0.0;
+    let mut found = Vec::new();
+    for (number, tooth) in (1..).zip(pair.driver().teeth()) {
+        found.extend(free(&tooth.leading).then_some((number, '-')));
+        found.extend(free(&tooth.trailing).then_some((number, '+')));
+    }
+    assert_eq!(found, [(2, '-'), (14, '+')]);
+}
