@@ -6,17 +6,17 @@ impl Outline {
     /// Exact up to rounding for points not on the contour itself; a point on it may get either answer.
     #[must_use]
     pub fn contains(&self, point: Point) -> bool {
-        let crossings: usize = self
+        let turns = self
             .segments()
             .iter()
-            .map(|segment| crossings(segment, point))
-            .sum();
-        crossings % 2 == 1
+            .map(|segment| winding(segment, point));
+        turns.sum::<i32>() % 2 != 0
     }
 }
 
-/// Number of crossings of a segment with the ray from `point` towards +x, right in parity.
-fn crossings(segment: &Segment, point: Point) -> usize {
+/// How often a segment crosses the ray from `point` towards +x upwards, less how often downwards: over a closed chain, the
+/// winding number about the point.
+pub(crate) fn winding(segment: &Segment, point: Point) -> i32 {
     let side = |y: f64| y > point.y;
     let mut count = 0;
     let mut stack = vec![(-1.0, 1.0, segment.start(), segment.end(), 0)];
@@ -26,9 +26,11 @@ fn crossings(segment: &Segment, point: Point) -> usize {
         if box_.min.y > point.y || box_.max.y <= point.y || box_.max.x < point.x {
             continue;
         }
-        // Whatever happens in a part wholly to the right, its ends tell the parity.
-        if box_.min.x > point.x || depth >= 50 {
-            count += usize::from(side(start.y) != side(end.y));
+        // Whatever happens in a part wholly to the right, its ends tell the count.
+        // The box of a part that is all rounding no longer shrinks with it.
+        let all_rounding = depth >= 20 && (end - start).amax() <= 1e-12 * start.coords.amax();
+        if box_.min.x > point.x || depth >= 50 || all_rounding {
+            count += i32::from(side(end.y)) - i32::from(side(start.y));
             continue;
         }
         let middle = 0.5 * (u0 + u1);

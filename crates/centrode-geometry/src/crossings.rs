@@ -224,11 +224,14 @@ fn search(
                 // Neither parallel nor opposed anywhere: at most one crossing. Newton's method that leads
                 // elsewhere does not prove that there is none.
                 if let Some(found) = polish(&a, &b) {
+                    // Parts beside each other find the same crossing; two so near cross opposite ways.
                     let near = |x: f64, y: f64| (x - y).abs() < 1e-7;
-                    if !out
-                        .iter()
-                        .any(|&(u, v)| near(u, found.0) && near(v, found.1))
-                    {
+                    let turn = |(u, v): (f64, f64)| {
+                        a.segment.at(u).first.perp(&b.segment.at(v).first) > 0.0
+                    };
+                    if !out.iter().any(|&(u, v)| {
+                        near(u, found.0) && near(v, found.1) && turn((u, v)) == turn(found)
+                    }) {
                         out.push(found);
                     }
                     continue;

@@ -10,6 +10,7 @@ mod arcs;
 mod biarc;
 mod bounds;
 mod cancel;
+mod chain;
 mod chords;
 mod containment;
 mod convex;

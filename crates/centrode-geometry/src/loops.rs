@@ -1,8 +1,9 @@
 //! Removal of loops from closed chains of curves.
 
 use crate::{
-    Bounds, Segment, Tolerance,
-    crossings::{Unresolved, crossings, self_crossings},
+    Segment, Tolerance,
+    chain::{Chain, others},
+    crossings::Unresolved,
 };
 
 /// Greatest number of passes; each may find loops which the one before laid bare.
@@ -28,6 +29,12 @@ pub enum LoopError {
         /// Two segments that cross, counted from 0.
         segments: [usize; 2],
     },
+    /// Crossings of which one was overlooked: the contour would have to be on both sides of itself.
+    #[error("its contour crosses itself at segments {} and {} in a way that does not fit the other crossings", .segments[0], .segments[1])]
+    Inconsistent {
+        /// Two segments that cross, counted from 0.
+        segments: [usize; 2],
+    },
 }
 
 /// A part of a segment that is left after the loops of its chain are cut off.
@@ -50,10 +57,6 @@ impl Kept {
         }
     }
 
-    fn is_whole(&self) -> bool {
-        (self.from, self.to) == (-1.0, 1.0)
-    }
-
     /// The part of `self` that a second cut keeps.
     fn cut(&self, again: &Self) -> Self {
         let at = |u: f64| self.from + 0.5 * (1.0 + u) * (self.to - self.from);
@@ -73,137 +76,59 @@ impl Kept {
     }
 }
 
-/// Loop of a chain: segment and parameter where it opens, and where it closes; closing segments are counted on beyond
-/// the last.
-type Loop = (usize, f64, usize, f64);
-
-/// Cuts the loops off a closed chain of segments: where the chain crosses itself the part between the two passes is
-/// dropped, and so are loops laid bare by that.
+/// Contour of a closed chain of segments that crosses itself: the outer edge of the largest region round which the chain
+/// winds in its own sense, counter-clockwise or not, at least once.
 ///
-/// `near(i, j)` says whether segment `j`, after `i`, may take part in a loop with it: longer detours
-/// are left alone. The chain is cut open at a place no loop covers.
+/// Loops of undercut, of pointed tips, and of offsets beyond the radius of curvature wind the other way, or twice, and are
+/// dropped; so are whole pieces that are cut off. The winding number on the left changes by one at each crossing; so the
+/// crossings alone tell which stretches are the edge.
 ///
 /// # Errors
-/// [`LoopError`] where every place of the chain lies in a loop, or where its crossings with itself cannot be
-/// determined.
+/// [`LoopError`] where there is no such region, or where the chain's crossings with itself cannot be determined.
 pub fn without_loops(
     segments: &[Segment],
-    near: impl Fn(usize, usize) -> bool,
+    counter_clockwise: bool,
     tolerance: Tolerance,
 ) -> Result<Vec<Kept>, LoopError> {
     let mut left: Vec<Kept> = (0..segments.len()).map(Kept::whole).collect();
     let mut last = [0, 0];
+    // A crossing may be found only after the loop it lies in is gone.
     for _ in 0..MOST_PASSES {
-        let found = loops(segments, &left, &near, tolerance)?;
-        let Some(first) = found.first() else {
+        let parts: Vec<Segment> = left
+            .iter()
+            .map(|k| segments[k.index].part(k.from, k.to))
+            .collect();
+        let chain = Chain::new(&parts, tolerance);
+        let named = |cause| named(cause, &left);
+        let passages = chain.passages().map_err(named)?;
+        if passages.is_empty() {
             return Ok(left);
-        };
-        last = [first.0, first.2].map(|i| left[i % left.len()].index);
-        let kept = cut(found, left.len()).ok_or(LoopError::Everywhere)?;
-        if kept.len() == left.len() && kept.iter().all(Kept::is_whole) {
-            return Ok(left);
+        }
+        let others = others(&passages);
+        last = [0, others[0]].map(|k| left[passages[k].place.0].index);
+        let winding = chain.left(&passages, &others).map_err(named)?;
+        let kept = chain.edge(&passages, &others, &winding, counter_clockwise);
+        if kept.is_empty() {
+            return Err(LoopError::Everywhere);
         }
         left = kept.iter().map(|k| left[k.index].cut(k)).collect();
     }
     Err(LoopError::Endless { segments: last })
 }
 
-/// Every loop of a chain of parts of segments.
-fn loops(
-    segments: &[Segment],
-    left: &[Kept],
-    near: impl Fn(usize, usize) -> bool,
-    tolerance: Tolerance,
-) -> Result<Vec<Loop>, LoopError> {
-    let count = left.len();
-    let unresolved = |i: usize, j: usize| {
-        let segments = [left[i].index, left[j].index];
-        move |cause| LoopError::Unresolved { segments, cause }
-    };
-    let chain: Vec<Segment> = left
-        .iter()
-        .map(|k| segments[k.index].part(k.from, k.to))
-        .collect();
-    let boxes: Vec<Bounds> = chain.iter().map(|s| s.enclosure(-1.0, 1.0)).collect();
-    let mut found = Vec::new();
-    for i in 0..count {
-        for (u, v) in self_crossings(&chain[i], tolerance).map_err(unresolved(i, i))? {
-            found.push((i, u.min(v), i, u.max(v)));
-        }
-        for step in 1..=count / 2 {
-            let j = (i + step) % count;
-            if !near(left[i].index, left[j].index) {
-                break;
-            }
-            if step > 1 && !boxes[i].meets(&boxes[j]) {
-                continue;
-            }
-            let crossings = crossings(&chain[i], &chain[j], step == 1, tolerance);
-            for (u, v) in crossings.map_err(unresolved(i, j))? {
-                found.push((i, u, i + step, v));
-            }
-        }
+/// An error of a chain of parts, with the segments they are parts of.
+fn named(error: LoopError, parts: &[Kept]) -> LoopError {
+    let own = |segments: [usize; 2]| segments.map(|i| parts[i].index);
+    match error {
+        LoopError::Unresolved { segments, cause } => LoopError::Unresolved {
+            segments: own(segments),
+            cause,
+        },
+        LoopError::Inconsistent { segments } => LoopError::Inconsistent {
+            segments: own(segments),
+        },
+        other => other,
     }
-    Ok(found)
-}
-
-/// Parts of a chain of `count` segments without its loops; `None` where they cover every segment.
-fn cut(mut found: Vec<Loop>, count: usize) -> Option<Vec<Kept>> {
-    // Start at a segment no loop reaches into.
-    let mut covered = vec![false; count];
-    for &(i, _, j, _) in &found {
-        for k in i..=j {
-            covered[k % count] = true;
-        }
-    }
-    let origin = covered.iter().position(|c| !c)?;
-    for loop_ in &mut found {
-        let shift = (loop_.0 + count - origin) % count;
-        loop_.2 = shift + (loop_.2 - loop_.0);
-        loop_.0 = shift;
-    }
-    found.sort_by(|x, y| {
-        (x.0, x.1)
-            .partial_cmp(&(y.0, y.1))
-            .unwrap_or(std::cmp::Ordering::Equal)
-    });
-    let mut kept = Vec::with_capacity(count);
-    let (mut index, mut from) = (0, -1.0);
-    let mut next = found.iter().peekable();
-    while index < count {
-        // The next loop that opens at or after the present place.
-        while next.peek().is_some_and(|l| (l.0, l.1) < (index, from)) {
-            next.next();
-        }
-        let segment = (index + origin) % count;
-        match next.peek() {
-            Some(l) if l.0 == index => {
-                if l.1 > from {
-                    kept.push(Kept {
-                        index: segment,
-                        from,
-                        to: l.1,
-                    });
-                }
-                // Of the loops opening here the longest is dropped whole.
-                (index, from) = (l.2, l.3);
-            }
-            _ => {
-                if from < 1.0 {
-                    kept.push(Kept {
-                        index: segment,
-                        from,
-                        to: 1.0,
-                    });
-                }
-                (index, from) = (index + 1, -1.0);
-            }
-        }
-    }
-    // Back to the order of the input.
-    let turn = kept.iter().position(|k| k.index < origin).unwrap_or(0);
-    kept.rotate_left(turn);
-    Some(kept)
 }
 
 #[cfg(test)]
@@ -222,12 +147,7 @@ mod tests {
         let chain: Vec<Segment> = (0..4)
             .map(|i| Segment::Line(square[i], square[(i + 1) % 4]))
             .collect();
-        let kept = without_loops(
-            &chain,
-            |i, j| (j + chain.len() - i) % chain.len() <= 3,
-            fine(),
-        )
-        .expect("sound");
+        let kept = without_loops(&chain, true, fine()).expect("sound");
         assert_eq!(kept.len(), 4);
     }
 
@@ -246,12 +166,7 @@ mod tests {
         let chain: Vec<Segment> = (0..7)
             .map(|i| Segment::Line(points[i], points[(i + 1) % 7]))
             .collect();
-        let kept = without_loops(
-            &chain,
-            |i, j| (j + chain.len() - i) % chain.len() <= 3,
-            fine(),
-        )
-        .expect("sound");
+        let kept = without_loops(&chain, true, fine()).expect("sound");
         let at = |k: &Kept| {
             (
                 chain[k.index].at(k.from).point,
@@ -272,7 +187,7 @@ mod tests {
         let chain: Vec<Segment> = (0..4)
             .map(|i| Segment::Line(corners[i], corners[(i + 1) % 4]))
             .collect();
-        let refused = without_loops(&chain, |_, _| true, fine());
+        let refused = without_loops(&chain, true, fine());
         let named = LoopError::Unresolved {
             segments: [0, 1],
             cause: Unresolved::NotFinite,
@@ -281,7 +196,7 @@ mod tests {
     }
 
     #[test]
-    fn a_chain_that_runs_back_on_itself_is_an_error_and_one_that_is_all_loop_too() {
+    fn a_chain_that_runs_back_on_itself_is_an_error_that_names_the_segments() {
         let p = Point::new;
         // There and back on the same arc, with a detour at either end.
         let there = crate::PolySegment::fit(|t| p(t.cos(), t.sin()), 0.0, 0.5, fine())[0];
@@ -294,7 +209,7 @@ mod tests {
         chain.extend(detour(b, 3.0));
         chain.push(Segment::Poly(there.reversed()));
         chain.extend(detour(a, -3.0));
-        let refused = without_loops(&chain, |_, _| true, fine());
+        let refused = without_loops(&chain, true, fine());
         assert!(
             matches!(
                 refused,
@@ -305,13 +220,59 @@ mod tests {
             ),
             "{refused:?}"
         );
-        let eight = [p(0.0, 0.0), p(4.0, 4.0), p(4.0, 0.0), p(0.0, 4.0)];
-        let chain: Vec<Segment> = (0..4)
-            .map(|i| Segment::Line(eight[i], eight[(i + 1) % 4]))
-            .collect();
-        assert_eq!(
-            without_loops(&chain, |_, _| true, fine()).map(|kept| kept.len()),
-            Err(LoopError::Everywhere)
-        );
+    }
+
+    fn polygon(corners: &[(f64, f64)]) -> Vec<Segment> {
+        let points: Vec<Point> = corners.iter().map(|&(x, y)| Point::new(x, y)).collect();
+        let next = points.iter().cycle().skip(1);
+        let lines = points.iter().zip(next);
+        lines.map(|(p, q)| Segment::Line(*p, *q)).collect()
+    }
+
+    fn indices(chain: &[Segment], counter_clockwise: bool) -> Result<Vec<usize>, LoopError> {
+        let kept = without_loops(chain, counter_clockwise, fine())?;
+        Ok(kept.iter().map(|k| k.index).collect())
+    }
+
+    #[test]
+    fn of_an_eight_the_lobe_of_the_sense_asked_for_is_left() {
+        let eight = polygon(&[(0.0, 0.0), (4.0, 4.0), (4.0, 0.0), (0.0, 4.0)]);
+        assert_eq!(indices(&eight, true), Ok(vec![0, 2, 3]));
+        assert_eq!(indices(&eight, false), Ok(vec![0, 1, 2]));
+    }
+
+    #[test]
+    fn a_star_is_left_with_its_outer_edge_or_is_an_error_where_it_turns_the_other_way() {
+        let corner = |k: u32| {
+            let angle = std::f64::consts::TAU * 2.0 * f64::from(k) / 5.0;
+            (angle.cos(), angle.sin())
+        };
+        let star = polygon(&[0, 1, 2, 3, 4].map(corner));
+        let kept = without_loops(&star, true, fine()).expect("an edge");
+        assert_eq!(kept.len(), 10);
+        let short = (kept[0].to - kept[0].from) / 2.0;
+        assert!((short - 0.5 * (3.0 - 5_f64.sqrt())).abs() < 1e-12);
+        assert_eq!(indices(&star, false), Err(LoopError::Everywhere));
+    }
+
+    #[test]
+    fn a_piece_behind_a_neck_whose_walls_cross_is_dropped_however_long() {
+        let pinched = polygon(&[
+            (0.0, -5.0),
+            (10.0, -5.0),
+            (10.0, -0.5),
+            (14.0, 1.0),
+            (18.0, -0.5),
+            (18.0, -2.0),
+            (22.0, -2.0),
+            (22.0, 2.0),
+            (18.0, 2.0),
+            (18.0, 0.5),
+            (14.0, -1.0),
+            (10.0, 0.5),
+            (10.0, 5.0),
+            (0.0, 5.0),
+        ]);
+        assert_eq!(indices(&pinched, true), Ok(vec![0, 1, 2, 10, 11, 12, 13]));
     }
 }

@@ -94,7 +94,7 @@ impl DiscCam {
     /// with itself cannot be determined, [`CamError::AxisOutside`] where it leaves the axis out.
     pub fn profile(&self, tolerance: Tolerance) -> Result<Profile, CamError> {
         let whole = self.envelope(&|input| self.contact(input).point, &self.turns(), tolerance);
-        let kept = sound(&whole, tolerance)?;
+        let kept = sound(&whole, self.sense() > 0.0, tolerance)?;
         let ends = self.ends();
         let (first, last) = (ends[0], ends[ends.len() - 1]);
         let mut undercut: Vec<(f64, f64)> = Vec::new();
@@ -240,12 +240,17 @@ fn moved_start(segment: &Segment, start: Point) -> Segment {
 }
 
 /// Parts without their loops.
-fn sound(parts: &[Part], tolerance: Tolerance) -> Result<Vec<Part>, CamError> {
+fn sound(
+    parts: &[Part],
+    counter_clockwise: bool,
+    tolerance: Tolerance,
+) -> Result<Vec<Part>, CamError> {
     let segments: Vec<Segment> = parts.iter().map(|part| part.segment).collect();
-    let kept = without_loops(&segments, |_, _| true, tolerance).map_err(|cause| match cause {
-        LoopError::Everywhere => CamError::Looped,
-        cause => CamError::Unresolved(cause),
-    })?;
+    let kept =
+        without_loops(&segments, counter_clockwise, tolerance).map_err(|cause| match cause {
+            LoopError::Everywhere => CamError::Looped,
+            cause => CamError::Unresolved(cause),
+        })?;
     let parts = kept.iter().map(|k| parts[k.index].between(k.from, k.to));
     Ok(parts.collect())
 }

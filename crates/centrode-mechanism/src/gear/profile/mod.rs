@@ -1,4 +1,5 @@
 mod error;
+mod join;
 mod swing;
 mod tooth;
 
@@ -39,6 +40,9 @@ struct Piece {
 /// Share of a straight rack's flank speed at which a flank too short for its height ends: beyond it the
 /// flank curls up on itself.
 const BLUNT: f64 = 0.02;
+
+/// Share of a parameter within which two of them are one.
+const CRUMB: f64 = 1e-14;
 
 /// Tip and ends of one flank, as found.
 struct Ends {
@@ -84,16 +88,27 @@ impl Cutter<'_> {
             );
             teeth.push(self.tooth(k as u32, plan, &next, &mut pieces));
         }
-        let kept = self.without_loops(&pieces, plans.len() as u32)?;
+        let kept = self.without_loops(&pieces)?;
         self.join(&pieces, &kept, teeth)
     }
 
     /// Parts of the pieces without their loops.
-    fn without_loops(&self, pieces: &[Piece], teeth: u32) -> Result<Vec<Kept>, ProfileError> {
+    fn without_loops(&self, pieces: &[Piece]) -> Result<Vec<Kept>, ProfileError> {
+        for (piece, next) in pieces.iter().zip(pieces.iter().cycle().skip(1)) {
+            let gap = (next.poly.start() - piece.poly.end()).norm();
+            if gap > 10.0 * self.tolerance.mm() {
+                return Err(ProfileError::Gap {
+                    member: self.member,
+                    tooth: piece.tooth,
+                    roles: [piece.role, next.role],
+                    gap,
+                });
+            }
+        }
         let segments: Vec<Segment> = pieces.iter().map(|p| p.poly.into()).collect();
-        // Up to the end of the next tooth: a longer detour is not one tooth's own.
-        let near = |i: usize, j: usize| (pieces[j].tooth + teeth - pieces[i].tooth) % teeth <= 1;
-        without_loops(&segments, near, self.tolerance).map_err(|cause| match cause {
+        // The driven gear is rolled clockwise.
+        let counter_clockwise = self.member == Member::Driver;
+        without_loops(&segments, counter_clockwise, self.tolerance).map_err(|cause| match cause {
             LoopError::Everywhere => ProfileError::Looped {
                 member: self.member,
             },
@@ -219,11 +234,29 @@ impl Cutter<'_> {
             trailing.point(t)
         });
         fillet(&trailing, &plan.trailing.corner, pieces);
+        let bottom = next_center - trail_center;
+        let (deep, next_deep) = (plan.trailing.corner.depth, next.corner.depth);
+        if bottom.abs() <= CRUMB * trail_center.abs() {
+            // Roundings that leave no land between them, at unlike depths: a step joins them.
+            let frame = leading.frame(trail_center);
+            let step = |w: f64| frame.point - frame.normal * (deep + w * (next_deep - deep));
+            if (next_deep - deep).abs() > self.tolerance.mm() {
+                pieces.extend(
+                    PolySegment::fit(step, 0.0, 1.0, self.tolerance)
+                        .into_iter()
+                        .map(|poly| Piece {
+                            poly,
+                            role: Role::Root,
+                            tooth: index,
+                            span: (trail_center, next_center),
+                            side: Side::Trailing,
+                        }),
+                );
+            }
+        }
         let mut add = |role: Role, side: Side, from: f64, to: f64, curve: &dyn Fn(f64) -> Point| {
             self.fit(pieces, (role, side, index), (from, to), &|t| t, curve);
         };
-        let bottom = next_center - trail_center;
-        let (deep, next_deep) = (plan.trailing.corner.depth, next.corner.depth);
         add(
             Role::Root,
             Side::Trailing,
@@ -277,7 +310,7 @@ impl Cutter<'_> {
         }
         for pair in ends.windows(2) {
             // Backward crumbs of a root without width would only be cut off again.
-            if (pair[1] - pair[0]).abs() <= 1e-14 * pair[0].abs().max(pair[1].abs()) {
+            if (pair[1] - pair[0]).abs() <= CRUMB * pair[0].abs().max(pair[1].abs()) {
                 continue;
             }
             let fitted = PolySegment::fit_spans(curve, pair[0], pair[1], self.tolerance);
@@ -292,88 +325,7 @@ impl Cutter<'_> {
             }
         }
     }
-
-    fn join(
-        &self,
-        pieces: &[Piece],
-        kept: &[Kept],
-        mut teeth: Vec<Tooth>,
-    ) -> Result<Profile, ProfileError> {
-        let mut polys: Vec<PolySegment> = kept
-            .iter()
-            .map(|k| pieces[k.index].poly.part(k.from, k.to))
-            .collect();
-        let count = polys.len();
-        for i in 0..count {
-            checkpoint();
-            let end = polys[i].end();
-            let next = (i + 1) % count;
-            if polys[next].start() != end {
-                polys[next] = polys[next].pinned(end, polys[next].end());
-            }
-        }
-        let mut roles = Vec::with_capacity(count);
-        let mut owners = Vec::with_capacity(count);
-        for (k, poly) in kept.iter().zip(&polys) {
-            let piece = &pieces[k.index];
-            roles.push(piece.role);
-            owners.push(piece.tooth);
-            let tooth = &mut teeth[piece.tooth as usize];
-            let side = match piece.side {
-                Side::Leading => &mut tooth.leading,
-                Side::Trailing => &mut tooth.trailing,
-            };
-            match piece.role {
-                Role::Flank => {
-                    let (t0, t1) = piece.span;
-                    let at = |u: f64| self.rolling.arc_length(t0 + 0.5 * (1.0 + u) * (t1 - t0));
-                    let (a, b) = (at(k.from), at(k.to));
-                    let (low, high) = side.active.unwrap_or((f64::INFINITY, f64::NEG_INFINITY));
-                    side.active = Some((low.min(a).min(b), high.max(a).max(b)));
-                }
-                Role::Fillet => {
-                    for i in 0..=4 {
-                        let jet = poly.at(-1.0 + 0.5 * f64::from(i));
-                        let turn = jet.first.perp(&jet.second).abs();
-                        side.fillet_radius =
-                            side.fillet_radius.min(jet.first.norm().powi(3) / turn);
-                    }
-                }
-                Role::Tip => {
-                    tooth.severed = false;
-                    tooth.tip_width += poly.chords(8);
-                }
-                Role::Root => {}
-            }
-        }
-        for tooth in &mut teeth {
-            tooth.severed =
-                tooth.severed && tooth.leading.active.is_none() && tooth.trailing.active.is_none();
-            for (side, sign) in [(&mut tooth.leading, -1.0), (&mut tooth.trailing, 1.0)] {
-                let left = side.active.map_or(0.0, |(low, high)| {
-                    if sign > 0.0 {
-                        high - side.crossing
-                    } else {
-                        side.crossing - low
-                    }
-                });
-                let lost = side.needed - left;
-                // A loss within the rounding of a crossing is not undercut.
-                side.undercut = if lost > 1e-7 * side.needed { lost } else { 0.0 };
-            }
-        }
-        let mut segments: Vec<Segment> = polys.into_iter().map(Segment::Poly).collect();
-        if self.member == Member::Driven {
-            // Rolled clockwise: turn the contour round.
-            segments = segments.iter().rev().map(Segment::reversed).collect();
-            roles.reverse();
-            owners.reverse();
-        }
-        Ok(Profile {
-            outline: Outline::new(segments)?,
-            roles,
-            owners,
-            teeth,
-        })
-    }
 }
+
+#[cfg(test)]
+mod tests;

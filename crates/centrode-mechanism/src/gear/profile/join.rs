@@ -1,0 +1,108 @@
+use centrode_geometry::{Kept, Outline, PolySegment, Segment, checkpoint};
+
+use super::{Cutter, Member, Piece, Profile, ProfileError, Role, Side, Tooth};
+
+/// Length, in tolerances of the contour, over which two curves may part from their joint in one direction within
+/// rounding.
+const SPECK: f64 = 1e5;
+
+impl Cutter<'_> {
+    /// Joins what is left of the pieces into the contour, and finds what it leaves of each tooth.
+    pub(super) fn join(
+        &self,
+        pieces: &[Piece],
+        kept: &[Kept],
+        mut teeth: Vec<Tooth>,
+    ) -> Result<Profile, ProfileError> {
+        let mut polys: Vec<PolySegment> = kept
+            .iter()
+            .map(|k| pieces[k.index].poly.part(k.from, k.to))
+            .collect();
+        let count = polys.len();
+        for i in 0..count {
+            checkpoint();
+            let end = polys[i].end();
+            let next = (i + 1) % count;
+            if polys[next].start() != end {
+                polys[next] = polys[next].pinned(end, polys[next].end());
+            }
+        }
+        let mut roles = Vec::with_capacity(count);
+        let mut owners = Vec::with_capacity(count);
+        for (k, poly) in kept.iter().zip(&polys) {
+            let piece = &pieces[k.index];
+            roles.push(piece.role);
+            owners.push(piece.tooth);
+            let tooth = &mut teeth[piece.tooth as usize];
+            let side = match piece.side {
+                Side::Leading => &mut tooth.leading,
+                Side::Trailing => &mut tooth.trailing,
+            };
+            match piece.role {
+                Role::Flank => {
+                    let (t0, t1) = piece.span;
+                    let at = |u: f64| self.rolling.arc_length(t0 + 0.5 * (1.0 + u) * (t1 - t0));
+                    let (a, b) = (at(k.from), at(k.to));
+                    let (low, high) = side.active.unwrap_or((f64::INFINITY, f64::NEG_INFINITY));
+                    side.active = Some((low.min(a).min(b), high.max(a).max(b)));
+                }
+                Role::Fillet => {
+                    for i in 0..=4 {
+                        let jet = poly.at(-1.0 + 0.5 * f64::from(i));
+                        let turn = jet.first.perp(&jet.second).abs();
+                        side.fillet_radius =
+                            side.fillet_radius.min(jet.first.norm().powi(3) / turn);
+                    }
+                }
+                Role::Tip => {
+                    tooth.severed = false;
+                    tooth.tip_width += poly.chords(8);
+                }
+                Role::Root => {}
+            }
+        }
+        for tooth in &mut teeth {
+            tooth.severed =
+                tooth.severed && tooth.leading.active.is_none() && tooth.trailing.active.is_none();
+            for (side, sign) in [(&mut tooth.leading, -1.0), (&mut tooth.trailing, 1.0)] {
+                let left = side.active.map_or(0.0, |(low, high)| {
+                    if sign > 0.0 {
+                        high - side.crossing
+                    } else {
+                        side.crossing - low
+                    }
+                });
+                let lost = side.needed - left;
+                // A loss within the rounding of a crossing is not undercut.
+                side.undercut = if lost > 1e-7 * side.needed { lost } else { 0.0 };
+            }
+        }
+        let mut segments: Vec<Segment> = polys.into_iter().map(Segment::Poly).collect();
+        if self.member == Member::Driven {
+            // Rolled clockwise: turn the contour round.
+            segments = segments.iter().rev().map(Segment::reversed).collect();
+            roles.reverse();
+            owners.reverse();
+        }
+        let outline = Outline::new(segments)?;
+        if let Some(found) = outline.crossing() {
+            let [one, other] = found.segments;
+            // Where a flank turns back on its fillet the two part by less than rounding at first.
+            let off = (outline.segments()[one].end() - found.point).norm();
+            if one + 1 != other || off >= SPECK * self.tolerance.mm() {
+                return Err(ProfileError::Touches {
+                    member: self.member,
+                    point: found.point,
+                    roles: found.segments.map(|i| roles[i]),
+                    teeth: found.segments.map(|i| owners[i]),
+                });
+            }
+        }
+        Ok(Profile {
+            outline,
+            roles,
+            owners,
+            teeth,
+        })
+    }
+}
