@@ -2,8 +2,8 @@
 
 Each is looked at as polygons by GEOS, which shares nothing with the crates: as a ring within 1e-6 of the module it must
 be simple and counter-clockwise, and have the area told; a ring that is not simple is looked at within 1e-9. Of every
-`--fine` pairs one is looked at within 1e-9 at once. A gear 8 times as large must be the same, scaled. Prints what failed
-with its design, and how many designs are refused and why.
+`--fine` pairs one is looked at within 1e-9 at once. A gear 8 times as large must be the same, scaled. Prints what
+failed with its design, and how many designs are refused and why.
 
     python tests/campaigns/contours.py --gears 10000 --seed 1 --jobs 2
 """
