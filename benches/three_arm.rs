@@ -4,6 +4,8 @@ use std::hint::black_box;
 
 use centrode_analysis::optimise::Problem;
 use centrode_analysis::optimise::three_arm::ThreeArmProblem;
+use centrode_analysis::{check_composed, check_three_arm};
+use centrode_mechanism::composed::{Composed, ComposedDesign};
 use centrode_mechanism::design::DesignSpec as _;
 use centrode_mechanism::gear::pitch::PitchSpec;
 use centrode_mechanism::three_arm::design::ThreeArmDesign;
@@ -98,5 +100,38 @@ fn evaluate(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, sweep, resolve, tip, evaluate);
+/// The published machine resolved and checked, by its family and composed of bodies, meshes and cams; with another backlash each
+/// time, so that no teeth can be remembered.
+fn check(c: &mut Criterion) {
+    let mut group = c.benchmark_group("three-arm/check");
+    group.sample_size(10);
+    let own = include_str!("../tests/designs/three-arm-2021.toml");
+    let own = ThreeArmDesign::from_toml(own).expect("a good design");
+    let composed = include_str!("../tests/designs/composed-three-arm.toml");
+    let composed = ComposedDesign::from_toml(composed).expect("a good design");
+    let mut backlash = 0.05;
+    let mut another = || {
+        backlash += 1e-9;
+        backlash
+    };
+    group.bench_function("own family", |b| {
+        b.iter(|| {
+            let mut design = own.clone();
+            design.teeth.backlash = another();
+            check_three_arm(&ThreeArm::resolve(&design).expect("a mechanism"))
+        });
+    });
+    group.bench_function("composed", |b| {
+        b.iter(|| {
+            let mut design = composed.clone();
+            for pair in design.pairs.values_mut() {
+                pair.teeth.backlash = another();
+            }
+            check_composed(&Composed::resolve(&design).expect("a machine"))
+        });
+    });
+    group.finish();
+}
+
+criterion_group!(benches, sweep, resolve, tip, evaluate, check);
 criterion_main!(benches);

@@ -5,7 +5,6 @@ use std::collections::BTreeMap;
 use centrode_analysis::interference::Clearance;
 use centrode_analysis::optimise::{Ended, Progress};
 use centrode_analysis::{Contact, Finding, Goal, PairRemedy, Report, Severity, Table};
-use centrode_mechanism::gear::design::Addendum;
 use centrode_mechanism::gear::{OverPins, Pin, Tooth, ToothSide};
 use centrode_mechanism::linkage;
 use centrode_mechanism::machine::{Machine, Part};
@@ -17,6 +16,7 @@ use pyo3::types::{PyBytes, PyDict, PyDictMethods, PyTuple, PyType};
 
 use crate::array::Course;
 use crate::search::Found;
+use crate::word::Word;
 
 /// A Python class, looked up once.
 struct Class {
@@ -118,23 +118,19 @@ pub(crate) fn forces<'py>(
     )
 }
 
-/// Clearance of two arms.
 /// A remedy of a pair with the pair that it makes.
 pub(crate) fn remedy<'py>(
     py: Python<'py>,
     remedy: &PairRemedy,
     pair: &Py<PyAny>,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let addendum = match remedy.addendum {
-        Addendum::Full => "full",
-        Addendum::Fitted => "fitted",
-    };
     record!(py, "centrode._remedy" "PairRemedy", remedy => [least_tooth_count]
-        addendum: addendum,
+        addendum: remedy.addendum.word(),
         pair: pair,
     )
 }
 
+/// Clearance of two arms.
 pub(crate) fn clearance<'py>(py: Python<'py>, found: &Clearance) -> PyResult<Bound<'py, PyAny>> {
     record!(py, "centrode._clearance" "Clearance", found => [least, lower_bound, input]
         arms: PyTuple::new(py, found.pair)?,

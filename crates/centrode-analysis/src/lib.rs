@@ -24,7 +24,7 @@ pub use feeder::{
     check_strokes,
 };
 pub use figure::{FigureGroup, FigureRow, JsonNumber};
-pub use gear_pair::{PairRemedy, check, check_contact, remedies};
+pub use gear_pair::{MOST_TEETH, PairRemedy, check, check_contact, remedies};
 pub use goal::Goal;
 pub use incomplete_contact::IncompleteContact;
 pub use report::{Finding, Place, Report, Severity, Table};

@@ -239,7 +239,7 @@ impl Shape {
     /// A rectangle around the shape, a text by its set or estimated width.
     #[must_use]
     pub fn bounds(&self) -> Bounds {
-        let of = |points: &[Point]| points.iter().fold(Bounds::EMPTY, |b, p| b.with(*p));
+        let of = |points: &[Point]| points.iter().copied().collect();
         match self {
             Self::Contour(outline) => outline.bounds(),
             Self::Polyline(points) => of(points),

@@ -34,6 +34,12 @@ impl Bounds {
         }
     }
 
+    /// The middle.
+    #[must_use]
+    pub fn center(&self) -> Point {
+        nalgebra::center(&self.min, &self.max)
+    }
+
     /// Length of the diagonal, mm.
     #[must_use]
     pub fn diagonal(&self) -> f64 {
@@ -55,6 +61,13 @@ impl Bounds {
             || other.min.y < self.min.y
             || other.max.x > self.max.x
             || other.max.y > self.max.y
+    }
+}
+
+/// The smallest rectangle that holds some points.
+impl FromIterator<Point> for Bounds {
+    fn from_iter<I: IntoIterator<Item = Point>>(points: I) -> Self {
+        points.into_iter().fold(Self::EMPTY, Self::with)
     }
 }
 
@@ -103,11 +116,7 @@ impl Outline {
     /// The smallest axis-aligned rectangle around the outline, exact to rounding.
     #[must_use]
     pub fn bounds(&self) -> Bounds {
-        let ends = self
-            .segments()
-            .iter()
-            .fold(Bounds::EMPTY, |b, segment| b.with(segment.start()));
-        let mut bounds = ends;
+        let mut bounds: Bounds = self.segments().iter().map(Segment::start).collect();
         for segment in self.segments() {
             if !bounds.may_grow_by(&segment.enclosure(-1.0, 1.0)) {
                 continue;

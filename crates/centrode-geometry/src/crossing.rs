@@ -76,10 +76,8 @@ impl Outline {
     #[must_use]
     pub fn crossing(&self) -> Option<Crossing> {
         let strands = self.strands();
-        let size = strands
-            .iter()
-            .fold(Bounds::EMPTY, |b, s| b.with(s.start))
-            .diagonal();
+        let bounds: Bounds = strands.iter().map(|s| s.start).collect();
+        let size = bounds.diagonal();
         let search = Search {
             outline: self,
             touch: TOUCH * size,

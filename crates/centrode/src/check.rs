@@ -1,7 +1,7 @@
 use std::io::Write;
 use std::process::ExitCode;
 
-use centrode::analysis::Report;
+use centrode::analysis::{MOST_TEETH, Report};
 use centrode::family::Mechanism;
 use centrode::mechanism::design::{Design, DesignError};
 
@@ -65,7 +65,7 @@ fn remedies(
     if found.is_empty() {
         let family = mechanism.design().family().word;
         return Err(Failure::Usage(format!(
-            "no remedy is known for this design of family {family:?}: only those of gear-pair whose flanks carry the motion with 600 teeth or fewer have one"
+            "no remedy is known for this design of family {family:?}: only those of gear-pair whose flanks carry the motion with {MOST_TEETH} teeth or fewer have one"
         )));
     }
     let designs: Vec<(&str, String)> = found

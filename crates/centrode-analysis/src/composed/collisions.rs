@@ -1,9 +1,8 @@
 //! Plates and gears that collide.
 
-use centrode_geometry::{Point, Tolerance, greatest_of};
+use centrode_geometry::{Bounds, Point, Tolerance, greatest_of};
 use centrode_mechanism::composed::Composed;
 use centrode_mechanism::machine::{JointKind, Machine, Surface};
-use nalgebra::center;
 
 use super::Made;
 use super::clearance::surfaces;
@@ -35,14 +34,10 @@ impl<'a> Piece<'a> {
     ) -> Option<Self> {
         let corners = |surface: &&Surface| surface.outline.flatten(tolerance);
         let corners: Vec<Point> = surfaces.iter().flat_map(corners).collect();
-        let first = *corners.first()?;
-        let both = corners.iter().fold((first, first), |(low, high), at| {
-            (
-                low.coords.inf(&at.coords).into(),
-                high.coords.sup(&at.coords).into(),
-            )
-        });
-        let center = center(&both.0, &both.1);
+        if corners.is_empty() {
+            return None;
+        }
+        let center = corners.iter().copied().collect::<Bounds>().center();
         let far = corners.iter().map(|at| (at - center).norm());
         Some(Self {
             name,
@@ -67,19 +62,10 @@ pub(super) fn collisions(made: &Made<'_>, ends: &[f64], report: &mut Report) {
     };
     let plates: Vec<Piece<'_>> = (0..machine.links.len()).filter_map(plate).collect();
     let may_collide = |pair: [&Piece<'_>; 2]| !held(machine, pair.map(|piece| piece.link));
-    for ([one, other], found) in
-        overlaps(composed, machine, (&plates, may_collide), (ends, tolerance))
-    {
-        report.findings.push(Finding {
-            remedy: Some("another layer for one of them, or a narrower plate"),
-            ..collision(
-                "plates-collide",
-                &format!("the plates of {} and {}", one.name, other.name),
-                one.name,
-                found,
-            )
-        });
-    }
+    let found = overlaps(composed, machine, (&plates, may_collide), (ends, tolerance));
+    let remedy = "another layer for one of them, or a narrower plate";
+    let told = |overlap| collision(("plates-collide", remedy), "the plates of", overlap);
+    report.findings.extend(found.into_iter().map(told));
     let gears = composed.gears().iter().filter_map(|gear| {
         let (link, name) = (composed.body_named(gear.body_name())?, gear.surface_name());
         let own = surfaces(machine, link).filter(|surface| surface.name == name);
@@ -87,23 +73,17 @@ pub(super) fn collisions(made: &Made<'_>, ends: &[f64], report: &mut Report) {
     });
     let gears: Vec<Piece<'_>> = gears.collect();
     let may_collide = |pair: [&Piece<'_>; 2]| !is_meshed(composed, machine, pair);
-    for ([one, other], found) in
-        overlaps(composed, machine, (&gears, may_collide), (ends, tolerance))
-    {
-        report.findings.push(Finding {
-            remedy: Some("fewer copies, smaller gears, or gears of another pair, which lies at another height"),
-            ..collision(
-                "gears-collide",
-                &format!("gears {} and {}", one.name, other.name),
-                one.name,
-                found,
-            )
-        });
-    }
+    let found = overlaps(composed, machine, (&gears, may_collide), (ends, tolerance));
+    let remedy =
+        "fewer copies, smaller gears, or gears of another pair, which lies at another height";
+    let told = |overlap| collision(("gears-collide", remedy), "gears", overlap);
+    report.findings.extend(found.into_iter().map(told));
 }
 
-/// Pairs of parts that overlap within the cycle, each with the least clearance (mm) and the input there, among those that
-/// may collide.
+/// Two parts that overlap, with their least clearance (mm, below zero) and the input there.
+type Overlap<'a> = ([&'a Piece<'a>; 2], [f64; 2]);
+
+/// Pairs of parts that overlap within the cycle, among those that may collide.
 ///
 /// What touches, as plates side by side on one line do, does not overlap; parts whose circles keep apart, and parts at other
 /// heights, cost no more than that look.
@@ -112,7 +92,7 @@ fn overlaps<'a>(
     machine: &Machine,
     (pieces, may_collide): (&'a [Piece<'a>], impl Fn([&Piece<'a>; 2]) -> bool),
     (ends, tolerance): (&[f64], Tolerance),
-) -> Vec<([&'a Piece<'a>; 2], [f64; 2])> {
+) -> Vec<Overlap<'a>> {
     let numbers = 0..pieces.len();
     let pairs = numbers.flat_map(|i| (i + 1..pieces.len()).map(move |k| [i, k]));
     let pairs: Vec<[usize; 2]> = pairs
@@ -145,22 +125,28 @@ fn overlaps<'a>(
     .collect()
 }
 
-/// Two parts that overlap at an input, by how much (mm, below zero).
-fn collision(rule: &'static str, what: &str, part: &str, [least, input]: [f64; 2]) -> Finding {
+/// Two parts of a kind that overlap, by the rule that they break.
+fn collision(
+    (rule, remedy): (&'static str, &'static str),
+    kind: &str,
+    ([one, other], [least, input]): Overlap<'_>,
+) -> Finding {
     Finding {
         rule,
         severity: Severity::Error,
         message: format!(
-            "{what} share a height and overlap by {} at an input of {}",
+            "{kind} {} and {} share a height and overlap by {} at an input of {}",
+            one.name,
+            other.name,
             Unit::Millimetre.tell(-least),
             Unit::Angle.tell(input)
         ),
         measured: Some(least),
         required: Some(0.0),
         unit: Unit::Millimetre,
-        remedy: None,
+        remedy: Some(remedy),
         place: Place {
-            part: Some(part.to_owned()),
+            part: Some(one.name.to_owned()),
             input: Some(input),
             ..Place::default()
         },

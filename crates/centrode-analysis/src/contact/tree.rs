@@ -127,8 +127,7 @@ fn around(circles: &[(Point, f64)]) -> (Point, f64) {
     if let [one] = circles {
         return *one;
     }
-    let bounds = circles.iter().fold(Bounds::EMPTY, |b, c| b.with(c.0));
-    let center = nalgebra::center(&bounds.min, &bounds.max);
+    let center = circles.iter().map(|c| c.0).collect::<Bounds>().center();
     let reach = circles.iter().map(|(c, r)| (c - center).norm() + r);
     (
         center,

@@ -15,7 +15,7 @@ use self::teeth::teeth;
 use crate::{Contact, Finding, Place, Report, Severity, Unit};
 
 pub(crate) use figures::FIGURES;
-pub use remedies::{PairRemedy, remedies};
+pub use remedies::{MOST_TEETH, PairRemedy, remedies};
 
 /// Penetration, in modules, above which two outlines are reported to interfere.
 const OVERLAP: f64 = 1e-6;

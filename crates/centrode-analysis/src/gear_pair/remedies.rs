@@ -8,8 +8,8 @@ use crate::Contact;
 
 /// Transmission error up to which the flanks carry the motion by themselves, rad.
 const CARRIED: f64 = 1e-9;
-/// Greatest tooth count of a driver that is tried.
-const MOST: u32 = 600;
+/// Greatest tooth count of a driver that [`remedies`] tries.
+pub const MOST_TEETH: u32 = 600;
 
 /// Least tooth count at which teeth of a kind carry the motion of a pair by their flanks alone, and the pair changed to it.
 #[derive(Clone, Debug, PartialEq)]
@@ -27,8 +27,8 @@ pub struct PairRemedy {
 ///
 /// They do where the transmission error stays below 1e-9 rad, more only by what the play thins them, and nothing overlaps,
 /// over the samples of [`Contact::of`]. Counts grow by a quarter till one does and are halved between it and the greatest that does
-/// not: between those two lies the least count, if more teeth are never worse. A kind of teeth that does not up to 600 is
-/// left out. Each count tried costs a pair and its contact.
+/// not: between those two lies the least count, if more teeth are never worse. A kind of teeth that does not up to [`MOST_TEETH`]
+/// is left out. Each count tried costs a pair and its contact.
 #[must_use]
 pub fn remedies(pair: &GearPair) -> Vec<PairRemedy> {
     let written = pair.driver().tooth_count();
@@ -57,15 +57,16 @@ fn least_count(design: &GearPairDesign, written: u32) -> Option<u32> {
     let step = design.mean_ratio[1];
     let carries = |steps: u32| is_carried(&design.with_tooth_count(steps * step));
     let first = (written / step).max(1);
-    let (mut low, mut high) = (first, first);
+    let (mut low, mut high) = (0, first);
     if carries(first) {
+        low = high * 2 / 3;
         while low > 0 && carries(low) {
             (low, high) = (low * 2 / 3, low);
         }
     } else {
-        while !carries(high) {
+        while low == 0 || !carries(high) {
             (low, high) = (high, high + high.div_ceil(4));
-            if high * step > MOST {
+            if high * step > MOST_TEETH {
                 return None;
             }
         }

@@ -1,4 +1,4 @@
-use centrode_geometry::{Outline, Point, Tolerance, Vector};
+use centrode_geometry::{Bounds, Outline, Point, Tolerance, Vector};
 
 use super::parry::Boundary;
 
@@ -136,14 +136,8 @@ impl Body {
 /// Adds the tree of `order`'s edges to `nodes`; returns the index of its root.
 fn grow(edges: &[[Point; 2]], order: &mut [u32], nodes: &mut Vec<Node>) -> u32 {
     let ends = || order.iter().flat_map(|&e| edges[e as usize]);
-    let (mut low, mut high) = (
-        Point::from([f64::INFINITY; 2]),
-        Point::from([-f64::INFINITY; 2]),
-    );
-    for p in ends() {
-        (low, high) = (low.inf(&p), high.sup(&p));
-    }
-    let center = nalgebra::center(&low, &high);
+    let bounds: Bounds = ends().collect();
+    let center = bounds.center();
     let radius = ends().map(|p| (p - center).norm()).fold(0.0, f64::max);
     let own = nodes.len();
     nodes.push(Node {
@@ -152,7 +146,7 @@ fn grow(edges: &[[Point; 2]], order: &mut [u32], nodes: &mut Vec<Node>) -> u32 {
         part: Part::Edge(order[0]),
     });
     if order.len() > 1 {
-        let extent: Vector = high - low;
+        let extent: Vector = bounds.max - bounds.min;
         let axis = usize::from(extent.y > extent.x);
         let middle = order.len() / 2;
         let place = |e: u32| edges[e as usize].iter().map(|p| p[axis]).sum::<f64>();

@@ -108,7 +108,7 @@ fn view(file: &mut Pairs, bounds: &Bounds) {
         let [width, height] = [bounds.max.x - bounds.min.x, bounds.max.y - bounds.min.y];
         // A window is about four by three.
         let seen = 1.1 * height.max(0.75 * width);
-        file.flat(12, &nalgebra::center(&bounds.min, &bounds.max));
+        file.flat(12, &bounds.center());
         file.number(40, seen).number(41, 4.0 / 3.0);
     }
     file.word(0, "ENDTAB");

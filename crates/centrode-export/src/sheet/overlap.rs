@@ -114,7 +114,7 @@ impl Ink {
             bounds,
             around: bounds,
         };
-        ink.around = ink.corners().iter().fold(Bounds::EMPTY, |b, p| b.with(*p));
+        ink.around = ink.corners().into_iter().collect();
         ink
     }
 

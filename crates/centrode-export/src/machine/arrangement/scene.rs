@@ -169,7 +169,7 @@ impl Drawn {
     fn bounds(&self) -> Bounds {
         match self {
             Self::Closed(outline, _) => outline.bounds(),
-            Self::Open(points) => points.iter().fold(Bounds::EMPTY, |b, p| b.with(*p)),
+            Self::Open(points) => points.iter().copied().collect(),
         }
     }
 }
@@ -208,8 +208,7 @@ fn way(machine: &Machine, figure: &Figure, point: &LinkPoint) -> Vec<Point> {
 
 /// A way with the stretches along which it goes back left out: dashes drawn twice fill each other's gaps.
 fn once(way: &[Point]) -> Vec<Vec<Point>> {
-    let size = way.iter().fold(Bounds::EMPTY, |b, p| b.with(*p)).diagonal();
-    let near = ALONG * size;
+    let near = ALONG * way.iter().copied().collect::<Bounds>().diagonal();
     let mut runs: Vec<Vec<Point>> = Vec::new();
     let mut drawn: Vec<[Point; 2]> = Vec::new();
     let mut before: Option<(Point, bool)> = None;
