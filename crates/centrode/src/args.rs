@@ -37,6 +37,8 @@ pub(crate) enum Command {
     Studio(Studio),
     /// Write a design's figures, curves and moving picture as one HTML file
     Report(Report),
+    /// Write a certificate of a gear pair's contact at every driver angle, for a checker to prove
+    Prove(Prove),
     /// Print the JSON schema of the design file, or of a file that is exported
     Schema(Schema),
     /// Print a completion script for a shell
@@ -303,6 +305,18 @@ pub(crate) struct Report {
     /// Design file, or - for standard input
     pub(crate) design: PathBuf,
     /// HTML file
+    #[arg(short, long, value_name = "FILE")]
+    pub(crate) output: PathBuf,
+}
+
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Example: centrode prove pair.toml -o pair.proof\n\nThe certificate claims; python tools/proof_checker.py pair.proof proves or refuses it, from contours and law alone.\n\nExit status: 0 written; 2 no mechanism, no certificate of this mesh, or the file cannot be written."
+)]
+pub(crate) struct Prove {
+    /// Design file of family gear-pair, or - for standard input
+    pub(crate) design: PathBuf,
+    /// Certificate, a JSON file
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output: PathBuf,
 }

@@ -13,6 +13,7 @@ mod optimise;
 mod output;
 mod page;
 mod progress;
+mod prove;
 mod report;
 mod response;
 mod schema;
@@ -48,6 +49,7 @@ fn main() -> ExitCode {
         Command::Response(command) => response::run(command, &mut out),
         Command::Studio(command) => studio::run(command, &mut out),
         Command::Report(command) => sheet::run(command, &mut out),
+        Command::Prove(command) => prove::run(command, &mut out),
         Command::Schema(command) => schema::run(command, &mut out),
         Command::Completions(command) => completions::run(command, &mut out),
         Command::Man(command) => man::run(command, &mut out),

@@ -1,3 +1,4 @@
+use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use centrode::export::Bundle;
@@ -10,6 +11,21 @@ pub(crate) fn write(bundle: &Bundle, folder: &Path) -> Result<Vec<PathBuf>, Fail
     let interrupt = Interrupt::watch().map_err(Failure::Serve)?;
     let written = interrupt.cancel.run(|| bundle.write_to(folder));
     Ok(written.map_err(|_| Failure::Interrupted)??)
+}
+
+/// Writes one file, whole or not at all, and prints where it is.
+pub(crate) fn write_one(path: &Path, bytes: Vec<u8>, out: &mut impl Write) -> Result<(), Failure> {
+    let folder = match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    };
+    let name = path.file_name().and_then(|name| name.to_str());
+    let mut bundle = Bundle::default();
+    bundle.add(name.unwrap_or_default(), bytes)?;
+    for path in write(&bundle, folder)? {
+        writeln!(out, "{}", path.display())?;
+    }
+    Ok(())
 }
 
 /// Makes a write beyond the limit of a file's size fail with a reason: its signal, not caught, would end the program.

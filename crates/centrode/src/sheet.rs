@@ -1,8 +1,7 @@
 use std::io::Write;
-use std::path::Path;
 use std::process::ExitCode;
 
-use centrode::export::{Bundle, page};
+use centrode::export::page;
 
 use crate::args::Report;
 use crate::failure::Failure;
@@ -36,19 +35,6 @@ pub(crate) fn run(command: &Report, out: &mut impl Write) -> Result<ExitCode, Fa
         snapshot.heading(),
         &snapshot.json().map_err(std::io::Error::from)?,
     );
-    let folder = match command.output.parent() {
-        Some(folder) if !folder.as_os_str().is_empty() => folder,
-        _ => Path::new("."),
-    };
-    let name = command
-        .output
-        .file_name()
-        .and_then(|name| name.to_str())
-        .unwrap_or_default();
-    let mut bundle = Bundle::default();
-    bundle.add(name, html.into_bytes())?;
-    for path in output::write(&bundle, folder)? {
-        writeln!(out, "{}", path.display())?;
-    }
+    output::write_one(&command.output, html.into_bytes(), out)?;
     Ok(ExitCode::from(u8::from(!snapshot.ok())))
 }

@@ -7,6 +7,7 @@ use super::{
     Contact,
     body::Body,
     places::{Candidates, Kind, Place, SHALLOW},
+    proof::{Feature, Meeting},
     stretch::Stretch,
     touch::{self, Pose, Touch},
     tree::Run,
@@ -184,13 +185,13 @@ impl<'a> Meshing<'a> {
         let off = |p: &Place| (half.abs() - p.touch.gap).abs();
         let mut facing: Vec<&Place> = places
             .iter()
-            .filter(|p| p.kind == Kind::Flanks && half * p.touch.lever > 0.0)
+            .filter(|p| p.kind == Kind::Flanks && p.corner.is_none() && half * p.touch.lever > 0.0)
             .filter(|p| off(p) < DESIGNED * self.module)
             .collect();
         facing.sort_by(|p, q| off(p).total_cmp(&off(q)));
         let touching = facing.into_iter().find_map(|place| {
             let wrong = (half.abs() - place.touch.gap) / place.touch.lever;
-            let mut parts = place.parts?;
+            let mut parts = place.parts;
             let (mut angle, mut touch) = (law, place.touch);
             for _ in 0..8 {
                 let step = touch.gap / touch.lever;
@@ -243,7 +244,13 @@ impl<'a> Meshing<'a> {
     }
 
     /// Turns the driven gear back (`sign` 1) or on (-1) until it rests on the driver.
-    fn seat(&self, candidates: &Candidates, phi: f64, law: f64, sign: f64) -> Option<Seat> {
+    pub(super) fn seat(
+        &self,
+        candidates: &Candidates,
+        phi: f64,
+        law: f64,
+        sign: f64,
+    ) -> Option<Seat> {
         let a = self.pair.center_distance();
         let seated = SEATED * self.module;
         let (mut angle, mut pose) = (law, Pose::new(phi, law, a));
@@ -281,6 +288,8 @@ impl<'a> Meshing<'a> {
             lever: first.lever,
             contacts: pairs.len() as u32,
             touches: hits.iter().map(|h| h.touch(&pose)).collect(),
+            start: angle,
+            hits,
         })
     }
 
@@ -334,13 +343,26 @@ impl<'a> Meshing<'a> {
 }
 
 /// Seat of the driven gear pushed to one side.
-struct Seat {
-    angle: f64,
+pub(super) struct Seat {
+    pub(super) angle: f64,
     /// Distance of the driven axis from the common normal, mm.
     lever: f64,
     contacts: u32,
     /// Points on the driver and its outward normals there, one a pair of teeth.
     touches: Vec<(Point, Vector)>,
+    /// Driven angle from which the contacts were found, rad.
+    start: f64,
+    hits: Vec<Hit>,
+}
+
+impl Seat {
+    /// Features that meet in its contacts.
+    pub(super) fn features(&self) -> Vec<(Feature, Meeting)> {
+        self.hits
+            .iter()
+            .map(|hit| hit.feature(self.start))
+            .collect()
+    }
 }
 
 /// Sliding speed of the gears in a contact per speed of the driver, mm/rad.

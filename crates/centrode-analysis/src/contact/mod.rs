@@ -7,6 +7,7 @@
 mod body;
 mod meshing;
 mod places;
+mod proof;
 mod span;
 mod stretch;
 #[cfg(test)]
@@ -18,6 +19,7 @@ mod turning;
 use centrode_mechanism::gear::design::Addendum;
 use centrode_mechanism::gear::{GearPair, Member, Tooth, ToothSide};
 use meshing::Meshing;
+pub use proof::{Proof, ProofError, ProofMeeting, ProofStretch, prove};
 
 /// Samples a pitch where no flank is undercut or short.
 const SAMPLES_PER_PITCH: u32 = 4;

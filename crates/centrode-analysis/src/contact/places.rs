@@ -1,7 +1,7 @@
 //! Points at which the outlines of two gears face each other in one pose.
 
 use centrode_geometry::{Point, Vector, checkpoint};
-use centrode_mechanism::gear::Role;
+use centrode_mechanism::gear::{Member, Role};
 
 use super::{
     body::{Cone, Corner, Part},
@@ -19,8 +19,10 @@ pub(super) const SHALLOW: f64 = 1e-3;
 pub(super) struct Place {
     pub(super) touch: Touch,
     pub(super) kind: Kind,
-    /// Both parts, where neither is a corner.
-    pub(super) parts: Option<(usize, usize)>,
+    /// Both parts.
+    pub(super) parts: (usize, usize),
+    /// The gear that faces the other with the corner at the start of its part, if one does.
+    pub(super) corner: Option<Member>,
 }
 
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
@@ -78,19 +80,25 @@ impl Meshing<'_> {
         let mut out = Vec::with_capacity(16);
         let mut memory = Vec::with_capacity(16);
         let limit = |kind: Kind| if kind == Kind::Flanks { close } else { near };
-        let mut keep = |touch: Option<Touch>, kind: Kind, parts: Option<(usize, usize)>| {
-            // A penetration deeper than half a module is the far side of a tooth.
-            if let Some(touch) = touch
-                && touch.gap < limit(kind)
-                && touch.gap > -0.5 * module
-                && self.real(&touch, pose)
-            {
-                if let Some((i, j)) = parts {
-                    memory.push((i, j, touch.at));
+        let mut keep =
+            |touch: Option<Touch>, kind: Kind, parts: (usize, usize), corner: Option<Member>| {
+                // A penetration deeper than half a module is the far side of a tooth.
+                if let Some(touch) = touch
+                    && touch.gap < limit(kind)
+                    && touch.gap > -0.5 * module
+                    && self.real(&touch, pose)
+                {
+                    if corner.is_none() {
+                        memory.push((parts.0, parts.1, touch.at));
+                    }
+                    out.push(Place {
+                        touch,
+                        kind,
+                        parts,
+                        corner,
+                    });
                 }
-                out.push(Place { touch, kind, parts });
-            }
-        };
+            };
         for &(k, j) in &candidates.pairs {
             checkpoint();
             let (stretch, normals) = &candidates.posed[k];
@@ -103,7 +111,7 @@ impl Meshing<'_> {
             {
                 let known = self.memory.iter().find(|m| (m.0, m.1) == (i, j));
                 let start = known.map_or_else(|| stretch.facing(&self.stretches[j]), |m| m.2);
-                keep(touch::parts(a, b, pose, start), kind, Some((i, j)));
+                keep(touch::parts(a, b, pose, start), kind, (i, j), None);
             }
             let near_corner = |corner: &Corner, other: &Part<'_>, apart: Vector| {
                 let reach = other.radius + limit(corner_kind(corner.on_flank, other.role));
@@ -115,7 +123,12 @@ impl Meshing<'_> {
                 let normal = pose.turn_back(&corner.normals.direction);
                 if corner.normals.turned(normal).opposes(&b.normals) {
                     let touch = touch::driver_corner(corner, b, pose);
-                    keep(touch, corner_kind(corner.on_flank, b.role), None);
+                    keep(
+                        touch,
+                        corner_kind(corner.on_flank, b.role),
+                        (i, j),
+                        Some(Member::Driver),
+                    );
                 }
             }
             if let Some(corner) = &b.corner
@@ -123,7 +136,12 @@ impl Meshing<'_> {
                 && corner.normals.opposes(normals)
             {
                 let touch = touch::driven_corner(a, corner, pose);
-                keep(touch, corner_kind(corner.on_flank, a.role), None);
+                keep(
+                    touch,
+                    corner_kind(corner.on_flank, a.role),
+                    (i, j),
+                    Some(Member::Driven),
+                );
             }
         }
         // Facing parts first: they leave little to search when the gears are seated.

@@ -49,7 +49,7 @@ impl Pose {
         )
     }
 
-    fn jet(&self, jet: &SegmentJet) -> SegmentJet {
+    pub(super) fn jet(&self, jet: &SegmentJet) -> SegmentJet {
         SegmentJet {
             point: self.place(&jet.point),
             first: self.turn(&jet.first),

@@ -1,6 +1,4 @@
-use std::f64::consts::PI;
-use std::sync::LazyLock;
-
+use centrode_geometry::{chebyshev_roots, chebyshev_series};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -43,7 +41,7 @@ impl Transmission for Linear {
 }
 
 /// Coefficients of a piece.
-const COUNT: usize = 16;
+const COUNT: usize = centrode_geometry::CHEBYSHEV_TERMS;
 /// Share of a law's size by which a piece may miss it: the law's own rounding.
 const ROUNDING: f64 = 4e-15;
 /// Share of a law's size below which a tail that halving does not lessen is the law's own noise.
@@ -92,7 +90,7 @@ impl Piecewise {
         let (mut ends, mut pieces) = (vec![0.0], Vec::new());
         while let Some((from, to, before)) = open.pop() {
             centrode_geometry::checkpoint();
-            let piece = interpolated(rest, from, to);
+            let piece = chebyshev_series(&chebyshev_roots(from, to).map(rest));
             let scale = piece.iter().fold(size, |m, c| m.max(c.abs()));
             let tail: f64 = piece[COUNT - 3..].iter().map(|c| c.abs()).sum();
             let decays = tail < 0.5 * before || tail > NOISE * scale;
@@ -115,6 +113,12 @@ impl Piecewise {
         }
     }
 
+    /// Inputs at which one piece ends and the next starts, from 0 to the period, rad.
+    #[must_use]
+    pub fn ends(&self) -> &[f64] {
+        &self.ends
+    }
+
     /// Whether it can be evaluated: a period, ends that ascend from 0 to it, a piece between any two.
     #[must_use]
     pub fn is_sound(&self) -> bool {
@@ -130,24 +134,6 @@ impl Piecewise {
             && self.breaks.iter().all(|b| b.is_finite())
             && self.pieces.iter().all(finite)
     }
-}
-
-/// Cosine of k times the angle of each root: the Chebyshev polynomials there.
-static COSINES: LazyLock<[[f64; COUNT]; COUNT]> = LazyLock::new(|| {
-    let angle = |j: usize| PI * (j as f64 + 0.5) / COUNT as f64;
-    std::array::from_fn(|k| std::array::from_fn(|j| (k as f64 * angle(j)).cos()))
-});
-
-/// Chebyshev coefficients of the polynomial through a function's values at the roots of the Chebyshev polynomial.
-fn interpolated(f: impl Fn(f64) -> f64, from: f64, to: f64) -> [f64; COUNT] {
-    let cosines = &*COSINES;
-    let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
-    let values: [f64; COUNT] = std::array::from_fn(|j| f(middle + half * cosines[1][j]));
-    std::array::from_fn(|k| {
-        let scale = if k == 0 { 1.0 } else { 2.0 } / COUNT as f64;
-        let terms = values.iter().zip(&cosines[k]).map(|(v, c)| v * c);
-        scale * terms.sum::<f64>()
-    })
 }
 
 /// Value and first three derivatives of a Chebyshev series by Clenshaw's recurrence, differentiated.

@@ -1,4 +1,6 @@
-use centrode_analysis::{Contact, PairRemedy, Report, check, check_contact, remedies};
+use centrode_analysis::{
+    Contact, PairRemedy, Proof, ProofError, Report, check, check_contact, prove, remedies,
+};
 use centrode_export::page::{Curve, Picture};
 use centrode_export::{Bundle, ExportError, Format, Options};
 use centrode_export::{gear_pair, machine};
@@ -62,6 +64,10 @@ impl Mechanism for GearPair {
                 (words(self, &remedy), Box::new(remedy.design))
             })
             .collect()
+    }
+
+    fn proof(&self) -> Option<Result<Proof, ProofError>> {
+        Some(prove(self))
     }
 
     fn curves(&self) -> Vec<Curve> {

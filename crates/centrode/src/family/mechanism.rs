@@ -2,7 +2,7 @@ use std::any::Any;
 use std::fmt::Debug;
 use std::sync::Arc;
 
-use centrode_analysis::{Report, Table};
+use centrode_analysis::{Proof, ProofError, Report, Table};
 use centrode_export::page::{Curve, Picture};
 use centrode_export::{Bundle, ExportError, Format, Options};
 use centrode_mechanism::design::Design;
@@ -40,6 +40,11 @@ pub trait Mechanism: Any + Debug + Send + Sync {
     /// Changed designs that mend what the check finds, worked out, each with what it does in words; empty where none is known.
     fn remedies(&self) -> Vec<(String, Box<dyn Design>)> {
         Vec::new()
+    }
+
+    /// Certificate of its contact at every driver angle; `None` in a family that has none.
+    fn proof(&self) -> Option<Result<Proof, ProofError>> {
+        None
     }
 
     /// Curves that are available at once.

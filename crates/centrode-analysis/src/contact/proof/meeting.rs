@@ -1,0 +1,105 @@
+//! The turn of the driven gear at which two features of the contours meet, followed along the driver's angle.
+
+use centrode_geometry::Vector;
+use centrode_mechanism::gear::Member;
+use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
+
+use super::super::{meshing::Meshing, touch::Pose};
+
+/// Change of parameters below which Newton's method, whose errors square, has come to rounding.
+const SETTLED: f64 = 1e-9;
+
+/// Parameter beyond an end up to which a part is continued.
+const CONTINUED: f64 = 0.3;
+
+/// Two features that meet: smooth parts whose tangents agree there, or the corner at an end of one on the other.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(in crate::contact) struct Feature {
+    /// Parts of driver and driven gear.
+    pub(in crate::contact) parts: (usize, usize),
+    /// The gear whose corner meets, and the parameter of its part there.
+    pub(in crate::contact) corner: Option<(Member, f64)>,
+}
+
+/// Place and turn at which two features meet.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::contact) struct Meeting {
+    /// Parameters on the two parts.
+    pub(in crate::contact) at: (f64, f64),
+    /// Driven angle, rad.
+    pub(in crate::contact) angle: f64,
+}
+
+impl Meeting {
+    /// Whether it lies on both parts, but for rounding.
+    pub(super) fn is_on_parts(&self) -> bool {
+        self.at.0.abs().max(self.at.1.abs()) <= 1.0 + SETTLED
+    }
+}
+
+impl Meshing<'_> {
+    /// Meeting of two features at a driver angle, by Newton's method from a meeting nearby.
+    pub(super) fn meeting(&self, feature: &Feature, phi: f64, near: Meeting) -> Option<Meeting> {
+        let a = self.pair.center_distance();
+        let (first, second) = (
+            &self.driver.parts[feature.parts.0],
+            &self.driven.parts[feature.parts.1],
+        );
+        let Meeting {
+            at: (mut u, mut v),
+            mut angle,
+        } = near;
+        match feature.corner {
+            Some((Member::Driver, end)) => u = end,
+            Some((Member::Driven, end)) => v = end,
+            None => {}
+        }
+        for _ in 0..20 {
+            let pose = Pose::new(phi, angle, a);
+            let (p, q) = (first.segment.at(u), pose.jet(&second.segment.at(v)));
+            let apart = q.point - p.point;
+            let arm = q.point - pose.axis;
+            let swing = Vector::new(-arm.y, arm.x);
+            let [du, dv, turn] = match feature.corner {
+                None => {
+                    let slant = p.first.perp(&q.first);
+                    let rates = [
+                        p.second.perp(&q.first),
+                        p.first.perp(&q.second),
+                        p.first.dot(&q.first),
+                    ];
+                    let system = Matrix3::new(
+                        -p.first.x, q.first.x, swing.x, -p.first.y, q.first.y, swing.y, rates[0],
+                        rates[1], rates[2],
+                    );
+                    let step = system
+                        .lu()
+                        .solve(&Vector3::new(-apart.x, -apart.y, -slant))?;
+                    [step.x, step.y, step.z]
+                }
+                Some((member, _)) => {
+                    let along = if member == Member::Driver {
+                        q.first
+                    } else {
+                        -p.first
+                    };
+                    let system = Matrix2::new(along.x, swing.x, along.y, swing.y);
+                    let step = system.lu().solve(&Vector2::new(-apart.x, -apart.y))?;
+                    if member == Member::Driver {
+                        [0.0, step.x, step.y]
+                    } else {
+                        [step.x, 0.0, step.y]
+                    }
+                }
+            };
+            (u, v, angle) = (u + du, v + dv, angle + turn);
+            if !(u.abs() <= 1.0 + CONTINUED && v.abs() <= 1.0 + CONTINUED && angle.is_finite()) {
+                return None;
+            }
+            if du.abs() < SETTLED && dv.abs() < SETTLED {
+                return Some(Meeting { at: (u, v), angle });
+            }
+        }
+        None
+    }
+}

@@ -1,0 +1,167 @@
+//! Meetings of two features, followed along a stretch of the cycle.
+
+use centrode_geometry::{CHEBYSHEV_TERMS, chebyshev_roots};
+
+use super::{Feature, Meeting, TAIL, chebyshev_series};
+use crate::contact::meshing::Meshing;
+
+/// Places at which a track is kept: the roots of the series, from first to last, between the ends.
+pub(super) const PLACES: usize = CHEBYSHEV_TERMS + 2;
+
+/// Angle, rad, by which one seat must lie beyond another to count as beyond it.
+const BEYOND: f64 = 1e-12;
+
+/// Halvings after which a place is exact.
+const HALVINGS: u32 = 60;
+
+/// Which way the driven gear is pushed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Side {
+    On = 0,
+    Back = 1,
+}
+
+impl Side {
+    pub(super) fn sign(self) -> f64 {
+        match self {
+            Self::On => 1.0,
+            Self::Back => -1.0,
+        }
+    }
+}
+
+/// Features at one driver angle, by side: those that hold the driven gear, and those near each other.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Sample {
+    pub(super) phi: f64,
+    pub(super) held: [Vec<(Feature, Meeting)>; 2],
+    pub(super) near: [Vec<(Feature, Meeting)>; 2],
+}
+
+/// Two features followed along a stretch, as far as they go.
+#[derive(Clone, Debug)]
+pub(super) struct Track {
+    pub(super) feature: Feature,
+    phi: [f64; PLACES],
+    meetings: [Option<Meeting>; PLACES],
+}
+
+impl Track {
+    /// Follows two features to both ends of a stretch from where they are known; nothing where they do not meet there.
+    pub(super) fn new(
+        meshing: &Meshing<'_>,
+        feature: Feature,
+        (from, to): (f64, f64),
+        (known, meeting): (f64, Meeting),
+    ) -> Option<Self> {
+        let roots = chebyshev_roots(from, to);
+        let phi: [f64; PLACES] = std::array::from_fn(|k| match k {
+            0 => from,
+            k if k == PLACES - 1 => to,
+            k => roots[CHEBYSHEV_TERMS - k],
+        });
+        let first = meshing.meeting(&feature, known, meeting)?;
+        let mut meetings = [None; PLACES];
+        let start = phi.partition_point(|&p| p < known);
+        let mut last = Some(first);
+        for k in start..PLACES {
+            last = last.and_then(|m| meshing.meeting(&feature, phi[k], m));
+            meetings[k] = last;
+        }
+        last = Some(first);
+        for k in (0..start).rev() {
+            last = last.and_then(|m| meshing.meeting(&feature, phi[k], m));
+            meetings[k] = last;
+        }
+        Some(Self {
+            feature,
+            phi,
+            meetings,
+        })
+    }
+
+    /// Whether it lies on its parts at a place, and no other that does holds the gear before it.
+    pub(super) fn holds(&self, k: usize, all: &[Self], side: Side) -> bool {
+        self.meetings[k].is_some_and(|m| holds(&m, all.iter().filter_map(|t| t.meetings[k]), side))
+    }
+
+    /// Chebyshev coefficients of a figure of it along the stretch, if it goes all along and they decay.
+    pub(super) fn series(
+        &self,
+        _ends: (f64, f64),
+        figure: impl Fn(f64, &Meeting) -> f64,
+    ) -> Option<Vec<f64>> {
+        let mut values = [0.0; CHEBYSHEV_TERMS];
+        for (j, value) in values.iter_mut().enumerate() {
+            let k = CHEBYSHEV_TERMS - j;
+            *value = figure(self.phi[k], self.meetings[k].as_ref()?);
+        }
+        let series = chebyshev_series(&values);
+        let tail = series[CHEBYSHEV_TERMS - 2].abs() + series[CHEBYSHEV_TERMS - 1].abs();
+        (tail <= TAIL).then(|| series.to_vec())
+    }
+
+    /// The meeting in the middle of the stretch, or what is nearest to it.
+    pub(super) fn middle(&self) -> Meeting {
+        let near = self.meetings[PLACES / 2..].iter().chain(&self.meetings);
+        near.flatten().next().copied().unwrap_or(Meeting {
+            at: (0.0, 0.0),
+            angle: 0.0,
+        })
+    }
+}
+
+/// Whether a meeting lies on its parts and none of the others that do holds the gear before it.
+fn holds(meeting: &Meeting, mut others: impl Iterator<Item = Meeting>, side: Side) -> bool {
+    let beaten = |other: Meeting| {
+        other.is_on_parts() && side.sign() * (other.angle - meeting.angle) > BEYOND
+    };
+    meeting.is_on_parts() && !others.any(beaten)
+}
+
+/// Driver angle at which the features that hold the gear at one end of a stretch cease to.
+pub(super) fn cut(
+    meshing: &Meshing<'_>,
+    tracks: &[Track],
+    (from, to): (f64, f64),
+    side: Side,
+) -> Option<f64> {
+    let inside = |phi: &f64| {
+        let least = 1e-3 * (to - from);
+        *phi > from + least && *phi < to - least || to - from < 1e-6 && *phi > from && *phi < to
+    };
+    let ascending: Vec<usize> = (0..PLACES).collect();
+    let descending: Vec<usize> = (0..PLACES).rev().collect();
+    let mut found: Option<f64> = None;
+    for places in [ascending, descending] {
+        for track in tracks.iter().filter(|t| t.holds(places[0], tracks, side)) {
+            let Some(step) = places.windows(2).find(|w| !track.holds(w[1], tracks, side)) else {
+                continue;
+            };
+            let (mut good, mut bad) = (track.phi[step[0]], track.phi[step[1]]);
+            let Some(mut last) = track.meetings[step[0]] else {
+                continue;
+            };
+            for _ in 0..HALVINGS {
+                let phi = 0.5 * (good + bad);
+                let here = meshing.meeting(&track.feature, phi, last);
+                let others = tracks.iter().filter_map(|t| {
+                    let near = t.meetings[step[0]].or(t.meetings[step[1]])?;
+                    meshing.meeting(&t.feature, phi, near)
+                });
+                match here.filter(|m| holds(m, others, side)) {
+                    Some(m) => (good, last) = (phi, m),
+                    None => bad = phi,
+                }
+            }
+            if inside(&good)
+                && found.is_none_or(|f| {
+                    (good - 0.5 * (from + to)).abs() < (f - 0.5 * (from + to)).abs()
+                })
+            {
+                found = Some(good);
+            }
+        }
+    }
+    found
+}

@@ -1,0 +1,32 @@
+use std::io::Write;
+use std::process::ExitCode;
+
+use crate::args::Prove;
+use crate::failure::Failure;
+use crate::input::Source;
+use crate::output;
+use crate::progress::Progress;
+
+/// Writes the certificate of a pair's contact.
+pub(crate) fn run(command: &Prove, out: &mut impl Write) -> Result<ExitCode, Failure> {
+    let source = Source::open(&command.design)?;
+    source.keep_from(&command.output)?;
+    let design = source.design()?;
+    let progress = Progress::new(2);
+    progress.step("resolving the design");
+    let mechanism = design.mechanism().map_err(|error| source.blame(error))?;
+    progress.step("following the contact");
+    let proof = mechanism.proof();
+    drop(progress);
+    let Some(proof) = proof else {
+        let family = mechanism.design().family().word;
+        return Err(Failure::Usage(format!(
+            "there is no certificate for family {family:?}, only for \"gear-pair\""
+        )));
+    };
+    let proof = proof.map_err(|error| Failure::Files(Box::new(error)))?;
+    let mut bytes = serde_json::to_vec(&proof).map_err(std::io::Error::from)?;
+    bytes.push(b'\n');
+    output::write_one(&command.output, bytes, out)?;
+    Ok(ExitCode::SUCCESS)
+}
