@@ -4,7 +4,7 @@ use centrode_analysis::forces::ForcesError;
 use centrode_analysis::interference::LinkClearanceError;
 use centrode_analysis::optimise::feeder::NotWidened;
 use centrode_analysis::optimise::{NotSearched, SearchError};
-use centrode_analysis::{ArmClearanceError, FeederForcesError};
+use centrode_analysis::{ArmClearanceError, FeederForcesError, ProofError};
 use centrode_export::{BundleError, ExportError};
 use centrode_geometry::{BadTolerance, SolidError, Tolerance};
 use centrode_mechanism::arm::ArmError;
@@ -65,6 +65,7 @@ macro_rules! raised {
 
 raised! {
     SpecError { error => DesignError(error.key), }
+    ProofError { _ => GearPairError(""), }
     BadTolerance { _ => DesignError("tolerance"), }
     PitchError { error => PitchError(format!("pitch.{}", error.key())), }
     PusherError { error => MechanismError(error.key()), }

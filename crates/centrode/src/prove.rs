@@ -24,9 +24,10 @@ pub(crate) fn run(command: &Prove, out: &mut impl Write) -> Result<ExitCode, Fai
             "there is no certificate for family {family:?}, only for \"gear-pair\""
         )));
     };
-    let proof = proof.map_err(|error| Failure::Files(Box::new(error)))?;
-    let mut bytes = serde_json::to_vec(&proof).map_err(std::io::Error::from)?;
-    bytes.push(b'\n');
+    let mut proof = proof.map_err(|error| Failure::Files(Box::new(error)))?;
+    // The file as it stands, so that a checker can tell that it is this design's.
+    proof.design = source.text()?;
+    let bytes = proof.file().map_err(std::io::Error::from)?;
     output::write_one(&command.output, bytes, out)?;
     Ok(ExitCode::SUCCESS)
 }

@@ -8,7 +8,7 @@ use crate::args::Schema;
 use crate::failure::Failure;
 
 /// Words beside the families that have a schema: the figures of a composed machine, and files that are exported.
-pub(crate) const FILES: [&str; 3] = ["figures", "machine-model", "motion"];
+pub(crate) const FILES: [&str; 4] = ["figures", "machine-model", "motion", "proof"];
 
 /// Grammar of the figures of a composed machine: form, meaning, unit.
 fn figures() -> serde_json::Value {
@@ -23,6 +23,7 @@ pub(crate) fn run(command: &Schema, out: &mut impl Write) -> Result<ExitCode, Fa
         Some("figures") => figures(),
         Some("machine-model") => centrode::export::machine::schema(),
         Some("motion") => centrode::export::machine::motion_schema(),
+        Some("proof") => centrode::analysis::Proof::schema(),
         Some(word) => match FAMILIES.named(word) {
             Some(family) => family.design.json_schema(),
             None => return Err(Failure::Usage(format!("unknown family {word:?}"))),

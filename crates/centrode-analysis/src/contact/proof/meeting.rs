@@ -9,6 +9,10 @@ use super::super::{meshing::Meshing, touch::Pose};
 /// Change of parameters below which Newton's method, whose errors square, has come to rounding.
 const SETTLED: f64 = 1e-9;
 
+/// Parameter beyond an end up to which a meeting counts as on its part: two pairs that come to their ends at almost the
+/// same angle need no stretch between.
+const OVERHANG: f64 = 1e-6;
+
 /// Parameter beyond an end up to which a part is continued.
 const CONTINUED: f64 = 0.3;
 
@@ -31,9 +35,9 @@ pub(in crate::contact) struct Meeting {
 }
 
 impl Meeting {
-    /// Whether it lies on both parts, but for rounding.
+    /// Whether it lies on both parts, or so little beyond that the seat is the same but for rounding.
     pub(super) fn is_on_parts(&self) -> bool {
-        self.at.0.abs().max(self.at.1.abs()) <= 1.0 + SETTLED
+        self.at.0.abs().max(self.at.1.abs()) <= 1.0 + OVERHANG
     }
 }
 

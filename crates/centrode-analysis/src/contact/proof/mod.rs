@@ -39,7 +39,10 @@ const TAIL: f64 = 1e-11;
 const NEAR: f64 = 0.05;
 
 /// Curvature, by the module, by which a parabola keeps from the flank that a corner meets.
-const APART: f64 = 0.5;
+const APART: f64 = 0.25;
+
+/// Share of the difference of two curvatures by which a parabola keeps from either.
+const MARGIN: f64 = 0.25;
 
 /// Certificate of a pair's contact at every driver angle of its cycle: lengths in mm, angles in rad.
 #[derive(Clone, Debug, JsonSchema, Serialize)]
@@ -97,8 +100,26 @@ pub struct ProofMeeting {
     pub corner: Option<usize>,
     /// Chebyshev coefficients of the parameters on the two pieces.
     pub parameters: [Vec<f64>; 2],
-    /// Coefficient k of the parabola y = k x^2 that parts the contours, in axes along the tangent as long as the piece's derivative, 1/mm^2.
+    /// Coefficient k of the parabola y = k x^2 that parts the contours, in axes along their tangent, 1/mm.
     pub bend: f64,
+}
+
+impl Proof {
+    /// The file, the same bytes every time.
+    ///
+    /// # Errors
+    /// [`serde_json::Error`] for a certificate that cannot be written.
+    pub fn file(&self) -> serde_json::Result<Vec<u8>> {
+        let mut bytes = serde_json::to_vec(self)?;
+        bytes.push(b'\n');
+        Ok(bytes)
+    }
+
+    /// The JSON schema of the file.
+    #[must_use]
+    pub fn schema() -> serde_json::Value {
+        schemars::schema_for!(Self).to_value()
+    }
 }
 
 /// Reason why there is no certificate.
@@ -293,10 +314,10 @@ impl Prover<'_> {
             return Found::Cut(cut.unwrap_or(middle));
         };
         let seat = |phi: f64, meeting: &Meeting| meeting.angle - self.law.at(phi).position;
-        let Some(seat) = holder.series((from, to), seat) else {
+        let Some(seat) = holder.series(seat) else {
             return Found::Cut(middle);
         };
-        let Some(first) = self.meeting_of(holder, side, (from, to)) else {
+        let Some(first) = self.meeting_of(holder, side) else {
             return Found::Cut(middle);
         };
         let mut out = vec![first];
@@ -308,16 +329,20 @@ impl Prover<'_> {
                 }
                 known.push(*feature);
                 let track = Track::new(&self.meshing, *feature, (from, to), (sample.phi, *meeting));
-                out.extend(track.and_then(|track| self.meeting_of(&track, side, (from, to))));
+                let Some(track) = track else { continue };
+                if let Some(phi) = track.leaves(&self.meshing, (from, to)) {
+                    return Found::Cut(phi);
+                }
+                out.extend(self.meeting_of(&track, side));
             }
         }
         Found::Held { seat, tracks: out }
     }
 
     /// A followed feature as it stands in the certificate, if its series are exact.
-    fn meeting_of(&self, track: &Track, side: Side, ends: (f64, f64)) -> Option<ProofMeeting> {
-        let u = track.series(ends, |_, m| m.at.0)?;
-        let v = track.series(ends, |_, m| m.at.1)?;
+    fn meeting_of(&self, track: &Track, side: Side) -> Option<ProofMeeting> {
+        let u = track.series(|_, m| m.at.0)?;
+        let v = track.series(|_, m| m.at.1)?;
         let Feature { parts, corner } = track.feature;
         let (driver, driven) = (
             self.meshing.driver.parts[parts.0].segment,
@@ -328,18 +353,23 @@ impl Prover<'_> {
             jet.first.perp(&jet.second) / jet.first.norm().powi(3)
         };
         let (p, q) = (driver.at(at.0), driven.at(at.1));
+        // As flat as both contours allow: it parts them the farther from where they meet.
+        let (above, below) = (bend(&p), -bend(&q));
         let apart = APART / self.meshing.module;
-        let (curvature, speed) = match corner {
-            None => (0.5 * (bend(&p) - bend(&q)), p.first.norm()),
-            Some((Member::Driver, _)) => (apart - bend(&q), q.first.norm()),
-            Some((Member::Driven, _)) => (bend(&p) - apart, p.first.norm()),
+        let curvature = match corner {
+            None => {
+                let margin = MARGIN * (above - below);
+                0.0_f64.max(below + margin).min(above - margin)
+            }
+            Some((Member::Driver, _)) => 0.0_f64.max(below + apart),
+            Some((Member::Driven, _)) => 0.0_f64.min(above - apart),
         };
         Some(ProofMeeting {
             side: side as usize,
             pieces: [parts.0, parts.1],
             corner: corner.map(|(member, _)| usize::from(member == Member::Driven)),
             parameters: [u, v],
-            bend: 0.5 * curvature / speed,
+            bend: 0.5 * curvature,
         })
     }
 

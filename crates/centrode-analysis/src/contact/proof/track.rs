@@ -8,8 +8,15 @@ use crate::contact::meshing::Meshing;
 /// Places at which a track is kept: the roots of the series, from first to last, between the ends.
 pub(super) const PLACES: usize = CHEBYSHEV_TERMS + 2;
 
-/// Angle, rad, by which one seat must lie beyond another to count as beyond it.
-const BEYOND: f64 = 1e-12;
+/// Angle, rad, by which one seat must lie beyond another to count as beyond it: a quarter of the half width, more than
+/// flanks miss each other by.
+const BEYOND: f64 = 0.25 * super::HALF_WIDTH;
+
+/// Coefficients below which a series ends.
+const DROPPED: f64 = 1e-15;
+
+/// Driver angle, rad, by which two cuts lie apart.
+const APART: f64 = 1e-7;
 
 /// Halvings after which a place is exact.
 const HALVINGS: u32 = 60;
@@ -86,11 +93,7 @@ impl Track {
     }
 
     /// Chebyshev coefficients of a figure of it along the stretch, if it goes all along and they decay.
-    pub(super) fn series(
-        &self,
-        _ends: (f64, f64),
-        figure: impl Fn(f64, &Meeting) -> f64,
-    ) -> Option<Vec<f64>> {
+    pub(super) fn series(&self, figure: impl Fn(f64, &Meeting) -> f64) -> Option<Vec<f64>> {
         let mut values = [0.0; CHEBYSHEV_TERMS];
         for (j, value) in values.iter_mut().enumerate() {
             let k = CHEBYSHEV_TERMS - j;
@@ -98,7 +101,36 @@ impl Track {
         }
         let series = chebyshev_series(&values);
         let tail = series[CHEBYSHEV_TERMS - 2].abs() + series[CHEBYSHEV_TERMS - 1].abs();
-        (tail <= TAIL).then(|| series.to_vec())
+        let last = series.iter().rposition(|c| c.abs() > DROPPED);
+        (tail <= TAIL).then(|| series[..=last.unwrap_or(0)].to_vec())
+    }
+
+    /// Driver angle at which it comes to an end of one of its parts.
+    pub(super) fn leaves(&self, meshing: &Meshing<'_>, ends: (f64, f64)) -> Option<f64> {
+        let mut found = None;
+        for k in 1..PLACES {
+            let (Some(first), Some(next)) = (self.meetings[k - 1], self.meetings[k]) else {
+                continue;
+            };
+            let beyond: [fn(&Meeting) -> bool; 2] =
+                [|m| m.at.0.abs() > 1.0, |m| m.at.1.abs() > 1.0];
+            for is_beyond in beyond {
+                let was = is_beyond(&first);
+                if is_beyond(&next) == was {
+                    continue;
+                }
+                let (mut before, mut after, mut last) = (self.phi[k - 1], self.phi[k], first);
+                for _ in 0..HALVINGS {
+                    let phi = 0.5 * (before + after);
+                    match meshing.meeting(&self.feature, phi, last) {
+                        Some(m) if is_beyond(&m) == was => (before, last) = (phi, m),
+                        _ => after = phi,
+                    }
+                }
+                found = nearer_middle(found, after, ends);
+            }
+        }
+        found
     }
 
     /// The meeting in the middle of the stretch, or what is nearest to it.
@@ -108,6 +140,18 @@ impl Track {
             at: (0.0, 0.0),
             angle: 0.0,
         })
+    }
+}
+
+/// Of two places to cut a stretch the one nearer its middle; none that lies at its ends.
+fn nearer_middle(found: Option<f64>, phi: f64, (from, to): (f64, f64)) -> Option<f64> {
+    let least = APART.max(1e-3 * (to - from));
+    let inside = phi > from + least && phi < to - least;
+    let off = |phi: f64| (phi - 0.5 * (from + to)).abs();
+    if inside && found.is_none_or(|f| off(phi) < off(f)) {
+        Some(phi)
+    } else {
+        found
     }
 }
 
@@ -126,10 +170,6 @@ pub(super) fn cut(
     (from, to): (f64, f64),
     side: Side,
 ) -> Option<f64> {
-    let inside = |phi: &f64| {
-        let least = 1e-3 * (to - from);
-        *phi > from + least && *phi < to - least || to - from < 1e-6 && *phi > from && *phi < to
-    };
     let ascending: Vec<usize> = (0..PLACES).collect();
     let descending: Vec<usize> = (0..PLACES).rev().collect();
     let mut found: Option<f64> = None;
@@ -154,13 +194,7 @@ pub(super) fn cut(
                     None => bad = phi,
                 }
             }
-            if inside(&good)
-                && found.is_none_or(|f| {
-                    (good - 0.5 * (from + to)).abs() < (f - 0.5 * (from + to)).abs()
-                })
-            {
-                found = Some(good);
-            }
+            found = nearer_middle(found, good, (from, to));
         }
     }
     found
