@@ -1,5 +1,5 @@
 use centrode_analysis::{Contact, check};
-use centrode_geometry::{Point, Tolerance};
+use centrode_geometry::{Extreme, Point, Tolerance};
 use centrode_mechanism::gear::{Gear, GearPair};
 use centrode_tests::sound_pair;
 use i_overlay::core::fill_rule::FillRule;
@@ -62,6 +62,41 @@ proptest! {
             for turn in [play + small, -play - small] {
                 let after = overlap(&pair, phi, law + turn);
                 prop_assert!(after > 3.0 * noise, "{after:e} mm2 at {phi} turned by {turn}");
+            }
+        }
+    }
+
+    #[test]
+    fn extremes_between_fine_samples_are_beaten_nowhere_and_attained_where_they_are_told(
+        design in sound_pair(),
+        inputs in proptest::collection::vec(0.0..1.0_f64, 400),
+    ) {
+        let pair = GearPair::resolve(&design).expect("valid");
+        let extremes = Contact::sampled(&pair, 48).extremes(&pair);
+        let phis: Vec<f64> = inputs.iter().map(|x| x * pair.cycle()).collect();
+        let contact = Contact::at(&pair, &phis);
+        let less = |list: &[f64]| -> Vec<f64> { list.iter().map(|v| -v).collect() };
+        let negative = |e: Extreme| Extreme { value: -e.value, ..e };
+        type Pick = fn(&Contact) -> &Vec<f64>;
+        // Angles are told within 1e-12, lengths by the centre distance.
+        let (angle, length) = (1e-12, 1e-12 * pair.center_distance());
+        let cases: [(&str, Pick, [Option<Extreme>; 2], f64); 3] = [
+            ("overlap", |c| &c.overlap, [None, Some(extremes.overlap)], length),
+            ("backlash", |c| &c.backlash, extremes.backlash.map(Some), angle),
+            ("normal backlash", |c| &c.normal_backlash, extremes.normal_backlash.map(Some), length),
+        ];
+        for (name, pick, [least, greatest], rounding) in cases {
+            let samples = pick(&contact).clone();
+            for (found, samples, sign) in [
+                (least.map(negative), less(&samples), -1.0),
+                (greatest, samples.clone(), 1.0),
+            ] {
+                let Some(found) = found else { continue };
+                let most = samples.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+                let allowed = 1e-9 * found.value.abs() + rounding;
+                prop_assert!(most <= found.value + allowed, "{name}: {most:e} beats {found:?}");
+                let there = sign * pick(&Contact::at(&pair, &[found.input]))[0];
+                prop_assert!((there - found.value).abs() <= allowed, "{name}: {there:e} at {found:?}");
             }
         }
     }

@@ -18,7 +18,7 @@ mod three_arm;
 mod unit;
 
 pub use composed::{check_composed, composed_clearance, composed_figures};
-pub use contact::{Contact, Proof, ProofError, ProofMeeting, ProofStretch, prove};
+pub use contact::{Contact, ContactExtremes, Proof, ProofError, ProofMeeting, ProofStretch, prove};
 pub use feeder::{
     Attainable, FeederForces, FeederForcesError, SixBarTolerances, SwingSpread, check_feeder,
     check_strokes,

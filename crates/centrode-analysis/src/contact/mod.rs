@@ -5,6 +5,7 @@
 //! outlines face each other is measured.
 
 mod body;
+mod extremes;
 mod meshing;
 mod places;
 mod proof;
@@ -18,6 +19,7 @@ mod turning;
 
 use centrode_mechanism::gear::design::Addendum;
 use centrode_mechanism::gear::{GearPair, Member, Tooth, ToothSide};
+pub use extremes::ContactExtremes;
 use meshing::Meshing;
 pub use proof::{Proof, ProofError, ProofMeeting, ProofStretch, prove};
 

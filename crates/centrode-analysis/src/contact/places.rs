@@ -110,8 +110,11 @@ impl Meshing<'_> {
                 && self.driver.curvature(i).1 + self.driven.curvature(j).1 > 0.0
             {
                 let known = self.memory.iter().find(|m| (m.0, m.1) == (i, j));
-                let start = known.map_or_else(|| stretch.facing(&self.stretches[j]), |m| m.2);
-                keep(touch::parts(a, b, pose, start), kind, (i, j), None);
+                // Where the sample before is far off, what is known from it may lead nowhere.
+                let touch = known
+                    .and_then(|m| touch::parts(a, b, pose, m.2))
+                    .or_else(|| touch::parts(a, b, pose, stretch.facing(&self.stretches[j])));
+                keep(touch, kind, (i, j), None);
             }
             let near_corner = |corner: &Corner, other: &Part<'_>, apart: Vector| {
                 let reach = other.radius + limit(corner_kind(corner.on_flank, other.role));

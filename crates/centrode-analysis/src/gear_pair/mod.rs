@@ -172,10 +172,11 @@ fn mesh(pair: &GearPair, contact: &Contact, report: &mut Report) {
                 }
             })
     };
-    let size = |list: &[f64]| -> Vec<f64> { list.iter().map(|v| v.abs()).collect() };
-    let error = at(&size(&contact.transmission_error), f64::max);
-    let reverse = at(&size(&contact.reverse_transmission_error), f64::max);
-    let overlap = at(&contact.overlap, f64::max);
+    let extremes = contact.extremes(pair);
+    let pick = |found: Extreme| (found.value, found.input);
+    let error = pick(extremes.transmission_error);
+    let reverse = pick(extremes.reverse_transmission_error);
+    let overlap = pick(extremes.overlap);
     let clearance = at(&contact.clearance, f64::min);
     let fillet = at(&contact.fillet_clearance, f64::min);
     let counts: Vec<f64> = contact.contacts.iter().map(|&n| f64::from(n)).collect();
@@ -184,16 +185,16 @@ fn mesh(pair: &GearPair, contact: &Contact, report: &mut Report) {
     let values = &mut report.values;
     values.insert("transmission_error_max", error.0.max(reverse.0));
     values.insert("overlap_max", overlap.0);
-    values.insert("backlash_min", at(&contact.backlash, f64::min).0);
-    values.insert("backlash_max", at(&contact.backlash, f64::max).0);
-    values.insert(
-        "normal_backlash_min",
-        at(&contact.normal_backlash, f64::min).0,
-    );
-    values.insert(
-        "normal_backlash_max",
-        at(&contact.normal_backlash, f64::max).0,
-    );
+    for (names, [least, greatest]) in [
+        (["backlash_min", "backlash_max"], extremes.backlash),
+        (
+            ["normal_backlash_min", "normal_backlash_max"],
+            extremes.normal_backlash,
+        ),
+    ] {
+        values.insert(names[0], least.value);
+        values.insert(names[1], greatest.value);
+    }
     values.insert("contact_ratio_min", fewest.0);
     values.insert("contact_ratio_max", at(&counts, f64::max).0);
     values.insert(

@@ -180,19 +180,18 @@ impl Tabulated {
         if !(1..=1_000_000).contains(&cells) {
             return Err(MotionError::Cells(cells));
         }
-        let start = inputs[0];
-        let cell = (inputs[1] - start) / cells as f64;
-        let mut read = |input: f64| {
-            let jet = motion(input);
-            if jet.is_finite() {
-                Ok(jet)
-            } else {
-                Err(MotionError::NotFinite { input })
-            }
-        };
-        let jets = (0..=cells)
-            .map(|i| read(start + cell * i as f64))
-            .collect::<Result<Vec<_>, _>>()?;
+        let mut read = reader(&mut motion);
+        let (start, cell, jets) = ends(inputs, cells, &mut read)?;
+        Ok(Self::through(start, cell, jets, &mut read)?.0)
+    }
+
+    /// The table of poses at the ends of cells, and the poses in the middle of every cell that it is measured by.
+    fn through(
+        start: f64,
+        cell: f64,
+        jets: Vec<PoseJet>,
+        read: &mut impl FnMut(f64) -> Result<PoseJet, MotionError>,
+    ) -> Result<(Self, Vec<PoseJet>), MotionError> {
         let bends = windows(jets.windows(2).map(|pair| bend(pair, cell)).collect());
         let mut table = Self {
             start,
@@ -201,14 +200,16 @@ impl Tabulated {
             bends,
             deviation: (0.0, 0.0),
         };
-        for i in 0..cells {
+        let mut middles = Vec::with_capacity(table.jets.len());
+        for i in 0..table.jets.len() - 1 {
             let input = start + cell * (i as f64 + 0.5);
             let (ours, theirs) = (table.at(input), read(input)?);
             let (far, turned) = &mut table.deviation;
             *far = far.max(2.0 * (ours.position - theirs.position).norm());
             *turned = turned.max(2.0 * (ours.angle - theirs.angle).abs());
+            middles.push(theirs);
         }
-        Ok(table)
+        Ok((table, middles))
     }
 
     /// Reads `motion` at as many even inputs as keep every point of a body that reaches `reach` (mm) from its
@@ -222,14 +223,21 @@ impl Tabulated {
         mut motion: impl FnMut(f64) -> PoseJet,
         tolerance: Tolerance,
     ) -> Result<Self, MotionError> {
-        let mut cells = FEWEST;
+        ascending(inputs)?;
+        let mut read = reader(&mut motion);
+        let (start, mut cell, jets) = ends(inputs, FEWEST, &mut read)?;
+        let (mut table, mut middles) = Self::through(start, cell, jets, &mut read)?;
         loop {
-            let table = Self::new(inputs, cells, &mut motion)?;
             let (far, turned) = table.deviation;
-            if far + turned * reach <= tolerance.mm() || cells >= MOST {
+            if far + turned * reach <= tolerance.mm() || middles.len() >= MOST {
                 return Ok(table);
             }
-            cells *= 2;
+            // The ends of cells half as long are known.
+            let between = middles.into_iter().map(Some).chain([None]);
+            let jets = table.jets.into_iter().zip(between);
+            let jets = jets.flat_map(|(end, middle)| [Some(end), middle]).flatten();
+            cell *= 0.5;
+            (table, middles) = Self::through(start, cell, jets.collect(), &mut read)?;
         }
     }
 
@@ -242,6 +250,32 @@ impl Tabulated {
         // Saturates below the first cell.
         (((input - self.start) / self.cell) as usize).min(self.jets.len() - 2)
     }
+}
+
+/// The motion, which is asked for finite poses.
+fn reader(
+    motion: &mut impl FnMut(f64) -> PoseJet,
+) -> impl FnMut(f64) -> Result<PoseJet, MotionError> {
+    |input| {
+        let jet = motion(input);
+        if jet.is_finite() {
+            Ok(jet)
+        } else {
+            Err(MotionError::NotFinite { input })
+        }
+    }
+}
+
+/// First input and length of even cells, and the poses at their ends.
+fn ends(
+    inputs: [f64; 2],
+    cells: usize,
+    mut read: impl FnMut(f64) -> Result<PoseJet, MotionError>,
+) -> Result<(f64, f64, Vec<PoseJet>), MotionError> {
+    let start = inputs[0];
+    let cell = (inputs[1] - start) / cells as f64;
+    let jets = (0..=cells).map(|i| read(start + cell * i as f64));
+    Ok((start, cell, jets.collect::<Result<_, _>>()?))
 }
 
 pub(super) fn ascending([from, to]: [f64; 2]) -> Result<(), MotionError> {

@@ -201,7 +201,7 @@ impl<'a> ToothPassage<'a> {
         let deep = |points: &[Point], carried: &dyn Fn(&Point) -> Point, shape: &Shape| {
             points.iter().any(|p| {
                 let there = carried(p);
-                (there - shape.middle).norm() < shape.radius
+                (there - shape.middle).norm_squared() < shape.radius * shape.radius
                     && shape
                         .depth(&there)
                         .is_some_and(|d| d > PENETRATION * self.pitch && d < 0.5 * self.pitch)
@@ -211,7 +211,8 @@ impl<'a> ToothPassage<'a> {
             let (a, b) = &self.poses[number];
             let forth = |p: &Point| carry(a, b, p);
             let back = |p: &Point| carry(b, a, p);
-            if (forth(&one.middle) - two.middle).norm() > one.radius + two.radius {
+            let reach = one.radius + two.radius;
+            if (forth(&one.middle) - two.middle).norm_squared() > reach * reach {
                 return false;
             }
             deep(&one.places, &forth, two) || deep(&two.places, &back, one)
@@ -257,6 +258,8 @@ struct Shape {
     material: f64,
     middle: Point,
     radius: f64,
+    /// The chord that was nearest last: the points of a walk are near each other.
+    last: Cell<usize>,
 }
 
 impl Shape {
@@ -321,6 +324,7 @@ impl Shape {
             material,
             middle,
             radius,
+            last: Cell::new(0),
         }
     }
 
@@ -329,13 +333,12 @@ impl Shape {
         let mut nearest = f64::INFINITY;
         let mut depth = None;
         let last = self.places.len() - 2;
-        let distance = |(center, radius): &(Point, f64)| ((point - center).norm(), *radius);
-        // Some place of each group is no farther than its circle's far side.
-        let within = self.groups.iter().map(distance).map(|(d, r)| d + r);
-        let within = within.fold(f64::INFINITY, f64::min) * (1.0 + 1e-9);
-        for (number, group) in self.groups.iter().enumerate() {
-            let (away, radius) = distance(group);
-            if away - radius > within {
+        // No chord is nearest that is farther than a place.
+        let within = (point - self.places[self.last.get()]).norm();
+        let mut found = 0;
+        for (number, (center, radius)) in self.groups.iter().enumerate() {
+            let reach = (within + radius) * (1.0 + 1e-9);
+            if (point - center).norm_squared() > reach * reach {
                 continue;
             }
             let first = number * GROUP;
@@ -348,19 +351,20 @@ impl Shape {
                     let end = if k == 0 { pair[0] } else { pair[1] };
                     let distance = (point - end).norm_squared();
                     if distance < nearest {
-                        (nearest, depth) = (distance, None);
+                        (nearest, depth, found) = (distance, None, k);
                     }
                     continue;
                 }
                 let share = share.clamp(0.0, 1.0);
                 let distance = (from - chord * share).norm_squared();
                 if distance < nearest {
-                    nearest = distance;
+                    (nearest, found) = (distance, k);
                     let chordal = distance.sqrt() * chord.perp(&from).signum() * self.material;
                     depth = Some(chordal + 4.0 * share * (1.0 - share) * self.bulges[k]);
                 }
             }
         }
+        self.last.set(found);
         depth
     }
 }
