@@ -243,12 +243,8 @@ fn polar_spline() -> impl Strategy<Value = PitchSpec> {
 /// Where a contour of a pair crosses itself; a loop at a joint, smaller than `speck` modules, is let pass.
 pub fn crossing(pair: &GearPair, speck: f64) -> Option<(Member, Crossing)> {
     [pair.driver(), pair.driven()].into_iter().find_map(|gear| {
-        let segments = gear.outline().segments();
-        let found = gear.outline().crossing()?;
-        let [one, other] = found.segments;
-        let off = (segments[one].end() - found.point).norm();
-        let is_speck = one + 1 == other && off < speck * pair.module();
-        (!is_speck).then_some((gear.member(), found))
+        let found = gear.outline().crossing_beyond(speck * pair.module())?;
+        Some((gear.member(), found))
     })
 }
 

@@ -20,7 +20,8 @@ fn turned(p: Point, angle: f64) -> Point {
     nalgebra::Rotation2::new(angle) * p
 }
 
-/// Overlapping area of the placed gears, by a polygon library that knows nothing of gears.
+/// Overlapping area of the placed gears, by a polygon library that knows nothing of gears and shares nothing with the
+/// crates: of all packages here only these tests depend on it.
 fn overlap(pair: &GearPair, phi: f64, psi: f64) -> f64 {
     let a = pair.center_distance();
     let driver = polygon(pair.driver(), pair.module(), |p| turned(p, -phi));

@@ -16,6 +16,8 @@ pub struct Sample {
 impl Outline {
     /// Corners of a closed polygon on the outline that is nowhere farther from it than the tolerance.
     ///
+    /// Where two parts of the outline are nearer than that, beside a cusp even, it has more corners, so that it crosses
+    /// itself only where the outline does or where rounding cannot tell.
     /// The bound is proven, not sampled. Ends of lines and arcs and every corner are among the points;
     /// the last is not the first repeated. Cost: linear in segments and points.
     #[must_use]
@@ -58,7 +60,7 @@ impl Outline {
         for _ in 0..60 {
             let places = self.places(finer);
             if places.len() >= 3 {
-                return places;
+                return self.untangled(places, tolerance);
             }
             finer = finer.scaled(0.25);
         }

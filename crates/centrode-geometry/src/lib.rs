@@ -42,6 +42,7 @@ mod shell;
 mod smooth_run;
 mod solid;
 mod tolerance;
+mod untangle;
 
 pub use antiderivative::Antiderivative;
 pub use bounds::Bounds;

@@ -85,18 +85,14 @@ impl Cutter<'_> {
             owners.reverse();
         }
         let outline = Outline::new(segments)?;
-        if let Some(found) = outline.crossing() {
-            let [one, other] = found.segments;
-            // Where a flank turns back on its fillet the two part by less than rounding at first.
-            let off = (outline.segments()[one].end() - found.point).norm();
-            if one + 1 != other || off >= SPECK * self.tolerance.mm() {
-                return Err(ProfileError::Touches {
-                    member: self.member,
-                    point: found.point,
-                    roles: found.segments.map(|i| roles[i]),
-                    teeth: found.segments.map(|i| owners[i]),
-                });
-            }
+        // Where a flank turns back on its fillet the two part by less than rounding at first.
+        if let Some(found) = outline.crossing_beyond(SPECK * self.tolerance.mm()) {
+            return Err(ProfileError::Touches {
+                member: self.member,
+                point: found.point,
+                roles: found.segments.map(|i| roles[i]),
+                teeth: found.segments.map(|i| owners[i]),
+            });
         }
         Ok(Profile {
             outline,

@@ -1,5 +1,6 @@
 use super::{ProfileError, Role};
 use crate::gear::{Gear, GearPair, GearPairError};
+use centrode_geometry::{Outline, Tolerance};
 
 /// A pair of the keys of its pitch curve, its tool and its teeth.
 fn pair(pitch: &str, tool: &str, teeth: &str) -> Result<GearPair, GearPairError> {
@@ -57,4 +58,38 @@ fn curves_of_a_tooth_that_do_not_meet_are_an_error_that_tells_how_far_they_are_a
     };
     assert_eq!(roles, [Role::Flank, Role::Tip]);
     assert!(gap > 1.0);
+}
+
+#[test]
+fn beside_a_fillet_that_turns_back_on_a_flank_polygons_are_simple_as_well() {
+    let designs = [
+        r#"pitch = { kind = "conjugate", mean_ratio = [2, 1], of = { kind = "polar", radius = [16.204074209877625, 18.410182935740618, 23.006863390637776, 22.44553833489443, 18.500563381395608, 20.291105283835506, 15.824259389968617, 23.733546601166925], interpolation = "cubic", module = 1.0, tooth_count = 30 }, module = 0.40592829698028243, tooth_count = 20 }
+tool = { kind = "shaper", pressure_angle_deg = 14.5, addendum_coefficient = 1.0, dedendum_coefficient = 1.2452970025697345, tip_radius_coefficient = 0.1, profile_shift_coefficient = 0.0, tooth_count = 47 }
+teeth = { addendum = "full", phase = 0.0, backlash = 0.0005302039452196339, thickness_split = 0.5 }
+mean_ratio = [3, 2]"#,
+        r#"pitch = { kind = "limacon", mean_radius = 11.464272485154506, amplitude = 5.427599326296165, lobes = 3, module = 1.4495713166655166, tooth_count = 17 }
+tool = { kind = "rack", pressure_angle_deg = 14.5, addendum_coefficient = 1.0931257613348864, dedendum_coefficient = 1.2731576830173261, tip_radius_coefficient = 0.044688608498994524, profile_shift_coefficient = 0.0 }
+teeth = { addendum = "full", phase = 0.8910724170569531, backlash = 0.017122803281009537, thickness_split = 0.5 }
+mean_ratio = [1, 1]"#,
+        r#"pitch = { kind = "bspline", degree = 2, interpolate = true, plane = "cartesian", x = [14.146584351790983, 5.7764486257441945, -8.503963566814901, -5.5318101040442285, -8.468457751498697, 0.364594428761588, 10.727238004592655], y = [0.0, 9.84221054006795, 12.297123474925444, 0.6261627065845893, -5.667057253782819, -8.13920587781676, -10.305332178840173], module = 2.3799755085859657, tooth_count = 30 }
+tool = { kind = "rack", pressure_angle_deg = 24.731871578490697, addendum_coefficient = 1.0, dedendum_coefficient = 1.1378232386593823, tip_radius_coefficient = 0.0, profile_shift_coefficient = 0.0 }
+teeth = { addendum = "fitted", phase = 0.6739446713784432, backlash = 0.0, thickness_split = 0.5149278607925007 }
+mean_ratio = [1, 1]"#,
+        r#"pitch = { kind = "bspline", degree = 2, interpolate = true, plane = "cartesian", x = [26.500086840688333, 22.465324512710634, 22.944813106110608, 2.893686021086901, -13.30134649719823, -33.11122604911964, -24.128785550795243, -18.067999808959566, -23.3395425324427, 0.1533885145053859, 24.286034746538764, 34.034410354652806], y = [0.0, 10.790359500843826, 30.919621172339834, 19.957403289408752, 39.25512725889489, 24.48892778702733, 1.2146713975737475, -7.816957903277181, -32.82674000496724, -19.524495608353458, -39.01041105662692, -16.502056543672495], module = 3.2450123457915625, tooth_count = 25 }
+tool = { kind = "rack", pressure_angle_deg = 14.5, addendum_coefficient = 1.0, dedendum_coefficient = 1.1802014500658795, tip_radius_coefficient = 0.19725345285417856, profile_shift_coefficient = 0.0 }
+teeth = { addendum = "full", phase = 0.0, backlash = 0.0, thickness_split = 0.4952373828249531 }
+mean_ratio = [2, 1]"#,
+        r#"pitch = { kind = "bspline", degree = 2, interpolate = true, plane = "polar", radius = [10.714043655181552, 11.500798621878506, 9.427715716196301, 18.82316131519598, 7.473955153963506, 19.12368843425135, 8.182472524040717, 15.976350249097026, 19.705841825584965], angle_deg = [0.0, 47.386500382969906, 82.06955252698783, 115.28203152907987, 158.22880310578012, 194.37754557373353, 227.02389410395762, 269.21742249703976, 314.2026129344321], module = 3.8207490848458763, tooth_count = 38 }
+tool = { kind = "rack", pressure_angle_deg = 14.5, addendum_coefficient = 1.0912509077094859, dedendum_coefficient = 1.362313639469925, tip_radius_coefficient = 0.12093737448407488, profile_shift_coefficient = -0.4904069324358544 }
+teeth = { addendum = "full", phase = 0.0, backlash = 0.26645351715930593, thickness_split = 0.5031343221525656 }
+mean_ratio = [1, 1]"#,
+    ];
+    for text in designs {
+        let pair = GearPair::resolve(&toml::from_str(text).expect("a design")).expect("a pair");
+        let tolerance = Tolerance::new(1e-6 * pair.module()).expect("positive");
+        for gear in [pair.driver(), pair.driven()] {
+            let polygon = Outline::polygon(&gear.outline().flatten(tolerance));
+            assert_eq!(polygon.crossing(), None, "{text}");
+        }
+    }
 }
