@@ -84,33 +84,9 @@ impl<'a> Meshing<'a> {
         checkpoint();
         let a = self.pair.center_distance();
         let pose = Pose::new(phi, law, a);
-        let limits = (self.near, self.close);
         let mut candidates = self.candidates(&pose);
         let places = self.places(&mut candidates, &pose);
-        let mut seats = [1.0, -1.0].map(|sign| self.seat(&candidates, phi, law, sign));
-        // Nothing so near: search farther.
-        while seats.iter().any(Option::is_none) && self.close < FARTHEST * self.module {
-            self.close *= 3.0;
-            self.near = self.near.max(self.close);
-            let candidates = self.candidates(&pose);
-            seats = [1.0, -1.0].map(|sign| self.seat(&candidates, phi, law, sign));
-        }
-        // Teeth cut short or undercut may penetrate so deep that no sides that face each other are near.
-        let free = |seats: &[Option<Seat>; 2]| match seats {
-            [Some(forward), Some(back)] => forward.angle <= back.angle,
-            _ => false,
-        };
-        while !self.whole
-            && free(&seats)
-            && seats.iter().flatten().any(|s| self.lie_deep(phi, s.angle))
-            && self.near < DEEPEST * self.module
-        {
-            self.near *= 2.0;
-            let candidates = self.candidates(&pose);
-            seats = [1.0, -1.0].map(|sign| self.seat(&candidates, phi, law, sign));
-        }
-        (self.near, self.close) = limits;
-        let [forward, back] = seats;
+        let [forward, back] = self.seats(&candidates, phi, law);
         out.input.push(phi);
         out.law.push(law);
         let half = 0.5 * self.pair.backlash();
@@ -172,6 +148,42 @@ impl<'a> Meshing<'a> {
             .iter()
             .map(|&(point, normal)| sliding(point, normal, phi, a, ratio));
         out.sliding.push(sliding.fold(0.0, f64::max));
+    }
+
+    /// Seats of the driven gear pushed on and back, searched for ever farther from the law's angle; none where the mesh has
+    /// come apart.
+    pub(super) fn seats(
+        &mut self,
+        candidates: &Candidates,
+        phi: f64,
+        law: f64,
+    ) -> [Option<Seat>; 2] {
+        let pose = Pose::new(phi, law, self.pair.center_distance());
+        let limits = (self.near, self.close);
+        let mut seats = [1.0, -1.0].map(|sign| self.seat(candidates, phi, law, sign));
+        // Nothing so near: search farther.
+        while seats.iter().any(Option::is_none) && self.close < FARTHEST * self.module {
+            self.close *= 3.0;
+            self.near = self.near.max(self.close);
+            let candidates = self.candidates(&pose);
+            seats = [1.0, -1.0].map(|sign| self.seat(&candidates, phi, law, sign));
+        }
+        // Teeth cut short or undercut may penetrate so deep that no sides that face each other are near.
+        let free = |seats: &[Option<Seat>; 2]| match seats {
+            [Some(forward), Some(back)] => forward.angle <= back.angle,
+            _ => false,
+        };
+        while !self.whole
+            && free(&seats)
+            && seats.iter().flatten().any(|s| self.lie_deep(phi, s.angle))
+            && self.near < DEEPEST * self.module
+        {
+            self.near *= 2.0;
+            let candidates = self.candidates(&pose);
+            seats = [1.0, -1.0].map(|sign| self.seat(&candidates, phi, law, sign));
+        }
+        (self.near, self.close) = limits;
+        seats
     }
 
     /// Angle of the driven gear if the flanks had the designed backlash exactly.
@@ -244,13 +256,7 @@ impl<'a> Meshing<'a> {
     }
 
     /// Turns the driven gear back (`sign` 1) or on (-1) until it rests on the driver.
-    pub(super) fn seat(
-        &self,
-        candidates: &Candidates,
-        phi: f64,
-        law: f64,
-        sign: f64,
-    ) -> Option<Seat> {
+    fn seat(&self, candidates: &Candidates, phi: f64, law: f64, sign: f64) -> Option<Seat> {
         let a = self.pair.center_distance();
         let seated = SEATED * self.module;
         let (mut angle, mut pose) = (law, Pose::new(phi, law, a));

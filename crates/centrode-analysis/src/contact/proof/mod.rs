@@ -382,8 +382,8 @@ impl Prover<'_> {
             phi,
             ..Sample::default()
         };
-        for side in [Side::On, Side::Back] {
-            let seat = self.meshing.seat(&candidates, phi, law, side.sign());
+        let seats = self.meshing.seats(&candidates, phi, law);
+        for (side, seat) in [Side::On, Side::Back].into_iter().zip(seats) {
             let seat = seat.ok_or(ProofError::Apart { phi })?;
             out.held[side as usize] = seat.features();
             let pose = Pose::new(phi, seat.angle, a);
