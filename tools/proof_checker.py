@@ -50,7 +50,7 @@ JOINT = arb(1e-9)
 #: Driver angle by which a box is widened, as a share of it, so that no rounding of its ends leaves a gap.
 OVERLAP = arb(1) + arb(1e-9)
 #: Greatest number of halvings: of a box in phi, of a piece of a contour.
-DEEP, FINE, FINEST = 12, 5, 10
+DEEP, FINE, FINEST = 9, 5, 10
 #: Stretches checked in one go.
 RUN = 16
 #: Pieces beyond those that touch whose neighbours a parabola has to part.
@@ -143,6 +143,7 @@ class Contour:
             area += (swept(acb(1)) - swept(acb(-1))).imag
         if not area > 0:
             raise RejectedError(f"the {name}'s contour does not run counter-clockwise")
+        self.size = max(self.part(i, -1.0, 1.0).size for i in range(self.count))
         self.root = self.run(0, self.count)
 
     def run(self, first, last):
@@ -397,10 +398,18 @@ class Box:
             return [(part, b) for part in a.parts]
         return [(a, part) for part in b.parts]
 
-    def apart(self, a, b):
+    def apart(self, a, b, offset=ZERO, half=None):
         """Whether the discs of two nodes are apart at every angle of the box and every turn in the play."""
-        distance = self.between.place(b.centre) - a.centre
-        return low(abs(distance)) > a.radius + b.radius + b.size * self.play / 2
+        half = self.play / 2 if half is None else half
+        centre = b.centre if offset == 0 else b.centre * acb(ZERO, offset).exp()
+        room = low(abs(self.between.place(centre) - a.centre)) - a.radius - b.radius
+        swing = b.size * half
+        if room > swing:
+            return True
+        if not room > 0 or swing < a.radius + b.radius:
+            return False
+        # The play is wider than the discs: in two parts.
+        return all(self.apart(a, b, offset + part, half / 2) for part in (half / 2, -half / 2))
 
     def is_free(self):
         """Claim 1: whether no two pieces meet in the play."""
@@ -448,6 +457,8 @@ class Range:
 def ends(stretch):
     """Places tau of a stretch at which features come to an end of their pieces: good places to cut it."""
     hints = [series for hint in stretch["meetings"] for series in hint["parameters"]]
+    # Not those that stay there, as a corner does.
+    hints = [series for series in hints if sum(abs(c) for c in series[1:]) > 1e-9]
     return [place for series in hints for end in (-1, 1) for place in crossings(series, end)]
 
 
@@ -778,10 +789,10 @@ class Pair:
         """Whether neither gear lies inside the other at the start: each has a point beyond all of the other's."""
         start = Box(self, self.stretches[0])
         place = start.between.place
-        if not any(abs(place(q)) > self.driver.root.size for q in self.driven.starts):
+        if not any(abs(place(q)) > self.driver.size for q in self.driven.starts):
             raise RejectedError("the driven gear may lie inside the driver")
         axis = place(acb(0))
-        if not any(abs(p - axis) > self.driven.root.size for p in self.driver.starts):
+        if not any(abs(p - axis) > self.driven.size for p in self.driver.starts):
             raise RejectedError("the driver may lie inside the driven gear")
 
 

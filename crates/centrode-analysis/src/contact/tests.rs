@@ -2,7 +2,7 @@ use centrode_mechanism::design::DesignSpec as _;
 use centrode_mechanism::gear::GearPair;
 use centrode_mechanism::gear::design::GearPairDesign;
 
-use super::Contact;
+use super::{Contact, ProofError, prove};
 
 fn design(name: &str) -> GearPair {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/designs");
@@ -55,4 +55,34 @@ fn flanks_thinned_for_play_stand_where_designed_at_their_ends_too() {
     for error in errors.chain(&contact.reverse_transmission_error) {
         assert!(error.abs() < 1e-12, "{error:e}");
     }
+}
+
+#[test]
+fn the_seats_of_a_certificate_are_those_of_the_samples() {
+    let pair = design("law-pair");
+    let proof = prove(&pair).expect("a certificate");
+    let middles: Vec<f64> = proof
+        .stretches
+        .iter()
+        .map(|s| 0.5 * (s.from + s.to))
+        .collect();
+    let contact = Contact::at(&pair, &middles);
+    // In the middle the odd terms of a series are zero, and the even ones change their sign.
+    let middle = |series: &[f64]| -> f64 {
+        let even = series.iter().step_by(2).enumerate();
+        even.map(|(k, c)| if k % 2 == 0 { *c } else { -c }).sum()
+    };
+    for (i, stretch) in proof.stretches.iter().enumerate() {
+        let sampled = [contact.driven_angle[i], contact.reverse_driven_angle[i]];
+        for (seat, angle) in stretch.seats.iter().zip(sampled) {
+            let off = contact.law[i] + middle(seat) - angle;
+            assert!(off.abs() < proof.half_width, "{off:e} at {}", middles[i]);
+        }
+    }
+}
+
+#[test]
+fn gears_that_cannot_be_followed_have_no_certificate_and_it_says_where() {
+    let found = prove(&design("transplanter-pair-2021"));
+    assert!(matches!(found, Err(ProofError::Unresolved { phi }) if (3.5..4.5).contains(&phi)));
 }

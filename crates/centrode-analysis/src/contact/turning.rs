@@ -8,17 +8,11 @@
 
 use centrode_geometry::{Point, Vector, bracketed_root};
 
-use centrode_mechanism::gear::Member;
-
 use super::{
     body::Body,
-    proof::{Feature, Meeting as Followed},
     stretch::{Contour, SETTLED, Stretch},
     touch::Pose,
 };
-
-/// Sine of the angle between tangents below which no corner touches.
-const SMOOTH: f64 = 1e-6;
 
 /// Size, as a share of a contact's allowance, below which a stretch is a point.
 const POINT: f64 = 1e-5;
@@ -72,52 +66,25 @@ pub(super) struct Hit {
 }
 
 impl Hit {
-    /// Features that meet, and the meeting, for a driven gear turned from an angle.
-    pub(super) fn feature(&self, from: f64) -> (Feature, Followed) {
-        let Meeting {
-            u,
-            v,
-            driver,
-            driven,
-        } = self.meeting;
-        let (sin, cos) = self.turn.sin_cos();
-        let t = Vector::new(
-            cos * driven.1.x - sin * driven.1.y,
-            sin * driven.1.x + cos * driven.1.y,
-        );
-        let slant = t.perp(&driver.1).abs() / (t.norm() * driver.1.norm());
-        let corner = match () {
-            () if slant < SMOOTH => None,
-            () if u.abs() == 1.0 => Some((Member::Driver, u)),
-            () => Some((Member::Driven, v)),
-        };
-        let feature = Feature {
-            parts: self.parts,
-            corner,
-        };
-        (
-            feature,
-            Followed {
-                at: (u, v),
-                angle: from + self.turn,
-            },
-        )
+    /// Parameters on the two parts.
+    pub(super) fn at(&self) -> (f64, f64) {
+        (self.meeting.u, self.meeting.v)
+    }
+
+    /// Tangents there: the driver's, and the driven gear's as it is turned.
+    pub(super) fn tangents(&self) -> [Vector; 2] {
+        let ((sin, cos), t) = (self.turn.sin_cos(), self.meeting.driven.1);
+        let turned = Vector::new(cos * t.x - sin * t.y, sin * t.x + cos * t.y);
+        [self.meeting.driver.1, turned]
     }
 
     /// The point on the driver and its outward normal there, in the driver's axes.
     pub(super) fn touch(&self, pose: &Pose) -> (Point, Vector) {
-        let tangent = if self.at_corner {
-            let (sin, cos) = self.turn.sin_cos();
-            let t = self.meeting.driven.1;
-            Vector::new(sin * t.y - cos * t.x, -sin * t.x - cos * t.y)
-        } else {
-            self.meeting.driver.1
-        };
+        let [on_driver, on_driven] = self.tangents();
+        let tangent = [on_driver, -on_driven][usize::from(self.at_corner)];
         let normal = Vector::new(tangent.y, -tangent.x) / tangent.norm();
-        (
-            pose.place(&Point::from(self.meeting.driver.0)),
-            pose.turn(&normal),
-        )
+        let point = pose.place(&Point::from(self.meeting.driver.0));
+        (point, pose.turn(&normal))
     }
 }
 

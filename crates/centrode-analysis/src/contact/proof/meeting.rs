@@ -4,7 +4,10 @@ use centrode_geometry::Vector;
 use centrode_mechanism::gear::Member;
 use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
 
-use super::super::{meshing::Meshing, touch::Pose};
+use super::super::{meshing::Meshing, touch::Pose, turning::Hit};
+
+/// Sine of the angle between tangents below which no corner touches.
+const SMOOTH: f64 = 1e-6;
 
 /// Change of parameters below which Newton's method, whose errors square, has come to rounding.
 const SETTLED: f64 = 1e-9;
@@ -38,6 +41,23 @@ impl Meeting {
     /// Whether it lies on both parts, or so little beyond that the seat is the same but for rounding.
     pub(super) fn is_on_parts(&self) -> bool {
         self.at.0.abs().max(self.at.1.abs()) <= 1.0 + OVERHANG
+    }
+}
+
+impl Hit {
+    /// Features that meet, and the meeting, for a driven gear turned from an angle.
+    pub(in crate::contact) fn feature(&self, from: f64) -> (Feature, Meeting) {
+        let at = self.at();
+        let [first, second] = self.tangents();
+        let slant = first.perp(&second).abs() / (first.norm() * second.norm());
+        let corner = match () {
+            () if slant < SMOOTH => None,
+            () if at.0.abs() == 1.0 => Some((Member::Driver, at.0)),
+            () => Some((Member::Driven, at.1)),
+        };
+        let angle = from + self.turn;
+        let parts = self.parts;
+        (Feature { parts, corner }, Meeting { at, angle })
     }
 }
 

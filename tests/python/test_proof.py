@@ -1,0 +1,189 @@
+"""Certificates of `centrode prove`, read by `tools/proof_checker.py`, which shares no code with them."""
+
+import copy
+import json
+import subprocess
+import sys
+
+import jsonschema
+import pytest
+from conftest import ROOT
+
+CHECKER = ROOT / "tools" / "proof_checker.py"
+
+DESIGN = """
+family = "gear-pair"
+
+[pitch]
+kind = "limacon"
+mean_radius = 16
+amplitude = 0.5
+lobes = 1
+module = 2
+tooth_count = 16
+
+[teeth]
+backlash = {backlash}
+
+[tool]
+kind = "rack"
+pressure_angle_deg = 25
+tip_radius_coefficient = 0.3
+"""
+
+
+def checked(*arguments):
+    """The checker's answer: its exit status and what it says."""
+    done = subprocess.run([sys.executable, CHECKER, *arguments], capture_output=True, text=True, check=False)
+    assert done.stderr == "", done.stderr
+    return done.returncode, done.stdout
+
+
+@pytest.fixture(scope="module")
+def design(tmp_path_factory):
+    file = tmp_path_factory.mktemp("proof") / "pair.toml"
+    file.write_text(DESIGN.format(backlash=0.04))
+    return file
+
+
+@pytest.fixture(scope="module")
+def file(design, run):
+    path = design.with_suffix(".proof")
+    run("prove", design, "-o", path)
+    return path
+
+
+@pytest.fixture
+def proof(file):
+    return json.loads(file.read_text())
+
+
+def test_the_checker_accepts_the_proof_of_a_pair(file, design):
+    status, answer = checked(file, design)
+    assert status == 0, answer
+    assert answer.startswith("proved: ")
+    # Pushed on and back the driven gear stands half of its play to either side of the law.
+    assert "each error at every angle within 8.0e-10 rad" in answer
+
+
+def test_a_proof_is_of_one_design(file, design):
+    other = design.with_name("other.toml")
+    other.write_text(DESIGN.format(backlash=0.05))
+    assert checked(file, other) == (1, "rejected: the proof is of another design\n")
+
+
+def test_the_file_keeps_its_schema_and_its_bytes(file, design, run, proof):
+    jsonschema.validate(proof, json.loads(run("schema", "proof").stdout))
+    assert proof["design"] == design.read_text()
+    again = file.with_name("again.proof")
+    run("prove", design, "-o", again)
+    assert again.read_bytes() == file.read_bytes()
+
+
+def test_the_prover_keeps_off_the_design(design, run):
+    done = run("prove", design, "-o", design, check=False)
+    assert done.returncode == 2
+    assert "is the design" in done.stderr
+
+
+def test_a_family_without_teeth_has_no_proof(run, tmp_path):
+    done = run("prove", ROOT / "tests" / "designs" / "press.toml", "-o", tmp_path / "x.proof", check=False)
+    assert done.returncode == 2
+    assert "gear-pair" in done.stderr
+    assert not (tmp_path / "x.proof").exists()
+
+
+def touching(proof):
+    """A flank piece of the driver that holds the driven gear, by number."""
+    stretch = proof["stretches"][len(proof["stretches"]) // 2]
+    return stretch["meetings"][stretch["held_by"][0]]["pieces"][0]
+
+
+def bulge(proof):
+    """A flank that stands 1 um out, smooth at its ends."""
+    piece = proof["driver"][touching(proof)]
+    # Along its middle the contour runs by the tangent there; what lies right of it is outside.
+    tangent = piece[1]
+    length = (tangent[0] ** 2 + tangent[1] ** 2) ** 0.5
+    outward = [1e-3 * tangent[1] / length, -1e-3 * tangent[0] / length]
+    # (1 - u^2)^2
+    for power, share in ((0, 1), (2, -2), (4, 1)):
+        for k in (0, 1):
+            piece[power][k] += share * outward[k]
+
+
+def vertex(proof):
+    proof["driven"][5][0][0] += 1e-3
+
+
+def fillet(proof):
+    del proof["driver"][touching(proof) - 1]
+
+
+def axis(proof):
+    proof["center_distance"] += 1e-3
+
+
+def box(proof):
+    del proof["stretches"][len(proof["stretches"]) // 2]
+
+
+def bound(proof):
+    proof["half_width"] = 1e-14
+
+
+def seat(proof):
+    for series in proof["stretches"][7]["seats"]:
+        series[0] += 1e-9
+
+
+def law(proof):
+    proof["law"]["pieces"][0][0] += 1e-8
+
+
+def swapped(proof):
+    for stretch in proof["stretches"]:
+        stretch["seats"].reverse()
+
+
+def cycle(proof):
+    last = proof["stretches"].pop()
+    proof["cycle"] = last["from"]
+
+
+def stranger(proof):
+    proof["driver"][3][2][1] = "1"
+
+
+def hollow(proof):
+    proof["stretches"] = []
+
+
+def nothing(proof):
+    proof.clear()
+
+
+@pytest.mark.parametrize(
+    "defect",
+    [bulge, vertex, fillet, axis, box, bound, seat, law, swapped, cycle, stranger, hollow, nothing],
+    ids=lambda defect: defect.__name__,
+)
+def test_the_checker_rejects_a_planted_defect(defect, proof, tmp_path):
+    spoilt = copy.deepcopy(proof)
+    defect(spoilt)
+    path = tmp_path / "spoilt.proof"
+    path.write_text(json.dumps(spoilt))
+    status, answer = checked(path)
+    assert (status, answer.split(":")[0]) == (1, "rejected"), answer
+
+
+@pytest.mark.parametrize("text", ["", "{", '{"format": NaN}', "[]", "null"])
+def test_a_file_that_is_no_proof_is_rejected(text, tmp_path):
+    path = tmp_path / "x.proof"
+    path.write_text(text)
+    status, answer = checked(path)
+    assert (status, answer.split(":")[0]) == (1, "rejected"), answer
+
+
+def test_a_file_that_is_missing_is_an_error(tmp_path):
+    assert checked(tmp_path / "x.proof")[0] == 2
