@@ -95,7 +95,7 @@ def test_a_family_without_teeth_has_no_proof(run, tmp_path):
 
 def touching(proof):
     """A flank piece of the driver that holds the driven gear, by number."""
-    stretch = proof["stretches"][len(proof["stretches"]) // 2]
+    stretch = proof["stretches"][1]
     return stretch["meetings"][stretch["held_by"][0]]["pieces"][0]
 
 
@@ -133,7 +133,7 @@ def bound(proof):
 
 
 def seat(proof):
-    for series in proof["stretches"][7]["seats"]:
+    for series in proof["stretches"][1]["seats"]:
         series[0] += 1e-9
 
 
