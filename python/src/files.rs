@@ -26,9 +26,12 @@ pub(crate) fn formats(names: Option<Vec<String>>, known: &[Format]) -> Answer<Ve
     names.iter().map(format).collect()
 }
 
-/// Parts by their names, if they are parts of the family.
+/// Parts by their names, if they are parts of the family; one that lists none names them after its design.
 pub(crate) fn parts(names: Option<Vec<String>>, known: &[PartName]) -> Answer<Option<Vec<String>>> {
     let known: Vec<&str> = known.iter().map(|part| part.name).collect();
+    if known.is_empty() {
+        return Ok(names);
+    }
     let mut asked = names.iter().flatten();
     match asked.find(|word| !known.contains(&word.as_str())) {
         Some(word) => Err(Raised::word("parts", word, &known)),

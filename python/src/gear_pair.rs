@@ -18,7 +18,7 @@ use crate::body::{Body, spec_of};
 use crate::count::{Count, optional};
 use crate::design::Class;
 use crate::drawing::DrawingSpec;
-use crate::error::{Answer, finite};
+use crate::error::{Answer, Raised, finite};
 use crate::files::_write;
 use crate::gear::Gear;
 use crate::made::Made;
@@ -33,6 +33,18 @@ use crate::word::Word;
 
 /// Most inputs a pitch of a contact analysis.
 const MOST_PER_PITCH: u32 = 10_000;
+
+/// Greatest driver angle of a contact analysis, rad: with all its digits one is known to 1e-10 rad.
+const FARTHEST: f64 = 1e6;
+
+/// Refuses a driver angle that is not known well enough for the contact.
+fn within_turns(input: f64) -> Answer<()> {
+    if input.abs() <= FARTHEST {
+        return Ok(());
+    }
+    let rule = format!("must be from {} to {FARTHEST} rad, not {input}", -FARTHEST);
+    Err(Raised::rule("every input", &rule))
+}
 
 /// A non-circular gear pair: exact pitch curves, finished teeth.
 ///
@@ -297,7 +309,7 @@ impl GearPair {
     ///
     /// Args:
     ///     per_pitch: Inputs a pitch, spaced evenly along the pitch curve and never in step with the teeth.
-    ///     inputs: Driver angles, rad, instead of these.
+    ///     inputs: Driver angles, rad, instead of these; at most 1e6 either way.
     ///
     /// >>> import centrode as ct
     /// >>> pair = ct.GearPair(ct.pitch.ellipse(eccentricity=0.2, module=2, tooth_count=23))
@@ -317,7 +329,7 @@ impl GearPair {
             Some(inputs) => {
                 let inputs = inputs.into_vec();
                 for &input in &inputs {
-                    finite("every input", input)?;
+                    within_turns(finite("every input", input)?)?;
                 }
                 wait(py, move || Contact::at(&pair, &inputs))
             }

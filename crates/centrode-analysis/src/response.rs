@@ -13,7 +13,7 @@ use crate::{Report, Unit, figure};
 pub struct Response {
     /// Key of the number in the design file.
     pub key: String,
-    /// Values of the number, in the file's unit.
+    /// Values of the number with which it was checked, in the file's unit: of a count, whole ones.
     pub values: Vec<f64>,
     /// Report at each value; none where it gives no mechanism.
     pub reports: Vec<Option<Report>>,
@@ -52,7 +52,7 @@ impl Response {
         };
         Ok(Self {
             key: key.to_owned(),
-            values: values.to_vec(),
+            values: values.iter().map(|&value| numbered.taken(value)).collect(),
             reports: values.into_par_iter().panic_fuse().map(report).collect(),
         })
     }

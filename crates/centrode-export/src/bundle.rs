@@ -119,39 +119,37 @@ impl Bundle {
     ///
     /// All contents are first written and flushed in hidden folders, then renamed: a file is there whole or, after an
     /// error, as it was before; nothing else is left behind. Remains of a killed program are cleared by the next one that
-    /// writes there; several may write at the same time. A file written over keeps its permissions. Cancelled by
-    /// [`Cancel`](centrode_geometry::Cancel) it leaves no new file.
+    /// writes there; several may write at the same time. A file written over keeps its permissions, and links to it still
+    /// lead there; what is no regular file is not written over. Cancelled by [`Cancel`](centrode_geometry::Cancel) it leaves
+    /// no new file.
     ///
     /// # Errors
     /// [`BundleError::Disk`] with the path and the system's reason.
     pub fn write_to(&self, directory: &Path) -> Result<Vec<PathBuf>, BundleError> {
         fs::create_dir_all(directory).map_err(failed("create the directory", directory))?;
-        let mut stages: Vec<(&str, Stage)> = Vec::new();
+        let mut stages: Vec<(PathBuf, Stage)> = Vec::new();
         let mut staged = Vec::with_capacity(self.files.len());
         for (name, bytes) in &self.files {
             checkpoint();
             let target = directory.join(name);
-            if target.is_dir() {
-                let source = io::Error::from(io::ErrorKind::IsADirectory);
-                return Err(failed("write", &target)(source));
+            let real = destination(&target).map_err(failed("write", &target))?;
+            let folder = real.parent().unwrap_or(directory);
+            if !stages.iter().any(|(of, _)| of == folder) {
+                fs::create_dir_all(folder).map_err(failed("create the directory", folder))?;
+                let stage = Stage::open(folder).map_err(failed("create a file in", folder))?;
+                stages.push((folder.to_owned(), stage));
             }
-            let (folder, file) = name.rsplit_once('/').unwrap_or(("", name));
-            if !stages.iter().any(|(of, _)| *of == folder) {
-                let path = directory.join(folder);
-                fs::create_dir_all(&path).map_err(failed("create the directory", &path))?;
-                let stage = Stage::open(&path).map_err(failed("create a file in", &path))?;
-                stages.push((folder, stage));
-            }
-            let Some((_, stage)) = stages.iter().find(|(of, _)| *of == folder) else {
+            let Some((_, stage)) = stages.iter().find(|(of, _)| of == folder) else {
                 continue;
             };
-            let place = stage.place(file);
-            put(bytes, &place, &target).map_err(failed("write", &target))?;
-            staged.push((place, target));
+            let file = real.file_name().unwrap_or_default();
+            let place = stage.place(&file.to_string_lossy());
+            put(bytes, &place, &real).map_err(failed("write", &target))?;
+            staged.push((place, real, target));
         }
         let mut written = Vec::with_capacity(self.files.len());
-        for (place, target) in staged {
-            fs::rename(place, &target).map_err(failed("write", &target))?;
+        for (place, real, target) in staged {
+            fs::rename(place, &real).map_err(failed("write", &target))?;
             written.push(target);
         }
         Ok(written)
@@ -187,6 +185,31 @@ fn failed(action: &'static str, path: &Path) -> impl FnOnce(io::Error) -> Bundle
         action,
         path,
         source,
+    }
+}
+
+/// Where a file of that name is written: itself, or where its links lead.
+fn destination(target: &Path) -> io::Result<PathBuf> {
+    /// Most links in a row, as on Linux.
+    const LINKS: u32 = 40;
+    match fs::metadata(target) {
+        Ok(there) if there.is_dir() => Err(io::ErrorKind::IsADirectory.into()),
+        Ok(there) if !there.is_file() => Err(io::Error::other("it is no regular file")),
+        Ok(_) if target.is_symlink() => target.canonicalize(),
+        // Links to what is still to be made.
+        Err(error) if error.kind() == io::ErrorKind::NotFound && target.is_symlink() => {
+            let mut path = target.to_owned();
+            for _ in 0..LINKS {
+                if !path.is_symlink() {
+                    return Ok(path);
+                }
+                let next = fs::read_link(&path)?;
+                path = path.parent().unwrap_or(Path::new("")).join(next);
+            }
+            Err(error)
+        }
+        Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
+        _ => Ok(target.to_owned()),
     }
 }
 
@@ -358,6 +381,35 @@ mod tests {
         let mode = fs::metadata(&path).expect("there").permissions().mode();
         assert_eq!(mode & 0o777, 0o600);
         assert_eq!(fs::read(&path).expect("there"), b"new");
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn links_are_written_through_and_what_is_no_file_is_refused() {
+        use std::os::unix::{fs::symlink, net::UnixListener};
+        let root = tempfile::tempdir().expect("a place to write");
+        let [deep, link, socket] = ["deep", "link", "socket"].map(|name| root.path().join(name));
+        fs::create_dir(&deep).expect("made");
+        symlink("deep/between", &link).expect("linked");
+        symlink("one.txt", deep.join("between")).expect("linked");
+        for text in [b"first", b"other"] {
+            // First made, then written over.
+            write_file(&link, text.to_vec()).expect("written");
+            assert_eq!(fs::read(deep.join("one.txt")).expect("there"), text);
+            assert!(link.is_symlink() && deep.join("between").is_symlink());
+        }
+        assert_eq!(names(&deep), ["between", "one.txt"]);
+        symlink("loop", root.path().join("loop")).expect("linked");
+        assert!(write_file(&root.path().join("loop"), vec![]).is_err());
+        let _listener = UnixListener::bind(&socket).expect("bound");
+        symlink("socket", root.path().join("to-socket")).expect("linked");
+        for name in ["socket", "to-socket"] {
+            let error = write_file(&root.path().join(name), vec![]).expect_err("a socket");
+            assert!(error.to_string().contains("no regular file"), "{error}");
+        }
+        assert!(!socket.is_file() && root.path().join("to-socket").is_symlink());
+        let all = ["deep", "link", "loop", "socket", "to-socket"];
+        assert_eq!(names(root.path()), all);
     }
 
     #[test]

@@ -1,9 +1,12 @@
+use std::ffi::OsStr;
 use std::path::PathBuf;
 
 use centrode::analysis::optimise::Strategy;
 use centrode::family::{FAMILIES, PartName};
 use centrode::geometry::Tolerance;
-use clap::builder::{PossibleValue, PossibleValuesParser};
+use clap::builder::{
+    NonEmptyStringValueParser, PossibleValue, PossibleValuesParser, TypedValueParser,
+};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
 /// Finest tolerance that can be asked for, mm: below it lie the rounding errors of the outlines.
@@ -93,8 +96,8 @@ pub(crate) struct Export {
     /// Flavour of the DXF files
     #[arg(long, value_enum, default_value_t = Dxf::R2010)]
     pub(crate) dxf: Dxf,
-    /// Parts to write files of, separated by commas; left out, all
-    #[arg(long, value_parser = parts(), value_delimiter = ',', value_name = "PARTS")]
+    /// Parts to write files of, separated by commas: of these, or those that the design names; left out, all
+    #[arg(long, value_parser = PartWord, value_delimiter = ',', value_name = "PARTS")]
     pub(crate) part: Vec<String>,
     /// Size of the drawing sheets; left out, the design's, or the smallest that takes the part
     #[arg(long, value_enum, ignore_case = true, value_name = "SIZE")]
@@ -139,16 +142,34 @@ pub(crate) enum File {
     Json,
 }
 
-/// The parts of every family, those of several families once and last.
-fn parts() -> PossibleValuesParser {
-    let parts = FAMILIES.0.iter().flat_map(|family| family.parts);
-    let mut all: Vec<PartName> = Vec::new();
-    for part in parts {
-        all.retain(|other| other.name != part.name);
-        all.push(*part);
+/// Name of a part: a machine may have others than are listed.
+#[derive(Clone, Copy)]
+struct PartWord;
+
+impl TypedValueParser for PartWord {
+    type Value = String;
+
+    fn parse_ref(
+        &self,
+        command: &clap::Command,
+        argument: Option<&clap::Arg>,
+        value: &OsStr,
+    ) -> Result<String, clap::Error> {
+        NonEmptyStringValueParser::new().parse_ref(command, argument, value)
     }
-    let values = all.into_iter();
-    PossibleValuesParser::new(values.map(|part| PossibleValue::new(part.name).help(part.about)))
+
+    /// The parts of every family, those of several families once and last.
+    fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
+        let parts = FAMILIES.0.iter().flat_map(|family| family.parts);
+        let mut all: Vec<PartName> = Vec::new();
+        for part in parts {
+            all.retain(|other| other.name != part.name);
+            all.push(*part);
+        }
+        let values = all.into_iter();
+        let values = values.map(|part| PossibleValue::new(part.name).help(part.about));
+        Some(Box::new(values))
+    }
 }
 
 /// A size of sheet, ISO 5457.

@@ -53,9 +53,14 @@ fn bundle(
     found: &Report,
     command: &Export,
 ) -> Result<Bundle, Failure> {
-    let named = |part: &String| family.parts.iter().any(|known| known.name == part);
-    if let Some(lost) = command.part.iter().find(|part| !named(part)) {
-        let message = format!("{} has no part named {lost}", family.noun);
+    let known: Vec<&str> = family.parts.iter().map(|part| part.name).collect();
+    let mut asked = command.part.iter();
+    // Parts that the design names are told when it is drawn.
+    if !known.is_empty()
+        && let Some(lost) = asked.find(|part| !known.contains(&part.as_str()))
+    {
+        let (noun, known) = (family.noun, known.join(", "));
+        let message = format!("{noun} has no part named {lost}; there are {known}");
         return Err(Failure::Usage(message));
     }
     let (formats, options) = (formats(command), options(command, found));

@@ -26,6 +26,7 @@ const STORE: Duration = Duration::from_secs(10);
 /// Searches for a better design and writes it, with its search beside it.
 pub(crate) fn run(command: &Optimise, out: &mut impl Write) -> Result<ExitCode, Failure> {
     let source = Source::open(&command.design)?;
+    source.keep_from(&command.output)?;
     let file = source.design()?;
     // A design that gives no mechanism is reported as by a check.
     file.mechanism().map_err(|error| source.blame(error))?;

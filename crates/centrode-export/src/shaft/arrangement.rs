@@ -44,7 +44,7 @@ pub(super) fn tell(parts: &Machine<'_>, machine: &mut Linked) -> Result<(), Expo
         .push(Datum::new("Shaft over all, mm", "", number(far - near, 3)));
     if let Some(gears) = &parts.gears {
         told.notes
-            .push("Gears on the near end, seen along the shaft, drawn below it.".into());
+            .push("Gears on the near end, seen along the shaft, drawn left of it.".into());
         told.data.extend(gear_pair::of_both(&gears.pair));
     }
     let ([low, high], (first, last)) = (solid.ends(), shaft.traverse().reach());

@@ -157,8 +157,8 @@ pub enum ComposedError {
     /// A pair that cannot be cut.
     #[error("{error}")]
     Pair {
-        /// Name of the pair.
-        pair: String,
+        /// Key at fault.
+        key: String,
         /// Why.
         error: Box<GearPairError>,
     },
@@ -289,8 +289,8 @@ impl ComposedError {
             | Self::NoFollower { key, .. }
             | Self::NoCopies { key, .. }
             | Self::Copy { key, .. }
+            | Self::Pair { key, .. }
             | Self::Linkage { key, .. } => key.clone(),
-            Self::Pair { pair, error } => format!("pairs.{pair}.{}", error.key()),
             Self::Cam { cam, error } => format!("cams.{cam}.{}", error.key()),
             Self::Loose { body } => format!("bodies.{body}"),
             Self::Law { body, error } => format!("bodies.{body}.law.{}", error.key()),

@@ -153,7 +153,7 @@ pub(super) fn gears_of(
         // Teeth take long; those of a design in which other things change are cut once.
         let made = MADE.get(&named, || GearPair::resolve(&named).map(Arc::new));
         let made = made.map_err(|error| ComposedError::Pair {
-            pair: name.clone(),
+            key: format!("pairs.{name}.{}", error.key_in(&named)),
             error: Box::new(error),
         })?;
         pairs.insert(name, made);

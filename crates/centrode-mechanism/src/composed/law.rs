@@ -18,6 +18,10 @@ use crate::transmission::{Chain, FromFn, MotionJet, Transmission, TransmissionEr
 
 /// Greatest difference of a law's ends over a period that is rounding, as a share of its size or of 1 rad or mm.
 pub(super) const ROUNDING: f64 = 1e-9;
+/// Greatest speed of a body, rad or mm per rad of the input; only at a pole is one faster.
+const FASTEST: f64 = 1e4;
+/// Inputs a turn at which the speed is looked at: within half a step of a pole like that of tan(phi) it is above the limit.
+const LOOKS: u32 = 720;
 
 /// Motion of a body on the one that carries it, by the input: the sum of a start and at most one of the others.
 ///
@@ -115,6 +119,22 @@ pub enum ComposedLawError {
         period: u32,
         /// Least turns of the input after which it is back.
         least: Option<u32>,
+        /// Key of the law.
+        key: &'static str,
+    },
+    /// A motion that runs away, as at a pole.
+    #[error(
+        "moves the body at {speed:.3e} {unit} per rad of the input at {degrees} deg; at most {FASTEST} is allowed"
+    )]
+    TooFast {
+        /// Key of the law.
+        key: &'static str,
+        /// The speed.
+        speed: f64,
+        /// Unit of the body's place.
+        unit: &'static str,
+        /// Input, deg.
+        degrees: f64,
     },
     /// A motion that does not come back.
     #[error("{what} is {start} at the start of the period and {end} at its end")]
@@ -136,15 +156,17 @@ impl ComposedLawError {
             Self::Formula(_) | Self::NoValue { .. } | Self::Open { .. } => "expression".into(),
             Self::Cam(error) => format!("cam.{}", error.key()),
             Self::Table(_) => "table".into(),
-            Self::Drive { key, .. } => (*key).into(),
+            Self::Drive { key, .. }
+            | Self::TooFast { key, .. }
+            | Self::NoWholeTurns { key, .. } => (*key).into(),
             Self::By(_) => "by".into(),
-            Self::NoWholeTurns { .. } => "ratio".into(),
         }
     }
 }
 
 impl ComposedLawSpec {
-    pub(super) fn validate(&self, slides: bool) -> Result<(), SpecError> {
+    /// Keys of the motions that are given.
+    fn motions(&self) -> impl Iterator<Item = &'static str> + use<> {
         let given = [
             ("ratio", self.ratio.is_some()),
             ("expression", self.expression.is_some()),
@@ -155,9 +177,14 @@ impl ComposedLawSpec {
             ("intermittent", self.intermittent.is_some()),
             ("traverse", self.traverse.is_some()),
         ];
-        let mut motions = given.into_iter().filter(|(_, given)| *given);
+        let given = given.into_iter().filter(|(_, given)| *given);
+        given.map(|(key, _)| key)
+    }
+
+    pub(super) fn validate(&self, slides: bool) -> Result<(), SpecError> {
+        let mut motions = self.motions();
         let first = motions.next();
-        if let (Some((first, _)), Some((key, _))) = (first, motions.next()) {
+        if let (Some(first), Some(key)) = (first, motions.next()) {
             return broken(key, Rule::Excludes(first));
         }
         if first.is_none() && self.start_angle.is_none() && self.start.is_none() {
@@ -257,6 +284,18 @@ impl ComposedLawSpec {
                 Arc::new(Chain::new(own, by)?)
             }
         };
+        let key = self.motions().next().unwrap_or("ratio");
+        let looks = LOOKS * turns;
+        let inputs = (0..looks).map(|i| period * f64::from(i) / f64::from(looks));
+        let mut speeds = inputs.map(|input| (input, law.at(input).velocity.abs()));
+        if let Some((input, speed)) = speeds.find(|(_, s)| s.is_nan() || *s > FASTEST) {
+            return Err(ComposedLawError::TooFast {
+                key,
+                speed,
+                unit: if slides { "mm" } else { "rad" },
+                degrees: input.to_degrees(),
+            });
+        }
         let advance = law.advance() * period / law.period();
         if slides && advance != 0.0 {
             let what = "its place";
@@ -273,6 +312,7 @@ impl ComposedLawSpec {
                 turns: turned,
                 period: turns,
                 least: least_turns(law.as_ref()),
+                key,
             });
         }
         Ok(law)

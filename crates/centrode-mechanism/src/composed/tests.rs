@@ -118,6 +118,26 @@ fn bad_files_are_told_by_key_and_line() {
         ),
         (
             "law = { ratio = 1 }",
+            "law = { expression = \"0.3*phi\" }",
+            "bodies.crank.law.expression: turns the body by 0.3 turns",
+        ),
+        (
+            "law = { ratio = 1 }",
+            "law = { expression = \"tan(phi)\" }",
+            "bodies.crank.law.expression: moves the body at",
+        ),
+        (
+            "law = { ratio = 1 }",
+            "law = { expression = \"tan(phi + 0.004)\" }",
+            "bodies.crank.law.expression: moves the body at",
+        ),
+        (
+            "law = { ratio = 1 }",
+            "law = { table_deg = [0, 1e9, 0, 1] }",
+            "bodies.crank.law.table_deg: moves the body at",
+        ),
+        (
+            "law = { ratio = 1 }",
             "law = { expression = \"sin(phi\" }",
             "bodies.crank.law.expression:",
         ),

@@ -82,6 +82,10 @@ impl NumberedDesign {
                 known: known.clone(),
             })
         };
+        let no_number = || DesignError {
+            key: key.to_owned(),
+            ..DesignError::at_start(DesignFault::WrongType("is no number".into()))
+        };
         let steps = steps(key).ok_or_else(unknown)?;
         let mut numbered = Self {
             family,
@@ -93,7 +97,7 @@ impl NumberedDesign {
         numbered.whole = match numbered.place().ok_or_else(unknown)? {
             toml::Value::Integer(_) => true,
             toml::Value::Float(_) => false,
-            _ => return Err(unknown()),
+            _ => return Err(no_number()),
         };
         // A key that is not written must be a known key all the same; a count takes no fraction.
         if !known.iter().any(|k| k == key)
@@ -103,6 +107,10 @@ impl NumberedDesign {
                 DesignFault::UnknownKey { .. } => return Err(unknown()),
                 DesignFault::WrongType(_) => numbered.whole = true,
                 _ => {}
+            }
+            let again = numbered.with(1.0).map_err(|error| error.fault);
+            if let Err(DesignFault::WrongType(_)) = again {
+                return Err(no_number());
             }
         }
         Ok(numbered)
@@ -137,6 +145,12 @@ impl NumberedDesign {
             .or(value.as_integer().map(|whole| whole as f64))
     }
 
+    /// A value as the design takes it, in the file's unit: a count is rounded.
+    #[must_use]
+    pub fn taken(&self, value: f64) -> f64 {
+        if self.whole { value.round() } else { value }
+    }
+
     /// Sets the number, in the file's unit; a count is rounded.
     ///
     /// # Errors
@@ -144,7 +158,7 @@ impl NumberedDesign {
     pub fn with(&self, value: f64) -> Result<Arc<dyn Design>, DesignError> {
         let mut copy = self.clone();
         let number = if self.whole {
-            toml::Value::Integer(value.round() as i64)
+            toml::Value::Integer(self.taken(value) as i64)
         } else {
             toml::Value::Float(value)
         };

@@ -37,7 +37,7 @@ fn read(text: impl AsRef<[u8]>) -> Result<DesignFile, DesignError> {
 
 fn pair_of(file: &DesignFile) -> Result<GearPair, DesignError> {
     let design = file.design().downcast_ref().expect("a gear pair");
-    GearPair::resolve(design).map_err(|error| file.blame(error.into()))
+    GearPair::resolve(design).map_err(|error| file.blame(error.blamed(design)))
 }
 
 #[test]

@@ -112,6 +112,6 @@ impl Resolved for GearPair {
     ];
 
     fn resolve(design: &GearPairDesign) -> Result<Self, MechanismError> {
-        Ok(Self::resolve(design)?)
+        Self::resolve(design).map_err(|error| error.blamed(design))
     }
 }

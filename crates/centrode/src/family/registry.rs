@@ -72,7 +72,7 @@ pub struct Family {
     pub design: DesignFamily,
     /// One machine of the family in a sentence, `a gear pair`.
     pub noun: &'static str,
-    /// Parts whose files can be asked for by name.
+    /// Parts whose files can be asked for by name; none where the design names them.
     pub parts: &'static [PartName],
     resolve: Resolve,
     problem: SetProblem,

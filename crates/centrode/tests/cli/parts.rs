@@ -1,4 +1,4 @@
-//! Parts of a three-arm mechanism asked for by name.
+//! Parts of a machine asked for by name.
 
 use std::fs;
 use std::path::Path;
@@ -63,13 +63,46 @@ fn a_part_is_the_same_alone_and_among_others() {
 }
 
 #[test]
+fn a_machine_whose_design_names_the_parts_is_asked_for_them() {
+    let folder = tempfile::tempdir().expect("a place to write");
+    let (design, to) = (
+        shipped("jansen-leg.toml"),
+        folder.path().display().to_string(),
+    );
+    let asked = |part: &str| {
+        let asked = ["--format", "svg", "--part", part];
+        centrode(&[&["export", &design, "--to", &to][..], &asked].concat())
+    };
+    for part in ["crank", "assembly"] {
+        let done = asked(part);
+        assert_ne!(done.status.code(), Some(2), "{}", text(&done.stderr));
+    }
+    assert_eq!(names(folder.path()), ["assembly.svg", "crank.svg"]);
+    let refused = asked("wheel");
+    assert_eq!(refused.status.code(), Some(2));
+    let told = text(&refused.stderr);
+    assert!(
+        told.contains("a composed machine has no part named wheel; there are "),
+        "{told}"
+    );
+    assert!(
+        told.contains("crank") && told.contains("assembly"),
+        "{told}"
+    );
+}
+
+#[test]
 fn parts_the_machine_has_not_are_refused_and_nothing_is_written() {
     for (more, word) in [
         (
             &["--part", "driver"][..],
             "a three-arm mechanism has no part named driver",
         ),
-        (&["--part", "wheel"], "possible values"),
+        (
+            &["--part", "wheel"],
+            "a three-arm mechanism has no part named wheel; there are ",
+        ),
+        (&["--part", ""], "a value is required"),
         (
             &["--part", "assembly", "--format", "stl"],
             "--part assembly is for drawings",

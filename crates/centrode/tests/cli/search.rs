@@ -242,6 +242,51 @@ fn a_response_is_told_as_table_and_written_as_csv() {
 }
 
 #[test]
+fn a_search_does_not_write_over_its_design() {
+    let folder = tempfile::tempdir().expect("a place to write");
+    let design = folder.path().join("a.toml");
+    let before = fs::read(shipped("feeder-2022.toml")).expect("shipped");
+    fs::write(&design, &before).expect("written");
+    let name = design.display().to_string();
+    let few = ["--evaluations", "10"];
+    for more in [&few[..], &["--widen"]] {
+        let run = [&["optimise", &name, "-o", &name], more].concat();
+        let refused = centrode(&run);
+        assert_eq!(refused.status.code(), Some(2));
+        let told = text(&refused.stderr);
+        assert!(told.contains("is the design: name another file"), "{told}");
+        assert_eq!(fs::read(&design).expect("there"), before);
+    }
+}
+
+#[test]
+fn a_response_to_what_is_no_number_is_refused() {
+    for (design, key) in [
+        ("jansen-leg.toml", "copies"),
+        ("jansen-leg.toml", "pairs"),
+        ("two-stage.toml", "pairs"),
+        ("two-stage.toml", "name"),
+    ] {
+        let design = shipped(design);
+        let ends = ["--from", "1", "--to", "3", "--count", "3"];
+        let asked = centrode(&[&["response", &design, "--parameter", key][..], &ends].concat());
+        let told = text(&asked.stderr);
+        assert_eq!(asked.status.code(), Some(2), "{key}: {told}");
+        assert!(told.contains(&format!("{key}: is no number")), "{told}");
+    }
+}
+
+#[test]
+fn a_response_to_a_count_is_told_with_the_counts_checked() {
+    let design = shipped("circular-pair.toml");
+    let ends = ["--from", "20", "--to", "21", "--count", "4", "--json"];
+    let key = ["--parameter", "pitch.tooth_count"];
+    let asked = centrode(&[&["response", &design][..], &key, &ends].concat());
+    let told: serde_json::Value = serde_json::from_slice(&asked.stdout).expect("JSON");
+    assert_eq!(told["values"], serde_json::json!([20.0, 20.0, 21.0, 21.0]));
+}
+
+#[test]
 fn a_feeder_is_searched_and_told_infeasible_with_the_best_attainable() {
     let folder = tempfile::tempdir().expect("a place to write");
     let file = |name: &str| folder.path().join(name).display().to_string();

@@ -6,7 +6,7 @@ use crate::machine::proved;
 use crate::{
     Meshing,
     drawing::Anchor,
-    sheet::{Table, broken, number, range},
+    sheet::{Table, broken, fixed, number, range},
 };
 use centrode_mechanism::gear::{
     CurvatureRange, GearPair, Member, PinFault, ToolKind, design::Addendum,
@@ -107,13 +107,13 @@ pub(super) fn over_pins(part: &Part<'_>) -> Table {
             let [j, m] = pins
                 .across(space)
                 .map_or([String::new(), String::new()], |(j, m)| {
-                    [j.to_string(), format!("{m:.4}")]
+                    [j.to_string(), fixed(m, 4)]
                 });
             vec![
                 space.to_string(),
-                format!("{:.4}", degrees(pin.center)),
-                format!("{:.4}", pin.center.coords.norm()),
-                format!("{:.4}", pin.radial),
+                fixed(degrees(pin.center), 4),
+                fixed(pin.center.coords.norm(), 4),
+                fixed(pin.radial, 4),
                 j,
                 m,
             ]
@@ -158,8 +158,8 @@ pub(super) fn profile(part: &Part<'_>) -> Table {
         let owner = part.gear.owners().get(s.segment);
         vec![
             (i + 1).to_string(),
-            format!("{:.4}", s.point.x),
-            format!("{:.4}", s.point.y),
+            fixed(s.point.x, 4),
+            fixed(s.point.y, 4),
             role.to_owned(),
             owner.map_or_else(String::new, u32::to_string),
         ]

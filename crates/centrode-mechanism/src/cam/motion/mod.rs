@@ -79,12 +79,17 @@ pub enum MotionError {
         degrees: f64,
     },
     /// Rise and return differ.
-    #[error("the follower rises by {rise} and returns by {fall}: a cycle must end where it began")]
+    #[error(
+        "the follower rises by {} and returns by {}: a cycle must end where it began",
+        stroke(*.rise, *.swings), stroke(*.fall, *.swings)
+    )]
     Open {
         /// Sum of all strokes away from the axis, mm or rad.
         rise: f64,
         /// Sum of all strokes towards it.
         fall: f64,
+        /// Whether they are angles.
+        swings: bool,
     },
     /// A segment starts at another velocity than the one before it ended with.
     #[error(
@@ -98,6 +103,16 @@ pub enum MotionError {
         /// Velocity just after.
         after: f64,
     },
+}
+
+/// A stroke as it is written in the file, to where rounding begins.
+fn stroke(of: f64, swings: bool) -> String {
+    let (of, unit) = if swings {
+        (of.to_degrees(), "deg")
+    } else {
+        (of, "mm")
+    };
+    format!("{} {unit}", (of * 1e9).round() / 1e9)
 }
 
 impl MotionError {
@@ -129,7 +144,8 @@ impl Motion {
         let rise: f64 = changes.iter().filter(|c| **c > 0.0).sum();
         let fall: f64 = -changes.iter().filter(|c| **c < 0.0).sum::<f64>();
         if (rise - fall).abs() > ROUNDING * rise.max(fall) {
-            return Err(MotionError::Open { rise, fall });
+            let swings = spec.swings() == Some(true);
+            return Err(MotionError::Open { rise, fall, swings });
         }
         let mut pieces = Vec::with_capacity(spec.segments.len());
         let (mut from, mut level, mut lowest) = (0.0, 0.0_f64, 0.0_f64);

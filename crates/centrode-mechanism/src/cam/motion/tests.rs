@@ -147,9 +147,23 @@ fn cycles_that_do_not_close_are_refused() {
         Motion::resolve(&spec(vec![rise.clone(), fall(260.0, 3.0)])).map(|_| ()),
         Err(MotionError::Open {
             rise: 4.0,
-            fall: 3.0
+            fall: 3.0,
+            swings: false,
         })
     );
+    let swung = |swing: f64| {
+        let mut travel = travel(180.0, 0.0, "cycloidal");
+        (travel.lift, travel.swing) = (None, Some(swing.to_radians()));
+        travel
+    };
+    let segments = vec![
+        SegmentSpec::Rise(swung(12.0)),
+        SegmentSpec::Return(swung(11.0)),
+    ];
+    let error = Motion::resolve(&spec(segments)).map(|_| ());
+    let told =
+        "the follower rises by 12 deg and returns by 11 deg: a cycle must end where it began";
+    assert_eq!(error.expect_err("refused").to_string(), told);
     let error = Motion::resolve(&spec(vec![rise, fall(-1.0, 4.0)])).map(|_| ());
     assert_eq!(error.expect_err("refused").key(), "segments.1.span_deg");
 }

@@ -1,5 +1,5 @@
 use crate::design::MechanismError;
-use crate::gear::design::SpecError;
+use crate::gear::design::{GearPairDesign, SpecError};
 use crate::gear::pitch::PitchError;
 use crate::gear::profile::ProfileError;
 use crate::gear::rolling::{Member, RollingError};
@@ -100,6 +100,29 @@ impl GearPairError {
             Self::CenterDistance { .. } => "center_distance".into(),
             Self::Bore { member, .. } => format!("{}.bore", member.name()),
         }
+    }
+}
+
+impl GearPairError {
+    /// Key at fault in the file of a design.
+    #[must_use]
+    pub fn key_in(&self, design: &GearPairDesign) -> String {
+        let key = self.key();
+        // Where the pitch curve says how many teeth the driver has, that number is to blame.
+        if key == "tooth_count"
+            && design.tooth_count.is_none()
+            && design.pitch.tooth_count().is_some()
+        {
+            return "pitch.tooth_count".into();
+        }
+        key
+    }
+
+    /// The error of a design, with the key at fault.
+    #[must_use]
+    pub fn blamed(self, design: &GearPairDesign) -> MechanismError {
+        let key = self.key_in(design);
+        MechanismError { key, ..self.into() }
     }
 }
 
