@@ -102,7 +102,7 @@ pub enum ProofError {
         /// Driver angle, rad.
         phi: f64,
     },
-    /// What holds the gear changes too often.
+    /// Holding features change too often to be told apart.
     #[error(
         "what holds the driven gear at the driver angle {phi:.9} rad cannot be told within {SHORTEST} rad"
     )]

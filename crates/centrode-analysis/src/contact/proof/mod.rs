@@ -154,7 +154,7 @@ impl Prover<'_> {
         Ok(())
     }
 
-    /// What holds the driven gear on one side all along a stretch, or where to cut the stretch.
+    /// Features that hold the driven gear on one side all along a stretch, or where to cut the stretch.
     fn side(&self, side: Side, samples: [&Sample; 3]) -> Found {
         let [from, middle, to] = samples.map(|s| s.phi);
         let mut tracks: Vec<Track> = Vec::new();
@@ -235,7 +235,7 @@ impl Prover<'_> {
         })
     }
 
-    /// What holds the driven gear at a driver angle, and what is near it.
+    /// Features that hold the driven gear at a driver angle, and those near each other.
     fn sample(&mut self, phi: f64) -> Result<Sample, ProofError> {
         let a = self.meshing.pair.center_distance();
         let law = self.law.at(phi).position;
@@ -271,7 +271,7 @@ impl Prover<'_> {
     }
 }
 
-/// What a search along a stretch found on one side.
+/// Outcome of a search along a stretch on one side.
 enum Found {
     /// The seat's series and all meetings, that which holds the gear first.
     Held {
