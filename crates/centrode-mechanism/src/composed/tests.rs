@@ -133,11 +133,6 @@ fn bad_files_are_told_by_key_and_line() {
         ),
         (
             "law = { ratio = 1 }",
-            "law = { table_deg = [0, 1e9, 0, 1] }",
-            "bodies.crank.law.table_deg: moves the body at",
-        ),
-        (
-            "law = { ratio = 1 }",
             "law = { expression = \"sin(phi\" }",
             "bodies.crank.law.expression:",
         ),
