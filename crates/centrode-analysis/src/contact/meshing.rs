@@ -270,8 +270,12 @@ impl<'a> Meshing<'a> {
             if sign * first.turn * first.lever < seated {
                 break;
             }
-            angle += first.turn;
-            pose = Pose::new(phi, angle, a);
+            let turned = angle + first.turn;
+            // Of an angle of many turns a small step may be lost in rounding.
+            if turned == angle {
+                break;
+            }
+            (angle, pose) = (turned, Pose::new(phi, turned, a));
             hits = self.first_hits(&self.candidates(&pose), &pose, sign);
         }
         let first = *hits.first()?;
@@ -366,7 +370,7 @@ impl Seat {
     pub(super) fn features(&self) -> Vec<(Feature, Meeting)> {
         self.hits
             .iter()
-            .map(|hit| hit.feature(self.start))
+            .flat_map(|hit| hit.features(self.start))
             .collect()
     }
 }

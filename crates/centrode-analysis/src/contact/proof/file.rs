@@ -66,8 +66,9 @@ pub struct ProofMeeting {
     pub corner: Option<usize>,
     /// Chebyshev coefficients of the parameters on the two pieces.
     pub parameters: [Vec<f64>; 2],
-    /// Coefficient k of the parabola y = k x^2 that parts the contours, in axes along their tangent, 1/mm.
-    pub bend: f64,
+    /// Coefficients k of parabolas y = k x^2 that part the contours, in axes along their tangent, 1/mm: that which parts them
+    /// the farthest first, then those that hold where it does not.
+    pub bends: Vec<f64>,
 }
 
 impl Proof {

@@ -6,8 +6,8 @@ use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
 
 use super::super::{meshing::Meshing, touch::Pose, turning::Hit};
 
-/// Sine of the angle between tangents below which no corner touches.
-const SMOOTH: f64 = 1e-6;
+/// Sine of the angle between tangents from which on a corner touches and no flank.
+const SMOOTH: f64 = 1e-4;
 
 /// Change of parameters below which Newton's method, whose errors square, has come to rounding.
 const SETTLED: f64 = 1e-9;
@@ -45,19 +45,26 @@ impl Meeting {
 }
 
 impl Hit {
-    /// Features that meet, and the meeting, for a driven gear turned from an angle.
-    pub(in crate::contact) fn feature(&self, from: f64) -> (Feature, Meeting) {
+    /// Features that meet, each with the meeting, for a driven gear turned from an angle.
+    ///
+    /// Where a contact comes to a corner that it leaves as the corner's own these are both: which it is, rounding hides.
+    pub(in crate::contact) fn features(
+        &self,
+        from: f64,
+    ) -> impl Iterator<Item = (Feature, Meeting)> {
         let at = self.at();
         let [first, second] = self.tangents();
         let slant = first.perp(&second).abs() / (first.norm() * second.norm());
-        let corner = match () {
-            () if slant < SMOOTH => None,
-            () if at.0.abs() == 1.0 => Some((Member::Driver, at.0)),
-            () => Some((Member::Driven, at.1)),
+        let corner = match at {
+            (end, _) if end.abs() == 1.0 => Some((Member::Driver, end)),
+            (_, end) if end.abs() == 1.0 => Some((Member::Driven, end)),
+            _ => None,
         };
+        let smooth = (slant < SMOOTH || corner.is_none()).then_some(None);
         let angle = from + self.turn;
         let parts = self.parts;
-        (Feature { parts, corner }, Meeting { at, angle })
+        let kinds = smooth.into_iter().chain(corner.map(Some));
+        kinds.map(move |corner| (Feature { parts, corner }, Meeting { at, angle }))
     }
 }
 

@@ -39,11 +39,12 @@ const TAIL: f64 = 1e-11;
 /// Greatest gap, in modules, of features that get a parabola of their own.
 const NEAR: f64 = 0.05;
 
-/// Curvature, by the module, by which a parabola keeps from the flank that a corner meets.
-const APART: f64 = 0.25;
+/// Curvatures, by the module, by which a parabola keeps from the flank that a corner meets, at first and where that does
+/// not do.
+const APART: [f64; 2] = [0.25, 0.05];
 
-/// Share of the difference of two curvatures by which a parabola keeps from either.
-const MARGIN: f64 = 0.25;
+/// Shares of the difference of two curvatures by which a parabola keeps from either, at first and where that does not do.
+const MARGINS: [f64; 2] = [0.25, 0.05];
 
 /// Makes the certificate of a pair's contact, for a checker to prove.
 ///
@@ -210,28 +211,34 @@ impl Prover<'_> {
             self.meshing.driver.parts[parts.0].segment,
             self.meshing.driven.parts[parts.1].segment,
         );
-        let at = track.middle().at;
+        let at = track.middle()?.at;
         let bend = |jet: &centrode_geometry::SegmentJet| {
             jet.first.perp(&jet.second) / jet.first.norm().powi(3)
         };
         let (p, q) = (driver.at(at.0), driven.at(at.1));
         // As flat as both contours allow: it parts them the farther from where they meet.
         let (above, below) = (bend(&p), -bend(&q));
-        let apart = APART / self.meshing.module;
-        let curvature = match corner {
+        let curvatures = match corner {
             None => {
-                let margin = MARGIN * (above - below);
-                0.0_f64.max(below + margin).min(above - margin)
+                let [far, close] = MARGINS.map(|margin| margin * (above - below));
+                let flat = 0.0_f64.max(below + far).min(above - far);
+                vec![flat, below + close, above - close]
             }
-            Some((Member::Driver, _)) => 0.0_f64.max(below + apart),
-            Some((Member::Driven, _)) => 0.0_f64.min(above - apart),
+            Some((member, _)) => {
+                let apart = APART.map(|apart| apart / self.meshing.module);
+                let beside = |apart: f64| match member {
+                    Member::Driver => 0.0_f64.max(below + apart),
+                    Member::Driven => 0.0_f64.min(above - apart),
+                };
+                apart.map(beside).to_vec()
+            }
         };
         Some(ProofMeeting {
             side: side as usize,
             pieces: [parts.0, parts.1],
             corner: corner.map(|(member, _)| usize::from(member == Member::Driven)),
             parameters: [u, v],
-            bend: 0.5 * curvature,
+            bends: curvatures.into_iter().map(|c| 0.5 * c).collect(),
         })
     }
 

@@ -119,28 +119,37 @@ impl Track {
                 if is_beyond(&next) == was {
                     continue;
                 }
-                let (mut before, mut after, mut last) = (self.phi[k - 1], self.phi[k], first);
-                for _ in 0..HALVINGS {
-                    let phi = 0.5 * (before + after);
-                    match meshing.meeting(&self.feature, phi, last) {
-                        Some(m) if is_beyond(&m) == was => (before, last) = (phi, m),
-                        _ => after = phi,
-                    }
-                }
-                found = nearer_middle(found, after, ends);
+                let here = |phi: f64, near: Meeting| {
+                    let here = meshing.meeting(&self.feature, phi, near)?;
+                    (is_beyond(&here) == was).then_some(here)
+                };
+                let last = last(here, (self.phi[k - 1], self.phi[k]), first);
+                found = nearer_middle(found, last, ends);
             }
         }
         found
     }
 
-    /// The meeting in the middle of the stretch, or what is nearest to it.
-    pub(super) fn middle(&self) -> Meeting {
-        let near = self.meetings[PLACES / 2..].iter().chain(&self.meetings);
-        near.flatten().next().copied().unwrap_or(Meeting {
-            at: (0.0, 0.0),
-            angle: 0.0,
-        })
+    /// The meeting in the middle of the stretch, if it goes so far.
+    pub(super) fn middle(&self) -> Option<Meeting> {
+        self.meetings[PLACES / 2]
     }
+}
+
+/// Last driver angle, on the way from one to another, at which a meeting is as it was at the first.
+fn last(
+    here: impl Fn(f64, Meeting) -> Option<Meeting>,
+    (mut good, mut bad): (f64, f64),
+    mut meeting: Meeting,
+) -> f64 {
+    for _ in 0..HALVINGS {
+        let phi = 0.5 * (good + bad);
+        match here(phi, meeting) {
+            Some(m) => (good, meeting) = (phi, m),
+            None => bad = phi,
+        }
+    }
+    good
 }
 
 /// Of two places to cut a stretch the one nearer its middle; none that lies at its ends.
@@ -178,23 +187,19 @@ pub(super) fn cut(
             let Some(step) = places.windows(2).find(|w| !track.holds(w[1], tracks, side)) else {
                 continue;
             };
-            let (mut good, mut bad) = (track.phi[step[0]], track.phi[step[1]]);
-            let Some(mut last) = track.meetings[step[0]] else {
+            let Some(first) = track.meetings[step[0]] else {
                 continue;
             };
-            for _ in 0..HALVINGS {
-                let phi = 0.5 * (good + bad);
-                let here = meshing.meeting(&track.feature, phi, last);
+            let here = |phi: f64, near: Meeting| {
+                let here = meshing.meeting(&track.feature, phi, near)?;
                 let others = tracks.iter().filter_map(|t| {
                     let near = t.meetings[step[0]].or(t.meetings[step[1]])?;
                     meshing.meeting(&t.feature, phi, near)
                 });
-                match here.filter(|m| holds(m, others, side)) {
-                    Some(m) => (good, last) = (phi, m),
-                    None => bad = phi,
-                }
-            }
-            found = nearer_middle(found, good, (from, to));
+                holds(&here, others, side).then_some(here)
+            };
+            let last = last(here, (track.phi[step[0]], track.phi[step[1]]), first);
+            found = nearer_middle(found, last, (from, to));
         }
     }
     found

@@ -1,0 +1,150 @@
+"""A box in the driver angle, over which both claims are shown."""
+
+from flint import acb, acb_poly, acb_series, arb, arb_poly
+from proof.balls import TERMS, UNIT, ZERO, Motion, UndecidedError, chebyshev, low, magnitude, shifted, sweep
+from proof.law import OVERLAP
+from proof.meeting import Meeting
+
+#: Greatest number of halvings: of a box, of a piece of a contour.
+DEEP, FINEST = 9, 12
+
+
+class Box:
+    """Part of a stretch: a box in phi, tau from one number to another of the stretch's -1 to 1."""
+
+    def __init__(self, pair, stretch, start=-1.0, stop=1.0, near=None):
+        self.pair, self.stretch, self.start, self.stop = pair, stretch, start, stop
+        self.suspects = near or [(pair.driver.root, pair.driven.root)]
+        self.tau, self.reach = arb((start + stop) / 2), arb((stop - start) / 2) * OVERLAP
+        first, last = arb(stretch["from"]), arb(stretch["to"])
+        self.middle = (first + last) / 2 + (last - first) / 2 * self.tau
+        self.half = (last - first) / 2 * self.reach
+        law = pair.law.along(self.middle, self.half)
+        ahead = arb_poly([self.middle, self.half])
+        seats = [self.along(s) for s in stretch["seats"]]
+        play = seats[1] - seats[0]
+        self.play = magnitude(sweep(play)) + 2 * pair.width
+        clear = [ahead + law + s + e * pair.width for s, e in zip(seats, (1, -1), strict=True)]
+        between = ahead + law + (seats[0] + seats[1]) * arb(0.5)
+        self.axis = self.turning(ahead, pair.distance)
+        self.clear = [self.turning(angle, 1) for angle in clear]
+        turns = self.turning(between, 1)
+        series = ([f[0][k] for k in range(TERMS)] + [f[1][TERMS]] for f in (self.axis, turns))
+        self.between = Motion(*series, pair.driven.size)
+
+    def along(self, series):
+        """A Chebyshev series of the stretch over the box, a polynomial in t."""
+        return chebyshev(series)(arb_poly([self.tau, self.reach]))
+
+    def turning(self, angle, radius):
+        """radius e^(i angle) around t = 0 and around every t."""
+        return [
+            (shifted(acb_poly(angle), at) * acb_series([acb(0, 1)], TERMS + 1)).exp() * radius for at in (ZERO, UNIT)
+        ]
+
+    def halves(self):
+        """Two parts, cut where features come to an end of their pieces if they do so inside, or in the middle."""
+        middle = (self.start + self.stop) / 2
+        margin = 1e-6 * (self.stop - self.start)
+        inside = [c for c in self.stretch["ends"] if self.start + margin < c < self.stop - margin]
+        cut = min(inside, key=lambda c: abs(c - middle), default=middle)
+        return [Box(self.pair, self.stretch, *ends, self.suspects) for ends in ((self.start, cut), (cut, self.stop))]
+
+    def meetings(self):
+        """What the file says of features that touch or nearly do."""
+        return [Meeting(self, hint) for hint in self.stretch["meetings"]]
+
+    def near(self):
+        """Pieces whose discs are not known to be apart."""
+        out, open_ = [], list(self.suspects)
+        while open_:
+            a, b = open_.pop()
+            if self.apart(a, b):
+                continue
+            whole = a.last - a.first <= 1, b.last - b.first <= 1
+            if all(whole):
+                out.append((a, b))
+            else:
+                open_ += self.split(a, b)
+        self.suspects = out
+        return list(out)
+
+    def split(self, a, b):
+        """The parts of the larger node with the other."""
+        if (a.last - a.first, float(a.radius)) > (b.last - b.first, float(b.radius)):
+            return [(part, b) for part in a.parts]
+        return [(a, part) for part in b.parts]
+
+    def apart(self, a, b, offset=ZERO, half=None):
+        """Whether the discs of two nodes are apart at every angle of the box and every turn in the play."""
+        half = self.play / 2 if half is None else half
+        centre = b.centre if offset == 0 else b.centre * acb(ZERO, offset).exp()
+        room = low(abs(self.between.place(centre) - a.centre)) - a.radius - b.radius
+        swing = b.size * half
+        if room > swing:
+            return True
+        if not room > 0 or swing < a.radius + b.radius:
+            return False
+        # The play is wider than the discs: in two parts.
+        return all(self.apart(a, b, offset + part, half / 2) for part in (half / 2, -half / 2))
+
+    def is_free(self):
+        """Claim 1: whether no two pieces meet in the play."""
+        near = self.near()
+        if not near:
+            return True
+        pairs = [(int(a.first), int(b.first)) for a, b in near]
+        meetings = self.meetings()
+        parted = [ranges for m in meetings for ranges in [m.parted(pairs)] if ranges]
+        spare = [(m, bend) for m in meetings for bend in range(1, len(m.bends))]
+        while near:
+            a, b = near.pop()
+            if is_parted(parted, a, b) or self.apart(a, b):
+                continue
+            if max(a.last - a.first, b.last - b.first) > 2.0**-FINEST:
+                near += self.split(a, b)
+                continue
+            # No more than it takes: a parabola costs much.
+            while not is_parted(parted, a, b):
+                use = next((one for one in spare if one[0].is_near(a, b)), None)
+                if use is None:
+                    return False
+                spare.remove(use)
+                parted += [ranges for ranges in [use[0].parted(pairs, use[1])] if ranges]
+        return True
+
+    def is_held_on(self):
+        """Claim 2: whether the contours meet within the width of the seat pushed on."""
+        return self.is_held(0)
+
+    def is_held_back(self):
+        """Claim 2: whether the contours meet within the width of the seat pushed back."""
+        return self.is_held(1)
+
+    def is_held(self, side):
+        """Whether the features that the file names meet within the width of a seat."""
+        hint = self.stretch["meetings"][self.stretch["held_by"][side]]
+        return hint["side"] == side and Meeting(self, hint).is_met()
+
+
+def is_parted(parted, a, b):
+    """Whether one of the parabolas keeps two parts apart."""
+    return any(r.holds(a) and q.holds(b) for r, q in parted)
+
+
+def settle(box, shown, width=None, depth=DEEP):
+    """Number of parts of a box over which a claim is shown, none where it is not; longer ones than a width are cut."""
+    try:
+        if (width is None or box.half < width) and shown(box):
+            return 1
+    except UndecidedError:
+        pass
+    if depth == 0:
+        return 0
+    parts = 0
+    for half in box.halves():
+        found = settle(half, shown, width, depth - 1)
+        if not found:
+            return 0
+        parts += found
+    return parts
