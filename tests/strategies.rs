@@ -243,7 +243,14 @@ fn polar_spline() -> impl Strategy<Value = PitchSpec> {
 /// Where a contour of a pair crosses itself; a loop at a joint, smaller than `speck` modules, is let pass.
 pub fn crossing(pair: &GearPair, speck: f64) -> Option<(Member, Crossing)> {
     [pair.driver(), pair.driven()].into_iter().find_map(|gear| {
-        let found = gear.outline().crossing_beyond(speck * pair.module())?;
+        let (outline, least) = (gear.outline(), speck * pair.module());
+        let found = outline.crossing()?;
+        let [one, other] = found.segments;
+        let off = (outline.segments()[one].end() - found.point).norm();
+        let found = match one + 1 == other && off < least {
+            true => outline.crossing_beyond(least)?,
+            false => found,
+        };
         Some((gear.member(), found))
     })
 }

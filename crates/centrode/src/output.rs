@@ -15,6 +15,14 @@ pub(crate) fn write(bundle: &Bundle, folder: &Path) -> Result<Vec<PathBuf>, Fail
 
 /// Writes one file, whole or not at all, and prints where it is.
 pub(crate) fn write_one(path: &Path, bytes: Vec<u8>, out: &mut impl Write) -> Result<(), Failure> {
+    for path in put(path, bytes)? {
+        writeln!(out, "{}", path.display())?;
+    }
+    Ok(())
+}
+
+/// Writes one file, whole or not at all, and tells where it is.
+pub(crate) fn put(path: &Path, bytes: Vec<u8>) -> Result<Vec<PathBuf>, Failure> {
     let folder = match path.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
         _ => Path::new("."),
@@ -22,10 +30,7 @@ pub(crate) fn write_one(path: &Path, bytes: Vec<u8>, out: &mut impl Write) -> Re
     let name = path.file_name().and_then(|name| name.to_str());
     let mut bundle = Bundle::default();
     bundle.add(name.unwrap_or_default(), bytes)?;
-    for path in write(&bundle, folder)? {
-        writeln!(out, "{}", path.display())?;
-    }
-    Ok(())
+    write(&bundle, folder)
 }
 
 /// Makes a write beyond the limit of a file's size fail with a reason: its signal, not caught, would end the program.

@@ -4,7 +4,6 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use centrode::analysis::{Answer, Response as Found};
-use centrode::export::Bundle;
 use centrode::family::Depth;
 
 use crate::args::Response;
@@ -140,12 +139,6 @@ fn write_csv(path: &Path, response: &Found, answers: &[Answer]) -> Result<(), Fa
         }
         text.push('\n');
     }
-    let folder = path.parent().filter(|f| !f.as_os_str().is_empty());
-    let name = path
-        .file_name()
-        .map(|name| name.to_string_lossy().into_owned());
-    let mut bundle = Bundle::default();
-    bundle.add(&name.unwrap_or_default(), text.into_bytes())?;
-    output::write(&bundle, folder.unwrap_or(Path::new(".")))?;
+    output::put(path, text.into_bytes())?;
     Ok(())
 }
