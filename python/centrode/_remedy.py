@@ -16,6 +16,6 @@ class PairRemedy:
     addendum: Literal["full", "fitted"]
     """Height of the teeth."""
     least_tooth_count: int
-    """Least tooth count of the driver at which they do."""
+    """Tooth count of the driver at which they do, and with one step fewer do not; a greater one may fail again."""
     pair: GearPair
     """The pair with such teeth, as many as it had where those are enough."""

@@ -8,6 +8,7 @@ use crate::array::{Course, Rows, Values, put, row};
 use crate::error::Answer;
 use crate::made::{Reduced, by};
 use crate::record::{self, Keywords};
+use crate::wait::wait_here;
 use crate::word::Word;
 
 /// A crank-rocker that swings an end effector through a slider: the picking mechanism of 2022.
@@ -204,9 +205,10 @@ impl SixBar {
     /// array([[160.729,  65.584],
     ///        [ 52.929,  68.523]])
     #[pyo3(signature = (swing, count=100))]
-    fn pivots(&self, swing: f64, count: usize) -> Rows<2> {
+    fn pivots(&self, py: Python<'_>, swing: f64, count: usize) -> PyResult<Rows<2>> {
         let four_bar = self.0.four_bar();
-        Rows::of(&linkage::SixBar::pivots(four_bar, swing, count))
+        let pivots = wait_here(py, || linkage::SixBar::pivots(four_bar, swing, count))?;
+        Ok(Rows::of(&pivots))
     }
 
     fn __repr__(&self, py: Python<'_>) -> PyResult<String> {

@@ -82,7 +82,14 @@ fn remedies(
         writeln!(out, "{all:#}")?;
         return Ok(ExitCode::SUCCESS);
     }
-    for (words, design) in designs {
+    for (at, (words, design)) in designs.into_iter().enumerate() {
+        // The output is one design file: those after the first are comments.
+        let design = match at {
+            0 => design,
+            _ => design
+                .lines()
+                .fold(String::new(), |text, line| text + "# " + line + "\n"),
+        };
         writeln!(out, "# {words}\n{design}")?;
     }
     Ok(ExitCode::SUCCESS)

@@ -11,12 +11,12 @@ const CARRIED: f64 = 1e-9;
 /// Greatest tooth count of a driver that [`remedies`] tries.
 pub const MOST_TEETH: u32 = 600;
 
-/// Least tooth count at which teeth of a kind carry the motion of a pair by their flanks alone, and the pair changed to it.
+/// Tooth count at which teeth of a kind begin to carry the motion of a pair by their flanks alone, and the pair changed to it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PairRemedy {
     /// Height of the teeth.
     pub addendum: Addendum,
-    /// Least tooth count of the driver at which they do: with one step fewer they do not.
+    /// Tooth count of the driver at which they do: with one step fewer they do not. A greater one may fail again.
     pub least_tooth_count: u32,
     /// The design with such teeth: as many as written where those are enough, else the least that are, on pitch curves of the
     /// same size.
@@ -27,7 +27,7 @@ pub struct PairRemedy {
 ///
 /// They do where the transmission error stays below 1e-9 rad, more only by what the play thins them, and nothing overlaps,
 /// over the samples of [`Contact::of`]. Counts grow by a quarter till one does and are halved between it and the greatest that does
-/// not: between those two lies the least count, if more teeth are never worse. A kind of teeth that does not up to [`MOST_TEETH`]
+/// not: the count found carries the motion and the one below it does not, but a greater one may fail again. A kind of teeth that does not up to [`MOST_TEETH`]
 /// is left out. Each count tried costs a pair and its contact.
 #[must_use]
 pub fn remedies(pair: &GearPair) -> Vec<PairRemedy> {

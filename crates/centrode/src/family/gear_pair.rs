@@ -24,11 +24,19 @@ fn words(pair: &GearPair, remedy: &PairRemedy) -> String {
         Addendum::Fitted => "fitted teeth",
     };
     let (least, written) = (remedy.least_tooth_count, pair.driver().tooth_count());
+    // The driven gear has a whole number of teeth.
+    let fewer = least - pair.mean_ratio().1;
+    let below = match fewer {
+        0 => String::new(),
+        _ => format!(
+            " (not with {fewer}; a greater number may fail again: check the one you choose)"
+        ),
+    };
     let start = format!(
-        "{teeth} carry the motion by their flanks alone from {least} teeth of the driver on"
+        "{teeth} carry the motion by their flanks alone with {least} teeth of the driver{below}"
     );
     if least <= written {
-        return format!("{start}: with the {written} written, too");
+        return format!("{start}, and with the {written} written");
     }
     let share = f64::from(least) / f64::from(written);
     format!(

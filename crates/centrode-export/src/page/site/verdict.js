@@ -3,7 +3,7 @@
 import { byId, element } from "./elements.js";
 import * as figures from "./figures.js";
 
-const SIGN = { error: "✕", warning: "▲", note: "●" };
+const SIGN = { error: "✕", warning: "▲", note: "●", good: "✓", open: "○" };
 
 const checking = () => element("p", {}, "Checking …");
 
@@ -30,16 +30,18 @@ export function show(snapshot, pinned, go) {
   if (snapshot.error) {
     const { key, line, column, message } = snapshot.error;
     place.replaceChildren(
-      title(line ? "No mechanism" : "Not solved", "error no-mechanism"),
-      element("ul", { class: "findings" }, element("li", { class: "error" },
+      title(line ? "No mechanism" : "Not solved", "error"),
+      element("ul", { class: "findings no-mechanism" }, element("li", { class: "error" },
         element("p", {}, element("b", {}, `${SIGN.error} error `), message),
         line ? element("p", { class: "detail" }, key ? `${key}, line ${line}, column ${column}` : `line ${line}, column ${column}`) : null)),
     );
     return;
   }
   if (!verdict) {
-    // Nothing is known to be wrong any more.
-    if (place.querySelector(".no-mechanism")) place.replaceChildren(checking());
+    // What is known of the design before says nothing of this one.
+    const before = place.querySelector(".title");
+    if (!before || place.querySelector(".no-mechanism")) place.replaceChildren(checking());
+    else before.replaceWith(title("Checking …", "open"));
     return;
   }
   place.replaceChildren(
@@ -82,7 +84,7 @@ function bar(goal, before) {
 
 function title(words, kind, summary) {
   return element("div", { class: `title ${kind}` },
-    element("h2", {}, `${kind === "good" ? "✓" : "✕"} ${words}`),
+    element("h2", {}, `${SIGN[kind]} ${words}`),
     summary ? element("span", { class: "quiet" }, summary) : null);
 }
 
