@@ -67,7 +67,7 @@ class Walk:
         outward, height = self.sign * way, height - self.floor
         bound = high(place) if way > 0 else -low(place)
         # The first part is short, for the slope changes its sign there.
-        for share in (8, 32, 128):
+        for share in (8, 32, 128, 512, 2048):
             end = way * min(1.0, (int(float((bound + 1) * share)) + 1) / share - 1)
             # A little more than that, for floats round.
             start, stop = float(low(place).min(arb(end))) - 1e-9, float(high(place).max(arb(end))) + 1e-9

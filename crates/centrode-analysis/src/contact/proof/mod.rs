@@ -39,8 +39,7 @@ const TAIL: f64 = 1e-11;
 /// Greatest gap, in modules, of features that get a parabola of their own.
 const NEAR: f64 = 0.05;
 
-/// Curvatures, by the module, by which a parabola keeps from the flank that a corner meets, at first and where that does
-/// not do.
+/// Curvatures, by the module, by which a parabola keeps from a flank beside a corner, at first and where that does not do.
 const APART: [f64; 2] = [0.25, 0.05];
 
 /// Shares of the difference of two curvatures by which a parabola keeps from either, at first and where that does not do.
@@ -218,14 +217,22 @@ impl Prover<'_> {
         let (p, q) = (driver.at(at.0), driven.at(at.1));
         // As flat as both contours allow: it parts them the farther from where they meet.
         let (above, below) = (bend(&p), -bend(&q));
+        let apart = APART.map(|apart| apart / self.meshing.module);
         let curvatures = match corner {
             None => {
                 let [far, close] = MARGINS.map(|margin| margin * (above - below));
                 let flat = 0.0_f64.max(below + far).min(above - far);
-                vec![flat, below + close, above - close]
+                let mut all = vec![flat, below + close, above - close];
+                // Beside a sharp bend of the one contour the share is large for the other.
+                all.extend(
+                    (close > apart[1])
+                        .then(|| [below + apart[1], above - apart[1]])
+                        .into_iter()
+                        .flatten(),
+                );
+                all
             }
             Some((member, _)) => {
-                let apart = APART.map(|apart| apart / self.meshing.module);
                 let beside = |apart: f64| match member {
                     Member::Driver => 0.0_f64.max(below + apart),
                     Member::Driven => 0.0_f64.min(above - apart),
