@@ -36,7 +36,7 @@ from math import tau
 
 from flint import acb, arb, arb_poly
 from proof.balls import UNIT, RejectedError, high, interval, low, magnitude, sweep
-from proof.box import DEEP, Box, settle
+from proof.box import Box, settle
 from proof.contour import Contour
 from proof.law import Law
 from proof.meeting import ends
@@ -112,7 +112,7 @@ def check_one(number, width):
         raise RejectedError(f"the gears are not shown to be apart {where}")
     held = 0
     for shown, name in ((Box.is_held_on, "on"), (Box.is_held_back, "back")):
-        parts = settle(whole, shown, depth=2 * DEEP)
+        parts = settle(whole, shown)
         if not parts:
             raise RejectedError(f"the driven gear pushed {name} is not shown to be held {where}")
         held += parts

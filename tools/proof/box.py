@@ -6,7 +6,7 @@ from proof.law import OVERLAP
 from proof.meeting import Meeting
 
 #: Greatest number of halvings: of a box, of a piece of a contour.
-DEEP, FINEST = 9, 12
+DEEP, FINEST = 18, 12
 
 
 class Box:
