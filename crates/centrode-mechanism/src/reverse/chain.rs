@@ -4,6 +4,7 @@ use std::sync::Arc;
 use centrode_geometry::{Extreme, Jet, Point, Vector, greatest_each};
 
 use super::distance::{Distance, Series};
+use super::path::Sample;
 use super::{AxisFault, WantedPath};
 use crate::formula::Taylor;
 use crate::machine::Piecewise;
@@ -128,7 +129,8 @@ impl TwoBar {
         let least = LEAST_SPEED * TAU / self.path.period();
         // Most places that are no axis are told by the samples at hand.
         let mut samples = self.path.samples().iter();
-        let back = samples.find(|s| !(self.speeds(s.at, &s.jet)[0] > least));
+        let turns_on = |s: &Sample| self.speeds(s.at, &s.jet)[0] > least;
+        let back = samples.find(|s| !turns_on(s));
         if let Some(back) = back {
             return Err(AxisFault::CarrierTurnsBack {
                 carrier: self.carrier,
@@ -142,13 +144,15 @@ impl TwoBar {
         };
         let [carrier, elbow, low, high] = greatest_each(looks, &parts);
         let at = |extreme: Extreme| self.path.at(extreme.input).point;
-        if !(-carrier.value > least) {
+        // Speeds that are no numbers are none.
+        let [carrier_turns, elbow_turns] = [carrier, elbow].map(|e| -e.value > least);
+        if !carrier_turns {
             return Err(AxisFault::CarrierTurnsBack {
                 carrier: self.carrier,
                 at: at(carrier),
             });
         }
-        if !(-elbow.value > least) {
+        if !elbow_turns {
             return Err(AxisFault::ArmStops { at: at(elbow) });
         }
         self.least_ratio = Extreme {

@@ -125,7 +125,8 @@ impl Split {
     /// [`SplitError`] for a bend beyond 170 degrees, and for one pair twice at or near a resonance.
     pub fn new(chain: &TwoBar, kind: SplitKind, bend: f64) -> Result<Self, SplitError> {
         // Not a number is no bend either.
-        if !(bend.abs() <= GREATEST_BEND) {
+        let is_bend = bend.abs() <= GREATEST_BEND;
+        if !is_bend {
             return Err(SplitError::Bend {
                 bend: bend.to_degrees(),
                 greatest: GREATEST_BEND.to_degrees(),

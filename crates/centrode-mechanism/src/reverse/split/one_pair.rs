@@ -62,7 +62,7 @@ pub(super) fn split(chain: &TwoBar, bend: f64) -> Result<Split, SplitError> {
         (orbits.at(map.at(x)) - orbits.at(x) - wanted).abs()
     };
     let miss = (0..CHECKS).map(check).fold(0.0, f64::max);
-    if !(miss <= GREATEST_MISS) {
+    if miss > GREATEST_MISS {
         let (numerator, denominator) = fraction;
         return Err(SplitError::Inexact {
             turns,
@@ -277,7 +277,7 @@ fn convergents(turns: f64) -> Vec<(i64, i64)> {
         // By how much the last two miss it, over each other.
         let miss = |p: i64, q: i64| (turns * q as f64 - p as f64).abs();
         let a = (miss(p0, q0) / miss(p, q)).floor();
-        if !(a < GREATEST as f64) {
+        if a.is_nan() || a >= GREATEST as f64 {
             return found;
         }
         let a = a as i64;
