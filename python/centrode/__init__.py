@@ -10,6 +10,7 @@ True
 """
 
 from . import cam, pitch, plot
+from ._axes import AxisMap
 from ._centrode import (
     Body,
     BoxDrive,
@@ -24,11 +25,13 @@ from ._centrode import (
     MovingBox,
     Pitch,
     Rack,
+    Reversed,
     Shaper,
     SixBar,
     SpiralShaft,
     ThreeArm,
     __version__,
+    reverse,
     template,
 )
 from ._clearance import Clearance
@@ -49,6 +52,7 @@ from ._sweep import sweep
 from ._tooth import Tooth, ToothSide
 
 __all__ = [
+    "AxisMap",
     "Body",
     "BoxDrive",
     "CamError",
@@ -83,6 +87,7 @@ __all__ = [
     "Place",
     "Rack",
     "Report",
+    "Reversed",
     "Shaper",
     "Sheets",
     "SixBar",
@@ -97,6 +102,7 @@ __all__ = [
     "load",
     "pitch",
     "plot",
+    "reverse",
     "schema",
     "sweep",
     "template",

@@ -7,6 +7,7 @@ from numpy import float64, uint32
 from numpy.typing import ArrayLike, NDArray
 from typing_extensions import Self, disjoint_base
 
+from ._axes import AxisMap
 from ._clearance import Clearance
 from ._contact import Contact
 from ._forces import Forces
@@ -39,6 +40,7 @@ __all__ = [
     "MovingBox",
     "Pitch",
     "Rack",
+    "Reversed",
     "Segment",
     "Shaper",
     "SixBar",
@@ -64,6 +66,7 @@ __all__ = [
     "polar",
     "polynomial",
     "return_",
+    "reverse",
     "rise",
     "swinging_flat",
     "swinging_roller",
@@ -1010,6 +1013,41 @@ class Machine(Mechanism):
     def transmission_angle(self, name: str, phi: _Real) -> float: ...
     @overload
     def transmission_angle(self, name: str, phi: ArrayLike) -> NDArray[float64]: ...
+
+@final
+class Reversed:
+    @property
+    def axis(self) -> tuple[float, float]: ...
+    @property
+    def carrier(self) -> float: ...
+    @property
+    def arm(self) -> float: ...
+    @property
+    def direction(self) -> str: ...
+    @property
+    def ratios(self) -> tuple[float, float]: ...
+    @property
+    def shaft_distance(self) -> float: ...
+    @property
+    def split(self) -> str: ...
+    @property
+    def tip_error(self) -> float: ...
+    @property
+    def axes(self) -> AxisMap: ...
+    @overload
+    def law(self, direction: _Real) -> float: ...
+    @overload
+    def law(self, direction: ArrayLike) -> NDArray[float64]: ...
+    def machine(self) -> Machine: ...
+
+def reverse(
+    path: ArrayLike,
+    axis: tuple[_Real, _Real] | None = None,
+    *,
+    split: Literal["powers", "one-pair"] = "powers",
+    bend_deg: _Real = 60.0,
+    arms: _Count = 1,
+) -> Reversed: ...
 
 @final
 class SixBar:

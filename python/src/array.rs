@@ -13,7 +13,7 @@ use pyo3::sync::PyOnceLock;
 use pyo3::types::{PyDict, PyDictMethods};
 use rayon::prelude::{IndexedParallelIterator, ParallelIterator, ParallelSlice, ParallelSliceMut};
 
-use crate::error::{Answer, finite};
+use crate::error::{Answer, Raised, finite};
 use crate::wait::{wait, wait_here};
 
 /// Numbers in an array of any shape, or a single one: whatever `NumPy` makes real numbers of.
@@ -100,6 +100,21 @@ impl Values {
         match self.flat.iter().find(|value| !value.is_finite()) {
             Some(&value) => finite("every input", value).map(|_| self),
             None => Ok(self),
+        }
+    }
+
+    /// Points of the plane, from an array (N, 2).
+    pub(crate) fn points(self, key: &str) -> Answer<Vec<Point>> {
+        match self.shape[..] {
+            [_, 2] => {
+                let (pairs, _) = self.flat.as_chunks::<2>();
+                Ok(pairs.iter().map(|&pair| pair.into()).collect())
+            }
+            _ => {
+                let shape = &self.shape;
+                let rule = format!("must be an array of the shape (N, 2), not {shape:?}");
+                Err(Raised::rule(key, &rule))
+            }
         }
     }
 

@@ -4,7 +4,7 @@ use centrode_analysis::forces::ForcesError;
 use centrode_analysis::interference::LinkClearanceError;
 use centrode_analysis::optimise::feeder::NotWidened;
 use centrode_analysis::optimise::{NotSearched, SearchError};
-use centrode_analysis::{ArmClearanceError, FeederForcesError, ProofError};
+use centrode_analysis::{ArmClearanceError, FeederForcesError, NoSoundTeeth, ProofError};
 use centrode_export::{BundleError, ExportError};
 use centrode_geometry::{BadTolerance, SolidError, Tolerance};
 use centrode_mechanism::arm::ArmError;
@@ -14,6 +14,7 @@ use centrode_mechanism::gear::GearPairError;
 use centrode_mechanism::gear::design::SpecError;
 use centrode_mechanism::gear::pitch::PitchError;
 use centrode_mechanism::linkage::{FourBarError, SixBarError};
+use centrode_mechanism::reverse::{AxisFault, MachineError, PathError, SplitError};
 use centrode_mechanism::shaft::ShaftError;
 use centrode_mechanism::three_arm::PusherError;
 use pyo3::exceptions::PyOSError;
@@ -77,6 +78,15 @@ raised! {
     NotSearched { _ => MechanismError("optimise"), }
     NotWidened { _ => MechanismError("optimise"), }
     SearchError { _ => MechanismError("optimise"), }
+    PathError { _ => DesignError("path"), }
+    AxisFault { _ => MechanismError("axis"), }
+    SplitError { _ => MechanismError("split"), }
+    NoSoundTeeth { _ => MechanismError("pairs"), }
+    MachineError {
+        MachineError::Arms { .. } => DesignError("arms"),
+        MachineError::Steps { .. } => DesignError("steps"),
+        _ => MechanismError("split"),
+    }
     CamError {
         CamError::Spec(error) => DesignError(error.key),
         error => CamError(error.key()),
@@ -184,6 +194,11 @@ impl Raised {
     pub(crate) fn word(key: &str, word: &str, known: &[&str]) -> Self {
         let known = known.join(", ");
         Self::rule(key, &format!("must be one of {known}, not {word:?}"))
+    }
+
+    /// The exception of a value with which there is no mechanism, in a sentence.
+    pub(crate) fn no_mechanism(key: &str, sentence: String) -> Self {
+        Self(class::MechanismError::new_err((sentence, key.to_owned())))
     }
 
     /// The exception of a search that has come to nothing.

@@ -20,6 +20,7 @@ mod mechanism;
 mod pitch;
 mod place;
 mod record;
+mod reverse;
 mod search;
 mod shaft;
 mod sheet;
@@ -55,6 +56,7 @@ mod _centrode {
             from_transmission, limacon, lobed_ellipse, polar,
         },
         pitch::{_pitch_from_toml, Pitch},
+        reverse::{Reversed, reverse},
         shaft::BoxDrive,
         shaft::MovingBox,
         shaft::SpiralShaft,

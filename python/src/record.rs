@@ -8,6 +8,7 @@ use centrode_analysis::{Contact, Finding, Goal, PairRemedy, Report, Severity, Ta
 use centrode_mechanism::gear::{OverPins, Pin, Tooth, ToothSide};
 use centrode_mechanism::linkage;
 use centrode_mechanism::machine::{Machine, Part};
+use centrode_mechanism::reverse::{AxisFault, AxisMap, PossibleAxis};
 use numpy::{IntoPyArray, PyArrayMethods};
 use pyo3::IntoPyObjectExt;
 use pyo3::prelude::{Bound, IntoPyObject, Py, PyAny, PyAnyMethods, PyResult, Python};
@@ -333,6 +334,40 @@ pub(crate) fn drawing<'py>(
     record!(py, "centrode._sheet" "Drawing", () => []
         dxf: PyBytes::new(py, &dxf.concat()),
         svg: PyBytes::new(py, &svg.concat()),
+    )
+}
+
+/// Possible axes of a carrier.
+pub(crate) fn axes<'py>(py: Python<'py>, map: &AxisMap) -> PyResult<Bound<'py, PyAny>> {
+    let [columns, rows] = map.range().count;
+    let shape = [rows as usize, columns as usize];
+    let place = |i: u32, j: u32| map.range().axis(i, j);
+    let figure = |of: fn(&PossibleAxis) -> f64| {
+        let figures = map.found().iter();
+        let figures = figures.map(|found| found.as_ref().map_or(f64::NAN, of));
+        figures
+            .collect::<Vec<f64>>()
+            .into_pyarray(py)
+            .reshape(shape)
+    };
+    let possible = map.found().iter().map(Result::is_ok);
+    let faults = map.found().chunks(columns as usize);
+    let faults = faults.map(|row| {
+        let names = row
+            .iter()
+            .map(|found| found.as_ref().err().map(AxisFault::name));
+        PyTuple::new(py, names.collect::<Vec<_>>())
+    });
+    record!(py, "centrode._axes" "AxisMap", () => []
+        x: (0..columns).map(|i| place(i, 0).x).collect::<Vec<f64>>().into_pyarray(py),
+        y: (0..rows).map(|j| place(0, j).y).collect::<Vec<f64>>().into_pyarray(py),
+        possible: possible.collect::<Vec<bool>>().into_pyarray(py).reshape(shape)?,
+        fault: PyTuple::new(py, faults.collect::<PyResult<Vec<_>>>()?)?,
+        carrier: figure(|axis| axis.carrier)?,
+        arm: figure(|axis| axis.arm)?,
+        least_ratio: figure(|axis| axis.ratios[0])?,
+        greatest_ratio: figure(|axis| axis.ratios[1])?,
+        shaft_distance: figure(|axis| axis.shaft_distance)?,
     )
 }
 

@@ -13,6 +13,7 @@ pub mod interference;
 pub mod optimise;
 mod report;
 mod response;
+mod reverse;
 mod shaft;
 mod three_arm;
 mod unit;
@@ -29,6 +30,7 @@ pub use goal::Goal;
 pub use incomplete_contact::IncompleteContact;
 pub use report::{Finding, Place, Report, Severity, Table};
 pub use response::{Answer, Response};
+pub use reverse::{NoSoundTeeth, SoundTeeth, with_sound_teeth};
 pub use shaft::{check_moving_box, check_shaft};
 pub use three_arm::{
     ArmClearance, ArmClearanceCourse, ArmClearanceError, TrainTeeth, Variants, VariantsError,

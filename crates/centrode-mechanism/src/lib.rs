@@ -11,6 +11,7 @@ mod formula;
 pub mod gear;
 pub mod linkage;
 pub mod machine;
+pub mod reverse;
 pub mod shaft;
 pub mod three_arm;
 pub mod transmission;

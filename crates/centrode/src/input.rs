@@ -16,6 +16,11 @@ pub(crate) struct Source {
 impl Source {
     /// Reads a file, or standard input for `-`; a little more than a design may have is enough.
     pub(crate) fn open(path: &Path) -> Result<Self, Failure> {
+        Self::open_up_to(path, DesignFile::LARGEST)
+    }
+
+    /// Reads a file, or standard input for `-`, up to one byte more than a limit.
+    pub(crate) fn open_up_to(path: &Path, limit: usize) -> Result<Self, Failure> {
         let standard = path == Path::new("-");
         let name = if standard {
             "standard input".into()
@@ -23,7 +28,7 @@ impl Source {
             path.display().to_string()
         };
         let mut bytes = Vec::new();
-        let limit = DesignFile::LARGEST as u64 + 1;
+        let limit = limit as u64 + 1;
         let read = if standard {
             io::stdin().lock().take(limit).read_to_end(&mut bytes)
         } else {
@@ -35,13 +40,33 @@ impl Source {
         }
     }
 
+    /// The bytes read.
+    pub(crate) fn bytes(&self) -> &[u8] {
+        &self.bytes
+    }
+
+    /// Name of the file, for its errors.
+    pub(crate) fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Failure of an error that tells its place in the file itself.
+    pub(crate) fn refused(&self, error: &dyn std::error::Error) -> Failure {
+        Failure::Usage(format!("{}: {error}", self.name))
+    }
+
     /// Refuses to write over the design.
     pub(crate) fn keep_from(&self, output: &Path) -> Result<(), Failure> {
+        self.keep(output, "the design")
+    }
+
+    /// Refuses to write over the file read.
+    pub(crate) fn keep(&self, output: &Path, noun: &str) -> Result<(), Failure> {
         let [own, other] = [Path::new(&self.name), output].map(|path| path.canonicalize().ok());
         if own.is_some() && own == other {
             let path = output.display();
             return Err(Failure::Usage(format!(
-                "{path} is the design: name another file to write"
+                "{path} is {noun}: name another file to write"
             )));
         }
         Ok(())

@@ -16,6 +16,7 @@ mod progress;
 mod prove;
 mod report;
 mod response;
+mod reverse;
 mod schema;
 mod sheet;
 mod studio;
@@ -47,6 +48,7 @@ fn main() -> ExitCode {
         Command::Export(command) => export::run(command, &mut out),
         Command::Optimise(command) => optimise::run(command, &mut out),
         Command::Response(command) => response::run(command, &mut out),
+        Command::Reverse(command) => reverse::run(command, &mut out),
         Command::Studio(command) => studio::run(command, &mut out),
         Command::Report(command) => sheet::run(command, &mut out),
         Command::Prove(command) => prove::run(command, &mut out),

@@ -16,6 +16,7 @@ use crate::{Contact, Finding, Place, Report, Severity, Unit};
 
 pub(crate) use figures::FIGURES;
 pub use remedies::{MOST_TEETH, PairRemedy, remedies};
+pub(crate) use remedies::{is_carried, least_count};
 
 /// Penetration, in modules, above which two outlines are reported to interfere.
 const OVERLAP: f64 = 1e-6;

@@ -52,7 +52,7 @@ pub fn remedies(pair: &GearPair) -> Vec<PairRemedy> {
 }
 
 /// The least tooth count at which the flanks of a design carry its motion, looked for from one on.
-fn least_count(design: &GearPairDesign, written: u32) -> Option<u32> {
+pub(crate) fn least_count(design: &GearPairDesign, written: u32) -> Option<u32> {
     // The driven gear has a whole number of teeth.
     let step = design.mean_ratio[1];
     let carries = |steps: u32| is_carried(&design.with_tooth_count(steps * step));
@@ -83,7 +83,7 @@ fn least_count(design: &GearPairDesign, written: u32) -> Option<u32> {
 }
 
 /// Whether the flanks alone carry the motion of a design.
-fn is_carried(design: &GearPairDesign) -> bool {
+pub(crate) fn is_carried(design: &GearPairDesign) -> bool {
     let Ok(pair) = GearPair::resolve(design) else {
         return false;
     };

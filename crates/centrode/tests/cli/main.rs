@@ -4,6 +4,7 @@
 mod bad_designs;
 mod export;
 mod parts;
+mod reverse;
 mod search;
 
 use std::io::Write as _;

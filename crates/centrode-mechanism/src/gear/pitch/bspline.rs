@@ -96,6 +96,15 @@ impl Bspline {
     }
 }
 
+/// Closed uniform spline through points of the x, y plane, over their index.
+pub(crate) fn closed_spline(points: Vec<[f64; 2]>, degree: usize) -> PiecewiseCurve {
+    let points = Points::cartesian(points);
+    let controls = points.periodic();
+    let controls = controls.map(|values| controls_through(&values, degree));
+    let points = points.with_periodic(controls);
+    PiecewiseCurve::new(points.coordinates, pieces(&points, degree))
+}
+
 /// Polynomials on the unit interval that weight the `degree + 1` active control points.
 pub(crate) fn basis(degree: usize) -> Vec<Polynomial> {
     let mut basis = vec![[0.0; HIGHEST_DEGREE + 1]];

@@ -40,7 +40,7 @@ pub use points::Plane;
 pub use polar::Polar;
 pub use transmission::{Ratio, Transmission};
 
-pub(crate) use bspline::basis as spline_basis;
+pub(crate) use bspline::{basis as spline_basis, closed_spline};
 pub(crate) use piecewise::HIGHEST_DEGREE;
 use plane::Shape;
 use size::Size;

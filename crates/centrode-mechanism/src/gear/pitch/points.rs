@@ -137,6 +137,11 @@ pub(crate) fn angles_in_order(angle: &[f64]) -> Result<(), PitchError> {
 }
 
 impl Points {
+    pub(crate) fn cartesian(list: Vec<[f64; 2]>) -> Self {
+        let coordinates = Coordinates::Cartesian;
+        Self { coordinates, list }
+    }
+
     pub(crate) fn len(&self) -> usize {
         self.list.len()
     }

@@ -1,0 +1,357 @@
+use std::f64::consts::PI;
+
+use centrode_geometry::{Extreme, Point, Vector, greatest};
+use thiserror::Error;
+
+use super::{Split, SplitKind, TwoBar};
+use crate::composed::{
+    ComposedBodySpec, ComposedCopiesSpec, ComposedDesign, ComposedGearSpec, ComposedLawSpec,
+    ComposedMeshSpec, GearRole,
+};
+use crate::gear::design::{Addendum, BodySpec, GearPairDesign};
+use crate::gear::pitch::{PitchSpec, Transmission};
+use crate::gear::{CurvatureRange, GearPair, GearPairError, Member, Rolling};
+
+/// Names of the pairs of a machine: of one that occurs twice, and of two.
+const STAGE: &str = "stage";
+const FIRST: &str = "first-stage";
+const SECOND: &str = "second-stage";
+/// Name of the copied chains.
+const ARMS: &str = "arms";
+/// Backlash along the normal, as a share of the centre distance.
+const BACKLASH: f64 = 5e-4;
+/// Width of a gear and diameter of its bore, as shares of the centre distance.
+const WIDTH: f64 = 0.15;
+const BORE: f64 = 0.06;
+/// Thickness and width of a plate and diameter of its pins, as shares of the centre distance.
+const PLATE: [f64; 3] = [0.07, 0.16, 0.06];
+/// Numbers of equal steps of a table of the law that are tried, the last where none brings the tip near enough.
+const STEPS: [u32; 6] = [90, 180, 360, 720, 1440, 2880];
+/// Fewest and most steps of a table.
+const RANGE: [u32; 2] = [12, 5000];
+/// Distance of the tip from the path that is near enough, as a share of the greatest distance of the path from the axis.
+const NEAR_ENOUGH: f64 = 1e-7;
+
+/// A machine whose tip runs along the path wanted, as a design of family machine.
+#[derive(Clone, Debug)]
+pub struct ReversedMachine {
+    /// The design; its teeth are fitted, of a count that may be changed.
+    pub design: ComposedDesign,
+    /// Steps of the tables in which its laws are written.
+    pub steps: u32,
+    /// Greatest distance of its tip from the path, mm, and the path's parameter there.
+    pub tip_error: Extreme,
+    /// Least radii of curvature of the pitch curves where convex, mm: driver and driven gear of each pair.
+    pub least_radii: Vec<[f64; 2]>,
+}
+
+/// Reason why there is no machine of a split.
+#[derive(Clone, Debug, Error, PartialEq)]
+#[non_exhaustive]
+pub enum MachineError {
+    /// A number of arms outside its range.
+    #[error("a machine has 1 to {greatest} arms, not {arms}")]
+    Arms {
+        /// Number given.
+        arms: u32,
+        /// Greatest.
+        greatest: u32,
+    },
+    /// A number of steps outside its range.
+    #[error("the tables of the laws have {least} to {greatest} steps, not {steps}")]
+    Steps {
+        /// Number given.
+        steps: u32,
+        /// Fewest.
+        least: u32,
+        /// Most.
+        greatest: u32,
+    },
+    /// The gears do not exist.
+    #[error(transparent)]
+    Gears(#[from] GearPairError),
+}
+
+/// Most arms of a machine.
+const MOST_ARMS: u32 = 12;
+
+impl ReversedMachine {
+    /// The machine of a split: the sun on the frame, an intermediate gear, or two on one body, and a planet with the arm, whose
+    /// point `tip` is where the path begins at input zero; as many of these chains as there are arms.
+    ///
+    /// Laws are written as tables of driven angles with so many steps of a turn; left out, as few of 90, 180 and so on up to
+    /// 2,880 as bring the tip within 1e-7 of the greatest distance from the carrier's axis. The path's derivatives of third order
+    /// jump where its pieces join, so the error falls with the third power of the steps.
+    ///
+    /// # Errors
+    /// [`MachineError`] for a number of arms or steps out of range, and where the pitch curves do not roll.
+    pub fn new(
+        chain: &TwoBar,
+        split: &Split,
+        arms: u32,
+        steps: Option<u32>,
+    ) -> Result<Self, MachineError> {
+        let greatest = MOST_ARMS;
+        if !(1..=greatest).contains(&arms) {
+            return Err(MachineError::Arms { arms, greatest });
+        }
+        if let Some(steps) = steps {
+            let [least, greatest] = RANGE;
+            if !(least..=greatest).contains(&steps) {
+                return Err(MachineError::Steps {
+                    steps,
+                    least,
+                    greatest,
+                });
+            }
+            return Self::of_steps(chain, split, arms, steps);
+        }
+        let enough = NEAR_ENOUGH * (chain.carrier() + chain.arm());
+        let [coarse @ .., last] = STEPS;
+        for steps in coarse {
+            // A coarse table may be no law.
+            if let Ok(made) = Self::of_steps(chain, split, arms, steps)
+                && made.tip_error.value <= enough
+            {
+                return Ok(made);
+            }
+        }
+        Self::of_steps(chain, split, arms, last)
+    }
+
+    fn of_steps(
+        chain: &TwoBar,
+        split: &Split,
+        arms: u32,
+        steps: u32,
+    ) -> Result<Self, MachineError> {
+        let tables = split.tables(steps);
+        let pairs = pairs(chain, split, tables);
+        let rolled = pairs.iter().map(|(_, pair)| Ok(GearPair::roll(pair)?.1));
+        let rolled = rolled.collect::<Result<Vec<Rolling>, GearPairError>>()?;
+        let convex = |rolling: &Rolling| {
+            [Member::Driver, Member::Driven].map(|member| {
+                let range = CurvatureRange::of(rolling, member);
+                1.0 / range.greatest.1.max(0.0)
+            })
+        };
+        let train = Train::new(split, &rolled);
+        let off = |t: f64| {
+            let tip = train.tip(chain, chain.at(t).carrier[0]);
+            chain.path().distance_near(tip, t)
+        };
+        let tip_error = greatest(off, &chain.path().parts(chain.stretched()));
+        Ok(Self {
+            design: design(chain, split, pairs, arms),
+            steps,
+            tip_error,
+            least_radii: rolled.iter().map(convex).collect(),
+        })
+    }
+}
+
+/// Length of each leg of the carrier, mm: both are centre distances of gears.
+fn leg(chain: &TwoBar, split: &Split) -> f64 {
+    0.5 * chain.carrier() / (0.5 * split.bend()).cos()
+}
+
+/// Turn of the arm's axes against those of the planet's gear, rad.
+fn turned(split: &Split) -> f64 {
+    split.planet_offset() - 0.5 * split.bend() - PI
+}
+
+/// Angle of the intermediate's second gear on its body where both laws begin at zero, rad.
+fn idler_mount(split: &Split) -> f64 {
+    match split.kind() {
+        SplitKind::OnePair => 0.0,
+        SplitKind::Powers => split.idler_offset() + split.first(0.0) - split.second(0.0),
+    }
+}
+
+/// Pairs of the machine by name.
+fn pairs(
+    chain: &TwoBar,
+    split: &Split,
+    [first, second]: [Vec<f64>; 2],
+) -> Vec<(&'static str, GearPairDesign)> {
+    let leg = leg(chain, split);
+    let pair = |table: Vec<f64>| {
+        let law = Transmission {
+            driven_angle: table,
+            center_distance: Some(leg),
+            tooth_count: Some(FIRST_COUNT),
+            ..Transmission::default()
+        };
+        let mut pair = GearPairDesign::new(PitchSpec::Transmission(law));
+        pair.teeth.addendum = Addendum::Fitted;
+        pair.teeth.backlash = rounded(BACKLASH * leg);
+        let body = BodySpec {
+            width: rounded(WIDTH * leg),
+            bore: rounded(BORE * leg),
+            ..BodySpec::default()
+        };
+        pair.driver = body.clone();
+        pair.driven = body;
+        pair
+    };
+    match split.kind() {
+        SplitKind::OnePair => vec![(STAGE, pair(first))],
+        SplitKind::Powers => vec![(FIRST, pair(first)), (SECOND, pair(second))],
+    }
+}
+
+/// Tooth count before another is found.
+const FIRST_COUNT: u32 = 60;
+
+/// Two digits of a number, for sizes that are free.
+fn rounded(x: f64) -> f64 {
+    let unit = 10.0_f64.powi(x.log10().floor() as i32 - 1);
+    let digits = (x / unit).round();
+    // A power of ten times a whole number, without the rounding of a product.
+    if unit < 1.0 {
+        digits / (1.0 / unit).round()
+    } else {
+        digits * unit
+    }
+}
+
+fn design(
+    chain: &TwoBar,
+    split: &Split,
+    pairs: Vec<(&'static str, GearPairDesign)>,
+    arms: u32,
+) -> ComposedDesign {
+    let leg = leg(chain, split);
+    let named = |name: &str| name.to_owned();
+    let (first, second) = match pairs.len() {
+        1 => (STAGE, STAGE),
+        _ => (FIRST, SECOND),
+    };
+    let mut design = ComposedDesign {
+        name: named("reversed"),
+        title: named("Machine made from the path of its tip"),
+        ..ComposedDesign::default()
+    };
+    let axis = [chain.axis().x, chain.axis().y];
+    design.frame.points.insert(named("O"), axis);
+    let start = chain.at(0.0).carrier[0] - 0.5 * split.bend();
+    let carrier = ComposedBodySpec {
+        on: Some(named("frame.O")),
+        law: Some(ComposedLawSpec {
+            ratio: Some(chain.sense()),
+            start_angle: Some(start),
+            ..ComposedLawSpec::default()
+        }),
+        ..ComposedBodySpec::default()
+    };
+    let meshed = |gear: &str, with: &str, direction: f64| ComposedBodySpec {
+        on: Some(named("carrier")),
+        mesh: Some(ComposedMeshSpec {
+            gear: named(gear),
+            with: named(with),
+            direction,
+        }),
+        ..ComposedBodySpec::default()
+    };
+    let is_one = split.kind() == SplitKind::OnePair;
+    let second_idler = if is_one {
+        "idler-gear"
+    } else {
+        "idler-second-gear"
+    };
+    let arm = ComposedBodySpec {
+        fixed_to: Some(named("planet")),
+        turned: Some(turned(split)),
+        points: [(named("tip"), [chain.arm(), 0.0])].into(),
+        ..ComposedBodySpec::default()
+    };
+    design.bodies = [
+        (named("carrier"), carrier),
+        (named("idler"), meshed("idler-gear", "sun", 0.0)),
+        (
+            named("planet"),
+            meshed("planet-gear", second_idler, split.bend()),
+        ),
+        (named("arm"), arm),
+    ]
+    .into();
+    let gear = |pair: &str, role: GearRole, on: &str, mount: f64| ComposedGearSpec {
+        pair: named(pair),
+        role,
+        on: named(on),
+        mount,
+    };
+    let sun = gear(first, GearRole::Driver, "frame.O", -0.5 * split.bend());
+    design.gears = [
+        (named("sun"), sun),
+        (
+            named("idler-gear"),
+            gear(first, GearRole::Driven, "idler", 0.0),
+        ),
+        (
+            named("planet-gear"),
+            gear(second, GearRole::Driver, "planet", 0.0),
+        ),
+    ]
+    .into();
+    if !is_one {
+        let mount = idler_mount(split);
+        let second = gear(second, GearRole::Driven, "idler", mount);
+        design.gears.insert(named(second_idler), second);
+    }
+    design.pairs = pairs
+        .into_iter()
+        .map(|(name, pair)| (named(name), pair))
+        .collect();
+    if arms > 1 {
+        let copies = ComposedCopiesSpec {
+            bodies: ["idler", "planet", "arm"].map(named).into(),
+            count: arms,
+            about: named("carrier"),
+        };
+        design.copies.insert(named(ARMS), copies);
+    }
+    let [thickness, width, pin] = PLATE.map(|share| rounded(share * leg));
+    design.plates.thickness = thickness;
+    design.plates.width = width;
+    design.plates.pin_diameter = pin;
+    design
+}
+
+/// The train forwards, from its pitch curves alone.
+struct Train<'a> {
+    first: &'a Rolling,
+    second: &'a Rolling,
+    bend: f64,
+    mount: f64,
+    turned: f64,
+}
+
+impl<'a> Train<'a> {
+    fn new(split: &Split, rolled: &'a [Rolling]) -> Self {
+        Self {
+            first: &rolled[0],
+            second: &rolled[rolled.len() - 1],
+            bend: split.bend(),
+            mount: idler_mount(split),
+            turned: turned(split),
+        }
+    }
+
+    /// Point of the tip where the planet's axis is in a direction from the carrier's.
+    ///
+    /// With lambda the direction from a driver's axis to the driven gear's and f the driven angle of the pair, the driven gear
+    /// is at lambda + f(lambda - angle of the driver).
+    fn tip(&self, chain: &TwoBar, direction: f64) -> Point {
+        let leg = direction - 0.5 * self.bend;
+        let idler = leg + self.first.driven_angle(direction);
+        let back = leg + self.bend + PI;
+        let polar = self.second.driver_jet(idler + self.mount - back).position;
+        let arm = back - polar + self.turned;
+        let bar = |length: f64, angle: f64| Vector::new(angle.cos(), angle.sin()) * length;
+        chain.axis()
+            + bar(self.first.center_distance(), leg)
+            + bar(self.second.center_distance(), leg + self.bend)
+            + bar(chain.arm(), arm)
+    }
+}

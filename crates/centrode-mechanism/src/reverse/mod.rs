@@ -1,0 +1,23 @@
+//! Synthesis of a machine from the path wanted of its tip.
+//!
+//! A carrier turns about a fixed axis and bears an arm, whose tip runs along the path. The carrier turns once for one run
+//! of the path, and the arm turns once against it the other way, as the planet of a train does whose sun stands still and
+//! whose mean ratio is 1. Stretched once and folded once, the two bars follow from the path and the axis alone.
+
+mod chain;
+mod distance;
+mod error;
+mod machine;
+mod map;
+mod path;
+mod split;
+
+pub use chain::{ChainJet, TwoBar};
+pub use error::{AxisFault, PathError};
+pub use machine::{MachineError, ReversedMachine};
+pub use map::{AxisMap, AxisRange, PossibleAxis};
+pub use path::WantedPath;
+pub use split::{Split, SplitError, SplitKind};
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,292 @@
+use std::sync::Arc;
+
+use centrode_geometry::{Bounds, Curve, Jet, Outline, Point, Segment, Vector, pieces};
+
+use super::PathError;
+use crate::gear::pitch::closed_spline;
+
+/// Fewest points of a closed curve.
+const FEWEST: usize = 4;
+/// Most points of a path.
+const MOST: usize = 50_000;
+/// Greatest coordinate, mm.
+pub(super) const FARTHEST: f64 = 1e9;
+/// Greatest distance of the last point from the first, as a multiple of the greatest of two other neighbours.
+const GAP: f64 = 4.0;
+/// Samples of a turn, and fewest between two breaks.
+const SAMPLES: f64 = 384.0;
+const LEAST_SAMPLES: f64 = 2.0;
+/// Most parts into which a turn is cut for searches of extremes: those of a curve of more pieces span several.
+const MOST_PARTS: usize = 64;
+/// Even parts of a turn, in each of which an analytic path has few extremes.
+const EVEN_PARTS: u32 = 16;
+/// Sides of the polygon on which crossings are sought.
+const SIDES: usize = 2000;
+
+/// A closed path, wanted of the tip of a machine.
+///
+/// The order of its points is the order in time; the speed along it is free.
+#[derive(Clone, Debug)]
+pub struct WantedPath {
+    curve: Arc<dyn Curve>,
+    breaks: Vec<f64>,
+    samples: Vec<Sample>,
+}
+
+/// A point of the path and its derivatives at a parameter.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Sample {
+    pub(super) at: f64,
+    pub(super) jet: Jet,
+}
+
+impl WantedPath {
+    /// Largest file of a path, bytes.
+    pub const LARGEST: usize = 1 << 22;
+
+    /// Closed curve through points in order: a periodic cubic spline over their index.
+    ///
+    /// The last point may repeat the first.
+    ///
+    /// # Errors
+    /// [`PathError`] for too few or too many points, one that is no point or given twice, and an open path: one whose last
+    /// point is more than four times as far from the first as any two other neighbours are from each other.
+    pub fn through(points: &[Point]) -> Result<Self, PathError> {
+        for (i, p) in points.iter().enumerate() {
+            let (number, x, y) = (i + 1, p.x, p.y);
+            if !(x.is_finite() && y.is_finite()) {
+                return Err(PathError::NotFinite { number, x, y });
+            }
+            if x.abs().max(y.abs()) > FARTHEST {
+                let limit = FARTHEST;
+                return Err(PathError::TooFar {
+                    number,
+                    x,
+                    y,
+                    limit,
+                });
+            }
+        }
+        let closed = points.len() > 1 && points.first() == points.last();
+        let points = &points[..points.len() - usize::from(closed)];
+        let count = points.len();
+        if count < FEWEST {
+            let least = FEWEST;
+            return Err(PathError::TooFew { count, least });
+        }
+        if count > MOST {
+            let limit = MOST;
+            return Err(PathError::TooMany { count, limit });
+        }
+        let step = |i: usize| (points[(i + 1) % count] - points[i]).norm();
+        if let Some(i) = (0..count).find(|&i| step(i) == 0.0) {
+            let (x, y) = (points[i].x, points[i].y);
+            let (first, second) = (i + 1, (i + 1) % count + 1);
+            return Err(PathError::Twice {
+                first,
+                second,
+                x,
+                y,
+            });
+        }
+        let longest = (0..count - 1).map(step).fold(0.0, f64::max);
+        let gap = step(count - 1);
+        if gap > GAP * longest {
+            let step = longest;
+            return Err(PathError::Open { gap, step });
+        }
+        let list = points.iter().map(|p| [p.x, p.y]).collect();
+        Ok(Self::of(Arc::new(closed_spline(list, 3))))
+    }
+
+    /// Path along a curve, which need not go round anything.
+    #[must_use]
+    pub fn of(curve: Arc<dyn Curve>) -> Self {
+        let period = curve.period();
+        let breaks: Vec<f64> = curve
+            .breaks()
+            .into_iter()
+            .filter(|b| (0.0..period).contains(b))
+            .collect();
+        let mut samples = Vec::new();
+        for pair in pieces(0.0, period, 1, &breaks).windows(2) {
+            let share = (pair[1] - pair[0]) / period;
+            let steps = (SAMPLES * share).ceil().max(LEAST_SAMPLES);
+            for i in 0..steps as u32 {
+                let at = pair[0] + (pair[1] - pair[0]) * f64::from(i) / steps;
+                samples.push(Sample {
+                    at,
+                    jet: curve.at(at),
+                });
+            }
+        }
+        Self {
+            curve,
+            breaks,
+            samples,
+        }
+    }
+
+    /// Reads points from a CSV file: x and y in mm, a point a line, in order.
+    ///
+    /// Further columns, empty lines, lines that begin with `#` and one line of headings are skipped.
+    ///
+    /// # Errors
+    /// [`PathError`] with the line, and as [`through`](Self::through).
+    pub fn from_csv(bytes: &[u8]) -> Result<Self, PathError> {
+        if bytes.len() > Self::LARGEST {
+            let (bytes, limit) = (bytes.len(), Self::LARGEST);
+            return Err(PathError::TooLarge { bytes, limit });
+        }
+        let text = std::str::from_utf8(bytes).map_err(|error| {
+            let good = &bytes[..error.valid_up_to()];
+            let line = 1 + good.iter().filter(|&&byte| byte == b'\n').count();
+            PathError::NotText { line }
+        })?;
+        let mut points = Vec::new();
+        let mut lines = 0;
+        for (i, line) in text.trim_start_matches('\u{feff}').lines().enumerate() {
+            let written = line.trim();
+            if written.is_empty() || written.starts_with('#') {
+                continue;
+            }
+            lines += 1;
+            match point(written, i + 1) {
+                Ok(point) => points.push(point),
+                // Headings.
+                Err(PathError::NotNumber { .. }) if lines == 1 => {}
+                Err(error) => return Err(error),
+            }
+        }
+        Self::through(&points)
+    }
+
+    /// The curve.
+    #[must_use]
+    pub fn curve(&self) -> &Arc<dyn Curve> {
+        &self.curve
+    }
+
+    /// Parameter after which the path is closed.
+    #[must_use]
+    pub fn period(&self) -> f64 {
+        self.curve.period()
+    }
+
+    /// Parameters in `[0, period)` at which a derivative may jump, ascending.
+    #[must_use]
+    pub fn breaks(&self) -> &[f64] {
+        &self.breaks
+    }
+
+    /// Point and derivatives at a parameter.
+    #[must_use]
+    pub fn at(&self, t: f64) -> Jet {
+        self.curve.at(t)
+    }
+
+    /// Smallest axis-aligned box round samples of the path.
+    #[must_use]
+    pub fn bounds(&self) -> Bounds {
+        self.samples.iter().map(|s| s.jet.point).collect()
+    }
+
+    /// Checks that the path does not cross itself, on a polygon of 2,000 sides.
+    ///
+    /// # Errors
+    /// [`PathError::Crossing`] with the place.
+    pub fn check_simple(&self) -> Result<(), PathError> {
+        let at = |i: usize| {
+            let share = (i % SIDES) as f64 / SIDES as f64;
+            self.at(share * self.period()).point
+        };
+        let sides = (0..SIDES).map(|i| Segment::Line(at(i), at(i + 1)));
+        let crossing = Outline::new(sides.collect())
+            .ok()
+            .and_then(|o| o.crossing());
+        match crossing {
+            None => Ok(()),
+            Some(found) => Err(PathError::Crossing {
+                x: found.point.x,
+                y: found.point.y,
+            }),
+        }
+    }
+
+    pub(super) fn samples(&self) -> &[Sample] {
+        &self.samples
+    }
+
+    /// Ends of parts from `from` over one turn, between which the path is smooth or, where it has many pieces, nearly so.
+    pub(super) fn parts(&self, from: f64) -> Vec<f64> {
+        let to = from + self.period();
+        if self.breaks.len() > MOST_PARTS {
+            return pieces(from, to, MOST_PARTS as u32, &[]);
+        }
+        let even = if self.breaks.len() < EVEN_PARTS as usize / 2 {
+            EVEN_PARTS
+        } else {
+            1
+        };
+        pieces(from, to, even, &self.breaks_between(from, to))
+    }
+
+    /// Breaks strictly between two parameters, ascending.
+    pub(super) fn breaks_between(&self, from: f64, to: f64) -> Vec<f64> {
+        let period = self.period();
+        if self.breaks.is_empty() {
+            return Vec::new();
+        }
+        let turn = |t: f64| (t / period).floor() as i64;
+        let mut found = Vec::new();
+        for turn in turn(from)..=turn(to) {
+            let shift = turn as f64 * period;
+            let first = self.breaks.partition_point(|b| b + shift <= from);
+            let later = self.breaks[first..].iter().map(|b| b + shift);
+            found.extend(later.take_while(|&b| b < to));
+        }
+        found
+    }
+
+    /// Distance of a point from the path near a parameter, mm: to the foot of its normal there.
+    pub(super) fn distance_near(&self, point: Point, t: f64) -> f64 {
+        let mut t = t;
+        let mut off = Vector::zeros();
+        for _ in 0..4 {
+            let jet = self.at(t);
+            off = point - jet.point;
+            let slope = jet.first.norm_squared() - off.dot(&jet.second);
+            let step = off.dot(&jet.first) / slope;
+            if !(slope > 0.0 && step.is_finite()) {
+                break;
+            }
+            t += step;
+        }
+        let foot = (point - self.at(t).point).norm();
+        foot.min(off.norm())
+    }
+}
+
+/// Reads a line of a file.
+fn point(line: &str, number: usize) -> Result<Point, PathError> {
+    let words: Vec<&str> = line.split([',', ';', '\t']).map(str::trim).collect();
+    let [x, y] = [words.first(), words.get(1)];
+    let (Some(x), Some(y)) = (x, y) else {
+        return match words[0].parse::<f64>() {
+            Ok(_) => Err(PathError::Columns {
+                line: number,
+                count: words.len(),
+            }),
+            Err(_) => Err(not_number(words[0], number)),
+        };
+    };
+    let read = |word: &str| word.parse::<f64>().map_err(|_| not_number(word, number));
+    Ok(Point::new(read(x)?, read(y)?))
+}
+
+fn not_number(word: &str, line: usize) -> PathError {
+    PathError::NotNumber {
+        line,
+        found: word.chars().take(40).collect(),
+    }
+}

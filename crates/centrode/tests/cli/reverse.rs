@@ -1,0 +1,120 @@
+//! A machine made from a path: what is printed, the file, and every way in which a path is bad.
+
+use std::fs;
+
+use crate::{centrode, fed, text};
+
+const DRAWN: &str = "x,y\n0,0\n60,70\n150,150\n230,215\n262,262\n235,300\n170,330\n100,330\n40,300\n-5,250\n-30,190\n-38,130\n-30,60\n";
+
+/// Path of a machine that is nearly even: a circle of 60 mm about a place off the axis, a little bent.
+fn mild() -> String {
+    let point = |i: u32| {
+        let t = f64::from(i) * std::f64::consts::TAU / 40.0;
+        let radius = 60.0 + 1.5 * (2.0 * t).cos();
+        format!("{},{}\n", 100.0 + radius * t.cos(), radius * t.sin())
+    };
+    (0..40).map(point).collect()
+}
+
+#[test]
+fn what_was_chosen_is_printed() {
+    let run = fed(
+        &["reverse", "-", "--axis", "260,160", "--bend", "40"],
+        DRAWN.as_bytes(),
+    );
+    let told = text(&run.stdout);
+    assert_eq!(run.status.code(), Some(0), "{}", text(&run.stderr));
+    for line in [
+        "axis of the carrier     260.0000, 160.0000 mm, as asked",
+        "carrier                 125.6121 mm, turns counter-clockwise",
+        "arm                     186.5937 mm",
+        "ratio                   0.5155 to 2.1793",
+        "tip passes the shaft at 60.9816 mm",
+        "split                   powers, bend 40 deg, 1 arm",
+        "split one-pair          with one pair twice the planet must lag by 0.611111 turns, 11/18,",
+    ] {
+        assert!(told.contains(line), "{line}\n{told}");
+    }
+}
+
+#[test]
+fn the_design_written_resolves_and_its_tip_runs_along_the_path() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let [path, design, table] =
+        ["path.csv", "arms.toml", "out"].map(|name| folder.path().join(name));
+    fs::write(&path, mild()).expect("written");
+    let [path, design, table] = [path, design, table].map(|p| p.display().to_string());
+    let run = centrode(&[
+        "reverse", &path, "--axis", "0,0", "--bend", "60", "-o", &design,
+    ]);
+    assert_eq!(run.status.code(), Some(0), "{}", text(&run.stderr));
+    assert!(
+        text(&run.stdout).contains("teeth of first-stage"),
+        "{}",
+        text(&run.stdout)
+    );
+    let check = centrode(&["check", &design]);
+    let report = text(&check.stdout);
+    assert_eq!(
+        check.status.code(),
+        Some(0),
+        "{report}{}",
+        text(&check.stderr)
+    );
+    let export = centrode(&["export", &design, "--to", &table, "--format", "csv"]);
+    assert_eq!(export.status.code(), Some(0), "{}", text(&export.stderr));
+    // Nothing is written over the path.
+    let over = centrode(&["reverse", &path, "-o", &path]);
+    assert_eq!(over.status.code(), Some(2));
+    assert!(
+        text(&over.stderr).contains("is the path"),
+        "{}",
+        text(&over.stderr)
+    );
+}
+
+#[test]
+fn a_bad_path_is_refused_with_the_reason_and_nothing_is_written() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let design = folder.path().join("arms.toml");
+    let shown = design.display().to_string();
+    let half: String = (0..20)
+        .map(|i| (f64::from(i) * 0.15).sin_cos())
+        .map(|(y, x)| format!("{},{}\n", 100.0 * x, 100.0 * y))
+        .collect();
+    let eight: String = (0..24)
+        .map(|i| f64::from(i) * std::f64::consts::TAU / 24.0)
+        .map(|t| format!("{},{}\n", 50.0 * t.sin(), 30.0 * (2.0 * t).sin()))
+        .collect();
+    let large = "0,0\n".repeat(1 << 21);
+    for (path, axis, why) in [
+        (half.as_str(), "0,0", "the path is open"),
+        (&eight, "100,0", "crosses itself"),
+        ("0,0\n1,0\n1,1\n", "0,0", "has 3 points"),
+        ("0,0\n1,NaN\n1,1\n0,1\n", "0,0", "point 2 of the path"),
+        ("0,0\n1,b\n1,1\n0,1\n", "0,0", "line 2"),
+        (&large, "0,0", "the limit is"),
+        (DRAWN, "60,200", "--axis 60,200"),
+        (DRAWN, "1,2,3", "--axis"),
+        (DRAWN, "1e300,0", "--axis"),
+    ] {
+        let run = fed(
+            &["reverse", "-", "--axis", axis, "-o", &shown],
+            path.as_bytes(),
+        );
+        let told = text(&run.stderr);
+        assert_eq!(run.status.code(), Some(2), "{told}");
+        assert!(told.contains(why), "{why}: {told}");
+        assert!(!design.exists());
+    }
+    let bend = fed(
+        &["reverse", "-", "--axis", "260,160", "--bend", "180"],
+        DRAWN.as_bytes(),
+    );
+    assert_eq!(bend.status.code(), Some(2));
+    assert!(
+        text(&bend.stderr).contains("the bend must be at most"),
+        "{}",
+        text(&bend.stderr)
+    );
+}

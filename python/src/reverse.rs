@@ -1,0 +1,212 @@
+use std::sync::{Arc, OnceLock};
+
+use centrode_analysis::with_sound_teeth;
+use centrode_geometry::Point;
+use centrode_mechanism::composed::Composed;
+use centrode_mechanism::machine::Piecewise;
+use centrode_mechanism::reverse::{
+    AxisMap, AxisRange, ReversedMachine, Split, SplitKind, TwoBar, WantedPath,
+};
+use centrode_mechanism::transmission::Transmission as _;
+use pyo3::prelude::{Bound, Py, PyAny, PyResult, Python, pyclass, pyfunction, pymethods};
+
+use crate::array::{Course, Values};
+use crate::composed::Machine;
+use crate::count::Count;
+use crate::design::Class as _;
+use crate::error::{Answer, Raised};
+use crate::record;
+use crate::wait::wait;
+use crate::word::Word;
+
+/// A machine made from the path wanted of its tip, by `reverse`.
+///
+/// A carrier turns about `axis` and bears an arm; a train of gears whose sun stands still turns the arm once against it while
+/// it turns once.
+#[pyclass(frozen, module = "centrode")]
+#[derive(Debug)]
+pub(crate) struct Reversed {
+    chain: TwoBar,
+    law: Arc<Piecewise>,
+    split: Split,
+    made: ReversedMachine,
+    axes: OnceLock<AxisMap>,
+}
+
+/// Makes a machine from the path wanted of its tip.
+///
+/// Args:
+///     path: Points in the order in which the tip passes them, mm, an array (N, 2): a closed periodic cubic spline runs
+///         through them.
+///     axis: Axis of the carrier, mm; left out, the mildest: that of the least change of the gears' ratio.
+///     split: "powers", two different pairs, or "one-pair", one pair twice.
+///     bend_deg: Angle from the carrier's first leg, to the intermediate gear, to its second, degrees.
+///     arms: Number of arms.
+///
+/// Raises:
+///     DesignError: The points make no path, or a value breaks a rule of its own.
+///     MechanismError: No machine with this axis, or with this split and bend, follows the path.
+///
+/// >>> import centrode as ct
+/// >>> path = [(0, 0), (60, 70), (150, 150), (230, 215), (262, 262), (235, 300), (170, 330),
+/// ...         (100, 330), (40, 300), (-5, 250), (-30, 190), (-38, 130), (-30, 60)]
+/// >>> arms = ct.reverse(path, (260, 160), bend_deg=40)
+/// >>> round(arms.carrier, 3), round(arms.arm, 3), arms.tip_error < 1e-4
+/// (125.612, 186.594, True)
+#[pyfunction]
+#[pyo3(
+    signature = (path, axis=None, *, split="powers", bend_deg=60.0, arms=Count::Fits(1)),
+    text_signature = "(path, axis=None, *, split='powers', bend_deg=60.0, arms=1)"
+)]
+pub(crate) fn reverse(
+    py: Python<'_>,
+    path: Values,
+    axis: Option<(f64, f64)>,
+    split: &str,
+    bend_deg: f64,
+    arms: Count,
+) -> Answer<Reversed> {
+    let kind: SplitKind = Word::of("split", split)?;
+    let arms = arms.within("arms", 1, 12)? as u32;
+    let points = path.points("path")?;
+    wait(py, move || {
+        let path = WantedPath::through(&points)?;
+        let mut axes = OnceLock::new();
+        let chain = match axis {
+            Some((x, y)) => TwoBar::new(&path, Point::new(x, y), None)?,
+            None => {
+                let map = AxisMap::new(&path, AxisRange::about(&path));
+                let chain = map.mildest(&path).ok_or_else(|| no_axis(&map))?;
+                axes = OnceLock::from(map);
+                chain
+            }
+        };
+        let split = Split::new(&chain, kind, bend_deg.to_radians())?;
+        let made = ReversedMachine::new(&chain, &split, arms, None)?;
+        let law = chain
+            .law()
+            .map_err(centrode_mechanism::reverse::SplitError::from)?;
+        Ok(Reversed {
+            chain,
+            law: Arc::new(law),
+            split,
+            made,
+            axes,
+        })
+    })?
+}
+
+fn no_axis(map: &AxisMap) -> Raised {
+    let sentence = format!(
+        "no machine of this kind has a tip that runs along the path: of {} axes tried on and about it none is possible",
+        map.found().len()
+    );
+    Raised::no_mechanism("axis", sentence)
+}
+
+#[pymethods]
+impl Reversed {
+    /// Axis of the carrier, mm.
+    #[getter]
+    fn axis(&self) -> (f64, f64) {
+        (self.chain.axis().x, self.chain.axis().y)
+    }
+
+    /// Length of the carrier, from its axis to the arm's, mm.
+    #[getter]
+    fn carrier(&self) -> f64 {
+        self.chain.carrier()
+    }
+
+    /// Length of the arm, from its axis to the tip, mm.
+    #[getter]
+    fn arm(&self) -> f64 {
+        self.chain.arm()
+    }
+
+    /// Sense in which the carrier turns, "clockwise" or "counter-clockwise".
+    #[getter]
+    fn direction(&self) -> &'static str {
+        self.chain.direction().word()
+    }
+
+    /// Least and greatest ratio of the total law.
+    #[getter]
+    fn ratios(&self) -> (f64, f64) {
+        let [least, greatest] = self.chain.ratios();
+        (least.value, greatest.value)
+    }
+
+    /// Least distance of the tip from the carrier's axis, mm.
+    #[getter]
+    fn shaft_distance(&self) -> f64 {
+        self.chain.shaft_distance()
+    }
+
+    /// Way in which two stages of gears share the motion.
+    #[getter]
+    fn split(&self) -> &'static str {
+        self.split.kind().name()
+    }
+
+    /// Greatest distance of the tip from the path, mm, with the laws of the gears as the design holds them.
+    #[getter]
+    fn tip_error(&self) -> f64 {
+        self.made.tip_error.value
+    }
+
+    /// Turn of the planet against the carrier by the carrier's direction, rad, zero where the bars are stretched: of an array,
+    /// an array of the same shape.
+    fn law(&self, direction: Values) -> Course {
+        let law = Arc::clone(&self.law);
+        Course::each(direction, move |psi| law.at(psi).position)
+    }
+
+    /// Possible axes of the carrier on and about the path.
+    ///
+    /// >>> import centrode as ct
+    /// >>> import math
+    /// >>> path = [(math.cos(t) * (3 + math.cos(t)), 2 * math.sin(t)) for t in (0.2 * k for k in range(31))]
+    /// >>> axes = ct.reverse(path).axes
+    /// >>> axes.possible.shape == (len(axes.y), len(axes.x))
+    /// True
+    #[getter]
+    fn axes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        if self.axes.get().is_none() {
+            let path = self.chain.path().clone();
+            let map = wait(py, move || AxisMap::new(&path, AxisRange::about(&path)))?;
+            // Another thread may have been quicker, with the same map.
+            let _ = self.axes.set(map);
+        }
+        let Some(map) = self.axes.get() else {
+            return Ok(py.None().into_bound(py));
+        };
+        record::axes(py, map)
+    }
+
+    /// The machine with the largest teeth whose flanks carry the motion alone.
+    ///
+    /// Raises:
+    ///     MechanismError: There are no such teeth, or its parts cannot be made.
+    fn machine(&self, py: Python<'_>) -> Answer<Py<Machine>> {
+        let design = self.made.design.clone();
+        let composed = wait(py, move || {
+            let (design, _) = with_sound_teeth(&design)?;
+            Ok::<_, Raised>(
+                Composed::resolve(&design)
+                    .map_err(centrode_mechanism::design::MechanismError::from)?,
+            )
+        })??;
+        Machine::object(py, composed)
+    }
+
+    fn __repr__(&self) -> String {
+        let (x, y) = self.axis();
+        format!(
+            "<Reversed: axis ({x:.4}, {y:.4}), carrier {:.4}, arm {:.4}, split {}>",
+            self.carrier(),
+            self.arm(),
+            self.split()
+        )
+    }
+}
