@@ -67,7 +67,7 @@ pub(crate) fn reverse(
     arms: Count,
 ) -> Answer<Reversed> {
     let kind: SplitKind = Word::of("split", split)?;
-    let arms = arms.within("arms", 1, 12)? as u32;
+    let arms = arms.within("arms", 1, 12)?;
     let points = path.points("path")?;
     wait(py, move || {
         let path = WantedPath::through(&points)?;

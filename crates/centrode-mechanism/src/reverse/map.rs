@@ -121,7 +121,6 @@ impl AxisMap {
     }
 
     /// Axes row by row from the least y, each row from the least x: figures, or why there is no machine.
-    #[must_use]
     pub fn found(&self) -> &[Result<PossibleAxis, AxisFault>] {
         &self.found
     }

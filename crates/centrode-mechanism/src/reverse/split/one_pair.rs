@@ -100,7 +100,7 @@ impl CircleMap {
         // Place beyond that of an even turn.
         let (mut x, mut beyond) = (start, start);
         for k in 0..steps {
-            if k % 1024 == 0 {
+            if k.is_multiple_of(1024) {
                 checkpoint();
             }
             let t = (f64::from(k) + 0.5) / f64::from(steps);
@@ -223,7 +223,7 @@ impl Orbits {
     fn walk(map: &CircleMap, (start, law): (f64, f64), step: f64, length: u32) -> Vec<(f64, f64)> {
         let (mut x, mut turns) = (start, 0.0);
         let mut node = |k: u32| {
-            if k % 1024 == 0 {
+            if k.is_multiple_of(1024) {
                 checkpoint();
             }
             let here = (x, law + f64::from(k) * step - TAU * turns);
