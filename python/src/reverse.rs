@@ -2,7 +2,6 @@ use std::sync::{Arc, OnceLock};
 
 use centrode_analysis::with_sound_teeth;
 use centrode_geometry::Point;
-use centrode_mechanism::composed::Composed;
 use centrode_mechanism::machine::Piecewise;
 use centrode_mechanism::reverse::{
     AxisMap, AxisRange, ReversedMachine, Split, SplitKind, TwoBar, WantedPath,
@@ -13,7 +12,7 @@ use pyo3::prelude::{Bound, Py, PyAny, PyResult, Python, pyclass, pyfunction, pym
 use crate::array::{Course, Values};
 use crate::composed::Machine;
 use crate::count::Count;
-use crate::design::Class as _;
+use crate::design::Class;
 use crate::error::{Answer, Raised};
 use crate::record;
 use crate::wait::wait;
@@ -193,7 +192,7 @@ impl Reversed {
         let composed = wait(py, move || {
             let (design, _) = with_sound_teeth(&design)?;
             Ok::<_, Raised>(
-                Composed::resolve(&design)
+                <Machine as Class>::Machine::resolve(&design)
                     .map_err(centrode_mechanism::design::MechanismError::from)?,
             )
         })??;

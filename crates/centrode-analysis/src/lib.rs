@@ -13,12 +13,14 @@ pub mod interference;
 pub mod optimise;
 mod report;
 mod response;
-mod reverse;
 mod shaft;
 mod three_arm;
 mod unit;
 
-pub use composed::{check_composed, composed_clearance, composed_figures};
+pub use composed::{
+    NoSoundTeeth, SoundTeeth, check_composed, composed_clearance, composed_figures,
+    with_sound_teeth,
+};
 pub use contact::{Contact, ContactExtremes, Proof, ProofError, ProofMeeting, ProofStretch, prove};
 pub use feeder::{
     Attainable, FeederForces, FeederForcesError, SixBarTolerances, SwingSpread, check_feeder,
@@ -30,7 +32,6 @@ pub use goal::Goal;
 pub use incomplete_contact::IncompleteContact;
 pub use report::{Finding, Place, Report, Severity, Table};
 pub use response::{Answer, Response};
-pub use reverse::{NoSoundTeeth, SoundTeeth, with_sound_teeth};
 pub use shaft::{check_moving_box, check_shaft};
 pub use three_arm::{
     ArmClearance, ArmClearanceCourse, ArmClearanceError, TrainTeeth, Variants, VariantsError,

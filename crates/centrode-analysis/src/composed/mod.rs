@@ -9,6 +9,7 @@ mod goals;
 mod joints;
 mod motion;
 mod pairs;
+mod sound_teeth;
 #[cfg(test)]
 mod tests;
 
@@ -24,6 +25,7 @@ use self::figures::FIGURES;
 use self::forces::Loaded;
 pub use self::goals::composed_figures;
 use self::motion::Motion;
+pub use self::sound_teeth::{NoSoundTeeth, SoundTeeth, with_sound_teeth};
 use crate::forces::ForcesError;
 use crate::report::Missed;
 use crate::{Finding, Goal, Place, Report, Severity, Table, Unit};

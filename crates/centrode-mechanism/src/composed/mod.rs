@@ -36,6 +36,7 @@ mod pieces;
 mod plates;
 mod points;
 mod resolve;
+mod reversed;
 mod seating;
 #[cfg(test)]
 mod tests;
@@ -69,6 +70,7 @@ pub use load::{ComposedLoadSpec, LoadAxes};
 pub use obstacle::{ComposedObstacle, ComposedObstacleSpec};
 pub use pair_figure::PAIR_FIGURES;
 pub use plates::ComposedPlatesSpec;
+pub use reversed::{MachineError, ReversedMachine};
 
 use self::expansion::Expansion;
 use self::gearing::Meshing;

@@ -263,7 +263,7 @@ impl TwoBar {
         }
     }
 
-    pub(super) fn sense(&self) -> f64 {
+    pub(crate) fn sense(&self) -> f64 {
         self.sense
     }
 

@@ -7,14 +7,13 @@
 mod chain;
 mod distance;
 mod error;
-mod machine;
 mod map;
 mod path;
 mod split;
 
+pub use crate::composed::{MachineError, ReversedMachine};
 pub use chain::{ChainJet, TwoBar};
 pub use error::{AxisFault, PathError};
-pub use machine::{MachineError, ReversedMachine};
 pub use map::{AxisMap, AxisRange, PossibleAxis};
 pub use path::WantedPath;
 pub use split::{Split, SplitError, SplitKind};

@@ -218,7 +218,7 @@ impl WantedPath {
     }
 
     /// Ends of parts from `from` over one turn, between which the path is smooth or, where it has many pieces, nearly so.
-    pub(super) fn parts(&self, from: f64) -> Vec<f64> {
+    pub(crate) fn parts(&self, from: f64) -> Vec<f64> {
         let to = from + self.period();
         if self.breaks.len() > MOST_PARTS {
             return pieces(from, to, MOST_PARTS as u32, &[]);
@@ -249,7 +249,7 @@ impl WantedPath {
     }
 
     /// Distance of a point from the path near a parameter, mm: to the foot of its normal there.
-    pub(super) fn distance_near(&self, point: Point, t: f64) -> f64 {
+    pub(crate) fn distance_near(&self, point: Point, t: f64) -> f64 {
         let mut t = t;
         let mut off = Vector::zeros();
         for _ in 0..4 {

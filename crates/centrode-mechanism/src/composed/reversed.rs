@@ -3,14 +3,14 @@ use std::f64::consts::PI;
 use centrode_geometry::{Extreme, Point, Vector, greatest};
 use thiserror::Error;
 
-use super::{Split, SplitKind, TwoBar};
-use crate::composed::{
+use super::{
     ComposedBodySpec, ComposedCopiesSpec, ComposedDesign, ComposedGearSpec, ComposedLawSpec,
     ComposedMeshSpec, GearRole,
 };
 use crate::gear::design::{Addendum, BodySpec, GearPairDesign};
 use crate::gear::pitch::{PitchSpec, Transmission};
 use crate::gear::{CurvatureRange, GearPair, GearPairError, Member, Rolling};
+use crate::reverse::{Split, SplitKind, TwoBar};
 
 /// Names of the pairs of a machine: of one that occurs twice, and of two.
 const STAGE: &str = "stage";
