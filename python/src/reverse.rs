@@ -9,12 +9,13 @@ use centrode_mechanism::reverse::{
 use centrode_mechanism::transmission::Transmission as _;
 use pyo3::prelude::{Bound, Py, PyAny, PyResult, Python, pyclass, pyfunction, pymethods};
 
-use crate::array::{Course, Values};
+use crate::array::{Course, Rows, Values};
 use crate::composed::Machine;
 use crate::count::Count;
 use crate::design::Class;
 use crate::error::{Answer, Raised};
-use crate::record;
+use crate::made::{Reduced, by};
+use crate::record::{self, Keywords};
 use crate::wait::wait;
 use crate::word::Word;
 
@@ -25,6 +26,11 @@ use crate::word::Word;
 #[pyclass(frozen, module = "centrode")]
 #[derive(Debug)]
 pub(crate) struct Reversed {
+    /// Given, for copies.
+    points: Vec<Point>,
+    axis: Option<(f64, f64)>,
+    bend_deg: f64,
+    arms: u32,
     chain: TwoBar,
     law: Arc<Piecewise>,
     split: Split,
@@ -86,6 +92,10 @@ pub(crate) fn reverse(
             .law()
             .map_err(centrode_mechanism::reverse::SplitError::from)?;
         Ok(Reversed {
+            points,
+            axis,
+            bend_deg,
+            arms,
             chain,
             law: Arc::new(law),
             split,
@@ -197,6 +207,16 @@ impl Reversed {
             )
         })??;
         Machine::object(py, composed)
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
+        let keywords = Keywords::new(py)
+            .with("path", Rows::of(&self.points))?
+            .with("axis", self.axis)?
+            .with("split", self.split())?
+            .with("bend_deg", self.bend_deg)?
+            .with("arms", self.arms)?;
+        by("reverse", keywords)
     }
 
     fn __repr__(&self) -> String {

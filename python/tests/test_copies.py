@@ -56,6 +56,8 @@ def objects():
     shaft = ct.SpiralShaft(lead=20, holes=14, radius=15, amplitude=1.28, harmonic=1)
     rhombus = ct.SixBar(crank=77, coupler=147, rocker=127, frame=105, pivot=(100, 67), effector_length=200)
     report = arms.check()
+    reverse = ct.reverse([(0, 0), (60, 70), (150, 150), (230, 215), (262, 262), (235, 300), (170, 330), (100, 330),
+                          (40, 300), (-5, 250), (-30, 190), (-38, 130), (-30, 60)], bend_deg=40)  # fmt: skip
     over = pair.driver.over_pins()
     made = [
         leg,
@@ -103,6 +105,8 @@ def objects():
         ct.Table("a", "b", "mm", ("c",), {"d": (1.0,)}),
         arms.arm_clearance(),
         ct.PairRemedy("full", 23, pair),
+        reverse,
+        reverse.axes,
         feeder.optimise("de", evaluations=100),
         *(made("why") if not issubclass(made, ct.DesignError) else made("why", "key", 3, 4)
           for made in CLASSES if issubclass(made, Exception)),
