@@ -121,7 +121,7 @@ def objects():
 def figures(thing):
     """What a thing says of itself: every attribute that is a value, arrays as lists."""
     if isinstance(thing, np.ndarray):
-        return thing.tolist()
+        return figures(thing.tolist())
     if isinstance(thing, float):
         return "nan" if math.isnan(thing) else thing
     if thing is None or isinstance(thing, (str, bytes, int, bool, enum.Enum)):
