@@ -32,6 +32,7 @@ __all__ = [
     "Follower",
     "Fork",
     "Gear",
+    "GearDrive",
     "GearPair",
     "Keyway",
     "Law",
@@ -60,6 +61,7 @@ __all__ = [
     "ellipse",
     "from_ratio",
     "from_transmission",
+    "gear_drive",
     "law",
     "limacon",
     "lobed_ellipse",
@@ -1015,6 +1017,31 @@ class Machine(Mechanism):
     def transmission_angle(self, name: str, phi: ArrayLike) -> NDArray[float64]: ...
 
 @final
+class GearDrive:
+    @property
+    def ratios(self) -> tuple[float, float]: ...
+    @property
+    def places(self) -> tuple[float, float]: ...
+    @property
+    def miss(self) -> float: ...
+    @property
+    def least_radii(self) -> tuple[float, float]: ...
+    @overload
+    def law(self, phi: _Real) -> float: ...
+    @overload
+    def law(self, phi: ArrayLike) -> NDArray[float64]: ...
+    def machine(self) -> Machine: ...
+    def __reduce__(self) -> tuple[Any, ...]: ...
+
+def gear_drive(
+    machine: Machine,
+    body: str = "crank",
+    *,
+    center_distance: _Real,
+    direction_deg: _Real = 180.0,
+) -> GearDrive: ...
+
+@final
 class Reversed:
     @property
     def axis(self) -> tuple[float, float]: ...
@@ -1045,7 +1072,7 @@ def reverse(
     path: ArrayLike,
     axis: tuple[_Real, _Real] | None = None,
     *,
-    split: Literal["powers", "one-pair"] = "powers",
+    split: Literal["powers", "mildest", "one-pair"] = "powers",
     bend_deg: _Real = 60.0,
     arms: _Count = 1,
 ) -> Reversed: ...

@@ -14,7 +14,7 @@ use centrode_mechanism::gear::GearPairError;
 use centrode_mechanism::gear::design::SpecError;
 use centrode_mechanism::gear::pitch::PitchError;
 use centrode_mechanism::linkage::{FourBarError, SixBarError};
-use centrode_mechanism::reverse::{AxisFault, MachineError, PathError, SplitError};
+use centrode_mechanism::reverse::{AxisFault, GearDriveError, MachineError, PathError, SplitError};
 use centrode_mechanism::shaft::ShaftError;
 use centrode_mechanism::three_arm::PusherError;
 use pyo3::exceptions::PyOSError;
@@ -86,6 +86,11 @@ raised! {
         MachineError::Arms { .. } => DesignError("arms"),
         MachineError::Steps { .. } => DesignError("steps"),
         _ => MechanismError("split"),
+    }
+    GearDriveError {
+        GearDriveError::Distance { .. } => DesignError("center_distance"),
+        GearDriveError::NoCrank { .. } => DesignError("body"),
+        _ => MechanismError("goals"),
     }
     CamError {
         CamError::Spec(error) => DesignError(error.key),

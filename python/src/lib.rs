@@ -9,6 +9,7 @@ mod composed;
 mod count;
 mod design;
 mod drawing;
+mod drive;
 mod error;
 mod feeder;
 mod files;
@@ -46,6 +47,7 @@ mod _centrode {
         composed::Machine,
         design::{_load, _schema, template},
         drawing::DrawingSpec,
+        drive::{GearDrive, gear_drive},
         feeder::Feeder,
         files::_write,
         gear::Gear,

@@ -44,7 +44,8 @@ pub(crate) struct Reversed {
 ///     path: Points in the order in which the tip passes them, mm, an array (N, 2): a closed periodic cubic spline runs
 ///         through them.
 ///     axis: Axis of the carrier, mm; left out, the mildest: that of the least change of the gears' ratio.
-///     split: "powers", two different pairs, or "one-pair", one pair twice.
+///     split: "powers", two different pairs, "mildest", two whose sharpest pitch curve is as blunt as can be, or "one-pair", one
+///         pair twice.
 ///     bend_deg: Angle from the carrier's first leg, to the intermediate gear, to its second, degrees.
 ///     arms: Number of arms.
 ///
@@ -200,7 +201,7 @@ impl Reversed {
     fn machine(&self, py: Python<'_>) -> Answer<Py<Machine>> {
         let design = self.made.design.clone();
         let composed = wait(py, move || {
-            let (design, _) = with_sound_teeth(&design)?;
+            let (design, _) = with_sound_teeth(&design, |_| true)?;
             Ok::<_, Raised>(
                 <Machine as Class>::Machine::resolve(&design)
                     .map_err(centrode_mechanism::design::MechanismError::from)?,

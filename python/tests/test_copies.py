@@ -12,6 +12,13 @@ import numpy as np
 import pytest
 
 PITCH = {"module": 2, "tooth_count": 20}
+PRESS = """
+family = "machine"
+frame.points = { O = [0, 0] }
+bodies.crank = { on = "frame.O", law = { ratio = 1 }, points = { A = [30, 0] } }
+dyads.ram = { type = "RRP", from = "crank.A", lengths = [120], line = "frame.O", side = "forward", bodies = ["rod", "ram"] }
+goals.steady = { figure = "ram.travel", over = "departure", within_deg = [40, 120], course = [105, 140], at_most = 1e-4 }
+"""
 
 
 def public_classes():
@@ -58,6 +65,7 @@ def objects():
     report = arms.check()
     reverse = ct.reverse([(0, 0), (60, 70), (150, 150), (230, 215), (262, 262), (235, 300), (170, 330), (100, 330),
                           (40, 300), (-5, 250), (-30, 190), (-38, 130), (-30, 60)], bend_deg=40)  # fmt: skip
+    press = ct.Machine.from_toml(PRESS)
     over = pair.driver.over_pins()
     made = [
         leg,
@@ -107,6 +115,7 @@ def objects():
         ct.PairRemedy("full", 23, pair),
         reverse,
         reverse.axes,
+        ct.gear_drive(press, center_distance=130, direction_deg=100),
         feeder.optimise("de", evaluations=100),
         *(made("why") if not issubclass(made, ct.DesignError) else made("why", "key", 3, 4)
           for made in CLASSES if issubclass(made, Exception)),

@@ -39,6 +39,8 @@ pub(crate) enum Command {
     Response(Response),
     /// Make a machine from the path wanted of its tip
     Reverse(Reverse),
+    /// Find the gears that drive a machine's crank so that its output does what its goals ask for
+    Drive(Drive),
     /// Design in the browser: a page of this computer alone, until Ctrl-C
     Studio(Studio),
     /// Write a design's figures, curves and moving picture as one HTML file
@@ -330,6 +332,32 @@ pub(crate) struct Reverse {
     /// Take a path that crosses itself, too
     #[arg(long)]
     pub(crate) crossing: bool,
+    /// Design file to write; left out, nothing is written and no teeth are sought
+    #[arg(short, long, value_name = "FILE")]
+    pub(crate) output: Option<PathBuf>,
+}
+
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Example: centrode drive slider.toml --body crank --center-distance 130 -o press.toml\n\nThe design is of family machine, its crank turned by law = { ratio = 1 }. Goals over = \"departure\" with a course say where the output goes evenly, goals over = \"span\" with at_most where it rests.\n\nExit status: 0 good; 2 no gears, a bad design, or the file cannot be written."
+)]
+pub(crate) struct Drive {
+    /// Design file, or - for standard input
+    pub(crate) design: PathBuf,
+    /// Body that turns evenly: the crank
+    #[arg(long, value_name = "NAME", default_value = "crank")]
+    pub(crate) body: String,
+    /// Distance of the new shaft from the crank's axis, mm
+    #[arg(long, value_name = "MM")]
+    pub(crate) center_distance: f64,
+    /// Direction from the crank's axis to the new shaft, degrees
+    #[arg(
+        long,
+        default_value_t = 180.0,
+        allow_negative_numbers = true,
+        value_name = "DEG"
+    )]
+    pub(crate) direction: f64,
     /// Design file to write; left out, nothing is written and no teeth are sought
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output: Option<PathBuf>,

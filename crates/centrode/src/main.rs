@@ -3,6 +3,7 @@
 mod args;
 mod check;
 mod completions;
+mod drive;
 mod export;
 mod failure;
 mod input;
@@ -48,6 +49,7 @@ fn main() -> ExitCode {
         Command::Export(command) => export::run(command, &mut out),
         Command::Optimise(command) => optimise::run(command, &mut out),
         Command::Response(command) => response::run(command, &mut out),
+        Command::Drive(command) => drive::run(command, &mut out),
         Command::Reverse(command) => reverse::run(command, &mut out),
         Command::Studio(command) => studio::run(command, &mut out),
         Command::Report(command) => sheet::run(command, &mut out),

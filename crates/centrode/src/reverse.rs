@@ -57,7 +57,7 @@ pub(crate) fn run(command: &Reverse, out: &mut impl Write) -> Result<ExitCode, F
     let toothed = command
         .output
         .as_ref()
-        .map(|_| with_sound_teeth(&made.design));
+        .map(|_| with_sound_teeth(&made.design, |_| true));
     drop(progress);
     chosen(command, &chain, &split, out)?;
     gears(&made, out)?;
@@ -94,11 +94,11 @@ fn none_possible(map: &AxisMap) -> Failure {
     ))
 }
 
-fn line(out: &mut impl Write, name: &str, words: &str) -> std::io::Result<()> {
+pub(crate) fn line(out: &mut impl Write, name: &str, words: &str) -> std::io::Result<()> {
     writeln!(out, "{name:NAME$}{words}")
 }
 
-fn range(ratios: [f64; 2]) -> String {
+pub(crate) fn range(ratios: [f64; 2]) -> String {
     format!("{:.4} to {:.4}", ratios[0], ratios[1])
 }
 
@@ -143,14 +143,8 @@ fn chosen(
 }
 
 fn gears(made: &ReversedMachine, out: &mut impl Write) -> std::io::Result<()> {
-    let pairs = made.design.pairs.keys().zip(&made.least_radii);
-    for (name, [driver, driven]) in pairs {
-        let words = format!(
-            "least convex radius {} (driver), {} (driven)",
-            Unit::Millimetre.tell(*driver),
-            Unit::Millimetre.tell(*driven)
-        );
-        line(out, &format!("pair {name}"), &words)?;
+    for (name, radii) in made.design.pairs.keys().zip(&made.least_radii) {
+        least_radii(out, name, *radii)?;
     }
     let error = format!(
         "{} at most, with laws of {} steps",
@@ -158,6 +152,21 @@ fn gears(made: &ReversedMachine, out: &mut impl Write) -> std::io::Result<()> {
         made.steps
     );
     line(out, "tip off the path", &error)
+}
+
+/// Prints the least convex radii of a pair's pitch curves.
+pub(crate) fn least_radii(
+    out: &mut impl Write,
+    pair: &str,
+    [driver, driven]: [f64; 2],
+) -> std::io::Result<()> {
+    let mm = |x: f64| Unit::Millimetre.tell(x);
+    let words = format!(
+        "least convex radius {} (driver), {} (driven)",
+        mm(driver),
+        mm(driven)
+    );
+    line(out, &format!("pair {pair}"), &words)
 }
 
 /// Prints what else is possible: other axes, and the other split.
@@ -189,7 +198,7 @@ fn others(
     Ok(())
 }
 
-fn teeth(found: &[SoundTeeth], out: &mut impl Write) -> std::io::Result<()> {
+pub(crate) fn teeth(found: &[SoundTeeth], out: &mut impl Write) -> std::io::Result<()> {
     for teeth in found {
         let kind = match teeth.addendum {
             Addendum::Full => "full",

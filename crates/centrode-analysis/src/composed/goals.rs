@@ -25,13 +25,13 @@ pub(super) fn goals(made: &Made<'_>) -> Vec<Found> {
     (1..)
         .zip(specs)
         .map(|(number, ((name, spec), figure))| {
-            let (value, input) = value(made, figure, spec, &ends);
+            let unit = unit(made, figure);
+            let (value, input) = value(made, figure, spec, &ends, unit);
             let title = if spec.title.is_empty() {
                 format!("{name}: {}", spec.words())
             } else {
                 spec.title.clone()
             };
-            let unit = unit(made, figure);
             let kept = |shown: f64| shown / unit.factor();
             let wanted = spec.wanted().map(|end| end.map(kept));
             let size = wanted
@@ -130,6 +130,7 @@ fn value(
     figure: &ComposedFigure,
     spec: &ComposedGoalSpec,
     ends: &[f64],
+    unit: Unit,
 ) -> (Option<f64>, Option<f64>) {
     if let ComposedFigure::Clearance(ends) = figure {
         return clearance(made, *ends, spec);
@@ -146,12 +147,13 @@ fn value(
                 spec,
                 |input| loaded.value(figure, input),
                 ends,
+                unit,
             ),
             _ => (None, None),
         };
     }
     let at = |input: f64| made.composed.value(figure, input).unwrap_or(f64::NAN);
-    of(made.composed, spec, at, ends)
+    of(made.composed, spec, at, ends, unit)
 }
 
 /// A function of the input as a goal takes it, and the input at which it is found; none where it has no value.
@@ -160,6 +162,7 @@ fn of(
     spec: &ComposedGoalSpec,
     at: impl Fn(f64) -> f64,
     ends: &[f64],
+    unit: Unit,
 ) -> (Option<f64>, Option<f64>) {
     let finite = |value: f64| value.is_finite().then_some(value);
     let Some(over) = spec.over else {
@@ -167,10 +170,23 @@ fn of(
         return (finite(at(input)), Some(input));
     };
     let [least, greatest] = match spec.within[..] {
-        [from, to] => extremes(at, &within(composed, from, to)),
+        [from, to] => {
+            let [first, last] = spec
+                .course
+                .unwrap_or_default()
+                .map(|end| end / unit.factor());
+            let rate = (last - first) / (to - from);
+            // Without a course it is zero everywhere.
+            let at = |input: f64| at(input) - (first + rate * (input - from));
+            extremes(at, &within(composed, from, to))
+        }
         _ => extremes(at, ends),
     };
     match over {
+        Over::Departure if -least.value > greatest.value => {
+            (finite(-least.value), Some(least.input))
+        }
+        Over::Departure => (finite(greatest.value), Some(greatest.input)),
         Over::Least => (finite(least.value), Some(least.input)),
         Over::Greatest => (finite(greatest.value), Some(greatest.input)),
         Over::Span => (finite(greatest.value - least.value), None),

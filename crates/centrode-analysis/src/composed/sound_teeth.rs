@@ -1,4 +1,4 @@
-//! Teeth for the pairs of a machine made from the path of its tip.
+//! Teeth for the pairs of a machine made from the path of its tip, or from the motion of its output.
 
 use std::f64::consts::PI;
 
@@ -44,7 +44,7 @@ pub enum NoSoundTeeth {
     },
     /// The flanks carry the motion with no tooth count tried.
     #[error(
-        "pair {pair}: full teeth are undercut above a module of {full_module:.4} mm, and fitted ones carry the motion by their flanks alone with no count up to {MOST_TEETH}: take another axis, bend or split, or ease the path"
+        "pair {pair}: full teeth are undercut above a module of {full_module:.4} mm, and fitted ones carry the motion by their flanks alone with no count up to {MOST_TEETH}: take another axis, bend or split, or ease the path; of a drive, leave more room between what its goals want"
     )]
     None {
         /// Name of the pair.
@@ -54,17 +54,18 @@ pub enum NoSoundTeeth {
     },
 }
 
-/// Gives every pair of a machine the largest teeth of a kind whose flanks carry the motion alone: full ones of which none is
+/// Gives those pairs of a machine that `of` picks by name the largest teeth of a kind whose flanks carry the motion alone: full ones of which none is
 /// undercut or short, where 120 or fewer on the driver are so, else fitted ones.
 ///
 /// # Errors
 /// [`NoSoundTeeth`] with the pair and the largest module of full teeth.
 pub fn with_sound_teeth(
     design: &ComposedDesign,
+    of: impl Fn(&str) -> bool,
 ) -> Result<(ComposedDesign, Vec<SoundTeeth>), NoSoundTeeth> {
     let mut changed = design.clone();
     let mut found = Vec::new();
-    for (name, pair) in &mut changed.pairs {
+    for (name, pair) in changed.pairs.iter_mut().filter(|(name, _)| of(name)) {
         checkpoint();
         let (sound, teeth) = sound(name, pair)?;
         *pair = sound;

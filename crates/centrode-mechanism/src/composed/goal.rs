@@ -35,6 +35,10 @@ pub struct ComposedGoalSpec {
     )]
     #[schemars(with = "Vec<f64>")]
     pub within: Vec<f64>,
+    /// Figure wanted at the first and at the last of these inputs, between which it shall change evenly: what a departure
+    /// counts from.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub course: Option<[f64; 2]>,
     /// Least figure wanted.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub at_least: Option<f64>,
@@ -59,6 +63,8 @@ pub enum Over {
     Greatest,
     /// The greatest less the least.
     Span,
+    /// The greatest distance from an even course.
+    Departure,
 }
 
 impl ComposedGoalSpec {
@@ -70,6 +76,7 @@ impl ComposedGoalSpec {
             (Some(Over::Least), _) => format!("least {figure}"),
             (Some(Over::Greatest), _) => format!("greatest {figure}"),
             (Some(Over::Span), _) => format!("span of {figure}"),
+            (Some(Over::Departure), _) => format!("departure of {figure} from its course"),
             (None, at) => format!("{figure} at {} deg", at.unwrap_or(0.0).to_degrees()),
         }
     }
@@ -104,6 +111,7 @@ impl ComposedGoalSpec {
             }
             _ => return broken("within_deg", Rule::Needed("as two inputs, from and to")),
         }
+        self.validate_course()?;
         for (key, value) in [("at_least", self.at_least), ("at_most", self.at_most)] {
             if value.is_some() && self.between.is_some() {
                 return broken(key, Rule::Excludes("between"));
@@ -132,6 +140,19 @@ impl ComposedGoalSpec {
         }
         match self.scale {
             Some(scale) => positive("scale", scale),
+            None => Ok(()),
+        }
+    }
+
+    fn validate_course(&self) -> Result<(), SpecError> {
+        let departs = self.over == Some(Over::Departure);
+        match self.course {
+            None if departs => broken("course", Rule::Needed("for a departure")),
+            Some(_) if !departs => broken("course", Rule::Unused("but for a departure")),
+            Some(_) if self.within.is_empty() => {
+                broken("within_deg", Rule::Needed("with a course"))
+            }
+            Some(ends) => ends.iter().try_for_each(|&end| finite("course", end)),
             None => Ok(()),
         }
     }

@@ -26,7 +26,7 @@ const BORE: f64 = 0.06;
 /// Thickness and width of a plate and diameter of its pins, as shares of the centre distance.
 const PLATE: [f64; 3] = [0.07, 0.16, 0.06];
 /// Numbers of equal steps of a table of the law that are tried, the last where none brings the tip near enough.
-const STEPS: [u32; 6] = [90, 180, 360, 720, 1440, 2880];
+pub(super) const STEPS: [u32; 6] = [90, 180, 360, 720, 1440, 2880];
 /// Fewest and most steps of a table.
 const RANGE: [u32; 2] = [12, 5000];
 /// Distance of the tip from the path that is near enough, as a share of the greatest distance of the path from the axis.
@@ -129,12 +129,6 @@ impl ReversedMachine {
         let pairs = pairs(chain, split, tables);
         let rolled = pairs.iter().map(|(_, pair)| Ok(GearPair::roll(pair)?.1));
         let rolled = rolled.collect::<Result<Vec<Rolling>, GearPairError>>()?;
-        let convex = |rolling: &Rolling| {
-            [Member::Driver, Member::Driven].map(|member| {
-                let range = CurvatureRange::of(rolling, member);
-                1.0 / range.greatest.1.max(0.0)
-            })
-        };
         let train = Train::new(split, &rolled);
         let off = |t: f64| {
             let tip = train.tip(chain, chain.at(t).carrier[0]);
@@ -145,9 +139,17 @@ impl ReversedMachine {
             design: design(chain, split, pairs, arms),
             steps,
             tip_error,
-            least_radii: rolled.iter().map(convex).collect(),
+            least_radii: rolled.iter().map(least_convex_radii).collect(),
         })
     }
+}
+
+/// Least radii of curvature where convex, mm: of driver and driven gear.
+pub(super) fn least_convex_radii(rolling: &Rolling) -> [f64; 2] {
+    [Member::Driver, Member::Driven].map(|member| {
+        let range = CurvatureRange::of(rolling, member);
+        1.0 / range.greatest.1.max(0.0)
+    })
 }
 
 /// Length of each leg of the carrier, mm: both are centre distances of gears.
@@ -164,7 +166,9 @@ fn turned(split: &Split) -> f64 {
 fn idler_mount(split: &Split) -> f64 {
     match split.kind() {
         SplitKind::OnePair => 0.0,
-        SplitKind::Powers => split.idler_offset() + split.first(0.0) - split.second(0.0),
+        SplitKind::Powers | SplitKind::Mildest => {
+            split.idler_offset() + split.first(0.0) - split.second(0.0)
+        }
     }
 }
 
@@ -175,29 +179,34 @@ fn pairs(
     [first, second]: [Vec<f64>; 2],
 ) -> Vec<(&'static str, GearPairDesign)> {
     let leg = leg(chain, split);
-    let pair = |table: Vec<f64>| {
-        let law = Transmission {
-            driven_angle: table,
-            center_distance: Some(leg),
-            tooth_count: Some(FIRST_COUNT),
-            ..Transmission::default()
-        };
-        let mut pair = GearPairDesign::new(PitchSpec::Transmission(law));
-        pair.teeth.addendum = Addendum::Fitted;
-        pair.teeth.backlash = rounded(BACKLASH * leg);
-        let body = BodySpec {
-            width: rounded(WIDTH * leg),
-            bore: rounded(BORE * leg),
-            ..BodySpec::default()
-        };
-        pair.driver = body.clone();
-        pair.driven = body;
-        pair
-    };
+    let pair = |table: Vec<f64>| table_pair(table, leg);
     match split.kind() {
         SplitKind::OnePair => vec![(STAGE, pair(first))],
-        SplitKind::Powers => vec![(FIRST, pair(first)), (SECOND, pair(second))],
+        SplitKind::Powers | SplitKind::Mildest => {
+            vec![(FIRST, pair(first)), (SECOND, pair(second))]
+        }
     }
+}
+
+/// Pair of a law given as a table, for teeth to be found.
+pub(super) fn table_pair(table: Vec<f64>, distance: f64) -> GearPairDesign {
+    let law = Transmission {
+        driven_angle: table,
+        center_distance: Some(distance),
+        tooth_count: Some(FIRST_COUNT),
+        ..Transmission::default()
+    };
+    let mut pair = GearPairDesign::new(PitchSpec::Transmission(law));
+    pair.teeth.addendum = Addendum::Fitted;
+    pair.teeth.backlash = rounded(BACKLASH * distance);
+    let body = BodySpec {
+        width: rounded(WIDTH * distance),
+        bore: rounded(BORE * distance),
+        ..BodySpec::default()
+    };
+    pair.driver = body.clone();
+    pair.driven = body;
+    pair
 }
 
 /// Tooth count before another is found.

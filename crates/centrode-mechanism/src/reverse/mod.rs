@@ -3,20 +3,27 @@
 //! A carrier turns about a fixed axis and bears an arm, whose tip runs along the path. The carrier turns once for one run
 //! of the path, and the arm turns once against it the other way, as the planet of a train does whose sun stands still and
 //! whose mean ratio is 1. Stretched once and folded once, the two bars follow from the path and the axis alone.
+//!
+//! And of the law of a crank from what is wanted of the output of the machine it drives: [`Timing`].
 
 mod chain;
+mod curvature;
 mod distance;
 mod error;
 mod map;
 mod path;
 mod split;
+mod timing;
 
-pub use crate::composed::{MachineError, ReversedMachine};
+pub use crate::composed::{
+    GearDrive, GearDriveError, GearDriveSpec, MachineError, ReversedMachine,
+};
 pub use chain::{ChainJet, TwoBar};
 pub use error::{AxisFault, PathError};
 pub use map::{AxisMap, AxisRange, PossibleAxis};
 pub use path::WantedPath;
 pub use split::{Split, SplitError, SplitKind};
+pub use timing::{Section, Timing, TimingError, Wanted};
 
 #[cfg(test)]
 mod tests;

@@ -8,6 +8,7 @@ use centrode_geometry::Tolerance;
 use centrode_mechanism::composed::{Composed, ComposedDesign, DyadKind};
 use centrode_mechanism::design::{Design, MechanismError};
 use centrode_mechanism::machine::Machine;
+use centrode_mechanism::reverse::{GearDrive, GearDriveError, GearDriveSpec};
 
 use super::{Mechanism, Resolved};
 
@@ -34,6 +35,10 @@ impl Mechanism for Composed {
 
     fn check(&self) -> Report {
         check_composed(self)
+    }
+
+    fn gear_drive(&self, spec: &GearDriveSpec) -> Option<Result<GearDrive, GearDriveError>> {
+        Some(GearDrive::new(self.design(), spec))
     }
 
     fn figures(&self) -> Vec<Table> {

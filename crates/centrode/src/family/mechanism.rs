@@ -7,6 +7,7 @@ use centrode_export::page::{Curve, Picture};
 use centrode_export::{Bundle, ExportError, Format, Options};
 use centrode_mechanism::design::Design;
 use centrode_mechanism::machine::Machine;
+use centrode_mechanism::reverse::{GearDrive, GearDriveError, GearDriveSpec};
 
 /// Finest tolerance that has a meaning for curves without a step of their own, mm.
 pub const FINEST: f64 = 1e-9;
@@ -44,6 +45,11 @@ pub trait Mechanism: Any + Debug + Send + Sync {
 
     /// Certificate of its contact at every driver angle; `None` in a family that has none.
     fn proof(&self) -> Option<Result<Proof, ProofError>> {
+        None
+    }
+
+    /// The same with a crank driven by gears, so that its output does what its goals ask for; `None` in a family without.
+    fn gear_drive(&self, _spec: &GearDriveSpec) -> Option<Result<GearDrive, GearDriveError>> {
         None
     }
 

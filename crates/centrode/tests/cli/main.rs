@@ -2,6 +2,7 @@
 #![cfg(feature = "cli")]
 
 mod bad_designs;
+mod drive;
 mod export;
 mod parts;
 mod reverse;

@@ -1,5 +1,6 @@
 //! The total law made by two stages of gears.
 
+mod mildest;
 mod one_pair;
 mod powers;
 
@@ -24,20 +25,26 @@ pub enum SplitKind {
     /// Two different pairs, each of which takes half of the logarithm of the ratio; the intermediate carries two gears.
     #[default]
     Powers,
+    /// Two different pairs that share the ratio so that the sharpest of their four pitch curves is as mild as it can be.
+    Mildest,
     /// One pair twice: sun and planet are one part, and a single intermediate gear meets both.
     OnePair,
 }
 
 impl SplitKind {
     /// Every kind by its word.
-    pub const NAMES: [(&'static str, Self); 2] =
-        [("powers", Self::Powers), ("one-pair", Self::OnePair)];
+    pub const NAMES: [(&'static str, Self); 3] = [
+        ("powers", Self::Powers),
+        ("mildest", Self::Mildest),
+        ("one-pair", Self::OnePair),
+    ];
 
     /// The word for it.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::Powers => "powers",
+            Self::Mildest => "mildest",
             Self::OnePair => "one-pair",
         }
     }
@@ -134,6 +141,7 @@ impl Split {
         }
         match kind {
             SplitKind::Powers => powers::split(chain, bend),
+            SplitKind::Mildest => mildest::split(chain, bend),
             SplitKind::OnePair => one_pair::split(chain, bend),
         }
     }

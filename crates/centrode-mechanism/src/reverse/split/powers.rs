@@ -12,11 +12,24 @@ const SHARE: f64 = 0.5;
 /// Size of an integrand beyond its own below which its digits are rounding.
 const NOISE: f64 = 100.0;
 
+/// Logarithm of a factor of the first stage's ratio by the carrier's direction.
+pub(super) type Bow = Box<dyn Fn(f64) -> f64 + Send + Sync>;
+
 /// Splits by `f' = c (G')^k`, g = f o G^-1.
 ///
 /// Both are one integral over the path: with psi and chi the turns of carrier and planet by its parameter,
 /// `f = g = c * integral of chi'^k psi'^(1 - k)`, and c makes a turn of it.
 pub(super) fn split(chain: &TwoBar, bend: f64) -> Result<Split, SplitError> {
+    split_with(chain, SplitKind::Powers, bend, Box::new(|_| 0.0))
+}
+
+/// The same with a factor e^bow of the first stage's ratio: under the integral it is there, too.
+pub(super) fn split_with(
+    chain: &TwoBar,
+    kind: SplitKind,
+    bend: f64,
+    bow: Bow,
+) -> Result<Split, SplitError> {
     let (from, period) = (chain.stretched(), chain.path().period());
     let to = from + period;
     let breaks = chain.path().breaks_between(from, to);
@@ -24,7 +37,8 @@ pub(super) fn split(chain: &TwoBar, bend: f64) -> Result<Split, SplitError> {
         let chain = chain.clone();
         move |t: f64| {
             let [carrier, planet] = chain.speeds(t, &chain.path().at(t));
-            (SHARE * planet.ln() + (1.0 - SHARE) * carrier.ln()).exp()
+            let bow = bow(chain.at(t).carrier[0]);
+            (SHARE * planet.ln() + (1.0 - SHARE) * carrier.ln() + bow).exp()
         }
     };
     let size = NOISE * TAU / period;
@@ -45,7 +59,7 @@ pub(super) fn split(chain: &TwoBar, bend: f64) -> Result<Split, SplitError> {
     };
     let (first, second) = (law(chain.by_carrier()?), law(chain.by_planet()?));
     Ok(Split {
-        kind: SplitKind::Powers,
+        kind,
         bend,
         first,
         second,

@@ -1,7 +1,9 @@
 mod axes;
 mod machines;
 mod paths;
+mod random;
 mod splits;
+mod timing;
 
 use std::sync::Arc;
 

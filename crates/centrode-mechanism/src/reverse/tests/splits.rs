@@ -3,7 +3,7 @@ use std::f64::consts::{PI, TAU};
 use centrode_geometry::Point;
 
 use super::{drawn, published, published_path};
-use crate::reverse::{Split, SplitError, SplitKind, TwoBar};
+use crate::reverse::{ReversedMachine, Split, SplitError, SplitKind, TwoBar};
 use crate::transmission::Transmission as _;
 
 #[test]
@@ -33,6 +33,31 @@ fn powers_make_the_total_law_and_halve_the_logarithm_of_its_ratio() {
                 "{psi}"
             );
         }
+    }
+}
+
+#[test]
+fn the_mildest_split_makes_the_total_law_with_blunter_gears_than_powers() {
+    for (x, y, gain) in [(210.0, 200.0, 1.2), (260.0, 160.0, 1.2)] {
+        let chain = TwoBar::new(&drawn(), Point::new(x, y), None).expect("a chain");
+        let bend = 40.0_f64.to_radians();
+        let law = chain.law().expect("a law");
+        let sharpest = |kind: SplitKind| {
+            let split = Split::new(&chain, kind, bend).expect("a split");
+            for i in -50..100 {
+                let psi = 0.1 * f64::from(i);
+                let planet = law.at(psi).position;
+                let [one, other] = [split.first(psi), split.second(planet)];
+                assert!((one - other).abs() < 1e-12 * (1.0 + one.abs()), "{psi}");
+                assert!((split.first(psi + TAU) - one - TAU).abs() < 1e-12);
+            }
+            let made = ReversedMachine::new(&chain, &split, 1, None).expect("a machine");
+            assert!(made.tip_error.value < 1e-4, "{:?}", made.tip_error);
+            let radii = made.least_radii.iter().flatten();
+            radii.fold(f64::INFINITY, |least, r| least.min(*r))
+        };
+        let [powers, mildest] = [SplitKind::Powers, SplitKind::Mildest].map(sharpest);
+        assert!(mildest > gain * powers, "({x}, {y}): {powers} {mildest}");
     }
 }
 

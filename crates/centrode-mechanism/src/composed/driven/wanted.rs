@@ -1,0 +1,101 @@
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
+use centrode_geometry::{Point, Vector};
+
+use super::super::{Composed, ComposedFigure, ComposedGoalSpec, Over, PointPart};
+use super::GearDriveError;
+use crate::reverse::{Section, Wanted};
+use crate::transmission::{FromFn, MotionJet, Transmission};
+
+/// An output over a turn of the crank, whether it is an angle, and what is wanted of it.
+type Output = (Arc<dyn Transmission>, bool, Vec<Section>);
+
+/// The output that goals name, over a turn of the crank, and what they want of it.
+pub(super) fn wanted(composed: &Composed) -> Result<Output, GearDriveError> {
+    let mut found: Option<(ComposedFigure, &str)> = None;
+    let mut sections = Vec::new();
+    for ((name, goal), figure) in composed.design().goals.iter().zip(composed.figures()) {
+        let Some((within, wanted)) = section(goal, figure) else {
+            continue;
+        };
+        let refused = |why: String| GearDriveError::Figure {
+            goal: name.clone(),
+            figure: goal.figure.clone(),
+            why,
+        };
+        if motion(composed, figure, 0.0).is_none() {
+            let why = "the output must be a place or an angle: point.x, point.y, body.angle, body.swing or body.travel";
+            return Err(refused(why.into()));
+        }
+        match found {
+            Some((other, words)) if other != *figure => {
+                return Err(refused(format!(
+                    "another goal is of {words}, and all that say what the output shall do must be of one figure"
+                )));
+            }
+            _ => found = Some((*figure, &goal.figure)),
+        }
+        sections.push(Section {
+            name: format!("goals.{name}"),
+            within,
+            wanted,
+        });
+    }
+    let (figure, _) = found.ok_or(GearDriveError::Nothing)?;
+    let start = motion(composed, &figure, 0.0).unwrap_or_default();
+    let end = motion(composed, &figure, TAU).unwrap_or_default();
+    // Of an angle whole turns, else rounding.
+    let advance = TAU * ((end.position - start.position) / TAU).round();
+    let machine = composed.clone();
+    let output = move |angle: f64| motion(&machine, &figure, angle).unwrap_or_default();
+    let output = FromFn::new(TAU, advance, composed.breaks(), output);
+    Ok((Arc::new(output), is_angle(&figure), sections))
+}
+
+fn is_angle(figure: &ComposedFigure) -> bool {
+    matches!(figure, ComposedFigure::Angle(_) | ComposedFigure::Swing(_))
+}
+
+/// What a goal wants of the output, and where.
+fn section(goal: &ComposedGoalSpec, figure: &ComposedFigure) -> Option<([f64; 2], Wanted)> {
+    let [from, to] = goal.within[..] else {
+        return None;
+    };
+    let kept = |shown: f64| match is_angle(figure) {
+        true => shown.to_radians(),
+        false => shown,
+    };
+    let wanted = match (goal.over, goal.course, goal.wanted()) {
+        (Some(Over::Departure), Some(ends), _) => Wanted::Even(ends.map(kept)),
+        (Some(Over::Span), _, [_, Some(band)]) => Wanted::Rest(kept(band)),
+        _ => return None,
+    };
+    Some(([from, to], wanted))
+}
+
+/// Motion of a place or an angle by the input; none of another figure.
+fn motion(composed: &Composed, figure: &ComposedFigure, input: f64) -> Option<MotionJet> {
+    Some(match *figure {
+        ComposedFigure::Point { body, at, part } => {
+            let jet = composed.point(body, at, input);
+            let of = |p: Point, d: [Vector; 3], k: usize| MotionJet {
+                position: p[k],
+                velocity: d[0][k],
+                acceleration: d[1][k],
+                jerk: d[2][k],
+            };
+            let k = match part {
+                PointPart::X => 0,
+                PointPart::Y => 1,
+                PointPart::Speed | PointPart::Acceleration => return None,
+            };
+            of(jet.point, [jet.first, jet.second, jet.third], k)
+        }
+        ComposedFigure::Angle(body) => composed.angle(body, input),
+        ComposedFigure::Swing(body) | ComposedFigure::Travel(body) => {
+            composed.bodies().get(body)?.mount.as_ref()?.law.at(input)
+        }
+        _ => return None,
+    })
+}
