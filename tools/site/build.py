@@ -41,7 +41,8 @@ def stage(page: Path, to: Path, ran: Path, text: str) -> None:
         if not made.exists():
             raise PageError(f"{page}: no block of the page makes the picture {name}")
         file = f"{page.stem}-{name.replace('/', '-')}"
-        (to / page.parent / file).write_bytes(made.read_bytes())
+        drawn = made.name == "assembly.svg"
+        (to / page.parent / file).write_text(gallery.bolder(made.read_text(), 300) if drawn else made.read_text())
         return f"![{words}]({file})"
 
     (to / page).parent.mkdir(parents=True, exist_ok=True)

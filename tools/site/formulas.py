@@ -5,6 +5,16 @@ import re
 
 from latex2mathml.converter import convert
 
+LETTER = r"(<m[in]>[^<]*</m[in]>)"
+PRIME = r"<mi>&#x0203([23]);</mi>"
+SIGN = r'<mo lspace="0" rspace="0">&#x0203\g<{}>;</mo>'
+# A prime is raised already: browsers without a mathematical font would raise it twice.
+PRIMES = {
+    rf"<msup>{LETTER}{PRIME}</msup>": rf"<mrow>\1{SIGN.format(2)}</mrow>",
+    rf"<msubsup>{LETTER}{LETTER}{PRIME}</msubsup>": rf"<mrow><msub>\1\2</msub>{SIGN.format(3)}</mrow>",
+    rf"<msup>{LETTER}<mrow>{PRIME}{LETTER}</mrow></msup>": rf"<msup><mrow>\1{SIGN.format(2)}</mrow>\3</msup>",
+}
+
 
 def on_page_content(content: str, **_: object) -> str:
     """Every formula of a page, of its own line or within one."""
@@ -17,4 +27,6 @@ def formula(found: re.Match[str]) -> str:
     block = tag == "div"
     text = re.sub(r"^\\[\[(]|\\[\])]$", "", text)
     made = convert(text, display="block" if block else "inline")
+    for raised, plain in PRIMES.items():
+        made = re.sub(raised, plain, made)
     return f'<div class="formula">{made}</div>' if block else made

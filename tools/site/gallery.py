@@ -1,5 +1,6 @@
 """The gallery: every shipped design, run; picture, file and report of each."""
 
+import re
 import subprocess
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
@@ -14,7 +15,9 @@ FAMILIES = {
     "feeder": "Feeders",
     "machine": "Composed machines",
 }
+# A small picture of a large machine would have lines too thin to see.
 # What shows a design best, the first there is.
+LINES = "<style>*{vector-effect:non-scaling-stroke;stroke-width:.8px}</style>"
 PICTURES = ("assembly.svg", "gears-assembly.svg", "groove.svg")
 
 
@@ -54,7 +57,7 @@ def entry(design: Path, pages: Path, binary: Path) -> dict:
     drawn = folder.parent / f"{name}-drawn"
     run(binary, "export", design, "--to", drawn, "--format", "svg,json")
     picture = next(drawn / each for each in PICTURES if (drawn / each).exists())
-    (folder / "picture.svg").write_bytes(picture.read_bytes())
+    (folder / "picture.svg").write_text(bolder(picture.read_text(), 120))
     for made in drawn.iterdir():
         made.unlink()
     drawn.rmdir()
@@ -62,6 +65,18 @@ def entry(design: Path, pages: Path, binary: Path) -> dict:
     wanted = tomllib.loads(design.read_text())
     title = wanted.get("title") or wanted.get("name") or name
     return {"name": name, "family": wanted["family"], "title": title, "good": status == 0}
+
+
+def bolder(svg: str, size: float) -> str:
+    """A drawing with bolder lines, as if the machine were `size` mm across: those to scale would be too thin."""
+    extent = max(map(float, re.search(r'viewBox="\S+ \S+ (\S+) (\S+)"', svg).groups()))
+    scale = max(extent / size, 1)
+
+    def scaled(found: re.Match[str]) -> str:
+        numbers = " ".join(f"{float(number) * scale:.4g}" for number in found[2].split())
+        return f'{found[1]}="{numbers}"'
+
+    return re.sub(r'(stroke-width|stroke-dasharray)="([\d. ]+)"', scaled, svg)
 
 
 def run(binary: Path, *words: object) -> int:
@@ -75,7 +90,7 @@ def run(binary: Path, *words: object) -> int:
 def card(entry: dict) -> str:
     """One design as HTML."""
     name, title = entry["name"], entry["title"].replace("&", "&amp;").replace("<", "&lt;")
-    verdict = "good" if entry["good"] else "misses a goal or has another error: see the report"
+    verdict = "good" if entry["good"] else "has an error, see its report"
     picture = f'<img src="gallery/{name}/picture.svg" alt="{title}" loading="lazy">'
     return (
         f'<figure><a href="gallery/{name}/report.html">{picture}</a>'
