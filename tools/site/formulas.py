@@ -29,4 +29,6 @@ def formula(found: re.Match[str]) -> str:
     made = convert(text, display="block" if block else "inline")
     for raised, plain in PRIMES.items():
         made = re.sub(raised, plain, made)
+    made = re.sub(r"(?<!<msup>)(<mi>(?:sin|cos|tan)</mi>)(?=<m(?!o))", r"\1<mspace width='0.15em'></mspace>", made)
+    made = re.sub(r"(?<=</m[in]>)(?=<mi>(?:sin|cos|tan)</mi>)", r"<mspace width='0.15em'></mspace>", made)
     return f'<div class="formula">{made}</div>' if block else made

@@ -1,7 +1,9 @@
 """The reference of the Python package: signatures from the stub, words from the docstrings."""
 
 import ast
+import functools
 import inspect
+import itertools
 import re
 from pathlib import Path
 
@@ -113,18 +115,35 @@ def klass(name: str, thing: type, stub: Stub) -> list[str]:
     if made:
         lines += ["```python", *(pretty(name, each) for each in made), "```", ""]
     lines += words(inspect.getdoc(thing) or "")
-    order = stub.order.get(name, list(vars(thing)))
+    fields = described().get(name, {})
+    order = stub.order.get(name, list(dict.fromkeys([*fields, *vars(thing)])))
     members = [each for each in order if not each.startswith("_") and each in vars(thing)]
     if properties := [each for each in members if not callable(getattr(thing, each))]:
         lines += ["", "| property | type | meaning |", "|---|---|---|"]
         for each in properties:
             kind = stub.properties.get(f"{name}.{each}") or returned(vars(thing)[each])
-            lines.append(f"| `{each}` | {code(kind)} | {cell(inspect.getdoc(vars(thing)[each]) or '')} |")
+            kind, about = fields.get(each, (kind, inspect.getdoc(vars(thing)[each]) or ""))
+            lines.append(f"| `{each}` | {code(kind)} | {cell(about)} |")
     for each in members:
         if callable(getattr(thing, each)):
             lines += ["", f"#### {name}.{each} {{ #{name}.{each} }}", ""]
             lines += call(f"{name}.{each}", each, getattr(thing, each), stub)
     return lines
+
+
+@functools.cache
+def described() -> dict[str, dict[str, tuple[str, str]]]:
+    """Type and words of each field of each data class: the words stand below the field in its source."""
+    found: dict[str, dict[str, tuple[str, str]]] = {}
+    for source in STUB.parent.glob("_*.py"):
+        classes = [each for each in ast.parse(source.read_text()).body if isinstance(each, ast.ClassDef)]
+        for each in classes:
+            for field, below in itertools.pairwise(each.body):
+                if isinstance(field, ast.AnnAssign) and isinstance(below, ast.Expr):
+                    kind = re.sub(r"NDArray\[[^\]]*\]", "ndarray", ast.unparse(field.annotation))
+                    words_of = inspect.cleandoc(below.value.value)
+                    found.setdefault(each.name, {})[ast.unparse(field.target)] = (kind, words_of)
+    return found
 
 
 def call(key: str, name: str, thing: object, stub: Stub) -> list[str]:
