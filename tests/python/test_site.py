@@ -117,6 +117,7 @@ def page_of(folder, text):
             "```sh\ncentrode new gear-pair > pair.toml\ncentrode check pair.toml   # exit status 1: no\n```\n",
             "status 0",
         ),
+        ("```toml\nkind = circle\n```\n", "no TOML"),
         ("```sh\nrm -r out\n```\n", "is not run"),
     ],
 )

@@ -12,6 +12,8 @@ import threading
 from dataclasses import dataclass
 from pathlib import Path
 
+import tomllib
+
 ROOT = Path(__file__).resolve().parents[2]
 BINARY = Path(os.environ.get("CENTRODE_BIN", ROOT / "target" / "debug" / "centrode"))
 
@@ -136,6 +138,11 @@ class Run:
                 file.write(block.text + "\n")
             self.files.add(block.title)
             return None
+        if block.language == "toml":
+            try:
+                tomllib.loads(block.text)
+            except tomllib.TOMLDecodeError as error:
+                raise PageError(f"{self.page}:{block.first}: no TOML: {error}") from error
         if block.language == "python":
             return self.python(block)
         printed = [self.command(line, block) for line in commands(block)]
