@@ -50,8 +50,10 @@ pub(crate) struct GearDrive {
 /// ... from = "crank.A"
 /// ... lengths = [120]
 /// ... line = "frame.O"
+/// ... line_deg = 0
 /// ... side = "forward"
 /// ... bodies = ["rod", "ram"]
+/// ... joint = "B"
 /// ... [goals.steady]
 /// ... figure = "ram.travel"
 /// ... over = "departure"

@@ -58,4 +58,4 @@ def test_what_is_asked_wrongly_is_refused(drive):
     with pytest.raises(ct.MechanismError, match=r"goals\.rest"):
         ct.gear_drive(ct.Machine.from_toml(SLIDER.replace("at_most = 1.5", "at_most = 40")), center_distance=130)
     with pytest.raises(ct.MechanismError, match="no goal says"):
-        ct.gear_drive(ct.Machine.from_toml(ct.template("machine").replace("# ", "")), center_distance=130)
+        ct.gear_drive(ct.Machine.from_toml(SLIDER.split("goals.steady")[0]), center_distance=130)
