@@ -113,33 +113,31 @@ def parameters(nodes):
 
 
 def written(found):
-    """Names as a list to keep: one that holds others at the margin, those in it below."""
-    owners = {name.rpartition(".")[0] for name in found}
-    text = "# Every public name, with its parameters; made by scripts/api.\n"
+    """Names as a list to keep: a line for one that holds others, with those in it."""
+    owners = {name.rpartition(".")[0] for name in found} & set(found)
+    text = "# Every public name, with what is in it; made by scripts/api.\n"
 
     def word(name, short):
         return short if found[name] is None else f"{short}({','.join(found[name])})"
 
-    for owner in sorted(owners & set(found)):
-        text += word(owner, owner) + "\n"
+    for owner in sorted(owners):
         inside = [name for name in sorted(found) if name.rpartition(".")[0] == owner and name not in owners]
-        words = " ".join(word(name, name.rpartition(".")[2]) for name in inside)
-        for line in textwrap.wrap(words, 116, break_long_words=False, break_on_hyphens=False):
-            text += f"    {line}\n"
+        words = " ".join([f"{word(owner, owner)}:", *(word(name, name.rpartition(".")[2]) for name in inside)])
+        lines = textwrap.wrap(words, 120, subsequent_indent="    ", break_long_words=False, break_on_hyphens=False)
+        text += "\n".join(lines) + "\n"
     return text
 
 
 def read(text):
     """Names of a list, each with its parameters."""
     found, owner = {}, ""
-    for line in text.splitlines()[1:]:
-        for word in line.split():
-            name, words = re.fullmatch(r"([\w.]+)(?:\((.*)\))?", word).groups()
-            if line.startswith(" "):
-                name = f"{owner}.{name}"
-            else:
-                owner = name
-            found[name] = None if words is None else words.split(",") if words else []
+    for token in text.partition("\n")[2].split():
+        name, words = re.fullmatch(r"([\w.]+)(?:\((.*)\))?:?", token).groups()
+        if token.endswith(":"):
+            owner = name
+        else:
+            name = f"{owner}.{name}"
+        found[name] = None if words is None else words.split(",") if words else []
     return found
 
 
