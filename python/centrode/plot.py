@@ -6,6 +6,7 @@ Every function draws into the given axes, or into new ones, and gives back what 
 from __future__ import annotations
 
 import json
+from contextlib import contextmanager
 from os import PathLike, fspath
 from typing import TYPE_CHECKING, Any, cast
 
@@ -17,7 +18,7 @@ from ._goal import Goal
 from ._optimised import Optimised
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterator, Sequence
 
     from matplotlib.animation import FuncAnimation
     from matplotlib.axes import Axes
@@ -78,7 +79,8 @@ def animate(
     Returns:
         The animation; keep it as long as it is to be shown.
     """
-    from matplotlib.animation import FuncAnimation
+    with _matplotlib():
+        from matplotlib.animation import FuncAnimation
 
     suffix = "" if path is None else fspath(path).rpartition(".")[2].lower()
     if path is not None and suffix not in ("gif", "html"):
@@ -197,7 +199,8 @@ def contact(of: GearPair | Contact, axes: NDArray[Any] | None = None) -> NDArray
     """
     analysis = of if isinstance(of, Contact) else of.contact()
     if axes is None:
-        from matplotlib import pyplot
+        with _matplotlib():
+            from matplotlib import pyplot
 
         _, axes = pyplot.subplots(4, 1, sharex=True, figsize=(8.0, 8.0), layout="constrained")
     error, count, play, clearance = np.ravel(axes)
@@ -262,7 +265,8 @@ def response(
     found = [goal for goal in of.goals() if goal.value is not None]
     answers = of.response(parameter, values)
     if axes is None:
-        from matplotlib import pyplot
+        with _matplotlib():
+            from matplotlib import pyplot
 
         rows = -(-len(found) // 4)
         _, axes = pyplot.subplots(rows, 4, sharex=True, figsize=(13.0, 2.8 * rows), layout="constrained", squeeze=False)
@@ -310,7 +314,8 @@ def feeder(of: Feeder, axes: NDArray[Any] | None = None) -> NDArray[Any]:
         axes: Three axes to draw into; a new row of three if left out.
     """
     if axes is None:
-        from matplotlib import pyplot
+        with _matplotlib():
+            from matplotlib import pyplot
 
         _, axes = pyplot.subplots(1, 3, figsize=(14.0, 4.5), layout="constrained")
     path, place, speed = np.ravel(axes)
@@ -444,7 +449,17 @@ def _locator(step: float) -> Any:
 
 
 def _axes(size: tuple[float, float]) -> Axes:
-    from matplotlib import pyplot
+    with _matplotlib():
+        from matplotlib import pyplot
 
     _, ax = pyplot.subplots(figsize=size, layout="constrained")
     return ax
+
+
+@contextmanager
+def _matplotlib() -> Iterator[None]:
+    """Imports of matplotlib; where it is missing, the error says how to have it."""
+    try:
+        yield
+    except ModuleNotFoundError as missing:
+        raise ModuleNotFoundError("plots need matplotlib: pip install centrode[plot]", name=missing.name) from missing

@@ -5,6 +5,7 @@ use pyo3::prelude::pymodule;
 mod array;
 mod body;
 mod cam;
+mod command;
 mod composed;
 mod count;
 mod design;
@@ -44,6 +45,7 @@ mod _centrode {
             DiscCam, Follower, Fork, Law, Segment, dwell, law, law_of_polynomial, return_, rise,
             swinging_flat, swinging_roller, transition, translating_flat, translating_roller,
         },
+        command::_run,
         composed::Machine,
         design::{_load, _schema, template},
         drawing::DrawingSpec,

@@ -1,5 +1,8 @@
 """Plots from Python."""
 
+import subprocess
+import sys
+
 import centrode as ct
 import matplotlib as mpl
 import numpy as np
@@ -107,3 +110,27 @@ def test_a_response_is_drawn_a_picture_a_goal():
     pick = np.ravel(axes)[1]
     low, high = pick.patches[0].get_y(), pick.patches[0].get_y() + pick.patches[0].get_height()
     assert (low, high) == pytest.approx((-5, 15))
+
+
+def test_without_matplotlib_an_error_says_how_to_have_it():
+    """A finder that knows no matplotlib stands before the others, as in an environment without it."""
+    code = """
+import sys
+
+class Without:
+    def find_spec(self, name, path=None, target=None):
+        if name.partition(".")[0] == "matplotlib":
+            raise ModuleNotFoundError(f"No module named {name!r}", name=name)
+
+sys.meta_path.insert(0, Without())
+import centrode as ct
+
+pair = ct.GearPair(ct.pitch.circle(module=2, tooth_count=20))
+for draw in (ct.plot.pair, ct.plot.motion, ct.plot.contact, ct.plot.animate):
+    try:
+        draw(pair)
+    except ImportError as missing:
+        print(missing)
+"""
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60)
+    assert done.stdout == 4 * "plots need matplotlib: pip install centrode[plot]\n", done.stderr

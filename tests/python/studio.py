@@ -54,9 +54,9 @@ class Studio:
 
 
 @contextmanager
-def studio(design, binary=BINARY, **options):
+def studio(design, *program, **options):
     """Serves a design file; the program is ended with Ctrl-C and must end at once."""
-    command = [binary, "studio", design]
+    command = [*(program or [BINARY]), "studio", design]
     process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, **options)
     try:
         url = process.stdout.readline().strip()

@@ -7,6 +7,8 @@ pub use centrode_export as export;
 pub use centrode_geometry as geometry;
 pub use centrode_mechanism as mechanism;
 
+#[cfg(feature = "cli")]
+pub mod cli;
 pub mod family;
 
 pub use family::FAMILIES;
@@ -26,3 +28,8 @@ pub fn meshing(report: &analysis::Report) -> Option<Meshing> {
         backlash: range("normal_backlash_min", "normal_backlash_max")?,
     })
 }
+
+/// Its examples are tested.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -1,0 +1,433 @@
+use std::ffi::OsStr;
+use std::path::PathBuf;
+
+use crate::analysis::optimise::Strategy;
+use crate::family::{FAMILIES, PartName};
+use crate::geometry::Tolerance;
+use crate::mechanism::reverse::SplitKind;
+use clap::builder::{
+    NonEmptyStringValueParser, PossibleValue, PossibleValuesParser, TypedValueParser,
+};
+use clap::{Args, Parser, Subcommand, ValueEnum};
+
+/// Finest tolerance that can be asked for, mm: below it lie the rounding errors of the outlines.
+const FINEST: f64 = 1e-7;
+
+/// Design, prove and export non-circular gears.
+#[derive(Debug, Parser)]
+#[command(
+    name = "centrode",
+    version,
+    after_help = "Exit status: 0 good; 1 a finding of severity error; 2 no mechanism, a bad design file or bad usage."
+)]
+pub(crate) struct Arguments {
+    #[command(subcommand)]
+    pub(crate) command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// Print a commented design file to edit
+    New(New),
+    /// Resolve a design and report its figures and findings
+    Check(Check),
+    /// Write a design's drawings, solids, tables and simulator model
+    Export(Export),
+    /// Search for a design that reaches its goals
+    Optimise(Optimise),
+    /// Tell how the figures answer one number of a design
+    Response(Response),
+    /// Make a machine from the path wanted of its tip
+    Reverse(Reverse),
+    /// Find the gears that drive a machine's crank so that its output does what its goals ask for
+    Drive(Drive),
+    /// Design in the browser: a page of this computer alone, until Ctrl-C
+    Studio(Studio),
+    /// Write a design's figures, curves and moving picture as one HTML file
+    Report(Report),
+    /// Write a certificate of a gear pair's contact at every driver angle, for a checker to prove
+    Prove(Prove),
+    /// Print the JSON schema of the design file, or of a file that is exported
+    Schema(Schema),
+    /// Print a completion script for a shell
+    Completions(Completions),
+    /// Print the man page of the program or of a command
+    Man(Man),
+}
+
+#[derive(Debug, Args)]
+#[command(after_help = "Example: centrode new gear-pair > pair.toml")]
+pub(crate) struct New {
+    /// Family of mechanism
+    #[arg(value_parser = PossibleValuesParser::new(FAMILIES.words()))]
+    pub(crate) family: String,
+}
+
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Exit status: 0 good; 1 a finding of severity error; 2 no mechanism or a bad design file."
+)]
+pub(crate) struct Check {
+    /// Design file, or - for standard input
+    pub(crate) design: PathBuf,
+    /// Print the report as JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+    /// Print the figures that goals of this design can name, with their extremes over the cycle, instead of checking
+    #[arg(long)]
+    pub(crate) figures: bool,
+    /// Print changed designs that mend what the check finds, worked out: for gear pairs, from how many teeth on the flanks
+    /// alone carry the motion
+    #[arg(long, conflicts_with = "figures")]
+    pub(crate) remedy: bool,
+}
+
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Example: centrode export pair.toml --to out --format dxf,json\n\nExit status: 0 good; 1 a finding of severity error (the files are written all the same); 2 no mechanism, or the files cannot be written."
+)]
+pub(crate) struct Export {
+    /// Design file, or - for standard input
+    pub(crate) design: PathBuf,
+    /// Folder for the files, made if it is missing
+    #[arg(long, value_name = "DIR")]
+    pub(crate) to: PathBuf,
+    /// Kinds of file, separated by commas; left out, all
+    #[arg(long, value_enum, value_delimiter = ',', value_name = "KINDS")]
+    pub(crate) format: Vec<File>,
+    /// Greatest distance of what is written from the exact curve, mm
+    #[arg(long, default_value = "0.001", value_parser = tolerance, allow_negative_numbers = true, value_name = "MM")]
+    pub(crate) tolerance: Tolerance,
+    /// Flavour of the DXF files
+    #[arg(long, value_enum, default_value_t = Dxf::R2010)]
+    pub(crate) dxf: Dxf,
+    /// Parts to write files of, separated by commas: of these, or those that the design names; left out, all
+    #[arg(long, value_parser = PartWord, value_delimiter = ',', value_name = "PARTS")]
+    pub(crate) part: Vec<String>,
+    /// Size of the drawing sheets; left out, the design's, or the smallest that takes the part
+    #[arg(long, value_enum, ignore_case = true, value_name = "SIZE")]
+    pub(crate) sheet: Option<Size>,
+    /// How views lie to each other on the drawing sheets; left out, as the design says
+    #[arg(long, value_enum, value_name = "METHOD")]
+    pub(crate) projection: Option<Method>,
+}
+
+impl Export {
+    /// Whether this kind of file is asked for.
+    pub(crate) fn wants(&self, file: File) -> bool {
+        self.format.is_empty() || self.format.contains(&file)
+    }
+}
+
+/// A kind of file.
+#[derive(Clone, Copy, Debug, Eq, PartialEq, ValueEnum)]
+pub(crate) enum File {
+    /// Cutting files: each gear, and both in place
+    Dxf,
+    /// Pictures of the same
+    Svg,
+    /// Drawing sheets with dimensions and tables, as DXF and SVG
+    Sheet,
+    /// Drawing sheets as PDF
+    Pdf,
+    /// Solids
+    Stl,
+    /// Exact solids for CAD
+    Step,
+    /// Solids with their unit, for printing
+    #[value(name = "3mf")]
+    ThreeMf,
+    /// Points of the outlines, measures over pins, and the motion
+    Csv,
+    /// Simulator model, with its solids and motion
+    Urdf,
+    /// Model with a convex body a tooth for contact, with its solids, motion and a script
+    Mjcf,
+    /// Report: every figure and finding
+    Json,
+}
+
+/// Name of a part: a machine may have others than are listed.
+#[derive(Clone, Copy)]
+struct PartWord;
+
+impl TypedValueParser for PartWord {
+    type Value = String;
+
+    fn parse_ref(
+        &self,
+        command: &clap::Command,
+        argument: Option<&clap::Arg>,
+        value: &OsStr,
+    ) -> Result<String, clap::Error> {
+        NonEmptyStringValueParser::new().parse_ref(command, argument, value)
+    }
+
+    /// The parts of every family, those of several families once and last.
+    fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
+        let parts = FAMILIES.0.iter().flat_map(|family| family.parts);
+        let mut all: Vec<PartName> = Vec::new();
+        for part in parts {
+            all.retain(|other| other.name != part.name);
+            all.push(*part);
+        }
+        let values = all.into_iter();
+        let values = values.map(|part| PossibleValue::new(part.name).help(part.about));
+        Some(Box::new(values))
+    }
+}
+
+/// A size of sheet, ISO 5457.
+#[derive(Clone, Copy, Debug, Eq, PartialEq, ValueEnum)]
+pub(crate) enum Size {
+    /// 210 x 297 mm
+    #[value(name = "A4")]
+    A4,
+    /// 420 x 297 mm
+    #[value(name = "A3")]
+    A3,
+    /// 594 x 420 mm
+    #[value(name = "A2")]
+    A2,
+    /// 841 x 594 mm
+    #[value(name = "A1")]
+    A1,
+    /// 1189 x 841 mm
+    #[value(name = "A0")]
+    A0,
+}
+
+/// A method of projection, ISO 5456-2.
+#[derive(Clone, Copy, Debug, Eq, PartialEq, ValueEnum)]
+pub(crate) enum Method {
+    /// A view stands on the far side of what it looks at
+    FirstAngle,
+    /// A view stands on the side it is looked at from
+    ThirdAngle,
+}
+
+/// A flavour of DXF.
+#[derive(Clone, Copy, Debug, Eq, PartialEq, ValueEnum)]
+pub(crate) enum Dxf {
+    /// Release 2010, lines and arcs
+    R2010,
+    /// Release 12, lines and arcs, for old controllers
+    R12,
+    /// Release 2010, splines
+    Spline,
+}
+
+fn tolerance(word: &str) -> Result<Tolerance, String> {
+    let mm: f64 = word
+        .parse()
+        .map_err(|_| "not a number of millimetres".to_owned())?;
+    let tolerance = Tolerance::new(mm).map_err(|error| error.to_string())?;
+    if mm < FINEST {
+        return Err(format!("tolerance must be at least {FINEST} mm"));
+    }
+    Ok(tolerance)
+}
+
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Example: centrode optimise arms.toml --method de --seed 1 --evaluations 20000 -o better.toml\n\nA table of the design says what may move and how far: [optimise] of a three-arm, [bounds] of a feeder, [vary] of a machine. Ctrl-C ends the search and keeps the best so far; --resume goes on from the search stored beside the output. Where the bounds allow no design that reaches the goals, the search says how near they let it come; --widen then writes the design with the least widening.\n\nExit status: 0 every goal is reached; 1 some are not (the file is written all the same); 2 no search, a bad design file, or the file cannot be written."
+)]
+pub(crate) struct Optimise {
+    /// Design file, or - for standard input
+    pub(crate) design: PathBuf,
+    /// How to search; left out, guided, or as the search gone on with began
+    #[arg(long, value_parser = PossibleValuesParser::new(Strategy::NAMES.map(|(name, _)| name)))]
+    pub(crate) method: Option<String>,
+    /// Same seed, same answer, on any number of cores; left out, 1, or that of the search gone on with
+    #[arg(long)]
+    pub(crate) seed: Option<u64>,
+    /// Most evaluations, the generation under way is finished; left out, 20000, or what the search gone on with had
+    #[arg(long, value_parser = clap::value_parser!(u64).range(1..))]
+    pub(crate) evaluations: Option<u64>,
+    /// Points a generation; left out, by the method and the number of parameters
+    #[arg(long)]
+    pub(crate) population: Option<usize>,
+    /// File for the better design: the design's text with the new numbers, comments kept
+    #[arg(short, long, value_name = "FILE")]
+    pub(crate) output: PathBuf,
+    /// Go on with the search that is stored beside the output
+    #[arg(long)]
+    pub(crate) resume: bool,
+    /// Instead of a search, widen the bounds by as little as lets all goals be reached, where the family can
+    #[arg(long, conflicts_with_all = ["method", "seed", "evaluations", "population", "resume"])]
+    pub(crate) widen: bool,
+    /// Print the outcome as JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+impl Optimise {
+    /// Name of the method of a new search.
+    pub(crate) fn method(&self) -> &str {
+        self.method.as_deref().unwrap_or("guided")
+    }
+}
+
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Example: centrode response arms.toml --parameter r1 --from 15 --to 27 --of trajectory-height"
+)]
+pub(crate) struct Response {
+    /// Design file, or - for standard input
+    pub(crate) design: PathBuf,
+    /// Key of a number of the design file, such as `arm.tip_distance`, or a parameter's name, such as r1
+    #[arg(long, value_name = "KEY")]
+    pub(crate) parameter: String,
+    /// First value, in the file's unit
+    #[arg(long, allow_negative_numbers = true)]
+    pub(crate) from: f64,
+    /// Last value
+    #[arg(long, allow_negative_numbers = true)]
+    pub(crate) to: f64,
+    /// Number of values
+    #[arg(long, default_value_t = 9, value_parser = clap::value_parser!(u16).range(2..=10_000))]
+    pub(crate) count: u16,
+    /// Goals or figures to tell, separated by commas; left out, the goals
+    #[arg(long, value_delimiter = ',', value_name = "NAMES")]
+    pub(crate) of: Vec<String>,
+    /// Check every value as a whole, teeth and cams too, for --csv and --json
+    #[arg(long)]
+    pub(crate) whole: bool,
+    /// Write every figure at every value to a CSV file, angles in radians
+    #[arg(long, value_name = "FILE")]
+    pub(crate) csv: Option<PathBuf>,
+    /// Print values and figures as JSON
+    #[arg(long, conflicts_with = "of")]
+    pub(crate) json: bool,
+}
+
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Example: centrode reverse path.csv --axis 260,160 --bend 40 --arms 3 -o arms.toml\n\nThe path is closed: a point a line, x and y in mm, in the order in which the tip passes them.\n\nExit status: 0 good; 2 no machine, a bad path, or the file cannot be written."
+)]
+pub(crate) struct Reverse {
+    /// CSV file of the path, or - for standard input
+    pub(crate) path: PathBuf,
+    /// Axis of the carrier, mm; left out, the mildest: that of the least change of the gears' ratio
+    #[arg(long, value_parser = place, allow_hyphen_values = true, value_name = "X,Y")]
+    pub(crate) axis: Option<[f64; 2]>,
+    /// How two stages of gears share the motion
+    #[arg(long, value_parser = PossibleValuesParser::new(SplitKind::NAMES.map(|(name, _)| name)), default_value = "powers")]
+    pub(crate) split: String,
+    /// Angle from the carrier's first leg, to the intermediate gear, to its second, degrees
+    #[arg(
+        long,
+        default_value_t = 60.0,
+        allow_negative_numbers = true,
+        value_name = "DEG"
+    )]
+    pub(crate) bend: f64,
+    /// Number of arms
+    #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=12))]
+    pub(crate) arms: u32,
+    /// Steps of the tables in which the laws of the gears are written; left out, as few as bring the tip within 1e-7 of its
+    /// greatest distance from the axis
+    #[arg(long, value_name = "N")]
+    pub(crate) steps: Option<u32>,
+    /// Take a path that crosses itself, too
+    #[arg(long)]
+    pub(crate) crossing: bool,
+    /// Design file to write; left out, nothing is written and no teeth are sought
+    #[arg(short, long, value_name = "FILE")]
+    pub(crate) output: Option<PathBuf>,
+}
+
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Example: centrode drive slider.toml --body crank --center-distance 130 -o press.toml\n\nThe design is of family machine, its crank turned by law = { ratio = 1 }. Goals over = \"departure\" with a course say where the output goes evenly, goals over = \"span\" with at_most where it rests.\n\nExit status: 0 good; 2 no gears, a bad design, or the file cannot be written."
+)]
+pub(crate) struct Drive {
+    /// Design file, or - for standard input
+    pub(crate) design: PathBuf,
+    /// Body that turns evenly: the crank
+    #[arg(long, value_name = "NAME", default_value = "crank")]
+    pub(crate) body: String,
+    /// Distance of the new shaft from the crank's axis, mm
+    #[arg(long, value_name = "MM")]
+    pub(crate) center_distance: f64,
+    /// Direction from the crank's axis to the new shaft, degrees
+    #[arg(
+        long,
+        default_value_t = 180.0,
+        allow_negative_numbers = true,
+        value_name = "DEG"
+    )]
+    pub(crate) direction: f64,
+    /// Design file to write; left out, nothing is written and no teeth are sought
+    #[arg(short, long, value_name = "FILE")]
+    pub(crate) output: Option<PathBuf>,
+}
+
+/// Reads a place in the plane.
+fn place(word: &str) -> Result<[f64; 2], String> {
+    let number = |word: &str| word.trim().parse::<f64>().ok().filter(|x| x.is_finite());
+    let both = word.split_once(',').map(|(x, y)| (number(x), number(y)));
+    match both {
+        Some((Some(x), Some(y))) => Ok([x, y]),
+        _ => Err("not two numbers of millimetres, as in 260,160".into()),
+    }
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Schema {
+    /// Family of mechanism, or a file that is exported; left out, the design file of all families
+    #[arg(value_parser = PossibleValuesParser::new(FAMILIES.words().into_iter().chain(crate::cli::schema::FILES)))]
+    pub(crate) family: Option<String>,
+}
+
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Prints the address of the page. Nothing but the design file and its autosave is written, and the page answers only who knows its address."
+)]
+pub(crate) struct Studio {
+    /// Design file
+    pub(crate) design: PathBuf,
+    /// Open the page in the browser
+    #[arg(long)]
+    pub(crate) open: bool,
+    /// Port on this computer; 0 for any that is free
+    #[arg(long, default_value_t = 0)]
+    pub(crate) port: u16,
+}
+
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Example: centrode report pair.toml -o pair.html\n\nExit status: 0 good; 1 a finding of severity error (the file is written all the same); 2 no mechanism, or the file cannot be written."
+)]
+pub(crate) struct Report {
+    /// Design file, or - for standard input
+    pub(crate) design: PathBuf,
+    /// HTML file
+    #[arg(short, long, value_name = "FILE")]
+    pub(crate) output: PathBuf,
+}
+
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Example: centrode prove pair.toml -o pair.proof\n\nThe certificate claims; python tools/proof_checker.py pair.proof proves or refuses it, from contours and law alone.\n\nExit status: 0 written; 2 no mechanism, no certificate of this mesh, or the file cannot be written."
+)]
+pub(crate) struct Prove {
+    /// Design file of family gear-pair, or - for standard input
+    pub(crate) design: PathBuf,
+    /// Certificate, a JSON file
+    #[arg(short, long, value_name = "FILE")]
+    pub(crate) output: PathBuf,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Completions {
+    /// Shell that reads the script
+    #[arg(value_enum)]
+    pub(crate) shell: clap_complete::Shell,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Man {
+    /// Command to describe; left out, the program
+    pub(crate) command: Option<String>,
+}

@@ -1,0 +1,96 @@
+use std::io::Write;
+
+use crate::analysis::{MOST_TEETH, Report};
+use crate::family::Mechanism;
+use crate::mechanism::design::{Design, DesignError};
+
+use crate::cli::Status;
+use crate::cli::args::Check;
+use crate::cli::failure::Failure;
+use crate::cli::input::Source;
+use crate::cli::progress::Progress;
+use crate::cli::report;
+
+/// Resolves a design and prints its report.
+pub(crate) fn run(command: &Check, out: &mut impl Write) -> Result<Status, Failure> {
+    let source = Source::open(&command.design)?;
+    let design = source.design()?;
+    let progress = Progress::new(2);
+    progress.step("resolving the design");
+    let mechanism = design.mechanism().map_err(|error| source.blame(error))?;
+    if command.figures {
+        drop(progress);
+        let tables = mechanism.figures();
+        if tables.is_empty() {
+            let family = mechanism.design().family().word;
+            return Err(Failure::Usage(format!(
+                "the goals of family {family:?} are given: only those of family \"machine\" name figures"
+            )));
+        }
+        let report = Report {
+            tables,
+            ..Report::default()
+        };
+        if command.json {
+            out.write_all(report::json(&report)?.as_bytes())?;
+        } else {
+            report::write_figures(&report, out)?;
+        }
+        return Ok(Status::Good);
+    }
+    if command.remedy {
+        progress.step("looking for remedies");
+        let found = mechanism.remedies();
+        drop(progress);
+        return remedies(command, mechanism.as_ref(), &found, out);
+    }
+    progress.step("checking");
+    let report = mechanism.check();
+    drop(progress);
+    if command.json {
+        out.write_all(report::json(&report)?.as_bytes())?;
+    } else {
+        report::write(mechanism.as_ref(), &report, out)?;
+    }
+    Ok(Status::of(report.ok()))
+}
+
+/// Prints changed designs, each with what it does.
+fn remedies(
+    command: &Check,
+    mechanism: &dyn Mechanism,
+    found: &[(String, Box<dyn Design>)],
+    out: &mut impl Write,
+) -> Result<Status, Failure> {
+    if found.is_empty() {
+        let family = mechanism.design().family().word;
+        return Err(Failure::Usage(format!(
+            "no remedy is known for this design of family {family:?}: only those of gear-pair whose flanks carry the motion with {MOST_TEETH} teeth or fewer have one"
+        )));
+    }
+    let designs: Vec<(&str, String)> = found
+        .iter()
+        .map(|(words, design)| Ok((words.as_str(), design.to_toml()?)))
+        .collect::<Result<_, DesignError>>()
+        .map_err(|error| Failure::Files(Box::new(error)))?;
+    if command.json {
+        let all: Vec<_> = designs
+            .iter()
+            .map(|(words, design)| serde_json::json!({ "words": words, "design": design }))
+            .collect();
+        let all = serde_json::json!({ "remedies": all });
+        writeln!(out, "{all:#}")?;
+        return Ok(Status::Good);
+    }
+    for (at, (words, design)) in designs.into_iter().enumerate() {
+        // The output is one design file: those after the first are comments.
+        let design = match at {
+            0 => design,
+            _ => design
+                .lines()
+                .fold(String::new(), |text, line| text + "# " + line + "\n"),
+        };
+        writeln!(out, "# {words}\n{design}")?;
+    }
+    Ok(Status::Good)
+}

@@ -1,0 +1,86 @@
+use std::io::Write;
+
+use crate::analysis::{Unit, with_sound_teeth};
+use crate::mechanism::design::Design as _;
+use crate::mechanism::reverse::{GearDrive, GearDriveSpec};
+
+use crate::cli::Status;
+use crate::cli::args::Drive;
+use crate::cli::failure::Failure;
+use crate::cli::input::Source;
+use crate::cli::output;
+use crate::cli::progress::Progress;
+use crate::cli::reverse::{least_radii, line, range, teeth};
+
+/// Finds the gears of a drive, prints what they do and writes the design.
+pub(crate) fn run(command: &Drive, out: &mut impl Write) -> Result<Status, Failure> {
+    let source = Source::open(&command.design)?;
+    if let Some(output) = &command.output {
+        source.keep_from(output)?;
+    }
+    let design = source.design()?;
+    let progress = Progress::new(3);
+    progress.step("resolving the design");
+    let mechanism = design.mechanism().map_err(|error| source.blame(error))?;
+    progress.step("timing the crank");
+    let spec = GearDriveSpec {
+        body: command.body.clone(),
+        center_distance: command.center_distance,
+        direction: command.direction.to_radians(),
+    };
+    let made = mechanism.gear_drive(&spec).ok_or_else(|| {
+        let family = mechanism.design().family().word;
+        Failure::Usage(format!(
+            "a drive is found for family \"machine\", not for {family:?}"
+        ))
+    })?;
+    let made = made.map_err(|error| source.refused(&error))?;
+    progress.step("looking for sound teeth");
+    let toothed = command
+        .output
+        .as_ref()
+        .map(|_| with_sound_teeth(&made.design, |pair| pair == GearDrive::PAIR));
+    drop(progress);
+    found(&made, out)?;
+    // It is told even where there are no teeth.
+    out.flush()?;
+    let (Some(output), Some(toothed)) = (&command.output, toothed) else {
+        return Ok(Status::Good);
+    };
+    let (design, found) = toothed.map_err(|error| Failure::Files(Box::new(error)))?;
+    teeth(&found, out)?;
+    let text = design.to_toml();
+    let text = text.map_err(|error| Failure::Files(Box::new(error)))?;
+    // No file of a machine that cannot be.
+    let driven = Source::of_text(&text);
+    let machine = driven.design()?.mechanism();
+    machine.map_err(|error| driven.blame(error))?;
+    writeln!(out)?;
+    output::write_one(output, text.into_bytes(), out)?;
+    Ok(Status::Good)
+}
+
+fn found(made: &GearDrive, out: &mut impl Write) -> std::io::Result<()> {
+    let unit = if made.turns {
+        Unit::Angle
+    } else {
+        Unit::Millimetre
+    };
+    let [least, greatest] = made.timing.places().map(|place| unit.tell(place));
+    line(out, "output", &format!("{least} to {greatest}"))?;
+    let [low, high] = made.timing.ratios();
+    let words = format!(
+        "{}, least at {}, greatest at {} of the input",
+        range([low.value, high.value]),
+        Unit::Angle.tell(low.input),
+        Unit::Angle.tell(high.input)
+    );
+    line(out, "ratio", &words)?;
+    least_radii(out, GearDrive::PAIR, made.least_radii)?;
+    let words = format!(
+        "{} at most, with a law of {} steps",
+        unit.tell(made.miss.value),
+        made.steps
+    );
+    line(out, "output off its law", &words)
+}

@@ -1,0 +1,160 @@
+use std::io::Write;
+
+use crate::analysis::Report;
+use crate::export::{Bundle, Format, Options, SheetOptions, dxf};
+use crate::family::{Family, Mechanism, PartName};
+use crate::mechanism::design::{Projection, SheetSize};
+
+use crate::cli::Status;
+use crate::cli::args::{Dxf, Export, File, Method, Size};
+use crate::cli::failure::Failure;
+use crate::cli::input::Source;
+use crate::cli::output;
+use crate::cli::progress::Progress;
+use crate::cli::report;
+
+/// Resolves a design, checks it and writes its files.
+pub(crate) fn run(command: &Export, out: &mut impl Write) -> Result<Status, Failure> {
+    refuse_useless(command)?;
+    let source = Source::open(&command.design)?;
+    let design = source.design()?;
+    let progress = Progress::new(4);
+    progress.step("resolving the design");
+    let mechanism = design.mechanism().map_err(|error| source.blame(error))?;
+    progress.step("checking");
+    let found = mechanism.check();
+    progress.step("drawing");
+    let bundle = bundle(design.family(), mechanism.as_ref(), &found, command)?;
+    progress.step("writing");
+    let written = output::write(&bundle, &command.to)?;
+    drop(progress);
+    for path in &written {
+        writeln!(out, "{}", path.display())?;
+    }
+    out.flush()?;
+    tell(&found, written.len(), command);
+    Ok(Status::of(found.ok()))
+}
+
+/// The files of a design text in one archive.
+pub(crate) fn zip(text: &str, command: &Export) -> Result<Vec<u8>, Failure> {
+    refuse_useless(command)?;
+    let source = Source::of_text(text);
+    let design = source.design()?;
+    let mechanism = design.mechanism().map_err(|error| source.blame(error))?;
+    let found = mechanism.check();
+    Ok(bundle(design.family(), mechanism.as_ref(), &found, command)?.zip()?)
+}
+
+/// The files of a mechanism and its report.
+fn bundle(
+    family: &Family,
+    mechanism: &dyn Mechanism,
+    found: &Report,
+    command: &Export,
+) -> Result<Bundle, Failure> {
+    let known: Vec<&str> = family.parts.iter().map(|part| part.name).collect();
+    let mut asked = command.part.iter();
+    // Parts that the design names are told when it is drawn.
+    if !known.is_empty()
+        && let Some(lost) = asked.find(|part| !known.contains(&part.as_str()))
+    {
+        let (noun, known) = (family.noun, known.join(", "));
+        let message = format!("{noun} has no part named {lost}; there are {known}");
+        return Err(Failure::Usage(message));
+    }
+    let (formats, options) = (formats(command), options(command, found));
+    let mut bundle = mechanism.files(&formats, &options)?;
+    if command.wants(File::Json) {
+        bundle.add("report.json", report::json(found)?.into_bytes())?;
+    }
+    Ok(bundle)
+}
+
+/// Writes a line on standard error: the findings, and that the files are there all the same.
+fn tell(found: &crate::analysis::Report, files: usize, command: &Export) {
+    let mut err = anstream::stderr();
+    let summary = report::summary(found);
+    let design = command.design.display();
+    // Nobody reads it when standard error is closed.
+    let _ = if found.ok() {
+        writeln!(err, "{files} files written; {summary}")
+    } else {
+        writeln!(
+            err,
+            "{files} files written, but the mechanism does not do its job: {summary}; see centrode check {design}"
+        )
+    };
+}
+
+fn formats(command: &Export) -> Vec<Format> {
+    let pairs = [
+        (File::Dxf, Format::Dxf),
+        (File::Svg, Format::Svg),
+        (File::Sheet, Format::Sheet),
+        (File::Pdf, Format::Pdf),
+        (File::Stl, Format::Stl),
+        (File::Step, Format::Step),
+        (File::ThreeMf, Format::ThreeMf),
+        (File::Csv, Format::Csv),
+        (File::Urdf, Format::Urdf),
+        (File::Mjcf, Format::Mjcf),
+    ];
+    let wanted = pairs.into_iter().filter(|(file, _)| command.wants(*file));
+    wanted.map(|(_, format)| format).collect()
+}
+
+/// Refuses options that have no effect on any of the files asked for.
+fn refuse_useless(command: &Export) -> Result<(), Failure> {
+    let sheets = command.wants(File::Sheet) || command.wants(File::Pdf);
+    let refused = |option: &str, files: &str| {
+        let message = format!("{option} is for {files}, and --format names none");
+        Err(Failure::Usage(message))
+    };
+    if command.sheet.is_some() && !sheets {
+        return refused("--sheet", "the formats sheet and pdf");
+    }
+    if command.projection.is_some() && !sheets {
+        return refused("--projection", "the formats sheet and pdf");
+    }
+    let drawn = [File::Dxf, File::Svg, File::Sheet, File::Pdf];
+    let solid = [File::Stl, File::Step, File::ThreeMf, File::Csv];
+    let any = |files: &[File]| files.iter().any(|file| command.wants(*file));
+    if command.part.is_empty() || any(&drawn) {
+        return Ok(());
+    }
+    if command.part == [PartName::ASSEMBLY.name] {
+        return refused("--part assembly", "drawings: dxf, svg, sheet and pdf");
+    }
+    if !any(&solid) {
+        return refused("--part", "drawings, solids and tables");
+    }
+    Ok(())
+}
+
+fn options(command: &Export, found: &Report) -> Options {
+    let mut options = Options::new(command.tolerance);
+    match command.dxf {
+        Dxf::R2010 => {}
+        Dxf::R12 => options.dxf_version = dxf::Version::R12,
+        Dxf::Spline => options.dxf_curves = dxf::Curves::Splines,
+    }
+    if !command.part.is_empty() {
+        options.parts = Some(command.part.clone());
+    }
+    options.sheet = SheetOptions {
+        size: command.sheet.map(|size| match size {
+            Size::A4 => SheetSize::A4,
+            Size::A3 => SheetSize::A3,
+            Size::A2 => SheetSize::A2,
+            Size::A1 => SheetSize::A1,
+            Size::A0 => SheetSize::A0,
+        }),
+        projection: command.projection.map(|method| match method {
+            Method::FirstAngle => Projection::FirstAngle,
+            Method::ThirdAngle => Projection::ThirdAngle,
+        }),
+        meshing: crate::meshing(found),
+    };
+    options
+}

@@ -1,0 +1,167 @@
+use std::io::{self, Write};
+
+use crate::export::{BundleError, ExportError};
+use crate::mechanism::design::DesignError;
+use anstyle::{AnsiColor, Style};
+
+/// Longest part of a line shown below an error, in characters.
+const WIDEST: usize = 100;
+
+const ERROR: Style = AnsiColor::Red.on_default().bold();
+const MARGIN: Style = AnsiColor::Blue.on_default().bold();
+
+/// Reason why a command could not do its job.
+#[derive(Debug)]
+pub(crate) enum Failure {
+    /// The design is bad: its error, and the text it is in.
+    Design {
+        name: String,
+        text: String,
+        error: Box<DesignError>,
+    },
+    /// A file cannot be read.
+    Input { name: String, error: io::Error },
+    /// The output cannot be written.
+    Output(io::Error),
+    /// The page cannot be served.
+    Serve(io::Error),
+    /// The files of the design cannot be made or written.
+    Files(Box<dyn std::error::Error + Send + Sync>),
+    /// Ctrl-C was pressed.
+    Interrupted,
+    /// A word on the command line has no meaning.
+    Usage(String),
+}
+
+impl From<io::Error> for Failure {
+    fn from(error: io::Error) -> Self {
+        Self::Output(error)
+    }
+}
+
+impl From<ExportError> for Failure {
+    fn from(error: ExportError) -> Self {
+        Self::Files(Box::new(error))
+    }
+}
+
+impl From<BundleError> for Failure {
+    fn from(error: BundleError) -> Self {
+        Self::Files(Box::new(error))
+    }
+}
+
+impl Failure {
+    /// Writes the failure for a person, with the line of the file where there is one.
+    pub(crate) fn write(&self, out: &mut impl Write) -> io::Result<()> {
+        write!(out, "{ERROR}error{ERROR:#}: ")?;
+        match self {
+            Self::Design { name, text, error } => at_line(out, name, text, error),
+            other => writeln!(out, "{}", printable(&other.to_string())),
+        }
+    }
+}
+
+impl std::fmt::Display for Failure {
+    /// Failure in one line.
+    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Design { error, .. } => write!(out, "{error}"),
+            Self::Input { name, error } => write!(out, "cannot read {name}: {error}"),
+            Self::Output(error) => write!(out, "cannot write the output: {error}"),
+            Self::Serve(error) => write!(out, "cannot serve the page: {error}"),
+            Self::Files(error) => write!(out, "{error}"),
+            Self::Interrupted => write!(out, "interrupted"),
+            Self::Usage(message) => write!(out, "{message}"),
+        }
+    }
+}
+
+fn at_line(out: &mut impl Write, name: &str, text: &str, error: &DesignError) -> io::Result<()> {
+    let DesignError {
+        key, line, column, ..
+    } = error;
+    writeln!(out, "{}", printable(&error.message()))?;
+    let gutter = line.to_string().len();
+    writeln!(
+        out,
+        "{MARGIN}{:gutter$}-->{MARGIN:#} {name}:{line}:{column}",
+        ""
+    )?;
+    let Some(written) = text.lines().nth(line - 1) else {
+        return Ok(());
+    };
+    // A long line is shown from a little before the place.
+    let first = if *column > WIDEST - 20 {
+        column - 20
+    } else {
+        0
+    };
+    let shown: String = written.chars().skip(first).take(WIDEST).collect();
+    let before = column - 1 - first;
+    let name = key.rsplit('.').next().unwrap_or_default();
+    let marked = if !name.is_empty()
+        && written
+            .chars()
+            .skip(column - 1)
+            .collect::<String>()
+            .starts_with(name)
+    {
+        name.chars().count().min(WIDEST - before)
+    } else {
+        1
+    };
+    writeln!(out, "{MARGIN}{:gutter$} |{MARGIN:#}", "")?;
+    writeln!(out, "{MARGIN}{line} |{MARGIN:#} {}", printable(&shown))?;
+    writeln!(
+        out,
+        "{MARGIN}{:gutter$} |{MARGIN:#} {:before$}{ERROR}{}{ERROR:#}",
+        "",
+        "",
+        "^".repeat(marked)
+    )
+}
+
+/// The text with control characters replaced, so that a file cannot steer the terminal.
+fn printable(text: &str) -> String {
+    let visible = |c: char| if c.is_control() { '\u{fffd}' } else { c };
+    let shown: String = text.chars().take(600).map(visible).collect();
+    shown
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::FAMILIES;
+
+    fn shown(text: &str) -> String {
+        let error = FAMILIES.read(text.as_bytes()).expect_err("a bad design");
+        let failure = Failure::Design {
+            name: "pair.toml".into(),
+            text: text.into(),
+            error: Box::new(error),
+        };
+        let mut out = anstream::StripStream::new(Vec::new());
+        failure.write(&mut out).expect("written");
+        String::from_utf8(out.into_inner()).expect("text")
+    }
+
+    #[test]
+    fn the_line_and_the_key_are_shown() {
+        let text = "family = \"gear-pair\"\n[pitch]\nkind = \"circle\"\nradius = 9\n[teeth]\nbacklsh = 1\n";
+        assert_eq!(
+            shown(text),
+            "error: teeth.backlsh: unknown key, did you mean \"backlash\"?; known are addendum, phase, \
+             backlash, backlash_angle_deg, thickness_split, least_tip_width_coefficient, pin_diameter\n \
+             --> pair.toml:6:1\n  |\n6 | backlsh = 1\n  | ^^^^^^^\n"
+        );
+    }
+
+    #[test]
+    fn a_long_line_and_control_characters_stay_on_screen() {
+        let text = format!("family = \"gear-pair\"\n{}\u{1b}[2J = 1", "x".repeat(5000));
+        let message = shown(&text);
+        assert!(!message.contains('\u{1b}'), "{message:?}");
+        assert!(message.lines().all(|line| line.chars().count() < 700));
+    }
+}

@@ -1,0 +1,106 @@
+//! The command line: `centrode new`, `check`, `export` and the rest.
+//!
+//! Unlike the rest of the library it prints, reads and writes files, and hears signals: it is a whole program behind one
+//! function, for the program `centrode` and for the Python package, whose command is the same.
+
+mod args;
+mod check;
+mod completions;
+mod drive;
+mod export;
+mod failure;
+mod input;
+mod interrupt;
+mod man;
+mod new;
+mod optimise;
+mod output;
+mod page;
+mod progress;
+mod prove;
+mod report;
+mod response;
+mod reverse;
+mod schema;
+mod sheet;
+mod studio;
+
+use std::ffi::OsString;
+use std::io::Write as _;
+
+use clap::Parser as _;
+
+use args::{Arguments, Command};
+use failure::Failure;
+
+/// Outcome of a command that did its job.
+#[derive(Clone, Copy)]
+pub(crate) enum Status {
+    /// Nothing is wrong.
+    Good,
+    /// A finding is of severity error.
+    Bad,
+}
+
+impl Status {
+    pub(crate) fn of(good: bool) -> Self {
+        if good { Self::Good } else { Self::Bad }
+    }
+}
+
+/// Runs the program with its arguments, its own name not among them, and gives its exit status.
+///
+/// The status is 0 if all is good, 1 for a finding of severity error, 2 if there is no mechanism, a file cannot be read
+/// or written or the usage is bad, and 130 after Ctrl-C in a command that ends its work first. All that was printed has
+/// been written when it returns.
+#[must_use]
+pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
+    let status = command(arguments);
+    // A line not ended is held back; where nobody reads it any more, nothing is lost.
+    let _ = std::io::stdout().flush();
+    status
+}
+
+fn command(arguments: impl IntoIterator<Item = OsString>) -> u8 {
+    let words = std::iter::once(OsString::from("centrode")).chain(arguments);
+    let arguments = match Arguments::try_parse_from(words) {
+        Ok(arguments) => arguments,
+        Err(error) => {
+            // Help and version are no failures; a reader that has gone is none either.
+            let _ = error.print();
+            return if error.use_stderr() { 2 } else { 0 };
+        }
+    };
+    #[cfg(unix)]
+    // Without it such a write ends the program: no reason not to begin.
+    let _ = output::heed_file_limit();
+    let mut out = std::io::BufWriter::new(anstream::stdout());
+    let result = match &arguments.command {
+        Command::New(command) => new::run(command, &mut out),
+        Command::Check(command) => check::run(command, &mut out),
+        Command::Export(command) => export::run(command, &mut out),
+        Command::Optimise(command) => optimise::run(command, &mut out),
+        Command::Response(command) => response::run(command, &mut out),
+        Command::Drive(command) => drive::run(command, &mut out),
+        Command::Reverse(command) => reverse::run(command, &mut out),
+        Command::Studio(command) => studio::run(command, &mut out),
+        Command::Report(command) => sheet::run(command, &mut out),
+        Command::Prove(command) => prove::run(command, &mut out),
+        Command::Schema(command) => schema::run(command, &mut out),
+        Command::Completions(command) => completions::run(command, &mut out),
+        Command::Man(command) => man::run(command, &mut out),
+    };
+    let result = result.and_then(|status| out.flush().map(|()| status).map_err(Failure::Output));
+    // Bytes still buffered would fail again when dropped.
+    let _ = out.into_parts();
+    match result {
+        Ok(Status::Good) => 0,
+        Ok(Status::Bad) => 1,
+        Err(Failure::Output(error)) if error.kind() == std::io::ErrorKind::BrokenPipe => 0,
+        Err(Failure::Interrupted) => 130,
+        Err(failure) => {
+            let _ = failure.write(&mut anstream::stderr());
+            2
+        }
+    }
+}

@@ -1,0 +1,175 @@
+mod outcome;
+mod stored;
+mod widen;
+
+use std::io::Write;
+use std::ops::ControlFlow;
+use std::time::{Duration, Instant};
+
+use crate::analysis::optimise::{
+    DesignProblem, DesignSearch, Ended, SearchError, Settings, Strategy,
+};
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+
+use crate::cli::Status;
+use crate::cli::args::Optimise;
+use crate::cli::failure::Failure;
+use crate::cli::input::Source;
+use crate::cli::interrupt::Interrupt;
+use crate::cli::page::{Edit, edited};
+use outcome::Outcome;
+use stored::Stored;
+
+/// Interval at which the search is stored while it runs.
+const STORE: Duration = Duration::from_secs(10);
+
+/// Searches for a better design and writes it, with its search beside it.
+pub(crate) fn run(command: &Optimise, out: &mut impl Write) -> Result<Status, Failure> {
+    let source = Source::open(&command.design)?;
+    source.keep_from(&command.output)?;
+    let file = source.design()?;
+    // A design that gives no mechanism is reported as by a check.
+    file.mechanism().map_err(|error| source.blame(error))?;
+    if command.widen {
+        return widen::run(command, &file, &source.text()?, out);
+    }
+    let problem = file.family().problem(file.design());
+    let problem = problem.map_err(|e| Failure::Usage(e.to_string()))?;
+    let problem = problem.as_ref();
+    let stored = Stored::beside(&command.output);
+    let mut search = if command.resume {
+        let mut search = stored.read(problem)?;
+        if !search.is_of(problem) {
+            let name = stored.name();
+            let other =
+                format!("{name} is the search of another design: parameters or bounds differ");
+            return Err(Failure::Usage(other));
+        }
+        same(command, &search, &stored.name())?;
+        if let Some(evaluations) = command.evaluations {
+            search.allow(evaluations);
+        }
+        search
+    } else {
+        let strategy = Strategy::NAMES
+            .iter()
+            .find(|(name, _)| *name == command.method());
+        let Some(&(_, strategy)) = strategy else {
+            return Err(Failure::Usage(format!(
+                "unknown method {:?}",
+                command.method()
+            )));
+        };
+        let usual = Settings::default();
+        let settings = Settings {
+            seed: command.seed.unwrap_or(usual.seed),
+            population: command.population,
+            evaluations: command.evaluations.unwrap_or(usual.evaluations),
+            ..usual
+        };
+        DesignSearch::new(problem, strategy, settings).map_err(|error| {
+            let flag = match error {
+                SearchError::Population { .. } => "--population: ",
+                _ => "",
+            };
+            Failure::Usage(format!("{flag}{error}"))
+        })?
+    };
+    let text = source.text()?;
+    let (ended, seconds) = watched(problem, &mut search, &stored)?;
+    let best = search.best();
+    stored.write_design(&better(&text, problem, &best)?)?;
+    stored.write(problem, &search)?;
+    let outcome = Outcome::of(problem, &search, &best, ended, seconds);
+    if command.json {
+        outcome.json(out)?;
+    } else {
+        outcome.write(search.strategy().name(), out)?;
+        writeln!(out, "\n{}", command.output.display())?;
+    }
+    Ok(Status::of(outcome.reached()))
+}
+
+/// Checks that method and seed of the command line are those of the stored search, which goes on as it began.
+fn same(command: &Optimise, search: &DesignSearch, name: &str) -> Result<(), Failure> {
+    let differs = |flag: &str, asked: &str, stored: &str| {
+        let message = format!("--{flag} {asked}: {name} is a search with the {flag} {stored}");
+        Err(Failure::Usage(message))
+    };
+    match (&command.method, search.strategy().name()) {
+        (Some(method), stored) if method != stored => return differs("method", method, stored),
+        _ => {}
+    }
+    match (command.seed, search.seed()) {
+        (Some(seed), Some(stored)) if seed != stored => {
+            differs("seed", &seed.to_string(), &stored.to_string())
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Runs the search with a bar on the terminal; Ctrl-C ends it.
+fn watched(
+    problem: &dyn DesignProblem,
+    search: &mut DesignSearch,
+    stored: &Stored,
+) -> Result<(Ended, f64), Failure> {
+    let interrupt = Interrupt::watch().map_err(Failure::Serve)?;
+    let bar = ProgressBar::with_draw_target(Some(search.allowed()), target());
+    let style = "{bar:24} {pos}/{len} {msg} {elapsed}, {eta} to go";
+    if let Ok(style) = ProgressStyle::with_template(style) {
+        bar.set_style(style);
+    }
+    let begun = Instant::now();
+    let mut due = begun + STORE;
+    let mut store = false;
+    let ended = loop {
+        if store {
+            stored.write(problem, search)?;
+            due = Instant::now() + STORE;
+            store = false;
+        }
+        let ended = search.run(problem, &mut |progress| {
+            bar.set_position(progress.evaluations);
+            bar.set_message(if progress.violation > 0.0 {
+                format!("goals missed by {:.4}", progress.violation)
+            } else {
+                format!("goals reached, objective {:.6}", progress.objective)
+            });
+            store = Instant::now() >= due;
+            if store || interrupt.came() {
+                ControlFlow::Break(())
+            } else {
+                ControlFlow::Continue(())
+            }
+        });
+        if !store || interrupt.came() {
+            break ended;
+        }
+    };
+    bar.finish_and_clear();
+    Ok((ended, begun.elapsed().as_secs_f64()))
+}
+
+fn target() -> ProgressDrawTarget {
+    // Off a terminal the standard error stays clean.
+    if std::io::IsTerminal::is_terminal(&std::io::stderr()) {
+        ProgressDrawTarget::stderr()
+    } else {
+        ProgressDrawTarget::hidden()
+    }
+}
+
+/// Text of the design with the numbers of a point.
+pub(crate) fn better(
+    text: &str,
+    problem: &dyn DesignProblem,
+    point: &[f64],
+) -> Result<String, Failure> {
+    let variables = problem.variables().iter().zip(point);
+    let moved = variables.map(|(v, &value)| Edit::number(&v.key, v.written(value), false));
+    let followers = problem.followers(point).into_iter();
+    let followers = followers.map(|(key, value)| Edit::number(&key, value, value.fract() == 0.0));
+    let edits: Vec<Edit> = moved.chain(followers).collect();
+    edited(text, &edits).map_err(|error| Failure::Usage(error.to_string()))
+}

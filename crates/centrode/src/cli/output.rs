@@ -1,0 +1,48 @@
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use crate::export::Bundle;
+
+use crate::cli::failure::Failure;
+use crate::cli::interrupt::Interrupt;
+
+/// Writes files into a folder, each whole or not at all; Ctrl-C before the last is written leaves no new one.
+pub(crate) fn write(bundle: &Bundle, folder: &Path) -> Result<Vec<PathBuf>, Failure> {
+    let interrupt = Interrupt::watch().map_err(Failure::Serve)?;
+    let written = interrupt.cancel.run(|| bundle.write_to(folder));
+    Ok(written.map_err(|_| Failure::Interrupted)??)
+}
+
+/// Writes one file, whole or not at all, and prints where it is.
+pub(crate) fn write_one(path: &Path, bytes: Vec<u8>, out: &mut impl Write) -> Result<(), Failure> {
+    for path in put(path, bytes)? {
+        writeln!(out, "{}", path.display())?;
+    }
+    Ok(())
+}
+
+/// Writes one file, whole or not at all, and tells where it is.
+pub(crate) fn put(path: &Path, bytes: Vec<u8>) -> Result<Vec<PathBuf>, Failure> {
+    let folder = match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    };
+    let name = path.file_name().and_then(|name| name.to_str());
+    let mut bundle = Bundle::default();
+    bundle.add(name.unwrap_or_default(), bytes)?;
+    write(&bundle, folder)
+}
+
+/// Makes a write beyond the limit of a file's size fail with a reason: its signal, not caught, would end the program.
+#[cfg(unix)]
+pub(crate) fn heed_file_limit() -> std::io::Result<()> {
+    use tokio::signal::unix::{SignalKind, signal};
+
+    /// Number of the signal on Linux, macOS and the BSDs.
+    const SIGXFSZ: i32 = 25;
+    let runtime = tokio::runtime::Builder::new_current_thread()
+        .enable_io()
+        .build()?;
+    let _inside = runtime.enter();
+    signal(SignalKind::from_raw(SIGXFSZ)).map(drop)
+}

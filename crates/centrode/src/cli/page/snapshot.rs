@@ -1,0 +1,179 @@
+use std::sync::Arc;
+
+use crate::analysis::Report;
+use crate::export::page::{Curve, Picture};
+use crate::family::{FAMILIES, Mechanism};
+use crate::mechanism::design::DesignError;
+use serde::Serialize;
+
+use super::field::{Table, tables};
+use crate::cli::report;
+
+/// Snapshot of one design state for the page.
+#[derive(Clone, Debug, Default, Serialize)]
+pub(crate) struct Snapshot {
+    /// Text of the design file.
+    text: String,
+    name: String,
+    title: String,
+    /// Definition of the mechanism, in a line.
+    definition: String,
+    /// The numbers of the design, table by table.
+    tables: Vec<Table>,
+    /// Reason why there is no mechanism.
+    error: Option<Fault>,
+    picture: Option<Picture>,
+    /// Whether the picture lacks details that take longer to make.
+    coarse: bool,
+    curves: Vec<Curve>,
+    verdict: Option<Verdict>,
+}
+
+/// An error at its key, in the words of the command line.
+#[derive(Clone, Debug, Serialize)]
+pub(crate) struct Fault {
+    key: String,
+    /// Line from one; zero where no place in the file is to blame.
+    line: usize,
+    column: usize,
+    message: String,
+}
+
+/// Results of the checks.
+#[derive(Clone, Debug, Serialize)]
+pub(crate) struct Verdict {
+    ok: bool,
+    summary: String,
+    findings: Vec<report::Words>,
+    goals: Vec<report::GoalWords>,
+    figures: Vec<report::Section>,
+}
+
+impl From<&DesignError> for Fault {
+    fn from(error: &DesignError) -> Self {
+        Self {
+            key: error.key.clone(),
+            line: error.line,
+            column: error.column,
+            message: error.message(),
+        }
+    }
+}
+
+impl Verdict {
+    fn of(found: &Report) -> Self {
+        Self {
+            ok: found.ok(),
+            summary: report::summary(found),
+            findings: found.findings.iter().map(report::words).collect(),
+            goals: found.goals.iter().map(report::goal_words).collect(),
+            figures: report::sections(found),
+        }
+    }
+}
+
+/// Design that has become a mechanism.
+pub(crate) struct Subject {
+    snapshot: Snapshot,
+    mechanism: Arc<dyn Mechanism>,
+}
+
+impl Snapshot {
+    /// Snapshot of the design alone: its text and numbers.
+    pub(crate) fn of_text(text: String) -> Self {
+        Self {
+            tables: tables(&text),
+            text,
+            ..Self::default()
+        }
+    }
+
+    /// Snapshot with the reason why there is no mechanism.
+    pub(crate) fn with_error(mut self, error: &DesignError) -> Self {
+        self.error = Some(error.into());
+        self
+    }
+
+    /// Snapshot of a design whose solving was cancelled: its numbers, so that they can be changed.
+    pub(crate) fn cancelled(text: String) -> Self {
+        Self {
+            error: Some(Fault {
+                key: String::new(),
+                line: 0,
+                column: 0,
+                message: "cancelled; the next change solves it anew".into(),
+            }),
+            ..Self::of_text(text)
+        }
+    }
+
+    /// Title, or name where there is none.
+    pub(crate) fn heading(&self) -> &str {
+        if self.title.is_empty() {
+            &self.name
+        } else {
+            &self.title
+        }
+    }
+
+    /// Whether there is a mechanism without a finding of severity error.
+    pub(crate) fn ok(&self) -> bool {
+        self.verdict.as_ref().is_some_and(|verdict| verdict.ok)
+    }
+
+    /// Snapshot as JSON; numbers that are not finite are null.
+    pub(crate) fn json(&self) -> serde_json::Result<String> {
+        serde_json::to_string(self)
+    }
+}
+
+impl Subject {
+    /// Resolves a design file and draws it; without a mechanism, the snapshot says why.
+    pub(crate) fn of(text: String) -> Result<Self, Box<Snapshot>> {
+        let mut snapshot = Snapshot::of_text(text);
+        let read = FAMILIES.read(snapshot.text.as_bytes());
+        let mechanism = match read.and_then(|file| file.mechanism()) {
+            Ok(mechanism) => mechanism,
+            Err(error) => return Err(Box::new(snapshot.with_error(&error))),
+        };
+        snapshot.name = mechanism.design().name().into();
+        snapshot.title = mechanism.design().title().into();
+        snapshot.definition = mechanism.definition();
+        snapshot.picture = Some(mechanism.picture());
+        snapshot.coarse = mechanism.is_coarse();
+        snapshot.curves = mechanism.curves();
+        Ok(Self {
+            snapshot,
+            mechanism,
+        })
+    }
+
+    /// Whether this is the mechanism of a text.
+    pub(crate) fn is_of(&self, text: &str) -> bool {
+        self.snapshot.text == text
+    }
+
+    /// Snapshot with the picture but without the results of the checks.
+    pub(crate) fn drawn(&self) -> Snapshot {
+        self.snapshot.clone()
+    }
+
+    /// Snapshot with the picture in detail.
+    pub(crate) fn detailed(&self) -> Snapshot {
+        let mut snapshot = self.snapshot.clone();
+        snapshot.coarse = false;
+        if let Some(picture) = self.mechanism.detailed() {
+            snapshot.picture = Some(picture);
+        }
+        snapshot
+    }
+
+    /// Snapshot with the results of the checks.
+    pub(crate) fn checked(&self) -> Snapshot {
+        let mut snapshot = self.detailed();
+        let (found, curves) = self.mechanism.check_with_curves();
+        snapshot.curves.extend(curves);
+        snapshot.verdict = Some(Verdict::of(&found));
+        snapshot
+    }
+}

@@ -1,0 +1,52 @@
+mod figures;
+mod findings;
+mod goals;
+
+use std::collections::BTreeMap;
+use std::io::Write;
+
+use crate::analysis::{Report, Unit};
+use crate::family::Mechanism;
+use serde::Serialize;
+
+pub(crate) use figures::{Section, sections, write as write_figures};
+pub(crate) use findings::{Words, summary, words};
+pub(crate) use goals::{GoalWords, goal_words};
+
+/// Report as other programs read it.
+#[derive(Serialize)]
+struct Json<'a> {
+    ok: bool,
+    #[serde(flatten)]
+    report: &'a Report,
+    units: BTreeMap<&'static str, Unit>,
+}
+
+/// The report as JSON with every digit; an infinite figure is the string "Infinity". Ends with a newline.
+pub(crate) fn json(report: &Report) -> std::io::Result<String> {
+    let json = Json {
+        ok: report.ok(),
+        report,
+        units: report.units(),
+    };
+    let mut text = serde_json::to_string_pretty(&json)?;
+    text.push('\n');
+    Ok(text)
+}
+
+/// Writes the report as a person reads it: findings first, then goals, tables and the figures in groups.
+pub(crate) fn write(
+    mechanism: &dyn Mechanism,
+    report: &Report,
+    out: &mut impl Write,
+) -> std::io::Result<()> {
+    let design = mechanism.design();
+    let name = [design.name(), design.title()].map(str::trim);
+    let name: Vec<&str> = name.into_iter().filter(|part| !part.is_empty()).collect();
+    writeln!(out, "{}", name.join(": "))?;
+    writeln!(out, "{}", mechanism.definition())?;
+    writeln!(out)?;
+    findings::write(report, out)?;
+    goals::write(report, out)?;
+    figures::write(report, out)
+}

@@ -1,0 +1,202 @@
+use std::io::{Result, Write};
+
+use crate::analysis::{Finding, Report, Severity};
+use anstyle::{AnsiColor, Style};
+use serde::Serialize;
+
+/// Writes the number of findings, then each: severity, rule, place, figures, remedy.
+pub(super) fn write(report: &Report, out: &mut impl Write) -> Result<()> {
+    writeln!(out, "{}", summary(report))?;
+    for finding in &report.findings {
+        one(finding, out)?;
+    }
+    Ok(())
+}
+
+/// Number of findings of each severity, in words.
+pub(crate) fn summary(report: &Report) -> String {
+    let counts = [
+        (Severity::Error, "error", "errors"),
+        (Severity::Warning, "warning", "warnings"),
+        (Severity::Note, "note", "notes"),
+    ];
+    let words: Vec<String> = counts
+        .into_iter()
+        .filter_map(|(severity, one, many)| {
+            let of = |finding: &&Finding| finding.severity == severity;
+            match report.findings.iter().filter(of).count() {
+                0 => None,
+                1 => Some(format!("1 {one}")),
+                n => Some(format!("{n} {many}")),
+            }
+        })
+        .collect();
+    if words.is_empty() {
+        "no findings".into()
+    } else {
+        words.join(", ")
+    }
+}
+
+/// A finding in words.
+#[derive(Clone, Debug, Serialize)]
+pub(crate) struct Words {
+    rule: &'static str,
+    severity: Severity,
+    message: String,
+    /// Part, teeth and input.
+    #[serde(rename = "where")]
+    place: String,
+    /// Measured and required figure.
+    figures: String,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    remedy: Option<&'static str>,
+    /// Keys of the design that the finding depends on.
+    causes: &'static [&'static str],
+    part: Option<String>,
+    input: Option<f64>,
+}
+
+/// The words for a finding.
+pub(crate) fn words(finding: &Finding) -> Words {
+    let mut about = Vec::new();
+    if let Some(part) = &finding.place.part {
+        let teeth = match finding.place.teeth.as_slice() {
+            [] => String::new(),
+            [tooth] => format!(", tooth {tooth}"),
+            teeth => format!(", teeth {}", ranges(teeth)),
+        };
+        about.push(format!("{part}{teeth}"));
+    }
+    if let Some(input) = finding.place.input {
+        about.push(format!("input at {:.2} deg", input.to_degrees()));
+    }
+    let figures = finding.measured.map_or_else(String::new, |measured| {
+        let unit = finding.unit.for_size(measured);
+        let show = |value: f64| unit.tell(value);
+        let required = finding
+            .required
+            .map(|required| format!(", required {}", show(required)));
+        format!(
+            "measured {}{}",
+            show(measured),
+            required.unwrap_or_default()
+        )
+    });
+    Words {
+        rule: finding.rule,
+        severity: finding.severity,
+        message: finding.message.clone(),
+        place: about.join("; "),
+        figures,
+        remedy: finding.remedy,
+        causes: causes(finding.rule),
+        part: finding.place.part.clone(),
+        input: finding.place.input,
+    }
+}
+
+fn one(finding: &Finding, out: &mut impl Write) -> Result<()> {
+    let (word, color) = match finding.severity {
+        Severity::Error => ("error", AnsiColor::Red),
+        Severity::Warning => ("warning", AnsiColor::Yellow),
+        Severity::Note => ("note", AnsiColor::Cyan),
+    };
+    let style: Style = color.on_default().bold();
+    let words = words(finding);
+    writeln!(
+        out,
+        "{style}{word}{style:#} [{}] {}",
+        words.rule, words.message
+    )?;
+    if !words.place.is_empty() {
+        writeln!(out, "    where: {}", words.place)?;
+    }
+    if !words.figures.is_empty() {
+        writeln!(out, "    {}", words.figures)?;
+    }
+    if let Some(remedy) = words.remedy {
+        writeln!(out, "    remedy: {remedy}")?;
+    }
+    Ok(())
+}
+
+/// Keys of the design on which a finding depends most.
+fn causes(rule: &str) -> &'static [&'static str] {
+    match rule {
+        "severed" | "undercut" | "short-tooth" => &[
+            "pitch.module",
+            "tooth_count",
+            "pitch.tooth_count",
+            "teeth.addendum",
+        ],
+        "pointed" | "thin-tip" => &[
+            "tool.addendum_coefficient",
+            "tool.pressure_angle_deg",
+            "tool.profile_shift_coefficient",
+        ],
+        "no-flank" | "disengaged" | "contact-lost" => {
+            &["pitch.module", "tooth_count", "pitch.tooth_count"]
+        }
+        "interference" => &["tool.dedendum_coefficient", "teeth.backlash"],
+        "pressure-angle" => &["pitch.eccentricity", "tool.pressure_angle_deg"],
+        "shaper-radius" => &["tool.tooth_count"],
+        _ => &[],
+    }
+}
+
+/// Tooth numbers in rising order, runs of three or more shortened to first and last.
+fn ranges(teeth: &[u32]) -> String {
+    let mut words: Vec<String> = Vec::new();
+    for run in teeth.chunk_by(|a, b| a + 1 == *b) {
+        match run {
+            [first, _, .., last] => words.push(format!("{first}-{last}")),
+            few => words.extend(few.iter().map(u32::to_string)),
+        }
+    }
+    words.join(", ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::analysis::{Place, Unit};
+
+    #[test]
+    fn runs_of_teeth_are_short() {
+        assert_eq!(
+            ranges(&[0, 1, 2, 5, 8, 9, 12, 13, 14, 15]),
+            "0-2, 5, 8, 9, 12-15"
+        );
+    }
+
+    #[test]
+    fn a_finding_says_where_how_much_and_what_helps() {
+        let report = Report {
+            findings: vec![Finding {
+                rule: "undercut",
+                severity: Severity::Warning,
+                message: "3 of 23 teeth of the driver are undercut".into(),
+                measured: Some(0.0312),
+                required: Some(0.0),
+                unit: Unit::Millimetre,
+                remedy: Some("fewer teeth of a larger module"),
+                place: Place {
+                    part: Some("driver".into()),
+                    teeth: vec![4, 5, 6],
+                    input: Some(std::f64::consts::PI),
+                },
+            }],
+            ..Report::default()
+        };
+        let mut out = anstream::StripStream::new(Vec::new());
+        write(&report, &mut out).expect("written");
+        let text = String::from_utf8(out.into_inner()).expect("text");
+        assert_eq!(
+            text,
+            "1 warning\nwarning [undercut] 3 of 23 teeth of the driver are undercut\n    \
+             where: driver, teeth 4-6; input at 180.00 deg\n    measured 0.0312 mm, required 0\u{20}mm\n    \
+             remedy: fewer teeth of a larger module\n"
+        );
+    }
+}

@@ -1,0 +1,224 @@
+use std::io::Write;
+
+use crate::analysis::{SoundTeeth, Unit, with_sound_teeth};
+use crate::geometry::Point;
+use crate::mechanism::design::Design as _;
+use crate::mechanism::gear::design::Addendum;
+use crate::mechanism::reverse::{
+    AxisMap, AxisRange, ReversedMachine, Split, SplitKind, TwoBar, WantedPath,
+};
+use crate::mechanism::three_arm::design::Direction;
+
+use crate::cli::Status;
+use crate::cli::args::Reverse;
+use crate::cli::failure::Failure;
+use crate::cli::input::Source;
+use crate::cli::output;
+use crate::cli::progress::Progress;
+
+/// Width of the names of figures.
+const NAME: usize = 24;
+
+/// Makes a machine from a path, prints what was chosen and writes its design.
+pub(crate) fn run(command: &Reverse, out: &mut impl Write) -> Result<Status, Failure> {
+    let source = Source::open_up_to(&command.path, WantedPath::LARGEST)?;
+    if let Some(output) = &command.output {
+        source.keep(output, "the path")?;
+    }
+    let path = WantedPath::from_csv(source.bytes()).map_err(|error| source.refused(&error))?;
+    if !command.crossing {
+        path.check_simple().map_err(|error| {
+            let name = source.name();
+            Failure::Usage(format!(
+                "{name}: {error} With --crossing such a path is taken."
+            ))
+        })?;
+    }
+    let kinds = SplitKind::NAMES.iter();
+    let mut kinds = kinds.filter(|(name, _)| *name == command.split);
+    let kind = kinds.next().map(|(_, kind)| *kind).unwrap_or_default();
+    let progress = Progress::new(4);
+    progress.step("trying axes");
+    let range = AxisRange::about(&path);
+    let map = AxisMap::new(&path, range);
+    let chain = match command.axis {
+        Some([x, y]) => TwoBar::new(&path, Point::new(x, y), None)
+            .map_err(|fault| Failure::Usage(format!("--axis {x},{y}: {fault}")))?,
+        None => map.mildest(&path).ok_or_else(|| none_possible(&map))?,
+    };
+    progress.step("splitting the motion");
+    let bend = command.bend.to_radians();
+    let split = Split::new(&chain, kind, bend)
+        .map_err(|error| Failure::Usage(format!("--bend {}: {error}", command.bend)))?;
+    progress.step("rolling the pitch curves");
+    let made = ReversedMachine::new(&chain, &split, command.arms, command.steps);
+    let made = made.map_err(|error| Failure::Files(Box::new(error)))?;
+    progress.step("looking for sound teeth");
+    let toothed = command
+        .output
+        .as_ref()
+        .map(|_| with_sound_teeth(&made.design, |_| true));
+    drop(progress);
+    chosen(command, &chain, &split, out)?;
+    gears(&made, out)?;
+    others(&chain, &map, kind, bend, out)?;
+    let (Some(output), Some(toothed)) = (&command.output, toothed) else {
+        return Ok(Status::Good);
+    };
+    // What was found is told even where there are no teeth.
+    out.flush()?;
+    let (design, found) = toothed.map_err(|error| Failure::Files(Box::new(error)))?;
+    teeth(&found, out)?;
+    let text = design.to_toml();
+    let text = text.map_err(|error| Failure::Files(Box::new(error)))?;
+    writeln!(out)?;
+    output::write_one(output, text.into_bytes(), out)?;
+    Ok(Status::Good)
+}
+
+fn none_possible(map: &AxisMap) -> Failure {
+    let faults = map.found().iter().filter_map(|found| found.as_ref().err());
+    let mut counts: Vec<(&str, usize)> = Vec::new();
+    for fault in faults {
+        match counts.iter_mut().find(|(name, _)| *name == fault.name()) {
+            Some((_, count)) => *count += 1,
+            None => counts.push((fault.name(), 1)),
+        }
+    }
+    let words: Vec<String> = counts
+        .iter()
+        .map(|(name, count)| format!("{name} {count}"))
+        .collect();
+    let all = map.found().len();
+    Failure::Usage(format!(
+        "no machine of this kind has a tip that runs along the path: of {all} axes tried on and about it none is possible ({})",
+        words.join(", ")
+    ))
+}
+
+pub(crate) fn line(out: &mut impl Write, name: &str, words: &str) -> std::io::Result<()> {
+    writeln!(out, "{name:NAME$}{words}")
+}
+
+pub(crate) fn range(ratios: [f64; 2]) -> String {
+    format!("{:.4} to {:.4}", ratios[0], ratios[1])
+}
+
+fn chosen(
+    command: &Reverse,
+    chain: &TwoBar,
+    split: &Split,
+    out: &mut impl Write,
+) -> std::io::Result<()> {
+    let mm = |x: f64| Unit::Millimetre.tell(x);
+    let why = match command.axis {
+        Some(_) => "as asked",
+        None => "the mildest found",
+    };
+    let axis = chain.axis();
+    let at = format!("{:.4}, {:.4} mm, {why}", axis.x, axis.y);
+    line(out, "axis of the carrier", &at)?;
+    let sense = match chain.direction() {
+        Direction::CounterClockwise => "counter-clockwise",
+        Direction::Clockwise => "clockwise",
+    };
+    line(
+        out,
+        "carrier",
+        &format!("{}, turns {sense}", mm(chain.carrier())),
+    )?;
+    line(out, "arm", &mm(chain.arm()))?;
+    line(
+        out,
+        "ratio",
+        &range(chain.ratios().map(|ratio| ratio.value)),
+    )?;
+    line(out, "tip passes the shaft at", &mm(chain.shaft_distance()))?;
+    let words = format!(
+        "{}, bend {} deg, {} {}",
+        split.kind().name(),
+        command.bend,
+        command.arms,
+        if command.arms == 1 { "arm" } else { "arms" }
+    );
+    line(out, "split", &words)
+}
+
+fn gears(made: &ReversedMachine, out: &mut impl Write) -> std::io::Result<()> {
+    for (name, radii) in made.design.pairs.keys().zip(&made.least_radii) {
+        least_radii(out, name, *radii)?;
+    }
+    let error = format!(
+        "{} at most, with laws of {} steps",
+        Unit::Millimetre.tell(made.tip_error.value),
+        made.steps
+    );
+    line(out, "tip off the path", &error)
+}
+
+/// Prints the least convex radii of a pair's pitch curves.
+pub(crate) fn least_radii(
+    out: &mut impl Write,
+    pair: &str,
+    [driver, driven]: [f64; 2],
+) -> std::io::Result<()> {
+    let mm = |x: f64| Unit::Millimetre.tell(x);
+    let words = format!(
+        "least convex radius {} (driver), {} (driven)",
+        mm(driver),
+        mm(driven)
+    );
+    line(out, &format!("pair {pair}"), &words)
+}
+
+/// Prints what else is possible: other axes, and the other split.
+fn others(
+    chain: &TwoBar,
+    map: &AxisMap,
+    kind: SplitKind,
+    bend: f64,
+    out: &mut impl Write,
+) -> std::io::Result<()> {
+    let (all, possible) = (map.found().len(), map.possible());
+    let inside = map.found().iter().flatten();
+    let inside = inside.filter(|axis| axis.carrier > axis.arm).count();
+    let words = format!(
+        "{possible} of {all} tried: {inside} inside the path, {} outside",
+        possible - inside
+    );
+    line(out, "possible axes", &words)?;
+    for (name, other) in SplitKind::NAMES {
+        if other == kind {
+            continue;
+        }
+        let words = match Split::new(chain, other, bend) {
+            Ok(_) => "possible".to_owned(),
+            Err(error) => error.to_string(),
+        };
+        line(out, &format!("split {name}"), &words)?;
+    }
+    Ok(())
+}
+
+pub(crate) fn teeth(found: &[SoundTeeth], out: &mut impl Write) -> std::io::Result<()> {
+    for teeth in found {
+        let kind = match teeth.addendum {
+            Addendum::Full => "full",
+            Addendum::Fitted => "fitted",
+        };
+        let full = match teeth.addendum {
+            Addendum::Full => String::new(),
+            Addendum::Fitted => {
+                let module = Unit::Millimetre.tell(teeth.full_module);
+                format!("; full ones are undercut above {module}")
+            }
+        };
+        let words = format!(
+            "{} {kind} teeth, module {}{full}",
+            teeth.tooth_count,
+            Unit::Millimetre.tell(teeth.module)
+        );
+        line(out, &format!("teeth of {}", teeth.pair), &words)?;
+    }
+    Ok(())
+}

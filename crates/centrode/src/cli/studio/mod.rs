@@ -1,0 +1,97 @@
+//! `centrode studio`: the design page, served to the browser of this computer.
+
+mod document;
+mod guard;
+mod listener;
+mod response;
+mod routes;
+mod search;
+mod solver;
+mod watch;
+
+use std::io::Write;
+use std::net::{Ipv4Addr, SocketAddr};
+use std::process::Stdio;
+use std::sync::Arc;
+use std::time::Duration;
+
+use tokio::net::TcpListener;
+
+use crate::cli::Status;
+use crate::cli::args::Studio;
+use crate::cli::failure::Failure;
+use document::Document;
+use guard::Guard;
+use search::Searching;
+use solver::Solver;
+use watch::Watch;
+
+/// Shared state of all requests.
+pub(crate) struct StudioState {
+    document: Document,
+    solver: Arc<Solver>,
+    searching: Searching,
+    watch: Watch,
+}
+
+/// Serves the page until Ctrl-C.
+pub(crate) fn run(command: &Studio, out: &mut impl Write) -> Result<Status, Failure> {
+    let document = Document::open(&command.design)?;
+    let runtime = tokio::runtime::Builder::new_multi_thread()
+        .worker_threads(2)
+        .enable_all()
+        .build()
+        .map_err(Failure::Serve)?;
+    let address = SocketAddr::from((Ipv4Addr::LOCALHOST, command.port));
+    let listener = runtime
+        .block_on(TcpListener::bind(address))
+        .map_err(Failure::Serve)?;
+    let port = listener.local_addr().map_err(Failure::Serve)?.port();
+    let guard = Guard::new(port).map_err(Failure::Serve)?;
+    writeln!(out, "{}", guard.url())?;
+    out.flush()?;
+    if command.open {
+        open(&guard.url());
+    }
+    runtime.block_on(async {
+        let state = Arc::new(StudioState {
+            watch: Watch::default(),
+            searching: Searching::default(),
+            solver: Arc::default(),
+            document,
+        });
+        let page = routes::router(Arc::clone(&state), guard);
+        tokio::select! {
+            () = listener::serve(listener, page) => {}
+            () = watch::disk(&state) => {}
+            stopped = tokio::signal::ctrl_c() => stopped.map_err(Failure::Serve)?,
+        }
+        Ok::<(), Failure>(())
+    })?;
+    // Nobody needs a solve under way any more.
+    runtime.shutdown_timeout(Duration::from_millis(100));
+    Ok(Status::Good)
+}
+
+/// Opens an address in the browser; where there is none, the printed address remains.
+fn open(url: &str) {
+    let opener = if cfg!(target_os = "macos") {
+        "open"
+    } else if cfg!(windows) {
+        "explorer"
+    } else {
+        "xdg-open"
+    };
+    let command = std::process::Command::new(opener)
+        .arg(url)
+        .stdin(Stdio::null())
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .spawn();
+    if let Err(error) = command {
+        let _ = writeln!(
+            anstream::stderr(),
+            "cannot open the browser with {opener}: {error}"
+        );
+    }
+}

@@ -1,0 +1,336 @@
+use std::sync::Arc;
+use std::time::Duration;
+
+use crate::FAMILIES;
+use crate::analysis::optimise::{NotSearched, Strategy};
+use crate::export::page;
+use crate::geometry::Cancel;
+use axum::body::Bytes;
+use axum::extract::{Path, State};
+use axum::http::{StatusCode, header};
+use axum::response::{Html, IntoResponse, Response};
+use axum::routing::{get, post};
+use axum::{Json, Router};
+use clap::{Parser as _, ValueEnum as _};
+use serde::Deserialize;
+use serde_json::json;
+use tower_http::limit::RequestBodyLimitLayer;
+use tower_http::timeout::RequestBodyTimeoutLayer;
+
+use super::StudioState;
+use super::document::SaveError;
+use super::guard::{self, Guard};
+use super::solver::{Depth, Unsolved};
+use super::{response, search};
+use crate::cli::args::{Arguments, Command, Export, File};
+use crate::cli::export;
+use crate::cli::page::{Edit, Fault, edited};
+
+/// Largest body of a request: a design file at its largest, as JSON, and some edits.
+const LARGEST: usize = 4 << 20;
+
+/// Time between two parts of a body.
+const PATIENCE: Duration = Duration::from_secs(10);
+
+type Shared = State<Arc<StudioState>>;
+
+/// Every address of the page.
+pub(crate) fn router(state: Arc<StudioState>, guard: Guard) -> Router {
+    let page = Router::new()
+        .route("/{asset}", get(asset))
+        .route("/design", get(design))
+        .route(
+            "/events",
+            get(async |State(state): Shared| state.watch.events()),
+        )
+        .route("/solve", post(solve))
+        .route("/fault", post(fault))
+        .route("/save", post(save))
+        .route("/keep", post(keep).delete(forget))
+        .route("/reread", post(reread))
+        .route("/export", post(bundle))
+        .route("/search", get(searched).post(searching).delete(unsearched))
+        .route("/response", post(respond))
+        .layer(RequestBodyTimeoutLayer::new(PATIENCE))
+        .layer(RequestBodyLimitLayer::new(LARGEST))
+        .with_state(state);
+    let base = guard.base();
+    Router::new()
+        // A nest has no place for the bare slash that the page's own address ends with.
+        .route(&format!("{base}/"), get(async || Html(page::INDEX)))
+        .nest(&base, page)
+        .layer(axum::middleware::from_fn_with_state(guard, guard::pass))
+}
+
+/// Answer to a request that is refused.
+struct Refused(StatusCode, serde_json::Value);
+
+impl Refused {
+    fn because(status: StatusCode, reason: impl ToString) -> Self {
+        Self(status, json!({ "message": reason.to_string() }))
+    }
+}
+
+impl IntoResponse for Refused {
+    fn into_response(self) -> Response {
+        (self.0, Json(self.1)).into_response()
+    }
+}
+
+impl From<SaveError> for Refused {
+    fn from(error: SaveError) -> Self {
+        let message = error.to_string();
+        match error {
+            SaveError::Changed { .. } | SaveError::Missing { .. } => {
+                Self::because(StatusCode::CONFLICT, message)
+            }
+            SaveError::Bundle(_) => Self::because(StatusCode::INSUFFICIENT_STORAGE, message),
+            SaveError::TooLarge { .. } => Self::because(StatusCode::PAYLOAD_TOO_LARGE, message),
+        }
+    }
+}
+
+/// Answer of JSON text as it is.
+fn as_json(text: String) -> Response {
+    ([(header::CONTENT_TYPE, "application/json")], text).into_response()
+}
+
+async fn asset(Path(name): Path<String>) -> Response {
+    match page::asset(&name) {
+        Some(asset) => ([(header::CONTENT_TYPE, asset.media_type)], asset.text).into_response(),
+        None => StatusCode::NOT_FOUND.into_response(),
+    }
+}
+
+async fn design(State(state): Shared) -> Response {
+    let document = &state.document;
+    Json(json!({
+        "file": document.name(),
+        "text": document.text(),
+        "recovered": document.recovered(),
+        "formats": formats(),
+        "methods": Strategy::NAMES.map(|(name, _)| name),
+        "unsearched": unsearchable(&document.text()),
+    }))
+    .into_response()
+}
+
+/// Reason why there is no search for designs of this family; null where there is one.
+fn unsearchable(text: &str) -> Option<String> {
+    let file = FAMILIES.read(text.as_bytes()).ok()?;
+    match file.family().problem(file.design()) {
+        Err(reason @ NotSearched::Family) => Some(reason.to_string()),
+        _ => None,
+    }
+}
+
+/// Kinds of file that can be exported: the word for each, and its description.
+fn formats() -> Vec<[String; 2]> {
+    let values = File::value_variants()
+        .iter()
+        .filter_map(File::to_possible_value);
+    values
+        .map(|value| {
+            let help = value.get_help().map(ToString::to_string);
+            [value.get_name().to_owned(), help.unwrap_or_default()]
+        })
+        .collect()
+}
+
+#[derive(Deserialize)]
+struct Solve {
+    /// Page, of those that are open, that asks: its next request takes the place of this one.
+    #[serde(default)]
+    page: String,
+    /// How many requests the page has made before.
+    #[serde(default)]
+    turn: u64,
+    text: String,
+    #[serde(default)]
+    edits: Vec<Edit>,
+    depth: Depth,
+}
+
+async fn solve(State(state): Shared, Json(ask): Json<Solve>) -> Result<Response, Refused> {
+    let text = if ask.edits.is_empty() {
+        ask.text
+    } else {
+        // A new kind is tested.
+        let made = apart(move || edited(&ask.text, &ask.edits)).await?;
+        made.map_err(|error| Refused::because(StatusCode::UNPROCESSABLE_ENTITY, error))?
+    };
+    match state
+        .solver
+        .solve(&ask.page, ask.turn, text, ask.depth)
+        .await
+    {
+        Ok(snapshot) => Ok(as_json(snapshot)),
+        // Being overtaken is no failure: browsers would log it as one.
+        Err(Unsolved::Overtaken) => Ok(Json(json!({ "overtaken": true })).into_response()),
+        Err(fault) => Err(Refused::because(StatusCode::INTERNAL_SERVER_ERROR, fault)),
+    }
+}
+
+#[derive(Deserialize)]
+struct Text {
+    text: String,
+}
+
+/// Reason why a text does not read as a design; null where it does.
+async fn fault(Json(ask): Json<Text>) -> Response {
+    let fault = FAMILIES.read(ask.text.as_bytes()).err();
+    Json(json!({ "fault": fault.as_ref().map(Fault::from) })).into_response()
+}
+
+#[derive(Deserialize)]
+struct Save {
+    text: String,
+    /// Text that the page believes to be in the file.
+    base: String,
+    /// Whether a file with another text is written over.
+    #[serde(default)]
+    over: bool,
+}
+
+async fn save(State(state): Shared, Json(ask): Json<Save>) -> Result<Response, Refused> {
+    match apart(move || state.document.save(&ask.text, &ask.base, ask.over)).await? {
+        Ok(()) => Ok(Json(json!({ "saved": true })).into_response()),
+        // A question to the user, no failure.
+        Err(error @ (SaveError::Changed { .. } | SaveError::Missing { .. })) => {
+            let gone = matches!(error, SaveError::Missing { .. });
+            let message = error.to_string();
+            let answer = json!({ "saved": false, "message": message, "gone": gone });
+            Ok(Json(answer).into_response())
+        }
+        Err(error) => Err(error.into()),
+    }
+}
+
+async fn keep(State(state): Shared, Json(ask): Json<Text>) -> Result<Response, Refused> {
+    on_disk(move || state.document.keep(&ask.text)).await
+}
+
+#[derive(Deserialize)]
+struct Forget {
+    /// Name of an autosave, as `design` gives it.
+    file: String,
+}
+
+async fn forget(State(state): Shared, Json(ask): Json<Forget>) -> Result<Response, Refused> {
+    on_disk(move || {
+        state.document.forget(&ask.file);
+        Ok(())
+    })
+    .await
+}
+
+async fn reread(State(state): Shared) -> Result<Response, Refused> {
+    let text = apart(move || state.document.reread()).await??;
+    Ok(Json(json!({ "text": text })).into_response())
+}
+
+/// Waits for the disk without holding up other requests.
+async fn on_disk(
+    job: impl FnOnce() -> Result<(), SaveError> + Send + 'static,
+) -> Result<Response, Refused> {
+    apart(job).await??;
+    Ok(Json(json!({})).into_response())
+}
+
+async fn apart<T: Send + 'static>(job: impl FnOnce() -> T + Send + 'static) -> Result<T, Refused> {
+    let done = tokio::task::spawn_blocking(job).await;
+    done.map_err(|error| Refused::because(StatusCode::INTERNAL_SERVER_ERROR, error))
+}
+
+/// Guard that cancels when it is dropped: nobody waits for the answer any more.
+struct Wait(Cancel);
+
+impl Drop for Wait {
+    fn drop(&mut self) {
+        self.0.cancel();
+    }
+}
+
+/// Computes without holding up other requests, for as long as somebody waits for it.
+async fn computed<T: Send + 'static>(
+    job: impl FnOnce() -> T + Send + 'static,
+) -> Result<T, Refused> {
+    let wait = Wait(Cancel::default());
+    let cancel = wait.0.clone();
+    let done = apart(move || cancel.run(job)).await?;
+    done.map_err(|cancelled| Refused::because(StatusCode::INTERNAL_SERVER_ERROR, cancelled))
+}
+
+/// Starts a search for a better design.
+async fn searching(
+    State(state): Shared,
+    Json(ask): Json<search::Ask>,
+) -> Result<Response, Refused> {
+    let started = computed(move || state.searching.start(ask)).await?;
+    started.map_err(|reason| Refused::because(StatusCode::UNPROCESSABLE_ENTITY, reason))?;
+    Ok(Json(json!({})).into_response())
+}
+
+/// Progress of the search; null before the first.
+async fn searched(State(state): Shared) -> Response {
+    Json(state.searching.state()).into_response()
+}
+
+async fn unsearched(State(state): Shared) -> Response {
+    state.searching.dismiss();
+    Json(json!({})).into_response()
+}
+
+/// Response of the goals to one number.
+async fn respond(Json(ask): Json<response::Ask>) -> Result<Response, Refused> {
+    let answers = computed(move || response::answers(&ask)).await?;
+    let answers =
+        answers.map_err(|reason| Refused::because(StatusCode::UNPROCESSABLE_ENTITY, reason))?;
+    Ok(Json(answers).into_response())
+}
+
+#[derive(Deserialize)]
+struct Files {
+    text: String,
+    /// Kinds of file as on the command line; none for all.
+    formats: Vec<String>,
+    tolerance: String,
+    dxf: String,
+}
+
+impl Files {
+    /// Export command with these options; the folder is not used.
+    fn command(&self) -> Result<Export, String> {
+        let (formats, tolerance, dxf) = (
+            format!("--format={}", self.formats.join(",")),
+            format!("--tolerance={}", self.tolerance),
+            format!("--dxf={}", self.dxf),
+        );
+        let words = ["centrode", "export", "-", "--to=."];
+        let mut words: Vec<&str> = words.into_iter().chain([&*tolerance, &*dxf]).collect();
+        if !self.formats.is_empty() {
+            words.push(&formats);
+        }
+        match Arguments::try_parse_from(words).map(|arguments| arguments.command) {
+            Ok(Command::Export(command)) => Ok(command),
+            Ok(_) => Err("not an export".into()),
+            Err(error) => {
+                let message = error.to_string();
+                let first = message.lines().next().unwrap_or_default();
+                Err(first.trim_start_matches("error: ").to_owned())
+            }
+        }
+    }
+}
+
+async fn bundle(Json(ask): Json<Files>) -> Result<Response, Refused> {
+    let unusable = |reason: String| Refused::because(StatusCode::UNPROCESSABLE_ENTITY, reason);
+    let command = ask.command().map_err(unusable)?;
+    let zip = computed(move || export::zip(&ask.text, &command)).await?;
+    let zip = zip.map_err(|failure| unusable(failure.to_string()))?;
+    Ok((
+        [(header::CONTENT_TYPE, "application/zip")],
+        Bytes::from(zip),
+    )
+        .into_response())
+}

@@ -1,0 +1,192 @@
+use std::io;
+use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
+
+use crate::FAMILIES;
+use crate::analysis::optimise::{DesignProblem, DesignSearch, Ended, Progress, Settings, Strategy};
+use serde::{Deserialize, Serialize};
+
+use crate::cli::optimise::better;
+use crate::cli::report::{GoalWords, goal_words};
+
+/// Interval at which the best design so far is written out for the page.
+const SHOW: Duration = Duration::from_millis(400);
+
+/// Greatest number of points of the history that the page draws.
+const DRAWN: usize = 400;
+
+/// Search for a better design, on a thread of its own; there is one at a time.
+#[derive(Default)]
+pub(crate) struct Searching(Mutex<Option<Arc<Run>>>);
+
+/// Request of the page.
+#[derive(Deserialize)]
+pub(crate) struct Ask {
+    text: String,
+    method: String,
+    seed: u64,
+    evaluations: u64,
+}
+
+/// Progress of a search.
+#[derive(Clone, Debug, Serialize)]
+pub(crate) struct State {
+    method: String,
+    /// Greatest number of evaluations.
+    evaluations: u64,
+    running: bool,
+    ended: Option<Ended>,
+    /// Remark of the problem on the point where it ended.
+    remark: Option<String>,
+    /// The best at the ends of its generations, thinned out.
+    history: Vec<Progress>,
+    /// The best design so far, as a file.
+    text: String,
+    /// Goals of that design.
+    goals: Vec<GoalWords>,
+}
+
+struct Run {
+    stop: AtomicBool,
+    state: Mutex<State>,
+}
+
+impl Run {
+    fn state(&self) -> MutexGuard<'_, State> {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn stopped(&self) -> bool {
+        self.stop.load(Ordering::Relaxed)
+    }
+
+    fn tell(&self, progress: Progress) {
+        let history = &mut self.state().history;
+        if history.len() >= DRAWN {
+            let mut odd = false;
+            history.retain(|_| {
+                odd = !odd;
+                odd
+            });
+        }
+        history.push(progress);
+    }
+}
+
+impl Searching {
+    fn run(&self) -> MutexGuard<'_, Option<Arc<Run>>> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Starts a search; one under way is stopped. The error is the reason where there is none to start.
+    pub(crate) fn start(&self, ask: Ask) -> Result<(), String> {
+        let file = FAMILIES
+            .read(ask.text.as_bytes())
+            .map_err(|error| error.message())?;
+        let problem = file.family().problem(file.design());
+        let problem = problem.map_err(|error| error.to_string())?;
+        let strategy = Strategy::NAMES.iter().find(|(name, _)| *name == ask.method);
+        let Some(&(_, strategy)) = strategy else {
+            return Err(format!("unknown method {:?}", ask.method));
+        };
+        let settings = Settings {
+            seed: ask.seed,
+            evaluations: ask.evaluations,
+            ..Settings::default()
+        };
+        let search = DesignSearch::new(problem.as_ref(), strategy, settings)
+            .map_err(|error| error.to_string())?;
+        self.stop();
+        let run = Arc::new(Run {
+            stop: AtomicBool::new(false),
+            state: Mutex::new(State {
+                method: ask.method,
+                evaluations: ask.evaluations,
+                running: true,
+                ended: None,
+                remark: None,
+                history: Vec::new(),
+                goals: goals(&ask.text),
+                text: ask.text.clone(),
+            }),
+        });
+        let own = Arc::clone(&run);
+        let thread: io::Result<_> = std::thread::Builder::new()
+            .name("search".into())
+            .spawn(move || work(&own, &ask.text, problem.as_ref(), search));
+        thread.map_err(|error| error.to_string())?;
+        *self.run() = Some(run);
+        Ok(())
+    }
+
+    /// Progress of the last search; none before the first.
+    pub(crate) fn state(&self) -> Option<State> {
+        self.run().as_ref().map(|run| run.state().clone())
+    }
+
+    /// Stops at the end of the generation; the best so far is kept until it is dismissed by stopping once more.
+    pub(crate) fn dismiss(&self) {
+        self.stop();
+        let mut run = self.run();
+        if run.as_ref().is_some_and(|run| !run.state().running) {
+            *run = None;
+        }
+    }
+
+    fn stop(&self) {
+        if let Some(run) = self.run().as_ref() {
+            run.stop.store(true, Ordering::Relaxed);
+        }
+    }
+}
+
+/// The goals of a design; none where there is no mechanism.
+fn goals(text: &str) -> Vec<GoalWords> {
+    let mechanism = FAMILIES
+        .read(text.as_bytes())
+        .and_then(|file| file.mechanism());
+    mechanism.map_or_else(
+        |_| Vec::new(),
+        |mechanism| {
+            mechanism
+                .check_motion()
+                .goals
+                .iter()
+                .map(goal_words)
+                .collect()
+        },
+    )
+}
+
+fn work(run: &Run, text: &str, problem: &dyn DesignProblem, mut search: DesignSearch) {
+    let ended = loop {
+        let due = Instant::now() + SHOW;
+        let mut shown = false;
+        let ended = search.run(problem, &mut |progress| {
+            run.tell(*progress);
+            shown = Instant::now() >= due;
+            if shown || run.stopped() {
+                ControlFlow::Break(())
+            } else {
+                ControlFlow::Continue(())
+            }
+        });
+        if let Ok(best) = better(text, problem, &search.best())
+            && best != run.state().text
+        {
+            let goals = goals(&best);
+            let mut state = run.state();
+            (state.text, state.goals) = (best, goals);
+        }
+        if !shown || run.stopped() {
+            break ended;
+        }
+    };
+    let remark = problem.remark(&search.best());
+    let mut state = run.state();
+    state.remark = remark;
+    state.running = false;
+    state.ended = Some(ended);
+}

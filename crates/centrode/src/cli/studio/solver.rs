@@ -1,0 +1,263 @@
+use std::collections::HashMap;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+use crate::geometry::Cancel;
+use serde::Deserialize;
+
+use crate::cli::page::{Snapshot, Subject};
+
+/// Solves the designs of the pages that are open, for each page the latest asked for.
+///
+/// A solve ends early once its page asks for another, or nobody waits for its answer any more.
+#[derive(Default)]
+pub(crate) struct Solver {
+    /// Request being solved for each page: its turn, and what ends it.
+    under_way: Mutex<HashMap<String, (u64, Cancel)>>,
+    /// Last design solved: after its picture its checks are asked for.
+    last: Mutex<Option<Arc<Subject>>>,
+}
+
+/// Depth to which a design is solved.
+#[derive(Clone, Copy, Debug, Deserialize, Eq, PartialEq)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum Depth {
+    /// Numbers alone: solving it was cancelled.
+    Numbers,
+    /// Picture that is available at once.
+    Picture,
+    /// Picture with details that take longer to make.
+    Detail,
+    /// Results of the checks, too.
+    Checks,
+}
+
+/// Reason why a design has no answer.
+#[derive(Debug, thiserror::Error)]
+pub(crate) enum Unsolved {
+    #[error("a later change has taken the place of this one")]
+    Overtaken,
+    #[error("solving this design has failed: {0}")]
+    Fault(String),
+}
+
+/// Guard of a solve that somebody waits for; dropped, it cancels the solve.
+struct Wait<'a> {
+    solver: &'a Solver,
+    page: &'a str,
+    cancel: Cancel,
+}
+
+impl<'a> Wait<'a> {
+    /// Takes the place of the request being solved for the page; none for one that comes after a later one.
+    fn begin(solver: &'a Solver, page: &'a str, turn: u64) -> Option<Self> {
+        let cancel = Cancel::default();
+        let mut under_way = held(&solver.under_way);
+        if under_way.get(page).is_some_and(|(later, _)| *later > turn) {
+            return None;
+        }
+        let before = under_way.insert(page.to_owned(), (turn, cancel.clone()));
+        if let Some((_, before)) = before {
+            before.cancel();
+        }
+        Some(Self {
+            solver,
+            page,
+            cancel,
+        })
+    }
+}
+
+impl Drop for Wait<'_> {
+    fn drop(&mut self) {
+        let mut under_way = held(&self.solver.under_way);
+        // A cancelled one has been replaced by the next of its page.
+        if !self.cancel.is_cancelled() {
+            under_way.remove(self.page);
+        }
+        self.cancel.cancel();
+    }
+}
+
+impl Solver {
+    /// Snapshot of a design as JSON. Dropped before its end, the solve is cancelled.
+    ///
+    /// A page numbers its requests by `turn`: on their way one can be overtaken by the next.
+    pub(crate) async fn solve(
+        self: &Arc<Self>,
+        page: &str,
+        turn: u64,
+        text: String,
+        depth: Depth,
+    ) -> Result<String, Unsolved> {
+        let wait = Wait::begin(self, page, turn).ok_or(Unsolved::Overtaken)?;
+        let (solver, cancel) = (Arc::clone(self), wait.cancel.clone());
+        let job = move || cancel.run(|| solver.snapshot(text, depth));
+        match tokio::task::spawn_blocking(job).await {
+            Ok(Ok(json)) => json.map_err(|error| Unsolved::Fault(error.to_string())),
+            Ok(Err(_)) => Err(Unsolved::Overtaken),
+            Err(fault) => Err(Unsolved::Fault(fault.to_string())),
+        }
+    }
+
+    fn snapshot(&self, text: String, depth: Depth) -> serde_json::Result<String> {
+        if depth == Depth::Numbers {
+            return Snapshot::cancelled(text).json();
+        }
+        let last = held(&self.last).clone();
+        let subject = match last.filter(|subject| subject.is_of(&text)) {
+            Some(subject) => subject,
+            None => match Subject::of(text) {
+                Ok(subject) => Arc::new(subject),
+                Err(snapshot) => return snapshot.json(),
+            },
+        };
+        *held(&self.last) = Some(Arc::clone(&subject));
+        let snapshot = match depth {
+            Depth::Numbers | Depth::Picture => subject.drawn(),
+            Depth::Detail => subject.detailed(),
+            Depth::Checks => subject.checked(),
+        };
+        snapshot.json()
+    }
+}
+
+fn held<T>(what: &Mutex<T>) -> MutexGuard<'_, T> {
+    what.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::FAMILIES;
+    use std::time::{Duration, Instant};
+
+    const PAGE: &str = "one";
+
+    /// A design that takes minutes to solve.
+    const SLOW: &str = r#"
+        family = "gear-pair"
+        [pitch]
+        kind = "circle"
+        module = 1
+        tooth_count = 2000
+    "#;
+
+    fn block_on<T>(task: impl Future<Output = T>) -> T {
+        let runtime = tokio::runtime::Builder::new_current_thread()
+            .enable_time()
+            .build()
+            .expect("a runtime");
+        let done = runtime.block_on(task);
+        // A thread that still computes would be waited for here: minutes, where one that stops takes a tenth of a second
+        // on a machine that has nothing else to do.
+        let ended = Instant::now();
+        drop(runtime);
+        assert!(ended.elapsed() < Duration::from_secs(2));
+        done
+    }
+
+    #[test]
+    fn a_later_change_or_nobody_waiting_stops_a_slow_solve_at_once() {
+        block_on(async {
+            let solver = Arc::new(Solver::default());
+            let slow = |page: &'static str| {
+                let solver = Arc::clone(&solver);
+                tokio::spawn(
+                    async move { solver.solve(page, 1, SLOW.into(), Depth::Picture).await },
+                )
+            };
+            let (ours, others, left) = (slow(PAGE), slow("another"), slow("closed"));
+            tokio::time::sleep(Duration::from_millis(300)).await;
+            assert!(!ours.is_finished() && !others.is_finished());
+            let asked = Instant::now();
+            let quick = solver
+                .solve(PAGE, 2, "family = 1".into(), Depth::Picture)
+                .await;
+            assert!(quick.expect("the latest").contains("family"));
+            let overtaken = ours.await.expect("no panic");
+            assert!(matches!(overtaken, Err(Unsolved::Overtaken)));
+            assert!(asked.elapsed() < Duration::from_secs(2));
+            // A request that was held up on its way takes nobody's place.
+            let latest = slow(PAGE);
+            tokio::time::sleep(Duration::from_millis(50)).await;
+            let late = solver
+                .solve(PAGE, 0, "family = 1".into(), Depth::Picture)
+                .await;
+            assert!(matches!(late, Err(Unsolved::Overtaken)));
+            assert!(!latest.is_finished());
+            latest.abort();
+            // What another page waits for goes on.
+            assert!(!others.is_finished());
+            others.abort();
+            left.abort();
+        });
+    }
+
+    #[test]
+    fn a_cancelled_design_shows_its_numbers() {
+        block_on(async {
+            let solver = Arc::new(Solver::default());
+            let answer = solver.solve(PAGE, 1, SLOW.into(), Depth::Numbers).await;
+            let answer = answer.expect("at once");
+            assert!(answer.contains("cancelled") && answer.contains("pitch.tooth_count"));
+        });
+    }
+
+    #[test]
+    fn the_latest_design_is_answered_and_no_queue_builds_up() {
+        let runtime = tokio::runtime::Builder::new_current_thread()
+            .build()
+            .expect("a runtime");
+        runtime.block_on(async {
+            let solver = Arc::new(Solver::default());
+            let template = FAMILIES.template("gear-pair").expect("a template");
+            let mut asked = Vec::new();
+            for z in 20..60 {
+                let text = template.replace("tooth_count = 23", &format!("tooth_count = {z}"));
+                let solver = Arc::clone(&solver);
+                asked.push(tokio::spawn(async move {
+                    solver.solve(PAGE, z, text, Depth::Checks).await
+                }));
+                tokio::task::yield_now().await;
+            }
+            let mut answers = Vec::new();
+            for task in asked {
+                answers.push(task.await.expect("no panic"));
+            }
+            let last = answers
+                .pop()
+                .expect("asked")
+                .expect("the latest is answered");
+            assert!(last.contains("tooth_count = 59"));
+            let done = answers.iter().filter(|a| a.is_ok()).count();
+            assert!(done < 39, "{done} stale designs were solved");
+        });
+    }
+
+    #[test]
+    fn a_picture_does_not_wait_for_the_checks_of_an_older_design() {
+        let runtime = tokio::runtime::Builder::new_current_thread()
+            .build()
+            .expect("a runtime");
+        runtime.block_on(async {
+            let solver = Arc::new(Solver::default());
+            // Its checks take some seconds in a debug build.
+            let slow = FAMILIES.template("three-arm").expect("a template");
+            let quick = FAMILIES.template("gear-pair").expect("a template");
+            let first = solver.solve(PAGE, 1, slow.to_owned(), Depth::Picture).await;
+            assert!(first.expect("nothing overtakes it").contains("\"picture\""));
+            let checker = Arc::clone(&solver);
+            let checks = tokio::spawn(async move {
+                checker.solve(PAGE, 2, slow.to_owned(), Depth::Checks).await
+            });
+            tokio::task::yield_now().await;
+            let picture = solver
+                .solve(PAGE, 3, quick.to_owned(), Depth::Picture)
+                .await;
+            assert!(picture.expect("the latest").contains("tooth_count"));
+            // The checks are still under way, or were dropped before they began; had the picture waited, they would be done.
+            let waited = checks.is_finished() && checks.await.expect("no panic").is_ok();
+            assert!(!waited, "the picture has waited for them");
+        });
+    }
+}
