@@ -40,6 +40,7 @@ from ._design import load, schema
 from ._error import CamError, DesignError, Error, ExportError, GearPairError, LinkageError, MechanismError, PitchError
 from ._forces import Forces
 from ._goal import Goal
+from ._link import Joint, Link
 from ._optimised import Optimised
 from ._over_pins import OverPins
 from ._part import Part
@@ -48,6 +49,7 @@ from ._report import Finding, Place, Report, Table
 from ._sheet import Drawing, Sheets
 from ._six_bar import DeadCenters
 from ._slider_force import SliderForce
+from ._solid import Edge, Opening, Solid
 from ._sweep import sweep
 from ._tooth import Tooth, ToothSide
 
@@ -63,6 +65,7 @@ __all__ = [
     "DiscCam",
     "Drawing",
     "DrawingSpec",
+    "Edge",
     "Error",
     "ExportError",
     "Feeder",
@@ -72,12 +75,15 @@ __all__ = [
     "GearPair",
     "GearPairError",
     "Goal",
+    "Joint",
     "Keyway",
+    "Link",
     "LinkageError",
     "Machine",
     "Mechanism",
     "MechanismError",
     "MovingBox",
+    "Opening",
     "Optimised",
     "OverPins",
     "PairRemedy",
@@ -92,6 +98,7 @@ __all__ = [
     "Sheets",
     "SixBar",
     "SliderForce",
+    "Solid",
     "SpiralShaft",
     "Table",
     "ThreeArm",

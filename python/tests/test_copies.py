@@ -59,6 +59,7 @@ def objects():
     reverse = ct.reverse([(0, 0), (60, 70), (150, 150), (230, 215), (262, 262), (235, 300), (170, 330), (100, 330),
                           (40, 300), (-5, 250), (-30, 190), (-38, 130), (-30, 60)], bend_deg=40)  # fmt: skip
     over = pair.driver.over_pins()
+    housing = arms.solids(parts=["housing"])["housing"]
     made = [
         leg,
         pair,
@@ -70,6 +71,11 @@ def objects():
         *pair.driver.teeth[:1],
         pair.driver.teeth[0].leading,
         over,
+        housing,
+        housing.opening,
+        *housing.contours[0][:2],
+        *arms.links()[1:3],
+        arms.links()[1].joint,
         pair.contact(1),
         ct.Rack(pressure_angle=0.4),
         ct.Shaper(tooth_count=25),

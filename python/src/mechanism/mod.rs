@@ -5,7 +5,7 @@ mod held;
 use std::path::PathBuf;
 use std::sync::{Arc, OnceLock};
 
-use centrode::family::{self, Depth};
+use centrode::family;
 use centrode_analysis::optimise::Settings;
 use centrode_mechanism::machine::{FrameJet, Machine};
 use pyo3::prelude::{
@@ -15,12 +15,13 @@ use pyo3::types::{PyDict, PyTuple, PyType};
 
 use crate::array::{Course, Values};
 use crate::design::{object, of_class, path_loaded, read};
-use crate::error::{Answer, Raised, finite};
+use crate::error::{Answer, tolerance as within};
 use crate::files;
 use crate::forces::Names;
 use crate::made::{Reduced, by_design};
 use crate::record;
 use crate::search;
+use crate::solid;
 use crate::word::Word;
 
 /// A machine of whatever family: what `load` gives is one of its subclasses.
@@ -216,6 +217,38 @@ impl Mechanism {
         Ok(record::parts(py, &machine)?)
     }
 
+    /// The parts that are straight extrusions, by the names of their files: exact edges and heights, for CAD kernels.
+    ///
+    /// Args:
+    ///     parts: Names of parts, as their files have them; all if left out.
+    ///     tolerance: Sides shorter than this, mm, are closed up: a CAD kernel takes them for points.
+    ///
+    /// >>> import centrode as ct
+    /// >>> pair = ct.GearPair(ct.pitch.circle(module=2, tooth_count=20))
+    /// >>> {name: len(solid.contours) for name, solid in pair.solids().items()}
+    /// {'driver': 1, 'driven': 1}
+    #[pyo3(signature = (*, parts=None, tolerance=1e-6))]
+    fn solids<'py>(
+        &self,
+        py: Python<'py>,
+        parts: Option<Vec<String>>,
+        tolerance: f64,
+    ) -> Answer<Bound<'py, PyDict>> {
+        self.kept_solids(py, parts, tolerance)
+    }
+
+    /// The links with their bodies and the joints that carry them; none stands before the one that carries it.
+    ///
+    /// >>> import centrode as ct
+    /// >>> pair = ct.GearPair(ct.pitch.circle(module=2, tooth_count=20))
+    /// >>> [(link.name, link.joint and link.joint.kind) for link in pair.links()]
+    /// [('base', None), ('driver', 'turning'), ('driven', 'turning')]
+    #[pyo3(name = "links", signature = (tolerance=1e-6))]
+    fn bodies<'py>(&self, py: Python<'py>, tolerance: f64) -> Answer<Bound<'py, PyTuple>> {
+        let shortest = within(tolerance, self.0.accuracy())?;
+        solid::links(py, &*self.links(py)?, shortest)
+    }
+
     /// Searches for a better machine around this one; the table [optimise] of its design says what may move, and a table
     /// [bounds], where it has one, how far.
     ///
@@ -278,24 +311,7 @@ impl Mechanism {
         values: Vec<f64>,
         whole: bool,
     ) -> Answer<Bound<'py, PyDict>> {
-        let family = *self.family()?;
-        if values.is_empty() {
-            return Err(Raised::rule("values", "must be at least one number"));
-        }
-        for &value in &values {
-            finite("values", value)?;
-        }
-        let key = self.0.design().key_of(parameter);
-        let depth = if whole { Depth::Whole } else { Depth::Motion };
-        let found = self.ask(py, move |machine| {
-            family.response(machine.design(), &key, &values, depth)
-        })??;
-        let named = PyDict::new(py);
-        for answer in found.answers() {
-            let figures = answer.figures.iter().map(|f| f.unwrap_or(f64::NAN));
-            named.set_item(answer.name, numpy::PyArray1::from_iter(py, figures))?;
-        }
-        Ok(named)
+        self.answers(py, parameter, values, whole)
     }
 
     /// The files of the machine, name to contents, without writing them; `export` writes them.
