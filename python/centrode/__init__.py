@@ -9,7 +9,7 @@ Lengths are millimetres, angles radians, counter-clockwise positive. Everything 
 True
 """
 
-from . import cam, pitch, plot
+from . import build123d, cadquery, cam, mujoco, pitch, plot
 from ._axes import AxisMap
 from ._centrode import (
     Body,
@@ -105,8 +105,11 @@ __all__ = [
     "Tooth",
     "ToothSide",
     "__version__",
+    "build123d",
+    "cadquery",
     "cam",
     "load",
+    "mujoco",
     "pitch",
     "plot",
     "reverse",

@@ -26,7 +26,7 @@ def public_classes():
     return found
 
 
-PUBLIC = {f"centrode.{name}" for name in ("cam", "pitch", "plot")}
+PUBLIC = {f"centrode.{name}" for name in ("build123d", "cadquery", "cam", "mujoco", "pitch", "plot")}
 CLASSES = public_classes()
 
 
@@ -76,6 +76,7 @@ def objects():
         *housing.contours[0][:2],
         *arms.links()[1:3],
         arms.links()[1].joint,
+        ct.mujoco.load(pair, tolerance=0.1)[1],
         pair.contact(1),
         ct.Rack(pressure_angle=0.4),
         ct.Shaper(tooth_count=25),

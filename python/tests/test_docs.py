@@ -13,7 +13,7 @@ README = Path(__file__).resolve().parents[1] / "README.md"
 def documented():
     """Everything public with its documentation."""
     yield "centrode", ct
-    for module in (ct, ct.cam, ct.pitch, ct.plot):
+    for module in (ct, ct.build123d, ct.cadquery, ct.cam, ct.mujoco, ct.pitch, ct.plot):
         for name in module.__all__:
             thing = getattr(module, name)
             if inspect.ismodule(thing) or isinstance(thing, str):

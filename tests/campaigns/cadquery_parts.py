@@ -1,0 +1,89 @@
+"""Parts and assemblies of CadQuery beside the kernel's checker, Green's theorem and the machine's own poses.
+
+CadQuery and build123d stand on different versions of one kernel, so they cannot share an environment. This one makes
+its own, some 2 GB, on its first run:
+
+    python tests/campaigns/cadquery_parts.py --environment ~/.cache/centrode-cadquery
+    python tests/campaigns/cadquery_parts.py --here       # in an environment that has centrode and CadQuery already
+"""
+
+import argparse
+import os
+import subprocess
+import sys
+import venv
+from pathlib import Path
+
+ROOT = Path(__file__).parents[2]
+CADQUERY = "cadquery==2.8.0"
+
+
+def own(folder):
+    """Runs this script in an environment with CadQuery, which is made if it is missing."""
+    python = folder / "bin" / "python"
+    if not python.exists():
+        venv.create(folder, with_pip=True)
+    if subprocess.run([python, "-c", "import cadquery"], capture_output=True).returncode:
+        subprocess.run([python, "-m", "pip", "install", "--quiet", CADQUERY, "numpy>=1.26"], check=True)
+    place = {**os.environ, "PYTHONPATH": str(ROOT / "python")}
+    return subprocess.run([python, __file__, "--here"], env=place).returncode
+
+
+def near(found, wanted, bound, what):
+    """Raises where two figures differ by more than a bound."""
+    if not abs(found - wanted) <= bound:
+        raise SystemExit(f"{what}: {found!r}, not {wanted!r}")
+    return abs(found - wanted)
+
+
+def check():
+    """Looks at every part and every assembly of every shipped design."""
+    import cadquery as cq
+    import centrode as ct
+    import numpy as np
+    from OCP.BRepCheck import BRepCheck_Analyzer
+
+    parts, worst, off = 0, 0.0, 0.0
+    for path in sorted((ROOT / "tests" / "designs").glob("*.toml")):
+        machine = ct.load(path)
+        for name, solid in machine.solids().items():
+            made = ct.cadquery.part(machine, name).val()
+            if not (isinstance(made, cq.Solid) and BRepCheck_Analyzer(made.wrapped).IsValid()):
+                raise SystemExit(f"{path.stem}: {name} is no valid solid")
+            what = f"{path.stem}: volume of {name}"
+            worst = max(worst, near(made.Volume(), solid.volume, 1e-9 * solid.volume, what) / solid.volume)
+            parts += 1
+        assembly = ct.cadquery.assembly(machine, phi=0.5)
+        for phi in (0.5, 0.0, -2.0, 9.25):
+            ct.cadquery.pose(assembly, machine, phi)
+            for name, frame in machine.frames(phi).items():
+                place = assembly.objects[name].loc.wrapped.Transformation()
+                rows = np.array([[place.Value(row, column) for column in (1, 2, 3, 4)] for row in (1, 2, 3)])
+                off = max(
+                    off, near(np.abs(rows - frame[:3]).max(), 0.0, 1e-9, f"{path.stem}: place of {name} at {phi}")
+                )
+        print(f"{path.stem}: {len(machine.solids())} parts, {len(assembly.children)} links", flush=True)
+        if isinstance(machine, ct.BoxDrive):
+            shaft = ct.cadquery.part(machine, "shaft").val()
+            if not BRepCheck_Analyzer(shaft.wrapped).IsValid():
+                raise SystemExit(f"{path.stem}: the shaft is not valid")
+            parts += 1
+    print(
+        f"{parts} parts valid, volumes within {worst:.1e} of Green's theorem, links within {off:.1e} mm of their laws"
+    )
+
+
+def main():
+    """Reads the arguments."""
+    parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
+    parser.add_argument("--environment", type=Path, default=ROOT / ".venv-cadquery", help="folder of the environment")
+    parser.add_argument("--here", action="store_true", help="use the environment that runs this")
+    options = parser.parse_args()
+    if options.here:
+        check()
+    else:
+        sys.exit(own(options.environment))
+
+
+if __name__ == "__main__":
+    main()
