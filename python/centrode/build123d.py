@@ -81,7 +81,7 @@ def pose(assembly: _b3d.Compound, of: Mechanism, phi: float) -> None:
     """
     _build123d()
     machine = _machine.machine(of)
-    _put(assembly, machine, machine.links(), phi)
+    _put(assembly, machine, machine.links(bodies=False), phi)
 
 
 def _put(whole: Any, machine: Mechanism, links: tuple[Link, ...], phi: float) -> None:

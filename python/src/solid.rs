@@ -82,11 +82,11 @@ pub(crate) fn solids<'py>(
     Ok(named)
 }
 
-/// Links of a machine with their bodies, those that carry others before these.
+/// Links of a machine, those that carry others before these, with their bodies unless there is no shortest side.
 pub(crate) fn links<'py>(
     py: Python<'py>,
     machine: &Machine,
-    shortest: Tolerance,
+    shortest: Option<Tolerance>,
 ) -> Answer<Bound<'py, PyTuple>> {
     let mut found = Vec::with_capacity(machine.links.len());
     for (index, joint) in in_order(machine) {
@@ -121,21 +121,21 @@ fn link<'py>(
     py: Python<'py>,
     machine: &Machine,
     (index, joint): (usize, Option<usize>),
-    shortest: Tolerance,
+    shortest: Option<Tolerance>,
 ) -> Answer<Bound<'py, PyAny>> {
     let link = &machine.links[index];
     let shape = link.shape.and_then(|shape| machine.shapes.get(shape));
     let mut solids = Vec::new();
     let mut triangles = None;
-    match shape.map(|shape| &shape.form) {
-        Some(Form::Solids(all)) => {
+    match shortest.zip(shape.map(|shape| &shape.form)) {
+        Some((shortest, Form::Solids(all))) => {
             for solid in all {
                 let sides = Sides::of(&link.name, solid.clone(), shortest)?;
                 solids.push(sides.record(py)?);
             }
         }
-        Some(Form::Mesh(made, _)) => triangles = Some(mesh(made.clone())),
-        Some(Form::Body(_)) | None => {}
+        Some((_, Form::Mesh(made, _))) => triangles = Some(mesh(made.clone())),
+        Some((_, Form::Body(_))) | None => {}
     }
     let carrying = joint.map(|joint| joined(py, machine, joint)).transpose()?;
     let made = record!(py, "centrode._link" "Link", () => []

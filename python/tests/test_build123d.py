@@ -8,6 +8,8 @@ import centrode as ct
 import numpy as np
 import pytest
 from OCP.BRepCheck import BRepCheck_Analyzer
+from OCP.BRepGProp import BRepGProp
+from OCP.GProp import GProp_GProps
 
 b3d = pytest.importorskip("build123d")
 
@@ -82,6 +84,27 @@ def test_every_part_of_every_design_is_valid_and_as_large_as_greens_theorem_tell
             continue
         assert found == pytest.approx(volume(solids[name]), rel=1e-9)
         assert found == pytest.approx(solids[name].volume, rel=1e-9)
+
+
+def test_a_grooved_shaft_is_as_heavy_as_the_parts_list_says():
+    text = (DESIGNS[0].parent / "spiral-shaft-2018.toml").read_text()
+    # The exact solid leaves the fillet of the groove out.
+    sharp = ct.SpiralShaft.from_toml(text.replace("holes = 14 ", "holes = 4 ").replace("fillet = 0.5 ", "fillet = 0 "))
+    (listed,) = (part for part in sharp.parts() if part.file == "shaft")
+    part = ct.build123d.part(sharp, listed)
+    properties = GProp_GProps()
+    BRepGProp.VolumeProperties_s(part.wrapped, properties, 1e-9)
+    assert properties.Mass() * 7850e-9 == pytest.approx(listed.mass, rel=1e-7)
+
+
+def test_links_come_without_their_bodies_too():
+    arms = ct.ThreeArm.from_toml(ct.template("three-arm"))
+    whole, bare = arms.links(), arms.links(bodies=False)
+    assert [(link.name, link.joint) for link in bare] == [(link.name, link.joint) for link in whole]
+    assert any(link.solids for link in whole)
+    assert not any(link.solids or link.mesh for link in bare)
+    names = [link.name for link in bare]
+    assert all(link.joint is None or names.index(link.joint.parent) < names.index(link.name) for link in bare)
 
 
 def frame(child):

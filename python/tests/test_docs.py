@@ -2,6 +2,7 @@
 
 import doctest
 import inspect
+import re
 from pathlib import Path
 
 import centrode as ct
@@ -52,3 +53,12 @@ def run(name, text):
     told = []
     doctest.DocTestRunner(verbose=False).run(test, out=told.append)
     assert not told, "".join(told)
+
+
+def test_the_page_of_adapters_runs():
+    # CadQuery needs an environment of its own: tests/campaigns/cadquery_parts.py runs its section there.
+    page = (README.parents[1] / "docs" / "adapters.md").read_text()
+    sections = re.split(r"^## ", page, flags=re.MULTILINE)
+    kept = [section for section in sections if not section.startswith("CadQuery")]
+    assert len(kept) == len(sections) - 1
+    run("adapters", "\n".join(kept))

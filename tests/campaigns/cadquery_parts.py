@@ -8,6 +8,7 @@ its own, some 2 GB, on its first run:
 """
 
 import argparse
+import doctest
 import os
 import subprocess
 import sys
@@ -73,6 +74,17 @@ def check():
     )
 
 
+def documented():
+    """Runs the examples of the page of adapters."""
+    page = (ROOT / "docs" / "adapters.md").read_text()
+    (section,) = (one for one in page.split("\n## ") if one.startswith("CadQuery"))
+    examples = doctest.DocTestParser().get_doctest(section.replace("```", "\n"), {}, "CadQuery", None, None)
+    result = doctest.DocTestRunner(verbose=False).run(examples)
+    if result.failed or not result.attempted:
+        raise SystemExit(f"docs/adapters.md: {result}")
+    print(f"docs/adapters.md: {result.attempted} examples")
+
+
 def main():
     """Reads the arguments."""
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
@@ -80,6 +92,7 @@ def main():
     parser.add_argument("--here", action="store_true", help="use the environment that runs this")
     options = parser.parse_args()
     if options.here:
+        documented()
         check()
     else:
         sys.exit(own(options.environment))

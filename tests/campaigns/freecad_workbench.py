@@ -17,6 +17,7 @@ from pathlib import Path
 ROOT = Path(__file__).parents[2]
 WORKBENCH = ROOT / "tools" / "freecad" / "Centrode"
 INSIDE = "CENTRODE_WORKBENCH_TEST"
+DESIGN_FOLDER = ROOT / "tests" / "designs"
 DESIGNS = ("elliptic-pair-2018", "three-arm-2021", "spiral-shaft-2018", "feeder-2022", "press")
 
 
@@ -96,7 +97,7 @@ def inside():
     about = FreeCAD.Metadata(str(WORKBENCH / "package.xml"))
     assert (about.Name, about.Content["workbench"][0].Classname) == ("Centrode", "CentrodeWorkbench")
     for name in DESIGNS:
-        path = ROOT / "tests" / "designs" / f"{name}.toml"
+        path = DESIGN_FOLDER / f"{name}.toml"
         machine = centrode.load(path)
         design = importer.open(str(path))
         count = compare(design, machine)
@@ -106,7 +107,7 @@ def inside():
         print(f"> {name}: {count} links", flush=True)
         FreeCAD.closeDocument(design.Document.Name)
 
-    design = importer.open(str(ROOT / "tests" / "designs" / "elliptic-pair-2018.toml"))
+    design = importer.open(str(DESIGN_FOLDER / "elliptic-pair-2018.toml"))
     before = bodies(design.Document)["driver"].Shape.Volume
     width = next(name for name, key in (line.split("=") for line in design.Keys) if key == "driver.width")
     setattr(design, width, 2 * getattr(design, width))
@@ -144,14 +145,14 @@ def windowed(picture):
     import centrode
     from centrode_workbench import commands, objects
 
-    design = objects.make(FreeCAD.newDocument("pair"), centrode.template("gear-pair"))
+    design = objects.make(FreeCAD.newDocument("pair"), (DESIGN_FOLDER / "elliptic-pair-2018.toml").read_text())
     assert commands.chosen() is design
     FreeCADGui.runCommand("CentrodeUpdate")
     compare(design, centrode.Mechanism.from_toml(design.Text))
     view = FreeCADGui.activeDocument().activeView()
-    view.viewTop()
+    view.viewIsometric()
     FreeCADGui.SendMsgToActiveView("ViewFit")
-    view.saveImage(picture, 800, 600, "White")
+    view.saveImage(picture, 640, 400, "White")
     print("> the window shows the pair", flush=True)
 
 

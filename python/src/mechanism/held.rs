@@ -6,12 +6,12 @@ use centrode::family::{self, Depth, Family};
 use centrode::meshing;
 use centrode_export::machine::tabulated;
 use centrode_export::{Bundle, Format, Options};
-use centrode_mechanism::machine::Machine;
+use centrode_mechanism::machine::{FrameJet, Machine};
 use pyo3::prelude::{Bound, PyAny, PyClassInitializer, PyDictMethods, PyResult, Python};
 use pyo3::types::PyDict;
 
 use super::Mechanism;
-use crate::array::Values;
+use crate::array::{Course, Values};
 use crate::design::named;
 use crate::error::{Answer, Raised, finite, tolerance as within};
 use crate::files;
@@ -79,6 +79,22 @@ impl Mechanism {
             }
             machine.files(&formats, &options)
         })??)
+    }
+
+    /// Frames of the links at inputs, by name.
+    pub(super) fn framed<'py>(&self, py: Python<'py>, phi: Values) -> Answer<Bound<'py, PyDict>> {
+        let machine = self.links(py)?;
+        let frames = PyDict::new(py);
+        for (index, link) in machine.links.iter().enumerate() {
+            let machine = Arc::clone(&machine);
+            let frame = move |phi| -> [f64; 16] {
+                let FrameJet([frame, ..]) = machine.link_frame(index, phi);
+                std::array::from_fn(|i| frame[(i / 4, i % 4)])
+            };
+            let frames_of = Course::arrays(phi.clone(), &[4, 4], frame);
+            frames.set_item(&link.name, frames_of)?;
+        }
+        Ok(frames)
     }
 
     /// Extrusions of parts, by name.

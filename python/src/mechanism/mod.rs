@@ -7,7 +7,7 @@ use std::sync::{Arc, OnceLock};
 
 use centrode::family;
 use centrode_analysis::optimise::Settings;
-use centrode_mechanism::machine::{FrameJet, Machine};
+use centrode_mechanism::machine::Machine;
 use pyo3::prelude::{
     Bound, PyAny, PyAnyMethods, PyDictMethods, PyResult, PyTypeMethods, Python, pyclass, pymethods,
 };
@@ -163,18 +163,7 @@ impl Mechanism {
     /// >>> pair.frames(0.0)["driven"][:3, 3].round(9)
     /// array([40.,  0.,  0.])
     fn frames<'py>(&self, py: Python<'py>, phi: Values) -> Answer<Bound<'py, PyDict>> {
-        let machine = self.links(py)?;
-        let frames = PyDict::new(py);
-        for (index, link) in machine.links.iter().enumerate() {
-            let machine = Arc::clone(&machine);
-            let frame = move |phi| -> [f64; 16] {
-                let FrameJet([frame, ..]) = machine.link_frame(index, phi);
-                std::array::from_fn(|i| frame[(i / 4, i % 4)])
-            };
-            let frames_of = Course::arrays(phi.clone(), &[4, 4], frame);
-            frames.set_item(&link.name, frames_of)?;
-        }
-        Ok(frames)
+        self.framed(py, phi)
     }
 
     /// Forces at inputs, rad, that turn evenly: the torque of the input and what joints, pins, rollers and teeth carry.
@@ -239,14 +228,23 @@ impl Mechanism {
 
     /// The links with their bodies and the joints that carry them; none stands before the one that carries it.
     ///
+    /// Args:
+    ///     tolerance: As for `solids`.
+    ///     bodies: Whether they come with their bodies, which takes longer.
+    ///
     /// >>> import centrode as ct
     /// >>> pair = ct.GearPair(ct.pitch.circle(module=2, tooth_count=20))
     /// >>> [(link.name, link.joint and link.joint.kind) for link in pair.links()]
     /// [('base', None), ('driver', 'turning'), ('driven', 'turning')]
-    #[pyo3(name = "links", signature = (tolerance=1e-6))]
-    fn bodies<'py>(&self, py: Python<'py>, tolerance: f64) -> Answer<Bound<'py, PyTuple>> {
+    #[pyo3(name = "links", signature = (tolerance=1e-6, *, bodies=true))]
+    fn linked<'py>(
+        &self,
+        py: Python<'py>,
+        tolerance: f64,
+        bodies: bool,
+    ) -> Answer<Bound<'py, PyTuple>> {
         let shortest = within(tolerance, self.0.accuracy())?;
-        solid::links(py, &*self.links(py)?, shortest)
+        solid::links(py, &*self.links(py)?, bodies.then_some(shortest))
     }
 
     /// Searches for a better machine around this one; the table [optimise] of its design says what may move, and a table

@@ -123,7 +123,7 @@ class Link:
         view = getattr(obj, "ViewObject", None)
         if view is not None:
             view.Proxy = 0
-            view.ShapeColor = COLORS[len(design.InList) % len(COLORS)]
+            view.ShapeColor = COLORS[sum(hasattr(one, "Link") for one in design.InList) % len(COLORS)]
 
     def execute(self, obj):
         """Make the shape and put it in its place."""
