@@ -42,7 +42,7 @@ def part(of: Gear | DiscCam | Mechanism, name: str | Part | None = None, *, tole
 
 
 def assembly(of: Mechanism, phi: float = 0.0, *, tolerance: float = 1e-6) -> _cq.Assembly:
-    """Make a machine: a child for each link, named after it, at the place where its law has it.
+    """Make a machine: a child for each link with a body, named after it, at the place where its law has it.
 
     Args:
         of: The machine.
@@ -57,7 +57,9 @@ def assembly(of: Mechanism, phi: float = 0.0, *, tolerance: float = 1e-6) -> _cq
     for number, link in enumerate(links):
         color = _machine.COLORS[number % len(_machine.COLORS)]
         red, green, blue = (int(color[at : at + 2], 16) / 255.0 for at in (1, 3, 5))
-        whole.add(_link(cq, machine, link), name=link.name, color=cq.Color(red, green, blue))
+        body = _link(cq, machine, link)
+        if body is not None:
+            whole.add(body, name=link.name, color=cq.Color(red, green, blue))
     pose(whole, machine, phi)
     return whole
 
@@ -72,10 +74,12 @@ def pose(assembly: _cq.Assembly, of: Mechanism, phi: float) -> None:
     """
     cq = _cadquery()
     machine = _machine.machine(of)
-    for name, frame in machine.frames(_machine.angle(phi)).items():
-        if name not in assembly.objects:
-            raise ValueError(f"the assembly is not of this machine: it has no link {name!r}")
-        assembly.objects[name].loc = cq.Location(_kernel().location(frame))
+    frames = machine.frames(_machine.angle(phi))
+    for child in assembly.children:
+        if child.name not in frames:
+            raise ValueError(f"the assembly is not of this machine, which has no link {child.name!r}")
+    for child in assembly.children:
+        child.loc = cq.Location(_kernel().location(frames[child.name]))
 
 
 def _link(cq: Any, machine: Mechanism, link: Link) -> Any:

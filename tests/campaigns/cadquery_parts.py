@@ -57,12 +57,20 @@ def check():
         assembly = ct.cadquery.assembly(machine, phi=0.5)
         for phi in (0.5, 0.0, -2.0, 9.25):
             ct.cadquery.pose(assembly, machine, phi)
-            for name, frame in machine.frames(phi).items():
-                place = assembly.objects[name].loc.wrapped.Transformation()
+            frames = machine.frames(phi)
+            for child in assembly.children:
+                name, frame = child.name, frames[child.name]
+                place = child.loc.wrapped.Transformation()
                 rows = np.array([[place.Value(row, column) for column in (1, 2, 3, 4)] for row in (1, 2, 3)])
                 off = max(
                     off, near(np.abs(rows - frame[:3]).max(), 0.0, 1e-9, f"{path.stem}: place of {name} at {phi}")
                 )
+        bodies = [link for link in machine.links() if link.mesh is not None or link.solids or link.part]
+        if [child.name for child in assembly.children] != [link.name for link in bodies]:
+            raise SystemExit(f"{path.stem}: the assembly has other links than the machine")
+        wanted = sum(solid.volume for link in bodies for solid in link.solids)
+        if all(link.solids for link in bodies):
+            near(assembly.toCompound().Volume(), wanted, 1e-9 * wanted, f"{path.stem}: volume of the assembly")
         print(f"{path.stem}: {len(machine.solids())} parts, {len(assembly.children)} links", flush=True)
         if isinstance(machine, ct.BoxDrive):
             shaft = ct.cadquery.part(machine, "shaft").val()
