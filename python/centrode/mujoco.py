@@ -61,7 +61,8 @@ class Control:
     """Forces that keep every joint of a model on its law, by inverse dynamics.
 
     Called by MuJoCo with model and data at every step, it sets `qfrc_applied` so that each joint is where its law has
-    it at the end of the step. The input turns evenly and is zero when the time is.
+    it at the end of the step. The input turns evenly and is zero when the time is. The model's integrator must stay
+    Euler's, which it has from its file.
     """
 
     joints: tuple[str, ...]
@@ -114,6 +115,8 @@ class Control:
     def __call__(self, model: _mj.MjModel, data: _mj.MjData) -> None:
         """Set the forces of the step that begins at the time of the data."""
         mujoco = need("mujoco", "mujoco")
+        if model.opt.integrator != mujoco.mjtIntegrator.mjINT_EULER:
+            raise ValueError("the integrator of the model must be Euler's: forces are found for one step of it")
         step = model.opt.timestep
         wanted, _ = self.law(self.speed * (data.time + step))
         # Euler's method makes the new rate first, then the new position by it.

@@ -128,6 +128,13 @@ def test_an_assembly_stands_where_the_laws_have_it(name):
         frames = machine.frames(phi)
         for child in assembly.children:
             np.testing.assert_allclose(frame(child), frames[child.label][:3], atol=1e-9)
+    kinds = {"turning": b3d.RevoluteJoint, "sliding": b3d.LinearJoint, "fixed": b3d.RigidJoint}
+    children = {child.label: child for child in assembly.children}
+    for link in machine.links(bodies=False):
+        if link.joint is not None:
+            joint = children[link.joint.parent].joints[link.joint.name]
+            assert type(joint) is kinds[link.joint.kind]
+            assert joint.connected_to is children[link.name].joints[link.joint.name]
     shown = assembly.children[:4]
     assert len({str(child.color) for child in shown}) == len(shown)
 

@@ -117,5 +117,9 @@ def test_what_is_no_machine_is_refused(pair):
         ct.mujoco.load(pair.driver)  # type: ignore[arg-type]
     with pytest.raises(ct.DesignError, match="tolerance"):
         ct.mujoco.load(pair, tolerance=0.0)
+    model, control = ct.mujoco.load(pair)
+    model.opt.integrator = mujoco.mjtIntegrator.mjINT_RK4
+    with pytest.raises(ValueError, match="the integrator of the model must be Euler's"):
+        control(model, mujoco.MjData(model))
     with pytest.raises(ct.DesignError, match="speed must be a finite number, not nan"):
         ct.mujoco.load(pair, speed=math.nan)
