@@ -9,7 +9,7 @@ Lengths are millimetres, angles radians, counter-clockwise positive. Everything 
 True
 """
 
-from . import cam, pitch, plot
+from . import build123d, cadquery, cam, mujoco, pitch, plot
 from ._axes import AxisMap
 from ._centrode import (
     Body,
@@ -42,6 +42,7 @@ from ._design import load, schema
 from ._error import CamError, DesignError, Error, ExportError, GearPairError, LinkageError, MechanismError, PitchError
 from ._forces import Forces
 from ._goal import Goal
+from ._link import Joint, Link
 from ._optimised import Optimised
 from ._over_pins import OverPins
 from ._part import Part
@@ -50,6 +51,7 @@ from ._report import Finding, Place, Report, Table
 from ._sheet import Drawing, Sheets
 from ._six_bar import DeadCenters
 from ._slider_force import SliderForce
+from ._solid import Edge, Opening, Solid
 from ._sweep import sweep
 from ._tooth import Tooth, ToothSide
 
@@ -65,6 +67,7 @@ __all__ = [
     "DiscCam",
     "Drawing",
     "DrawingSpec",
+    "Edge",
     "Error",
     "ExportError",
     "Feeder",
@@ -75,12 +78,15 @@ __all__ = [
     "GearPair",
     "GearPairError",
     "Goal",
+    "Joint",
     "Keyway",
+    "Link",
     "LinkageError",
     "Machine",
     "Mechanism",
     "MechanismError",
     "MovingBox",
+    "Opening",
     "Optimised",
     "OverPins",
     "PairRemedy",
@@ -95,15 +101,19 @@ __all__ = [
     "Sheets",
     "SixBar",
     "SliderForce",
+    "Solid",
     "SpiralShaft",
     "Table",
     "ThreeArm",
     "Tooth",
     "ToothSide",
     "__version__",
+    "build123d",
+    "cadquery",
     "cam",
     "gear_drive",
     "load",
+    "mujoco",
     "pitch",
     "plot",
     "reverse",

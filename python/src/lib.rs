@@ -27,6 +27,7 @@ mod search;
 mod shaft;
 mod sheet;
 mod six_bar;
+mod solid;
 mod table;
 mod three_arm;
 mod tool;

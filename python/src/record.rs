@@ -20,14 +20,14 @@ use crate::search::Found;
 use crate::word::Word;
 
 /// A Python class, looked up once.
-struct Class {
+pub(crate) struct Class {
     module: &'static str,
     name: &'static str,
     class: PyOnceLock<Py<PyType>>,
 }
 
 impl Class {
-    const fn new(module: &'static str, name: &'static str) -> Self {
+    pub(crate) const fn new(module: &'static str, name: &'static str) -> Self {
         let class = PyOnceLock::new();
         Self {
             module,
@@ -36,7 +36,7 @@ impl Class {
         }
     }
 
-    fn make<'py>(&self, keywords: &Bound<'py, PyDict>) -> PyResult<Bound<'py, PyAny>> {
+    pub(crate) fn make<'py>(&self, keywords: &Bound<'py, PyDict>) -> PyResult<Bound<'py, PyAny>> {
         let py = keywords.py();
         let class = self.class.import(py, self.module, self.name)?;
         class.call((), Some(keywords))
@@ -46,16 +46,17 @@ impl Class {
 /// A record of a class of the package: fields that a value has by the same names, then the others.
 macro_rules! record {
     ($py:expr, $module:literal $class:literal, $of:expr => [$($same:ident),*] $($field:ident: $value:expr,)*) => {{
-        static CLASS: Class = Class::new($module, $class);
-        let keywords = Keywords::new($py);
+        static CLASS: $crate::record::Class = $crate::record::Class::new($module, $class);
+        let keywords = $crate::record::Keywords::new($py);
         $(let keywords = keywords.with(stringify!($same), $of.$same)?;)*
         $(let keywords = keywords.with(stringify!($field), $value)?;)*
         CLASS.make(&keywords.0)
     }};
 }
+pub(crate) use record;
 
 /// A list of results as a Python tuple.
-fn tuple<'py>(
+pub(crate) fn tuple<'py>(
     py: Python<'py>,
     items: impl Iterator<Item = PyResult<Bound<'py, PyAny>>>,
 ) -> PyResult<Bound<'py, PyTuple>> {

@@ -34,7 +34,7 @@ def public_classes():
     return found
 
 
-PUBLIC = {f"centrode.{name}" for name in ("cam", "pitch", "plot")}
+PUBLIC = {f"centrode.{name}" for name in ("build123d", "cadquery", "cam", "mujoco", "pitch", "plot")}
 CLASSES = public_classes()
 
 
@@ -68,6 +68,7 @@ def objects():
                           (40, 300), (-5, 250), (-30, 190), (-38, 130), (-30, 60)], bend_deg=40)  # fmt: skip
     press = ct.Machine.from_toml(PRESS)
     over = pair.driver.over_pins()
+    housing = arms.solids(parts=["housing"])["housing"]
     made = [
         leg,
         pair,
@@ -79,6 +80,12 @@ def objects():
         *pair.driver.teeth[:1],
         pair.driver.teeth[0].leading,
         over,
+        housing,
+        housing.opening,
+        *housing.contours[0][:2],
+        *arms.links()[1:3],
+        arms.links()[1].joint,
+        ct.mujoco.load(pair, tolerance=0.1)[1],
         pair.contact(1),
         ct.Rack(pressure_angle=0.4),
         ct.Shaper(tooth_count=25),

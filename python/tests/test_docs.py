@@ -2,6 +2,7 @@
 
 import doctest
 import inspect
+import re
 from pathlib import Path
 
 import centrode as ct
@@ -13,7 +14,7 @@ README = Path(__file__).resolve().parents[1] / "README.md"
 def documented():
     """Everything public with its documentation."""
     yield "centrode", ct
-    for module in (ct, ct.cam, ct.pitch, ct.plot):
+    for module in (ct, ct.build123d, ct.cadquery, ct.cam, ct.mujoco, ct.pitch, ct.plot):
         for name in module.__all__:
             thing = getattr(module, name)
             if inspect.ismodule(thing) or isinstance(thing, str):
@@ -52,3 +53,12 @@ def run(name, text):
     told = []
     doctest.DocTestRunner(verbose=False).run(test, out=told.append)
     assert not told, "".join(told)
+
+
+def test_the_page_of_adapters_runs():
+    # CadQuery needs an environment of its own: tests/campaigns/cadquery_parts.py runs its section there.
+    page = (README.parents[1] / "docs" / "adapters.md").read_text()
+    sections = re.split(r"^## ", page, flags=re.MULTILINE)
+    kept = [section for section in sections if not section.startswith("CadQuery")]
+    assert len(kept) == len(sections) - 1
+    run("adapters", "\n".join(kept))

@@ -75,14 +75,14 @@ def functions(node: ast.ClassDef) -> list[ast.FunctionDef]:
 
 
 def make(pages: Path) -> None:
-    """Writes `reference/python.md` and one page each for `centrode.pitch`, `centrode.cam` and `centrode.plot`."""
+    """Writes `reference/python.md` and one page each for the modules `pitch`, `cam`, `plot`, `build123d`, `cadquery` and `mujoco`."""
     import centrode as ct
 
     folder = pages / "reference"
     folder.mkdir(exist_ok=True)
     stub = Stub()
     (folder / "python.md").write_text(module(ct, "ct", "Python: `centrode`", stub))
-    for sub in (ct.pitch, ct.cam, ct.plot):
+    for sub in (ct.pitch, ct.cam, ct.plot, ct.build123d, ct.cadquery, ct.mujoco):
         short = sub.__name__.rsplit(".", 1)[-1]
         (folder / f"python-{short}.md").write_text(module(sub, f"ct.{short}", f"Python: `centrode.{short}`", stub))
 

@@ -1,4 +1,6 @@
-use centrode_geometry::checkpoint;
+mod kept;
+
+use centrode_geometry::{Solid, checkpoint};
 use std::{
     ffi::OsStr,
     fs::{self, File},
@@ -14,6 +16,7 @@ use crate::stage::Stage;
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Bundle {
     files: Vec<(String, Vec<u8>)>,
+    solids: Vec<(String, Solid)>,
 }
 
 /// Reason why a bundle could not be built or written.
@@ -76,7 +79,8 @@ impl Bundle {
     ///
     /// # Errors
     /// [`BundleError::Twice`] if a file of one of these names is there already.
-    pub fn append(&mut self, other: Self) -> Result<(), BundleError> {
+    pub fn append(&mut self, mut other: Self) -> Result<(), BundleError> {
+        self.solids.append(&mut other.solids);
         for (name, bytes) in other.into_files() {
             self.add(&name, bytes)?;
         }

@@ -17,6 +17,8 @@ pub struct Options {
     /// Parts that drawings, sheets, solids and tables are of, by the names of their files; left out, all.
     /// Models and motion are of the whole machine.
     pub parts: Option<Vec<String>>,
+    /// Whether straight extrusions stay in the bundle as they are, in the place of their STEP files.
+    pub keep_solids: bool,
 }
 
 impl Options {
@@ -29,6 +31,7 @@ impl Options {
             dxf_curves: dxf::Curves::default(),
             sheet: SheetOptions::default(),
             parts: None,
+            keep_solids: false,
         }
     }
 

@@ -204,6 +204,10 @@ impl<'a> Package<'a> {
             return Ok(());
         }
         let solid = make()?;
+        if self.options.keep_solids {
+            self.bundle.keep(&format!("{}{part}", self.prefix), solid);
+            return Ok(());
+        }
         self.exact(part, || Ok(step::write(&solid, part, title)))?;
         self.mesh(part, title, |tolerance| {
             solid.mesh(tolerance).map_err(ExportError::no_solid(part))
@@ -216,6 +220,9 @@ impl<'a> Package<'a> {
         part: &str,
         make: impl FnOnce() -> Result<Shell, ExportError>,
     ) -> Result<(), ExportError> {
+        if self.options.keep_solids {
+            return Ok(());
+        }
         let title = self.titled(part);
         self.exact(part, || Ok(step::write_shell(&make()?, part, &title)))
     }

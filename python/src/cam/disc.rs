@@ -4,7 +4,7 @@ use std::sync::Arc;
 use centrode_export::Options;
 use centrode_export::cam as export;
 use centrode_mechanism::cam::{Cam, Contact, Extreme, design as spec};
-use pyo3::prelude::{Bound, PyRef, PyResult, Python, pyclass, pymethods};
+use pyo3::prelude::{Bound, PyAny, PyRef, PyResult, Python, pyclass, pymethods};
 use pyo3::types::PyDict;
 
 use super::parts::{Follower, Segment};
@@ -14,6 +14,7 @@ use crate::error::{Answer, plain_tolerance};
 use crate::files;
 use crate::made::{Made, Reduced, native};
 use crate::record::Keywords;
+use crate::solid::Sides;
 use crate::wait::wait;
 use crate::word::Word;
 
@@ -263,6 +264,21 @@ impl DiscCam {
         let cam = self.cam.clone();
         let bundle = wait(py, move || export::files(&cam, &formats, &options))??;
         Ok(files::contents(py, &bundle)?)
+    }
+
+    /// The cam with its bore, from z = 0 to its width, by its exact edges: for CAD kernels; as `Gear.solid`.
+    ///
+    /// >>> import centrode as ct
+    /// >>> segments = [ct.cam.rise(span=3, lift=5), ct.cam.return_(span=2 * 3.141592653589793 - 3, lift=5)]
+    /// >>> cam = ct.DiscCam(ct.cam.translating_roller(roller_radius=5), segments, base_radius=30)
+    /// >>> {edge.kind for edge in cam.solid().contours[0]}
+    /// {'spline'}
+    #[pyo3(signature = (tolerance=1e-6))]
+    fn solid<'py>(&self, py: Python<'py>, tolerance: f64) -> Answer<Bound<'py, PyAny>> {
+        let shortest = plain_tolerance(tolerance)?;
+        let name = self.cam.name();
+        let solid = export::solid(&self.cam)?;
+        Ok(Sides::of(name, solid, shortest)?.record(py)?)
     }
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> Reduced<'py> {

@@ -2,19 +2,21 @@
 
 use std::sync::{Arc, OnceLock};
 
-use centrode::family::{self, Family};
+use centrode::family::{self, Depth, Family};
 use centrode::meshing;
 use centrode_export::machine::tabulated;
-use centrode_export::{Bundle, Format};
-use centrode_mechanism::machine::Machine;
-use pyo3::prelude::{Bound, PyAny, PyClassInitializer, PyResult, Python};
+use centrode_export::{Bundle, Format, Options};
+use centrode_mechanism::machine::{FrameJet, Machine};
+use pyo3::prelude::{Bound, PyAny, PyClassInitializer, PyDictMethods, PyResult, Python};
+use pyo3::types::PyDict;
 
 use super::Mechanism;
-use crate::array::Values;
+use crate::array::{Course, Values};
 use crate::design::named;
-use crate::error::{Answer, finite, tolerance as within};
+use crate::error::{Answer, Raised, finite, tolerance as within};
 use crate::files;
 use crate::forces::{self, Names};
+use crate::solid;
 use crate::wait::wait;
 
 impl Mechanism {
@@ -77,5 +79,64 @@ impl Mechanism {
             }
             machine.files(&formats, &options)
         })??)
+    }
+
+    /// Frames of the links at inputs, by name.
+    pub(super) fn framed<'py>(&self, py: Python<'py>, phi: Values) -> Answer<Bound<'py, PyDict>> {
+        let machine = self.links(py)?;
+        let frames = PyDict::new(py);
+        for (index, link) in machine.links.iter().enumerate() {
+            let machine = Arc::clone(&machine);
+            let frame = move |phi| -> [f64; 16] {
+                let FrameJet([frame, ..]) = machine.link_frame(index, phi);
+                std::array::from_fn(|i| frame[(i / 4, i % 4)])
+            };
+            let frames_of = Course::arrays(phi.clone(), &[4, 4], frame);
+            frames.set_item(&link.name, frames_of)?;
+        }
+        Ok(frames)
+    }
+
+    /// Extrusions of parts, by name.
+    pub(super) fn kept_solids<'py>(
+        &self,
+        py: Python<'py>,
+        parts: Option<Vec<String>>,
+        tolerance: f64,
+    ) -> Answer<Bound<'py, PyDict>> {
+        let shortest = within(tolerance, self.0.accuracy())?;
+        let mut options = Options::new(shortest);
+        options.parts = files::parts(parts, self.family()?.parts)?;
+        options.keep_solids = true;
+        let bundle = self.ask(py, move |machine| machine.files(&[Format::Step], &options))??;
+        solid::solids(py, bundle, shortest)
+    }
+
+    /// Goals and figures at values of one number of the design, by name.
+    pub(super) fn answers<'py>(
+        &self,
+        py: Python<'py>,
+        parameter: &str,
+        values: Vec<f64>,
+        whole: bool,
+    ) -> Answer<Bound<'py, PyDict>> {
+        let family = *self.family()?;
+        if values.is_empty() {
+            return Err(Raised::rule("values", "must be at least one number"));
+        }
+        for &value in &values {
+            finite("values", value)?;
+        }
+        let key = self.0.design().key_of(parameter);
+        let depth = if whole { Depth::Whole } else { Depth::Motion };
+        let found = self.ask(py, move |machine| {
+            family.response(machine.design(), &key, &values, depth)
+        })??;
+        let named = PyDict::new(py);
+        for answer in found.answers() {
+            let figures = answer.figures.iter().map(|f| f.unwrap_or(f64::NAN));
+            named.set_item(answer.name, numpy::PyArray1::from_iter(py, figures))?;
+        }
+        Ok(named)
     }
 }

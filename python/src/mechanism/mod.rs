@@ -5,9 +5,9 @@ mod held;
 use std::path::PathBuf;
 use std::sync::{Arc, OnceLock};
 
-use centrode::family::{self, Depth};
+use centrode::family;
 use centrode_analysis::optimise::Settings;
-use centrode_mechanism::machine::{FrameJet, Machine};
+use centrode_mechanism::machine::Machine;
 use pyo3::prelude::{
     Bound, PyAny, PyAnyMethods, PyDictMethods, PyResult, PyTypeMethods, Python, pyclass, pymethods,
 };
@@ -15,12 +15,13 @@ use pyo3::types::{PyDict, PyTuple, PyType};
 
 use crate::array::{Course, Values};
 use crate::design::{object, of_class, path_loaded, read};
-use crate::error::{Answer, Raised, finite};
+use crate::error::{Answer, tolerance as within};
 use crate::files;
 use crate::forces::Names;
 use crate::made::{Reduced, by_design};
 use crate::record;
 use crate::search;
+use crate::solid;
 use crate::word::Word;
 
 /// A machine of whatever family: what `load` gives is one of its subclasses.
@@ -162,18 +163,7 @@ impl Mechanism {
     /// >>> pair.frames(0.0)["driven"][:3, 3].round(9)
     /// array([40.,  0.,  0.])
     fn frames<'py>(&self, py: Python<'py>, phi: Values) -> Answer<Bound<'py, PyDict>> {
-        let machine = self.links(py)?;
-        let frames = PyDict::new(py);
-        for (index, link) in machine.links.iter().enumerate() {
-            let machine = Arc::clone(&machine);
-            let frame = move |phi| -> [f64; 16] {
-                let FrameJet([frame, ..]) = machine.link_frame(index, phi);
-                std::array::from_fn(|i| frame[(i / 4, i % 4)])
-            };
-            let frames_of = Course::arrays(phi.clone(), &[4, 4], frame);
-            frames.set_item(&link.name, frames_of)?;
-        }
-        Ok(frames)
+        self.framed(py, phi)
     }
 
     /// Forces at inputs, rad, that turn evenly: the torque of the input and what joints, pins, rollers and teeth carry.
@@ -214,6 +204,47 @@ impl Mechanism {
     fn parts<'py>(&self, py: Python<'py>) -> Answer<Bound<'py, PyTuple>> {
         let machine = self.links(py)?;
         Ok(record::parts(py, &machine)?)
+    }
+
+    /// The parts that are straight extrusions, by the names of their files: exact edges and heights, for CAD kernels.
+    ///
+    /// Args:
+    ///     parts: Names of parts, as their files have them; all if left out.
+    ///     tolerance: Sides shorter than this, mm, are closed up: a CAD kernel takes them for points.
+    ///
+    /// >>> import centrode as ct
+    /// >>> pair = ct.GearPair(ct.pitch.circle(module=2, tooth_count=20))
+    /// >>> {name: len(solid.contours) for name, solid in pair.solids().items()}
+    /// {'driver': 1, 'driven': 1}
+    #[pyo3(signature = (*, parts=None, tolerance=1e-6))]
+    fn solids<'py>(
+        &self,
+        py: Python<'py>,
+        parts: Option<Vec<String>>,
+        tolerance: f64,
+    ) -> Answer<Bound<'py, PyDict>> {
+        self.kept_solids(py, parts, tolerance)
+    }
+
+    /// The links with their bodies and the joints that carry them; none stands before the one that carries it.
+    ///
+    /// Args:
+    ///     tolerance: As for `solids`.
+    ///     bodies: Whether they come with their bodies, which takes longer.
+    ///
+    /// >>> import centrode as ct
+    /// >>> pair = ct.GearPair(ct.pitch.circle(module=2, tooth_count=20))
+    /// >>> [(link.name, link.joint and link.joint.kind) for link in pair.links()]
+    /// [('base', None), ('driver', 'turning'), ('driven', 'turning')]
+    #[pyo3(name = "links", signature = (tolerance=1e-6, *, bodies=true))]
+    fn linked<'py>(
+        &self,
+        py: Python<'py>,
+        tolerance: f64,
+        bodies: bool,
+    ) -> Answer<Bound<'py, PyTuple>> {
+        let shortest = within(tolerance, self.0.accuracy())?;
+        solid::links(py, &*self.links(py)?, bodies.then_some(shortest))
     }
 
     /// Searches for a better machine around this one; the table [optimise] of its design says what may move, and a table
@@ -278,24 +309,7 @@ impl Mechanism {
         values: Vec<f64>,
         whole: bool,
     ) -> Answer<Bound<'py, PyDict>> {
-        let family = *self.family()?;
-        if values.is_empty() {
-            return Err(Raised::rule("values", "must be at least one number"));
-        }
-        for &value in &values {
-            finite("values", value)?;
-        }
-        let key = self.0.design().key_of(parameter);
-        let depth = if whole { Depth::Whole } else { Depth::Motion };
-        let found = self.ask(py, move |machine| {
-            family.response(machine.design(), &key, &values, depth)
-        })??;
-        let named = PyDict::new(py);
-        for answer in found.answers() {
-            let figures = answer.figures.iter().map(|f| f.unwrap_or(f64::NAN));
-            named.set_item(answer.name, numpy::PyArray1::from_iter(py, figures))?;
-        }
-        Ok(named)
+        self.answers(py, parameter, values, whole)
     }
 
     /// The files of the machine, name to contents, without writing them; `export` writes them.

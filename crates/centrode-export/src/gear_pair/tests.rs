@@ -311,3 +311,17 @@ fn solids_have_the_area_of_the_outline_less_the_bore() {
         assert!((exact - volume).abs() < 1e-6);
     }
 }
+
+#[test]
+fn kept_solids_stand_in_the_place_of_their_step_files() {
+    let pair = circular();
+    let options = Options {
+        keep_solids: true,
+        parts: Some(vec!["driven".into()]),
+        ..options()
+    };
+    let bundle = files(&pair, &[Format::Step], &options).expect("made");
+    assert_eq!(bundle.files().count(), 0);
+    let exact = solid(&pair, Member::Driven).expect("a solid");
+    assert_eq!(bundle.into_solids(), [("driven".to_owned(), exact)]);
+}

@@ -6,13 +6,14 @@ use super::{
 };
 use centrode_geometry::{Point, PolySegment, Segment, Solid, Vector};
 
+/// Shortest side of a contour, mm: ten times the accuracy stated in the file, under which a kernel takes
+/// two points for one.
+const SHORTEST: f64 = 1e-6;
+
 /// Writes the closed boundary of a solid and returns its `MANIFOLD_SOLID_BREP`.
 pub(super) fn manifold(data: &mut Data, name: &str, solid: &Solid) -> Result<Id, StepError> {
     // The material lies to the left of every contour, so outside is to the right of each side.
-    let mut contours = vec![contour::sides(0, solid.outline())?];
-    for (hole, outline) in solid.holes().iter().enumerate() {
-        contours.push(contour::sides(hole + 1, &outline.reversed())?);
-    }
+    let contours = contour::contours(solid, SHORTEST)?;
     if let Some(opening) = solid.opening() {
         return opened::manifold(data, name, solid, opening, &contours);
     }
@@ -264,7 +265,8 @@ fn logical(truth: bool) -> &'static str {
 ///
 /// Control point `j` is the polar form at `j` ones and `n - j` minus ones; there a power `k` becomes the
 /// elementary symmetric function of order `k` over its number of terms, at most 1, so digits are kept.
-fn poles(poly: &PolySegment) -> Vec<Point> {
+#[must_use]
+pub fn poles(poly: &PolySegment) -> Vec<Point> {
     let coefficients = poly.coefficients();
     let degree = coefficients.len() - 1;
     let mut poles: Vec<Point> = (0..=degree)

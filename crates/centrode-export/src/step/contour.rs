@@ -1,16 +1,22 @@
 //! Contours for a CAD kernel, without sides so short that it takes them for points.
 
 use super::StepError;
-use centrode_geometry::{Arc, Outline, Point, Segment};
+use centrode_geometry::{Arc, Outline, Point, Segment, Solid};
 
-/// Shortest side of a contour, mm: ten times the accuracy stated in the file, under which a kernel takes
-/// two points for one.
-const SHORTEST: f64 = 1e-6;
 /// Height over its chord, mm, below which an arc is a straight line to a kernel.
 const FLAT: f64 = 1e-9;
 
-/// The sides of a contour, each starting exactly where the one before it ends.
-pub(super) fn sides(contour: usize, outline: &Outline) -> Result<Vec<Segment>, StepError> {
+/// The sides of a solid's contours, the outer one first, each starting exactly where the one before it ends, with the
+/// material on its left; sides shorter than `shortest`, mm, are closed up.
+pub(super) fn contours(solid: &Solid, shortest: f64) -> Result<Vec<Vec<Segment>>, StepError> {
+    let mut all = vec![sides(0, solid.outline(), shortest)?];
+    for (hole, outline) in solid.holes().iter().enumerate() {
+        all.push(sides(hole + 1, &outline.reversed(), shortest)?);
+    }
+    Ok(all)
+}
+
+fn sides(contour: usize, outline: &Outline, shortest: f64) -> Result<Vec<Segment>, StepError> {
     let finite = |p: Point| p.x.is_finite() && p.y.is_finite();
     let all = outline.segments();
     if !all
@@ -20,7 +26,7 @@ pub(super) fn sides(contour: usize, outline: &Outline) -> Result<Vec<Segment>, S
         return Err(StepError::NotFinite { contour });
     }
     let mut kept: Vec<Segment> = Vec::with_capacity(all.len());
-    for segment in all.iter().filter(|s| s.length() >= SHORTEST) {
+    for segment in all.iter().filter(|s| s.length() >= shortest) {
         let start = kept.last().map_or_else(|| segment.start(), Segment::end);
         kept.push(between(segment, start, segment.end()));
     }
@@ -28,7 +34,7 @@ pub(super) fn sides(contour: usize, outline: &Outline) -> Result<Vec<Segment>, S
         *last = between(last, last.start(), first.start());
     }
     // A chord there and back bounds nothing; one side alone cannot be closed.
-    if kept.len() < 2 || outline.area().abs() < SHORTEST * SHORTEST {
+    if kept.len() < 2 || outline.area().abs() < shortest * shortest {
         return Err(StepError::NoRegion { contour });
     }
     Ok(kept)

@@ -6,9 +6,11 @@ mod opened;
 mod part21;
 mod shell;
 
-use centrode_geometry::{Shell, Solid};
+use centrode_geometry::{Segment, Shell, Solid, Tolerance};
 use part21::{Data, Id, Text};
 use thiserror::Error;
+
+pub use brep::poles;
 
 /// Reason why a solid cannot be written as STEP.
 #[derive(Clone, Debug, Error, PartialEq)]
@@ -47,6 +49,15 @@ pub enum StepError {
 /// [`StepError`] if a contour is not finite or encloses no area.
 pub fn write(solid: &Solid, name: &str, title: &str) -> Result<Vec<u8>, StepError> {
     file(name, title, |data, name| brep::manifold(data, name, solid))
+}
+
+/// The sides that a file has of a solid's contours, the outer one first, each with the material on its left; those shorter
+/// than the tolerance are closed up.
+///
+/// # Errors
+/// [`StepError`] if a contour is not finite or encloses no area.
+pub fn contours(solid: &Solid, shortest: Tolerance) -> Result<Vec<Vec<Segment>>, StepError> {
+    contour::contours(solid, shortest.mm())
 }
 
 /// Writes a closed shell as STEP AP214 in millimetres, its product called `name`, the file described by `title`:

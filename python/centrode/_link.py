@@ -1,0 +1,47 @@
+from dataclasses import dataclass
+from typing import Literal
+
+from numpy import float64, uint32
+from numpy.typing import NDArray
+
+from ._solid import Solid
+
+
+@dataclass(frozen=True, slots=True)
+class Joint:
+    """How a link is carried by another one."""
+
+    __module__ = "centrode"
+
+    name: str
+    """Name, as in the simulator models."""
+    kind: Literal["fixed", "turning", "sliding"]
+    """How it moves."""
+    parent: str
+    """Link that carries."""
+    origin: tuple[float, float, float]
+    """Place of the carried link's origin in the frame of the one that carries, where the coordinate is zero, mm."""
+    turn: tuple[float, float, float]
+    """Turn of the carried link's frame there about x, then y, then z of the one that carries, rad."""
+    axis: tuple[float, float, float]
+    """Unit vector of the axis, in the frame of the carried link."""
+    range: tuple[float, float] | None
+    """Least and greatest coordinate of a sliding joint, mm; None for the others."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Link:
+    """A rigid body of a machine, with the joint that carries it."""
+
+    __module__ = "centrode"
+
+    name: str
+    """Name, as `Mechanism.frames` has it."""
+    joint: Joint | None
+    """The joint that carries it; None for a link that stands still."""
+    part: str
+    """Part whose body it has, by the name of its files; empty where no single part is it."""
+    solids: tuple[Solid, ...]
+    """Straight extrusions of its body, in its frame; empty where there are none."""
+    mesh: tuple[NDArray[float64], NDArray[uint32]] | None
+    """Vertices and triangles of a body of plane faces that is no extrusion, as of `Gear.mesh`; None for others."""

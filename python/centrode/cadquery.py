@@ -1,0 +1,109 @@
+"""Parts and assemblies for CadQuery; needs it: ``pip install centrode[cadquery]``.
+
+Edges are exact: lines, arcs and Bézier curves of the library's own polynomials, so nothing is fitted again.
+"""
+
+# mypy: disable-error-code="import-untyped, import-not-found"
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from . import _machine
+from ._need import need
+from ._solid import Solid as _Extrusion
+
+if TYPE_CHECKING:
+    import cadquery as _cq
+
+    from ._centrode import DiscCam, Gear, Mechanism
+    from ._link import Link
+    from ._part import Part
+
+__all__ = ["assembly", "part", "pose"]
+
+
+def part(of: Gear | DiscCam | Mechanism, name: str | Part | None = None, *, tolerance: float = 1e-6) -> _cq.Workplane:
+    """Make the solid of a gear, a cam, or a part of any machine, with bore and keyway.
+
+    Args:
+        of: A gear, a disc cam, or a machine.
+        name: Part of the machine: one of its `parts()`, or the name that its files begin with.
+        tolerance: Sides shorter than this, mm, are closed up: the kernel takes them for points.
+
+    Returns:
+        A workplane with the solid in the part's own frame.
+
+    Raises:
+        DesignError: The machine has no such part, or none with a solid; or the tolerance is too fine.
+    """
+    cq = _cadquery()
+    _, found = _machine.body(of, name, tolerance)
+    return cq.Workplane("XY").newObject([_solid(cq, found)])
+
+
+def assembly(of: Mechanism, phi: float = 0.0, *, tolerance: float = 1e-6) -> _cq.Assembly:
+    """Make a machine: a child for each link with a body, named after it, at the place where its law has it.
+
+    Args:
+        of: The machine.
+        phi: Input, rad, at which it stands.
+        tolerance: As for `part`.
+    """
+    cq = _cadquery()
+    machine = _machine.machine(of)
+    links = machine.links(_machine.shortest(tolerance))
+    names = {link.name for link in links}
+    whole = cq.Assembly(name=machine.name if machine.name not in names else f"{machine.name}-assembly")
+    for number, link in enumerate(links):
+        color = _machine.COLORS[number % len(_machine.COLORS)]
+        red, green, blue = (int(color[at : at + 2], 16) / 255.0 for at in (1, 3, 5))
+        body = _link(cq, machine, link)
+        if body is not None:
+            whole.add(body, name=link.name, color=cq.Color(red, green, blue))
+    pose(whole, machine, phi)
+    return whole
+
+
+def pose(assembly: _cq.Assembly, of: Mechanism, phi: float) -> None:
+    """Move the links of an assembly to where their laws have them at an input.
+
+    Args:
+        assembly: What `assembly` made.
+        of: The machine that it was made of.
+        phi: Input, rad.
+    """
+    cq = _cadquery()
+    machine = _machine.machine(of)
+    frames = machine.frames(_machine.angle(phi))
+    for child in assembly.children:
+        if child.name not in frames:
+            raise ValueError(f"the assembly is not of this machine, which has no link {child.name!r}")
+    for child in assembly.children:
+        child.loc = cq.Location(_kernel().location(frames[child.name]))
+
+
+def _link(cq: Any, machine: Mechanism, link: Link) -> Any:
+    """A link's body: one solid, a compound of several, or nothing."""
+    kernel = _kernel()
+    if link.mesh is not None:
+        return cq.Compound(kernel.polyhedra(*link.mesh))
+    if link.part and not link.solids:
+        _, found = _machine.body(machine, link.part, _machine.LEAST)
+        return _solid(cq, found)
+    if len(link.solids) == 1:
+        return _solid(cq, link.solids[0])
+    solids = [kernel.extrusion(solid) for solid in link.solids]
+    return cq.Compound(kernel.compound(solids)) if solids else None
+
+
+def _solid(cq: Any, of: _Extrusion | bytes) -> Any:
+    kernel = _kernel()
+    return cq.Solid(kernel.extrusion(of) if isinstance(of, _Extrusion) else kernel.step(of))
+
+
+def _cadquery() -> Any:
+    return need("cadquery", "cadquery")
+
+
+def _kernel() -> Any:
+    return need("centrode._ocp", "cadquery", "OCP")

@@ -1,0 +1,110 @@
+"""Parts and assemblies of CadQuery beside the kernel's checker, Green's theorem and the machine's own poses.
+
+CadQuery and build123d stand on different versions of one kernel, so they cannot share an environment. This one makes
+its own, some 2 GB, on its first run:
+
+    python tests/campaigns/cadquery_parts.py --environment ~/.cache/centrode-cadquery
+    python tests/campaigns/cadquery_parts.py --here       # in an environment that has centrode and CadQuery already
+"""
+
+import argparse
+import doctest
+import os
+import subprocess
+import sys
+import venv
+from pathlib import Path
+
+ROOT = Path(__file__).parents[2]
+CADQUERY = "cadquery==2.8.0"
+
+
+def own(folder):
+    """Runs this script in an environment with CadQuery, which is made if it is missing."""
+    python = folder / "bin" / "python"
+    if not python.exists():
+        venv.create(folder, with_pip=True)
+    if subprocess.run([python, "-c", "import cadquery"], capture_output=True).returncode:
+        subprocess.run([python, "-m", "pip", "install", "--quiet", CADQUERY, "numpy>=1.26"], check=True)
+    place = {**os.environ, "PYTHONPATH": str(ROOT / "python")}
+    return subprocess.run([python, __file__, "--here"], env=place).returncode
+
+
+def near(found, wanted, bound, what):
+    """Raises where two figures differ by more than a bound."""
+    if not abs(found - wanted) <= bound:
+        raise SystemExit(f"{what}: {found!r}, not {wanted!r}")
+    return abs(found - wanted)
+
+
+def check():
+    """Looks at every part and every assembly of every shipped design."""
+    import cadquery as cq
+    import centrode as ct
+    import numpy as np
+    from OCP.BRepCheck import BRepCheck_Analyzer
+
+    parts, worst, off = 0, 0.0, 0.0
+    for path in sorted((ROOT / "tests" / "designs").glob("*.toml")):
+        machine = ct.load(path)
+        for name, solid in machine.solids().items():
+            made = ct.cadquery.part(machine, name).val()
+            if not (isinstance(made, cq.Solid) and BRepCheck_Analyzer(made.wrapped).IsValid()):
+                raise SystemExit(f"{path.stem}: {name} is no valid solid")
+            what = f"{path.stem}: volume of {name}"
+            worst = max(worst, near(made.Volume(), solid.volume, 1e-9 * solid.volume, what) / solid.volume)
+            parts += 1
+        assembly = ct.cadquery.assembly(machine, phi=0.5)
+        for phi in (0.5, 0.0, -2.0, 9.25):
+            ct.cadquery.pose(assembly, machine, phi)
+            frames = machine.frames(phi)
+            for child in assembly.children:
+                name, frame = child.name, frames[child.name]
+                place = child.loc.wrapped.Transformation()
+                rows = np.array([[place.Value(row, column) for column in (1, 2, 3, 4)] for row in (1, 2, 3)])
+                off = max(
+                    off, near(np.abs(rows - frame[:3]).max(), 0.0, 1e-9, f"{path.stem}: place of {name} at {phi}")
+                )
+        bodies = [link for link in machine.links() if link.mesh is not None or link.solids or link.part]
+        if [child.name for child in assembly.children] != [link.name for link in bodies]:
+            raise SystemExit(f"{path.stem}: the assembly has other links than the machine")
+        wanted = sum(solid.volume for link in bodies for solid in link.solids)
+        if all(link.solids for link in bodies):
+            near(assembly.toCompound().Volume(), wanted, 1e-9 * wanted, f"{path.stem}: volume of the assembly")
+        print(f"{path.stem}: {len(machine.solids())} parts, {len(assembly.children)} links", flush=True)
+        if isinstance(machine, ct.BoxDrive):
+            shaft = ct.cadquery.part(machine, "shaft").val()
+            if not BRepCheck_Analyzer(shaft.wrapped).IsValid():
+                raise SystemExit(f"{path.stem}: the shaft is not valid")
+            parts += 1
+    print(
+        f"{parts} parts valid, volumes within {worst:.1e} of Green's theorem, links within {off:.1e} mm of their laws"
+    )
+
+
+def documented():
+    """Runs the examples of the page of adapters."""
+    page = (ROOT / "docs" / "adapters.md").read_text()
+    (section,) = (one for one in page.split("\n## ") if one.startswith("CadQuery"))
+    examples = doctest.DocTestParser().get_doctest(section.replace("```", "\n"), {}, "CadQuery", None, None)
+    result = doctest.DocTestRunner(verbose=False).run(examples)
+    if result.failed or not result.attempted:
+        raise SystemExit(f"docs/adapters.md: {result}")
+    print(f"docs/adapters.md: {result.attempted} examples")
+
+
+def main():
+    """Reads the arguments."""
+    parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
+    parser.add_argument("--environment", type=Path, default=ROOT / ".venv-cadquery", help="folder of the environment")
+    parser.add_argument("--here", action="store_true", help="use the environment that runs this")
+    options = parser.parse_args()
+    if options.here:
+        documented()
+        check()
+    else:
+        sys.exit(own(options.environment))
+
+
+if __name__ == "__main__":
+    main()
