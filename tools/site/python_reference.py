@@ -75,7 +75,7 @@ def functions(node: ast.ClassDef) -> list[ast.FunctionDef]:
 
 
 def make(pages: Path) -> None:
-    """Writes `reference/python.md` and one page each for the modules `pitch`, `cam`, `plot`, `build123d`, `cadquery` and `mujoco`."""
+    """Writes `reference/python.md` and one page each for its public modules."""
     import centrode as ct
 
     folder = pages / "reference"
