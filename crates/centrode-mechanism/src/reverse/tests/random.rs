@@ -109,7 +109,6 @@ fn random_machines_come_back_from_their_paths() {
         let told = match come_back(&machine) {
             Ok([bars, law, radius]) => {
                 let told = format!("bars {bars:.1e} mm, law {law:.1e} rad, radius {radius:.1e}");
-                println!("{case}: {told}");
                 if bars < 1e-9 && radius < 1e-5 {
                     continue;
                 }
