@@ -10,7 +10,6 @@ mod composed;
 mod count;
 mod design;
 mod drawing;
-mod drive;
 mod error;
 mod feeder;
 mod files;
@@ -48,9 +47,9 @@ mod _centrode {
         },
         command::_run,
         composed::Machine,
+        composed::drive::{GearDrive, gear_drive},
         design::{_load, _schema, template},
         drawing::DrawingSpec,
-        drive::{GearDrive, gear_drive},
         feeder::Feeder,
         files::_write,
         gear::Gear,

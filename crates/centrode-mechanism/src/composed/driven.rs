@@ -57,7 +57,7 @@ pub enum GearDriveError {
     NoCrank {
         /// The body named.
         body: String,
-        /// What it is.
+        /// Rule that it breaks.
         why: String,
     },
     /// Another body moves by the input.

@@ -48,7 +48,7 @@ pub trait Mechanism: Any + Debug + Send + Sync {
         None
     }
 
-    /// The same with a crank driven by gears, so that its output does what its goals ask for; `None` in a family without.
+    /// Machine with its crank driven by gears, so that its output does what its goals ask for; `None` in a family without.
     fn gear_drive(&self, _spec: &GearDriveSpec) -> Option<Result<GearDrive, GearDriveError>> {
         None
     }

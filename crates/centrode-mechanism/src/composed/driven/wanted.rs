@@ -57,7 +57,7 @@ fn is_angle(figure: &ComposedFigure) -> bool {
     matches!(figure, ComposedFigure::Angle(_) | ComposedFigure::Swing(_))
 }
 
-/// What a goal wants of the output, and where.
+/// Section of the input over which a goal wants something of the output.
 fn section(goal: &ComposedGoalSpec, figure: &ComposedFigure) -> Option<([f64; 2], Wanted)> {
     let [from, to] = goal.within[..] else {
         return None;

@@ -23,7 +23,7 @@ pub(super) fn split(chain: &TwoBar, bend: f64) -> Result<Split, SplitError> {
     split_with(chain, SplitKind::Powers, bend, Box::new(|_| 0.0))
 }
 
-/// The same with a factor e^bow of the first stage's ratio: under the integral it is there, too.
+/// Splits by powers with a factor e^bow of the first stage's ratio: under the integral it is there, too.
 pub(super) fn split_with(
     chain: &TwoBar,
     kind: SplitKind,

@@ -18,14 +18,14 @@ use crate::transmission::{MotionJet, Transmission};
 /// Even parts of a turn, in each of which the ratio has few extremes.
 const PARTS: u32 = 32;
 
-/// What an output shall do between two inputs.
+/// Part of a turn over which something is wanted of an output.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Section {
     /// Name, for messages.
     pub name: String,
     /// First and last input, rad.
     pub within: [f64; 2],
-    /// What it shall do there.
+    /// Motion wanted there.
     pub wanted: Wanted,
 }
 

@@ -17,7 +17,7 @@ const MOST_SHARE: f64 = 0.95;
 /// Greatest skew either way.
 const MOST_SKEW: f64 = 4.0;
 
-/// What is free of a section and of the stretch after it.
+/// Numbers that are free of a section and of the stretch after it.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Shape {
     /// Shares of a rest's halves, from the ends of its band on, through which the crank goes before and after the section.

@@ -1,3 +1,5 @@
+pub(crate) mod drive;
+
 use std::sync::Arc;
 
 use centrode_analysis::composed_clearance;

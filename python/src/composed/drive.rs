@@ -6,8 +6,8 @@ use centrode_mechanism::reverse::{GearDrive as Found, GearDriveSpec, Timing};
 use centrode_mechanism::transmission::Transmission as _;
 use pyo3::prelude::{Py, PyRef, PyResult, Python, pyclass, pyfunction, pymethods};
 
+use super::Machine;
 use crate::array::{Course, Values};
-use crate::composed::Machine;
 use crate::design::Class;
 use crate::error::{Answer, Raised};
 use crate::made::{Reduced, by};
