@@ -1,0 +1,80 @@
+//! Commands that start from what is wanted.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use clap::builder::PossibleValuesParser;
+
+use crate::mechanism::reverse::SplitKind;
+
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Example: centrode reverse path.csv --axis 260,160 --bend 40 --arms 3 -o arms.toml\n\nThe path is closed: a point a line, x and y in mm, in the order in which the tip passes them.\n\nExit status: 0 good; 2 no machine, a bad path, or the file cannot be written."
+)]
+pub(crate) struct Reverse {
+    /// CSV file of the path, or - for standard input
+    pub(crate) path: PathBuf,
+    /// Axis of the carrier, mm; left out, the mildest: that of the least change of the gears' ratio
+    #[arg(long, value_parser = place, allow_hyphen_values = true, value_name = "X,Y")]
+    pub(crate) axis: Option<[f64; 2]>,
+    /// How two stages of gears share the motion
+    #[arg(long, value_parser = PossibleValuesParser::new(SplitKind::NAMES.map(|(name, _)| name)), default_value = "powers")]
+    pub(crate) split: String,
+    /// Angle from the carrier's first leg, to the intermediate gear, to its second, degrees
+    #[arg(
+        long,
+        default_value_t = 60.0,
+        allow_negative_numbers = true,
+        value_name = "DEG"
+    )]
+    pub(crate) bend: f64,
+    /// Number of arms
+    #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=12))]
+    pub(crate) arms: u32,
+    /// Steps of the tables in which the laws of the gears are written; left out, as few as bring the tip within 1e-7 of its
+    /// greatest distance from the axis
+    #[arg(long, value_name = "N")]
+    pub(crate) steps: Option<u32>,
+    /// Take a path that crosses itself, too
+    #[arg(long)]
+    pub(crate) crossing: bool,
+    /// Design file to write; left out, nothing is written and no teeth are sought
+    #[arg(short, long, value_name = "FILE")]
+    pub(crate) output: Option<PathBuf>,
+}
+
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Example: centrode drive slider.toml --body crank --center-distance 130 -o press.toml\n\nThe design is of family machine, its crank turned by law = { ratio = 1 }. Goals over = \"departure\" with a course say where the output goes evenly, goals over = \"span\" with at_most where it rests.\n\nExit status: 0 good; 2 no gears, a bad design, or the file cannot be written."
+)]
+pub(crate) struct Drive {
+    /// Design file, or - for standard input
+    pub(crate) design: PathBuf,
+    /// Body that turns evenly: the crank
+    #[arg(long, value_name = "NAME", default_value = "crank")]
+    pub(crate) body: String,
+    /// Distance of the new shaft from the crank's axis, mm
+    #[arg(long, value_name = "MM")]
+    pub(crate) center_distance: f64,
+    /// Direction from the crank's axis to the new shaft, degrees
+    #[arg(
+        long,
+        default_value_t = 180.0,
+        allow_negative_numbers = true,
+        value_name = "DEG"
+    )]
+    pub(crate) direction: f64,
+    /// Design file to write; left out, nothing is written and no teeth are sought
+    #[arg(short, long, value_name = "FILE")]
+    pub(crate) output: Option<PathBuf>,
+}
+
+/// Reads a place in the plane.
+fn place(word: &str) -> Result<[f64; 2], String> {
+    let number = |word: &str| word.trim().parse::<f64>().ok().filter(|x| x.is_finite());
+    let both = word.split_once(',').map(|(x, y)| (number(x), number(y)));
+    match both {
+        Some((Some(x), Some(y))) => Ok([x, y]),
+        _ => Err("not two numbers of millimetres, as in 260,160".into()),
+    }
+}
