@@ -96,7 +96,7 @@ pub enum GearDriveError {
         turns: u32,
     },
     /// A centre distance out of range.
-    #[error("the centre distance must be {least} to {greatest:e} mm, not {distance}")]
+    #[error("the centre distance must be {least} to {greatest:e} mm, not {distance:?}")]
     Distance {
         /// Given, mm.
         distance: f64,
@@ -105,6 +105,9 @@ pub enum GearDriveError {
         /// Greatest, mm.
         greatest: f64,
     },
+    /// A direction that is none.
+    #[error("the direction of the shaft must be a finite number")]
+    Direction,
     /// No law does what is wanted.
     #[error(transparent)]
     Timing(#[from] TimingError),
@@ -128,13 +131,16 @@ impl GearDrive {
     pub fn new(design: &ComposedDesign, spec: &GearDriveSpec) -> Result<Self, GearDriveError> {
         let [least, greatest] = DISTANCES;
         let distance = spec.center_distance;
-        let is_between = distance >= least && distance <= greatest && spec.direction.is_finite();
+        let is_between = distance >= least && distance <= greatest;
         if !is_between {
             return Err(GearDriveError::Distance {
                 distance,
                 least,
                 greatest,
             });
+        }
+        if !spec.direction.is_finite() {
+            return Err(GearDriveError::Direction);
         }
         let crank = Crank::of(design, spec)?;
         let composed = Composed::resolve(design).map_err(Box::new)?;

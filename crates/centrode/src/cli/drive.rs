@@ -35,18 +35,15 @@ pub(crate) fn run(command: &Drive, out: &mut impl Write) -> Result<Status, Failu
         ))
     })?;
     let made = made.map_err(|error| source.refused(&error))?;
-    progress.step("looking for sound teeth");
-    let toothed = command
-        .output
-        .as_ref()
-        .map(|_| with_sound_teeth(&made.design, |pair| pair == GearDrive::PAIR));
-    drop(progress);
+    // It is told before teeth are sought, and even where there are none.
     found(&made, out)?;
-    // It is told even where there are no teeth.
     out.flush()?;
-    let (Some(output), Some(toothed)) = (&command.output, toothed) else {
+    let Some(output) = &command.output else {
         return Ok(Status::Good);
     };
+    progress.step("looking for sound teeth");
+    let toothed = with_sound_teeth(&made.design, |pair| pair == GearDrive::PAIR);
+    drop(progress);
     let (design, found) = toothed.map_err(|error| Failure::Files(Box::new(error)))?;
     teeth(&found, out)?;
     let text = design.to_toml();

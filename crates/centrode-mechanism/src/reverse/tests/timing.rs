@@ -328,4 +328,6 @@ fn machines_that_cannot_be_driven_so_are_refused_with_the_reason() {
         let error = GearDrive::new(&slider(same), &spec).expect_err("no drive");
         assert!(matches!(error, GearDriveError::Distance { .. }), "{error}");
     }
+    let error = GearDrive::new(&slider(same), &asked(f64::NAN)).expect_err("no drive");
+    assert_eq!(error, GearDriveError::Direction);
 }
