@@ -1,5 +1,6 @@
 //! Exact edges of straight extrusions, and links with their bodies, handed over as records.
 
+use centrode::family::FINEST;
 use centrode_export::step::{StepError, contours, poles};
 use centrode_export::{Bundle, ExportError};
 use centrode_geometry::{Opening, Segment, Solid, Tolerance};
@@ -8,7 +9,7 @@ use pyo3::prelude::{Bound, PyAny, PyDictMethods, PyResult, Python};
 use pyo3::types::{PyDict, PyTuple};
 
 use crate::array::{Rows, mesh};
-use crate::error::Answer;
+use crate::error::{Answer, Raised};
 use crate::record::{record, tuple};
 
 /// An extrusion with its sides.
@@ -19,8 +20,16 @@ pub(crate) struct Sides {
 
 impl Sides {
     /// Sides of an extrusion, those shorter than the tolerance closed up.
-    pub(crate) fn of(part: &str, solid: Solid, shortest: Tolerance) -> Result<Self, ExportError> {
+    pub(crate) fn of(part: &str, solid: Solid, shortest: Tolerance) -> Answer<Self> {
         let found = contours(&solid, shortest);
+        let exact = || Tolerance::new(FINEST).is_ok_and(|finest| contours(&solid, finest).is_ok());
+        if found.is_err() && exact() {
+            let sentence = format!(
+                "tolerance of {:e} mm closes up all sides of {part}: take a smaller one",
+                shortest.mm()
+            );
+            return Err(Raised::sentence("tolerance", sentence));
+        }
         let contours = found.map_err(|source: StepError| ExportError::Step {
             part: part.to_owned(),
             source,

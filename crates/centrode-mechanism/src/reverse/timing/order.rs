@@ -10,6 +10,9 @@ const LOOKS: u32 = 720;
 /// Angle that is rounding, rad.
 const ROUNDING: f64 = 1e-9;
 
+/// Share of the stroke by which a rest stays within its band.
+const SLACK: f64 = 1e-6;
+
 /// An output with one greatest and one least place in a turn.
 #[derive(Clone, Debug)]
 pub(super) struct Swing {
@@ -76,6 +79,8 @@ impl Swing {
     /// Angles at which the output enters and leaves a band at an end of its stroke.
     fn rest(&self, output: &dyn Transmission, band: f64, is_greatest: bool) -> [f64; 2] {
         let [least, greatest] = self.places;
+        // A little less, for the law is written as a table.
+        let band = band - (SLACK * (greatest - least)).min(0.1 * band);
         let place = if is_greatest {
             greatest - band
         } else {
