@@ -75,7 +75,8 @@ def answers(found):
 def test_no_number_makes_anything_answer_with_nan(machines, value):
     """Each number of each method replaced in turn: refused by a ValueError, or answered without NaN or a panic."""
     warnings.simplefilter("ignore")
-    skipped = {"export", "optimise", "write", "step", "stl", "threemf", "response", "variants", "files", "solids", "check"}
+    writers = {"export", "write", "step", "stl", "threemf", "files", "solids"}
+    skipped = writers | {"optimise", "response", "variants", "check"}
     tried = set()
     for title, machine in machines.items():
         for name in dir(machine):
