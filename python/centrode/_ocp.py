@@ -26,6 +26,7 @@ from OCP.TopLoc import TopLoc_Location
 from OCP.TopoDS import TopoDS, TopoDS_Compound, TopoDS_Face, TopoDS_Shell, TopoDS_Solid, TopoDS_Vertex, TopoDS_Wire
 
 from ._error import ExportError
+from ._machine import LEAST, body
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -33,6 +34,8 @@ if TYPE_CHECKING:
     from numpy import float64
     from numpy.typing import ArrayLike, NDArray
 
+    from ._centrode import Mechanism
+    from ._link import Link
     from ._solid import Edge, Opening, Solid
 
 try:
@@ -58,6 +61,22 @@ def extrusion(of: Solid) -> Any:
     if of.opening is not None:
         made = BRepAlgoAPI_Cut(made, _tool(of.opening)).Shape()
     return _only(made)
+
+
+def part(of: Solid | bytes) -> Any:
+    """Make the solid of a part from its exact edges, or read it from its STEP file."""
+    return step(of) if isinstance(of, bytes) else extrusion(of)
+
+
+def link(machine: Mechanism, of: Link) -> tuple[Any, bool]:
+    """Make a link's body: a shape, and whether it is one solid; else it is a compound of none or several."""
+    if of.mesh is not None:
+        return polyhedra(*of.mesh), False
+    if of.part and not of.solids:
+        return part(body(machine, of.part, LEAST)[1]), True
+    if len(of.solids) == 1:
+        return extrusion(of.solids[0]), True
+    return compound([extrusion(solid) for solid in of.solids]), False
 
 
 def step(contents: bytes) -> Any:

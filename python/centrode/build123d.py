@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING, Any
 
 from . import _machine
 from ._need import need
-from ._solid import Solid as _Extrusion
 
 if TYPE_CHECKING:
     import build123d as _b3d
@@ -39,7 +38,7 @@ def part(of: Gear | DiscCam | Mechanism, name: str | Part | None = None, *, tole
     """
     b3d = _build123d()
     label, found = _machine.body(of, name, tolerance)
-    return _solid(b3d, found, label)
+    return b3d.Solid(_kernel().part(found), label=label)
 
 
 def assembly(of: Mechanism, phi: float = 0.0, *, tolerance: float = 1e-6) -> _b3d.Compound:
@@ -112,15 +111,8 @@ def _put(whole: Any, machine: Mechanism, links: tuple[Link, ...], phi: float) ->
 
 def _link(b3d: Any, machine: Mechanism, link: Link) -> Any:
     """A link's body: one solid, or a compound of none or several."""
-    kernel = _kernel()
-    if link.mesh is not None:
-        return b3d.Compound(kernel.polyhedra(*link.mesh), label=link.name)
-    if len(link.solids) == 1:
-        return _solid(b3d, link.solids[0], link.name)
-    if link.part and not link.solids:
-        _, found = _machine.body(machine, link.part, _machine.LEAST)
-        return _solid(b3d, found, link.name)
-    return b3d.Compound(kernel.compound([kernel.extrusion(solid) for solid in link.solids]), label=link.name)
+    shape, is_solid = _kernel().link(machine, link)
+    return (b3d.Solid if is_solid else b3d.Compound)(shape, label=link.name)
 
 
 def _connect(b3d: Any, link: Link, made: dict[str, Any]) -> None:
@@ -141,12 +133,6 @@ def _connect(b3d: Any, link: Link, made: dict[str, Any]) -> None:
     joined = b3d.LinearJoint(joint.name, carrier, along, linear_range=joint.range or (-math.inf, math.inf))
     # This joint leaves what slides turned as what carries it.
     b3d.RigidJoint(joint.name, child, carrier.location * b3d.Location(joined.relative_axis.position))
-
-
-def _solid(b3d: Any, of: _Extrusion | bytes, label: str) -> Any:
-    kernel = _kernel()
-    shape = kernel.extrusion(of) if isinstance(of, _Extrusion) else kernel.step(of)
-    return b3d.Solid(shape, label=label)
 
 
 def _build123d() -> Any:

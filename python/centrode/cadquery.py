@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, Any
 
 from . import _machine
 from ._need import need
-from ._solid import Solid as _Extrusion
 
 if TYPE_CHECKING:
     import cadquery as _cq
@@ -38,7 +37,7 @@ def part(of: Gear | DiscCam | Mechanism, name: str | Part | None = None, *, tole
     """
     cq = _cadquery()
     _, found = _machine.body(of, name, tolerance)
-    return cq.Workplane("XY").newObject([_solid(cq, found)])
+    return cq.Workplane("XY").newObject([cq.Solid(_kernel().part(found))])
 
 
 def assembly(of: Mechanism, phi: float = 0.0, *, tolerance: float = 1e-6) -> _cq.Assembly:
@@ -84,21 +83,10 @@ def pose(assembly: _cq.Assembly, of: Mechanism, phi: float) -> None:
 
 def _link(cq: Any, machine: Mechanism, link: Link) -> Any:
     """A link's body: one solid, a compound of several, or nothing."""
-    kernel = _kernel()
-    if link.mesh is not None:
-        return cq.Compound(kernel.polyhedra(*link.mesh))
-    if link.part and not link.solids:
-        _, found = _machine.body(machine, link.part, _machine.LEAST)
-        return _solid(cq, found)
-    if len(link.solids) == 1:
-        return _solid(cq, link.solids[0])
-    solids = [kernel.extrusion(solid) for solid in link.solids]
-    return cq.Compound(kernel.compound(solids)) if solids else None
-
-
-def _solid(cq: Any, of: _Extrusion | bytes) -> Any:
-    kernel = _kernel()
-    return cq.Solid(kernel.extrusion(of) if isinstance(of, _Extrusion) else kernel.step(of))
+    if link.mesh is None and not link.part and not link.solids:
+        return None
+    shape, is_solid = _kernel().link(machine, link)
+    return (cq.Solid if is_solid else cq.Compound)(shape)
 
 
 def _cadquery() -> Any:

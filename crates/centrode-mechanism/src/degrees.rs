@@ -13,6 +13,11 @@ pub(crate) fn written(radians: f64) -> f64 {
     }
 }
 
+/// Degrees without the last digits that the way through radians has cost: for messages and limits.
+pub(crate) fn rounded(radians: f64) -> f64 {
+    (radians.to_degrees() * 1e9).round() / 1e9
+}
+
 pub(crate) fn serialize<S: Serializer>(radians: &f64, s: S) -> Result<S::Ok, S::Error> {
     s.serialize_f64(written(*radians))
 }

@@ -5,7 +5,7 @@ use std::sync::{Arc, OnceLock};
 use centrode::family::{self, Depth, Family};
 use centrode::meshing;
 use centrode_export::machine::tabulated;
-use centrode_export::{Bundle, Format, Options};
+use centrode_export::{Bundle, ExportError, Format, Options};
 use centrode_mechanism::machine::{FrameJet, Machine};
 use pyo3::prelude::{Bound, PyAny, PyClassInitializer, PyDictMethods, PyResult, Python};
 use pyo3::types::PyDict;
@@ -108,7 +108,11 @@ impl Mechanism {
         let mut options = Options::new(shortest);
         options.parts = files::parts(parts, self.family()?.parts)?;
         options.keep_solids = true;
-        let bundle = self.ask(py, move |machine| machine.files(&[Format::Step], &options))??;
+        let bundle = self.ask(py, move |machine| machine.files(&[Format::Step], &options))?;
+        let bundle = bundle.map_err(|error| match error {
+            ExportError::Tolerance { .. } => Raised::sentence("tolerance", error.to_string()),
+            error => error.into(),
+        })?;
         solid::solids(py, bundle, shortest)
     }
 

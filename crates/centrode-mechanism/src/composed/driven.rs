@@ -5,9 +5,9 @@ use centrode_geometry::Extreme;
 use thiserror::Error;
 
 use self::crank::Crank;
-use super::reversed::{STEPS, least_convex_radii, table_pair};
+use super::reversed::{fewest_steps, least_convex_radii, table_pair};
 use super::{Composed, ComposedDesign, ComposedError};
-use crate::gear::{GearPair, GearPairError, Rolling};
+use crate::gear::{GearPair, GearPairError};
 use crate::reverse::{Timing, TimingError};
 
 /// Distance of the output from its law that is near enough, as a share of the stroke.
@@ -148,29 +148,14 @@ impl GearDrive {
         let timing = Timing::new(output, &sections)?;
         let [low, high] = timing.places();
         let enough = NEAR_ENOUGH * (high - low);
-        let mut best: Option<(u32, Rolling, Vec<f64>, Extreme)> = None;
-        let mut failed = None;
-        for steps in STEPS {
+        let of_steps = |steps| {
             let table = crank.table(&timing, steps);
-            let rolled = match GearPair::roll(&table_pair(table.clone(), distance)) {
-                Ok((_, rolled)) => rolled,
-                // A coarse table may be no law.
-                Err(error) => {
-                    failed = Some(error);
-                    continue;
-                }
-            };
+            let (_, rolled) = GearPair::roll(&table_pair(table.clone(), distance))?;
             let miss = crank.miss(&timing, &rolled);
-            let is_enough = miss.value <= enough;
-            best = Some((steps, rolled, table, miss));
-            if is_enough {
-                break;
-            }
-        }
-        let Some((steps, rolled, table, miss)) = best else {
-            let error = failed.map(GearDriveError::from);
-            return Err(error.unwrap_or(GearDriveError::Nothing));
+            Ok::<_, GearPairError>((steps, rolled, table, miss))
         };
+        let (steps, rolled, table, miss) =
+            fewest_steps(of_steps, |(.., miss)| miss.value <= enough)?;
         Ok(Self {
             design: crank.driven(&composed, &timing, table)?,
             turns,

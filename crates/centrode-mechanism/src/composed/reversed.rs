@@ -26,7 +26,7 @@ const BORE: f64 = 0.06;
 /// Thickness and width of a plate and diameter of its pins, as shares of the centre distance.
 const PLATE: [f64; 3] = [0.07, 0.16, 0.06];
 /// Numbers of equal steps of a table of the law that are tried, the last where none brings the tip near enough.
-pub(super) const STEPS: [u32; 6] = [90, 180, 360, 720, 1440, 2880];
+const STEPS: [u32; 6] = [90, 180, 360, 720, 1440, 2880];
 /// Fewest and most steps of a table.
 const RANGE: [u32; 2] = [12, 5000];
 /// Distance of the tip from the path that is near enough, as a share of the greatest distance of the path from the axis.
@@ -107,16 +107,8 @@ impl ReversedMachine {
             return Self::of_steps(chain, split, arms, steps);
         }
         let enough = NEAR_ENOUGH * (chain.carrier() + chain.arm());
-        let [coarse @ .., last] = STEPS;
-        for steps in coarse {
-            // A coarse table may be no law.
-            if let Ok(made) = Self::of_steps(chain, split, arms, steps)
-                && made.tip_error.value <= enough
-            {
-                return Ok(made);
-            }
-        }
-        Self::of_steps(chain, split, arms, last)
+        let of_steps = |steps| Self::of_steps(chain, split, arms, steps);
+        fewest_steps(of_steps, |made| made.tip_error.value <= enough)
     }
 
     fn of_steps(
@@ -141,6 +133,20 @@ impl ReversedMachine {
             tip_error,
             least_radii: rolled.iter().map(least_convex_radii).collect(),
         })
+    }
+}
+
+/// Makes something with the fewest steps of a table that are enough, or with the most where none are.
+pub(super) fn fewest_steps<T, E>(
+    make: impl Fn(u32) -> Result<T, E>,
+    is_enough: impl Fn(&T) -> bool,
+) -> Result<T, E> {
+    let [coarse @ .., last] = STEPS;
+    // A coarse table may be no law.
+    let mut found = coarse.into_iter().filter_map(|steps| make(steps).ok());
+    match found.find(is_enough) {
+        Some(made) => Ok(made),
+        None => make(last),
     }
 }
 

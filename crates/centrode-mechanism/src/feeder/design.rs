@@ -211,8 +211,7 @@ impl BoundsSpec {
 impl FeederGoals {
     fn validate(&self) -> Result<(), SpecError> {
         let degrees = |key, radians: f64, most: f64| {
-            let degrees = (radians.to_degrees() * 1e9).round() / 1e9;
-            in_range(key, degrees, [0.0, most], " deg")
+            in_range(key, degrees::rounded(radians), [0.0, most], " deg")
         };
         positive("swing_deg", self.swing)?;
         degrees("swing_deg", self.swing, 360.0)?;

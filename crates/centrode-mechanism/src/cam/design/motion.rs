@@ -132,7 +132,7 @@ impl SegmentSpec {
     }
 
     fn validate(&self) -> Result<(), SpecError> {
-        let degrees = (self.span().to_degrees() * 1e9).round() / 1e9;
+        let degrees = degrees::rounded(self.span());
         positive("span_deg", degrees)?;
         in_range("span_deg", degrees, [0.0, 360.0], " deg")?;
         match self.strokes() {

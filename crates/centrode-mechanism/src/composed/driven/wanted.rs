@@ -1,8 +1,6 @@
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-use centrode_geometry::{Point, Vector};
-
 use super::super::{Composed, ComposedFigure, ComposedGoalSpec, Over, PointPart};
 use super::GearDriveError;
 use crate::reverse::{Section, Wanted};
@@ -78,19 +76,18 @@ fn section(goal: &ComposedGoalSpec, figure: &ComposedFigure) -> Option<([f64; 2]
 fn motion(composed: &Composed, figure: &ComposedFigure, input: f64) -> Option<MotionJet> {
     Some(match *figure {
         ComposedFigure::Point { body, at, part } => {
-            let jet = composed.point(body, at, input);
-            let of = |p: Point, d: [Vector; 3], k: usize| MotionJet {
-                position: p[k],
-                velocity: d[0][k],
-                acceleration: d[1][k],
-                jerk: d[2][k],
-            };
             let k = match part {
                 PointPart::X => 0,
                 PointPart::Y => 1,
                 PointPart::Speed | PointPart::Acceleration => return None,
             };
-            of(jet.point, [jet.first, jet.second, jet.third], k)
+            let jet = composed.point(body, at, input);
+            MotionJet {
+                position: jet.point[k],
+                velocity: jet.first[k],
+                acceleration: jet.second[k],
+                jerk: jet.third[k],
+            }
         }
         ComposedFigure::Angle(body) => composed.angle(body, input),
         ComposedFigure::Swing(body) | ComposedFigure::Travel(body) => {

@@ -198,7 +198,7 @@ impl Shaper {
 fn heights(angle: f64, addendum: f64, dedendum: f64, shift: f64) -> Result<(), SpecError> {
     in_range(
         "pressure_angle_deg",
-        (angle.to_degrees() * 1e9).round() / 1e9,
+        degrees::rounded(angle),
         [5.0, 40.0],
         " deg",
     )?;

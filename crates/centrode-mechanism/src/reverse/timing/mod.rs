@@ -13,6 +13,7 @@ use thiserror::Error;
 use self::free::Free;
 use self::order::{Placed, Swing};
 use self::search::Shape;
+use crate::degrees;
 use crate::transmission::{MotionJet, Transmission};
 
 /// Even parts of a turn, in each of which the ratio has few extremes.
@@ -51,8 +52,6 @@ pub struct Timing {
     swing: Swing,
     /// From the first section's start over one turn, ascending.
     stretches: Vec<Stretch>,
-    least_ratio: Extreme,
-    greatest_ratio: Extreme,
 }
 
 /// A part of the turn.
@@ -193,9 +192,7 @@ impl Timing {
                 (Err(_), made) => made,
             };
         }
-        let (_, mut law) = best?;
-        law.find_ratios();
-        Ok(law)
+        Ok(best?.1)
     }
 
     /// The law of sections that are placed, with shapes.
@@ -205,16 +202,10 @@ impl Timing {
         placed: &[Placed<'_>],
         shapes: &[Shape],
     ) -> Result<Self, TimingError> {
-        let none = Extreme {
-            input: 0.0,
-            value: 1.0,
-        };
         let mut law = Self {
             output: Arc::clone(output),
             swing: swing.clone(),
             stretches: Vec::new(),
-            least_ratio: none,
-            greatest_ratio: none,
         };
         let fixed = placed.iter().zip(shapes);
         let fixed: Vec<Stretch> = fixed.map(|(p, shape)| Stretch::of(p, shape)).collect();
@@ -232,8 +223,8 @@ impl Timing {
             let free = free.ok_or_else(|| TimingError::Abrupt {
                 from: placed[i].section.name.clone(),
                 to: placed[next].section.name.clone(),
-                turn: order::shown(ends[1].position - ends[0].position),
-                room: order::shown(to - from),
+                turn: degrees::rounded(ends[1].position - ends[0].position),
+                room: degrees::rounded(to - from),
             })?;
             law.stretches.push(stretch.clone());
             law.stretches.push(Stretch {
@@ -243,25 +234,6 @@ impl Timing {
             });
         }
         Ok(law)
-    }
-
-    /// Finds the extremes of the ratio.
-    fn find_ratios(&mut self) {
-        let start = self.stretches[0].within[0];
-        let ratio = |input: f64| {
-            let ratio = self.at(input).velocity.ln();
-            [-ratio, ratio]
-        };
-        let ends: Vec<f64> = self.stretches.iter().map(|s| s.within[0]).collect();
-        let [least, greatest] = greatest_each(ratio, &pieces(start, start + TAU, PARTS, &ends));
-        self.least_ratio = Extreme {
-            value: (-least.value).exp(),
-            ..least
-        };
-        self.greatest_ratio = Extreme {
-            value: greatest.value.exp(),
-            ..greatest
-        };
     }
 
     /// The law within a stretch.
@@ -318,7 +290,18 @@ impl Timing {
     /// Least and greatest speed of the crank by the input's, and the inputs there.
     #[must_use]
     pub fn ratios(&self) -> [Extreme; 2] {
-        [self.least_ratio, self.greatest_ratio]
+        let start = self.stretches[0].within[0];
+        let ratio = |input: f64| {
+            let ratio = self.at(input).velocity.ln();
+            [-ratio, ratio]
+        };
+        let ends: Vec<f64> = self.stretches.iter().map(|s| s.within[0]).collect();
+        let [least, greatest] = greatest_each(ratio, &pieces(start, start + TAU, PARTS, &ends));
+        let value = |of: Extreme, log: f64| Extreme {
+            value: log.exp(),
+            ..of
+        };
+        [value(least, -least.value), value(greatest, greatest.value)]
     }
 }
 

@@ -3,6 +3,7 @@ use std::f64::consts::TAU;
 use centrode_geometry::{bracketed_root, pieces};
 
 use super::{Section, TimingError, Wanted};
+use crate::degrees;
 use crate::transmission::Transmission;
 
 /// Looks a turn for turning points of the output.
@@ -157,7 +158,7 @@ fn in_order(sections: &[Section]) -> Result<Vec<(&Section, [f64; 2])>, TimingErr
         }
         let has_room = to > from && next > to + ROUNDING;
         if !has_room {
-            let [from, to, next] = [from, to, next].map(shown);
+            let [from, to, next] = [from, to, next].map(degrees::rounded);
             let (name, other) = (section.name.clone(), other.name.clone());
             return Err(TimingError::Overlap {
                 name,
@@ -169,11 +170,6 @@ fn in_order(sections: &[Section]) -> Result<Vec<(&Section, [f64; 2])>, TimingErr
         }
     }
     Ok(all)
-}
-
-/// An angle as it is written in the file, degrees, to where rounding begins.
-pub(super) fn shown(angle: f64) -> f64 {
-    (angle.to_degrees() * 1e9).round() / 1e9
 }
 
 /// Angles of the crank at both ends of a section, one for each way to do it.

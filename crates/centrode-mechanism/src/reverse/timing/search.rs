@@ -7,7 +7,7 @@ use super::{Course, Timing, TimingError, Wanted};
 use crate::reverse::curvature::curvatures;
 use crate::transmission::Transmission;
 
-/// Looks at a free stretch, and at an even one.
+/// Looks at a free stretch.
 const LOOKS: u32 = 48;
 /// First and last step of the search, and greatest number of rounds.
 const STEPS: [f64; 2] = [0.25, 1e-3];
@@ -18,13 +18,35 @@ const MOST_SHARE: f64 = 0.95;
 const MOST_SKEW: f64 = 4.0;
 
 /// Numbers that are free of a section and of the stretch after it.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Shape {
     /// Shares of a rest's halves, from the ends of its band on, through which the crank goes before and after the section.
     pub(super) late: f64,
     pub(super) early: f64,
     /// By how much the logarithm of the speed is greater in the second half of the stretch after it.
     pub(super) skew: f64,
+}
+
+/// A number of a shape.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Number {
+    Late,
+    Early,
+    Skew,
+}
+
+const NUMBERS: [Number; 3] = [Number::Late, Number::Early, Number::Skew];
+
+impl Shape {
+    /// The shape with a number that is greater by a step, within its limits.
+    fn moved(mut self, number: Number, by: f64) -> Self {
+        match number {
+            Number::Late => self.late = (self.late + by).clamp(0.0, MOST_SHARE),
+            Number::Early => self.early = (self.early + by).clamp(0.0, MOST_SHARE),
+            Number::Skew => self.skew = (self.skew + by).clamp(-MOST_SKEW, MOST_SKEW),
+        }
+        self
+    }
 }
 
 /// The law whose pitch curves are blunt: its sharpest convex curvature, of a centre distance of 1, and it.
@@ -44,28 +66,24 @@ pub(super) fn mildest(
     let mut step = STEPS[0];
     for _ in 0..ROUNDS {
         let mut is_better = false;
-        for i in 0..placed.len() {
+        let moves = (0..placed.len()).flat_map(|i| NUMBERS.map(|number| (i, number)));
+        let moves = moves.flat_map(|(i, number)| [step, -step].map(|by| (i, number, by)));
+        for (i, number, by) in moves {
+            checkpoint();
             let rests = matches!(placed[i].section.wanted, Wanted::Rest(_));
-            for number in 0..3 {
-                for by in [step, -step] {
-                    checkpoint();
-                    let mut tried = shapes.clone();
-                    let shape = &mut tried[i];
-                    match number {
-                        0 if rests => shape.late = (shape.late + by).clamp(0.0, MOST_SHARE),
-                        1 if rests => shape.early = (shape.early + by).clamp(0.0, MOST_SHARE),
-                        2 => shape.skew = (shape.skew + by).clamp(-MOST_SKEW, MOST_SKEW),
-                        _ => continue,
-                    }
-                    let found = made(&tried);
-                    let blunter = match (&found, &best) {
-                        (Ok(found), Ok(best)) => found.0 < best.0,
-                        (found, best) => found.is_ok() && best.is_err(),
-                    };
-                    if blunter {
-                        (best, shapes, is_better) = (found, tried, true);
-                    }
-                }
+            let moved = shapes[i].moved(number, by);
+            if moved == shapes[i] || (number != Number::Skew && !rests) {
+                continue;
+            }
+            let mut tried = shapes.clone();
+            tried[i] = moved;
+            let found = made(&tried);
+            let blunter = match (&found, &best) {
+                (Ok(found), Ok(best)) => found.0 < best.0,
+                (found, best) => found.is_ok() && best.is_err(),
+            };
+            if blunter {
+                (best, shapes, is_better) = (found, tried, true);
             }
         }
         if !is_better {
@@ -78,26 +96,22 @@ pub(super) fn mildest(
     best
 }
 
-/// Greatest convex curvature of both pitch curves.
+/// Greatest convex curvature of both pitch curves; over an even course of the output no shape changes it.
 fn sharpest(law: &Timing) -> f64 {
-    let mut sharpest = 0.0_f64;
-    for stretch in &law.stretches {
-        let [from, to] = stretch.within;
-        for i in 0..=LOOKS {
-            let share = f64::from(i) / f64::from(LOOKS);
-            let w = match &stretch.course {
-                Course::Free(free) => free.speed(share),
-                // Its ends are those of free stretches, and its inside no shape changes.
-                Course::Even(_) => continue,
-                Course::Turn => [
-                    law.jet(stretch, from + share * (to - from)).velocity.ln(),
-                    0.0,
-                    0.0,
-                ],
-            };
-            let both = curvatures(w).map(|(kappa, _)| kappa);
-            sharpest = both.into_iter().fold(sharpest, f64::max);
-        }
-    }
-    sharpest
+    let speeds = law
+        .stretches
+        .iter()
+        .flat_map(|stretch| match &stretch.course {
+            Course::Free(free) => {
+                let share = |i: u32| f64::from(i) / f64::from(LOOKS);
+                (0..=LOOKS).map(|i| free.speed(share(i))).collect()
+            }
+            Course::Turn => {
+                let rate = law.jet(stretch, stretch.within[0]).velocity;
+                vec![[rate.ln(), 0.0, 0.0]]
+            }
+            Course::Even(_) => Vec::new(),
+        });
+    let curves = speeds.flat_map(|w| curvatures(w).map(|(kappa, _)| kappa));
+    curves.fold(0.0, f64::max)
 }

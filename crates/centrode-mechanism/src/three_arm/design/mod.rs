@@ -252,7 +252,7 @@ impl ThreeArmDesign {
         count_in_range("arms", self.arms, 1, Self::MOST_ARMS)?;
         angle("carrier_start_deg", self.carrier_start)?;
         // A chain folded back on itself puts the planet on the sun's axis.
-        let bend = rounded_degrees(self.bend);
+        let bend = degrees::rounded(self.bend);
         in_range("bend_deg", bend, [-175.0, 175.0], " deg")?;
         if let Some(reference) = self.planet_reference {
             angle("planet_reference_deg", reference)?;
@@ -292,15 +292,10 @@ impl ThreeArmDesign {
     }
 }
 
-/// Rounds degrees, to drop the last digits that the way through radians has cost.
-fn rounded_degrees(radians: f64) -> f64 {
-    (radians.to_degrees() * 1e9).round() / 1e9
-}
-
 /// Checks an angle within a turn either way.
 fn angle(key: &str, radians: f64) -> Result<(), SpecError> {
     finite(key, radians)?;
-    in_range(key, rounded_degrees(radians), [-360.0, 360.0], " deg")
+    in_range(key, degrees::rounded(radians), [-360.0, 360.0], " deg")
 }
 
 /// Checks a range with its ends in order.
