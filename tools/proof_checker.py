@@ -24,6 +24,9 @@ So each seat lies within w of its series in the file; the transmission error, se
 Where there is no backlash, nothing lies between on + w and back - w; then 1 says that the flanks of either side are
 apart when the driven gear is turned by w off its seat on that side: they overlap by no more than w times the radius.
 
+Where contours and law come again in equal sectors of the cycle, a sector is checked: the contours of the others lie
+within `slack` of those of the first, turned, and every bound keeps so much more.
+
 Not shown: that the contours are those of the design, that neither crosses itself, and that the law's pieces are the
 design's law; the file says how near it is by measurement. Joints closed but for rounding count as closed.
 """
@@ -35,7 +38,7 @@ from concurrent.futures import ProcessPoolExecutor
 from math import tau
 
 from flint import acb, arb, arb_poly
-from proof.balls import UNIT, RejectedError, high, interval, low, magnitude, sweep
+from proof.balls import UNIT, Motion, RejectedError, high, interval, low, magnitude, sweep
 from proof.box import Box, settle
 from proof.contour import Contour
 from proof.law import Law
@@ -49,20 +52,20 @@ class Pair:
     """What the file says of the pair, in balls."""
 
     def __init__(self, proof):
-        if proof["format"] != "centrode-proof" or proof["version"] != 1:
-            raise RejectedError("the file is no proof of version 1")
+        if proof["format"] != "centrode-proof" or proof["version"] != 2:
+            raise RejectedError("the file is no proof of version 2")
         self.width, self.distance = arb(proof["half_width"]), arb(proof["center_distance"])
         if not (0 < self.width < 1e-3 and self.distance > 0):
             raise RejectedError("the half width or the centre distance means nothing")
         self.driver = Contour(proof["driver"], "driver")
         self.driven = Contour(proof["driven"], "driven gear")
         self.law = Law(proof["law"])
-        self.cycle, self.stretches = proof["cycle"], proof["stretches"]
+        self.cycle, self.sectors, self.stretches = proof["cycle"], proof["sectors"], proof["stretches"]
         self.covers()
         self.stand_apart()
 
     def covers(self):
-        """Whether the stretches cover a cycle, after which both gears stand as at its start."""
+        """Whether the stretches cover a sector of a cycle, after which both gears stand as at its start."""
         turns = round(self.cycle / tau)
         on = turns * arb(self.law.slope) * 2 * arb.pi()
         back = round(float(on.mid()) / tau)
@@ -70,18 +73,33 @@ class Pair:
             raise RejectedError(f"a cycle of {self.cycle} rad is no whole number of turns of the driver")
         if not (back != 0 and magnitude(on - back * 2 * arb.pi()) < 1e-11):
             raise RejectedError(f"the driven gear turns by {on} rad in a cycle, which is no whole number of turns")
+        self.repeats(turns, back)
         at = 0.0
         for stretch in self.stretches:
             if stretch["from"] != at or not stretch["to"] > at:
                 raise RejectedError(f"no stretch begins at {at} rad")
             at = stretch["to"]
-        if at != self.cycle:
-            raise RejectedError(f"the stretches end at {at} rad, the cycle at {self.cycle} rad")
+        end = self.cycle / self.sectors
+        if at != end:
+            raise RejectedError(f"the stretches end at {at} rad, the part of the cycle at {end} rad")
+
+    def repeats(self, turns, back):
+        """Bounds by how much contours and law differ from sector to sector."""
+        self.off = arb(0)
+        if self.sectors == 1:
+            return
+        if not (isinstance(self.sectors, int) and self.sectors > 1):
+            raise RejectedError(f"a cycle has no {self.sectors} parts")
+        self.driver.repeats(turns, self.sectors)
+        self.driven.repeats(back, self.sectors)
+        self.off = self.sectors * self.law.repeats(turns, self.sectors)
+        if not self.off < 1e-11:
+            raise RejectedError("the law is another from part to part of the cycle")
 
     def stand_apart(self):
         """Whether neither gear lies inside the other at the start: each has a point beyond all of the other's."""
         start = Box(self, self.stretches[0])
-        place = start.between.place
+        place = Motion(*start.series, self.driven.bound).place
         if not any(abs(place(q)) > self.driver.size for q in self.driven.starts):
             raise RejectedError("the driven gear may lie inside the driver")
         axis = place(acb(0))
@@ -107,17 +125,18 @@ def check_one(number, width):
     stretch["ends"] = ends(stretch)
     whole = Box(PAIR, stretch)
     where = f"from {stretch['from']} to {stretch['to']} rad of the driver"
-    boxes = settle(whole, Box.is_free, width)
-    if not boxes:
-        raise RejectedError(f"the gears are not shown to be apart {where}")
     held = 0
+    # That which takes least first.
     for shown, name in ((Box.is_held_on, "on"), (Box.is_held_back, "back")):
         parts = settle(whole, shown)
         if not parts:
             raise RejectedError(f"the driven gear pushed {name} is not shown to be held {where}")
         held += parts
+    boxes = settle(whole, Box.is_free, width)
+    if not boxes:
+        raise RejectedError(f"the gears are not shown to be apart {where}")
     seats = [whole.along(s) for s in stretch["seats"]]
-    width = PAIR.width * UNIT
+    width = (PAIR.width + PAIR.off) * UNIT
     ranges = [spread(seats[0]) + width, spread(seats[1]) + width, spread(seats[1] - seats[0]) + 2 * width]
     if not ranges[2] > -4 * PAIR.width:
         raise RejectedError(f"the play is negative {where}")
@@ -159,9 +178,8 @@ def run(path, design, workers):
         found = [one for run in pool.map(check, runs) for one in run]
     ranges = [(min(r[i][0] for _, r in found), max(r[i][1] for _, r in found)) for i in range(3)]
     turns, width = round(PAIR.cycle / tau), 2 * proof["half_width"]
-    print(
-        f"proved: the gears hold each other at every angle of {turns} turns of the driver, and keep apart in their play"
-    )
+    cycle = "one turn" if turns == 1 else f"{turns} turns"
+    print(f"proved: the gears hold each other at every angle of {cycle} of the driver, and keep apart in their play")
     for name, (least, greatest) in zip(("error pushed on", "error pushed back", "play"), ranges, strict=True):
         print(f"{name}: {least:.4e} to {greatest:.4e} rad")
     print(f"each error at every angle within {width:.1e} rad; {count} stretches, {sum(n for n, _ in found)} boxes")

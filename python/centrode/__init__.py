@@ -10,7 +10,7 @@ True
 """
 
 from . import build123d, cadquery, cam, mujoco, pitch, plot
-from ._axes import AxisMap
+from ._axes import AxisMap, SplitFigures
 from ._centrode import (
     Body,
     BoxDrive,
@@ -103,6 +103,7 @@ __all__ = [
     "SliderForce",
     "Solid",
     "SpiralShaft",
+    "SplitFigures",
     "Table",
     "ThreeArm",
     "Tooth",

@@ -22,9 +22,32 @@ class AxisMap:
     """Length of the carrier, mm; NaN where the axis is not possible, as in the arrays that follow."""
     arm: NDArray[float64]
     """Length of the arm, mm."""
-    least_ratio: NDArray[float64]
-    """Least ratio of the total law."""
-    greatest_ratio: NDArray[float64]
-    """Greatest ratio."""
+    ratios: NDArray[float64]
+    """Least and greatest ratio of the total law along the last axis of the array."""
+    least_radius: NDArray[float64]
+    """Least convex radius of the four pitch curves by powers, mm; of a path of more than 64 pieces 64 are looked at."""
     shaft_distance: NDArray[float64]
     """Least distance of the tip from the axis, mm."""
+
+
+@dataclass(frozen=True)
+class SplitFigures:
+    """Figures of the gears of a split: a pair that occurs twice, or two pairs, the sun's first."""
+
+    __module__ = "centrode"
+
+    name: str
+    """Word for the split: "powers", "mildest" or "one-pair"."""
+    least_radii: tuple[tuple[float, float], ...]
+    """Least convex radii of driver and driven gear of each pair, mm; none where there is no split."""
+    convex: tuple[tuple[bool, bool], ...]
+    """Whether driver and driven gear of each pair are convex all round."""
+    tip_error: float
+    """Greatest distance of the tip from the path, mm, with laws in tables; NaN where there is no split."""
+    refusal: str | None
+    """Why the motion cannot be split so; None where it can."""
+
+    @property
+    def least_radius(self) -> float:
+        """The least of all least radii, mm; NaN where there is no split."""
+        return min((radius for pair in self.least_radii for radius in pair), default=float("nan"))

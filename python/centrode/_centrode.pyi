@@ -7,7 +7,7 @@ from numpy import float64, uint32
 from numpy.typing import ArrayLike, NDArray
 from typing_extensions import Self, disjoint_base
 
-from ._axes import AxisMap
+from ._axes import AxisMap, SplitFigures
 from ._clearance import Clearance
 from ._contact import Contact
 from ._forces import Forces
@@ -407,6 +407,9 @@ class DiscCam:
 
 @final
 class Gear:
+    __hash__: ClassVar[None]  # type: ignore[assignment]
+    def __eq__(self, other: object, /) -> bool: ...
+    def __ne__(self, other: object, /) -> bool: ...
     @property
     def member(self) -> Literal["driver", "driven"]: ...
     @property
@@ -1062,11 +1065,15 @@ class Reversed:
     @property
     def ratios(self) -> tuple[float, float]: ...
     @property
+    def least_radius(self) -> float: ...
+    @property
     def shaft_distance(self) -> float: ...
     @property
     def split(self) -> str: ...
     @property
     def tip_error(self) -> float: ...
+    @property
+    def splits(self) -> tuple[SplitFigures, SplitFigures, SplitFigures]: ...
     @property
     def axes(self) -> AxisMap: ...
     @overload

@@ -89,7 +89,7 @@ raised! {
     }
     GearDriveError {
         GearDriveError::Distance { .. } => DesignError("center_distance"),
-        GearDriveError::Direction => DesignError("direction_deg"),
+        GearDriveError::Direction { .. } => DesignError("direction_deg"),
         GearDriveError::NoCrank { .. } => DesignError("body"),
         _ => MechanismError("goals"),
     }

@@ -21,12 +21,18 @@ use crate::solid::Sides;
 use crate::wait::wait;
 
 /// One gear of a pair, in its own frame: axes parallel to the world's at phi = 0.
-#[pyclass(frozen, module = "centrode")]
+#[pyclass(frozen, eq, module = "centrode")]
 #[derive(Debug)]
 pub(crate) struct Gear {
     pub(crate) pair: Arc<mechanism::GearPair>,
     pub(crate) member: Member,
     pub(crate) made: Made,
+}
+
+impl PartialEq for Gear {
+    fn eq(&self, other: &Self) -> bool {
+        self.member == other.member && self.pair.design() == other.pair.design()
+    }
 }
 
 impl Gear {

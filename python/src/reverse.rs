@@ -8,6 +8,7 @@ use centrode_mechanism::reverse::{
 };
 use centrode_mechanism::transmission::Transmission as _;
 use pyo3::prelude::{Bound, Py, PyAny, PyResult, Python, pyclass, pyfunction, pymethods};
+use pyo3::types::PyTuple;
 
 use crate::array::{Course, Rows, Values};
 use crate::composed::Machine;
@@ -147,6 +148,12 @@ impl Reversed {
         (least.value, greatest.value)
     }
 
+    /// Least radius of curvature of the four pitch curves of the split by powers where they are convex, mm.
+    #[getter]
+    fn least_radius(&self) -> f64 {
+        self.chain.least_radius(self.bend_deg.to_radians())
+    }
+
     /// Least distance of the tip from the carrier's axis, mm.
     #[getter]
     fn shaft_distance(&self) -> f64 {
@@ -172,6 +179,33 @@ impl Reversed {
         Course::each(direction, move |psi| law.at(psi).position)
     }
 
+    /// Figures of every way in which two stages of gears may share the motion here, or why there are none.
+    ///
+    /// >>> import centrode as ct
+    /// >>> path = [(0, 0), (60, 70), (150, 150), (230, 215), (262, 262), (235, 300), (170, 330),
+    /// ...         (100, 330), (40, 300), (-5, 250), (-30, 190), (-38, 130), (-30, 60)]
+    /// >>> powers, mildest, one_pair = ct.reverse(path, (260, 160), bend_deg=40).splits
+    /// >>> mildest.name, mildest.least_radius > 1.2 * powers.least_radius
+    /// ('mildest', True)
+    #[getter]
+    fn splits<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
+        let (chain, bend) = (self.chain.clone(), self.bend_deg.to_radians());
+        let found = wait(py, move || {
+            SplitKind::NAMES.map(|(name, kind)| {
+                let split = Split::new(&chain, kind, bend).map_err(|error| error.to_string());
+                let made = |split| ReversedMachine::new(&chain, &split, 1, None);
+                (
+                    name,
+                    split.and_then(|split| made(split).map_err(|error| error.to_string())),
+                )
+            })
+        })?;
+        let found = found
+            .iter()
+            .map(|(name, made)| record::split(py, name, made));
+        record::tuple(py, found)
+    }
+
     /// Possible axes of the carrier on and about the path.
     ///
     /// >>> import centrode as ct
@@ -191,7 +225,7 @@ impl Reversed {
         let Some(map) = self.axes.get() else {
             return Ok(py.None().into_bound(py));
         };
-        record::axes(py, map)
+        record::axes(py, map, self.bend_deg.to_radians())
     }
 
     /// The machine with the largest teeth whose flanks carry the motion alone.

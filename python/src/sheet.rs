@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use centrode::meshing;
+use centrode::sheet_data;
 use centrode_analysis::check;
 use centrode_export::gear_pair::{Subject, sheets, subject_files};
 use centrode_export::{Bundle, ExportError, Format, Options, Package, SheetOptions};
@@ -45,7 +45,7 @@ fn laid_out(
     tolerance: Tolerance,
 ) -> Result<(String, Bundle), ExportError> {
     let layout = SheetOptions {
-        meshing: meshing(&check(pair)),
+        found: sheet_data(&check(pair)),
         ..layout
     };
     let pages = sheets(pair, subject, &layout, tolerance)?;

@@ -101,3 +101,11 @@ def test_a_tolerance_must_be_a_positive_length_no_finer_than_the_outline(pair, m
 def test_a_solid_must_have_a_width(pair, width):
     with pytest.raises(ct.DesignError, match="higher"):
         pair.driver.mesh(width=width)
+
+
+def test_gears_are_equal_where_their_pairs_are():
+    pitch = ct.pitch.ellipse(eccentricity=0.25, module=2, tooth_count=23)
+    pair = ct.GearPair(pitch)
+    assert pair.driver == pair.driver == ct.GearPair(pitch).driver
+    assert pair.driver != pair.driven
+    assert pair.driver != ct.GearPair(pitch, backlash=0.1).driver

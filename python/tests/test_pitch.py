@@ -87,3 +87,9 @@ def test_module_and_tooth_count_set_the_length(eccentricity, module, teeth):
     step = np.diff(pitch.points(phi), axis=0)
     length = np.hypot(*step.T).sum()
     assert length == pytest.approx(math.pi * module * teeth, rel=1e-5)
+
+
+@pytest.mark.parametrize("ask", ["points", "curvature"])
+def test_a_parameter_that_is_no_number_is_refused(ask):
+    with pytest.raises(ct.DesignError, match="every parameter must be a finite number, not NaN"):
+        getattr(ct.pitch.circle(radius=10), ask)([0.0, float("nan")])

@@ -60,8 +60,43 @@ def test_the_map_has_figures_where_an_axis_is_possible_and_a_reason_elsewhere():
     assert set(fault[~axes.possible]) <= {"extremes", "circle", "on-axis", "winding", "carrier-turns-back", "arm-stops"}
     # The axis chosen is milder than any of the grid.
     best = ct.reverse(DRAWN).ratios
-    grid = np.maximum(-np.log(axes.least_ratio), np.log(axes.greatest_ratio))
+    assert axes.ratios.shape == (*axes.possible.shape, 2)
+    grid = np.maximum(-np.log(axes.ratios[..., 0]), np.log(axes.ratios[..., 1]))
     assert max(-np.log(best[0]), np.log(best[1])) <= np.nanmin(grid)
+
+
+def curvatures(ratio, slope, bend):
+    """Of the polar curves r1 = i/(1 + i) and r2 = 1/(1 + i), from ln i and its derivatives by the driver."""
+    i = np.exp(ratio)
+    r1, r2 = i / (1 + i), 1 / (1 + i)
+    # d r1/d phi1, and r2 by its own angle: d phi2 = i d phi1.
+    d1, dd1 = r1 * r2 * slope, r1 * r2 * (bend + (r2 - r1) * slope**2)
+    d2 = -d1 / i
+    dd2 = -(dd1 - d1 * slope) / i**2
+    return [(r * r + 2 * d * d - r * dd) / (r * r + d * d) ** 1.5 for r, d, dd in ((r1, d1, dd1), (r2, d2, dd2))]
+
+
+def test_the_least_radius_is_that_of_the_law_by_differences():
+    made = ct.reverse(DRAWN, (260, 160), bend_deg=40)
+    psi = np.linspace(0, 2 * np.pi, 40001)[:-1]
+    step = 2e-4
+    low, here, high = (made.law(psi + h) for h in (-step, 0.0, step))
+    far = made.law(psi + 2 * step) - made.law(psi - 2 * step)
+    first = (8 * (high - low) - far) / (12 * step)
+    second = (high - 2 * here + low) / step**2
+    third = (far - 2 * (high - low)) / (2 * step**3)
+    slope = second / first
+    bend = third / first - slope**2
+    share = 0.5
+    scale = -np.log(np.mean(first**share))
+    # The second stage by the planet's angle.
+    turned = [-share * slope / first, -share * (bend - slope**2) / first**2]
+    both = [
+        *curvatures(scale + share * np.log(first), share * slope, share * bend),
+        *curvatures(scale - share * np.log(first), *turned),
+    ]
+    leg = 0.5 * made.carrier / np.cos(np.radians(20))
+    assert made.least_radius == pytest.approx(leg / np.max(both), rel=5e-3)
 
 
 @pytest.mark.parametrize(
@@ -104,3 +139,18 @@ def test_other_threads_run_meanwhile():
         thread.join()
     inside = [start, *(t for t in turns if start < t < end), end]
     assert max(np.diff(inside)) < 0.5 * (end - start)
+
+
+def test_every_split_has_its_figures_or_its_refusal():
+    arms = ct.reverse(DRAWN, (260, 160), bend_deg=47)
+    powers, mildest, one_pair = arms.splits
+    assert (powers.name, mildest.name, one_pair.name) == ("powers", "mildest", "one-pair")
+    assert [len(split.least_radii) for split in (powers, mildest, one_pair)] == [2, 2, 1]
+    assert powers.least_radius == pytest.approx(arms.least_radius, rel=1e-3)
+    assert mildest.least_radius > 1.2 * powers.least_radius
+    assert all(split.refusal is None and split.tip_error < 1e-4 for split in (powers, mildest, one_pair))
+    assert "mildest" in repr(mildest)
+    refused = ct.reverse(DRAWN, (260, 160), bend_deg=60).splits[2]
+    assert "2/3" in refused.refusal
+    assert refused.least_radii == ()
+    assert np.isnan(refused.least_radius)

@@ -209,3 +209,10 @@ def test_other_threads_run_meanwhile(arms):
     done.set()
     watch.join()
     assert len(ticks) > 5
+
+
+@pytest.mark.parametrize("arm", [-1, 3])
+def test_an_arm_that_is_not_there_is_refused(arm):
+    arms = ct.ThreeArm.from_toml(ct.template("three-arm"))
+    with pytest.raises(IndexError, match=f"arm {arm} of 3, counted from 0"):
+        arms.tip(0.1, arm=arm)

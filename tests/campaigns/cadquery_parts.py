@@ -1,33 +1,17 @@
 """Parts and assemblies of CadQuery beside the kernel's checker, Green's theorem and the machine's own poses.
 
-CadQuery and build123d stand on different versions of one kernel, so they cannot share an environment. This one makes
-its own, some 2 GB, on its first run:
+CadQuery and build123d stand on different versions of one kernel, so they cannot share an environment. `scripts/test`
+makes one for CadQuery, 1.4 GB, and `tests/python/test_cadquery.py` runs this on a few designs:
 
-    python tests/campaigns/cadquery_parts.py --environment ~/.cache/centrode-cadquery
-    python tests/campaigns/cadquery_parts.py --here       # in an environment that has centrode and CadQuery already
+    PYTHONPATH=python .venv-cadquery/bin/python tests/campaigns/cadquery_parts.py           # all designs
+    PYTHONPATH=python .venv-cadquery/bin/python tests/campaigns/cadquery_parts.py press     # those named
 """
 
 import argparse
 import doctest
-import os
-import subprocess
-import sys
-import venv
 from pathlib import Path
 
 ROOT = Path(__file__).parents[2]
-CADQUERY = "cadquery==2.8.0"
-
-
-def own(folder):
-    """Runs this script in an environment with CadQuery, which is made if it is missing."""
-    python = folder / "bin" / "python"
-    if not python.exists():
-        venv.create(folder, with_pip=True)
-    if subprocess.run([python, "-c", "import cadquery"], capture_output=True).returncode:
-        subprocess.run([python, "-m", "pip", "install", "--quiet", CADQUERY, "numpy>=1.26"], check=True)
-    place = {**os.environ, "PYTHONPATH": str(ROOT / "python")}
-    return subprocess.run([python, __file__, "--here"], env=place).returncode
 
 
 def near(found, wanted, bound, what):
@@ -37,15 +21,16 @@ def near(found, wanted, bound, what):
     return abs(found - wanted)
 
 
-def check():
-    """Looks at every part and every assembly of every shipped design."""
+def check(names):
+    """Looks at every part and every assembly of the shipped designs named; of all if none is."""
     import cadquery as cq
     import centrode as ct
     import numpy as np
     from OCP.BRepCheck import BRepCheck_Analyzer
 
     parts, worst, off = 0, 0.0, 0.0
-    for path in sorted((ROOT / "tests" / "designs").glob("*.toml")):
+    folder = ROOT / "tests" / "designs"
+    for path in [folder / f"{name}.toml" for name in names] or sorted(folder.glob("*.toml")):
         machine = ct.load(path)
         for name, solid in machine.solids().items():
             made = ct.cadquery.part(machine, name).val()
@@ -96,14 +81,9 @@ def documented():
 def main():
     """Reads the arguments."""
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
-    parser.add_argument("--environment", type=Path, default=ROOT / ".venv-cadquery", help="folder of the environment")
-    parser.add_argument("--here", action="store_true", help="use the environment that runs this")
-    options = parser.parse_args()
-    if options.here:
-        documented()
-        check()
-    else:
-        sys.exit(own(options.environment))
+    parser.add_argument("names", nargs="*", help="shipped designs, without .toml; all if none is named")
+    documented()
+    check(parser.parse_args().names)
 
 
 if __name__ == "__main__":

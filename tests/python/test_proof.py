@@ -66,6 +66,35 @@ def test_the_checker_accepts_the_proof_of_a_pair(file, design):
     assert "each error at every angle within 8.0e-10 rad" in answer
 
 
+@pytest.fixture(scope="module")
+def round_file(tmp_path_factory, run):
+    path = tmp_path_factory.mktemp("round") / "pair.proof"
+    run("prove", ROOT / "tests" / "designs" / "circular-pair.toml", "-o", path)
+    return path
+
+
+def test_a_sector_stands_for_all_where_contours_and_law_repeat(round_file):
+    # 24 on 36 teeth: one pitch of 72 in the cycle of three turns.
+    proof = json.loads(round_file.read_text())
+    assert proof["sectors"] == 72
+    assert proof["stretches"][-1]["to"] == proof["cycle"] / 72
+    status, answer = checked(round_file)
+    assert status == 0, answer
+    assert "at every angle of 3 turns of the driver" in answer
+
+
+def test_a_defect_in_another_sector_is_found(round_file, tmp_path):
+    proof = json.loads(round_file.read_text())
+    piece = proof["driven"][len(proof["driven"]) // 2]
+    for power, share in ((0, 1), (2, -2), (4, 1)):
+        piece[power][0] += share * 1e-6
+    path = tmp_path / "spoilt.proof"
+    path.write_text(json.dumps(proof))
+    status, answer = checked(path)
+    assert status == 1
+    assert "from sector to sector" in answer
+
+
 def test_a_proof_is_of_one_design(file, design):
     other = design.with_name("other.toml")
     other.write_text(DESIGN.format(backlash=0.05))
@@ -151,6 +180,14 @@ def cycle(proof):
     proof["cycle"] = last["from"]
 
 
+def sector(proof):
+    """One half that stands for both, of gears without such a symmetry."""
+    half = proof["cycle"] / 2
+    proof["stretches"] = [s for s in proof["stretches"] if s["from"] < half]
+    proof["stretches"][-1]["to"] = half
+    proof["sectors"] = 2
+
+
 def stranger(proof):
     proof["driver"][3][2][1] = "1"
 
@@ -165,7 +202,7 @@ def nothing(proof):
 
 @pytest.mark.parametrize(
     "defect",
-    [bulge, vertex, fillet, axis, box, bound, seat, law, swapped, cycle, stranger, hollow, nothing],
+    [bulge, vertex, fillet, axis, box, bound, seat, law, swapped, cycle, sector, stranger, hollow, nothing],
     ids=lambda defect: defect.__name__,
 )
 def test_the_checker_rejects_a_planted_defect(defect, proof, tmp_path):

@@ -105,7 +105,7 @@ def test_a_shop_finds_its_measures_on_the_sheet(exported, gear):
     header, first = pins[0].split(","), pins[1].split(",")
     row = dict(zip(header, first, strict=True))
     assert f"{float(row['axis_to_far_side_mm']):.4f}" in text
-    assert "Backlash, as proved" in text
+    assert "Backlash, as checked" in text
     assert "ISO 2768-mK" in text
 
 

@@ -131,8 +131,3 @@ def root(series):
             total += ratio[k] * out[n - k] * WEIGHTS[n][k]
         out.append(total)
     return acb_series(out, ctx.cap)
-
-
-def better(a, b):
-    """The greater of two lower bounds, of which either may be missing."""
-    return b if a is None else a if b is None else a.max(b)

@@ -1,12 +1,15 @@
 """A box in the driver angle, over which both claims are shown."""
 
 from flint import acb, acb_poly, acb_series, arb, arb_poly
-from proof.balls import TERMS, UNIT, ZERO, Motion, UndecidedError, chebyshev, low, magnitude, shifted, sweep
+from proof import floats
+from proof.balls import TERMS, UNIT, ZERO, UndecidedError, chebyshev, magnitude, shifted, sweep
 from proof.law import OVERLAP
-from proof.meeting import Meeting
+from proof.meeting import AROUND, Meeting
 
 #: Greatest number of halvings: of a box, of a piece of a contour.
 DEEP, FINEST = 18, 12
+#: Halvings of a piece before a parabola is tried that is at hand, and one that is not.
+FAR = 7, 10
 
 
 class Box:
@@ -23,14 +26,17 @@ class Box:
         ahead = arb_poly([self.middle, self.half])
         seats = [self.along(s) for s in stretch["seats"]]
         play = seats[1] - seats[0]
-        self.play = magnitude(sweep(play)) + 2 * pair.width
+        self.play = floats.upper(magnitude(sweep(play)) + 2 * pair.width)
         clear = [ahead + law + s + e * pair.width for s, e in zip(seats, (1, -1), strict=True)]
         between = ahead + law + (seats[0] + seats[1]) * arb(0.5)
         self.axis = self.turning(ahead, pair.distance)
         self.clear = [self.turning(angle, 1) for angle in clear]
         turns = self.turning(between, 1)
-        series = ([f[0][k] for k in range(TERMS)] + [f[1][TERMS]] for f in (self.axis, turns))
-        self.between = Motion(*series, pair.driven.size)
+        self.series = [[f[0][k] for k in range(TERMS)] + [f[1][TERMS]] for f in (self.axis, turns)]
+        gears = pair.driver, pair.driven
+        off = sum(gear.off for gear in gears) + floats.SHARE * pair.driver.size
+        self.between = floats.Motion(*self.series, pair.driven.bound, off)
+        self.known, self.turned = {}, {}
 
     def along(self, series):
         """A Chebyshev series of the stretch over the box, a polynomial in t."""
@@ -50,9 +56,11 @@ class Box:
         cut = min(inside, key=lambda c: abs(c - middle), default=middle)
         return [Box(self.pair, self.stretch, *ends, self.suspects) for ends in ((self.start, cut), (cut, self.stop))]
 
-    def meetings(self):
-        """What the file says of features that touch or nearly do."""
-        return [Meeting(self, hint) for hint in self.stretch["meetings"]]
+    def meeting(self, number):
+        """What the file says of features that touch or nearly do, by number."""
+        if number not in self.known:
+            self.known[number] = Meeting(self, self.stretch["meetings"][number])
+        return self.known[number]
 
     def near(self):
         """Pieces whose discs are not known to be apart."""
@@ -71,47 +79,74 @@ class Box:
 
     def split(self, a, b):
         """The parts of the larger node with the other."""
-        if (a.last - a.first, float(a.radius)) > (b.last - b.first, float(b.radius)):
+        if (a.last - a.first, a.radius) > (b.last - b.first, b.radius):
             return [(part, b) for part in a.parts]
         return [(a, part) for part in b.parts]
 
-    def apart(self, a, b, offset=ZERO, half=None):
+    def apart(self, a, b, offset=0.0, half=None):
         """Whether the discs of two nodes are apart at every angle of the box and every turn in the play."""
         half = self.play / 2 if half is None else half
-        centre = b.centre if offset == 0 else b.centre * acb(ZERO, offset).exp()
-        room = low(abs(self.between.place(centre) - a.centre)) - a.radius - b.radius
+        room = self.between.distance(b.centre * self.turn(offset), a.centre) - a.radius - b.radius
         swing = b.size * half
         if room > swing:
             return True
         if not room > 0 or swing < a.radius + b.radius:
             return False
         # The play is wider than the discs: in two parts.
-        return all(self.apart(a, b, offset + part, half / 2) for part in (half / 2, -half / 2))
+        half /= 2
+        return self.apart(a, b, offset + half, half) and self.apart(a, b, offset - half, half)
+
+    def turn(self, offset):
+        """Float near e^(i offset), with what it lacks left to the rounding of the motion."""
+        if offset not in self.turned:
+            self.turned[offset] = floats.near(acb(0, offset).exp())[0]
+        return self.turned[offset]
 
     def is_free(self):
         """Claim 1: whether no two pieces meet in the play."""
         near = self.near()
-        if not near:
-            return True
         pairs = [(int(a.first), int(b.first)) for a, b in near]
-        meetings = self.meetings()
-        parted = [ranges for m in meetings for ranges in [m.parted(pairs)] if ranges]
-        spare = [(m, bend) for m in meetings for bend in range(1, len(m.bends))]
+        parted, orders, tried = [], {}, set()
         while near:
             a, b = near.pop()
             if is_parted(parted, a, b) or self.apart(a, b):
                 continue
-            if max(a.last - a.first, b.last - b.first) > 2.0**-FINEST:
-                near += self.split(a, b)
+            length = max(a.last - a.first, b.last - b.first)
+            pieces = int(a.first), int(b.first)
+            if pieces not in orders:
+                orders[pieces] = self.order(*pieces)
+            # No more parabolas than it takes, and those at hand first: they cost much.
+            for away, *use in orders[pieces]:
+                if length > 2.0 ** -FAR[away > AROUND]:
+                    break
+                if tuple(use) not in tried:
+                    tried.add(tuple(use))
+                    parted += self.parted(*use, pairs)
+                    if is_parted(parted[-1:], a, b):
+                        break
+            if is_parted(parted[-1:], a, b):
                 continue
-            # No more than it takes: a parabola costs much.
-            while not is_parted(parted, a, b):
-                use = next((one for one in spare if one[0].is_near(a, b)), None)
-                if use is None:
-                    return False
-                spare.remove(use)
-                parted += [ranges for ranges in [use[0].parted(pairs, use[1])] if ranges]
+            if length <= 2.0**-FINEST:
+                return False
+            near += self.split(a, b)
         return True
+
+    def order(self, a, b):
+        """Parabolas that may part two pieces, by how many pieces away they are, how many bends come first, number."""
+        out, contours = [], (self.pair.driver, self.pair.driven)
+        for number, hint in enumerate(self.stretch["meetings"]):
+            off = [(n - piece) % c.count for n, piece, c in zip((a, b), hint["pieces"], contours, strict=True)]
+            away = max(min(d, c.count - d) for d, c in zip(off, contours, strict=True))
+            out += [(away, bend, number) for bend in range(len(hint["bends"]) if away <= AROUND else 1)]
+        return sorted(out, key=lambda use: (use[0] > AROUND, use[1], use[0], use[2]))
+
+    def parted(self, bend, number, pairs):
+        """Ranges of both contours that a parabola keeps apart, if it does."""
+        try:
+            ranges = self.meeting(number).parted(pairs, bend)
+        except UndecidedError:
+            return []
+        return [ranges] if ranges else []
 
     def is_held_on(self):
         """Claim 2: whether the contours meet within the width of the seat pushed on."""
@@ -123,8 +158,8 @@ class Box:
 
     def is_held(self, side):
         """Whether the features that the file names meet within the width of a seat."""
-        hint = self.stretch["meetings"][self.stretch["held_by"][side]]
-        return hint["side"] == side and Meeting(self, hint).is_met()
+        holder = self.stretch["held_by"][side]
+        return self.stretch["meetings"][holder]["side"] == side and self.meeting(holder).is_met()
 
 
 def is_parted(parted, a, b):
@@ -132,8 +167,9 @@ def is_parted(parted, a, b):
     return any(r.holds(a) and q.holds(b) for r, q in parted)
 
 
-def settle(box, shown, width=None, depth=DEEP):
+def settle(box, shown, width=None, depth=None):
     """Number of parts of a box over which a claim is shown, none where it is not; longer ones than a width are cut."""
+    depth = DEEP if depth is None else depth
     try:
         if (width is None or box.half < width) and shown(box):
             return 1

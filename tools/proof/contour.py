@@ -1,30 +1,46 @@
 """A gear's closed contour, and the discs around its parts."""
 
+from functools import cached_property
+from math import ceil, floor, perm
+from operator import mul
+
 from flint import acb, acb_poly, arb
-from proof.balls import (
-    ZERO,
-    RejectedError,
-    UndecidedError,
-    expand,
-    high,
-    interval,
-    magnitude,
-    mirrored,
-    real,
-    root,
-    shifted,
-    sweep,
-)
+from proof.balls import ZERO, RejectedError, UndecidedError, high, interval, magnitude
+from proof.floats import SHARE, above, below, near, upper
 
 #: Distance, mm, up to which pieces of a contour may miss each other at a joint: such a gap counts as closed.
 JOINT = arb(1e-9)
-#: Greatest number of halvings of a piece whose hull is kept for other angles.
-KEPT = 13
+#: Distance, mm, up to which sectors of a contour may differ.
+SLACK = 1e-7
+#: Parts of a piece, of 2, over which functions are bounded one by one, longer ones by all of theirs.
+CELLS = 32
+#: How far, from a piece's middle, its polynomial is used, and how far with a cell more.
+REACH = 1.25
+BEYOND = REACH + 2 / CELLS
+#: Halvings of parts whose bounds are kept for other angles.
+KEPT = 14
+#: Factors of the j-th derivative of powers k.
+FALLING = [[float(perm(k, j)) for k in range(40)] for j in range(5)]
 
 
-def enough(length):
-    """Terms that bound a function well over a part of a piece: fewer the shorter it is."""
-    return 8 if length > 0.5 else 5 if length > 0.1 else 3
+class Hull:
+    """Bounds on a part of a contour: of the points a middle and how far they reach along either axis, of the unit
+    tangents a disc, of the curvatures least and greatest; no tangents and curvatures where it may stand still."""
+
+    def __init__(self, points, tangents=None, curvatures=None):
+        self.points, self.tangents, self.curvatures = points, tangents, curvatures
+
+    def union(self, other):
+        """Bounds on two parts."""
+        (p, x, y), (q, z, w) = self.points, other.points
+        off = (p - q) / 2
+        more = SHARE * (abs(p) + abs(q))
+        points = (p + q) / 2, abs(off.real) + max(x, z) + more, abs(off.imag) + max(y, w) + more
+        if self.tangents is None or other.tangents is None:
+            return Hull(points)
+        (d, r), (e, s) = self.tangents, other.tangents
+        (a, b), (c, f) = self.curvatures, other.curvatures
+        return Hull(points, ((d + e) / 2, above(abs(d - e) / 2, max(r, s), SHARE)), (min(a, c), max(b, f)))
 
 
 class Node:
@@ -32,7 +48,7 @@ class Node:
 
     def __init__(self, first, last, centre, radius, split):
         self.first, self.last = first, last
-        self.centre, self.radius, self.size = centre, radius, magnitude(centre) + radius
+        self.centre, self.radius, self.size = centre, radius, above(abs(centre), radius)
         self._split, self._parts = split, None
 
     @property
@@ -49,7 +65,19 @@ class Contour:
     def __init__(self, pieces, name):
         if len(pieces) < 3:
             raise RejectedError(f"the {name}'s contour has {len(pieces)} pieces")
-        self.count, self.hulls = len(pieces), {}
+        if not all(2 <= len(piece) <= 40 for piece in pieces):
+            raise RejectedError(f"the {name}'s contour has a piece of degree 0 or above 39")
+        self.name, self.count, self.hulls, self.places = name, len(pieces), {}, {}
+        self.floats = [[complex(x, y) for x, y in piece] + [0j] * (5 - len(piece)) for piece in pieces]
+        # A Taylor coefficient around a place is a sum in at most 40 steps: Horner's scheme, run again and again.
+        self.errors = [
+            [
+                SHARE * sum(perm(k, j) * abs(c) * BEYOND ** (k - j) for k, c in enumerate(piece) if k >= j)
+                for j in range(5)
+            ]
+            for piece in self.floats
+        ]
+        self.off = max(errors[0] for errors in self.errors)
         self.at = [acb_poly([acb(x, y) for x, y in piece]) for piece in pieces]
         self.first = [p.derivative() for p in self.at]
         self.second = [p.derivative() for p in self.first]
@@ -67,9 +95,33 @@ class Contour:
             area += (swept(acb(1)) - swept(acb(-1))).imag
         if not area > 0:
             raise RejectedError(f"the {name}'s contour does not run counter-clockwise")
-        #: No point of it lies farther out, nor one of a piece a little beyond its ends.
+        #: Floats above the gap at any joint, and above what the contour differs by from itself turned by sectors.
+        self.miss, self.slack = upper(self.gap), 0.0
+        #: No point of it lies farther out; and a bound for places a little beyond the ends of pieces.
+        self.bound = float("inf")
         self.size = 1.001 * max(self.part(i, -1.0, 1.0).size for i in range(self.count))
-        self.root = self.run(0, self.count)
+        self.bound = 2 * self.size
+
+    @cached_property
+    def root(self):
+        """Node of the whole contour."""
+        return self.run(0, self.count)
+
+    def repeats(self, turns, sectors):
+        """Bounds by how much the contour differs from itself turned by sectors of so many turns."""
+        if self.count * turns % sectors != 0:
+            raise RejectedError(f"{self.count} pieces are no {sectors} sectors of {turns} turns")
+        for sector in range(1, sectors):
+            shift = self.count * turns * sector // sectors
+            turn, rounding = near((2 * arb.pi() * arb(turns * sector) / sectors * acb(0, 1)).exp())
+            for piece, there in zip(self.floats, self.floats[shift % self.count :] + self.floats, strict=False):
+                if len(piece) != len(there):
+                    raise RejectedError("sectors have pieces of different degrees")
+                size = sum(map(abs, piece))
+                off = sum(abs(turn * a - b) for a, b in zip(piece, there, strict=True))
+                self.slack = max(self.slack, above(off, (2 * SHARE + rounding) * size))
+            if not self.slack < SLACK:
+                raise RejectedError(f"the {self.name}'s contour differs by {self.slack} mm from sector to sector")
 
     def run(self, first, last):
         """Node of whole pieces."""
@@ -77,44 +129,82 @@ class Contour:
             return self.part(first, -1.0, 1.0)
         middle = (first + last) // 2
         a, b = self.run(first, middle), self.run(middle, last)
-        centre = acb(((a.centre + b.centre) / 2).mid())
-        radius = max(high(magnitude(n.centre - centre) + n.radius) for n in (a, b))
+        centre = (a.centre + b.centre) / 2
+        radius = max(above(abs(n.centre - centre), n.radius, SHARE * n.size) for n in (a, b))
         return Node(first, last, centre, radius, lambda: (a, b))
 
     def end(self, piece, end):
-        """Point and derivative at an end of a piece, or at any number within it."""
-        if end == -1:
-            return self.starts[piece], self.slopes[piece][0]
-        if end == 1:
-            return self.stops[piece], self.slopes[piece][1]
-        return self.at[piece](acb(end)), self.first[piece](acb(end))
+        """Point and derivative at an end of a piece."""
+        return (self.starts[piece], self.slopes[piece][0]) if end == -1 else (self.stops[piece], self.slopes[piece][1])
+
+    def taylor(self, piece, at):
+        """Floats of the Taylor coefficients of a piece."""
+        out = list(self.floats[piece])
+        count = len(out)
+        for i in range(count - 1):
+            for k in range(count - 2, i - 1, -1):
+                out[k] += at * out[k + 1]
+        return out
+
+    def place(self, piece, at):
+        """Floats near the point and the derivative at a place within a piece, kept."""
+        key = piece, at
+        if key not in self.places:
+            out = self.taylor(piece, at)
+            self.places[key] = out[0], out[1]
+        return self.places[key]
 
     def hull(self, piece, start, stop):
-        """Balls around all points of a part of a piece, the unit tangents there and the curvatures."""
+        """Bounds on a part of a piece, or a little more than it."""
+        if stop - start > 1 / CELLS:
+            first, last = floor(start * CELLS), ceil(stop * CELLS)
+            key = piece, first, last
+            if key not in self.hulls:
+                middle = (first + last) // 2 / CELLS
+                parts = self.hull(piece, first / CELLS, middle), self.hull(piece, middle, last / CELLS)
+                self.hulls[key] = parts[0].union(parts[1])
+            return self.hulls[key]
+        if not (start * 2.0**KEPT).is_integer() or not (stop * 2.0**KEPT).is_integer():
+            return self.cell(piece, start, stop)
         key = piece, start, stop
         if key not in self.hulls:
-            # Around the middle, for powers of a ball far from zero would forget how they hang together.
-            half = arb((stop - start) / 2)
-            local = self.at[piece](acb_poly([acb((start + stop) / 2), half]))
-            first = local.derivative()
-            second = first.derivative()
-
-            def functions(at):
-                along, bent = shifted(first, at), shifted(second, at)
-                back = mirrored(along)
-                square = back * along
-                share = root(square)
-                return along * share, real(acb(0, -1) * back * bent) * (share * share * share)
-
-            try:
-                tangents, curvatures = (sweep(f) for f in expand(functions, enough(stop - start)))
-                found = sweep(local), tangents, curvatures.real
-            except UndecidedError:
-                found = sweep(local), None, None
-            if (start * 2.0**KEPT).is_integer() and (stop * 2.0**KEPT).is_integer():
-                self.hulls[key] = found
-            return found
+            self.hulls[key] = self.cell(*key)
         return self.hulls[key]
+
+    def cell(self, piece, start, stop):
+        """Bounds on a short part, from the Taylor series around its middle, the part from -1 to 1."""
+        series, off = self.scaled(piece, start, stop)
+        points = series[0], sum(abs(c.real) for c in series[1:]) + off[0], sum(abs(c.imag) for c in series[1:]) + off[0]
+        sizes = [abs(c) for c in series]
+        # Of the derivatives: by how much they differ from those in the middle at most, and how large they are.
+        rest = [sum(map(mul, FALLING[j][j + 1 :], sizes[j + 1 :])) + off[j] for j in range(5)]
+        most = [FALLING[j][j] * sizes[j] + rest[j] for j in range(5)]
+        if not most[0] < self.bound:
+            raise UndecidedError
+        if not rest[1] < 0.7 * sizes[1]:
+            return Hull(points)
+        # A unit vector's distance from another, where q is the sine of the angle between them, is below q + q^3 / 2.
+        q = rest[1] / sizes[1]
+        tangents = series[1] / sizes[1], q * (1 + q * q / 2) + SHARE
+        # The curvature is Im(conj z' * z") over the cube of |z'|; its numerator's derivative is Im(conj z' * z"').
+        back = series[1].conjugate()
+        numerator, rate = (back * series[2]).imag * 2, (back * series[3]).imag * 6
+        error = off[1] * (most[2] + most[3]) + most[1] * (off[2] + off[3]) + SHARE * most[1] * (most[2] + most[3])
+        reach = abs(rate) + (most[2] * most[3] + most[1] * most[4]) / 2 + error
+        slow, fast = (sizes[1] - rest[1]) ** 3, most[1] ** 3
+        low, high = below(numerator, -reach), above(numerator, reach)
+        low, high = low / (fast if low > 0 else slow), high / (slow if high > 0 else fast)
+        return Hull(points, tangents, (below(low), above(high)))
+
+    def scaled(self, piece, start, stop):
+        """Taylor coefficients of a part, which goes from -1 to 1, and how far derivatives of floats of it are off."""
+        if not max(-start, stop) < BEYOND:
+            raise UndecidedError
+        half, power, out = (stop - start) / 2, 1.0, self.taylor(piece, (start + stop) / 2)
+        for k in range(1, len(out)):
+            power *= half
+            out[k] *= power
+        return out, [error * half**j for j, error in enumerate(self.errors[piece])]
 
     def beyond(self, piece, place, reach):
         """How far the contour leaves a piece's continuation within a reach of a place; none where it is far."""
@@ -135,20 +225,14 @@ class Contour:
 
     def part(self, piece, start, stop):
         """Node of a part of a piece, with what may lie between it and its neighbours."""
-        middle, half = (start + stop) / 2, arb((stop - start) / 2)
-        centre = self.at[piece](acb(middle))
-        radius = high(magnitude(self.first[piece](acb(interval(start, stop)))) * half)
+        middle = (start + stop) / 2
+        series, off = self.scaled(piece, start, stop)
 
         def split():
             return self.part(piece, start, middle), self.part(piece, middle, stop)
 
-        return Node(
-            piece + (start + 1) / 2,
-            piece + (stop + 1) / 2,
-            acb(centre.mid()),
-            radius + magnitude(centre - acb(centre.mid())) + self.gap,
-            split,
-        )
+        ends = piece + (start + 1) / 2, piece + (stop + 1) / 2
+        return Node(*ends, series[0], above(sum(map(abs, series[1:])), off[0], self.miss, self.slack), split)
 
 
 class Range:

@@ -1,6 +1,9 @@
 """Two features that touch or nearly do, as a hint of the file names them, and what is shown around them."""
 
+from functools import cached_property
+
 from flint import acb, acb_poly, arb
+from proof import floats
 from proof.balls import (
     UNIT,
     ZERO,
@@ -22,8 +25,8 @@ from proof.walk import Walk
 
 #: Pieces beyond those that touch whose neighbours a parabola has to part.
 AROUND = 2
-#: Half of the rectangle's side along the contour, mm.
-REACH = arb(1e-6)
+#: Half of the rectangle's side along the contour, mm, and where the piece slows down to its end.
+SIDES = arb(1e-6), arb(1e-7)
 
 
 class Meeting:
@@ -35,7 +38,7 @@ class Meeting:
         self.way = (1, -1)[self.side]
         self.pieces = hint["pieces"]
         self.corner = hint.get("corner")
-        self.bends = [arb(k) for k in hint["bends"]]
+        self.bends = [float(k) for k in hint["bends"]]
         self.k = self.bends[0]
         self.places = [acb_poly(box.along(series)) for series in hint["parameters"]]
         if self.corner is not None:
@@ -62,10 +65,15 @@ class Meeting:
             a, b = back * (axis - point), back * rotation
             return -back * point, back, a, b, a + b * through(driven.at[j], v), back * along, b * across, u, v
 
-        *motions, touch, along, across, u, v = expand(functions)
-        self.driver, self.driven = Motion(*motions[:2], driver.size), Motion(*motions[2:], driven.size)
+        *self.series, touch, along, across, u, v = expand(functions)
         self.touch, self.along, self.across = sweep(touch), sweep(along), sweep(across)
         self.u, self.v = sweep(u).real, sweep(v).real
+
+    @cached_property
+    def motions(self):
+        """How the driver's points move in the parabola's axes, and the driven gear's."""
+        gears = self.pair.driver, self.pair.driven
+        return [floats.Motion(*self.series[2 * i : 2 * i + 2], gear.bound, gear.off) for i, gear in enumerate(gears)]
 
     def height(self, y):
         """H of a point in the parabola's axes."""
@@ -74,13 +82,8 @@ class Meeting:
     def level(self, height):
         """x, height and slope of the driven gear where it touches, on its own side of the parabola."""
         x = self.touch.real
-        return x, -height, -(self.across.imag / self.across.real - 2 * self.k * x)
-
-    def is_near(self, a, b):
-        """Whether two parts lie near the pieces that touch."""
-        contours = self.pair.driver, self.pair.driven
-        off = [(int(n.first) - piece) % c.count for n, piece, c in zip((a, b), self.pieces, contours, strict=True)]
-        return all(min(d, c.count - d) <= AROUND for d, c in zip(off, contours, strict=True))
+        slope = -(self.across.imag / self.across.real - 2 * self.k * x)
+        return floats.ends(x), floats.ends(-height)[0], floats.ends(slope)
 
     def parted(self, pairs, bend=0):
         """Ranges of both contours that a parabola keeps apart, among pairs of pieces; none where it does not."""
@@ -88,7 +91,7 @@ class Meeting:
         start = self.height(self.touch)
         if not start < 0:
             return None
-        floor = start.upper() / 2
+        floor = floats.ends(start)[1] / 2
         around = [
             {(piece + k) % contour.count for k in range(-AROUND, AROUND + 1)}
             for piece, contour in zip(self.pieces, (self.pair.driver, self.pair.driven), strict=True)
@@ -101,8 +104,8 @@ class Meeting:
                 found = [walk.from_corner(way) for way in (-1, 1)]
             else:
                 # On the driver H and its slope are zero there.
-                level = (ZERO, ZERO, ZERO) if member == 0 else self.level(start)
-                found = [walk.from_touch(place, *level, way) for way in (-1, 1)]
+                level = ((0.0, 0.0), 0.0, (0.0, 0.0)) if member == 0 else self.level(start)
+                found = [walk.from_touch(floats.ends(place), *level, way) for way in (-1, 1)]
             if None in found:
                 return None
             ranges.append(Range(*found, walk.contour.count))
@@ -112,6 +115,8 @@ class Meeting:
         """Whether the features meet within the width of the seat."""
         i, j = self.pieces
         driver, driven = self.pair.driver, self.pair.driven
+        slack = arb(driver.slack + driven.slack)
+        moved = [Motion(*self.series[2 * k : 2 * k + 2], gear.bound) for k, gear in enumerate((driver, driven))]
         for fixed in (0, 1):
             if self.corner == 1 - fixed:
                 continue
@@ -123,22 +128,25 @@ class Meeting:
                 if not abs(place - end) < 1e-4:
                     continue
                 if fixed == 0:
-                    base = base + (-self.driver.place(driver.at[i](acb(end))))
+                    base = base + (-moved[0].place(driver.at[i](acb(end))))
                 else:
-                    base = self.driven.place(driven.at[j](acb(end)))
+                    base = moved[1].place(driven.at[j](acb(end)))
             path = (self.v, self.u)[fixed]
             contour, piece = ((driven, j), (driver, i))[fixed]
             slope = (self.across, -self.along)[fixed]
             size = low(magnitude(contour.first[piece](acb(path))))
-            reach = ((REACH + 2 * magnitude(base)) / size).upper()
-            hull = acb(interval(low(path) - reach, high(path) + reach))
-            bend = magnitude(contour.second[piece](hull))
-            off = contour.beyond(piece, path, reach)
-            arm = self.driven.turn(driven.at[j](acb(self.v if fixed == 0 else (1 if self.v > 0 else -1))))
-            if off is not None and self.crosses(
-                base, slope, reach, bend * reach * reach / 2 + off, arm + disc(reach * size)
-            ):
-                return True
+            still = driven.at[j](acb(self.v if fixed == 0 else (1 if self.v > 0 else -1)))
+            arm = moved[1].turn(still) + disc(slack)
+            for side in SIDES:
+                reach = ((side + 2 * magnitude(base)) / size).upper()
+                hull = acb(interval(low(path) - reach, high(path) + reach))
+                bend = magnitude(contour.second[piece](hull))
+                off = contour.beyond(piece, path, reach)
+                if off is None:
+                    continue
+                off = bend * reach * reach / 2 + off + slack
+                if self.crosses(base, slope, reach, off, arm + disc(reach * size)):
+                    return True
         return False
 
     def crosses(self, base, slope, reach, off, arm):

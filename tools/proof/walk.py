@@ -1,7 +1,7 @@
 """A walk along a contour, away from where it touches."""
 
-from flint import arb
-from proof.balls import ZERO, better, disc, high, low, magnitude
+from proof.contour import REACH
+from proof.floats import SHARE, above, below, better
 
 #: Length of the shortest parts of a walk.
 SHORTEST = 2.0**-4
@@ -18,23 +18,48 @@ class Walk:
     """
 
     def __init__(self, meeting, member, floor, near):
-        self.meeting, self.member, self.near = meeting, member, near
+        self.meeting, self.member, self.near, self.k = meeting, member, near, meeting.k
         self.sign = (1, -1)[member]
         self.floor = self.sign * floor
         self.contour = (meeting.pair.driver, meeting.pair.driven)[member]
-        self.motion = (meeting.driver, meeting.driven)[member]
+        self.motion = meeting.motions[member]
         self.piece, self.staying = meeting.pieces[member], {}
+        # Turned in its play the driven gear reaches as much farther.
+        self.slack, self.more = self.contour.slack, meeting.box.play * self.contour.bound
 
     def curve(self, piece, start, stop):
-        """Second derivative of the height in x over a part; none where x does not run on."""
-        _, tangents, curvatures = self.contour.hull(piece, start, stop)
-        run = ZERO if tangents is None else self.motion.turn(tangents).real
-        return self.sign * (curvatures / (run * run * run) - 2 * self.meeting.k) if run != 0 else None
+        """Bounds on the second derivative of the height in x over a part; none where x does not run on."""
+        hull = self.contour.hull(piece, start, stop)
+        run = self.motion.run(hull.tangents) if hull.tangents is not None else None
+        if run is None:
+            return None
+        (low, high), (least, most) = hull.curvatures, (abs(run[0] ** 3), abs(run[1] ** 3))
+        if (run[0] > 0) != (self.sign > 0):
+            low, high = -high, -low
+        if run[0] < 0:
+            least, most = most, least
+        low, high = low / (most if low > 0 else least), high / (least if high > 0 else most)
+        bend = 2 * self.k * self.sign
+        return below(low, -bend), above(high, -bend)
 
     def height(self, piece, start, stop):
-        """Height over a part."""
-        points = self.contour.hull(piece, start, stop)[0]
-        return self.sign * self.meeting.height(self.motion.place(points)) - self.floor
+        """Float below the height over a part."""
+        return self.level(*self.motion.place(*self.contour.hull(piece, start, stop).points))
+
+    def level(self, y, across, up):
+        """Float below the height of a place and of all within a reach of it."""
+        k, far = self.sign * self.k, abs(y.real) + across
+        x = far if k > 0 else max(0.0, abs(y.real) - across)
+        return below(self.sign * y.imag, -up, -k * x * x, -self.floor, -self.room(far))
+
+    def room(self, far):
+        """Change of H within the contour's slack at an x up to so far."""
+        return self.slack * (1 + 2 * abs(self.k) * (far + self.more)) * (1 + SHARE)
+
+    def reach(self, *points):
+        """Greatest x of points, either way."""
+        places = [self.motion.place(point) for point in points]
+        return max(abs(y.real) + across for y, across, _ in places)
 
     def stays(self, piece, start, stop):
         """Whether a part of a gear stays on its side when the driven gear is turned on in its play."""
@@ -46,46 +71,72 @@ class Walk:
 
     def turns_away(self, piece, start, stop):
         """Whether a part of the driven gear turns away from the parabola."""
-        m, points = self.meeting, self.contour.hull(piece, start, stop)[0]
-        arm = self.motion.turn(points)
-        more = disc(magnitude(arm) * m.box.play)
-        y, arm = self.motion.place(points) + more, arm + more
-        return m.way * (arm.real + 2 * m.k * y.real * arm.imag) < 0
+        m, (point, *reach) = self.meeting, self.contour.hull(piece, start, stop).points
+        y, across, _ = self.motion.place(point, *reach)
+        arm, along, up = self.motion.turn(point, *reach)
+        more = m.box.play * (abs(arm) + along + up)
+        across, along, up = across + more, along + more, up + more
+        # H gains arm.real + 2 k y.real arm.imag a radian.
+        bend = 2 * self.k
+        off = along + abs(bend) * (abs(y.real) * up + across * abs(arm.imag) + across * up)
+        return below(-m.way * arm.real, -m.way * bend * y.real * arm.imag, -off) > 0
 
     def at(self, piece, end, way):
-        """Point, height and slope at an end of a piece; no slope where x does not run on with the walk."""
-        m = self.meeting
-        point, first = self.contour.end(piece, end)
-        y, first = self.motion.place(point), self.motion.turn(first)
-        slope = None
-        if self.sign * first.real > 0:
-            slope = low(way * (first.imag / first.real - 2 * m.k * y.real))
-        return point, low(self.sign * m.height(y) - self.floor), slope
+        """Point, height and slope at a place of a piece; no slope where x does not run on with the walk."""
+        point, first = self.contour.place(piece, end)
+        place = self.motion.place(point)
+        return point, self.level(*place), self.slope(piece, first, place, way)
+
+    def slope(self, piece, first, place, way):
+        """Float below the slope along a vector at a place; none where x does not run on with the walk."""
+        direction, across, up = self.motion.turn(first, self.contour.errors[piece][1])
+        run = below(abs(direction.real), -across)
+        if not (run > 0 and self.sign * direction.real > 0):
+            return None
+        y, reach, _ = place
+        # Im / Re lies as far from the middle's as Im - (Im / Re of the middle) Re reaches, over Re.
+        middle = direction.imag / direction.real
+        off = (up + abs(middle) * across) / run
+        bend = 2 * self.k * y.real
+        return below(way * middle, -off, -way * bend, -2 * abs(self.k) * reach)
+
+    def walked(self, start, stop, way):
+        """Least and greatest distance in x between two points, on with the walk."""
+        middle, reach, _ = self.motion.turn(stop - start, 2 * self.contour.off)
+        middle *= self.sign * way
+        return below(middle.real, -reach), above(middle.real, reach)
 
     def from_touch(self, place, x, height, slope, way):
-        """Last place of the walk from near the parabola's point."""
-        outward, height = self.sign * way, height - self.floor
-        bound = high(place) if way > 0 else -low(place)
+        """Last place of the walk from near the parabola's point: there are least and greatest numbers of each."""
+        outward, height = self.sign * way, below(height, -self.floor)
+        bound, steep = place[1] if way > 0 else -place[0], max(-slope[0], slope[1])
         # The first part is short, for the slope changes its sign there.
         for share in (8, 32, 128, 512, 2048):
-            end = way * min(1.0, (int(float((bound + 1) * share)) + 1) / share - 1)
+            end = way * min(1.0, (int((bound + 1) * share) + 1) / share - 1)
             # A little more than that, for floats round.
-            start, stop = float(low(place).min(arb(end))) - 1e-9, float(high(place).max(arb(end))) + 1e-9
-            if not abs(start) < 2 > abs(stop):
+            start, stop = min(place[0], end) - 1e-9, max(place[1], end) + 1e-9
+            if not max(-start, stop) < REACH:
                 return None
             curve = self.curve(self.piece, start, stop)
-            if curve is not None and curve > 0:
+            if curve is None:
+                continue
+            there, level, rate = self.at(self.piece, end, way)
+            y, reach, _ = self.motion.place(there)
+            nearest, farthest = x if outward > 0 else (-x[1], -x[0])
+            walked = below(outward * y.real, -reach, -farthest), above(outward * y.real, reach, -nearest)
+            far = max(-walked[0], walked[1])
+            fall = -steep * steep / (2 * curve[0]) if curve[0] > 0 else curve[0] * far * far / 2 - steep * far
+            room = self.room(self.reach(there) + max(-x[0], x[1])) if self.slack else 0.0
+            if below(height, fall, -room) > 0:
                 break
         else:
             return None
-        if not (self.stays(self.piece, start, stop) and height - slope * slope / (2 * curve) > 0):
+        if not self.stays(self.piece, start, stop):
             return None
-        there, level, rate = self.at(self.piece, end, way)
-        walked = outward * (self.motion.place(there).real - x)
-        rise = low(walked).max(ZERO)
-        height = low(height - magnitude(slope) * magnitude(walked) + low(curve) * rise * rise / 2)
-        slope = low(outward * slope + curve * walked)
-        return self.go(self.piece, end, there, height.max(level), better(slope, rate), way)
+        rise = max(walked[0], 0.0) if curve[0] > 0 else far
+        height = below(height, -steep * far, curve[0] * rise * rise / 2)
+        slope = below(slope[0] if outward > 0 else -slope[1], min(bend * w for bend in curve for w in walked))
+        return self.go(self.piece, end, there, max(height, level), better(slope, rate), way)
 
     def from_corner(self, way):
         """Last place of the walk from the corner that touches."""
@@ -94,7 +145,7 @@ class Walk:
             piece = (piece + way) % self.contour.count
         point, height, slope = self.at(piece, -way, way)
         if self.member == 0:
-            height = low(-self.floor - 2 * self.contour.gap)
+            height = below(-self.floor, -2 * self.contour.miss)
         return self.go(piece, -float(way), point, height, slope, way)
 
     def go(self, piece, start, point, height, slope, way):
@@ -129,41 +180,53 @@ class Walk:
         if abs(start + way) < NEAR:
             return True
         curve = self.curve(piece, min(start, end), max(start, end))
-        return curve is None or curve.contains(0)
+        return curve is None or curve[0] <= 0 <= curve[1]
 
     def part(self, piece, start, end, point, height, slope, way):
         """Point, height and slope after a part of a piece, if H keeps on its side all along."""
         ends = min(start, end), max(start, end)
         if not self.stays(piece, *ends):
             return None
-        curve = self.curve(piece, *ends)
+        curve = self.curve(piece, *ends) if slope is not None else None
         there, level, rate = self.at(piece, end, way)
         after = gain = least = None
-        if curve is not None and slope is not None:
+        if curve is not None:
             # Of the way itself, for both ends move alike.
-            walked, bend = self.sign * way * self.motion.turn(there - point).real, low(curve)
-            after = low(height + slope * walked + bend * walked * walked / 2)
-            gain = low(slope + bend * walked)
-            least = height if slope >= 0 else height - slope * slope / (2 * bend) if bend > 0 else None
-            if not bend > 0:
-                least = height.min(after)
+            walked, bend = self.walked(point, there, way), curve[0]
+            if walked[0] > 0:
+                near, far = walked
+                after = below(height, min(slope * near, slope * far), min(bend * near * near, bend * far * far) / 2)
+                gain = below(slope, min(bend * near, bend * far))
+                if slope >= 0 and bend >= 0:
+                    least = height
+                elif bend > 0:
+                    least = below(height, -slope * slope / (2 * bend))
+                else:
+                    least = min(height, after)
+        if least is not None and self.slack:
+            least = below(least, -self.room(self.reach(point, there)))
         if not ((least is not None and least > 0) or self.height(piece, *ends) > 0):
             return None
         return there, better(after, level), better(gain, rate)
 
     def join(self, piece, following, height, slope, way):
         """Point, height and slope beyond a joint, whose ends miss each other by rounding."""
-        m = self.meeting
-        (point, first), (next_point, next_first) = self.contour.end(piece, way), self.contour.end(following, -way)
+        contour, motion = self.contour, self.motion
+        (point, first), (next_point, next_first) = contour.place(piece, way), contour.place(following, -way)
         there, level, rate = self.at(following, -way, way)
-        off = magnitude(next_point - point)
-        height = low(height - off * (1 + 2 * abs(m.k) * (magnitude(self.motion.place(there)) + off)))
+        off = abs(next_point - point) + 2 * contour.off
+        y, reach, _ = motion.place(next_point)
+        height = below(height, -off * (1 + 2 * abs(self.k) * (abs(y) + 2 * reach + off)))
         if slope is not None:
-            runs = [self.sign * self.motion.turn(v).real for v in (first, next_first)]
+            runs, bent = [], abs((first.conjugate() * next_first).imag) + SHARE * abs(first) * abs(next_first)
+            for number, vector, other in ((piece, first, next_first), (following, next_first, first)):
+                error = contour.errors[number][1]
+                bent += 2 * error * (abs(other) + error)
+                middle, across, _ = motion.turn(vector, error)
+                runs.append(below(self.sign * middle.real, -across))
             # Slopes Im/Re of two vectors differ by their cross product over both real parts.
-            bent = magnitude((first.conjugate() * next_first).imag)
             if runs[0] > 0 and runs[1] > 0:
-                slope = low(slope - bent / (runs[0] * runs[1]) - 2 * abs(m.k) * off)
+                slope = below(slope, -bent / (runs[0] * runs[1]), -2 * abs(self.k) * off)
             else:
                 slope = None
         return there, better(height, level), better(slope, rate)

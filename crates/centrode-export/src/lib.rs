@@ -32,5 +32,5 @@ pub mod urdf;
 pub use bundle::{Bundle, BundleError, write_file};
 pub use error::ExportError;
 pub use format::{Format, UnknownFormat};
-pub use options::{Meshing, Options, SheetOptions};
+pub use options::{Options, SheetOptions};
 pub use package::Package;

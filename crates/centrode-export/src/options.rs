@@ -1,5 +1,6 @@
 use centrode_geometry::Tolerance;
 use centrode_mechanism::design::{Projection, SheetSize};
+use centrode_mechanism::machine::Datum;
 
 use crate::dxf;
 
@@ -43,21 +44,12 @@ impl Options {
 }
 
 /// How sheets are laid out where it is not to be as the design says.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct SheetOptions {
     /// Size; left out, the design's, and without one there the smallest that takes the part.
     pub size: Option<SheetSize>,
     /// How views lie to each other; left out, as the design says.
     pub projection: Option<Projection>,
-    /// Findings of the contact analysis; left out, the sheets of gears do not tell them.
-    pub meshing: Option<Meshing>,
-}
-
-/// Findings of the contact analysis, for the tables of the sheets.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Meshing {
-    /// Least and greatest number of tooth pairs in contact.
-    pub contact_ratio: [f64; 2],
-    /// Least and greatest play along the common normal, mm.
-    pub backlash: [f64; 2],
+    /// Findings of checks, told in tables beside the data of the design.
+    pub found: Vec<Datum>,
 }

@@ -321,7 +321,7 @@ impl<'a> Package<'a> {
         if machine.figures.is_empty() {
             return Ok(());
         }
-        let (sheet, tolerance) = (self.options.sheet, self.tolerance());
+        let (sheet, tolerance) = (self.options.sheet.clone(), self.tolerance());
         self.sheets(ARRANGEMENT, || {
             machine::arrangement(machine, &sheet, tolerance)
                 .map_err(ExportError::no_sheet(ARRANGEMENT))

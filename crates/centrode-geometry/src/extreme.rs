@@ -69,24 +69,29 @@ pub fn greatest_of(
     greatest_among(count, all, one, noise, &parts)
 }
 
-/// A piece of a range, and the number of steps in which it is sampled.
-struct Part {
-    from: f64,
-    to: f64,
-    steps: usize,
+/// A piece of a range on which a function is smooth, and the number of even steps in which it is sampled.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SampledPiece {
+    /// Start of the piece.
+    pub from: f64,
+    /// End of the piece.
+    pub to: f64,
+    /// Number of steps; there is one sample more.
+    pub steps: usize,
 }
 
-impl Part {
-    /// A sample's argument; the last is the limit at the end.
-    fn at(&self, i: usize) -> f64 {
+impl SampledPiece {
+    /// Argument of a sample, numbered from zero; the last is the limit at the end.
+    #[must_use]
+    pub fn at(&self, i: usize) -> f64 {
         let share = i as f64 / self.steps as f64;
         (self.from + (self.to - self.from) * share).min(self.to.next_down())
     }
 }
 
 /// The pieces between neighbouring ends, each with a number of steps by its length.
-fn parts(ends: &[f64], steps: impl Fn(f64) -> usize) -> Vec<Part> {
-    let part = |pair: &[f64]| Part {
+fn parts(ends: &[f64], steps: impl Fn(f64) -> usize) -> Vec<SampledPiece> {
+    let part = |pair: &[f64]| SampledPiece {
         from: pair[0],
         to: pair[1],
         steps: steps(pair[1] - pair[0]),
@@ -99,7 +104,7 @@ fn greatest_among(
     all: impl Fn(f64, &mut Vec<f64>),
     one: impl Fn(usize, f64) -> f64,
     noise: impl Fn(usize, f64) -> f64,
-    parts: &[Part],
+    parts: &[SampledPiece],
 ) -> Vec<Extreme> {
     let total: usize = parts.iter().map(|part| part.steps + 1).sum();
     let mut values = Vec::with_capacity(total * count);
@@ -114,12 +119,15 @@ fn greatest_among(
     (0..count).map(greatest).collect()
 }
 
-/// The greatest value of a function by its samples.
-fn greatest_sampled(
+/// The greatest value of a function whose samples are known, those of each piece after those of the piece before.
+///
+/// The local extremes among them are refined as by [`greatest_of`]; `noise` is the difference of values of a size that is
+/// rounding.
+pub fn greatest_sampled(
     samples: &[f64],
     f: impl Fn(f64) -> f64,
     noise: impl Fn(f64) -> f64,
-    parts: &[Part],
+    parts: &[SampledPiece],
 ) -> Extreme {
     let mut best = Extreme {
         input: parts.first().map_or(0.0, |part| part.from),

@@ -53,7 +53,8 @@ pub use crossing::Crossing;
 pub use crossings::{Unresolved, crossings, self_crossings};
 pub use curve::{Curve, Jet};
 pub use extreme::{
-    Extreme, extremes, greatest, greatest_each, greatest_of, least, pieces, rounding,
+    Extreme, SampledPiece, extremes, greatest, greatest_each, greatest_of, greatest_sampled, least,
+    pieces, rounding,
 };
 pub use flatten::Sample;
 pub use loops::{Kept, LoopError, without_loops};
@@ -63,6 +64,7 @@ pub use moments::AreaMoments;
 pub use opening::Opening;
 pub use outline::{Arc, OpenOutline, Outline, Segment};
 pub use poly_segment::{PolySegment, SegmentJet};
+pub use quadrature::gauss_legendre;
 pub use recent::Recent;
 pub use roots::{bracketed_minimum, bracketed_root};
 pub use rounded::ShortSide;

@@ -32,8 +32,9 @@ fn rule() -> &'static [(f64, f64); COUNT] {
     })
 }
 
-/// Visits the nodes of `[low, high]` with their weights: exact for every moment integral of a polynomial segment.
-pub(crate) fn gauss_legendre(low: f64, high: f64, mut visit: impl FnMut(f64, f64)) {
+/// Visits the 26 nodes of the Gauss-Legendre rule on `[low, high]` with their weights: exact for polynomials up to degree 51,
+/// every moment integral of a polynomial segment among them.
+pub fn gauss_legendre(low: f64, high: f64, mut visit: impl FnMut(f64, f64)) {
     let (middle, half) = (0.5 * (low + high), 0.5 * (high - low));
     for &(node, weight) in rule() {
         visit(middle + half * node, half * weight);

@@ -6,6 +6,7 @@ pub mod cam;
 pub mod composed;
 mod degrees;
 pub mod design;
+mod digits;
 pub mod feeder;
 mod formula;
 pub mod gear;

@@ -13,20 +13,22 @@ pub mod family;
 
 pub use family::FAMILIES;
 
-use export::Meshing;
+use export::gear_pair::contact_data;
+use mechanism::machine::Datum;
 
 /// Figures of a report for drawing sheets: the pairs of teeth in contact, and the normal backlash,
-/// mm. `None` for gears that do not hold each other.
+/// mm. None for gears that do not hold each other, and for machines without a pair of their own.
 #[must_use]
-pub fn meshing(report: &analysis::Report) -> Option<Meshing> {
+pub fn sheet_data(report: &analysis::Report) -> Vec<Datum> {
     let range = |least: &str, greatest: &str| {
         let ends = [report.values.get(least)?, report.values.get(greatest)?];
         ends.iter().all(|x| x.is_finite()).then(|| ends.map(|x| *x))
     };
-    Some(Meshing {
-        contact_ratio: range("contact_ratio_min", "contact_ratio_max")?,
-        backlash: range("normal_backlash_min", "normal_backlash_max")?,
-    })
+    let contact_ratio = range("contact_ratio_min", "contact_ratio_max");
+    let backlash = range("normal_backlash_min", "normal_backlash_max");
+    contact_ratio
+        .zip(backlash)
+        .map_or_else(Vec::new, |(ratio, play)| contact_data(ratio, play))
 }
 
 /// Its examples are tested.

@@ -3,7 +3,7 @@
 use std::sync::{Arc, OnceLock};
 
 use centrode::family::{self, Depth, Family};
-use centrode::meshing;
+use centrode::sheet_data;
 use centrode_export::machine::tabulated;
 use centrode_export::{Bundle, ExportError, Format, Options};
 use centrode_mechanism::machine::{FrameJet, Machine};
@@ -75,7 +75,7 @@ impl Mechanism {
         options.parts = files::parts(parts, self.family()?.parts)?;
         Ok(self.ask(py, move |machine| {
             if formats.contains(&Format::Sheet) || formats.contains(&Format::Pdf) {
-                options.sheet.meshing = meshing(&machine.check());
+                options.sheet.found = sheet_data(&machine.check());
             }
             machine.files(&formats, &options)
         })??)

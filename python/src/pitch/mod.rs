@@ -8,7 +8,7 @@ use numpy::{IntoPyArray, PyArray1};
 use pyo3::prelude::{Bound, PyAny, PyAnyMethods, PyModule, Python, pyclass, pyfunction, pymethods};
 
 use crate::array::{Numbers, Rows};
-use crate::error::Answer;
+use crate::error::{Answer, finite};
 
 /// A pitch curve around the shaft axis at the origin, proved to wind round it exactly once.
 ///
@@ -37,8 +37,8 @@ impl Pitch {
         Ok(Self { spec, resolved })
     }
 
-    fn along(&self, parameters: Numbers) -> Vec<Jet> {
-        let at = |t| self.resolved.curve.at(t);
+    fn along(&self, parameters: Numbers) -> Answer<Vec<Jet>> {
+        let at = |t| Ok(self.resolved.curve.at(finite("every parameter", t)?));
         parameters.into_vec().into_iter().map(at).collect()
     }
 }
@@ -80,10 +80,10 @@ impl Pitch {
     /// >>> import centrode as ct
     /// >>> ct.pitch.circle(radius=10).points([0.0])
     /// array([[10.,  0.]])
-    fn points(&self, parameters: Numbers) -> Rows<2> {
-        let along = self.along(parameters);
+    fn points(&self, parameters: Numbers) -> Answer<Rows<2>> {
+        let along = self.along(parameters)?;
         let points = along.iter().map(|jet| jet.point.coords.into());
-        Rows(points.collect())
+        Ok(Rows(points.collect()))
     }
 
     /// Curvature at the given parameters, (N,), 1/mm: positive where the curve is convex.
@@ -91,10 +91,14 @@ impl Pitch {
     /// >>> import centrode as ct
     /// >>> ct.pitch.circle(radius=10).curvature([0.0])
     /// array([0.1])
-    fn curvature<'py>(&self, py: Python<'py>, parameters: Numbers) -> Bound<'py, PyArray1<f64>> {
-        let along = self.along(parameters);
+    fn curvature<'py>(
+        &self,
+        py: Python<'py>,
+        parameters: Numbers,
+    ) -> Answer<Bound<'py, PyArray1<f64>>> {
+        let along = self.along(parameters)?;
         let curvature: Vec<f64> = along.iter().map(Jet::curvature).collect();
-        curvature.into_pyarray(py)
+        Ok(curvature.into_pyarray(py))
     }
 
     fn __repr__(&self) -> String {

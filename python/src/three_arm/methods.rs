@@ -143,13 +143,13 @@ impl ThreeArm {
 
     /// Carrier turn at which an arm picks, rad.
     #[pyo3(signature = (arm=0))]
-    fn picking(&self, arm: u32) -> Answer<f64> {
+    fn picking(&self, arm: i64) -> Answer<f64> {
         Ok(self.0.picking(self.arm(arm)?))
     }
 
     /// Carrier turn at which an arm plants, rad.
     #[pyo3(signature = (arm=0))]
-    fn planting(&self, arm: u32) -> Answer<f64> {
+    fn planting(&self, arm: i64) -> Answer<f64> {
         Ok(self.0.planting(self.arm(arm)?))
     }
 
@@ -161,25 +161,25 @@ impl ThreeArm {
     /// array([[ 243.621,   29.807],
     ///        [ -68.003, -251.994]])
     #[pyo3(signature = (theta, arm=0, *, over_ground=false))]
-    fn tip(&self, theta: Values, arm: u32, over_ground: bool) -> Answer<Course> {
+    fn tip(&self, theta: Values, arm: i64, over_ground: bool) -> Answer<Course> {
         self.of_tip(theta, arm, over_ground, |m| m.position.coords.into())
     }
 
     /// Velocity of an arm's tip, (N, 2), mm for a radian of carrier turn; times `carrier_speed` it is mm/s.
     #[pyo3(signature = (theta, arm=0, *, over_ground=false))]
-    fn tip_velocity(&self, theta: Values, arm: u32, over_ground: bool) -> Answer<Course> {
+    fn tip_velocity(&self, theta: Values, arm: i64, over_ground: bool) -> Answer<Course> {
         self.of_tip(theta, arm, over_ground, |m| m.velocity.into())
     }
 
     /// Acceleration of an arm's tip, (N, 2), mm for a radian of carrier turn squared.
     #[pyo3(signature = (theta, arm=0))]
-    fn tip_acceleration(&self, theta: Values, arm: u32) -> Answer<Course> {
+    fn tip_acceleration(&self, theta: Values, arm: i64) -> Answer<Course> {
         self.of_tip(theta, arm, false, |m| m.acceleration.into())
     }
 
     /// Elevation of an arm's clamp above the horizontal, seen towards the tray, in (-pi, pi], rad.
     #[pyo3(signature = (theta, arm=0))]
-    fn clamp_angle(&self, theta: Values, arm: u32) -> Answer<Course> {
+    fn clamp_angle(&self, theta: Values, arm: i64) -> Answer<Course> {
         let arm = self.arm(arm)?;
         Ok(self.each(theta, move |arms, theta| arms.clamp_elevation(theta, arm)))
     }
@@ -327,7 +327,7 @@ impl ThreeArm {
     /// >>> arms.push_rod(np.radians([20, 191, 206, 221])).round(6) + 0.0
     /// array([25. , 25. , 12.5,  0. ])
     #[pyo3(signature = (theta, arm=0))]
-    fn push_rod(&self, theta: Values, arm: u32) -> Answer<Course> {
+    fn push_rod(&self, theta: Values, arm: i64) -> Answer<Course> {
         let arm = self.arm(arm)?;
         let pusher = self.0.pusher()?;
         Ok(self.each(theta, move |arms, theta| {

@@ -87,20 +87,19 @@ impl Class for ThreeArm {
 
 impl ThreeArm {
     /// An arm that is there.
-    fn arm(&self, arm: u32) -> Answer<u32> {
+    fn arm(&self, arm: i64) -> Answer<u32> {
         let arms = self.0.arms();
-        if arm < arms {
-            Ok(arm)
-        } else {
+        let there = u32::try_from(arm).ok().filter(|&arm| arm < arms);
+        there.ok_or_else(|| {
             let message = format!("arm {arm} of {arms}, counted from 0");
-            Err(PyIndexError::new_err(message).into())
-        }
+            PyIndexError::new_err(message).into()
+        })
     }
 
     fn of_tip(
         &self,
         theta: Values,
-        arm: u32,
+        arm: i64,
         over_ground: bool,
         part: fn(&PointMotion) -> [f64; 2],
     ) -> Answer<Course> {

@@ -80,7 +80,8 @@ fn sound(
 ) -> Result<(GearPairDesign, SoundTeeth), NoSoundTeeth> {
     let pair = cut(name, design)?;
     let length = pair.driver().pitch_length();
-    let full_module = pair.limits().largest_module;
+    let limits = pair.limits();
+    let full_module = limits.largest_module_of_full_teeth();
     let teeth = |addendum: Addendum, count: u32| {
         let mut sound = design.with_tooth_count(count);
         sound.teeth.addendum = addendum;
@@ -93,7 +94,7 @@ fn sound(
         };
         (sound, teeth)
     };
-    if let Some(count) = full(design, &pair, length / (PI * full_module)) {
+    if let Some(count) = full(design, &pair, length / (PI * limits.largest_module)) {
         return Ok(teeth(Addendum::Full, count));
     }
     let mut fitted = design.clone();

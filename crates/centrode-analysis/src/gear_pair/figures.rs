@@ -50,7 +50,7 @@ pub(crate) const FIGURES: &[FigureGroup] = &[
             row("centre distance", &["center_distance"], Millimetre),
             row("module", &["module"], Millimetre),
             row("largest wheel to grind it", &["cam_hollow_radius_min"], Millimetre),
-            row("largest module, no undercut", &["largest_module"], Millimetre),
+            row("largest module for the tool's flanks", &["largest_module"], Millimetre),
             row("largest addendum, no undercut", &["largest_addendum"], Millimetre),
             row("phase of the first tooth", &["phase"], Pitch),
             row("closure error", &["closure_error"], Radian),

@@ -18,7 +18,7 @@ pub(super) fn teeth(pair: &GearPair, gear: &Gear, limits: &Limits, report: &mut 
     let sides = |tooth: &Tooth| [tooth.leading, tooth.trailing];
     let largest = format!(
         "the largest module without it is {:.4} mm",
-        limits.largest_module
+        limits.largest_module_of_full_teeth()
     );
     let mut add = |rule,
                    severity,

@@ -3,6 +3,16 @@ use centrode_mechanism::machine::{Callout, Datum, Machine, Part};
 
 use crate::sheet::{number, range};
 
+/// Findings of an analysis of the contact, for the tables of sheets: least and greatest number of pairs of teeth in contact,
+/// least and greatest play along the common normal, mm.
+#[must_use]
+pub fn contact_data(contact_ratio: [f64; 2], backlash: [f64; 2]) -> Vec<Datum> {
+    vec![
+        Datum::new("Backlash, as checked, normal", "jn", range(backlash, 4)),
+        Datum::new("Pairs of teeth in contact", "", range(contact_ratio, 0)),
+    ]
+}
+
 /// Lists the gears and tells the pair's arrangement.
 pub(super) fn tell(pair: &GearPair, machine: &mut Machine) {
     list_pair(pair, "", &[Member::Driver, Member::Driven], machine);

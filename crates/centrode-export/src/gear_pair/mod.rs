@@ -11,6 +11,7 @@ mod sheets;
 mod solid;
 
 use crate::{Bundle, ExportError, Format, Options, Package};
+pub use arrangement::contact_data;
 pub(crate) use arrangement::{list, list_pair, list_shafts, of_both};
 use centrode_mechanism::gear::{GearPair, GearPairError, Member};
 pub use curves::curves;
@@ -95,7 +96,11 @@ fn add(
     subject: Subject,
     label: Option<Label>,
 ) -> Result<(), ExportError> {
-    let (pair, tolerance, sheet) = (drawn.pair, package.tolerance(), package.options().sheet);
+    let (pair, tolerance, sheet) = (
+        drawn.pair,
+        package.tolerance(),
+        package.options().sheet.clone(),
+    );
     let name = label.map_or(subject.name(), |label| label.name);
     package.drawing(name, |curves| Ok(drawn.drawing(subject, curves)))?;
     let Some(member) = subject.member() else {

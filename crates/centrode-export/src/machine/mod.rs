@@ -14,8 +14,8 @@ mod rim;
 use centrode_mechanism::machine::Machine;
 
 use crate::{ExportError, Format, Package, csv, mjcf, urdf};
+pub(crate) use arrangement::NAME as ARRANGEMENT;
 pub use arrangement::arrangement;
-pub(crate) use arrangement::{NAME as ARRANGEMENT, proved};
 pub use file::{MachineFileError, plain, read, schema, write};
 pub use motion_file::{
     ClosureWords, ColumnWords, InputWords, Interpolation, JointWords, LinearWords, MeshWords,

@@ -7,6 +7,8 @@ use thiserror::Error;
 use self::crank::Crank;
 use super::reversed::{fewest_steps, least_convex_radii, table_pair};
 use super::{Composed, ComposedDesign, ComposedError};
+use crate::degrees;
+use crate::digits::told;
 use crate::gear::{GearPair, GearPairError};
 use crate::reverse::{Timing, TimingError};
 
@@ -14,6 +16,8 @@ use crate::reverse::{Timing, TimingError};
 const NEAR_ENOUGH: f64 = 1e-7;
 /// Range of the centre distance, mm.
 const DISTANCES: [f64; 2] = [1e-3, 1e6];
+/// Greatest direction of the shaft either way, degrees.
+const GREATEST_DIRECTION: f64 = 360.0;
 
 /// Which crank of a machine a gear pair shall drive, and where its shaft is.
 #[derive(Clone, Debug, PartialEq)]
@@ -41,6 +45,8 @@ pub struct GearDrive {
     pub miss: Extreme,
     /// Least radii of curvature where convex, mm: of driver and driven gear.
     pub least_radii: [f64; 2],
+    /// Names of the goals that say nothing of the law: of another kind, or without `within_deg`.
+    pub left_alone: Vec<String>,
 }
 
 /// Reason why no gear pair drives a crank so.
@@ -96,7 +102,7 @@ pub enum GearDriveError {
         turns: u32,
     },
     /// A centre distance out of range.
-    #[error("the centre distance must be {least} to {greatest:e} mm, not {distance:?}")]
+    #[error("the centre distance must be {least} to {greatest:e} mm, not {}", told(*distance))]
     Distance {
         /// Given, mm.
         distance: f64,
@@ -106,8 +112,13 @@ pub enum GearDriveError {
         greatest: f64,
     },
     /// A direction that is none.
-    #[error("the direction of the shaft must be a finite number")]
-    Direction,
+    #[error("the direction of the shaft must be -{greatest} to {greatest} deg, not {}", told(*direction))]
+    Direction {
+        /// Given, degrees.
+        direction: f64,
+        /// Greatest, degrees.
+        greatest: f64,
+    },
     /// No law does what is wanted.
     #[error(transparent)]
     Timing(#[from] TimingError),
@@ -139,12 +150,18 @@ impl GearDrive {
                 greatest,
             });
         }
-        if !spec.direction.is_finite() {
-            return Err(GearDriveError::Direction);
+        let (direction, greatest) = (degrees::rounded(spec.direction), GREATEST_DIRECTION);
+        let is_direction = direction.abs() <= greatest;
+        if !is_direction {
+            return Err(GearDriveError::Direction {
+                direction,
+                greatest,
+            });
         }
         let crank = Crank::of(design, spec)?;
         let composed = Composed::resolve(design).map_err(Box::new)?;
         let (output, turns, sections) = wanted::wanted(&composed)?;
+        let left_alone = wanted::left_alone(&composed);
         let timing = Timing::new(output, &sections)?;
         let [low, high] = timing.places();
         let enough = NEAR_ENOUGH * (high - low);
@@ -163,6 +180,7 @@ impl GearDrive {
             steps,
             miss,
             least_radii: least_convex_radii(&rolled),
+            left_alone,
         })
     }
 }

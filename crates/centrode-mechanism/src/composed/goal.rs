@@ -106,7 +106,7 @@ impl ComposedGoalSpec {
             _ if self.over.is_none() => return broken("within_deg", Rule::Unused("without over")),
             [from, to] if from < to => {}
             [from, to] => {
-                let rule = Rule::NotInOrder(from.to_degrees(), to.to_degrees());
+                let rule = Rule::NotInOrder(degrees::rounded(from), degrees::rounded(to));
                 return broken("within_deg", rule);
             }
             _ => return broken("within_deg", Rule::Needed("as two inputs, from and to")),

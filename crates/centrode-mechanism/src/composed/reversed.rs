@@ -10,7 +10,7 @@ use super::{
 use crate::gear::design::{Addendum, BodySpec, GearPairDesign};
 use crate::gear::pitch::{PitchSpec, Transmission};
 use crate::gear::{CurvatureRange, GearPair, GearPairError, Member, Rolling};
-use crate::reverse::{Split, SplitKind, TwoBar};
+use crate::reverse::{Split, SplitKind, TwoBar, leg};
 
 /// Names of the pairs of a machine: of one that occurs twice, and of two.
 const STAGE: &str = "stage";
@@ -43,6 +43,8 @@ pub struct ReversedMachine {
     pub tip_error: Extreme,
     /// Least radii of curvature of the pitch curves where convex, mm: driver and driven gear of each pair.
     pub least_radii: Vec<[f64; 2]>,
+    /// Whether the pitch curves are convex all round: driver and driven gear of each pair.
+    pub convex: Vec<[bool; 2]>,
 }
 
 /// Reason why there is no machine of a split.
@@ -122,6 +124,7 @@ impl ReversedMachine {
         let rolled = pairs.iter().map(|(_, pair)| Ok(GearPair::roll(pair)?.1));
         let rolled = rolled.collect::<Result<Vec<Rolling>, GearPairError>>()?;
         let train = Train::new(split, &rolled);
+        let ranges: Vec<_> = rolled.iter().map(curvature_ranges).collect();
         let off = |t: f64| {
             let tip = train.tip(chain, chain.at(t).carrier[0]);
             chain.path().distance_near(tip, t)
@@ -131,7 +134,14 @@ impl ReversedMachine {
             design: design(chain, split, pairs, arms),
             steps,
             tip_error,
-            least_radii: rolled.iter().map(least_convex_radii).collect(),
+            least_radii: ranges
+                .iter()
+                .map(|both| both.map(least_convex_radius))
+                .collect(),
+            convex: ranges
+                .iter()
+                .map(|both| both.map(|range| range.least.1 >= 0.0))
+                .collect(),
         })
     }
 }
@@ -152,15 +162,15 @@ pub(super) fn fewest_steps<T, E>(
 
 /// Least radii of curvature where convex, mm: of driver and driven gear.
 pub(super) fn least_convex_radii(rolling: &Rolling) -> [f64; 2] {
-    [Member::Driver, Member::Driven].map(|member| {
-        let range = CurvatureRange::of(rolling, member);
-        1.0 / range.greatest.1.max(0.0)
-    })
+    curvature_ranges(rolling).map(least_convex_radius)
 }
 
-/// Length of each leg of the carrier, mm: both are centre distances of gears.
-fn leg(chain: &TwoBar, split: &Split) -> f64 {
-    0.5 * chain.carrier() / (0.5 * split.bend()).cos()
+fn curvature_ranges(rolling: &Rolling) -> [CurvatureRange; 2] {
+    [Member::Driver, Member::Driven].map(|member| CurvatureRange::of(rolling, member))
+}
+
+fn least_convex_radius(range: CurvatureRange) -> f64 {
+    1.0 / range.greatest.1.max(0.0)
 }
 
 /// Turn of the arm's axes against those of the planet's gear, rad.
@@ -184,7 +194,7 @@ fn pairs(
     split: &Split,
     [first, second]: [Vec<f64>; 2],
 ) -> Vec<(&'static str, GearPairDesign)> {
-    let leg = leg(chain, split);
+    let leg = leg(chain.carrier(), split.bend());
     let pair = |table: Vec<f64>| table_pair(table, leg);
     match split.kind() {
         SplitKind::OnePair => vec![(STAGE, pair(first))],
@@ -236,7 +246,7 @@ fn design(
     pairs: Vec<(&'static str, GearPairDesign)>,
     arms: u32,
 ) -> ComposedDesign {
-    let leg = leg(chain, split);
+    let leg = leg(chain.carrier(), split.bend());
     let named = |name: &str| name.to_owned();
     let (first, second) = match pairs.len() {
         1 => (STAGE, STAGE),

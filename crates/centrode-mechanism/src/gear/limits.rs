@@ -15,9 +15,14 @@ pub struct Limits {
     pub convex_curvature: f64,
     /// Greatest curvature of either pitch curve where it is concave, 1/mm; zero for convex curves.
     pub concave_curvature: f64,
-    /// Largest module at which no flank of this tool is undercut or cut short wherever the teeth fall
+    /// Largest module at which the straight sides of this tool undercut or cut short no flank, wherever the teeth fall
     /// on these pitch curves, mm: least radius x sin^2 alpha over the tool's depth in modules.
     pub largest_module: f64,
+    /// Largest module at which the rounding of the tool's tip cuts into no flank, mm; infinite for convex curves. Where the
+    /// pitch curve is concave the rounding's envelope has a cusp, once the curvature there is above sin alpha rho / (d (d - rho)),
+    /// plus 1/R for a shaper of pitch radius R. rho is the radius of the rounding, d the distance from the pitch point to where
+    /// the flank ends, along the line of action (from the equation of Euler and Savary).
+    pub largest_module_of_fillets: f64,
     /// Largest addendum, mm, with every flank regular wherever the teeth fall, and every tooth as cut
     /// no thinner at its tip than asked for.
     pub largest_addendum: f64,
@@ -137,6 +142,7 @@ impl GearPair {
             convex_curvature: convex,
             concave_curvature: concave,
             largest_module: largest_module(tool, self.module(), [convex, concave]),
+            largest_module_of_fillets: fillet_module(tool, self.module(), concave),
             largest_addendum: self.widest_height(regular),
             ranges,
         }
@@ -181,6 +187,12 @@ impl GearPair {
 }
 
 impl Limits {
+    /// Largest module with neither flanks undercut by their own tool's straight sides, nor by the rounding of its tip, mm.
+    #[must_use]
+    pub fn largest_module_of_full_teeth(&self) -> f64 {
+        self.largest_module.min(self.largest_module_of_fillets)
+    }
+
     /// Largest module without undercut or short teeth, mm, where the pitch curves' curvatures are at most those given
     /// (convex, concave, 1/mm): no tooth has to be laid out.
     #[must_use]
@@ -198,9 +210,70 @@ fn largest_module(tool: &Tool, module: f64, [convex, concave]: [f64; 2]) -> f64 
     bound(convex, depth).min(bound(concave, height))
 }
 
+fn fillet_module(tool: &Tool, module: f64, concave: f64) -> f64 {
+    let (sin, cos) = tool.pressure_angle.sin_cos();
+    let radius = tool.tip_radius;
+    let far = tool.corner(tool.dedendum, radius).end * cos + tool.profile_shift.abs() / sin;
+    let tool_curvature = match tool.kind {
+        ToolKind::Rack => 0.0,
+        ToolKind::Shaper { radius } => 1.0 / radius,
+    };
+    if concave > 0.0 {
+        module * (tool_curvature + sin * radius / (far * (far - radius))) / concave
+    } else {
+        f64::INFINITY
+    }
+}
+
 /// Width of the top land of a tooth cut off at a height; negative past its point.
 fn land(leading: &Flank<'_>, trailing: &Flank<'_>, height: f64) -> Option<f64> {
     let ((a, foot_a), (b, foot_b)) = (leading.at_height(height)?, trailing.at_height(height)?);
     let width = (trailing.point(b) - leading.point(a)).norm();
     Some(if foot_b > foot_a { width } else { -width })
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::gear::GearPair;
+    use crate::gear::design::{GearPairDesign, Phase, Shaper, ToolSpec};
+    use crate::gear::pitch::{PitchSpec, Polar};
+
+    /// A pair of concave pitch curves with teeth of about this module, laid out at a phase.
+    fn pair_at(tool: &ToolSpec, module: f64, phase: f64) -> GearPair {
+        let tooth_count = (120.0 / module / 2.0).round() as u32 * 2;
+        let mut design = GearPairDesign::new(PitchSpec::Polar(Polar {
+            expression: Some("1 + 0.3*cos(2*phi)".into()),
+            module: Some(120.0 / f64::from(tooth_count)),
+            tooth_count: Some(tooth_count),
+            ..Polar::default()
+        }));
+        design.tool = tool.clone();
+        design.teeth.phase = Phase::Pitches(phase);
+        GearPair::resolve(&design).expect("a pair")
+    }
+
+    #[test]
+    fn the_rounding_of_a_tool_cuts_into_flanks_of_concave_gears_above_a_module() {
+        let shaper = ToolSpec::Shaper(Shaper {
+            tooth_count: 200,
+            ..Shaper::default()
+        });
+        for tool in [ToolSpec::default(), shaper] {
+            let limits = pair_at(&tool, 2.0, 0.0).limits();
+            let bound = limits.largest_module_of_fillets;
+            assert!(bound < limits.largest_module, "{tool:?}: {limits:?}");
+            let undercut = |module: f64| {
+                (0..4).any(|i| {
+                    let pair = pair_at(&tool, module, f64::from(i) / 4.0);
+                    let teeth = pair.driver().teeth().iter();
+                    let sides = teeth.flat_map(|t| [t.leading, t.trailing]);
+                    sides.into_iter().any(|side| side.undercut > 0.0)
+                })
+            };
+            assert!(
+                !undercut(0.96 * bound) && undercut(1.06 * bound),
+                "{tool:?}: {bound}"
+            );
+        }
+    }
 }

@@ -3,7 +3,8 @@ use std::sync::Arc;
 
 use centrode_geometry::{Extreme, Jet, Point, Vector, greatest_each};
 
-use super::distance::{Distance, Series};
+use super::distance::{Distance, Series, taylor};
+use super::limit::squares;
 use super::path::Sample;
 use super::{AxisFault, WantedPath};
 use crate::formula::Taylor;
@@ -167,14 +168,26 @@ impl TwoBar {
     }
 
     /// Speeds by the parameter: of the carrier in its sense, of the arm against the carrier the other way.
+    pub(super) fn speeds(&self, t: f64, jet: &Jet) -> [f64; 2] {
+        self.speed_series::<1>(t, jet).map(|speed| speed.0[0])
+    }
+
+    /// Speeds with up to two derivatives.
     ///
     /// From `C' = i psi' (C - O) + i beta' s e^(i alpha)` with alpha the direction of the arm.
-    pub(super) fn speeds(&self, t: f64, jet: &Jet) -> [f64; 2] {
+    #[inline]
+    pub(super) fn speed_series<const N: usize>(&self, t: f64, jet: &Jet) -> [Taylor<N>; 2] {
         let elbow = self.distance.turning(&self.path, self.inside(t).0, jet);
         let p: Vector = jet.point - self.distance.axis;
-        let u = p.norm_squared();
-        let along = 0.5 * (u - self.carrier * self.carrier + self.arm * self.arm);
-        let carrier = (self.sense * p.perp(&jet.first) + elbow * along) / u;
+        let [d1, d2, _] = squares(jet, self.distance.axis);
+        let u: Taylor<N> = taylor([p.norm_squared(), d1, 0.5 * d2]);
+        let along = (u + (self.arm * self.arm - self.carrier * self.carrier)) * 0.5;
+        let area = taylor([
+            p.perp(&jet.first),
+            p.perp(&jet.second),
+            0.5 * (p.perp(&jet.third) + jet.first.perp(&jet.second)),
+        ]);
+        let carrier = (area * self.sense + elbow * along) / u;
         [carrier, elbow]
     }
 

@@ -1,5 +1,6 @@
-use centrode_geometry::{Antiderivative, Jet, Point, Vector, bracketed_minimum, bracketed_root};
+use centrode_geometry::{Jet, Point, bracketed_minimum, bracketed_root};
 
+use super::limit::{Limit, squares};
 use super::path::{FARTHEST, Sample};
 use super::{AxisFault, WantedPath};
 use crate::formula::Taylor;
@@ -115,7 +116,7 @@ impl Distance {
         let beside = self.beside(path, t, u[0]);
         let at = |is_greatest: bool| {
             let found = beside.filter(|(place, _)| place.is_greatest == is_greatest);
-            found.map(|(place, h)| self.root(path, place, h))
+            found.map(|(place, h)| self.root(path, place, h, jet))
         };
         let away = at(true).unwrap_or_else(|| {
             // Rounding may leave a square a little above the greatest.
@@ -129,23 +130,11 @@ impl Distance {
     }
 
     /// One of the roots beside its extreme, by the limit: `h w` with w = sqrt(v).
-    fn root(&self, path: &WantedPath, place: Place, h: f64) -> Series {
+    fn root(&self, path: &WantedPath, place: Place, h: f64, jet: &Jet) -> Series {
         let sense = if place.is_greatest { -1.0 } else { 1.0 };
-        let (second, third) = (self.second(path), self.third(path));
-        let [of_second, of_third] = self.sizes(path, place.at);
-        let ends = self.ends(path, place.at, h);
-        let [v, slope, bend] = [
-            mean(&ends, of_second, |tau| {
-                (1.0 - tau) * second(place.at + tau * h)
-            }),
-            mean(&ends, of_third, |tau| {
-                (1.0 - tau) * tau * third(place.at + tau * h)
-            }),
-            mean(&ends, of_third, |tau| {
-                (3.0 * tau - 2.0) * tau * third(place.at + tau * h)
-            }),
-        ]
-        .map(|integral| sense * integral);
+        let limit = Limit::new(path, self.axis, place.at, h, jet);
+        let [v, slope] = limit.square.map(|integral| sense * integral);
+        let bend = sense * limit.bends[1];
         let w = v.sqrt();
         // v' = slope and h v'' = bend.
         let w1 = slope / (2.0 * w);
@@ -160,65 +149,44 @@ impl Distance {
         if ahead { series } else { -series }
     }
 
-    /// Speed of `2 arg(sqrt(u - rho^2), sqrt(R^2 - u))`: `|u'|` over the product of both roots.
-    pub(super) fn turning(&self, path: &WantedPath, t: f64, jet: &Jet) -> f64 {
-        let p = jet.point - self.axis;
-        let (u, slope) = (p.norm_squared(), 2.0 * p.dot(&jet.first));
+    /// Speed of `2 arg(sqrt(u - rho^2), sqrt(R^2 - u))`, which is `|u'|` over the product of both roots, with up to two
+    /// derivatives.
+    #[inline]
+    pub(super) fn turning<const N: usize>(
+        &self,
+        path: &WantedPath,
+        t: f64,
+        jet: &Jet,
+    ) -> Taylor<N> {
+        let u = (jet.point - self.axis).norm_squared();
+        let [d1, d2, d3] = squares(jet, self.axis);
         let [far, near] = self.reach.map(|r| r * r);
+        let [to_far, from_near] = [
+            taylor([far - u, -d1, -0.5 * d2]),
+            taylor([u - near, d1, 0.5 * d2]),
+        ];
         let Some((place, h)) = self.beside(path, t, u) else {
-            return slope.abs() / ((far - u) * (u - near)).sqrt();
+            return taylor::<N>([d1, d2, 0.5 * d3]) * d1.signum() / (to_far * from_near).sqrt();
         };
-        let other = if place.is_greatest { u - near } else { far - u };
-        let second = self.second(path);
-        let ends = self.ends(path, place.at, h);
-        let [size, _] = self.sizes(path, place.at);
+        let other = if place.is_greatest { from_near } else { to_far };
+        let limit = Limit::new(path, self.axis, place.at, h, jet);
+        let bends = match N {
+            3.. => limit.second(path, self.axis, place.at, h),
+            _ => [0.0; 2],
+        };
+        let sense = limit.square[0].signum();
         // u' and the square of the root, both over their power of the step.
-        let rate = mean(&ends, size, |tau| second(place.at + tau * h));
-        let square = mean(&ends, size, |tau| (1.0 - tau) * second(place.at + tau * h));
-        rate.abs() / (square.abs() * other).sqrt()
-    }
-
-    /// Second derivative of the square of the distance.
-    fn second<'a>(&'a self, path: &'a WantedPath) -> impl Fn(f64) -> f64 + 'a {
-        move |t| {
-            let jet = path.at(t);
-            let p: Vector = jet.point - self.axis;
-            2.0 * (jet.first.norm_squared() + p.dot(&jet.second))
-        }
-    }
-
-    /// Third derivative of the square of the distance.
-    fn third<'a>(&'a self, path: &'a WantedPath) -> impl Fn(f64) -> f64 + 'a {
-        move |t| {
-            let jet = path.at(t);
-            let p: Vector = jet.point - self.axis;
-            6.0 * jet.first.dot(&jet.second) + 2.0 * p.dot(&jet.third)
-        }
-    }
-
-    /// Shares of a step from an extreme, between which the path is smooth.
-    fn ends(&self, path: &WantedPath, at: f64, h: f64) -> Vec<f64> {
-        let breaks = path.breaks_between(at.min(at + h), at.max(at + h));
-        let shares = breaks.iter().map(|b| (b - at) / h);
-        let mut ends: Vec<f64> = shares.filter(|tau| *tau > 0.0 && *tau < 1.0).collect();
-        ends.sort_by(f64::total_cmp);
-        ends.insert(0, 0.0);
-        ends.push(1.0);
-        ends
-    }
-
-    /// Sizes of the terms of the second and the third derivative, whose rounding theirs is.
-    fn sizes(&self, path: &WantedPath, t: f64) -> [f64; 2] {
-        let jet = path.at(t);
-        let [p, d1, d2, d3] =
-            [jet.point - self.axis, jet.first, jet.second, jet.third].map(|v| v.norm());
-        [2.0 * (d1 * d1 + p * d2), 6.0 * d1 * d2 + 2.0 * p * d3]
+        let series = |[value, slope]: [f64; 2], bend: f64| {
+            taylor::<N>([value * sense, slope * sense, 0.5 * bend * sense])
+        };
+        let rate = series(limit.slope, bends[0]);
+        rate / (series(limit.square, bends[1]) * other).sqrt()
     }
 }
 
-/// Integral over the unit interval.
-fn mean(ends: &[f64], size: f64, f: impl Fn(f64) -> f64) -> f64 {
-    Antiderivative::of_size(f, ends, size).total()
+/// Taylor coefficients, as many as are asked for.
+pub(super) fn taylor<const N: usize>(all: [f64; 3]) -> Taylor<N> {
+    Taylor(std::array::from_fn(|k| all.get(k).copied().unwrap_or(0.0)))
 }
 
 /// Places along a path at which its distance from an axis is greater, or less, than beside them.

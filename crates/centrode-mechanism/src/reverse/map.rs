@@ -1,5 +1,6 @@
 use centrode_geometry::{Point, checkpoint};
 
+use super::sharpness::leg;
 use super::{AxisFault, TwoBar, WantedPath};
 
 /// Share of the path's box by which a search for axes goes beyond it on every side.
@@ -40,6 +41,10 @@ pub struct PossibleAxis {
     pub ratios: [f64; 2],
     /// Least distance of the tip from the carrier's axis, mm.
     pub shaft_distance: f64,
+    /// Greatest curvature of the four pitch curves of the split by powers, as a multiple of one over the centre distance.
+    ///
+    /// Exact where the path has up to 64 pieces; of a path of more pieces 64 are looked at, evenly spread.
+    pub sharpness: f64,
 }
 
 impl PossibleAxis {
@@ -47,6 +52,13 @@ impl PossibleAxis {
     #[must_use]
     pub fn unevenness(&self) -> f64 {
         self.ratios[1].ln().max(-self.ratios[0].ln())
+    }
+
+    /// Least radius of curvature of the four pitch curves of the split by powers where they are convex, mm; `bend` is the angle
+    /// from the carrier's first leg to its second, rad.
+    #[must_use]
+    pub fn least_radius(&self, bend: f64) -> f64 {
+        leg(self.carrier, bend) / self.sharpness
     }
 }
 
@@ -57,6 +69,7 @@ impl From<&TwoBar> for PossibleAxis {
             arm: chain.arm(),
             ratios: chain.ratios().map(|ratio| ratio.value),
             shaft_distance: chain.shaft_distance(),
+            sharpness: chain.sharpness_sampled().value,
         }
     }
 }

@@ -10,8 +10,10 @@ mod chain;
 mod curvature;
 mod distance;
 mod error;
+mod limit;
 mod map;
 mod path;
+mod sharpness;
 mod split;
 mod timing;
 
@@ -22,6 +24,7 @@ pub use chain::{ChainJet, TwoBar};
 pub use error::{AxisFault, PathError};
 pub use map::{AxisMap, AxisRange, PossibleAxis};
 pub use path::WantedPath;
+pub(crate) use sharpness::leg;
 pub use split::{Split, SplitError, SplitKind};
 pub use timing::{Section, Timing, TimingError, Wanted};
 

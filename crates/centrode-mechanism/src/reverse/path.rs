@@ -1,6 +1,9 @@
+use std::ops::Range;
 use std::sync::Arc;
 
-use centrode_geometry::{Bounds, Curve, Jet, Outline, Point, Segment, Vector, pieces};
+use centrode_geometry::{
+    Bounds, Curve, Jet, Outline, Point, SampledPiece, Segment, Vector, pieces,
+};
 
 use super::PathError;
 use crate::gear::pitch::closed_spline;
@@ -31,7 +34,11 @@ pub struct WantedPath {
     curve: Arc<dyn Curve>,
     breaks: Vec<f64>,
     samples: Vec<Sample>,
+    pieces: Vec<Piece>,
 }
+
+/// A smooth piece of the path, the numbers of its samples, and the limit at its end.
+pub(super) type Piece = (SampledPiece, Range<usize>, Sample);
 
 /// A point of the path and its derivatives at a parameter.
 #[derive(Clone, Copy, Debug)]
@@ -109,21 +116,29 @@ impl WantedPath {
             .filter(|b| (0.0..period).contains(b))
             .collect();
         let mut samples = Vec::new();
+        let mut smooth = Vec::new();
         for pair in pieces(0.0, period, 1, &breaks).windows(2) {
             let share = (pair[1] - pair[0]) / period;
             let steps = (SAMPLES * share).ceil().max(LEAST_SAMPLES);
-            for i in 0..steps as u32 {
-                let at = pair[0] + (pair[1] - pair[0]) * f64::from(i) / steps;
-                samples.push(Sample {
-                    at,
-                    jet: curve.at(at),
-                });
-            }
+            let piece = SampledPiece {
+                from: pair[0],
+                to: pair[1],
+                steps: steps as usize,
+            };
+            let sample = |i: usize| {
+                let at = piece.at(i);
+                let jet = curve.at(at);
+                Sample { at, jet }
+            };
+            let first = samples.len();
+            samples.extend((0..piece.steps).map(sample));
+            smooth.push((piece, first..samples.len(), sample(piece.steps)));
         }
         Self {
             curve,
             breaks,
             samples,
+            pieces: smooth,
         }
     }
 
@@ -215,6 +230,10 @@ impl WantedPath {
 
     pub(super) fn samples(&self) -> &[Sample] {
         &self.samples
+    }
+
+    pub(super) fn pieces(&self) -> &[Piece] {
+        &self.pieces
     }
 
     /// Ends of parts from `from` over one turn, between which the path is smooth or, where it has many pieces, nearly so.

@@ -79,5 +79,9 @@ fn found(made: &GearDrive, out: &mut impl Write) -> std::io::Result<()> {
         unit.tell(made.miss.value),
         made.steps
     );
-    line(out, "output off its law", &words)
+    line(out, "output off its law", &words)?;
+    if !made.left_alone.is_empty() {
+        line(out, "goals left alone", &made.left_alone.join(", "))?;
+    }
+    Ok(())
 }

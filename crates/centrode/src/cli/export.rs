@@ -154,7 +154,7 @@ fn options(command: &Export, found: &Report) -> Options {
             Method::FirstAngle => Projection::FirstAngle,
             Method::ThirdAngle => Projection::ThirdAngle,
         }),
-        meshing: crate::meshing(found),
+        found: crate::sheet_data(found),
     };
     options
 }

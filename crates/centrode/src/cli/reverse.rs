@@ -115,6 +115,7 @@ fn chosen(
         Some(_) => "as asked",
         None => "the mildest found",
     };
+    let factor = chain.unevenness().exp();
     let axis = chain.axis();
     let at = format!("{:.4}, {:.4} mm, {why}", axis.x, axis.y);
     line(out, "axis of the carrier", &at)?;
@@ -128,10 +129,14 @@ fn chosen(
         &format!("{}, turns {sense}", mm(chain.carrier())),
     )?;
     line(out, "arm", &mm(chain.arm()))?;
+    let ratios = range(chain.ratios().map(|ratio| ratio.value));
+    let words = format!("{ratios}, within a factor of {factor:.4} of 1");
+    line(out, "ratio", &words)?;
+    let radius = chain.least_radius(split.bend());
     line(
         out,
-        "ratio",
-        &range(chain.ratios().map(|ratio| ratio.value)),
+        "least convex radius",
+        &format!("{} by powers", mm(radius)),
     )?;
     line(out, "tip passes the shaft at", &mm(chain.shaft_distance()))?;
     let words = format!(
@@ -192,12 +197,27 @@ fn others(
             continue;
         }
         let words = match Split::new(chain, other, bend) {
-            Ok(_) => "possible".to_owned(),
+            Ok(split) => sharpest(chain, &split),
             Err(error) => error.to_string(),
         };
         line(out, &format!("split {name}"), &words)?;
     }
     Ok(())
+}
+
+/// The sharpest pitch curve of a split that was not chosen.
+fn sharpest(chain: &TwoBar, split: &Split) -> String {
+    match ReversedMachine::new(chain, split, 1, None) {
+        Ok(made) => {
+            let radii = made.least_radii.iter().flatten();
+            let least = radii.fold(f64::INFINITY, |least, radius| least.min(*radius));
+            format!(
+                "possible, least convex radius {}",
+                Unit::Millimetre.tell(least)
+            )
+        }
+        Err(error) => error.to_string(),
+    }
 }
 
 pub(crate) fn teeth(found: &[SoundTeeth], out: &mut impl Write) -> std::io::Result<()> {

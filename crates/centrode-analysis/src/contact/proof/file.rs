@@ -35,7 +35,9 @@ pub struct Proof {
     pub driver: Vec<Vec<[f64; 2]>>,
     /// The driven gear's contour.
     pub driven: Vec<Vec<[f64; 2]>>,
-    /// Stretches of the cycle from 0 on, each starting where the one before it ends.
+    /// Equal parts of the cycle, after each of which both contours and the law are as before it but for rounding.
+    pub sectors: u32,
+    /// Stretches of the first part of the cycle from 0 on, each starting where the one before it ends.
     pub stretches: Vec<ProofStretch>,
 }
 

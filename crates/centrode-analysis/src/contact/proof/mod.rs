@@ -8,6 +8,7 @@
 
 mod file;
 mod meeting;
+mod symmetry;
 mod track;
 
 use std::f64::consts::TAU;
@@ -45,30 +46,42 @@ const APART: [f64; 2] = [0.25, 0.05];
 /// Shares of the difference of two curvatures by which a parabola keeps from either, at first and where that does not do.
 const MARGINS: [f64; 2] = [0.25, 0.05];
 
+/// Parameter from which on the piece beyond the end counts, too.
+const JOINT: f64 = 0.8;
+
 /// Makes the certificate of a pair's contact, for a checker to prove.
 ///
 /// # Errors
 /// [`ProofError`] naming the driver angle at which the gears do not hold each other, or cannot be followed.
 pub fn prove(pair: &GearPair) -> Result<Proof, ProofError> {
     let law = Piecewise::fit(pair.rolling());
+    let driver = contour(pair.driver(), Member::Driver)?;
+    let driven = contour(pair.driven(), Member::Driven)?;
+    let sectors = symmetry::sectors(
+        [&driver, &driven],
+        &law,
+        pair.mean_ratio(),
+        pair.center_distance(),
+    );
     let mut prover = Prover {
         meshing: Meshing::new(pair),
         law: &law,
         out: Vec::new(),
     };
-    prover.cycle()?;
+    prover.cover_sector(sectors)?;
     let stretches = prover.out;
     Ok(Proof {
         format: "centrode-proof".to_owned(),
-        version: 1,
+        version: 2,
         design: pair.design().to_toml()?,
         center_distance: pair.center_distance(),
         module: pair.module(),
         cycle: pair.cycle(),
         law_rounding: rounding(&law, pair),
         half_width: HALF_WIDTH,
-        driver: contour(pair.driver(), Member::Driver)?,
-        driven: contour(pair.driven(), Member::Driven)?,
+        driver,
+        driven,
+        sectors,
         stretches,
         law,
     })
@@ -82,8 +95,8 @@ struct Prover<'a> {
 }
 
 impl Prover<'_> {
-    /// Covers the whole cycle, stretch by stretch.
-    fn cycle(&mut self) -> Result<(), ProofError> {
+    /// Covers the first of a number of equal parts of the cycle, stretch by stretch.
+    fn cover_sector(&mut self, sectors: u32) -> Result<(), ProofError> {
         let pair = self.meshing.pair;
         let rolling = pair.rolling();
         let teeth = pair.driver().tooth_count() * pair.mean_ratio().0;
@@ -102,10 +115,11 @@ impl Prover<'_> {
                     .map(|end| end + TAU * f64::from(turn)),
             );
         }
-        cuts.retain(|c| *c > SHORTEST && *c < pair.cycle() - SHORTEST);
+        let end = pair.cycle() / f64::from(sectors);
+        cuts.retain(|c| *c > SHORTEST && *c < end - SHORTEST);
         cuts.sort_by(f64::total_cmp);
         cuts.dedup_by(|b, a| *b - *a < SHORTEST);
-        cuts.push(pair.cycle());
+        cuts.push(end);
         let mut before = self.sample(0.0)?;
         for cut in cuts {
             let after = self.sample(cut)?;
@@ -184,6 +198,7 @@ impl Prover<'_> {
         };
         let mut out = vec![first];
         let mut known = vec![holder.feature];
+        let mut followed = Vec::new();
         for sample in samples {
             for (feature, meeting) in &sample.near[side as usize] {
                 if known.contains(feature) {
@@ -196,9 +211,61 @@ impl Prover<'_> {
                     return Found::Cut(phi);
                 }
                 out.extend(self.meeting_of(&track, side));
+                followed.push(track);
+            }
+        }
+        followed.push(holder.clone());
+        for track in followed {
+            for (feature, meeting) in self.past_joints(&track) {
+                if known.contains(&feature) {
+                    continue;
+                }
+                known.push(feature);
+                let track = Track::new(&self.meshing, feature, (from, to), (middle, meeting));
+                out.extend(track.and_then(|track| self.meeting_of(&track, side)));
             }
         }
         Found::Held { seat, tracks: out }
+    }
+
+    /// Pieces beyond the joints that a place of driver and driven gear is near, with the joint's parameter on each.
+    fn beyond(&self, parts: (usize, usize), at: (f64, f64)) -> (Option<End>, Option<End>) {
+        let (driver, driven) = (&self.meshing.driver.parts, &self.meshing.driven.parts);
+        (
+            beyond(driver.len(), parts.0, at.0),
+            beyond(driven.len(), parts.1, at.1),
+        )
+    }
+
+    /// Pieces beyond joints near a meeting, and those that end at its corner: continued, they meet a little beyond their ends.
+    fn past_joints(&self, track: &Track) -> Vec<(Feature, Meeting)> {
+        let Some(meeting) = track.middle() else {
+            return Vec::new();
+        };
+        let (parts, at) = (track.feature.parts, meeting.at);
+        let next = self.beyond(parts, at);
+        let here = ((parts.0, at.0), (parts.1, at.1));
+        let pairs = [
+            track.feature.corner.map(|_| here),
+            next.0.map(|first| (first, here.1)),
+            next.1.map(|second| (here.0, second)),
+            next.0.zip(next.1),
+        ];
+        pairs
+            .into_iter()
+            .flatten()
+            .map(|((i, u), (j, v))| {
+                let feature = Feature {
+                    parts: (i, j),
+                    corner: None,
+                };
+                let meeting = Meeting {
+                    at: (u, v),
+                    angle: meeting.angle,
+                };
+                (feature, meeting)
+            })
+            .collect()
     }
 
     /// A followed feature as it stands in the certificate, if its series are exact.
@@ -229,6 +296,24 @@ impl Prover<'_> {
                         .then(|| [below + apart[1], above - apart[1]])
                         .into_iter()
                         .flatten(),
+                );
+                // Past a joint nearby it is the curvature of the next piece that counts.
+                let next = self.beyond(parts, at);
+                let next = [
+                    next.0
+                        .map(|(i, end)| bend(&self.meshing.driver.parts[i].segment.at(end))),
+                    next.1
+                        .map(|(i, end)| -bend(&self.meshing.driven.parts[i].segment.at(end))),
+                ];
+                let limits = [
+                    (Some(above), next[1]),
+                    (next[0], Some(below)),
+                    (next[0], next[1]),
+                ];
+                all.extend(
+                    limits
+                        .into_iter()
+                        .filter_map(|(above, below)| Some(0.5 * (above? + below?))),
                 );
                 all
             }
@@ -283,6 +368,19 @@ impl Prover<'_> {
         }
         Ok(out)
     }
+}
+
+/// A piece, and the parameter of one of its ends.
+type End = (usize, f64);
+
+/// Piece beyond the joint near a place of a piece, and the joint's parameter on it.
+fn beyond(count: usize, piece: usize, at: f64) -> Option<End> {
+    let next = if at > 0.0 {
+        piece + 1
+    } else {
+        piece + count - 1
+    };
+    (at.abs() > JOINT).then_some((next % count, -at.signum()))
 }
 
 /// Outcome of a search along a stretch on one side.

@@ -135,7 +135,7 @@ fn gear(
     block.document = "Part drawing".into();
     block.material = part.gear.body().material.clone();
     block.mass = mass(super::arrangement::mass(part.gear) * 1e3);
-    let data = tables::data(part, options.meshing);
+    let data = tables::data(part, &options.found);
     let details: Vec<Draft> = tooth::extremes(part)
         .into_iter()
         .zip(['C', 'D'])

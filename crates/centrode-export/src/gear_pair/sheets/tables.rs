@@ -2,21 +2,20 @@
 
 use super::part::{Part, degrees};
 use crate::gear_pair::arrangement;
-use crate::machine::proved;
 use crate::{
-    Meshing,
     drawing::Anchor,
     sheet::{Table, broken, fixed, number, range},
 };
-use centrode_mechanism::gear::{
-    CurvatureRange, GearPair, Member, PinFault, ToolKind, design::Addendum,
+use centrode_mechanism::{
+    gear::{CurvatureRange, GearPair, Member, PinFault, ToolKind, design::Addendum},
+    machine::Datum,
 };
 
 /// Most points of the contour on paper.
 const POINTS: usize = 138;
 
 /// The gear data, in the order of ISO 1340 as far as it goes.
-pub(super) fn data(part: &Part<'_>, meshing: Option<Meshing>) -> Table {
+pub(super) fn data(part: &Part<'_>, found: &[Datum]) -> Table {
     let (pair, gear) = (part.pair, part.gear);
     let teeth = pair.teeth();
     let tool = &teeth.tool;
@@ -77,8 +76,7 @@ pub(super) fn data(part: &Part<'_>, meshing: Option<Meshing>) -> Table {
         None => mate_name(pair, mate),
     };
     rows.add("Mate", "", mate);
-    let proved = meshing.as_ref().map(proved).unwrap_or_default();
-    for datum in arrangement::of_both(pair).iter().chain(&proved) {
+    for datum in arrangement::of_both(pair).iter().chain(found) {
         rows.add(&datum.name, &datum.symbol, &datum.value);
     }
     rows.add("Accuracy class", "", body.accuracy.clone());

@@ -7,15 +7,15 @@ mod view;
 
 use centrode_geometry::Tolerance;
 use centrode_mechanism::design::SheetSize;
-use centrode_mechanism::machine::{Column, Datum, Machine, Place};
+use centrode_mechanism::machine::{Column, Machine, Place};
 
 use super::parts::parts_list;
+use crate::SheetOptions;
 use crate::drawing::Anchor;
 use crate::sheet::{
     Corner, Piece, Scale, Sheet, SheetError, Table, TitleBlock, broken, compose, fixed, mass,
-    number, range,
+    number,
 };
-use crate::{Meshing, SheetOptions};
 use axes::Length;
 use scene::Scene;
 use view::View;
@@ -112,10 +112,9 @@ fn balloons(machine: &Machine) -> Vec<(Place, String)> {
     all
 }
 
-/// Data of the machine, and of its teeth where their contact was proved.
+/// Data of the machine, and what checks found.
 fn data(machine: &Machine, options: &SheetOptions) -> Table {
-    let proved = options.meshing.as_ref().map(proved).unwrap_or_default();
-    let told = machine.arrangement.data.iter().chain(&proved);
+    let told = machine.arrangement.data.iter().chain(&options.found);
     Table {
         title: "Data".into(),
         columns: vec![Anchor::Left; 3],
@@ -125,19 +124,6 @@ fn data(machine: &Machine, options: &SheetOptions) -> Table {
         ..Table::default()
     }
     .filled()
-}
-
-/// Findings of the contact analysis as data.
-pub(crate) fn proved(meshing: &Meshing) -> Vec<Datum> {
-    let backlash = range(meshing.backlash, 4);
-    vec![
-        Datum::new("Backlash, as proved, normal", "jn", backlash),
-        Datum::new(
-            "Pairs of teeth in contact",
-            "",
-            range(meshing.contact_ratio, 0),
-        ),
-    ]
 }
 
 fn lengths(all: Vec<Length>) -> Table {

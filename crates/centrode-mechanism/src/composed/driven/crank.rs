@@ -46,7 +46,14 @@ impl<'a> Crank<'a> {
             return Err(GearDriveError::Turns { turns });
         }
         let body = design.bodies.get(&spec.body);
-        let body = body.ok_or_else(|| no("is no body of bodies"))?;
+        let body = body.ok_or_else(|| {
+            let dyads = design.dyads.iter();
+            let mut makers = dyads.filter(|(_, dyad)| dyad.bodies.contains(&spec.body));
+            match makers.next() {
+                Some((dyad, _)) => no(&format!("is tied by dyads.{dyad}")),
+                None => no("is no body of bodies"),
+            }
+        })?;
         let on = body.on.as_deref().filter(|on| on.starts_with("frame."));
         let on = on.ok_or_else(|| no("turns on no point of the frame"))?;
         if body.slides.is_some() {

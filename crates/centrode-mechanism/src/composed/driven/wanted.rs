@@ -51,6 +51,13 @@ pub(super) fn wanted(composed: &Composed) -> Result<Output, GearDriveError> {
     Ok((Arc::new(output), is_angle(&figure), sections))
 }
 
+/// Names of the goals that say nothing of how the output shall go.
+pub(super) fn left_alone(composed: &Composed) -> Vec<String> {
+    let goals = composed.design().goals.iter().zip(composed.figures());
+    let left = goals.filter(|((_, goal), figure)| section(goal, figure).is_none());
+    left.map(|((name, _), _)| name.clone()).collect()
+}
+
 fn is_angle(figure: &ComposedFigure) -> bool {
     matches!(figure, ComposedFigure::Angle(_) | ComposedFigure::Swing(_))
 }

@@ -1,5 +1,7 @@
 use thiserror::Error;
 
+use crate::digits::told;
+
 /// A value of a description that breaks a rule.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[error("{key} {rule}")]
@@ -18,13 +20,13 @@ pub enum Rule {
     #[error("must be a finite number, not {0}")]
     NotFinite(f64),
     /// Zero or less where a size is needed.
-    #[error("must be greater than 0, not {0}")]
+    #[error("must be greater than 0, not {}", told(*.0))]
     NotPositive(f64),
     /// Less than zero.
-    #[error("must not be negative, but is {0}")]
+    #[error("must not be negative, but is {}", told(*.0))]
     Negative(f64),
     /// Outside a range.
-    #[error("must be {least} to {greatest}{unit}, not {value}{unit}")]
+    #[error("must be {} to {}{unit}, not {}{unit}", told(*least), told(*greatest), told(*value))]
     OutOfRange {
         /// Value given.
         value: f64,
@@ -36,7 +38,7 @@ pub enum Rule {
         unit: &'static str,
     },
     /// A range whose ends are not in order.
-    #[error("must be a range from less to more, not {0} to {1}")]
+    #[error("must be a range from less to more, not {} to {}", told(*.0), told(*.1))]
     NotInOrder(f64, f64),
     /// Two keys that exclude each other.
     #[error("cannot be given together with {0}")]

@@ -1,5 +1,7 @@
 //! The total law made by two stages of gears.
 
+mod conjugacy;
+mod fourier;
 mod mildest;
 mod one_pair;
 mod powers;
@@ -10,6 +12,7 @@ use std::sync::Arc;
 
 use thiserror::Error;
 
+pub(super) use self::powers::SHARE;
 use super::TwoBar;
 use crate::transmission::TransmissionError;
 
@@ -66,6 +69,7 @@ pub struct Split {
     second: StageLaw,
     planet_offset: f64,
     idler_offset: f64,
+    miss: f64,
 }
 
 impl fmt::Debug for Split {
@@ -108,12 +112,13 @@ pub enum SplitError {
     },
     /// The law of one pair does not come out within its limit.
     #[error(
-        "with one pair twice the planet must lag by {turns:.6} turns, near {numerator}/{denominator}, and the law found misses its equation by {miss:.1e} rad: take another bend, or split by powers"
+        "with one pair twice the planet must lag by {turns:.6} turns, near {numerator}/{denominator}, and {}: take another bend, or split by powers",
+        if miss.is_finite() { format!("the law found misses its equation by {miss:.1e} rad") } else { "no law that always advances was found".to_owned() }
     )]
     Inexact {
         /// Rotation number wanted, turns.
         turns: f64,
-        /// Greatest miss, rad.
+        /// Greatest miss, rad; infinite where the law found turns back.
         miss: f64,
         /// Numerator of the nearest fraction.
         numerator: i64,
@@ -180,6 +185,12 @@ impl Split {
     #[must_use]
     pub fn idler_offset(&self) -> f64 {
         self.idler_offset
+    }
+
+    /// Greatest miss of the equation of one pair twice among 2,000 places, rad; zero of two pairs, which solve theirs.
+    #[must_use]
+    pub fn miss(&self) -> f64 {
+        self.miss
     }
 
     /// Driven angles of both stages at equal steps of a turn of their drivers, both ends included and the first zero, rad.

@@ -3,7 +3,8 @@ use std::sync::Arc;
 
 use centrode_geometry::{bracketed_root, checkpoint};
 
-use super::{EXACT, Split, SplitError, SplitKind};
+use super::conjugacy::{Conjugacy, LEAST_DIVISOR};
+use super::{Split, SplitError, SplitKind};
 use crate::machine::Piecewise;
 use crate::reverse::TwoBar;
 use crate::transmission::Transmission as _;
@@ -11,75 +12,91 @@ use crate::transmission::Transmission as _;
 /// Greatest denominator of a fraction near which no law is sought, and how near, in turns.
 const GREATEST_DENOMINATOR: i64 = 11;
 const NEAREST: f64 = 1e-3;
-/// Steps of the orbit by which the offset is sought, and of the one that measures the rotation number found.
+/// Greatest denominator of a fraction at which no law is sought: of such a period harmonics that matter are not determined.
+const CLOSED: u32 = 314;
+/// Steps of the orbits by which the offset is sought, and of the one that is the first guess of the law.
 const SOUGHT: u32 = 4_000;
-const MEASURED: u32 = 100_000;
-/// Nodes of the law, about: steps of all orbits.
-const NODES: u32 = 20_000;
-/// Steps of an orbit: a denominator of a fraction near the rotation number, so that they are spread evenly. Where the rotation
-/// number is a fraction itself they are its denominator.
-const LONG: i64 = 300;
-const SHORT: i64 = 12;
-/// Laps of an orbit over which its place in the law is averaged.
-const LAPS: u32 = 60;
+/// Steps of the grids on which the law is sought, each from the one before; the last is for rough laws only.
+const GRIDS: [usize; 4] = [1 << 10, 1 << 13, 1 << 15, 1 << 17];
 /// Nodes of an interpolating polynomial.
 const LOCAL: usize = 6;
-/// Distance of neighbouring nodes that are one, as a share of their mean distance.
-const NEAR: f64 = 0.05;
-/// Greatest gap of neighbouring nodes: more is an orbit that closes.
-const WIDEST: f64 = 0.02;
-/// Places at which the law is checked, and its greatest miss, rad.
+/// Places at which the law is checked, its greatest miss, and the one at which no finer grid is tried, rad.
 const CHECKS: u32 = 2_000;
 const GREATEST_MISS: f64 = 1e-7;
+const FINE: f64 = 1e-11;
 
 /// Splits into one pair twice: `f(G(psi) + offset) = f(psi) - c` with c = bend + pi, an equation of Abel.
 ///
 /// f turns the map G + offset of the circle into the turn by -c, so the offset is the one at which the rotation number is -c;
-/// it grows with the offset. Along an orbit f falls by c each step; the average of `G^k(x) + k c` gives f at its start, but for
-/// one constant. Averages are weighted by exp(-1/(t (1 - t))): for smooth f they converge faster than any power of the number
-/// of steps (Das, Saiki, Sander and Yorke, Nonlinearity 30, 2017). Where c is a fraction of a turn many laws do it, if any;
-/// the average is the smoothest.
+/// it grows with the offset, and a first one is sought by averages along orbits, weighted by exp(-1/(t (1 - t))) (Das, Saiki,
+/// Sander and Yorke, Nonlinearity 30, 2017). Along an orbit f falls by c each step: its points are a first guess of the inverse
+/// of f, which Newton steps on its harmonics and the offset then bring to rounding. They divide by `e^(i k c) - 1`: near a
+/// fraction with the denominator k digits are lost, and none but the smoothest law is known at one.
 pub(super) fn split(chain: &TwoBar, bend: f64) -> Result<Split, SplitError> {
     let turns = (bend + PI) / TAU;
-    let resonance = |(numerator, denominator): (i64, i64)| SplitError::Resonance {
-        turns,
-        numerator,
-        denominator,
-        miss: (turns - numerator as f64 / denominator as f64).abs(),
-    };
-    if let Some(fraction) = fraction_near(turns) {
-        return Err(resonance(fraction));
+    if let Some((numerator, denominator)) = fraction_near(turns) {
+        let miss = (turns - numerator as f64 / denominator as f64).abs();
+        return Err(SplitError::Resonance {
+            turns,
+            numerator,
+            denominator,
+            miss,
+        });
     }
     let law = chain.law()?;
     let wanted = -(bend + PI);
     let mut map = CircleMap { law, offset: 0.0 };
-    map.offset = map.offset_for(wanted);
-    let step = map.polish(wanted);
-    let fraction = convergent(turns);
-    let orbits = Orbits::of(&map, step, turns).ok_or_else(|| resonance(fraction))?;
-    let check = |i: u32| {
-        let x = TAU * f64::from(i) / f64::from(CHECKS);
-        (orbits.at(map.at(x)) - orbits.at(x) - wanted).abs()
-    };
-    let miss = (0..CHECKS).map(check).fold(0.0, f64::max);
-    if miss > GREATEST_MISS {
-        let (numerator, denominator) = fraction;
-        return Err(SplitError::Inexact {
-            turns,
-            miss,
-            numerator,
-            denominator,
-        });
+    let offset = map.offset_for(wanted);
+    map.offset = offset;
+    let guess = map.guess(wanted, GRIDS[0]);
+    let mut found = Conjugacy::new(wanted, offset, &guess);
+    let map = |x: f64| map.law.at(x).position;
+    let mut best: Option<(f64, f64, Nodes)> = None;
+    for (level, count) in GRIDS.into_iter().enumerate() {
+        found = found.finer(count);
+        let rough = found.refine(map);
+        if level + 2 < GRIDS.len() {
+            continue;
+        }
+        let Some(nodes) = Nodes::of(&found.rests) else {
+            break;
+        };
+        let check = |i: u32| {
+            let x = TAU * f64::from(i) / f64::from(CHECKS);
+            (nodes.at(map(x) + found.offset) - nodes.at(x) - wanted).abs()
+        };
+        let miss = (0..CHECKS).map(check).fold(0.0, f64::max);
+        if best.as_ref().is_none_or(|(least, ..)| miss < *least) {
+            best = Some((miss, found.offset, nodes));
+        }
+        // What is left on the grid itself does not go by a finer one.
+        if miss <= FINE || rough > FINE {
+            break;
+        }
     }
-    let law: super::StageLaw = Arc::new(move |x| orbits.at(x));
-    Ok(Split {
-        kind: SplitKind::OnePair,
-        bend,
-        first: Arc::clone(&law),
-        second: law,
-        planet_offset: map.offset,
-        idler_offset: 0.0,
-    })
+    match best {
+        Some((miss, offset, nodes)) if miss <= GREATEST_MISS => {
+            let law: super::StageLaw = Arc::new(move |x| nodes.at(x));
+            Ok(Split {
+                kind: SplitKind::OnePair,
+                bend,
+                first: Arc::clone(&law),
+                second: law,
+                planet_offset: offset,
+                idler_offset: 0.0,
+                miss,
+            })
+        }
+        best => {
+            let (numerator, denominator) = convergent(turns);
+            Err(SplitError::Inexact {
+                turns,
+                miss: best.map_or(f64::INFINITY, |(miss, ..)| miss),
+                numerator,
+                denominator,
+            })
+        }
+    }
 }
 
 /// The total law with an offset, as a map of the circle onto itself.
@@ -93,12 +110,10 @@ impl CircleMap {
         self.law.at(x).position + self.offset
     }
 
-    /// Weighted averages along an orbit, rad: of its steps, which is the rotation number, and of its points less so many times
-    /// the step given.
-    fn averages(&self, start: f64, steps: u32, step: f64) -> [f64; 2] {
-        let (mut moved, mut placed, mut weights) = (0.0, 0.0, 0.0);
-        // Place beyond that of an even turn.
-        let (mut x, mut beyond) = (start, start);
+    /// Rotation number, rad a step: weighted average of the steps of an orbit.
+    fn rotation(&self, steps: u32) -> f64 {
+        let (mut moved, mut weights) = (0.0, 0.0);
+        let mut x = 0.0;
         for k in 0..steps {
             if k.is_multiple_of(1024) {
                 checkpoint();
@@ -107,36 +122,46 @@ impl CircleMap {
             let weight = (-1.0 / (t * (1.0 - t))).exp();
             let next = self.at(x);
             moved += weight * (next - x);
-            placed += weight * beyond;
             weights += weight;
-            beyond += next - x - step;
             x = next.rem_euclid(TAU);
         }
-        [moved / weights, placed / weights]
+        moved / weights
     }
 
-    /// Rotation number, rad a step.
-    fn rotation(&self, steps: u32) -> f64 {
-        self.averages(0.0, steps, 0.0)[0]
-    }
-
-    /// Brings the rotation number nearer to the one wanted by secant steps over many more points; returns what it is.
-    fn polish(&mut self, wanted: f64) -> f64 {
-        let mut slope = 1.0;
-        let mut now = self.rotation(MEASURED);
-        for _ in 0..2 {
-            let (before, offset) = (now, self.offset);
-            self.offset -= (now - wanted) / slope;
-            now = self.rotation(MEASURED);
-            let moved = self.offset - offset;
-            if moved.abs() <= 4.0 * f64::EPSILON * TAU || now == before {
-                break;
-            }
-            if ((now - before) / moved) > 0.0 {
-                slope = (now - before) / moved;
-            }
+    /// Inverse of the law less its argument at equal steps of a turn, by the points of an orbit and lines between them.
+    fn guess(&self, step: f64, count: usize) -> Vec<f64> {
+        let mut x = 0.0;
+        let mut turned = 0.0;
+        let mut nodes: Vec<(f64, f64)> = Vec::with_capacity(SOUGHT as usize + 2);
+        for k in 0..SOUGHT {
+            nodes.push((x, f64::from(k) * step - turned));
+            let next = self.at(x);
+            let whole = (next / TAU).floor() * TAU;
+            (x, turned) = (next - whole, turned + whole);
         }
-        now
+        nodes.sort_by(|a, b| a.0.total_cmp(&b.0));
+        // An orbit of another rotation number is not quite in order.
+        let mut reached = f64::NEG_INFINITY;
+        for (_, f) in &mut nodes {
+            reached = reached.max(*f);
+            *f = reached;
+        }
+        let shifted = |(x, f): (f64, f64), turns: f64| (x + turns * TAU, f + turns * TAU);
+        let (first, last) = (nodes[0], nodes[nodes.len() - 1]);
+        nodes.insert(0, shifted(last, -1.0));
+        nodes.push(shifted(first, 1.0));
+        let start = nodes[0].1;
+        let at = |i: usize| {
+            let theta = TAU * i as f64 / count as f64;
+            let turns = ((theta - start) / TAU).floor();
+            let inside = theta - turns * TAU;
+            let after = nodes.partition_point(|node| node.1 <= inside);
+            let after = after.clamp(1, nodes.len() - 1);
+            let ((x, f), (x2, f2)) = (nodes[after - 1], nodes[after]);
+            let share = if f2 > f { (inside - f) / (f2 - f) } else { 0.0 };
+            x + share.clamp(0.0, 1.0) * (x2 - x) - inside
+        };
+        (0..count).map(at).collect()
     }
 
     /// Offset at which the rotation number is the one wanted, rad.
@@ -163,76 +188,36 @@ impl CircleMap {
     }
 }
 
-/// Law at the points of some orbits in the order of their places in the turn.
-struct Orbits {
+/// Law at places of the turn.
+struct Nodes {
     /// Places, with some repeated a turn before and after.
     places: Vec<f64>,
     /// Law less its argument there.
     rests: Vec<f64>,
 }
 
-impl Orbits {
-    /// None where the points are not dense, or not in the order of the turn by the step.
-    fn of(map: &CircleMap, step: f64, turns: f64) -> Option<Self> {
-        let length = length(turns)?;
-        let first = Self::walk(map, (0.0, 0.0), step, length);
-        // Gaps of its points have two sizes or three, of which the greatest is less than any two side by side: orbits that
-        // start over the first two gaps leave none.
-        let mut ahead: Vec<f64> = first.iter().map(|node| node.0).collect();
-        ahead.sort_by(f64::total_cmp);
-        let next = *ahead.get(2)?;
-        let count = 2 * NODES.div_ceil(length);
-        let mut nodes = Vec::with_capacity((count * length) as usize);
-        for i in 0..count {
-            let x = next * f64::from(i) / f64::from(count);
-            let [_, start] = map.averages(x, LAPS * length, step);
-            nodes.extend(Self::walk(map, (x, start), step, length));
+impl Nodes {
+    /// From the inverse of the law less its argument at equal steps of a turn; none where it turns back.
+    fn of(inverse: &[f64]) -> Option<Self> {
+        let count = inverse.len();
+        let theta = |i: usize| TAU * i as f64 / count as f64;
+        let place = |i: usize| theta(i) + inverse[i % count];
+        if !(0..count).all(|i| place(i + 1) > place(i)) {
+            return None;
         }
+        let mut nodes: Vec<(f64, f64)> = inverse
+            .iter()
+            .enumerate()
+            .map(|(i, rest)| (place(i).rem_euclid(TAU), -rest))
+            .collect();
         nodes.sort_by(|a, b| a.0.total_cmp(&b.0));
-        // Of two that nearly coincide, as where an orbit meets another's start, rounding decides which comes first.
-        let near = NEAR * TAU / f64::from(NODES);
-        nodes.dedup_by(|b, a| b.0 - a.0 < near);
-        let wraps = |nodes: &Vec<(f64, f64)>| {
-            let [first, last] = [nodes.first()?, nodes.last()?];
-            Some(first.0 + TAU - last.0)
-        };
-        if wraps(&nodes)? < near {
-            nodes.pop();
-        }
-        let count = nodes.len() as isize;
-        if count <= LOCAL as isize {
-            return None;
-        }
         let turn = |i: isize| {
-            let (x, f) = nodes[i.rem_euclid(count) as usize];
-            let shift = i.div_euclid(count) as f64 * TAU;
-            (x + shift, f + shift)
+            let (x, rest) = nodes[i.rem_euclid(count as isize) as usize];
+            (x + i.div_euclid(count as isize) as f64 * TAU, rest)
         };
-        let in_order =
-            |(a, b): ((f64, f64), (f64, f64))| a.0 < b.0 && a.1 < b.1 && b.0 - a.0 < WIDEST;
-        if !(0..count).all(|i| in_order((turn(i), turn(i + 1)))) {
-            return None;
-        }
         let margin = LOCAL as isize;
-        let all = (-margin..count + margin).map(turn);
-        let (places, rests) = all.map(|(x, f)| (x, f - x)).unzip();
+        let (places, rests) = (-margin..count as isize + margin).map(turn).unzip();
         Some(Self { places, rests })
-    }
-
-    /// Places in the turn and the law there along an orbit.
-    fn walk(map: &CircleMap, (start, law): (f64, f64), step: f64, length: u32) -> Vec<(f64, f64)> {
-        let (mut x, mut turns) = (start, 0.0);
-        let mut node = |k: u32| {
-            if k.is_multiple_of(1024) {
-                checkpoint();
-            }
-            let here = (x, law + f64::from(k) * step - TAU * turns);
-            let next = map.at(x);
-            let whole = (next / TAU).floor();
-            (x, turns) = (next - whole * TAU, turns + whole);
-            here
-        };
-        (0..length).map(&mut node).collect()
     }
 
     /// Law at any angle: by Neville's scheme through the nodes nearest to it.
@@ -254,11 +239,15 @@ impl Orbits {
     }
 }
 
-/// The fraction with a small denominator within reach of a number of turns.
+/// The fraction with a small denominator within reach of a number of turns, or with a greater one at it.
 fn fraction_near(turns: f64) -> Option<(i64, i64)> {
-    let near = |q: &i64| (turns - (turns * *q as f64).round() / *q as f64).abs() < NEAREST;
-    let q = (1..=GREATEST_DENOMINATOR).find(near)?;
-    Some(((turns * q as f64).round() as i64, q))
+    let nearest = |q: i64| (turns * q as f64).round() as i64;
+    let off = |q: i64| (turns - nearest(q) as f64 / q as f64).abs();
+    let is_near = |q: &i64| off(*q) < NEAREST;
+    let is_at = |q: &i64| TAU * off(*q) * (*q as f64) < LEAST_DIVISOR;
+    let near = (1..=GREATEST_DENOMINATOR).find(is_near);
+    let q = near.or_else(|| (1..=i64::from(CLOSED)).find(is_at))?;
+    Some((nearest(q), q))
 }
 
 /// Convergents of the continued fraction with denominators up to 10,000.
@@ -295,16 +284,4 @@ fn convergent(turns: f64) -> (i64, i64) {
     let all = convergents(turns).into_iter();
     let nearest = all.min_by(|a, b| closeness(a).total_cmp(&closeness(b)));
     nearest.unwrap_or((turns.round() as i64, 1))
-}
-
-/// Steps of an orbit that spreads evenly over the turn, if there is one.
-fn length(turns: f64) -> Option<u32> {
-    let all = convergents(turns);
-    let (p, q) = *all.last()?;
-    let length = if (turns - p as f64 / q as f64).abs() < EXACT {
-        q
-    } else {
-        all.iter().map(|c| c.1).find(|&q| q >= LONG).unwrap_or(q)
-    };
-    (length >= SHORT).then_some(length as u32)
 }

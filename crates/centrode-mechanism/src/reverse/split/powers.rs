@@ -8,7 +8,7 @@ use crate::reverse::TwoBar;
 use crate::transmission::{Inverse, Transmission as _};
 
 /// Exponent of the ratio in the first stage: each takes half of its logarithm.
-const SHARE: f64 = 0.5;
+pub(in crate::reverse) const SHARE: f64 = 0.5;
 /// Size of an integrand beyond its own below which its digits are rounding.
 const NOISE: f64 = 100.0;
 
@@ -66,5 +66,6 @@ pub(super) fn split_with(
         planet_offset: 0.0,
         // Both laws are one and the same along the path.
         idler_offset: bend + PI,
+        miss: 0.0,
     })
 }

@@ -3,7 +3,10 @@ use std::f64::consts::{PI, TAU};
 use centrode_geometry::Point;
 
 use super::{drawn, points, published, published_path};
-use crate::reverse::{AxisFault, AxisMap, AxisRange, ChainJet, PossibleAxis, TwoBar, WantedPath};
+use crate::reverse::{
+    AxisFault, AxisMap, AxisRange, ChainJet, PossibleAxis, ReversedMachine, Split, SplitKind,
+    TwoBar, WantedPath,
+};
 use crate::three_arm::design::Direction;
 use crate::transmission::Transmission as _;
 
@@ -94,6 +97,57 @@ fn derivatives_are_those_of_the_angles_everywhere() {
     }
 }
 
+/// Speeds with two derivatives, beside both extremes too, where they are limits.
+#[test]
+fn derivatives_of_the_speeds_are_those_of_the_speeds() {
+    let (chain, path) = (chain(260.0, 160.0), drawn());
+    let [far, near] = [chain.stretched(), folded(&chain)];
+    let beside = [0.0, 1e-9, -1e-9, 1e-5, -2e-4, 3e-3, -0.02, 0.3];
+    let places = beside.iter().flat_map(|h| [far + h, near + h]);
+    let step = 1e-3;
+    for t in places.chain((0..130).map(|i| 0.1 * f64::from(i) + 0.05)) {
+        // The third derivative of the path jumps at whole numbers.
+        if (t - t.round()).abs() < 2.0 * step {
+            continue;
+        }
+        let series = chain.speed_series::<3>(t, &path.at(t));
+        let at = |t: f64| chain.speeds(t, &path.at(t));
+        let [low, here, high] = [t - step, t, t + step].map(at);
+        for k in 0..2 {
+            let [value, slope, bend, _] = series[k].derivatives();
+            assert_eq!(value, here[k]);
+            let first = (high[k] - low[k]) / (2.0 * step);
+            let second = (high[k] - 2.0 * here[k] + low[k]) / (step * step);
+            assert!(
+                (first - slope).abs() < 2e-5 * (1.0 + slope.abs()),
+                "{t}: {first} {slope}"
+            );
+            assert!(
+                (second - bend).abs() < 2e-3 * (1.0 + bend.abs()),
+                "{t}: {second} {bend}"
+            );
+        }
+    }
+}
+
+/// The pitch curves of the machine made are rolled from tables of its laws.
+#[test]
+fn the_least_radius_is_that_of_the_pitch_curves_rolled() {
+    for (x, y) in [(210.0, 200.0), (260.0, 160.0)] {
+        let (chain, bend) = (chain(x, y), 40.0_f64.to_radians());
+        let found = chain.least_radius(bend);
+        let split = Split::new(&chain, SplitKind::Powers, bend).expect("a split");
+        let made = ReversedMachine::new(&chain, &split, 1, Some(5000)).expect("a machine");
+        let rolled = made.least_radii.iter().flatten();
+        let rolled = rolled.fold(f64::INFINITY, |least, r| least.min(*r));
+        assert!((found / rolled - 1.0).abs() < 2e-4, "{found} {rolled}");
+        // The sharpness is that of axes one apart.
+        let sharpest = chain.sharpness();
+        let leg = 0.5 * chain.carrier() / (0.5 * bend).cos();
+        assert!((leg / sharpest.value - found).abs() < 1e-12 * found);
+    }
+}
+
 fn folded(chain: &TwoBar) -> f64 {
     // Where the arm has made half a turn.
     let inverse = chain.by_planet().expect("a law");
@@ -161,6 +215,16 @@ fn the_map_of_the_drawn_path_has_both_kinds_of_axes() {
         if found.is_ok() {
             turns_one_way(&path, range.axis(n as u32 % 33, n as u32 / 33));
         }
+    }
+    // In the map as at the place itself: the path has few pieces.
+    for (x, y) in [(15, 20), (30, 18), (32, 18)] {
+        let axis = range.axis(x, y);
+        let found = &map.found()[(y * 33 + x) as usize];
+        let (Ok(found), Ok(chain)) = (found, TwoBar::new(&path, axis, None)) else {
+            continue;
+        };
+        let [one, other] = [found.least_radius(0.7), chain.least_radius(0.7)];
+        assert!((one - other).abs() < 1e-12 * other, "{one} {other}");
     }
     let mildest = map.mildest(&path).expect("a chain");
     let of_grid = map.found().iter().flatten();

@@ -85,7 +85,31 @@ fn the_pair_of_the_published_machine_comes_back_from_its_path() {
         let psi = TAU * f64::from(i) / 1000.0;
         let planet = law.at(psi).position + split.planet_offset();
         let miss = split.first(planet) - split.first(psi) + bend + PI;
-        assert!(miss.abs() < 1e-9, "{psi}: {miss:e}");
+        assert!(miss.abs() < 1e-10, "{psi}: {miss:e}");
+    }
+}
+
+/// On a path of splines the law of one pair is rough: its breaks are those of the path and all their images.
+#[test]
+fn one_pair_of_the_drawn_path_solves_its_equation() {
+    for (x, y, bend) in [
+        (260.0, 160.0, 40.3_f64),
+        (260.0, 160.0, -53.17),
+        (250.0, 170.0, 65.2),
+    ] {
+        let chain = TwoBar::new(&drawn(), Point::new(x, y), None).expect("a chain");
+        let bend = bend.to_radians();
+        let split = Split::new(&chain, SplitKind::OnePair, bend).expect("a split");
+        let law = chain.law().expect("a law");
+        let mut worst = 0.0_f64;
+        for i in 0..7919 {
+            let psi = TAU * f64::from(i) / 7919.0;
+            let planet = law.at(psi).position + split.planet_offset();
+            let miss = split.first(planet) - split.first(psi) + bend + PI;
+            worst = worst.max(miss.abs());
+        }
+        assert!(worst < 1e-10, "({x}, {y}) {bend}: {worst:e}");
+        assert!(split.miss() < 1e-10, "{:e}", split.miss());
     }
 }
 

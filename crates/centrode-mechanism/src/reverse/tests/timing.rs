@@ -132,6 +132,10 @@ fn what_no_crank_can_do_is_refused_by_name() {
     );
     is(error(&[rest([0.0, 90.0], 0.0)]), "a rest within 0");
     is(
+        error(&[rest([0.0, 90.0], 1e-12)]),
+        "a rest within 1e-12 of a stroke of 60: take a band above 6e-8",
+    );
+    is(
         error(&[rest([0.0, 90.0], 31.0)]),
         "below half of the stroke",
     );
@@ -284,7 +288,11 @@ fn machines_that_cannot_be_driven_so_are_refused_with_the_reason() {
     };
     let same = |text: String| text;
     let is = |told: String, words: &str| assert!(told.contains(words), "{told}");
-    is(error(&same, "rod"), "rod is no body of bodies");
+    is(
+        error(&same, "rod"),
+        "rod is tied by dyads.ram: a crank turns",
+    );
+    is(error(&same, "fan"), "fan is no body of bodies");
     is(
         error(&|t| t.replace("ratio = 1", "ratio = 2"), "crank"),
         "crank has another law",
@@ -328,6 +336,13 @@ fn machines_that_cannot_be_driven_so_are_refused_with_the_reason() {
         let error = GearDrive::new(&slider(same), &spec).expect_err("no drive");
         assert!(matches!(error, GearDriveError::Distance { .. }), "{error}");
     }
-    let error = GearDrive::new(&slider(same), &asked(f64::NAN)).expect_err("no drive");
-    assert_eq!(error, GearDriveError::Direction);
+    for direction in [f64::NAN, 1e18, -6.4] {
+        let error = GearDrive::new(&slider(same), &asked(direction)).expect_err("no drive");
+        assert!(matches!(error, GearDriveError::Direction { .. }), "{error}");
+    }
+    let made = GearDrive::new(&slider(same), &asked(0.0)).expect("a drive");
+    assert_eq!(made.left_alone, ["held"]);
+    let spanless = |text: String| text.replace("within_deg = [160, 210]\n", "");
+    let made = GearDrive::new(&slider(spanless), &asked(0.0)).expect("a drive");
+    assert_eq!(made.left_alone, ["held", "rest"]);
 }

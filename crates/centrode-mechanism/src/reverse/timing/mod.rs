@@ -14,6 +14,7 @@ use self::free::Free;
 use self::order::{Placed, Swing};
 use self::search::Shape;
 use crate::degrees;
+use crate::digits::told;
 use crate::transmission::{MotionJet, Transmission};
 
 /// Even parts of a turn, in each of which the ratio has few extremes.
@@ -81,7 +82,7 @@ pub enum TimingError {
     #[error("nothing is wanted of the output")]
     Nothing,
     /// An output that does not come back.
-    #[error("the output moves by {advance} in a turn of the crank and does not come back")]
+    #[error("the output moves by {} in a turn of the crank and does not come back", told(*advance))]
     Advances {
         /// Growth in a turn, mm or rad.
         advance: f64,
@@ -96,7 +97,8 @@ pub enum TimingError {
     },
     /// A course that reaches an end of the stroke or goes beyond.
     #[error(
-        "{name}: the output shall go evenly from {from} to {to}, but it moves from {least} to {greatest}, and at both ends it stands: stay between them"
+        "{name}: the output shall go evenly from {} to {}, but it moves from {} to {}, and at both ends it stands: stay between them",
+        told(*from), told(*to), told(*least), told(*greatest)
     )]
     Beyond {
         /// Section.
@@ -112,7 +114,8 @@ pub enum TimingError {
     },
     /// A course that goes nowhere.
     #[error(
-        "{name}: the output shall stay at {place}: gears never stand still; ask for a rest at an end of the stroke instead"
+        "{name}: the output shall stay at {}: gears never stand still; ask for a rest at an end of the stroke instead",
+        told(*place)
     )]
     Stands {
         /// Section.
@@ -122,7 +125,8 @@ pub enum TimingError {
     },
     /// A band that is no part of the stroke.
     #[error(
-        "{name}: a rest within {band} of a stroke of {stroke}: take a band above 0 and below half of the stroke"
+        "{name}: a rest within {} of a stroke of {}: take a band above {} and below half of the stroke",
+        told(*band), told(*stroke), told(*least)
     )]
     Band {
         /// Section.
@@ -131,6 +135,8 @@ pub enum TimingError {
         band: f64,
         /// Stroke.
         stroke: f64,
+        /// Least band: below it the gears would stand within rounding.
+        least: f64,
     },
     /// Sections of the input that touch, overlap or are none.
     #[error(

@@ -13,6 +13,8 @@ const ROUNDING: f64 = 1e-9;
 
 /// Share of the stroke by which a rest stays within its band.
 const SLACK: f64 = 1e-6;
+/// Least band of a rest, as a share of the stroke: the crank turns by the root of it, and a law in a table has digits left.
+const LEAST_BAND: f64 = 1e-9;
 
 /// An output with one greatest and one least place in a turn.
 #[derive(Clone, Debug)]
@@ -202,10 +204,15 @@ fn angles(
         }
         Wanted::Rest(band) => {
             let stroke = greatest - least;
-            let is_part = band > 0.0 && band < 0.5 * stroke;
+            let least = LEAST_BAND * stroke;
+            let is_part = band >= least && band < 0.5 * stroke;
             if !is_part {
-                let name = name();
-                return Err(TimingError::Band { name, band, stroke });
+                return Err(TimingError::Band {
+                    name: name(),
+                    band,
+                    stroke,
+                    least,
+                });
             }
             Ok([true, false]
                 .map(|end| swing.rest(output, band, end))

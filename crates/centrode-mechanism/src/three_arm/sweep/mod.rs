@@ -7,7 +7,6 @@ use super::design::ThreeArmDesign;
 use super::figures::{elevation, swept_radius};
 use crate::gear::pitch::{Bspline, PitchSpec, Plane};
 
-mod circle;
 mod panel;
 mod path;
 mod spline;

@@ -3,7 +3,6 @@ use std::f64::consts::{PI, TAU};
 use wide::f64x4;
 
 use super::SweepError;
-use super::circle::Circle;
 use super::panel::LANES;
 use super::stage::{Param, Stage, settled};
 use super::track::{Track, lanes};
@@ -102,7 +101,6 @@ impl Machine {
 /// the carrier turns clockwise.
 #[derive(Clone, Debug)]
 pub(super) struct Path {
-    circle: Circle,
     /// Polar angles of the sun, with room for the lanes beyond the last, and their cosines and sines.
     angles: Vec<f64>,
     turns: Vec<[f64; 2]>,
@@ -121,7 +119,6 @@ impl Path {
         let turn = |i: usize| TAU * i as f64 / inputs as f64;
         let angles: Vec<f64> = (0..inputs + LANES).map(turn).collect();
         Self {
-            circle: Circle::new(),
             turns: angles.iter().map(|a| [a.cos(), a.sin()]).collect(),
             angles,
             sun: Track::new(inputs),
@@ -151,14 +148,21 @@ impl Path {
         }
         let (half_sin, half_cos) = (machine.carrier_start + 0.5 * machine.bend).sin_cos();
         let (leg, length) = (machine.leg, machine.tip_distance);
-        let tips = self.x.iter_mut().zip(&mut self.y);
-        let angles = self.angles.iter().zip(&self.chi).zip(&self.turns);
+        let start = machine.arm(0.0, 0.0) + machine.mounting;
+        let tips = self.x.chunks_mut(LANES).zip(self.y.chunks_mut(LANES));
         let mut good = true;
-        for ((x, y), ((&psi, &chi), &[cos, sin])) in tips.zip(angles) {
-            let [c, s] = self.circle.at(machine.arm(psi, chi) + machine.mounting);
-            *x = leg * (half_cos * cos - half_sin * sin) + length * c;
-            *y = leg * (half_sin * cos + half_cos * sin) + length * s;
-            good &= y.is_finite();
+        for ((x, y), first) in tips.zip((0..).step_by(LANES)) {
+            let direction =
+                lanes(&self.angles, first) - lanes(&self.chi, first) + f64x4::from(start);
+            let (sin, cos) = direction.sin_cos();
+            let turns = &self.turns[first..];
+            for (lane, (x, y)) in x.iter_mut().zip(y).enumerate() {
+                let ([c, s], [cos, sin]) =
+                    (turns[lane], [cos.as_array()[lane], sin.as_array()[lane]]);
+                *x = leg * (half_cos * c - half_sin * s) + length * cos;
+                *y = leg * (half_sin * c + half_cos * s) + length * sin;
+                good &= y.is_finite();
+            }
         }
         if good {
             Ok(())

@@ -54,7 +54,7 @@ pub(crate) struct Drive {
     #[arg(long, value_name = "NAME", default_value = "crank")]
     pub(crate) body: String,
     /// Distance of the new shaft from the crank's axis, mm
-    #[arg(long, value_name = "MM")]
+    #[arg(long, allow_negative_numbers = true, value_name = "MM")]
     pub(crate) center_distance: f64,
     /// Direction from the crank's axis to the new shaft, degrees
     #[arg(

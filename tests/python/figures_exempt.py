@@ -1,0 +1,238 @@
+"""Numbers of pages that no test in Python computes: patterns of the words around them, by the reason."""
+
+INPUT = "given: an input, a size, a number of the example"
+FORMULA = "part of a formula"
+LIMIT = "a constant of the program, or a bound that its own tests keep"
+RUST = "held by a test in Rust, in tests/published"
+PEERS = "time, measured by benches/peers/run"
+TIME = "time, measured by the bench or command named beside it"
+PROOF = "the checker's count and time, minutes each: tools/proof_checker.py"
+CAMPAIGN = "counted by the campaign named beside it"
+SIMULATED = "measured by the play script named beside it, in the simulator"
+
+EVERYWHERE = {
+    "number of a heading or an item": (r"^#* ?\d+\. ",),
+    "number of a step": (r"\[?\b[Ss]teps? \d(?:, \d and \d)?",),
+    "year": (r"\b(?:of|in|The|al\.|Deb) (?:2018|2021|2022|2000)\b", r"as published in 2021"),
+    "volume, pages, year": (r"^Sources?:.*\n(?:.+\n?)*", r"Int J Agric.*\n.*DOI", r"2nd edition.*", r"^  Press, 2009."),
+    "number of an equation of the paper": (r"\(1?\d\)(?: to \(1?\d\)| and \(1?\d\))*", r"\((?:1\d)\), N"),
+    "number of a figure of the paper": (r"Figures? \d(?:, \d and \d+)?",),
+    "standard or version": (
+        r"\bISO \d+(?:-\d)?",
+        r"DIN \d+-\d",
+        r"(?:Python|CadQuery|build123d|FreeCAD|MuJoCo) \d+(?:\.\d+)?\b",
+    ),
+    "status or version": (r"\bstatus (?:at |is )?\d", r"makes it 1\.", r"3\.11 or newer"),
+    "default of --tolerance": (r"(?:tolerance of |tolerance |default of |`--tolerance`, |in mm\. )0\.001",),
+    "given by the paper": (r"m = 2\.25 mm, z = 23",),
+}
+EXEMPT = {
+    "README.md": {
+        INPUT: (r"with 0\.05 mm of it", r"5-axis"),
+        TIME: (r"^\| (?:generate; prove|whole command|beside ncgears).*",),
+    },
+    "docs/adapters.md": {
+        LIMIT: (r"1e-6 mm, are closed up: a kernel takes points 1e-7 mm",),
+        "largest seen by the test or campaign of its row": (
+            r"of 17 designs",
+            r"^\| (?:volume of|links of|joints in).*",
+        ),
+        TIME: (r"the 2018 pair", r"\| 25 ms of processor time, 9 ms"),
+    },
+    "docs/design-page.md": {
+        LIMIT: (r"slower than 40 ms", r"may have 4 MB", r"than 10 s", r"smaller than 2 MB"),
+        "time, measured by benches/browser/edits.py": (r"^\| `[\w-]+`.* \| \d+ \| \d+ \| \d+ \|",),
+    },
+    "docs/drive.md": {
+        INPUT: (r"\(or -1\)", r"\(180 degrees\)"),
+        LIMIT: (r"within 1e-7 of its stroke", r"120 at most"),
+    },
+    "docs/feeder.md": {
+        INPUT: (
+            r"angle of 40 degrees",
+            r"before 40 degrees",
+            r"tolerance of 0\.05 mm",
+            r"with 30 teeth for 30",
+            r"drives: 30 of 40",
+            r"motor of 30 r/min and a chain of 2\.7",
+            r"to 4/3",
+            r"Of 30 driven",
+            r"backlash of 0\.1 mm",
+        ),
+        LIMIT: (r"2000 random six-bars", r"at 240 inputs", r"within 2 % of the contact"),
+        SIMULATED: (r"effector is off the closed form by[^(]*\([^)]*\)",),
+        PEERS: (r"^\| .*(?:ns|evaluations|ms) \|.*",),
+    },
+    "docs/files.md": {
+        "status": (r"^\| [012] \|",),
+    },
+    "docs/how-to/shop.md": {
+        INPUT: (r"release 12", r"than 0\.01", r"of 1/"),
+    },
+    "docs/how-to/simulation.md": {
+        "a size of PyBullet": (r"margin of 1 mm",),
+    },
+    "docs/how-to/teaching.md": {
+        INPUT: (r"r = 30 .* mm", r"sin 2&phi;", r"of 3 to 1", r"Answers to 2 and 4"),
+    },
+    "docs/limits.md": {
+        LIMIT: (r"and 48 where", r"from 1e-7 mm"),
+    },
+    "docs/machine-file.md": {
+        RUST: (r"to 1e-9\.",),
+        INPUT: (r"at 30 degrees, at 5 mm",),
+    },
+    "docs/machine.md": {
+        LIMIT: (r"poses to 1e-12", r"forces to 1e-6"),
+    },
+    "docs/measured.md": {
+        TIME: (r"^\| (?:generate; prove|whole command|beside ncgears).*", r"which costs 7 %"),
+        CAMPAIGN: (r"^## Seats\n(?:.*\n)*?(?=## B-splines)", r"^## B-splines\n(?:.*\n)*?(?=## Elsewhere)"),
+    },
+    "docs/moving-box.md": {
+        "printed by the paper": (r"prints 2\.1 mm", r"measured 2\.05 mm"),
+        FORMULA: (
+            r"\(theta - theta_0\)\).*",
+            r"tan b = 2 pi R",
+            r"kappa = [01]\b",
+            r"d / 2",
+            r"P < 0",
+            r"w / 2",
+            r"1 / (?=21)",
+            r"w / sin\(2 lead",
+            r"theta_0 = 0",
+            r"m/s\^2",
+            r"2 sqrt\(R\^2",
+            r"\)\^2\)",
+        ),
+        INPUT: (
+            r"slider 10 mm wide",
+            r"(?:one|slider|bar of) 42 mm",
+            r"w = 10 mm, R = 15 mm",
+            r"at 12 deg",
+            r"^\| (?:\d+ \| 1|\d+ \| [234])",
+            r"^\| \d+(?= \|)",
+            r"groove 2\.5 mm",
+            r"for R = 15 mm and\na reach h of 3\.5 mm",
+            r"at 180 deg less",
+            r"at 200 r/min",
+        ),
+        LIMIT: (
+            r"every 5 deg",
+            r"within 1e-7 mm",
+            r"100 000 triangles",
+            r"200 000 from",
+            r"0\.004 mm for",
+            r"than the 0\.1 mm",
+        ),
+        SIMULATED: (r"below 1e-12 mm", r"\| 0\.0006 mm", r"within 0\.2 %"),
+        TIME: (r"^## Cost\n(?:.*\n)*?(?=## Limits)",),
+    },
+    "docs/proof.md": {
+        LIMIT: (r"Within 4e-10 rad", r"a flank 1 um out[^:]*1e-9 rad"),
+        PROOF: (r"sharper than 0\.01 mm", r"some 1e-9 mm", r"\| [\d.]+ s(?= \|)", r"\| \d+ \| [\d.]+ s \|$"),
+    },
+    "docs/reverse.md": {
+        LIMIT: (
+            r"\(4 to 50,000\)",
+            r"120 at most",
+            r"above 4 MiB",
+            r"within 1e-7 of",
+            r"below 12,",
+            r"below 315,",
+            r"to 1e-10 rad",
+        ),
+        RUST: (r"near 1e-9 rad for q = 400",),
+        INPUT: (r"at \(260, 160\)", r"1 for round gears", r"nearer it stays to 1"),
+        FORMULA: (r"\(R \+ rho\)/2 and \(R - rho\)/2", r"\(carrier/2\)/cos\(bend/2\)", r"bend [-+] 180"),
+    },
+    "docs/strong-laws.md": {
+        LIMIT: (r"most 1e-9 rad", r"up to 600"),
+        INPUT: (r"1 \+ 0\.\d+ cos \d phi", r"of 20 degrees, module 1", r"14 teeth of module 2[^:]*modules"),
+        RUST: (r"with 414", r"^\| [a-z][\w ]+ \| \d+ \|.*"),
+    },
+    "docs/theory/contact.md": {
+        FORMULA: (r"rate 1 \+",),
+        LIMIT: (r"and 48 where",),
+    },
+    "docs/theory/feeder.md": {
+        FORMULA: (r"</sub>, 0\)", r"from 0 to"),
+        INPUT: (r"below 40 degrees", r"asks for 40", r"has 40 pitches and drives 30"),
+    },
+    "docs/theory/index.md": {
+        FORMULA: (r"\(a, 0\)",),
+        "year": (r"Press, 2004",),
+    },
+    "docs/theory/path.md": {
+        FORMULA: (r"is 0/0 when",),
+    },
+    "docs/theory/pitch-curves.md": {
+        FORMULA: (
+            r"is 1/2, as",
+            r"i = 1/&phi;",
+            r"a/\(1 \+ i\)",
+            r"u = 1/r",
+            r"\(1 \+ (?:1/)?i\)/a",
+            r"runs 1/i",
+            r"4 A E\(k\)",
+            r"1/\(2 \+ &radic;3\)",
+        ),
+    },
+    "docs/theory/spiral-shaft.md": {
+        FORMULA: (r"phi;<sub>1</sub>, the groove",),
+    },
+    "docs/theory/teeth.md": {
+        FORMULA: (r"&plusmn;1", r"m z/2", r", 2 h<sub>"),
+    },
+    "docs/theory/three-arm.md": {
+        FORMULA: (r"ratios 1\.", r"&lambda; = 0", r"goals 2 to\n4\.", r"1 when it is reached and\n1/\(1 \+"),
+    },
+    "docs/three-arm.md": {
+        FORMULA: (r"ratios (?:are )?1\b", r"1 where it is reached and 1/\(1 \+"),
+        "number of a goal": (r"^\| \d(?:, \d)* \|",),
+        "the (10) of the paper, as printed": (r"angle of about 80 degrees",),
+        INPUT: (
+            r"cam\. 30 deg",
+            r"above 45 deg",
+            r"S = 145 mm and H = 65 mm",
+            r"above\n2\.5 mm",
+            r"\"About 30 %",
+            r"margin of 1 mm",
+            r"carrier at 2 rad/s",
+        ),
+        SIMULATED: (r"stays within 0\.03 deg(?:.*\n)*?.*within 0\.40 deg", r"at 245 deg.*", r"back at 256 deg"),
+        RUST: (
+            r"<!-- readings -->\n(?:.*\n)*?<!-- end of readings -->",
+            r"<!-- all goals -->\n(?:.*\n)*?<!-- end of all goals -->",
+            r"the sun's 66 .*",
+        ),
+        "counted by the search named beside it": (
+            r"after 4320 evaluations",
+            r"after 3000 evaluations the module is still 85 %",
+        ),
+        LIMIT: (r"grid of 0\.001 mm\nand 0\.001 degrees", r"goals 2 to 4 and 6 to 8", r"1e-9 for", r"to 1e-7 where.*"),
+        TIME: (
+            r"about 0\.1 ms",
+            r"^`executor=`(?:.*\n)*?(?=## Speed)",
+            r"^\| (?:published|all goals), .*",
+            r", 720 samples",
+            r"720 poses",
+        ),
+        PEERS: (r"^2 to 4 and 6 to 8 of a machine.*",),
+    },
+    "docs/tutorial/1-laser.md": {
+        INPUT: (r"sheet of 10 mm", r"than 0\.005 mm", r"\(1 [+-] k\)/\(1 - k\)"),
+    },
+    "docs/tutorial/2-your-own-law.md": {
+        INPUT: (r"1 - 0\.25 cos", r"few 1e-15 rad"),
+    },
+    "docs/tutorial/4-compose.md": {
+        INPUT: (r"to 1\. Round", r"1 to 1\."),
+    },
+    "docs/tutorial/6-simulate.md": {
+        INPUT: (r"play of 0\.05 mm", r"at 2 rad/s"),
+    },
+    "docs/tutorial/index.md": {
+        "number of a step": (r'<a href="[^"]*">\d</a>',),
+    },
+}
