@@ -123,6 +123,7 @@ def objects():
         ct.PairRemedy("full", 23, pair),
         reverse,
         reverse.axes,
+        reverse.splits[0],
         ct.gear_drive(press, center_distance=130, direction_deg=100),
         feeder.optimise("de", evaluations=100),
         *(made("why") if not issubclass(made, ct.DesignError) else made("why", "key", 3, 4)
