@@ -39,6 +39,7 @@ from ._centrode import (
 from ._clearance import Clearance
 from ._contact import Contact
 from ._design import load, schema
+from ._drawn import drawn_path
 from ._error import CamError, DesignError, Error, ExportError, GearPairError, LinkageError, MechanismError, PitchError
 from ._forces import Forces
 from ._goal import Goal
@@ -112,6 +113,7 @@ __all__ = [
     "build123d",
     "cadquery",
     "cam",
+    "drawn_path",
     "gear_drive",
     "load",
     "mujoco",

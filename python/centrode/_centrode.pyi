@@ -26,6 +26,7 @@ from ._tooth import Tooth
 
 __all__ = [
     "_LARGEST_DESIGN",
+    "_LARGEST_PATH",
     "Body",
     "BoxDrive",
     "DiscCam",
@@ -50,6 +51,7 @@ __all__ = [
     "SpiralShaft",
     "ThreeArm",
     "__version__",
+    "_drawn_path",
     "_load",
     "_pitch_from_toml",
     "_run",
@@ -117,6 +119,7 @@ _DxfCurves: TypeAlias = Literal["arcs", "splines"]
 
 __version__: str
 _LARGEST_DESIGN: int
+_LARGEST_PATH: int
 
 @final
 class Rack:
@@ -924,6 +927,7 @@ def conjugate(
     tooth_count: _Count | None = None,
 ) -> Pitch: ...
 def template(family: str = "gear-pair") -> str: ...
+def _drawn_path(contents: bytes, within: float) -> NDArray[float64]: ...
 def _load(contents: bytes) -> Mechanism: ...
 def _pitch_from_toml(text: str) -> Pitch: ...
 def _write(path: str | PathLike[str], contents: bytes) -> Path: ...

@@ -60,7 +60,7 @@ mod _centrode {
             from_transmission, limacon, lobed_ellipse, polar,
         },
         pitch::{_pitch_from_toml, Pitch},
-        reverse::{Reversed, reverse},
+        reverse::{_drawn_path, Reversed, reverse},
         shaft::BoxDrive,
         shaft::MovingBox,
         shaft::SpiralShaft,
@@ -72,6 +72,7 @@ mod _centrode {
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
         module.add("_LARGEST_DESIGN", crate::design::LARGEST)?;
+        module.add("_LARGEST_PATH", crate::reverse::LARGEST)?;
         module.add("__version__", env!("CARGO_PKG_VERSION"))
     }
 }

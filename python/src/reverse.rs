@@ -4,7 +4,7 @@ use centrode_analysis::with_sound_teeth;
 use centrode_geometry::Point;
 use centrode_mechanism::machine::Piecewise;
 use centrode_mechanism::reverse::{
-    AxisMap, AxisRange, ReversedMachine, Split, SplitKind, TwoBar, WantedPath,
+    AxisMap, AxisRange, DrawnPath, ReversedMachine, Split, SplitKind, TwoBar, WantedPath,
 };
 use centrode_mechanism::transmission::Transmission as _;
 use pyo3::prelude::{Bound, Py, PyAny, PyResult, Python, pyclass, pyfunction, pymethods};
@@ -19,6 +19,9 @@ use crate::made::{Reduced, by};
 use crate::record::{self, Keywords};
 use crate::wait::wait;
 use crate::word::Word;
+
+/// Bytes read of a path's file: one more than it may have.
+pub(crate) const LARGEST: usize = WantedPath::LARGEST + 1;
 
 /// A machine made from the path wanted of its tip, by `reverse`.
 ///
@@ -105,6 +108,13 @@ pub(crate) fn reverse(
             axes,
         })
     })?
+}
+
+/// Points along the path of an SVG file's bytes.
+#[pyfunction]
+pub(crate) fn _drawn_path(py: Python<'_>, contents: Vec<u8>, within: f64) -> Answer<Rows<2>> {
+    let drawn = wait(py, move || DrawnPath::from_svg(&contents, within))??;
+    Ok(Rows::of(&drawn.points))
 }
 
 fn no_axis(map: &AxisMap) -> Raised {

@@ -154,3 +154,67 @@ def test_every_split_has_its_figures_or_its_refusal():
     assert "2/3" in refused.refusal
     assert refused.least_radii == ()
     assert np.isnan(refused.least_radius)
+
+
+def drawing(tmp_path, data, **keys):
+    page = {"width": "200mm", "height": "100mm", "viewBox": "0 0 200 100"} | keys
+    root = " ".join(f'{key}="{value}"' for key, value in page.items())
+    file = tmp_path / "drawn.svg"
+    file.write_text(f'<svg xmlns="http://www.w3.org/2000/svg" {root}><path d="{data}"/></svg>')
+    return file
+
+
+@pytest.mark.parametrize("within", [0.1, 1e-2, 1e-4])
+def test_a_drawn_path_comes_within_the_distance_of_its_bezier_curves(tmp_path, within):
+    from scipy.interpolate import CubicSpline
+
+    file = drawing(tmp_path, "M 20 50 C 20 0 180 0 180 50 C 180 100 20 100 20 50 Z")
+    points = ct.drawn_path(file, within=within)
+    closed = np.vstack([points, points[:1]])
+    spline = CubicSpline(np.arange(len(closed)), closed, bc_type="periodic")
+    made = spline(np.linspace(0, len(points), 20_001))
+    t = np.linspace(0, 1, 20_001)[:, None]
+    ends = np.array([[[20, 50], [20, 0], [180, 0], [180, 50]], [[180, 50], [180, 100], [20, 100], [20, 50]]], float)
+    ends[:, :, 1] = 100 - ends[:, :, 1]
+    bezier = [(1 - t) ** 3 * a + 3 * t * (1 - t) ** 2 * b + 3 * t**2 * (1 - t) * c + t**3 * d for a, b, c, d in ends]
+    off = np.max(distances(np.vstack(bezier), made))
+    assert off <= within + 1e-6
+    # Half as many points would not do.
+    half = np.vstack([points[::2], points[:1]])
+    coarse = CubicSpline(np.arange(len(half)), half, bc_type="periodic")(np.linspace(0, len(half) - 1, 20_001))
+    assert len(points) == 32 or np.max(distances(np.vstack(bezier), coarse)) > within
+
+
+def distances(points, line):
+    """Distance of points from a fine polygon: from its nearest corner's two sides."""
+    from scipy.spatial import cKDTree
+
+    _, near = cKDTree(line).query(points)
+    found = np.full(len(points), np.inf)
+    for step in (-1, 0):
+        one = line[(near + step) % (len(line) - 1)]
+        side = line[(near + step) % (len(line) - 1) + 1] - one
+        share = np.clip(np.sum((points - one) * side, axis=1) / np.sum(side**2, axis=1), 0, 1)
+        found = np.minimum(found, np.linalg.norm(one + share[:, None] * side - points, axis=1))
+    return found
+
+
+def test_a_machine_follows_a_drawn_path(tmp_path):
+    file = drawing(tmp_path, "M 20 50 C 20 0 180 0 180 50 C 180 100 20 100 20 50 Z")
+    points = ct.drawn_path(file)
+    made = ct.reverse(points, (230, 40), bend_deg=40)
+    radii = np.hypot(points[:, 0] - 230, points[:, 1] - 40)
+    assert made.carrier + made.arm == pytest.approx(radii.max(), abs=0.5)
+    assert made.tip_error < 1e-3
+
+
+def test_a_drawing_that_gives_no_path_is_refused_with_its_file(tmp_path):
+    square = drawing(tmp_path, "M 20 20 H 120 V 80 H 20 Z")
+    with pytest.raises(ct.DesignError, match=r"drawn\.svg: .* it turns by 90\.00 deg at \(.*\) mm; round that corner"):
+        ct.drawn_path(square)
+    with pytest.raises(ct.DesignError, match=r"drawn\.svg: .* does not tell its size: width is \"200\""):
+        ct.drawn_path(drawing(tmp_path, "M 0 0 Z", width="200"))
+    with pytest.raises(ct.DesignError, match="greater than zero"):
+        ct.drawn_path(square, within=-1)
+    with pytest.raises(FileNotFoundError):
+        ct.drawn_path(tmp_path / "none.svg")

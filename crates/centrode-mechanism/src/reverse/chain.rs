@@ -1,11 +1,11 @@
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-use centrode_geometry::{Extreme, Jet, Point, Vector, greatest_each};
+use centrode_geometry::{Extreme, Jet, Point, Vector, greatest_sampled, rounding};
 
 use super::distance::{Distance, Series, taylor};
 use super::limit::squares;
-use super::path::Sample;
+use super::path::Looks;
 use super::{AxisFault, WantedPath};
 use crate::formula::Taylor;
 use crate::machine::Piecewise;
@@ -126,44 +126,46 @@ impl TwoBar {
 
     /// Finds the extremes of the ratio, and that both bars turn one way.
     fn check(&mut self) -> Result<(), AxisFault> {
-        let parts = self.path.parts(self.distance.far);
         let least = LEAST_SPEED * TAU / self.path.period();
-        // Most places that are no axis are told by the samples at hand.
-        let mut samples = self.path.samples().iter();
-        let turns_on = |s: &Sample| self.speeds(s.at, &s.jet)[0] > least;
-        let back = samples.find(|s| !turns_on(s));
-        if let Some(back) = back {
-            return Err(AxisFault::CarrierTurnsBack {
-                carrier: self.carrier,
-                at: back.jet.point,
-            });
+        let looks = Looks::of(&self.path, usize::MAX);
+        let mut known = Vec::with_capacity(looks.samples.len());
+        for sample in &looks.samples {
+            let speeds = self.speeds(sample.at, &sample.jet);
+            // Most places that are no axis are told by the samples at hand; speeds that are no numbers are none.
+            let turns_on = speeds[0] > least;
+            if !turns_on {
+                return Err(AxisFault::CarrierTurnsBack {
+                    carrier: self.carrier,
+                    at: sample.jet.point,
+                });
+            }
+            known.push(speeds);
         }
-        let looks = |t: f64| {
-            let [carrier, elbow] = self.speeds(t, &self.path.at(t));
-            let ratio = (elbow / carrier).ln();
-            [-carrier, -elbow, -ratio, ratio]
+        let greatest = |of: fn([f64; 2]) -> f64| {
+            let samples: Vec<f64> = known.iter().map(|speeds| of(*speeds)).collect();
+            let at = |t: f64| of(self.speeds(t, &self.path.at(t)));
+            greatest_sampled(&samples, at, rounding, &looks.pieces)
         };
-        let [carrier, elbow, low, high] = greatest_each(looks, &parts);
         let at = |extreme: Extreme| self.path.at(extreme.input).point;
-        // Speeds that are no numbers are none.
-        let [carrier_turns, elbow_turns] = [carrier, elbow].map(|e| -e.value > least);
-        if !carrier_turns {
+        let turns_on = |slowest: Extreme| -slowest.value > least;
+        let carrier = greatest(|[carrier, _]| -carrier);
+        if !turns_on(carrier) {
             return Err(AxisFault::CarrierTurnsBack {
                 carrier: self.carrier,
                 at: at(carrier),
             });
         }
-        if !elbow_turns {
+        let elbow = greatest(|[_, elbow]| -elbow);
+        if !turns_on(elbow) {
             return Err(AxisFault::ArmStops { at: at(elbow) });
         }
+        let low = greatest(|[carrier, elbow]| -elbow / carrier);
+        let high = greatest(|[carrier, elbow]| elbow / carrier);
         self.least_ratio = Extreme {
-            value: (-low.value).exp(),
+            value: -low.value,
             ..low
         };
-        self.greatest_ratio = Extreme {
-            value: high.value.exp(),
-            ..high
-        };
+        self.greatest_ratio = high;
         Ok(())
     }
 
@@ -376,13 +378,16 @@ impl TwoBar {
     }
 }
 
-/// Turns of a path about a place, counter-clockwise positive.
+/// Turns of a path about a place, counter-clockwise positive: how often it crosses the half line from there along x upwards,
+/// less how often downwards.
 fn winding(path: &WantedPath, axis: Point) -> i32 {
     let samples = path.samples();
     let next = samples.iter().cycle().skip(1);
-    let turned = samples.iter().zip(next).map(|(one, other)| {
+    let crossings = samples.iter().zip(next).map(|(one, other)| {
         let (p, q) = (one.jet.point - axis, other.jet.point - axis);
-        p.perp(&q).atan2(p.dot(&q))
+        let upwards = i32::from(q.y > 0.0) - i32::from(p.y > 0.0);
+        let is_ahead = p.perp(&q) * f64::from(upwards) > 0.0;
+        if is_ahead { upwards } else { 0 }
     });
-    (turned.sum::<f64>() / TAU).round() as i32
+    crossings.sum()
 }

@@ -1,10 +1,15 @@
 use centrode_geometry::Point;
 use thiserror::Error;
 
+use super::DrawingError;
+
 /// Reason why points or a file give no path.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum PathError {
+    /// A drawing that gives no path.
+    #[error(transparent)]
+    Drawing(#[from] DrawingError),
     /// A coordinate is NaN or infinite.
     #[error("point {number} of the path is ({x}, {y}): both must be finite numbers")]
     NotFinite {

@@ -9,6 +9,7 @@
 mod chain;
 mod curvature;
 mod distance;
+mod drawn;
 mod error;
 mod limit;
 mod map;
@@ -21,6 +22,7 @@ pub use crate::composed::{
     GearDrive, GearDriveError, GearDriveSpec, MachineError, ReversedMachine,
 };
 pub use chain::{ChainJet, TwoBar};
+pub use drawn::{DrawingError, DrawnPath};
 pub use error::{AxisFault, PathError};
 pub use map::{AxisMap, AxisRange, PossibleAxis};
 pub use path::WantedPath;

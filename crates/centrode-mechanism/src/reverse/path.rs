@@ -286,6 +286,33 @@ impl WantedPath {
     }
 }
 
+/// Samples of a path, those of each piece up to its end.
+pub(super) struct Looks {
+    pub(super) pieces: Vec<SampledPiece>,
+    pub(super) samples: Vec<Sample>,
+}
+
+impl Looks {
+    /// Those of `most` pieces at most, evenly spread.
+    pub(super) fn of(path: &WantedPath, most: usize) -> Self {
+        let count = path.pieces().len();
+        let step = count.div_ceil(most);
+        let pieces = path.pieces().iter().step_by(step);
+        let mut found = Self {
+            pieces: Vec::with_capacity(count / step + 1),
+            samples: Vec::with_capacity(path.samples().len() + count),
+        };
+        for (piece, samples, end) in pieces {
+            found.pieces.push(*piece);
+            found
+                .samples
+                .extend_from_slice(&path.samples()[samples.clone()]);
+            found.samples.push(*end);
+        }
+        found
+    }
+}
+
 /// Reads a line of a file.
 fn point(line: &str, number: usize) -> Result<Point, PathError> {
     let words: Vec<&str> = line.split([',', ';', '\t']).map(str::trim).collect();

@@ -1,12 +1,12 @@
 use std::f64::consts::TAU;
 
-use centrode_geometry::{Extreme, SampledPiece, greatest_sampled, rounding};
+use centrode_geometry::{Extreme, greatest_sampled, rounding};
 
+use super::TwoBar;
 use super::curvature::curvatures;
 use super::distance::Series;
-use super::path::Sample;
+use super::path::{Looks, Sample};
 use super::split::SHARE;
-use super::{TwoBar, WantedPath};
 
 /// Most pieces of the path that a map looks at: of more it takes as many, evenly spread.
 const MOST_PIECES: usize = 64;
@@ -85,30 +85,4 @@ fn by_powers(scale: f64, [carrier, planet]: [Series; 2]) -> [f64; 4] {
     let [(a, _), (b, _)] = by(carrier, SHARE);
     let [(c, _), (d, _)] = by(planet, SHARE - 1.0);
     [a, b, c, d]
-}
-
-/// Samples of a path, those of each piece up to its end.
-struct Looks {
-    pieces: Vec<SampledPiece>,
-    samples: Vec<Sample>,
-}
-
-impl Looks {
-    fn of(path: &WantedPath, most: usize) -> Self {
-        let count = path.pieces().len();
-        let step = count.div_ceil(most);
-        let pieces = path.pieces().iter().step_by(step);
-        let mut found = Self {
-            pieces: Vec::with_capacity(count / step + 1),
-            samples: Vec::with_capacity(path.samples().len() + count),
-        };
-        for (piece, samples, end) in pieces {
-            found.pieces.push(*piece);
-            found
-                .samples
-                .extend_from_slice(&path.samples()[samples.clone()]);
-            found.samples.push(*end);
-        }
-        found
-    }
 }

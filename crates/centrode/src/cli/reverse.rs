@@ -5,7 +5,7 @@ use crate::geometry::Point;
 use crate::mechanism::design::Design as _;
 use crate::mechanism::gear::design::Addendum;
 use crate::mechanism::reverse::{
-    AxisMap, AxisRange, ReversedMachine, Split, SplitKind, TwoBar, WantedPath,
+    AxisMap, AxisRange, DrawnPath, ReversedMachine, Split, SplitKind, TwoBar, WantedPath,
 };
 use crate::mechanism::three_arm::design::Direction;
 
@@ -25,7 +25,12 @@ pub(crate) fn run(command: &Reverse, out: &mut impl Write) -> Result<Status, Fai
     if let Some(output) = &command.output {
         source.keep(output, "the path")?;
     }
-    let path = WantedPath::from_csv(source.bytes()).map_err(|error| source.refused(&error))?;
+    let drawn = drawn(&source, command.within)?;
+    let path = match &drawn {
+        Some(drawn) => WantedPath::through(&drawn.points),
+        None => WantedPath::from_csv(source.bytes()),
+    };
+    let path = path.map_err(|error| source.refused(&error))?;
     if !command.crossing {
         path.check_simple().map_err(|error| {
             let name = source.name();
@@ -59,6 +64,14 @@ pub(crate) fn run(command: &Reverse, out: &mut impl Write) -> Result<Status, Fai
         .as_ref()
         .map(|_| with_sound_teeth(&made.design, |_| true));
     drop(progress);
+    if let Some(drawn) = drawn {
+        let off = Unit::Millimetre.tell(drawn.deviation.value);
+        let words = format!(
+            "through {} points, within {off} of the drawing",
+            drawn.points.len()
+        );
+        line(out, "path", &words)?;
+    }
     chosen(command, &chain, &split, out)?;
     gears(&made, out)?;
     others(&chain, &map, kind, bend, out)?;
@@ -74,6 +87,17 @@ pub(crate) fn run(command: &Reverse, out: &mut impl Write) -> Result<Status, Fai
     writeln!(out)?;
     output::write_one(output, text.into_bytes(), out)?;
     Ok(Status::Good)
+}
+
+/// Points along the path of an SVG file; none where the file is another.
+fn drawn(source: &Source, within: f64) -> Result<Option<DrawnPath>, Failure> {
+    let bytes = source.bytes();
+    let text = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    if !text.trim_ascii_start().starts_with(b"<") {
+        return Ok(None);
+    }
+    let drawn = DrawnPath::from_svg(bytes, within);
+    drawn.map(Some).map_err(|error| source.refused(&error))
 }
 
 fn none_possible(map: &AxisMap) -> Failure {

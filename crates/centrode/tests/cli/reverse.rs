@@ -118,3 +118,32 @@ fn a_bad_path_is_refused_with_the_reason_and_nothing_is_written() {
         text(&bend.stderr)
     );
 }
+
+#[test]
+fn a_drawn_path_is_taken_within_the_distance_asked_for() {
+    let page = |data: &str| {
+        format!("<svg width=\"200mm\" viewBox=\"0 0 200 100\"><path d=\"{data}\"/></svg>")
+    };
+    let oval = page("M 20 50 C 20 0 180 0 180 50 C 180 100 20 100 20 50 Z");
+    let at = ["reverse", "-", "--axis", "230,40", "--bend", "40"];
+    let run = fed(&at, oval.as_bytes());
+    let told = text(&run.stdout);
+    assert_eq!(run.status.code(), Some(0), "{}", text(&run.stderr));
+    assert!(
+        told.starts_with("path                    through 64 points, within 0.00"),
+        "{told}"
+    );
+    let finer = fed(&[&at[..], &["--within", "1e-5"]].concat(), oval.as_bytes());
+    assert!(
+        text(&finer.stdout).contains("through 256 points, within "),
+        "{}",
+        text(&finer.stdout)
+    );
+    let corner = fed(&at, page("M 20 20 H 120 V 80 Z").as_bytes());
+    assert_eq!(corner.status.code(), Some(2));
+    let told = text(&corner.stderr);
+    assert!(
+        told.contains("standard input: ") && told.contains("round that corner"),
+        "{told}"
+    );
+}

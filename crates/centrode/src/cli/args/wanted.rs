@@ -12,8 +12,11 @@ use crate::mechanism::reverse::SplitKind;
     after_help = "Example: centrode reverse path.csv --axis 260,160 --bend 40 --arms 3 -o arms.toml\n\nThe path is closed: a point a line, x and y in mm, in the order in which the tip passes them.\n\nExit status: 0 good; 2 no machine, a bad path, or the file cannot be written."
 )]
 pub(crate) struct Reverse {
-    /// CSV file of the path, or - for standard input
+    /// File of the path, CSV (x, y in mm) or SVG (its one path), or - for standard input
     pub(crate) path: PathBuf,
+    /// Greatest distance of the machine's path from a drawn one, of an SVG file, mm
+    #[arg(long, default_value_t = 0.01, value_name = "MM")]
+    pub(crate) within: f64,
     /// Axis of the carrier, mm; left out, the mildest: that of the least change of the gears' ratio
     #[arg(long, value_parser = place, allow_hyphen_values = true, value_name = "X,Y")]
     pub(crate) axis: Option<[f64; 2]>,
