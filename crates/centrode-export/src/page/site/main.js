@@ -347,7 +347,8 @@ async function start() {
     show(snapshot);
     return;
   }
-  const { file: name, text, recovered, formats, methods, unsearched } = await server.design();
+  const { file: name, text, recovered, formats, methods, unsearched, started } = await server.design();
+  byId("start").hidden = !started;
   if (unsearched) Object.assign(byId("optimise"), { disabled: true, title: unsearched });
   state.history = new History(text);
   file = new DesignFile(name, formats, state.history, { settled, replace, complain, saved: buttons });
