@@ -24,7 +24,7 @@ macro_rules! assets {
 const STYLES: [Asset; 2] = assets!("text/css; charset=utf-8": "uplot.css", "page.css");
 
 /// The scripts; `main.js` is the one to start.
-const SCRIPTS: [Asset; 22] = assets!(
+const SCRIPTS: [Asset; 24] = assets!(
     "text/javascript; charset=utf-8":
     "uplot.js",
     "axes.js",
@@ -38,7 +38,9 @@ const SCRIPTS: [Asset; 22] = assets!(
     "history.js",
     "main.js",
     "motion.js",
+    "numbers.js",
     "painter.js",
+    "points.js",
     "response.js",
     "search.js",
     "server.js",

@@ -22,14 +22,26 @@ function words({ keys, values }) {
   return said.join(", ").replaceAll("_", " ");
 }
 
+/** The table and the place in its list of a point of a curve; null for another. */
+function pointOf({ keys: [key], chained }) {
+  const found = chained && /^(.+)\.[^.]+\[(\d+)\]$/.exec(key);
+  return found ? [found[1], Number(found[2])] : null;
+}
+
+/** Room that the coordinates of a point take beside it, pixels. */
+const ROOM = 190;
+
 /** A power of ten so small that a step of it is no more than the size. */
 const power = (size) => 10 ** Math.floor(Math.log10(size));
 
 const rounded = (value, step) => Number((Math.round(value / step) * step).toFixed(Math.max(0, -Math.round(Math.log10(step)))));
 
 export class Handles {
-  /** `edit(edits, final)` takes new values; `began()` is told when a drag starts. */
-  constructor(stage, { edit, began }) {
+  /** `edit(edits, final)` takes new values; `began()` is told when a drag starts; `points(table)` are those of a curve. */
+  constructor(stage, { edit, began, points }) {
+    this.points = points;
+    /** Name of the point that gets the focus once it is there. */
+    this.wish = null;
     this.stage = stage;
     this.edit = edit;
     this.began = began;
@@ -61,10 +73,24 @@ export class Handles {
         this.marks.set(handle.name, mark);
         this.layer.insertBefore(mark, next);
       }
-      mark.setAttribute("aria-label", `${handle.name}: ${words(handle)}`);
+      const point = pointOf(handle);
+      mark.querySelector(".number").textContent = point ? String(point[1] + 1) : "";
+      this.tell(handle, mark);
       next = mark;
     }
+    if (this.wish && this.marks.has(this.wish)) {
+      this.marks.get(this.wish).focus();
+      this.wish = null;
+    }
     this.place(this.poses);
+  }
+
+  /** Writes the coordinates of a point beside it. */
+  tell(handle, mark) {
+    const told = words(handle);
+    mark.setAttribute("aria-label", `${handle.name}: ${told}`);
+    const point = pointOf(handle);
+    mark.querySelector(".where").textContent = point ? `${point[1] + 1}: ${told}` : told;
   }
 
   /** Moves the marks to where the links stand. */
@@ -79,7 +105,9 @@ export class Handles {
       const [x, y] = position(handle);
       const [c, s] = [Math.cos(pose[2]), Math.sin(pose[2])];
       const [px, py] = this.stage.toBox(pose[0] + c * x - s * y, pose[1] + s * x + c * y);
-      this.marks.get(handle.name).setAttribute("transform", `translate(${px.toFixed(2)} ${py.toFixed(2)})`);
+      const mark = this.marks.get(handle.name);
+      mark.setAttribute("transform", `translate(${px.toFixed(2)} ${py.toFixed(2)})`);
+      mark.classList.toggle("leftward", px > this.stage.width - ROOM);
       return handle.chained ? [`${px.toFixed(1)},${py.toFixed(1)}`] : [];
     });
     this.chain.setAttribute("points", points.join(" "));
@@ -87,7 +115,8 @@ export class Handles {
 
   mark(name) {
     const mark = drawn("g", { class: "handle", tabindex: 0, role: "button" });
-    mark.append(drawn("circle", { r: 12, class: "reach" }), drawn("circle", { r: 5 }));
+    mark.append(drawn("circle", { r: 12, class: "reach" }), drawn("circle", { r: 5 }),
+      drawn("text", { class: "number", x: 8, y: -7 }), drawn("text", { class: "where", x: 10, y: -8 }));
     mark.addEventListener("pointerdown", (event) => {
       event.preventDefault();
       event.stopPropagation();
@@ -110,7 +139,10 @@ export class Handles {
         this.move(name, this.pointed(event), true);
       });
     }
-    mark.addEventListener("keydown", (event) => this.nudge(name, event));
+    mark.addEventListener("keydown", (event) => {
+      this.nudge(name, event);
+      this.count(name, event);
+    });
     return mark;
   }
 
@@ -163,8 +195,29 @@ export class Handles {
     }
     const edits = handle.keys.map((key, i) => ({ key, value: values[i] })).filter((edit) => edit.key);
     handle.values = values.map((value, i) => (handle.keys[i] ? value : handle.values[i]));
+    this.tell(handle, this.marks.get(handle.name));
     this.place(this.poses);
     this.edit(edits, final);
+  }
+
+  /** Adds a point after this one, or deletes it; the focus follows. */
+  count(name, event) {
+    const point = pointOf(this.named(name) ?? { keys: [""] });
+    const points = point && this.points(point[0]);
+    if (!points || event.ctrlKey || event.metaKey || event.altKey) return;
+    const called = (i) => name.replace(/\d+/, String(i + 1));
+    if (event.key === "Insert") {
+      this.wish = called(point[1] + 1);
+      points.add(point[1], null);
+    } else if (event.key === "Delete" || event.key === "Backspace") {
+      this.wish = called(Math.min(point[1], points.points.length - 2));
+      points.remove(point[1], null);
+    } else {
+      return;
+    }
+    event.preventDefault();
+    event.stopPropagation();
+    this.began();
   }
 
   nudge(name, event) {

@@ -57,7 +57,7 @@ const transport = new Transport(stage);
 const charts = new Charts((input) => transport.go(input));
 transport.charts = charts;
 const form = new Form({ edit, fixed: Boolean(embedded) });
-const handles = embedded ? null : new Handles(stage, { edit, began: () => transport.play(false) });
+const handles = embedded ? null : new Handles(stage, { edit, began: () => transport.play(false), points: (table) => form.points.get(table) });
 
 let file = null;
 let search = null;
