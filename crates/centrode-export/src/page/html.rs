@@ -24,10 +24,11 @@ macro_rules! assets {
 const STYLES: [Asset; 2] = assets!("text/css; charset=utf-8": "uplot.css", "page.css");
 
 /// The scripts; `main.js` is the one to start.
-const SCRIPTS: [Asset; 24] = assets!(
+const SCRIPTS: [Asset; 25] = assets!(
     "text/javascript; charset=utf-8":
     "uplot.js",
     "axes.js",
+    "chart-files.js",
     "charts.js",
     "dialogs.js",
     "elements.js",

@@ -54,7 +54,7 @@ const state = {
 
 const stage = new Stage((poses) => handles?.place(poses));
 const transport = new Transport(stage);
-const charts = new Charts((input) => transport.go(input));
+const charts = new Charts((input) => transport.go(input), () => state.snapshot.name);
 transport.charts = charts;
 const form = new Form({ edit, fixed: Boolean(embedded) });
 const handles = embedded ? null : new Handles(stage, { edit, began: () => transport.play(false), points: (table) => form.points.get(table) });
