@@ -254,13 +254,12 @@ pub(super) fn replace(old: &mut Value, mut new: Value) {
 
 /// Adds a value to a list, on a line of its own where the last one has that.
 fn append(list: &mut Array, mut value: Value) {
-    let last = list
-        .iter()
-        .last()
-        .and_then(|last| last.decor().prefix()?.as_str());
-    match last.filter(|blank| blank.contains('\n') && blank.trim().is_empty()) {
-        Some(blank) => {
-            *value.decor_mut() = toml_edit::Decor::new(blank.to_owned(), "");
+    let last = list.iter().last();
+    let before = last.and_then(|last| last.decor().prefix()?.as_str());
+    // A comment before it is that of the value before.
+    match before.and_then(|before| before.rsplit_once('\n')) {
+        Some((_, blank)) => {
+            *value.decor_mut() = toml_edit::Decor::new(format!("\n{blank}"), "");
             list.push_formatted(value);
         }
         None => list.push(value),
