@@ -1,5 +1,8 @@
 """Points of B-spline pitch curves on the design page: a table, its keys, pasting, and numbered handles."""
 
+import cmath
+import math
+
 import pytest
 import tomllib
 from axe_playwright_python.sync_playwright import Axe
@@ -118,6 +121,48 @@ def test_handles_are_numbered_and_counted_by_keys(table):
     counted(page, len(RADII) - 1)
     expect(point(page, len(RADII) - 1)).to_be_focused()
     assert rows(page)[3:] == list(zip(RADII, ANGLES, strict=True))[3:-1]
+
+
+def middle(handle):
+    """Where a point of the drawing is on the screen."""
+    box = handle.locator("circle").last.bounding_box()
+    return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+
+
+@pytest.mark.parametrize("design", [POINTS, PLANE], ids=lambda path: path.stem)
+@pytest.mark.parametrize("before", [1, 5, -1], ids=["early", "late", "between the last and the first"])
+def test_a_point_is_added_where_the_line_between_two_is_clicked_twice(browser, tmp_path, design, before):
+    with opened(browser, tmp_path, design) as (page, _):
+        own = rows(page)
+        number = before if before > 0 else len(own)
+        (x, y), (u, v) = middle(point(page, number)), middle(point(page, number % len(own) + 1))
+        page.mouse.dblclick(x + 0.4 * (u - x), y + 0.4 * (v - y))
+        counted(page, len(own) + 1)
+        made = point(page, number + 1)
+        expect(made).to_be_focused()
+        assert rows(page)[:number] == own[:number]
+        assert rows(page)[number + 1 :] == own[number:]
+        if design == PLANE:
+            ways = [complex(*rows(page)[(number + k) % len(rows(page))]) for k in (-1, 0, 1)]
+        else:
+            angles = [angle for _, angle in rows(page)]
+            assert angles == sorted(angles)
+            assert angles[-1] < angles[0] + 360
+            near = [rows(page)[(number + k) % len(angles)] for k in (-1, 0, 1)]
+            ways = [cmath.rect(radius, math.radians(angle)) for radius, angle in near]
+        # Where it was clicked, to the digits that can be seen.
+        assert abs(ways[1] - (0.6 * ways[0] + 0.4 * ways[2])) < 1
+
+
+def test_a_double_click_off_the_curve_fits_the_view(table):
+    page, _ = table
+    fitted = drawing(page)
+    page.locator("#closer").click()
+    assert drawing(page) != fitted
+    box = page.locator("#stage").bounding_box()
+    page.mouse.dblclick(box["x"] + box["width"] - 60, box["y"] + 60)
+    assert drawing(page) == fitted
+    counted(page, len(RADII))
 
 
 def test_three_points_are_the_fewest(browser, tmp_path):

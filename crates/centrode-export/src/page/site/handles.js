@@ -28,6 +28,17 @@ function pointOf({ keys: [key], chained }) {
   return found ? [found[1], Number(found[2])] : null;
 }
 
+/** So near to a curve is on it, pixels. */
+const NEAR = 8;
+
+/** Distance of a place from the line between two others. */
+function off([px, py], [x, y], [u, v]) {
+  const [dx, dy] = [u - x, v - y];
+  const share = ((px - x) * dx + (py - y) * dy) / (dx * dx + dy * dy || 1);
+  const on = Math.min(Math.max(share, 0), 1);
+  return Math.hypot(px - x - on * dx, py - y - on * dy);
+}
+
 /** Room that the coordinates of a point take beside it, pixels. */
 const ROOM = 190;
 
@@ -52,6 +63,7 @@ export class Handles {
     this.poses = [];
     this.dragged = null;
     byId("show-handles").addEventListener("change", () => this.place(this.poses));
+    stage.box.addEventListener("dblclick", (event) => this.insert(event), true);
   }
 
   show(handles) {
@@ -167,37 +179,72 @@ export class Handles {
     return this.stage.toModel(event.clientX - bounds.left, event.clientY - bounds.top);
   }
 
+  /** A point of the drawing in the plane of a handle. */
+  within(handle, [x, y]) {
+    const [ox, oy, angle] = this.poses[handle.link];
+    const [c, s] = [Math.cos(angle), Math.sin(angle)];
+    return [
+      (c * (x - ox) + s * (y - oy) - handle.origin[0]) / handle.scale,
+      (c * (y - oy) - s * (x - ox) - handle.origin[1]) / handle.scale,
+    ];
+  }
+
+  /** The numbers of a point of the plane, with the digits that can be seen. */
+  numbers(handle, [u, v]) {
+    const step = power(1 / (this.stage.view.scale * Math.abs(handle.scale)));
+    if (handle.plane !== "polar") return [rounded(u, step), rounded(v, step)];
+    const radius = Math.hypot(u, v);
+    const turn = power(step / Math.max(radius, step) / DEG);
+    // The turn nearest to the one written: a list of angles need not start at zero.
+    const now = Math.atan2(v, u) / DEG;
+    const turns = Math.round((handle.values[1] - now) / 360);
+    return [rounded(radius, step), rounded(now + 360 * turns, turn)];
+  }
+
   /** Takes a point of the drawing back to the numbers it stands for. */
-  move(name, [x, y], final) {
+  move(name, place, final) {
     const handle = this.named(name);
     if (!handle) {
       // This design has no such point: it stays as it is, and so does what was asked for last.
       if (final) this.edit([], true);
       return;
     }
-    const [ox, oy, angle] = this.poses[handle.link];
-    const [c, s] = [Math.cos(angle), Math.sin(angle)];
-    const u = (c * (x - ox) + s * (y - oy) - handle.origin[0]) / handle.scale;
-    const v = (c * (y - oy) - s * (x - ox) - handle.origin[1]) / handle.scale;
-    this.give(handle, u, v, final);
-  }
-
-  give(handle, u, v, final) {
-    const step = power(1 / (this.stage.view.scale * Math.abs(handle.scale)));
-    let values = [rounded(u, step), rounded(v, step)];
-    if (handle.plane === "polar") {
-      const radius = Math.hypot(u, v);
-      const turn = power(step / Math.max(radius, step) / DEG);
-      // The turn nearest to the one written: a list of angles need not start at zero.
-      const now = Math.atan2(v, u) / DEG;
-      const turns = Math.round((handle.values[1] - now) / 360);
-      values = [rounded(radius, step), rounded(now + 360 * turns, turn)];
-    }
+    const values = this.numbers(handle, this.within(handle, place));
     const edits = handle.keys.map((key, i) => ({ key, value: values[i] })).filter((edit) => edit.key);
     handle.values = values.map((value, i) => (handle.keys[i] ? value : handle.values[i]));
     this.tell(handle, this.marks.get(handle.name));
     this.place(this.poses);
     this.edit(edits, final);
+  }
+
+  /** Adds a point where the curve, or the line between two of its points, is clicked twice. */
+  insert(event) {
+    const own = this.list.filter((handle) => pointOf(handle));
+    const points = own.length > 1 && byId("show-handles").checked && this.points(pointOf(own[0])[0]);
+    if (!points || event.target.closest("button, label, .handle")) return;
+    const bounds = this.stage.box.getBoundingClientRect();
+    const place = [event.clientX - bounds.left, event.clientY - bounds.top];
+    const { link } = own[0];
+    const [ox, oy, angle] = this.poses[link];
+    const [c, s] = [Math.cos(angle), Math.sin(angle)];
+    const corners = own.map((handle) => {
+      const [x, y] = position(handle);
+      return this.stage.toBox(ox + c * x - s * y, oy + s * x + c * y);
+    });
+    const onLine = corners.some((corner, i) => off(place, corner, corners[(i + 1) % corners.length]) < NEAR);
+    if (!onLine && !this.stage.isAtPitch(link, this.poses[link], place, NEAR)) return;
+    event.stopPropagation();
+    // The point before it, going round.
+    const plane = this.within(own[0], this.pointed(event));
+    const turn = (from) => ((Math.atan2(plane[1], plane[0]) / DEG - from) % 360 + 360) % 360;
+    const angles = own.map(({ plane: kind, values: [a, b] }) => (kind === "polar" ? b : Math.atan2(b, a) / DEG));
+    const i = angles.reduce((best, from, k) => (turn(from) < turn(angles[best]) ? k : best), 0);
+    const values = this.numbers(own[i], plane);
+    // The numbers are those of the nearest turn, which may be the one before.
+    if (own[i].plane === "polar" && turn(angles[i]) > 180) values[1] += 360;
+    this.began();
+    this.wish = own[i].name.replace(/\d+/, String(i + 2));
+    points.add(i, null, values);
   }
 
   /** Adds a point after this one, or deletes it; the focus follows. */

@@ -111,6 +111,15 @@ export class Painter {
     ];
   }
 
+  /** Whether a place of the box is within some pixels of the pitch curve of a link. */
+  isAtPitch(index, pose, [px, py], pixels) {
+    const width = this.enter(pose);
+    this.context.setLineDash([]);
+    this.context.lineWidth = width(2 * pixels);
+    const pitch = this.scene.links[index].lines.filter(({ role }) => role === "pitch");
+    return pitch.some(({ path }) => this.context.isPointInStroke(path, px * this.density, py * this.density));
+  }
+
   clear() {
     this.context.setTransform(1, 0, 0, 1, 0, 0);
     this.context.clearRect(0, 0, this.canvas.width, this.canvas.height);

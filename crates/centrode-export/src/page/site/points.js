@@ -118,10 +118,10 @@ export class Points {
     this.form.edit(this.pair.map(({ key }, column) => ({ key, value: points.map((point) => point[column]) })), true);
   }
 
-  /** Adds a point after another. */
-  add(i, wish = this.id(0, i + 1)) {
+  /** Adds a point after another: a given one, or one halfway to the next. */
+  add(i, wish = this.id(0, i + 1), given = null) {
     const { points } = this;
-    const next = between(points[i], points[(i + 1) % points.length], this.polar);
+    const next = given ?? between(points[i], points[(i + 1) % points.length], this.polar);
     this.give(points.toSpliced(i + 1, 0, next), wish);
   }
 
