@@ -1,7 +1,7 @@
 // The numbers of the design, one field a key.
 
 import { byId, element, words } from "./elements.js";
-import { stepOf, stepped, tidy, typed } from "./numbers.js";
+import { stepOf, stepped, tidy, typed, worked } from "./numbers.js";
 import { Points, pointsOf } from "./points.js";
 
 const SLOW = 4;
@@ -189,9 +189,12 @@ export class Form {
     };
     box.addEventListener("focus", measure);
     box.addEventListener("change", () => {
+      const value = worked(box.value, field.unit);
+      // The result takes the place of what it was worked out from.
+      if (typeof value === "number" && typed(box.value) !== value) box.value = String(value);
       measure();
-      if (box.value.trim() === "" && field.optional && key === field.key) give(null);
-      else give(typed(box.value));
+      if (value === "" && field.optional && key === field.key) give(null);
+      else give(value);
     });
     box.addEventListener("keydown", (event) => {
       if (event.key === "Enter") {
