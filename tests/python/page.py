@@ -27,8 +27,14 @@ SHAFT = ROOT / "tests" / "designs" / "spiral-shaft-2018.toml"
 BOX = ROOT / "tests" / "designs" / "moving-box-2018.toml"
 
 
+def settled(page):
+    """Waits until the checks have been heard."""
+    expect(page.locator("#findings h2")).to_be_visible(timeout=30_000)
+    expect(page.locator("#verdict:not(.stale)")).to_be_visible(timeout=30_000)
+
+
 @contextmanager
-def shown(browser, url, script="", **options):
+def shown(browser, url, script="", ready=settled, **options):
     """A page that may not complain on its console; a script runs before its own."""
     context = browser.new_context(viewport={"width": 1440, "height": 900}, **options)
     context.add_init_script(script)
@@ -40,7 +46,7 @@ def shown(browser, url, script="", **options):
     )
     page.on("pageerror", lambda error: complaints.append(str(error)))
     page.goto(url)
-    settled(page)
+    ready(page)
     yield page
     context.close()
     assert not complaints
@@ -64,12 +70,6 @@ window.fetch = async (path, ...rest) => {
   return answer;
 };
 """
-
-
-def settled(page):
-    """Waits until the checks have been heard."""
-    expect(page.locator("#findings h2")).to_be_visible(timeout=30_000)
-    expect(page.locator("#verdict:not(.stale)")).to_be_visible(timeout=30_000)
 
 
 def figures(page):

@@ -55,8 +55,8 @@ class Studio:
 
 @contextmanager
 def studio(design, *program, **options):
-    """Serves a design file; the program is ended with Ctrl-C and must end at once."""
-    command = [*(program or [BINARY]), "studio", design]
+    """Serves a design file, or with none the start page; the program is ended with Ctrl-C and must end at once."""
+    command = [*(program or [BINARY]), "studio", *([design] if design else [])]
     process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, **options)
     try:
         url = process.stdout.readline().strip()

@@ -12,6 +12,9 @@ pub struct Asset {
 /// The page itself, empty.
 pub const INDEX: &str = include_str!("site/index.html");
 
+/// The page to start from: designs to open.
+pub const START: &str = include_str!("site/start.html");
+
 macro_rules! assets {
     ($media_type:literal: $($name:literal),+ $(,)?) => {
         [$(Asset { name: $name, media_type: $media_type, text: include_str!(concat!("site/", $name)) }),+]
@@ -21,10 +24,11 @@ macro_rules! assets {
 const STYLES: [Asset; 2] = assets!("text/css; charset=utf-8": "uplot.css", "page.css");
 
 /// The scripts; `main.js` is the one to start.
-const SCRIPTS: [Asset; 21] = assets!(
+const SCRIPTS: [Asset; 25] = assets!(
     "text/javascript; charset=utf-8":
     "uplot.js",
     "axes.js",
+    "chart-files.js",
     "charts.js",
     "dialogs.js",
     "elements.js",
@@ -35,6 +39,9 @@ const SCRIPTS: [Asset; 21] = assets!(
     "history.js",
     "main.js",
     "motion.js",
+    "numbers.js",
+    "painter.js",
+    "points.js",
     "response.js",
     "search.js",
     "server.js",
@@ -46,12 +53,16 @@ const SCRIPTS: [Asset; 21] = assets!(
     "work.js",
 );
 
+/// The scripts of the start page alone, which no report needs.
+const START_SCRIPTS: [Asset; 1] = assets!("text/javascript; charset=utf-8": "start.js");
+
 /// The file of the page with a name.
 #[must_use]
 pub fn asset(name: &str) -> Option<&'static Asset> {
     STYLES
         .iter()
         .chain(&SCRIPTS)
+        .chain(&START_SCRIPTS)
         .find(|asset| asset.name == name)
 }
 
@@ -148,7 +159,7 @@ mod tests {
 
     #[test]
     fn every_import_is_an_asset() {
-        for script in SCRIPTS {
+        for script in SCRIPTS.iter().chain(&START_SCRIPTS) {
             for import in script.text.split("from \"./").skip(1) {
                 let name = import.split('"').next().expect("a name");
                 assert!(asset(name).is_some(), "{} imports {name}", script.name);

@@ -313,11 +313,11 @@ pub(crate) struct Schema {
 
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Prints the address of the page. Nothing but the design file and its autosave is written, and the page answers only who knows its address."
+    after_help = "Prints the address of the page. Nothing but the design file and its autosaves is written (from the start page, those of the files opened or made there), and the page answers only who knows its address."
 )]
 pub(crate) struct Studio {
-    /// Design file
-    pub(crate) design: PathBuf,
+    /// Design file; left out, a start page with every shipped design, templates, and the files of this folder
+    pub(crate) design: Option<PathBuf>,
     /// Open the page in the browser
     #[arg(long)]
     pub(crate) open: bool,

@@ -2,6 +2,7 @@
 
 import uPlot from "./uplot.js";
 import { WHOLE, axes, line } from "./axes.js";
+import * as files from "./chart-files.js";
 import { byId, element } from "./elements.js";
 import { read } from "./motion.js";
 
@@ -21,9 +22,12 @@ function brief(value, count) {
 }
 
 export class Charts {
-  /** `go(input)` is called when a place in a chart is picked. */
-  constructor(go) {
+  /** `go(input)` is called when a place in a chart is picked; `name()` is that of the design. */
+  constructor(go, name) {
     this.go = go;
+    this.name = name;
+    /** Input under the pointer: all charts are read there. */
+    this.hovered = null;
     this.charts = [];
     this.input = 0;
     this.reach = [0, 360];
@@ -55,7 +59,14 @@ export class Charts {
 
   at(input) {
     this.input = input;
-    for (const chart of this.charts) chart.at(input);
+    for (const chart of this.charts) chart.at(input, this.hovered);
+  }
+
+  /** Reads all charts at an input under the pointer; at none, where the machine stands. */
+  hover(input) {
+    this.hovered = input;
+    this.place.classList.toggle("hovered", input !== null);
+    this.at(this.input);
   }
 
   resize() {
@@ -80,7 +91,9 @@ class Chart {
     if (curves.some((curve) => before.has(`${name} ${curve.name}`))) legend.push(element("span", { class: "series series-pinned" }, "pinned"));
     this.box = element("div", { class: "plot" });
     charts.place.append(element("figure", { class: "chart" },
-      element("figcaption", {}, element("b", {}, name), unit ? element("span", { class: "quiet" }, ` ${unit}`) : null, ...legend),
+      element("figcaption", {}, element("b", {}, name), unit ? element("span", { class: "quiet" }, ` ${unit}`) : null, ...legend,
+        element("span", { class: "take" }, ...["CSV", "SVG"].map((kind) =>
+          element("button", { type: "button", class: "link", "aria-label": `${name} as ${kind}`, onclick: () => files.take(this, kind, charts.name()) }, kind)))),
       this.box));
     this.compared = curves.map((curve) => before.has(`${name} ${curve.name}`));
     const series = [{}];
@@ -103,15 +116,21 @@ class Chart {
       ),
     }, this.data(curves, before), this.box);
     this.line = element("div", { class: "now" });
-    this.plot.over.append(this.line);
+    this.degrees = element("span", {});
+    this.pointed = element("div", { class: "pointed" }, this.degrees);
+    this.plot.over.append(this.line, this.pointed);
     this.curves = curves;
     const pick = (event) => {
-      if (event.buttons !== 1) return;
       const left = event.clientX - this.plot.over.getBoundingClientRect().left;
-      charts.go(this.plot.posToVal(left, "x") / DEG);
+      const [first, last] = charts.reach;
+      const input = Math.min(Math.max(this.plot.posToVal(left, "x"), first), last) / DEG;
+      // A finger that moves leads the machine; it does not hover.
+      if (event.pointerType !== "touch") charts.hover(input);
+      if (event.buttons === 1) charts.go(input);
     };
     this.plot.over.addEventListener("pointerdown", pick);
     this.plot.over.addEventListener("pointermove", pick);
+    this.plot.over.addEventListener("pointerleave", () => charts.hover(null));
   }
 
   /** Whether these curves can be shown without building the chart anew. */
@@ -136,11 +155,25 @@ class Chart {
     return data;
   }
 
-  at(input) {
-    const left = this.plot.valToPos(input * DEG, "x");
-    this.line.style.transform = `translateX(${left}px)`;
+  at(input, hovered) {
+    const left = (at) => this.plot.valToPos(at * DEG, "x");
+    this.line.style.transform = `translateX(${left(input)}px)`;
+    if (hovered !== null) {
+      const place = left(hovered);
+      this.pointed.style.transform = `translateX(${place}px)`;
+      this.pointed.classList.toggle("leftward", place > this.plot.over.clientWidth / 2);
+      this.degrees.textContent = `${(hovered * DEG).toFixed(1)}°`;
+    }
     this.curves.forEach((curve, i) => {
-      this.values[i].textContent = brief(read(curve, input), curve.count);
+      this.values[i].textContent = brief(read(curve, hovered ?? input), curve.count);
+    });
+  }
+
+  /** What is drawn: a name, a colour, dashes and whether it is a count, for every line. */
+  get lines() {
+    return this.curves.flatMap((curve, i) => {
+      const own = { name: curve.name || this.name, ink: i === 0 ? "ink" : "accent", dash: DASH[i % 2], count: curve.count };
+      return this.compared[i] ? [own, { ...own, name: `pinned ${own.name}`, ink: "pinned", dash: [3, 3] }] : [own];
     });
   }
 }

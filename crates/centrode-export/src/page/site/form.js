@@ -1,37 +1,16 @@
 // The numbers of the design, one field a key.
 
 import { byId, element, words } from "./elements.js";
+import { stepOf, stepped, tidy, typed, worked } from "./numbers.js";
+import { Points, pointsOf } from "./points.js";
 
 const SLOW = 4;
-
-/** A handsome step for a number: a hundredth of its size, one for whole numbers. */
-function stepOf(field, value) {
-  if (field.kind === "integer" || field.kind === "integers") return 1;
-  const size = Math.abs(value);
-  if (!Number.isFinite(size) || size === 0) return 0.01;
-  return 10 ** Math.round(Math.log10(size) - 2.2);
-}
 
 /** How much room a field takes. */
 function sizeOf(field) {
   if (Array.isArray(field.value)) return "list";
   return ["text", "choice", "either"].includes(field.kind) ? "wordy" : "";
 }
-
-/** What is typed, as a value of the design: a number where it reads as one. */
-function typed(text) {
-  const plain = text.trim().replace(",", ".").replace("−", "-");
-  return /^[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?$/i.test(plain) && Number.isFinite(Number(plain)) ? Number(plain) : text.trim();
-}
-
-/** Digits after the point. */
-const decimals = (value) => (String(value).split("e")[0].split(".")[1] ?? "").length + Math.max(0, -(String(value).split("e")[1] ?? 0));
-
-/** A power of ten without the rounding of its making. */
-const tidy = (power) => Number(power.toPrecision(1));
-
-/** A number some steps on, with no digits but its own and the step's: back again it is what it was. */
-const stepped = (value, count, step) => Number((value + count * step).toFixed(Math.min(100, Math.max(decimals(value), decimals(step)))));
 
 export class Form {
   /** `edit(edits, final)` takes new values; `fixed` shows them only. */
@@ -41,6 +20,10 @@ export class Form {
     this.place = byId("form");
     this.shape = "";
     this.controls = new Map();
+    /** Points of curves, by the tables they are in. */
+    this.points = new Map();
+    /** Id of what gets the focus once it is there. */
+    this.wish = null;
     this.folded = new Set(["drawing"]);
     /** Whether the last design was none. */
     this.failed = false;
@@ -68,6 +51,11 @@ export class Form {
       [field.key, field.kind, Array.isArray(field.value) ? field.value.length : 0, field.choices])]));
     if (shape !== this.shape) this.build(snapshot.tables);
     this.shape = shape;
+    const wish = this.wish && byId(this.wish);
+    if (wish) {
+      wish.focus();
+      this.wish = null;
+    }
     for (const table of snapshot.tables) {
       for (const field of table.fields) this.fill(field);
     }
@@ -89,6 +77,7 @@ export class Form {
     const ahead = all.filter((input) => typing(input) || this.isAhead(input));
     const [start, end] = ahead.includes(focused) ? [focused.selectionStart, focused.selectionEnd] : [];
     this.controls.clear();
+    this.points.clear();
     this.place.replaceChildren(...tables.filter((table) => table.fields.length).map((table) => this.table(table)));
     for (const old of ahead) this.carry(old, byId(old.id));
     const again = focused?.id ? byId(focused.id) : null;
@@ -113,7 +102,7 @@ export class Form {
     const name = table.key ? table.key.split(".").map(words).join(" · ") : "General";
     const fold = element("details", { class: "table" },
       element("summary", { title: table.doc || undefined }, name),
-      ...table.fields.map((field) => this.row(field)));
+      ...this.rows(table));
     const fully = this.folded.has(table.key) || (table.optional && table.fields.every((field) => field.value === null));
     fold.open = this.fixed || !fully;
     fold.addEventListener("toggle", () => {
@@ -124,6 +113,18 @@ export class Form {
     fold.querySelector("summary").after(remark);
     if (table.key) this.controls.set(table.key, { field: null, remark, row: fold, inputs: [] });
     return fold;
+  }
+
+  /** The fields of a table, two lists of a curve's points as one. */
+  rows(table) {
+    const pair = pointsOf(table);
+    if (!pair) return table.fields.map((field) => this.row(field));
+    const points = new Points(this, table.key, pair);
+    this.points.set(table.key, points);
+    return table.fields.flatMap((field) => {
+      if (field === pair[0]) return [points.place];
+      return field === pair[1] ? [] : [this.row(field)];
+    });
   }
 
   row(field) {
@@ -188,9 +189,12 @@ export class Form {
     };
     box.addEventListener("focus", measure);
     box.addEventListener("change", () => {
+      const value = worked(box.value, field.unit);
+      // The result takes the place of what it was worked out from.
+      if (typeof value === "number" && typed(box.value) !== value) box.value = String(value);
       measure();
-      if (box.value.trim() === "" && field.optional && key === field.key) give(null);
-      else give(typed(box.value));
+      if (value === "" && field.optional && key === field.key) give(null);
+      else give(value);
     });
     box.addEventListener("keydown", (event) => {
       if (event.key === "Enter") {

@@ -22,14 +22,37 @@ function words({ keys, values }) {
   return said.join(", ").replaceAll("_", " ");
 }
 
+/** The table and the place in its list of a point of a curve; null for another. */
+function pointOf({ keys: [key], chained }) {
+  const found = chained && /^(.+)\.[^.]+\[(\d+)\]$/.exec(key);
+  return found ? [found[1], Number(found[2])] : null;
+}
+
+/** So near to a curve is on it, pixels. */
+const NEAR = 8;
+
+/** Distance of a place from the line between two others. */
+function off([px, py], [x, y], [u, v]) {
+  const [dx, dy] = [u - x, v - y];
+  const share = ((px - x) * dx + (py - y) * dy) / (dx * dx + dy * dy || 1);
+  const on = Math.min(Math.max(share, 0), 1);
+  return Math.hypot(px - x - on * dx, py - y - on * dy);
+}
+
+/** Room that the coordinates of a point take beside it, pixels. */
+const ROOM = 190;
+
 /** A power of ten so small that a step of it is no more than the size. */
 const power = (size) => 10 ** Math.floor(Math.log10(size));
 
 const rounded = (value, step) => Number((Math.round(value / step) * step).toFixed(Math.max(0, -Math.round(Math.log10(step)))));
 
 export class Handles {
-  /** `edit(edits, final)` takes new values; `began()` is told when a drag starts. */
-  constructor(stage, { edit, began }) {
+  /** `edit(edits, final)` takes new values; `began()` is told when a drag starts; `points(table)` are those of a curve. */
+  constructor(stage, { edit, began, points }) {
+    this.points = points;
+    /** Name of the point that gets the focus once it is there. */
+    this.wish = null;
     this.stage = stage;
     this.edit = edit;
     this.began = began;
@@ -40,6 +63,7 @@ export class Handles {
     this.poses = [];
     this.dragged = null;
     byId("show-handles").addEventListener("change", () => this.place(this.poses));
+    stage.box.addEventListener("dblclick", (event) => this.insert(event), true);
   }
 
   show(handles) {
@@ -61,10 +85,24 @@ export class Handles {
         this.marks.set(handle.name, mark);
         this.layer.insertBefore(mark, next);
       }
-      mark.setAttribute("aria-label", `${handle.name}: ${words(handle)}`);
+      const point = pointOf(handle);
+      mark.querySelector(".number").textContent = point ? String(point[1] + 1) : "";
+      this.tell(handle, mark);
       next = mark;
     }
+    if (this.wish && this.marks.has(this.wish)) {
+      this.marks.get(this.wish).focus();
+      this.wish = null;
+    }
     this.place(this.poses);
+  }
+
+  /** Writes the coordinates of a point beside it. */
+  tell(handle, mark) {
+    const told = words(handle);
+    mark.setAttribute("aria-label", `${handle.name}: ${told}`);
+    const point = pointOf(handle);
+    mark.querySelector(".where").textContent = point ? `${point[1] + 1}: ${told}` : told;
   }
 
   /** Moves the marks to where the links stand. */
@@ -79,7 +117,9 @@ export class Handles {
       const [x, y] = position(handle);
       const [c, s] = [Math.cos(pose[2]), Math.sin(pose[2])];
       const [px, py] = this.stage.toBox(pose[0] + c * x - s * y, pose[1] + s * x + c * y);
-      this.marks.get(handle.name).setAttribute("transform", `translate(${px.toFixed(2)} ${py.toFixed(2)})`);
+      const mark = this.marks.get(handle.name);
+      mark.setAttribute("transform", `translate(${px.toFixed(2)} ${py.toFixed(2)})`);
+      mark.classList.toggle("leftward", px > this.stage.width - ROOM);
       return handle.chained ? [`${px.toFixed(1)},${py.toFixed(1)}`] : [];
     });
     this.chain.setAttribute("points", points.join(" "));
@@ -87,7 +127,8 @@ export class Handles {
 
   mark(name) {
     const mark = drawn("g", { class: "handle", tabindex: 0, role: "button" });
-    mark.append(drawn("circle", { r: 12, class: "reach" }), drawn("circle", { r: 5 }));
+    mark.append(drawn("circle", { r: 12, class: "reach" }), drawn("circle", { r: 5 }),
+      drawn("text", { class: "number", x: 8, y: -7 }), drawn("text", { class: "where", x: 10, y: -8 }));
     mark.addEventListener("pointerdown", (event) => {
       event.preventDefault();
       event.stopPropagation();
@@ -110,7 +151,10 @@ export class Handles {
         this.move(name, this.pointed(event), true);
       });
     }
-    mark.addEventListener("keydown", (event) => this.nudge(name, event));
+    mark.addEventListener("keydown", (event) => {
+      this.nudge(name, event);
+      this.count(name, event);
+    });
     return mark;
   }
 
@@ -135,36 +179,92 @@ export class Handles {
     return this.stage.toModel(event.clientX - bounds.left, event.clientY - bounds.top);
   }
 
+  /** A point of the drawing in the plane of a handle. */
+  within(handle, [x, y]) {
+    const [ox, oy, angle] = this.poses[handle.link];
+    const [c, s] = [Math.cos(angle), Math.sin(angle)];
+    return [
+      (c * (x - ox) + s * (y - oy) - handle.origin[0]) / handle.scale,
+      (c * (y - oy) - s * (x - ox) - handle.origin[1]) / handle.scale,
+    ];
+  }
+
+  /** The numbers of a point of the plane, with the digits that can be seen. */
+  numbers(handle, [u, v]) {
+    const step = power(1 / (this.stage.view.scale * Math.abs(handle.scale)));
+    if (handle.plane !== "polar") return [rounded(u, step), rounded(v, step)];
+    const radius = Math.hypot(u, v);
+    const turn = power(step / Math.max(radius, step) / DEG);
+    // The turn nearest to the one written: a list of angles need not start at zero.
+    const now = Math.atan2(v, u) / DEG;
+    const turns = Math.round((handle.values[1] - now) / 360);
+    return [rounded(radius, step), rounded(now + 360 * turns, turn)];
+  }
+
   /** Takes a point of the drawing back to the numbers it stands for. */
-  move(name, [x, y], final) {
+  move(name, place, final) {
     const handle = this.named(name);
     if (!handle) {
       // This design has no such point: it stays as it is, and so does what was asked for last.
       if (final) this.edit([], true);
       return;
     }
-    const [ox, oy, angle] = this.poses[handle.link];
-    const [c, s] = [Math.cos(angle), Math.sin(angle)];
-    const u = (c * (x - ox) + s * (y - oy) - handle.origin[0]) / handle.scale;
-    const v = (c * (y - oy) - s * (x - ox) - handle.origin[1]) / handle.scale;
-    this.give(handle, u, v, final);
-  }
-
-  give(handle, u, v, final) {
-    const step = power(1 / (this.stage.view.scale * Math.abs(handle.scale)));
-    let values = [rounded(u, step), rounded(v, step)];
-    if (handle.plane === "polar") {
-      const radius = Math.hypot(u, v);
-      const turn = power(step / Math.max(radius, step) / DEG);
-      // The turn nearest to the one written: a list of angles need not start at zero.
-      const now = Math.atan2(v, u) / DEG;
-      const turns = Math.round((handle.values[1] - now) / 360);
-      values = [rounded(radius, step), rounded(now + 360 * turns, turn)];
-    }
+    const values = this.numbers(handle, this.within(handle, place));
     const edits = handle.keys.map((key, i) => ({ key, value: values[i] })).filter((edit) => edit.key);
     handle.values = values.map((value, i) => (handle.keys[i] ? value : handle.values[i]));
+    this.tell(handle, this.marks.get(handle.name));
     this.place(this.poses);
     this.edit(edits, final);
+  }
+
+  /** Adds a point where the curve, or the line between two of its points, is clicked twice. */
+  insert(event) {
+    const own = this.list.filter((handle) => pointOf(handle));
+    const points = own.length > 1 && byId("show-handles").checked && this.points(pointOf(own[0])[0]);
+    if (!points || event.target.closest("button, label, .handle")) return;
+    const bounds = this.stage.box.getBoundingClientRect();
+    const place = [event.clientX - bounds.left, event.clientY - bounds.top];
+    const { link } = own[0];
+    const [ox, oy, angle] = this.poses[link];
+    const [c, s] = [Math.cos(angle), Math.sin(angle)];
+    const corners = own.map((handle) => {
+      const [x, y] = position(handle);
+      return this.stage.toBox(ox + c * x - s * y, oy + s * x + c * y);
+    });
+    const onLine = corners.some((corner, i) => off(place, corner, corners[(i + 1) % corners.length]) < NEAR);
+    if (!onLine && !this.stage.isAtPitch(link, this.poses[link], place, NEAR)) return;
+    event.stopPropagation();
+    // The point before it, going round.
+    const plane = this.within(own[0], this.pointed(event));
+    const turn = (from) => ((Math.atan2(plane[1], plane[0]) / DEG - from) % 360 + 360) % 360;
+    const angles = own.map(({ plane: kind, values: [a, b] }) => (kind === "polar" ? b : Math.atan2(b, a) / DEG));
+    const i = angles.reduce((best, from, k) => (turn(from) < turn(angles[best]) ? k : best), 0);
+    const values = this.numbers(own[i], plane);
+    // The numbers are those of the nearest turn, which may be the one before.
+    if (own[i].plane === "polar" && turn(angles[i]) > 180) values[1] += 360;
+    this.began();
+    this.wish = own[i].name.replace(/\d+/, String(i + 2));
+    points.add(i, null, values);
+  }
+
+  /** Adds a point after this one, or deletes it; the focus follows. */
+  count(name, event) {
+    const point = pointOf(this.named(name) ?? { keys: [""] });
+    const points = point && this.points(point[0]);
+    if (!points || event.ctrlKey || event.metaKey || event.altKey) return;
+    const called = (i) => name.replace(/\d+/, String(i + 1));
+    if (event.key === "Insert") {
+      this.wish = called(point[1] + 1);
+      points.add(point[1], null);
+    } else if (event.key === "Delete" || event.key === "Backspace") {
+      this.wish = called(Math.min(point[1], points.points.length - 2));
+      points.remove(point[1], null);
+    } else {
+      return;
+    }
+    event.preventDefault();
+    event.stopPropagation();
+    this.began();
   }
 
   nudge(name, event) {

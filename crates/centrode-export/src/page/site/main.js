@@ -54,10 +54,10 @@ const state = {
 
 const stage = new Stage((poses) => handles?.place(poses));
 const transport = new Transport(stage);
-const charts = new Charts((input) => transport.go(input));
+const charts = new Charts((input) => transport.go(input), () => state.snapshot.name);
 transport.charts = charts;
 const form = new Form({ edit, fixed: Boolean(embedded) });
-const handles = embedded ? null : new Handles(stage, { edit, began: () => transport.play(false) });
+const handles = embedded ? null : new Handles(stage, { edit, began: () => transport.play(false), points: (table) => form.points.get(table) });
 
 let file = null;
 let search = null;
@@ -347,7 +347,8 @@ async function start() {
     show(snapshot);
     return;
   }
-  const { file: name, text, recovered, formats, methods, unsearched } = await server.design();
+  const { file: name, text, recovered, formats, methods, unsearched, started } = await server.design();
+  byId("start").hidden = !started;
   if (unsearched) Object.assign(byId("optimise"), { disabled: true, title: unsearched });
   state.history = new History(text);
   file = new DesignFile(name, formats, state.history, { settled, replace, complain, saved: buttons });

@@ -51,6 +51,10 @@ async function ask(path, method, body, signal, keepalive = false) {
 
 const json = async (answer) => (await answer).json();
 
+export const offer = () => json(ask("start", "GET"));
+export const picture = (kind, name) => json(ask(`pictures/${kind}/${encodeURIComponent(name)}`, "GET"));
+export const open = (path) => json(ask("open", "POST", { path }));
+export const make = (from, path) => json(ask("new", "POST", { from, path }));
 export const design = () => json(ask("design", "GET"));
 export const save = (text, base, over) => json(ask("save", "POST", { text, base, over }));
 // It arrives although the page is left; browsers send no more than 64 KiB that way.

@@ -8,4 +8,4 @@ mod snapshot;
 mod start;
 
 pub(crate) use edit::{Edit, edited};
-pub(crate) use snapshot::{Fault, Snapshot, Subject};
+pub(crate) use snapshot::{Fault, Snapshot, Subject, drawn};

@@ -72,6 +72,14 @@ impl Verdict {
     }
 }
 
+/// Picture of a design alone, as JSON: that of its page before the details are made.
+pub(crate) fn drawn(text: &str) -> Result<String, String> {
+    let read = FAMILIES.read(text.as_bytes());
+    let mechanism = read.and_then(|file| file.mechanism());
+    let mechanism = mechanism.map_err(|error| error.message())?;
+    serde_json::to_string(&mechanism.picture()).map_err(|error| error.to_string())
+}
+
 /// Design that has become a mechanism.
 pub(crate) struct Subject {
     snapshot: Snapshot,

@@ -10,7 +10,7 @@ use serde::Serialize;
 use crate::cli::failure::Failure;
 use crate::cli::input::Source;
 
-/// Design file that the page was started with, and its autosaves beside it: nothing else is ever written.
+/// Design file of a page, and its autosaves beside it: nothing else is ever written.
 pub(crate) struct Document {
     folder: PathBuf,
     name: String,
@@ -84,6 +84,11 @@ impl Document {
     /// Name of the file.
     pub(crate) fn name(&self) -> &str {
         &self.name
+    }
+
+    /// Place of the file.
+    pub(crate) fn path(&self) -> PathBuf {
+        self.folder.join(&self.name)
     }
 
     /// Text of the file when it was last read or written here.
@@ -218,7 +223,7 @@ impl Document {
 
     /// State of the file now.
     pub(crate) fn disk(&self) -> Disk {
-        let path = self.folder.join(&self.name);
+        let path = self.path();
         let most = DesignFile::LARGEST;
         match fs::metadata(&path) {
             Ok(meta) if meta.len() > most as u64 => Disk::Missing(format!(

@@ -6,7 +6,10 @@ mod listener;
 mod response;
 mod routes;
 mod search;
+mod shipped;
 mod solver;
+mod start;
+mod start_routes;
 mod watch;
 
 use std::io::Write;
@@ -20,10 +23,12 @@ use tokio::net::TcpListener;
 use crate::cli::Status;
 use crate::cli::args::Studio;
 use crate::cli::failure::Failure;
+use crate::export::page;
 use document::Document;
 use guard::Guard;
 use search::Searching;
 use solver::Solver;
+use start::StartPage;
 use watch::Watch;
 
 /// Shared state of all requests.
@@ -32,11 +37,28 @@ pub(crate) struct StudioState {
     solver: Arc<Solver>,
     searching: Searching,
     watch: Watch,
+    /// Whether a start page lies before this one.
+    started: bool,
+}
+
+impl StudioState {
+    /// State of a page whose file is watched from now on; to be called where tasks can be spawned.
+    fn watched(document: Document, started: bool) -> Arc<Self> {
+        let state = Arc::new(Self {
+            watch: Watch::default(),
+            searching: Searching::default(),
+            solver: Arc::default(),
+            document,
+            started,
+        });
+        tokio::spawn(watch::disk(Arc::clone(&state)));
+        state
+    }
 }
 
 /// Serves the page until Ctrl-C.
 pub(crate) fn run(command: &Studio, out: &mut impl Write) -> Result<Status, Failure> {
-    let document = Document::open(&command.design)?;
+    let document = command.design.as_deref().map(Document::open).transpose()?;
     let runtime = tokio::runtime::Builder::new_multi_thread()
         .worker_threads(2)
         .enable_all()
@@ -54,16 +76,19 @@ pub(crate) fn run(command: &Studio, out: &mut impl Write) -> Result<Status, Fail
         open(&guard.url());
     }
     runtime.block_on(async {
-        let state = Arc::new(StudioState {
-            watch: Watch::default(),
-            searching: Searching::default(),
-            solver: Arc::default(),
-            document,
-        });
-        let page = routes::router(Arc::clone(&state), guard);
+        let page = match document {
+            Some(document) => {
+                let page = routes::design_page(StudioState::watched(document, false));
+                routes::guarded(page::INDEX, page, guard)
+            }
+            None => {
+                let folder = std::env::current_dir().map_err(Failure::Serve)?;
+                let page = start_routes::start_page(Arc::new(StartPage::new(folder)));
+                routes::guarded(page::START, page, guard)
+            }
+        };
         tokio::select! {
             () = listener::serve(listener, page) => {}
-            () = watch::disk(&state) => {}
             stopped = tokio::signal::ctrl_c() => stopped.map_err(Failure::Serve)?,
         }
         Ok::<(), Failure>(())

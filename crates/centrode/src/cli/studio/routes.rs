@@ -34,8 +34,8 @@ const PATIENCE: Duration = Duration::from_secs(10);
 
 type Shared = State<Arc<StudioState>>;
 
-/// Every address of the page.
-pub(crate) fn router(state: Arc<StudioState>, guard: Guard) -> Router {
+/// Every address of the page of a design, below its own.
+pub(crate) fn design_page(state: Arc<StudioState>) -> Router {
     let page = Router::new()
         .route("/{asset}", get(asset))
         .route("/design", get(design))
@@ -50,23 +50,31 @@ pub(crate) fn router(state: Arc<StudioState>, guard: Guard) -> Router {
         .route("/reread", post(reread))
         .route("/export", post(bundle))
         .route("/search", get(searched).post(searching).delete(unsearched))
-        .route("/response", post(respond))
-        .layer(RequestBodyTimeoutLayer::new(PATIENCE))
+        .route("/response", post(respond));
+    limited(page).with_state(state)
+}
+
+/// Limits what a request may send, and how long it may take to.
+pub(crate) fn limited<S: Clone + Send + Sync + 'static>(page: Router<S>) -> Router<S> {
+    page.layer(RequestBodyTimeoutLayer::new(PATIENCE))
         .layer(RequestBodyLimitLayer::new(LARGEST))
-        .with_state(state);
+}
+
+/// A page below its secret address, where `index` is.
+pub(crate) fn guarded(index: &'static str, page: Router, guard: Guard) -> Router {
     let base = guard.base();
     Router::new()
         // A nest has no place for the bare slash that the page's own address ends with.
-        .route(&format!("{base}/"), get(async || Html(page::INDEX)))
+        .route(&format!("{base}/"), get(async move || Html(index)))
         .nest(&base, page)
         .layer(axum::middleware::from_fn_with_state(guard, guard::pass))
 }
 
 /// Answer to a request that is refused.
-struct Refused(StatusCode, serde_json::Value);
+pub(crate) struct Refused(StatusCode, serde_json::Value);
 
 impl Refused {
-    fn because(status: StatusCode, reason: impl ToString) -> Self {
+    pub(crate) fn because(status: StatusCode, reason: impl ToString) -> Self {
         Self(status, json!({ "message": reason.to_string() }))
     }
 }
@@ -91,11 +99,11 @@ impl From<SaveError> for Refused {
 }
 
 /// Answer of JSON text as it is.
-fn as_json(text: String) -> Response {
+pub(crate) fn as_json(text: String) -> Response {
     ([(header::CONTENT_TYPE, "application/json")], text).into_response()
 }
 
-async fn asset(Path(name): Path<String>) -> Response {
+pub(crate) async fn asset(Path(name): Path<String>) -> Response {
     match page::asset(&name) {
         Some(asset) => ([(header::CONTENT_TYPE, asset.media_type)], asset.text).into_response(),
         None => StatusCode::NOT_FOUND.into_response(),
@@ -111,6 +119,7 @@ async fn design(State(state): Shared) -> Response {
         "formats": formats(),
         "methods": Strategy::NAMES.map(|(name, _)| name),
         "unsearched": unsearchable(&document.text()),
+        "started": state.started,
     }))
     .into_response()
 }
@@ -237,7 +246,9 @@ async fn on_disk(
     Ok(Json(json!({})).into_response())
 }
 
-async fn apart<T: Send + 'static>(job: impl FnOnce() -> T + Send + 'static) -> Result<T, Refused> {
+pub(crate) async fn apart<T: Send + 'static>(
+    job: impl FnOnce() -> T + Send + 'static,
+) -> Result<T, Refused> {
     let done = tokio::task::spawn_blocking(job).await;
     done.map_err(|error| Refused::because(StatusCode::INTERNAL_SERVER_ERROR, error))
 }
@@ -252,7 +263,7 @@ impl Drop for Wait {
 }
 
 /// Computes without holding up other requests, for as long as somebody waits for it.
-async fn computed<T: Send + 'static>(
+pub(crate) async fn computed<T: Send + 'static>(
     job: impl FnOnce() -> T + Send + 'static,
 ) -> Result<T, Refused> {
     let wait = Wait(Cancel::default());

@@ -1,4 +1,5 @@
 use std::convert::Infallible;
+use std::sync::Arc;
 use std::time::Duration;
 
 use axum::response::sse::{Event, KeepAlive, Sse};
@@ -40,7 +41,7 @@ impl Watch {
 }
 
 /// Reads the file for ever, and reports its text whenever that has changed.
-pub(crate) async fn disk(state: &StudioState) {
+pub(crate) async fn disk(state: Arc<StudioState>) {
     loop {
         let now = Some(state.document.disk());
         state.watch.0.send_if_modified(|last| {

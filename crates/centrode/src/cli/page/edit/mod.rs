@@ -236,17 +236,34 @@ fn set(parent: &mut Item, last: &Step, value: Value) -> Option<()> {
 
 /// Puts a value in the place of another, with the blanks and comments around that.
 pub(super) fn replace(old: &mut Value, mut new: Value) {
-    match (&mut *old, &new) {
-        (Value::Array(old), Value::Array(new)) if old.len() == new.len() => {
-            for (old, new) in old.iter_mut().zip(new) {
-                replace(old, new.clone());
-            }
-            return;
+    if let (Value::Array(old), Value::Array(new)) = (&mut *old, &new) {
+        while old.len() > new.len() {
+            old.remove(old.len() - 1);
         }
-        _ => {}
+        for (old, new) in old.iter_mut().zip(new) {
+            replace(old, new.clone());
+        }
+        for new in new.iter().skip(old.len()) {
+            append(old, new.clone());
+        }
+        return;
     }
     *new.decor_mut() = old.decor().clone();
     *old = new;
+}
+
+/// Adds a value to a list, on a line of its own where the last one has that.
+fn append(list: &mut Array, mut value: Value) {
+    let last = list.iter().last();
+    let before = last.and_then(|last| last.decor().prefix()?.as_str());
+    // A comment before it is that of the value before.
+    match before.and_then(|before| before.rsplit_once('\n')) {
+        Some((_, blank)) => {
+            *value.decor_mut() = toml_edit::Decor::new(format!("\n{blank}"), "");
+            list.push_formatted(value);
+        }
+        None => list.push(value),
+    }
 }
 
 /// Value as it is written in a design file; none for a table and for numbers that are not finite.

@@ -135,3 +135,26 @@ fn paths_that_lead_nowhere_are_refused() {
     ));
     assert!(matches!(edited("= x", &[]), Err(EditError::Syntax(_))));
 }
+
+#[test]
+fn a_list_that_grows_or_shrinks_keeps_its_lines_and_comments() {
+    let text = "[pitch]\nradius = [\n    1,  # first\n    2.5,\n]\nangle_deg = [ 1, 2 ] # flat\n";
+    let list = |key: &str, values: &[f64]| Edit::list(key, values);
+    let grown = edited(
+        text,
+        &[
+            list("pitch.radius", &[1.0, 2.0, 3.0]),
+            list("pitch.angle_deg", &[1.0, 2.0, 3.0]),
+        ],
+    );
+    let lines = "[pitch]\nradius = [\n    1.0,  # first\n    2.0,\n    3.0,\n]\nangle_deg = [ 1.0, 2.0 , 3.0] # flat\n";
+    assert_eq!(grown.expect("edited"), lines);
+    let shrunk = edited(lines, &[list("pitch.radius", &[4.0])]);
+    let shrunk = shrunk.expect("edited");
+    assert!(
+        shrunk.starts_with("[pitch]\nradius = [\n    4.0,"),
+        "{shrunk}"
+    );
+    assert!(shrunk.ends_with("] # flat\n"), "{shrunk}");
+    shrunk.parse::<toml::Table>().expect("toml");
+}
