@@ -7,6 +7,7 @@ use kurbo::{ParamCurve as _, ParamCurveArclen as _, ParamCurveDeriv as _, PathSe
 use thiserror::Error;
 
 use super::{PathError, WantedPath};
+use crate::digits::told;
 
 /// Fewest and most points through which a curve is laid.
 const FEWEST: usize = 32;
@@ -168,6 +169,9 @@ pub enum DrawingError {
         /// Number of paths.
         count: usize,
     },
+    /// A path without length.
+    #[error("the path of the drawing has no length")]
+    Empty,
     /// Data of a path or a transform that cannot be read.
     #[error("{key} = {data:?} of the drawing cannot be read: {why}")]
     Data {
@@ -216,7 +220,9 @@ pub enum DrawingError {
     },
     /// A path along which no smooth curve runs.
     #[error(
-        "a smooth curve through {count} points comes within {reached:.4} mm of the drawing, not within {within} mm: it turns by {angle:.2} deg at ({x:.4}, {y:.4}) mm; round that corner, or allow more"
+        "a smooth curve through {count} points comes within {} mm of the drawing, not within {} mm: it turns by {angle:.2} deg at ({x:.4}, {y:.4}) mm; round that corner, or allow more",
+        told(*reached),
+        told(*within)
     )]
     Corner {
         /// Distance allowed, mm.
@@ -233,7 +239,9 @@ pub enum DrawingError {
         y: f64,
     },
     /// A distance allowed that is none.
-    #[error("the distance allowed from the drawing is {within} mm; it must be greater than zero")]
+    #[error(
+        "the distance allowed from the drawing is {within} mm; it must be a number greater than zero"
+    )]
     Within {
         /// The distance, mm.
         within: f64,

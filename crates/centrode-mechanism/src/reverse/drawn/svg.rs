@@ -88,7 +88,7 @@ fn closed(mut segments: Vec<PathSeg>, drawn: &BezPath) -> Result<Vec<PathSeg>, D
         }
     }
     let (Some(first), Some(last)) = (segments.first(), segments.last()) else {
-        return Err(DrawingError::Paths { count: 0 });
+        return Err(DrawingError::Empty);
     };
     let (from, to) = (first.start(), last.end());
     let bounds = drawn.bounding_box();

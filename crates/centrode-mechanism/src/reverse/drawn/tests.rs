@@ -129,6 +129,7 @@ fn a_drawing_that_gives_no_path_is_refused_with_the_reason() {
         DrawingError::Data { key: "d", .. }
     ));
     assert!(matches!(of("M 0 0 L 9 0 L 9 9"), DrawingError::Open { to, .. } if to == [9.0, 91.0]));
+    assert_eq!(of("M 5 5 Z"), DrawingError::Empty);
     let rings = "M 0 0 L 9 0 L 9 9 Z M 20 0 L 29 0 L 29 9 Z";
     assert!(matches!(of(rings), DrawingError::Several { count: 2 }));
     assert!(matches!(
