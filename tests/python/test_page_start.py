@@ -4,7 +4,7 @@ import os
 
 import pytest
 from axe_playwright_python.sync_playwright import Axe
-from conftest import ROOT, centrode
+from conftest import centrode
 from page import ARMS, POINTS, SHIPPED, field, settled, shown
 from playwright.sync_api import expect
 from studio import studio
@@ -46,12 +46,6 @@ def drawn(page):
         one.scroll_into_view_if_needed()
         expect(one.locator("canvas[data-input]")).to_be_visible()
     page.locator("#files-title").scroll_into_view_if_needed()
-
-
-def test_the_designs_of_the_program_are_those_of_the_repository():
-    # A package of the crate holds its own folder alone.
-    texts = {path.name: path.read_bytes() for path in (ROOT / "crates/centrode/designs").iterdir()}
-    assert texts == {path.name: path.read_bytes() for path in SHIPPED}
 
 
 def test_the_gallery_has_a_picture_of_every_shipped_design_and_family(start):
