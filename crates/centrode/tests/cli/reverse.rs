@@ -130,7 +130,7 @@ fn a_drawn_path_is_taken_within_the_distance_asked_for() {
     let told = text(&run.stdout);
     assert_eq!(run.status.code(), Some(0), "{}", text(&run.stderr));
     assert!(
-        told.starts_with("path                    through 64 points, within 0.00"),
+        told.starts_with("path                    through 64 points, within 1.4e-3 mm"),
         "{told}"
     );
     let finer = fed(&[&at[..], &["--within", "1e-5"]].concat(), oval.as_bytes());
