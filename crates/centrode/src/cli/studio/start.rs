@@ -53,7 +53,7 @@ impl Pattern {
     }
 }
 
-/// What the start page offers.
+/// Designs and templates that the start page offers.
 #[derive(Debug, Serialize)]
 pub(crate) struct Offer {
     folder: String,
