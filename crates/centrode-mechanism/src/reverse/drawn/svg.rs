@@ -151,8 +151,8 @@ fn page(root: Node<'_, '_>) -> Result<Affine, DrawingError> {
     }
     if root.has_attribute("height") {
         let other = length("height")? / view.h;
-        let off = (other / scale - 1.0).abs();
-        if !(off <= LOOSE) {
+        let agrees = (other / scale - 1.0).abs() <= LOOSE;
+        if !agrees {
             return Err(wrong(format!(
                 "by width a unit is {scale} mm, by height {other} mm"
             )));
