@@ -149,18 +149,10 @@ impl WantedPath {
     /// # Errors
     /// [`PathError`] with the line, and as [`through`](Self::through).
     pub fn from_csv(bytes: &[u8]) -> Result<Self, PathError> {
-        if bytes.len() > Self::LARGEST {
-            let (bytes, limit) = (bytes.len(), Self::LARGEST);
-            return Err(PathError::TooLarge { bytes, limit });
-        }
-        let text = std::str::from_utf8(bytes).map_err(|error| {
-            let good = &bytes[..error.valid_up_to()];
-            let line = 1 + good.iter().filter(|&&byte| byte == b'\n').count();
-            PathError::NotText { line }
-        })?;
+        let text = text(bytes)?;
         let mut points = Vec::new();
         let mut lines = 0;
-        for (i, line) in text.trim_start_matches('\u{feff}').lines().enumerate() {
+        for (i, line) in text.lines().enumerate() {
             let written = line.trim();
             if written.is_empty() || written.starts_with('#') {
                 continue;
@@ -311,6 +303,20 @@ impl Looks {
         }
         found
     }
+}
+
+/// Text of a file, without the mark that some programs begin it with.
+pub(super) fn text(bytes: &[u8]) -> Result<&str, PathError> {
+    if bytes.len() > WantedPath::LARGEST {
+        let (bytes, limit) = (bytes.len(), WantedPath::LARGEST);
+        return Err(PathError::TooLarge { bytes, limit });
+    }
+    let text = std::str::from_utf8(bytes).map_err(|error| {
+        let good = &bytes[..error.valid_up_to()];
+        let line = 1 + good.iter().filter(|&&byte| byte == b'\n').count();
+        PathError::NotText { line }
+    })?;
+    Ok(text.trim_start_matches('\u{feff}'))
 }
 
 /// Reads a line of a file.

@@ -6,6 +6,7 @@ use centrode_geometry::{Extreme, Point, greatest, pieces};
 use kurbo::{ParamCurve as _, ParamCurveArclen as _, ParamCurveDeriv as _, PathSeg};
 use thiserror::Error;
 
+use super::path::text;
 use super::{PathError, WantedPath};
 use crate::digits::told;
 
@@ -36,14 +37,10 @@ impl DrawnPath {
     /// # Errors
     /// [`DrawingError`] for a file that is no such drawing, an open path, and one with a corner: no spline comes near it.
     pub fn from_svg(bytes: &[u8], within: f64) -> Result<Self, PathError> {
-        if bytes.len() > WantedPath::LARGEST {
-            let (bytes, limit) = (bytes.len(), WantedPath::LARGEST);
-            return Err(PathError::TooLarge { bytes, limit });
-        }
         if !(within > 0.0 && within.is_finite()) {
             return Err(DrawingError::Within { within }.into());
         }
-        let drawing = Drawing::new(svg::read(bytes)?);
+        let drawing = Drawing::new(svg::closed_path(text(bytes)?)?);
         let mut count = FEWEST;
         loop {
             let points: Vec<Point> = (0..count)

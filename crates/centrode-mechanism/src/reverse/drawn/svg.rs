@@ -7,7 +7,6 @@ use roxmltree::{Document, Node, ParsingOptions};
 use svgtypes::{Length, LengthUnit, PathParser, PathSegment, Transform, ViewBox};
 
 use super::DrawingError;
-use crate::reverse::PathError;
 use crate::reverse::path::FARTHEST;
 
 /// Most pieces of a path, and most nodes of a file.
@@ -22,16 +21,7 @@ const CLOSED: f64 = 1e-6;
 const TOLD: usize = 40;
 
 /// Pieces of the path, mm, y up from the lower edge.
-pub(super) fn read(bytes: &[u8]) -> Result<Vec<PathSeg>, PathError> {
-    let text = std::str::from_utf8(bytes).map_err(|error| {
-        let good = &bytes[..error.valid_up_to()];
-        let line = 1 + good.iter().filter(|&&byte| byte == b'\n').count();
-        PathError::NotText { line }
-    })?;
-    Ok(closed_path(text.trim_start_matches('\u{feff}'))?)
-}
-
-fn closed_path(text: &str) -> Result<Vec<PathSeg>, DrawingError> {
+pub(super) fn closed_path(text: &str) -> Result<Vec<PathSeg>, DrawingError> {
     let options = ParsingOptions {
         // Inkscape writes a document type.
         allow_dtd: true,
