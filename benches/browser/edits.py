@@ -1,4 +1,4 @@
-"""Edits on the design page in Chromium: milliseconds from the changed number to the redrawn picture.
+"""Edits on the design page in Chromium: milliseconds from the changed number to the redrawn picture, and to its goals.
 
     python benches/browser/edits.py [design.toml ...] [--edits 50]
 
@@ -44,14 +44,25 @@ WATCH = """() => {
 EDIT = """(key) => new Promise((done) => {
   const field = document.getElementById(`field-${key}`);
   window.answered = undefined;
+  const goals = document.getElementById("goals");
   const start = performance.now();
   window.drawn = () => {
     // Drawn by the new answer, not by anything else that moves.
     if (window.answered === undefined) return;
     window.drawn = undefined;
     // The frame in which it is painted has passed once a task queued in it runs.
-    requestAnimationFrame(() => setTimeout(() =>
-      done({ answer: window.answered - start, picture: performance.now() - start })));
+    requestAnimationFrame(() => setTimeout(() => {
+      const picture = performance.now() - start;
+      const told = () => {
+        if (goals.getAttribute("aria-busy") === "true") return;
+        watch.disconnect();
+        const last = goals.childElementCount ? performance.now() - start : null;
+        done({ answer: window.answered - start, picture, goals: last });
+      };
+      const watch = new MutationObserver(told);
+      watch.observe(goals, { attributes: true });
+      told();
+    }));
   };
   field.focus();
   field.dispatchEvent(new KeyboardEvent("keydown", { key: "ArrowUp", bubbles: true, cancelable: true }));
@@ -66,7 +77,7 @@ def family(design):
 
 
 def measured(browser, design, edits):
-    """Milliseconds of each edit until the answer has come, and until the picture is painted."""
+    """Milliseconds of each edit until the answer has come, the picture is painted, and its goals are there."""
     with tempfile.TemporaryDirectory() as folder:
         copy = shutil.copy(design, folder)
         command = [BINARY, "studio", copy]
@@ -96,7 +107,7 @@ def main():
     parser.add_argument("--edits", type=int, default=50, help="edits of each design (50)")
     options = parser.parse_args()
     chromium = next(filter(None, map(shutil.which, ["chromium-headless-shell", "chromium", "google-chrome"])), None)
-    print(f"{'ms from edit to':28} {'answer':>8} {'picture':>8} {'95 %':>8} {'worst':>8}")
+    print(f"{'ms from edit to':28} {'answer':>8} {'picture':>8} {'95 %':>8} {'worst':>8} {'goals':>8}")
     with sync_playwright() as playwright:
         browser = playwright.chromium.launch(executable_path=chromium, args=FLAGS)
         for design in options.designs:
@@ -104,6 +115,8 @@ def main():
             answers, pictures = ([time[name] for time in times] for name in ("answer", "picture"))
             late = statistics.quantiles(pictures, n=20)[-1]
             figures = [statistics.median(answers), statistics.median(pictures), late, max(pictures)]
+            goals = [time["goals"] for time in times if time["goals"] is not None]
+            figures += [statistics.median(goals)] if goals else []
             print(f"{design.stem:28} " + " ".join(f"{figure:8.1f}" for figure in figures), flush=True)
         browser.close()
 

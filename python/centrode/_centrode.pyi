@@ -200,6 +200,7 @@ class Body:
         density: _Real | None = None,
         material: str | None = None,
         bore_fit: str | None = None,
+        shaft_fit: str | None = None,
         keyway_fit: str | None = None,
         heat_treatment: str | None = None,
         accuracy: str | None = None,
@@ -219,6 +220,8 @@ class Body:
     def material(self) -> str: ...
     @property
     def bore_fit(self) -> str: ...
+    @property
+    def shaft_fit(self) -> str: ...
     @property
     def keyway_fit(self) -> str: ...
     @property

@@ -13,6 +13,7 @@ table! {
     ///     density: kg/m^3.
     ///     material: For the drawing.
     ///     bore_fit: Tolerance class of the bore, ISO 286, for the drawing.
+    ///     shaft_fit: Tolerance class of the shaft in the bore, ISO 286, for the drawing.
     ///     keyway_fit: Tolerance class of the keyway's width, ISO 286, for the drawing.
     ///     heat_treatment: For the drawing.
     ///     accuracy: Accuracy class of the teeth, for the drawing.
@@ -36,6 +37,8 @@ table! {
         material: String,
         /// Tolerance class of the bore, for the drawing.
         bore_fit: String,
+        /// Tolerance class of the shaft in the bore, for the drawing.
+        shaft_fit: String,
         /// Tolerance class of the keyway's width, for the drawing.
         keyway_fit: String,
         /// Heat treatment, for the drawing.

@@ -210,7 +210,7 @@ def test_a_machine_follows_a_drawn_path(tmp_path):
 
 def test_a_drawing_that_gives_no_path_is_refused_with_its_file(tmp_path):
     square = drawing(tmp_path, "M 20 20 H 120 V 80 H 20 Z")
-    with pytest.raises(ct.DesignError, match=r"drawn\.svg: .* it turns by 90\.00 deg at \(.*\) mm; round that corner"):
+    with pytest.raises(ct.DesignError, match=r"drawn\.svg: .* turns by 90\.00 deg, at \(.*\) mm; round corners"):
         ct.drawn_path(square)
     with pytest.raises(ct.DesignError, match=r"drawn\.svg: .* does not tell its size: width is \"200\""):
         ct.drawn_path(drawing(tmp_path, "M 0 0 Z", width="200"))

@@ -94,6 +94,21 @@ def exports(tmp_path_factory):
     return export
 
 
+@pytest.fixture(scope="module")
+def shipped(tmp_path_factory):
+    """Exports a shipped design in some formats where it was not yet."""
+
+    @cache
+    def export(name, formats):
+        folder = tmp_path_factory.mktemp(name)
+        design = ROOT / "tests" / "designs" / f"{name}.toml"
+        # A machine that does not do its job is written all the same.
+        centrode("export", design, "--to", folder, "--format", formats, check=False)
+        return folder
+
+    return export
+
+
 @pytest.fixture(scope="session", params=DESIGNS)
 def exported(request, exports):
     return exports(request.param)

@@ -25,6 +25,7 @@ ARMS = ROOT / "tests" / "designs" / "three-arm-2021.toml"
 FEEDER = ROOT / "tests" / "designs" / "feeder-widened.toml"
 SHAFT = ROOT / "tests" / "designs" / "spiral-shaft-2018.toml"
 BOX = ROOT / "tests" / "designs" / "moving-box-2018.toml"
+CIRCLE = ROOT / "tests" / "designs" / "circular-pair.toml"
 
 
 def settled(page):
@@ -34,9 +35,11 @@ def settled(page):
 
 
 @contextmanager
-def shown(browser, url, script="", ready=settled, **options):
-    """A page that may not complain on its console; a script runs before its own."""
-    context = browser.new_context(viewport={"width": 1440, "height": 900}, **options)
+def shown(browser, url, script="", ready=settled, toured=True, size=(1440, 900), **options):
+    """A page that may not complain on its console; a script runs before its own. Its user has seen the tour before."""
+    context = browser.new_context(viewport=dict(zip(("width", "height"), size, strict=True)), **options)
+    if toured:
+        context.add_cookies([{"name": "centrode-tour", "value": "seen", "domain": "127.0.0.1", "path": "/"}])
     context.add_init_script(script)
     context.set_default_timeout(15_000)
     page = context.new_page()

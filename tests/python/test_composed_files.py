@@ -8,7 +8,7 @@ import mujoco
 import numpy as np
 import pytest
 import tomllib
-from conftest import ROOT, centrode
+from conftest import ROOT
 from reading import rows
 
 SHIPPED = {path.stem: tomllib.loads(path.read_text()) for path in sorted((ROOT / "tests" / "designs").glob("*.toml"))}
@@ -18,19 +18,9 @@ TOOTHLESS = [name for name in CLOSED if "pairs" not in SHIPPED[name]]
 
 
 @pytest.fixture(scope="module")
-def exported(tmp_path_factory):
+def exported(shipped):
     """Folder of a design's files, written once."""
-    folders = {}
-
-    def export(name):
-        if name not in folders:
-            folders[name] = tmp_path_factory.mktemp(name)
-            design = ROOT / "tests" / "designs" / f"{name}.toml"
-            # A machine that does not do its job is written all the same.
-            centrode("export", design, "--to", folders[name], "--format", "csv,mjcf", check=False)
-        return folders[name]
-
-    return export
+    return lambda name: shipped(name, "csv,mjcf")
 
 
 def test_there_are_designs_to_play():

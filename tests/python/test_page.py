@@ -31,6 +31,10 @@ def test_every_shipped_design_is_shown_with_the_figures_of_check(browser, tmp_pa
         assert set(told) == set(report["values"])
         goals = page.locator(".goal b").evaluate_all("goals => goals.map(goal => goal.title)")
         assert [json.loads(goal or "null") for goal in goals] == [goal["value"] for goal in report.get("goals", [])]
+        worst = {finding["severity"] for finding in report["findings"]} - {"note"}
+        status = page.locator("#findings h2").inner_text()
+        assert ("Sound" in status) == (not worst), status
+        assert ("Works" in status) == (worst == {"warning"}), status
         assert len(set(drawing(page))) > 10
         assert page.locator(".chart").count() >= 5
 
@@ -174,7 +178,7 @@ def test_a_bad_value_shows_its_error_and_leaves_the_picture(points):
     page.locator("#undo").click()
     page.locator("#undo").click()
     expect(remark).to_be_empty()
-    expect(page.locator("#findings")).to_contain_text("Sound")
+    expect(page.locator("#findings")).to_contain_text("Works, with warnings")
     assert design.read_text() == POINTS.read_text()
 
 

@@ -8,12 +8,10 @@ from xml.etree import ElementTree
 
 import pytest
 from axe_playwright_python.sync_playwright import Axe
-from conftest import ROOT, centrode
-from page import ARMS, BOX, FEEDER, POINTS, field, opened, settled, shown
+from conftest import centrode
+from page import ARMS, BOX, CIRCLE, FEEDER, POINTS, field, opened, settled, shown
 from playwright.sync_api import expect
 from studio import studio
-
-CIRCLE = ROOT / "tests" / "designs" / "circular-pair.toml"
 
 # Every canvas keeps the words written on it, and the lines drawn, since it was last cleared.
 WATCH = """

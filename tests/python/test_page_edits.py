@@ -4,12 +4,9 @@ import json
 import re
 
 import pytest
-from conftest import ROOT
-from page import ARMS, BOX, FEEDER, POINTS, drawing, field, figures, opened, settled, shown
+from page import ARMS, BOX, CIRCLE, FEEDER, POINTS, drawing, field, figures, opened, settled, shown
 from playwright.sync_api import expect
 from studio import studio
-
-CIRCLE = ROOT / "tests" / "designs" / "circular-pair.toml"
 
 
 def test_what_is_being_typed_is_not_touched_by_answers(arms):
@@ -319,7 +316,7 @@ def test_a_heavy_design_is_drawn_with_its_teeth_before_it_is_checked(browser, tm
         field(page, "arm.tip_distance").press("Enter")
         expect(page.locator("#verdict")).to_have_class(re.compile("stale"))
         settled(page)
-        assert depths == ["picture", "detail", "checks"]
+        assert depths == ["picture", "goals", "detail", "checks"]
 
 
 def slowly(page):

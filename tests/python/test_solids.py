@@ -10,7 +10,7 @@ def section(folder, gear):
     """Area of the profile less its bore, from the cutting file."""
     (profile,) = contours(folder / f"{gear}.dxf")
     try:
-        holes = contours(folder / f"{gear}.dxf", "bore")
+        holes = contours(folder / f"{gear}.dxf", "hole")
     except AssertionError:
         holes = []
     for hole in holes:

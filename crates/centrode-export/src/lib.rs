@@ -19,6 +19,7 @@ mod options;
 mod package;
 pub mod page;
 pub mod pdf;
+mod plate;
 pub mod shaft;
 pub mod sheet;
 mod stage;

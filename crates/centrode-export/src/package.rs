@@ -305,11 +305,15 @@ impl<'a> Package<'a> {
         let own = self.prefix.is_empty();
         let models = own && self.wants(&[Format::Csv, Format::Urdf, Format::Mjcf]);
         let sheets = self.takes(ARRANGEMENT, &SHEETS);
-        if !sheets && !models {
+        let whole = own && self.takes(ARRANGEMENT, &[Format::ThreeMf]);
+        if !sheets && !models && !whole {
             return Ok(());
         }
         let made = make()?;
         self.arrangement(&made)?;
+        if whole {
+            machine::add_whole(&made, self)?;
+        }
         if models {
             machine::add(&made, self)?;
         }

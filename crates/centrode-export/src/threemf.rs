@@ -1,12 +1,15 @@
-//! 3MF packages: a closed mesh with its unit and name.
+//! 3MF packages: closed meshes with their unit, names, colours and places.
 
 use centrode_geometry::{Mesh, checkpoint};
+use nalgebra::Isometry3;
 use std::{
     collections::HashMap,
     fmt::Write as _,
     io::{Cursor, Write as _},
 };
 use thiserror::Error;
+
+use crate::sheet::number;
 use zip::{CompressionMethod, DateTime, ZipWriter, write::SimpleFileOptions};
 
 /// Reason why a package could not be made.
@@ -45,6 +48,37 @@ const RELATIONS: &str = concat!(
 /// # Errors
 /// [`PackageError`] if the package would be larger than the format holds.
 pub fn write(mesh: &Mesh, name: &str, title: &str) -> Result<Vec<u8>, PackageError> {
+    let items = vec![(String::new(), Isometry3::identity())];
+    let (name, color) = (name.to_owned(), None);
+    write_assembly(
+        &[Object {
+            name,
+            mesh,
+            color,
+            items,
+        }],
+        title,
+    )
+}
+
+/// A body of an assembly, and every place where it stands.
+#[derive(Clone, Debug)]
+pub struct Object<'a> {
+    /// Name.
+    pub name: String,
+    /// Closed mesh in its own frame, mm.
+    pub mesh: &'a Mesh,
+    /// Red, green and blue.
+    pub color: Option<[u8; 3]>,
+    /// Name and place of each piece; a name may be empty.
+    pub items: Vec<(String, Isometry3<f64>)>,
+}
+
+/// Writes bodies in their places as one 3MF package in millimetres, as [`write()`] does one.
+///
+/// # Errors
+/// [`PackageError`] if the package would be larger than the format holds.
+pub fn write_assembly(objects: &[Object<'_>], title: &str) -> Result<Vec<u8>, PackageError> {
     // A fixed date: equal meshes give equal bytes.
     let options = SimpleFileOptions::default()
         .compression_method(CompressionMethod::Deflated)
@@ -54,7 +88,7 @@ pub fn write(mesh: &Mesh, name: &str, title: &str) -> Result<Vec<u8>, PackageErr
     for (path, text) in [
         ("[Content_Types].xml", TYPES),
         ("_rels/.rels", RELATIONS),
-        ("3D/3dmodel.model", &model(mesh, name, title)),
+        ("3D/3dmodel.model", &model(objects, title)),
     ] {
         package.start_file(path, options)?;
         package.write_all(text.as_bytes())?;
@@ -62,16 +96,53 @@ pub fn write(mesh: &Mesh, name: &str, title: &str) -> Result<Vec<u8>, PackageErr
     Ok(package.finish()?.into_inner())
 }
 
-fn model(mesh: &Mesh, name: &str, title: &str) -> String {
-    let (vertices, faces) = single_precision(mesh);
+fn model(objects: &[Object<'_>], title: &str) -> String {
     let mut xml = format!(
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n\
          <model unit=\"millimeter\" xml:lang=\"en-US\" xmlns=\"http://schemas.microsoft.com/3dmanufacturing/core/2015/02\">\n\
          <metadata name=\"Title\">{}</metadata>\n<metadata name=\"Application\">centrode</metadata>\n\
-         <resources>\n<object id=\"1\" type=\"model\" name=\"{}\">\n<mesh>\n<vertices>\n",
+         <resources>\n",
         escaped(title),
-        escaped(name)
     );
+    // Colours have a number of their own after those of the objects.
+    let colors = objects.len() + 1;
+    let colored = objects.iter().filter_map(|object| object.color);
+    let bases = colored.map(|[r, g, b]| {
+        format!("<base name=\"#{r:02X}{g:02X}{b:02X}\" displaycolor=\"#{r:02X}{g:02X}{b:02X}\"/>\n")
+    });
+    let bases: String = bases.collect();
+    if !bases.is_empty() {
+        xml += &format!("<basematerials id=\"{colors}\">\n{bases}</basematerials>\n");
+    }
+    let mut base = 0;
+    for (index, object) in objects.iter().enumerate() {
+        let color = object.color.map(|_| {
+            base += 1;
+            format!(" pid=\"{colors}\" pindex=\"{}\"", base - 1)
+        });
+        xml += &format!(
+            "<object id=\"{}\" type=\"model\" name=\"{}\"{}>\n",
+            index + 1,
+            escaped(&object.name),
+            color.unwrap_or_default()
+        );
+        body(&mut xml, object.mesh);
+        xml += "</object>\n";
+    }
+    xml += "</resources>\n<build>\n";
+    for (index, object) in objects.iter().enumerate() {
+        for (name, place) in &object.items {
+            xml += &item(index + 1, name, place);
+        }
+    }
+    xml += "</build>\n</model>\n";
+    xml
+}
+
+/// Adds the vertices and triangles of a mesh.
+fn body(xml: &mut String, mesh: &Mesh) {
+    let (vertices, faces) = single_precision(mesh);
+    xml.push_str("<mesh>\n<vertices>\n");
     // Writing to a string cannot fail.
     for [x, y, z] in vertices {
         checkpoint();
@@ -82,10 +153,23 @@ fn model(mesh: &Mesh, name: &str, title: &str) -> String {
         checkpoint();
         let _ = writeln!(xml, "<triangle v1=\"{a}\" v2=\"{b}\" v3=\"{c}\"/>");
     }
-    xml.push_str(
-        "</triangles>\n</mesh>\n</object>\n</resources>\n<build>\n<item objectid=\"1\"/>\n</build>\n</model>\n",
-    );
-    xml
+    xml.push_str("</triangles>\n</mesh>\n");
+}
+
+/// A piece in its place: the images of the axes, then of the origin.
+fn item(object: usize, name: &str, place: &Isometry3<f64>) -> String {
+    let mut words = format!("<item objectid=\"{object}\"");
+    if *place != Isometry3::identity() {
+        let matrix = place.to_homogeneous();
+        let columns = (0..4).flat_map(|column| (0..3).map(move |row| (row, column)));
+        let numbers = columns.map(|at| number(matrix[at], 9));
+        let numbers: Vec<String> = numbers.collect();
+        words += &format!(" transform=\"{}\"", numbers.join(" "));
+    }
+    if !name.is_empty() {
+        words += &format!(" partnumber=\"{}\"", escaped(name));
+    }
+    words + "/>\n"
 }
 
 /// Vertices rounded to single precision, equal ones merged, and the faces that are left.

@@ -244,9 +244,11 @@ impl<'a> Turning<'a> {
         let squared = ends.each_ref().map(|m| m.driven.0.norm_squared());
         let between = 0.5 * (squared[0] + squared[1]);
         let middle = self.meeting(&a, &b, between);
-        // Where there is a lever nothing longer than rounding errors has no middle: the halving ends.
-        let has_middle = squared.iter().all(|&s| between != s)
-            && ends.iter().all(|m| middle.u != m.u || middle.v != m.v);
+        // A meeting that is not strictly between the ends, or no number, is no middle: so the halving ends.
+        let found = middle.driven.0.norm_squared();
+        let [low, high] = [squared[0].min(squared[1]), squared[0].max(squared[1])];
+        let has_middle =
+            low < found && found < high && ends.iter().all(|m| middle.u != m.u || middle.v != m.v);
         if !has_middle {
             return;
         }

@@ -1,3 +1,15 @@
+use centrode_mechanism::gear::design::Addendum;
+
+/// Remedy against a finding about the teeth, of a pair whose addenda are fitted already or not.
+pub(super) fn remedy_of_teeth(rule: &str, addendum: Addendum) -> Option<&'static str> {
+    match (rule, addendum) {
+        ("severed" | "undercut" | "short-tooth", Addendum::Fitted) => {
+            Some("more teeth of a smaller module, or a pitch curve of gentler curvature")
+        }
+        _ => remedy(rule),
+    }
+}
+
 /// Usual remedy against a finding of a rule.
 pub(crate) fn remedy(rule: &str) -> Option<&'static str> {
     Some(match rule {

@@ -1,6 +1,6 @@
 use centrode_mechanism::gear::{Gear, GearPair, Limits, Member, Tooth};
 
-use super::remedy::remedy;
+use super::remedy::remedy_of_teeth;
 use crate::{Finding, Place, Report, Severity, Unit};
 
 pub(super) fn teeth(pair: &GearPair, gear: &Gear, limits: &Limits, report: &mut Report) {
@@ -36,7 +36,7 @@ pub(super) fn teeth(pair: &GearPair, gear: &Gear, limits: &Limits, report: &mut 
         );
         report.findings.push(Finding {
             rule,
-            remedy: remedy(rule),
+            remedy: remedy_of_teeth(rule, pair.teeth().addendum),
             severity,
             message: say(&who, worst),
             measured: Some(worst),

@@ -1,5 +1,6 @@
 //! The files of a disc cam.
 
+mod plate;
 mod sheet;
 mod solid;
 mod table;
@@ -7,6 +8,7 @@ mod table;
 use crate::{Bundle, ExportError, Format, Options, Package, drawing::Drawing, dxf::Curves};
 use centrode_geometry::Tolerance;
 use centrode_mechanism::cam::{Cam, CamError};
+pub(crate) use plate::plate;
 use sheet::Contours;
 pub use solid::{mesh, solid};
 pub use table::columns;

@@ -1,15 +1,12 @@
-use crate::drawing::{Anchor, Color, Drawing, LineType, Shape, Text};
+use crate::drawing::{Anchor, CENTER, Color, Drawing, HOLE, LineType, PROFILE, Shape, Text};
 use crate::package::title_or_name;
 use centrode_geometry::{Bounds, Outline, Point, Tolerance, Vector};
 use centrode_mechanism::cam::design::{Follower, Turn};
 use centrode_mechanism::cam::{Cam, CamError};
 
-const PROFILE: &str = "PROFILE";
-const BORE: &str = "BORE";
 const PITCH_CURVE: &str = "PITCH_CURVE";
 const BASE_CIRCLE: &str = "BASE_CIRCLE";
 const FOLLOWER: &str = "FOLLOWER";
-const CENTER: &str = "CENTER";
 const TEXT: &str = "TEXT";
 
 /// The contours of a cam in its own frame.
@@ -25,7 +22,7 @@ impl Contours {
         let disc = cam.disc();
         let base = Outline::circle(Point::origin(), disc.base_radius());
         let mut contours = vec![(PROFILE, cam.profile().outline().clone())];
-        contours.extend(cam.bore().map(|bore| (BORE, bore)));
+        contours.extend(cam.bore().map(|bore| (HOLE, bore)));
         let path = disc.pitch_curve(tolerance.scaled(1e-3))?;
         contours.extend(path.map(|path| (PITCH_CURVE, path)));
         contours.push((BASE_CIRCLE, base));
@@ -142,6 +139,6 @@ fn layers() -> Drawing {
         .layer(CENTER, Color::Red, LineType::Center, 0.13)
         .layer(BASE_CIRCLE, Color::Gray, LineType::Hidden, 0.13)
         .layer(PITCH_CURVE, Color::Blue, LineType::Center, 0.18)
-        .layer(BORE, Color::Foreground, LineType::Continuous, 0.35)
+        .layer(HOLE, Color::Foreground, LineType::Continuous, 0.35)
         .layer(PROFILE, Color::Foreground, LineType::Continuous, 0.35)
 }

@@ -91,7 +91,7 @@ fn the_drawing_holds_profile_path_base_circle_and_bore() {
     for (cam, expected) in [
         (
             swinging(),
-            vec!["PROFILE", "BORE", "PITCH_CURVE", "BASE_CIRCLE"],
+            vec!["PROFILE", "HOLE", "PITCH_CURVE", "BASE_CIRCLE"],
         ),
         (flat(), vec!["PROFILE", "BASE_CIRCLE"]),
     ] {

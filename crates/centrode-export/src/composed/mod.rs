@@ -1,6 +1,7 @@
-//! The files of a composed machine: its bodies as plates, a simulator model, its motion.
+//! The files of a composed machine: its bodies as plates, its gears and cams, a simulator model, its motion.
 
 mod curves;
+mod parts;
 
 use centrode_geometry::{MassProperties, Point, Solid};
 use centrode_mechanism::composed::Composed;
@@ -8,11 +9,9 @@ use centrode_mechanism::machine::{Form, LinePath, Machine};
 use nalgebra::{Isometry2, Matrix3, Point3};
 
 use crate::drawing::{Color, Drawing, LineType, Shape};
-use crate::{Bundle, ExportError, Format, Options, Package, cam, gear_pair};
+use crate::{Bundle, ExportError, Format, Options, Package};
 pub use curves::curves;
 
-const PROFILE: &str = "PROFILE";
-const HOLE: &str = "HOLE";
 const PATH: &str = "PATH";
 const SCENERY: &str = "SCENERY";
 
@@ -32,7 +31,7 @@ pub fn machine(composed: &Composed) -> Result<Machine, ExportError> {
 
 /// The files of a composed machine in the formats asked for, not yet on disk.
 ///
-/// Each body is a plate named after it; `assembly` is the machine where its cycle begins, with the ways of its points. MJCF
+/// Each body is a plate named after it, each gear and cam a part of its name; `assembly` is the machine where its cycle begins, with the ways of its points. MJCF
 /// closes the loops by equality constraints; URDF, which has no loops, leaves them open and says so.
 ///
 /// # Errors
@@ -47,40 +46,7 @@ pub fn files(
     let named = [design.name.as_str(), design.title.as_str()];
     let mut package = Package::new("a composed machine", named, formats, options);
     package.finer_than(design.plates.pin_diameter, "pins' diameter")?;
-    // Copies have the files of their originals.
-    let is_copy = |name: &String| composed.original(name) != name;
-    for (index, body) in composed.bodies().iter().enumerate() {
-        let name = &body.name;
-        // A link's plate is the first of its solids.
-        let solid = plates(&made, index).first();
-        let Some(solid) = solid.filter(|_| composed.contours(index).is_some()) else {
-            continue;
-        };
-        if is_copy(name) {
-            continue;
-        }
-        package.drawing(name, |_| {
-            let mut drawing = layers();
-            contours(&mut drawing, PROFILE, solid, &Isometry2::identity());
-            Ok(drawing)
-        })?;
-        let title = package.titled(name);
-        package.solid(name, &title, || Ok(solid.clone()))?;
-    }
-    for gear in composed.gears().iter().filter(|gear| !is_copy(&gear.name)) {
-        let solid = || gear_pair::solid(&gear.pair, gear.member);
-        package.drawing(&gear.name, |_| {
-            let mut drawing = layers();
-            contours(&mut drawing, PROFILE, &solid()?, &Isometry2::identity());
-            Ok(drawing)
-        })?;
-        let title = package.titled(&gear.name);
-        package.solid(&gear.name, &title, solid)?;
-    }
-    for cam in composed.cams().iter().filter(|cam| !is_copy(&cam.name)) {
-        let title = package.titled(&cam.name);
-        cam::add(&mut package, &cam.part, &title, options.tolerance)?;
-    }
+    parts::add(&mut package, composed, &made)?;
     package.drawing("assembly", |_| Ok(assembly(composed, &made)))?;
     package.machine(|| Ok(with_masses(&made)))?;
     package.finish()
@@ -113,7 +79,7 @@ fn plates(machine: &Machine, link: usize) -> &[Solid] {
 
 /// The machine where its cycle begins, seen along the shafts, a layer a body, with the ways of its points.
 fn assembly(composed: &Composed, machine: &Machine) -> Drawing {
-    let mut drawing = layers().layer(PATH, Color::Blue, LineType::Continuous, 0.18);
+    let mut drawing = Drawing::default().layer(PATH, Color::Blue, LineType::Continuous, 0.18);
     for (index, body) in composed.bodies().iter().enumerate() {
         let layer = body.name.to_uppercase();
         let line = match index {
@@ -168,15 +134,7 @@ fn scenery(mut drawing: Drawing, composed: &Composed, machine: &Machine) -> Draw
 
 fn contours(drawing: &mut Drawing, layer: &str, solid: &Solid, place: &Isometry2<f64>) {
     drawing.draw(layer, Shape::Contour(solid.outline().transformed(place)));
-    let inner = if layer == PROFILE { HOLE } else { layer };
     for hole in solid.holes() {
-        drawing.draw(inner, Shape::Contour(hole.transformed(place)));
+        drawing.draw(layer, Shape::Contour(hole.transformed(place)));
     }
-}
-
-/// The profile last, over the lines of reference.
-fn layers() -> Drawing {
-    Drawing::default()
-        .layer(HOLE, Color::Foreground, LineType::Continuous, 0.35)
-        .layer(PROFILE, Color::Foreground, LineType::Continuous, 0.35)
 }

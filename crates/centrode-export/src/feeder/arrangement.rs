@@ -2,9 +2,11 @@ use std::f64::consts::TAU;
 
 use centrode_geometry::Point;
 use centrode_mechanism::feeder::{Feeder, Part, Plate};
-use centrode_mechanism::machine::{self, Axis, Datum, Dimension, Line, LineRole, Machine};
+use centrode_mechanism::gear::design::BodySpec;
+use centrode_mechanism::machine::{self, Axis, Datum, Dimension, Fit, Line, LineRole, Machine};
 
-use crate::sheet::number;
+use super::gears;
+use crate::sheet::{fit, number};
 
 /// Corners of a path.
 const POINTS: u32 = 360;
@@ -89,13 +91,41 @@ fn pins(feeder: &Feeder, machine: &mut Machine) {
     let links = links.collect();
     let [_, c, _] = feeder.six_bar().joints(feeder.start());
     let rim = [c.x - 0.5 * pin, c.y];
+    let spec = &feeder.design().plates;
+    let fit = Fit {
+        name: "pins of A, B, C, D, F".into(),
+        size: pin,
+        is_width: false,
+        hole: spec.hole_fit.clone(),
+        shaft: spec.pin_fit.clone(),
+    };
+    let remark = format!("{}, of A, B, C, D and F", fit::shaft(&fit));
+    machine.fit(fit);
+    machine.fit(Fit {
+        name: "slider in the slot".into(),
+        size: spec.slot_width,
+        is_width: true,
+        hole: spec.slot_fit.clone(),
+        shaft: spec.slider_fit.clone(),
+    });
     machine.part(machine::Part {
         name: "pin of a joint".into(),
         links,
-        remark: format!("Ø{}, of A, B, C, D and F", number(pin, PLACES)),
+        remark,
         place: machine.place_on(Part::Frame.name(), rim),
         ..machine::Part::default()
     });
+}
+
+/// Fit of the pins of the cams in the driven gear.
+fn pressed(diameter: f64) -> Fit {
+    Fit {
+        name: "pins of the cams".into(),
+        size: diameter,
+        is_width: false,
+        hole: gears::PIN_HOLES.into(),
+        shaft: gears::PINS.into(),
+    }
 }
 
 /// The incomplete gears with their cams and pins, which are not cut for this.
@@ -109,6 +139,10 @@ fn gears(feeder: &Feeder, machine: &mut Machine) {
             machine.part(machine::Part {
                 name: name.into(),
                 links,
+                material: match file.is_empty() {
+                    true => String::new(),
+                    false => BodySpec::default().material,
+                },
                 file: file.into(),
                 remark,
                 place: seen.and_then(|(figure, pitches)| machine.place_on(figure, rim(pitches))),
@@ -141,18 +175,25 @@ fn gears(feeder: &Feeder, machine: &mut Machine) {
         let beside = "beside the incomplete gear";
         add("entry cam", vec![0], "gear-entry-cam", beside.into(), None);
         add("exit cam", vec![0], "gear-exit-cam", beside.into(), None);
-        let pin = number(spec.pin_diameter.unwrap_or(2.5 * spec.module), PLACES);
+        let pin = pressed(spec.pin_diameter.unwrap_or(2.5 * spec.module));
         let pins = vec![crank; 2 * stops as usize];
-        let remark = format!("Ø{pin}, on the driven gear");
+        let remark = format!("{}, pressed into the driven gear", fit::shaft(&pin));
         add("pin of a cam", pins, "", remark, None);
     }
-    add(
-        "shaft of the incomplete gear",
-        vec![0],
-        "",
-        format!("Ø{}", number(spec.bore, PLACES)),
-        None,
-    );
+    let body = BodySpec::default();
+    let shaft = Fit {
+        name: "shafts of the gears".into(),
+        size: spec.bore,
+        is_width: false,
+        hole: body.bore_fit,
+        shaft: body.shaft_fit,
+    };
+    let remark = fit::shaft(&shaft);
+    add("shaft of the incomplete gear", vec![0], "", remark, None);
+    if spec.entry > 0.0 && stops > 0 {
+        machine.fit(pressed(spec.pin_diameter.unwrap_or(2.5 * spec.module)));
+    }
+    machine.fit(shaft);
 }
 
 fn data(feeder: &Feeder) -> Vec<Datum> {

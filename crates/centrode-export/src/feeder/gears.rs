@@ -1,105 +1,124 @@
-use crate::ExportError;
-use crate::drawing::{Color, Drawing, LineType, Shape};
-use centrode_geometry::{Mesh, Outline, Point, Solid, Tolerance};
+use centrode_geometry::{Outline, Point, Segment, Tolerance};
+use centrode_mechanism::feeder::Feeder;
+use centrode_mechanism::gear::design::BodySpec;
 use centrode_mechanism::gear::{Gear, IncompletePair};
 use nalgebra::Isometry2;
 
-const PROFILE: &str = "PROFILE";
-const BORE: &str = "BORE";
-const PIN: &str = "PIN";
-const CENTER: &str = "CENTER";
+use crate::csv::Column;
+use crate::drawing::{Anchor, CENTER, Color, Drawing, HOLE, LineType, PROFILE, Shape};
+use crate::plate::{Hole, Plate};
+use crate::sheet::{Table, capital, number};
+
 const CAM: &str = "CAM";
 
-/// A part of the incomplete gear pair.
-pub(super) struct GearPart {
-    pub(super) name: &'static str,
-    /// A polygon of short chords.
-    outline: Outline,
-    /// Outline of few lines and arcs, for drawings.
-    drawn: Outline,
-    /// Contours cut out of it.
-    holes: Vec<Outline>,
-    /// Pins that stand on it, for reference.
-    pins: Vec<(Point, f64)>,
-    width: f64,
-}
+/// Names of the files.
+const DRIVER: &str = "gear-driver";
+const DRIVEN: &str = "gear-driven";
+const CAMS: [&str; 2] = ["gear-entry-cam", "gear-exit-cam"];
 
-/// Driver, driven gear and, where there is an entry angle, the cams beside the driver; drawn with arcs within the tolerance.
-pub(super) fn parts(gears: &IncompletePair, tolerance: Tolerance) -> Vec<GearPart> {
+/// Tolerance class of the holes into which the pins are pressed.
+pub(super) const PIN_HOLES: &str = "H7";
+/// Tolerance class of the pins, ISO 8734.
+pub(super) const PINS: &str = "m6";
+
+/// Driver, driven gear and, where there is an entry angle, the cams beside the driver; with arcs within the tolerance.
+pub(super) fn parts(feeder: &Feeder, gears: &IncompletePair, tolerance: Tolerance) -> Vec<Plate> {
     let pair = gears.pair();
-    let part = |name, outline: &Outline, gear: &Gear, pins| GearPart {
-        name,
-        outline: outline.clone(),
-        drawn: outline.arcs_of_chords(gears.accuracy(), tolerance),
-        holes: gear.bore().into_iter().collect(),
-        pins,
-        width: gear.body().width,
+    let (driver, driven) = (pair.driver(), pair.driven());
+    let table = |gear: &Gear, teeth: String| data(feeder, gears, gear, teeth);
+    let part = |name: &str, outline: &Outline, body: &BodySpec, bore: Option<Outline>| {
+        // Cut as short chords: lines and arcs of the same accuracy, which a solid can have, too.
+        let outline = outline.arcs_of_chords(gears.accuracy(), tolerance);
+        Plate::of_body([name, &capital(name)], outline, bore, body)
+            .noted(&format!("Points of the contour: {name}.csv."))
+            .noted("Drawn as the motion begins: on the driver x points to the")
+            .noted("driven gear's axis, on the driven gear away from the driver's.")
     };
+    let mut first = part(DRIVER, gears.driver(), driver.body(), driver.bore());
+    first.tables = vec![table(
+        driver,
+        format!("{} of {}", gears.teeth(), driver.tooth_count()),
+    )];
+    let mut second = part(DRIVEN, gears.driven(), driven.body(), driven.bore());
+    second.tables = vec![table(driven, driven.tooth_count().to_string())];
     let pins = gears.cams().iter().flat_map(|cam| {
-        let pins = cam.pins.iter();
-        pins.map(|&at| (at, cam.pin_radius))
+        let hole = |&at: &Point| Hole {
+            label: "pin".into(),
+            fit: PIN_HOLES.into(),
+            off: 0.02,
+            ..Hole::from(Outline::circle(at, cam.pin_radius))
+        };
+        cam.pins.iter().map(hole).collect::<Vec<_>>()
     });
-    let mut parts = vec![
-        part("gear-driver", gears.driver(), pair.driver(), Vec::new()),
-        part("gear-driven", gears.driven(), pair.driven(), pins.collect()),
-    ];
-    let sides = ["gear-entry-cam", "gear-exit-cam"];
-    for (name, cam) in sides.into_iter().zip(gears.cams()) {
-        parts.push(part(name, &cam.outline, pair.driver(), Vec::new()));
+    second.holes.extend(pins);
+    let mut all = vec![first, second];
+    for (name, cam) in CAMS.into_iter().zip(gears.cams()) {
+        let cam = part(name, &cam.outline, driver.body(), driver.bore());
+        all.push(cam.noted("Fixed beside the driver, its x axis on the driver's."));
     }
-    parts
+    all
 }
 
-impl GearPart {
-    pub(super) fn mesh(&self, tolerance: Tolerance) -> Result<Mesh, ExportError> {
-        Solid::new(self.outline.clone(), self.holes.clone(), 0.0, self.width)
-            .and_then(|solid| solid.mesh(tolerance))
-            .map_err(ExportError::no_solid(self.name))
+/// The data of a gear.
+fn data(feeder: &Feeder, gears: &IncompletePair, gear: &Gear, teeth: String) -> Table {
+    let (pair, spec) = (gears.pair(), &feeder.design().gears);
+    let tool = &pair.teeth().tool;
+    let pitch = gear.pitch_length() / std::f64::consts::PI;
+    let row = |name: &str, value: String| vec![name.to_owned(), value];
+    Table {
+        title: "Gear data".into(),
+        headings: Vec::new(),
+        columns: vec![Anchor::Left, Anchor::Right],
+        rows: vec![
+            row("Teeth, of pitches all round", teeth),
+            row("Module", number(pair.module(), 4)),
+            row(
+                "Pressure angle",
+                format!("{}°", number(tool.pressure_angle.to_degrees(), 4)),
+            ),
+            row("Pitch diameter", number(pitch, 4)),
+            row("Normal backlash", number(spec.backlash, 4)),
+            row("Radius of locking arc", number(gears.lock_radius(), 4)),
+            row("Play of lock", number(spec.lock_play, 4)),
+            row("Centre distance", number(gears.center_distance(), 4)),
+        ],
+        notes: Vec::new(),
     }
+}
 
-    pub(super) fn drawing(&self) -> Drawing {
-        let mut drawing = layers();
-        self.draw(&mut drawing, PROFILE, &Isometry2::identity());
-        drawing
-    }
-
-    fn draw(&self, drawing: &mut Drawing, layer: &str, place: &Isometry2<f64>) {
-        for &(center, radius) in &self.pins {
-            let center = place * center;
-            drawing.draw(PIN, Shape::Circle { center, radius });
-        }
-        for hole in &self.holes {
-            drawing.draw(BORE, Shape::Contour(hole.transformed(place)));
-        }
-        drawing.draw(CENTER, Shape::Mark(place * Point::origin()));
-        drawing.draw(layer, Shape::Contour(self.drawn.transformed(place)));
-    }
+/// Corners of a part's contour, in order, and how the side that begins there is bent: the tangent of a quarter of its angle.
+pub(super) fn columns(part: &Plate) -> Vec<Column> {
+    let segments = part.outline.segments();
+    let of = |value: fn(&Segment) -> f64| segments.iter().map(value);
+    let bulge = |segment: &Segment| match segment {
+        Segment::Arc(arc) => arc.bulge,
+        _ => 0.0,
+    };
+    vec![
+        Column::numbers("x_mm", of(|side| side.start().x)),
+        Column::numbers("y_mm", of(|side| side.start().y)),
+        Column::numbers("bulge", of(bulge)),
+    ]
 }
 
 /// The gears in place as the motion begins.
-pub(super) fn assembly(gears: &IncompletePair, parts: &[GearPart]) -> Drawing {
-    let mut drawing = layers();
+pub(super) fn assembly(gears: &IncompletePair, parts: &[Plate]) -> Drawing {
+    let mut drawing = Drawing::cutting().layer(CAM, Color::Green, LineType::Continuous, 0.25);
     for part in parts {
-        let x = if part.name == "gear-driven" {
-            gears.center_distance()
-        } else {
-            0.0
+        let x = match &*part.name {
+            DRIVEN => gears.center_distance(),
+            _ => 0.0,
         };
-        let layer = if part.name.ends_with("cam") {
-            CAM
-        } else {
-            PROFILE
+        let place = Isometry2::translation(x, 0.0);
+        let layer = match CAMS.contains(&&*part.name) {
+            true => CAM,
+            false => PROFILE,
         };
-        part.draw(&mut drawing, layer, &Isometry2::translation(x, 0.0));
+        for hole in &part.holes {
+            drawing.draw(HOLE, Shape::Contour(hole.outline.transformed(&place)));
+        }
+        drawing.draw(CENTER, Shape::Mark(place * Point::origin()));
+        drawing.draw(layer, Shape::Contour(part.outline.transformed(&place)));
     }
     drawing
-}
-
-fn layers() -> Drawing {
-    Drawing::default()
-        .layer(CENTER, Color::Red, LineType::Center, 0.13)
-        .layer(PIN, Color::Blue, LineType::Continuous, 0.18)
-        .layer(CAM, Color::Green, LineType::Continuous, 0.25)
-        .layer(BORE, Color::Foreground, LineType::Continuous, 0.35)
-        .layer(PROFILE, Color::Foreground, LineType::Continuous, 0.35)
 }

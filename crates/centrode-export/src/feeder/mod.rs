@@ -6,7 +6,6 @@ mod figures;
 mod gears;
 mod links;
 mod plates;
-mod sheets;
 
 use crate::package::title_or_name;
 use crate::{Bundle, ExportError, Format, Options, Package};
@@ -14,7 +13,7 @@ use centrode_mechanism::feeder::{Feeder, FeederError, Part, Plate};
 use centrode_mechanism::gear::IncompletePair;
 use centrode_mechanism::machine::Machine;
 pub use curves::curves;
-pub use plates::{assembly, plate};
+pub use plates::assembly;
 
 impl From<FeederError> for ExportError {
     fn from(error: FeederError) -> Self {
@@ -49,8 +48,8 @@ fn cut(feeder: &Feeder) -> Result<Vec<Plate>, FeederError> {
 /// The files of a feeder in the formats asked for, not yet on disk.
 ///
 /// Each link is a plate with holes for pins, the effector's with a slot, named after it; `assembly` is the six-bar
-/// where it rests. Drawings and solids hold the incomplete gears, too: `gear-driver`, `gear-driven`, the cams
-/// `gear-entry-cam` and `gear-exit-cam`, and `gears` in place. MJCF closes the loops of the linkage by equality constraints; URDF, which has no loops, leaves
+/// where it rests. The incomplete gears are parts, too: `gear-driver`, `gear-driven`, the cams `gear-entry-cam` and
+/// `gear-exit-cam`, with `gears` in place. MJCF closes the loops of the linkage by equality constraints; URDF, which has no loops, leaves
 /// them open and says so. Both bring the solids they show, in a folder `links`, and the motion of every joint.
 ///
 /// # Errors
@@ -65,13 +64,7 @@ pub fn files(
     let named = [design.name.as_str(), design.title.as_str()];
     let mut package = Package::new("a feeder", named, formats, options);
     for part in &plates {
-        let name = part.part.name();
-        package.drawing(name, |_| Ok(plate(part)))?;
-        package.sheets(name, || sheets::part(feeder, part, &options.sheet))?;
-        let title = package.titled(name);
-        package.solid(name, &title, || {
-            part.solid().map_err(ExportError::no_solid(name))
-        })?;
+        plates::made(feeder, part).add(&mut package, &design.drawing)?;
     }
     package.drawing("assembly", |_| Ok(assembly(feeder, &plates)))?;
     add_gears(&mut package, feeder)?;
@@ -79,19 +72,28 @@ pub fn files(
     package.finish()
 }
 
+/// Formats that show a part.
+const PARTS: [Format; 8] = [
+    Format::Dxf,
+    Format::Svg,
+    Format::Sheet,
+    Format::Pdf,
+    Format::Step,
+    Format::Stl,
+    Format::ThreeMf,
+    Format::Csv,
+];
+
 /// Offers the incomplete gears, which take long to cut.
 fn add_gears(package: &mut Package<'_>, feeder: &Feeder) -> Result<(), ExportError> {
-    // Contours of thousands of short lines are no exact solid, and no sheet is made of them.
-    let made = [Format::Dxf, Format::Svg, Format::Stl, Format::ThreeMf];
-    if !package.wants(&made) && package.options().parts.is_none() {
+    if !package.wants(&PARTS) && package.options().parts.is_none() {
         return Ok(());
     }
     let pair = feeder.gears()?;
-    let parts = gears::parts(&pair, package.tolerance());
+    let parts = gears::parts(feeder, &pair, package.tolerance());
     for part in &parts {
-        package.drawing(part.name, |_| Ok(part.drawing()))?;
-        let title = package.titled(part.name);
-        package.mesh(part.name, &title, |tolerance| part.mesh(tolerance))?;
+        part.add(package, &feeder.design().drawing)?;
+        package.table(&part.name, &part.name, || gears::columns(part))?;
     }
     package.drawing("gears", |_| Ok(gears::assembly(&pair, &parts)))
 }

@@ -1,34 +1,65 @@
-use crate::drawing::{Anchor, Color, Drawing, LineType, Shape, Text};
+use crate::drawing::{Anchor, CENTER, Color, Drawing, LineType, Shape, Text};
+use crate::plate::{self, Hole};
+use crate::sheet::{capital, fit};
 use centrode_geometry::{Bounds, Point, Vector};
 use centrode_mechanism::feeder::{Feeder, Part, Plate};
 
-const PROFILE: &str = "PROFILE";
-const HOLE: &str = "HOLE";
-const CENTER: &str = "CENTER";
 const PATH: &str = "PATH";
 const TEXT: &str = "TEXT";
 
 /// Points of the path of a joint.
 const POINTS: u32 = 360;
 
-/// A plate to cut: profile, holes and slot, and the centres of its joints.
-#[must_use]
-pub fn plate(plate: &Plate) -> Drawing {
-    let mut drawing = layers();
-    drawing.draw(PROFILE, Shape::Contour(plate.outline.clone()));
-    for hole in plate.cut_outs() {
-        drawing.draw(HOLE, Shape::Contour(hole));
+/// A plate of the six-bar as a shop makes it: the distances of its holes are as exact as the swing needs them.
+pub(super) fn made(feeder: &Feeder, plate: &Plate) -> plate::Plate {
+    let (spec, making) = (&feeder.design().plates, &feeder.design().making);
+    let joints = plate.joints.iter().filter(|joint| joint.hole);
+    let pins = plate.holes.iter().zip(joints).map(|(outline, joint)| {
+        // Only the effector's pivot lies off the line through the others.
+        let off = match joint.at {
+            at if at == Point::origin() => 0.0,
+            at if at.y == 0.0 => making.length_tolerance,
+            _ => making.pivot_tolerance,
+        };
+        Hole {
+            label: joint.name.into(),
+            fit: spec.hole_fit.clone(),
+            off,
+            ..Hole::from(outline.clone())
+        }
+    });
+    let slot = plate.slot.iter().map(|(_, outline)| Hole {
+        fit: spec.slot_fit.clone(),
+        ..Hole::from(outline.clone())
+    });
+    let name = plate.part.name();
+    let note = match plate.part {
+        Part::Slider => {
+            let width = fit::keyway(spec.slot_width, &spec.slider_fit);
+            format!("Width {width}, to run in the effector's slot.")
+        }
+        _ => "x points from the first joint to the second.".to_owned(),
+    };
+    plate::Plate {
+        name: name.into(),
+        title: capital(name),
+        quantity: plate.part.quantity() as usize,
+        outline: plate.outline.clone(),
+        holes: pins.chain(slot).collect(),
+        opening: None,
+        thickness: plate.thickness,
+        material: spec.material.clone(),
+        density: spec.density,
+        notes: vec![note],
+        tables: Vec::new(),
     }
-    for joint in &plate.joints {
-        drawing.draw(CENTER, Shape::Mark(joint.at));
-    }
-    drawing
 }
 
 /// The six-bar where it rests, seen along the shafts, with the paths of its joints and its tip.
 #[must_use]
 pub fn assembly(feeder: &Feeder, plates: &[Plate]) -> Drawing {
-    let mut drawing = layers()
+    let mut drawing = Drawing::default()
+        .layer(CENTER, Color::Red, LineType::Center, 0.13)
         .layer(PATH, Color::Blue, LineType::Continuous, 0.18)
         .layer(TEXT, Color::Foreground, LineType::Continuous, 0.25);
     for part in Part::ALL {
@@ -77,12 +108,4 @@ pub fn assembly(feeder: &Feeder, plates: &[Plate]) -> Drawing {
         Shape::Text(Text::new(at, height, words, Anchor::Left)),
     );
     drawing
-}
-
-/// The profile last, over the lines of reference.
-fn layers() -> Drawing {
-    Drawing::default()
-        .layer(CENTER, Color::Red, LineType::Center, 0.13)
-        .layer(HOLE, Color::Foreground, LineType::Continuous, 0.35)
-        .layer(PROFILE, Color::Foreground, LineType::Continuous, 0.35)
 }

@@ -1,7 +1,7 @@
 use centrode_mechanism::gear::{Gear, GearPair, Member};
-use centrode_mechanism::machine::{Callout, Datum, Machine, Part};
+use centrode_mechanism::machine::{Callout, Datum, Fit, Machine, Part};
 
-use crate::sheet::{number, range};
+use crate::sheet::{fit, number, range};
 
 /// Findings of an analysis of the contact, for the tables of sheets: least and greatest number of pairs of teeth in contact,
 /// least and greatest play along the common normal, mm.
@@ -91,12 +91,21 @@ pub(crate) fn list(
 /// Lists the shafts in the bores of gears, one for each of the links.
 pub(crate) fn list_shafts(machine: &mut Machine, gear: &Gear, name: &str, links: Vec<usize>) {
     if gear.body().bore > 0.0 && !links.is_empty() {
+        let body = gear.body();
+        let fit = Fit {
+            name: name.into(),
+            size: body.bore,
+            is_width: false,
+            hole: body.bore_fit.clone(),
+            shaft: body.shaft_fit.clone(),
+        };
         machine.part(Part {
             name: name.into(),
             links,
-            remark: format!("Ø{}", number(gear.body().bore, 3)),
+            remark: fit::shaft(&fit),
             ..Part::default()
         });
+        machine.fit(fit);
     }
 }
 

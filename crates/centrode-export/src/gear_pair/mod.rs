@@ -84,7 +84,7 @@ pub(crate) fn add_gear(
     package: &mut Package<'_>,
     pair: &GearPair,
     member: Member,
-    label: Label,
+    label: Label<'_>,
 ) -> Result<(), ExportError> {
     let drawn = Drawn::new(pair, package.tolerance());
     add(package, &drawn, member.into(), Some(label))
@@ -94,7 +94,7 @@ fn add(
     package: &mut Package<'_>,
     drawn: &Drawn<'_>,
     subject: Subject,
-    label: Option<Label>,
+    label: Option<Label<'_>>,
 ) -> Result<(), ExportError> {
     let (pair, tolerance, sheet) = (
         drawn.pair,

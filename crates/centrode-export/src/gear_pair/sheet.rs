@@ -1,14 +1,11 @@
-use crate::drawing::{Anchor, Color, Drawing, LineType, Shape, Text};
+use crate::drawing::{Anchor, CENTER, Color, Drawing, HOLE, LineType, PROFILE, Shape, Text};
 use centrode_geometry::{Bounds, Outline, Point, Tolerance, Vector};
 use centrode_mechanism::gear::{Gear, GearPair, Member, design::Addendum};
 use nalgebra::Isometry2;
 
-const PROFILE: &str = "PROFILE";
-const BORE: &str = "BORE";
 const PITCH_CURVE: &str = "PITCH_CURVE";
 const TIP: &str = "TIP";
 const ROOT: &str = "ROOT";
-const CENTER: &str = "CENTER";
 const TEXT: &str = "TEXT";
 
 /// The contours of one gear in its own frame.
@@ -28,7 +25,7 @@ impl Contours {
         let gear = pair.gear(member);
         let circle = |radius| Outline::circle(Point::origin(), radius);
         let mut contours = vec![(PROFILE, gear.outline().clone())];
-        contours.extend(gear.bore().map(|bore| (BORE, bore)));
+        contours.extend(gear.bore().map(|bore| (HOLE, bore)));
         contours.push((PITCH_CURVE, gear.pitch_curve().clone()));
         let (root, tip) = gear.radii();
         let tip = tip_curve(pair, gear, tolerance).unwrap_or_else(|| circle(tip));
@@ -134,7 +131,7 @@ fn layers() -> Drawing {
         .layer(TIP, Color::Gray, LineType::Hidden, 0.13)
         .layer(ROOT, Color::Gray, LineType::Hidden, 0.13)
         .layer(PITCH_CURVE, Color::Blue, LineType::Center, 0.18)
-        .layer(BORE, Color::Foreground, LineType::Continuous, 0.35)
+        .layer(HOLE, Color::Foreground, LineType::Continuous, 0.35)
         .layer(PROFILE, Color::Foreground, LineType::Continuous, 0.35)
 }
 

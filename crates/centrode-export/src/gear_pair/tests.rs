@@ -100,6 +100,7 @@ fn every_format_is_there_and_the_same_twice() {
         "assembly-sheet.dxf",
         "assembly-sheet.svg",
         "assembly.pdf",
+        "assembly.3mf",
         "motion.csv",
         "motion.json",
         "parts.csv",

@@ -10,10 +10,11 @@ mod motion_file;
 mod parts;
 mod picture;
 mod rim;
+mod whole;
 
 use centrode_mechanism::machine::Machine;
 
-use crate::{ExportError, Format, Package, csv, mjcf, urdf};
+use crate::{ExportError, Format, Package, csv, mjcf, threemf, urdf};
 pub(crate) use arrangement::NAME as ARRANGEMENT;
 pub use arrangement::arrangement;
 pub use file::{MachineFileError, plain, read, schema, write};
@@ -72,6 +73,18 @@ pub(crate) fn add(machine: &Machine, package: &mut Package<'_>) -> Result<(), Ex
         package.file("play_mujoco.py", script(include_str!("play_mujoco.py")))?;
     }
     Ok(())
+}
+
+/// Adds the whole machine in place, one body a link or several.
+pub(crate) fn add_whole(machine: &Machine, package: &mut Package<'_>) -> Result<(), ExportError> {
+    let whole = whole::Whole::new(machine, package.tolerance());
+    let whole = whole.map_err(ExportError::no_solid("link"))?;
+    let objects = whole.objects(machine);
+    if objects.is_empty() {
+        return Ok(());
+    }
+    let bytes = threemf::write_assembly(&objects, machine.heading())?;
+    package.file(&format!("{ARRANGEMENT}.3mf"), bytes)
 }
 
 /// The machine with every column of its table of motion: those of the machine, and the rate of each joint that does not move

@@ -24,7 +24,7 @@ macro_rules! assets {
 const STYLES: [Asset; 2] = assets!("text/css; charset=utf-8": "uplot.css", "page.css");
 
 /// The scripts; `main.js` is the one to start.
-const SCRIPTS: [Asset; 25] = assets!(
+const SCRIPTS: [Asset; 27] = assets!(
     "text/javascript; charset=utf-8":
     "uplot.js",
     "axes.js",
@@ -36,7 +36,9 @@ const SCRIPTS: [Asset; 25] = assets!(
     "file.js",
     "form.js",
     "handles.js",
+    "help.js",
     "history.js",
+    "link.js",
     "main.js",
     "motion.js",
     "numbers.js",

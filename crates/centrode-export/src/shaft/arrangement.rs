@@ -1,7 +1,7 @@
 use std::f64::consts::TAU;
 
 use centrode_mechanism::gear::Member;
-use centrode_mechanism::machine::{Axis, Datum, Dimension, Machine as Linked, Part};
+use centrode_mechanism::machine::{Axis, Datum, Dimension, Fit, Machine as Linked, Part};
 use centrode_mechanism::shaft::ShaftSolid;
 
 use super::figures;
@@ -10,7 +10,7 @@ use super::machine::Machine;
 use super::sheets::data;
 use crate::ExportError;
 use crate::gear_pair;
-use crate::sheet::number;
+use crate::sheet::{fit, number};
 
 /// Lists shaft, slider, box and gears with their masses, and tells the arrangement: the groove unrolled, the slider in it.
 pub(super) fn tell(parts: &Machine<'_>, machine: &mut Linked) -> Result<(), ExportError> {
@@ -85,18 +85,26 @@ fn list(parts: &Machine<'_>, machine: &mut Linked) -> Result<(), ExportError> {
     machine.part(Part {
         name: "Slider".into(),
         links: vec![slid],
+        material: slider.material.clone(),
         mass: weight(machine, slid),
         file: "slider".into(),
         remark: format!("{} long", number(slider.length, 3)),
         place: machine.place_on_edge("slider", &slider.outline(shaft.groove().width())),
-        ..Part::default()
     });
+    let pin = Fit {
+        name: "slider on its pin".into(),
+        size: slider.pin_diameter,
+        is_width: false,
+        hole: slider.hole_fit.clone(),
+        shaft: slider.pin_fit.clone(),
+    };
     machine.part(Part {
         name: "Pin of the slider".into(),
         links: vec![carriage],
-        remark: format!("Ø{}", number(slider.pin_diameter, 3)),
+        remark: fit::shaft(&pin),
         ..Part::default()
     });
+    machine.fit(pin);
     machine.part(Part {
         name: "Box with its rail".into(),
         links: vec![carriage],

@@ -53,6 +53,7 @@ fn every_file_is_there_and_the_same_twice() {
         "assembly-sheet.dxf",
         "assembly-sheet.svg",
         "assembly.pdf",
+        "assembly.3mf",
         "motion.csv",
         "motion.json",
         "parts.csv",

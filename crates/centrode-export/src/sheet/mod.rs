@@ -23,7 +23,7 @@ pub(crate) use dimension::dimension_words;
 pub use draft::Draft;
 pub use layout::Corner;
 use layout::Page;
-pub(crate) use number::{fixed, mass, number, range, steady};
+pub(crate) use number::{capital, fixed, mass, number, range, steady};
 pub use overlap::{Overlap, overlaps};
 pub use pen::Pen;
 pub use piece::Piece;

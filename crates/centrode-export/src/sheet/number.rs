@@ -37,6 +37,15 @@ pub(crate) fn mass(grams: f64) -> String {
     }
 }
 
+/// A name as a title: with a capital letter, without hyphens.
+pub(crate) fn capital(name: &str) -> String {
+    let mut title = name.replace('-', " ");
+    if let Some(first) = title.get_mut(..1) {
+        first.make_ascii_uppercase();
+    }
+    title
+}
+
 /// A length on paper, mm, without its rounding errors: the order of things must not hang on them.
 pub(crate) fn steady(length: f64) -> f64 {
     const PARTS: f64 = 1e6;

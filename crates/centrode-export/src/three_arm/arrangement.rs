@@ -6,7 +6,7 @@ use centrode_mechanism::three_arm::ThreeArm;
 use super::Part;
 use super::machine::Machine;
 use crate::gear_pair;
-use crate::sheet::number;
+use crate::sheet::{fit, number};
 
 /// Lists the parts and tells the arrangement: the mechanism as its first arm picks.
 pub(super) fn tell(parts: &Machine<'_>, machine: &mut machine::Machine) {
@@ -15,6 +15,9 @@ pub(super) fn tell(parts: &Machine<'_>, machine: &mut machine::Machine) {
         if part != Part::Assembly {
             list(parts, part, machine);
         }
+    }
+    for fit in parts.fits() {
+        machine.fit(fit);
     }
     bought(parts, machine);
     let carrier = machine.place_on("carrier", [0.0; 2]);
@@ -159,17 +162,24 @@ fn bought(parts: &Machine<'_>, machine: &mut machine::Machine) {
         }
     }
     let pins = [
-        ("Pin of the fork", Part::Housing, spec.pivot_bore),
-        ("Pin of the roller", Part::Fork, spec.roller_bore),
-        // Half as wide as the slot in which it runs, as its hole in the rod is.
-        ("Pin of the push rod", Part::PushRod, 0.5 * spec.slot_width),
+        ("Pin of the fork", Part::Housing, spec.pivot_bore, ""),
+        ("Pin of the roller", Part::Fork, spec.roller_bore, ""),
+        // As its hole in the rod is.
+        (
+            "Pin of the push rod",
+            Part::PushRod,
+            0.5 * spec.slot_width,
+            ", twice as wide in the slot",
+        ),
     ];
-    for (name, on, diameter) in pins {
+    for (name, on, diameter, more) in pins {
         let links = links(on, arms, machine);
+        let fit = machine.fits.iter().find(|fit| fit.size == diameter);
+        let size = fit.map_or_else(|| format!("Ø{}", number(diameter, 3)), fit::shaft);
         machine.part(machine::Part {
             name: name.into(),
             links,
-            remark: format!("Ø{}", number(diameter, 3)),
+            remark: format!("{size}{more}"),
             ..machine::Part::default()
         });
     }

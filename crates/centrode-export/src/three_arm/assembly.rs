@@ -50,7 +50,7 @@ pub(super) fn contours(
         draw("GEARS", gear.outline(), &at);
         draw("PITCH_CURVE", gear.pitch_curve(), &at);
         if let Some(bore) = gear.bore() {
-            draw("BORE", &bore, &at);
+            draw("HOLE", &bore, &at);
         }
     };
     gear(Link::Sun);
@@ -90,7 +90,7 @@ fn layers() -> Drawing {
         .layer("SEEDLINGS", Color::Green, LineType::Continuous, 0.18)
         .layer("CARRIER", Color::Gray, LineType::Phantom, 0.25)
         .layer("PITCH_CURVE", Color::Blue, LineType::Center, 0.13)
-        .layer("BORE", Color::Foreground, LineType::Continuous, 0.25)
+        .layer("HOLE", Color::Foreground, LineType::Continuous, 0.25)
         .layer("GEARS", Color::Foreground, LineType::Continuous, 0.25)
         .layer("CAMS", Color::Red, LineType::Continuous, 0.25)
         .layer("ARMS", Color::Green, LineType::Continuous, 0.35)

@@ -8,7 +8,9 @@ use super::machine::Machine;
 pub(super) fn draw(parts: &Machine<'_>, machine: &mut machine::Machine) {
     let plate = |part: Part| {
         let plate = parts.plate_of(part);
-        plate.map_or_else(Vec::new, |plate| contours([&plate.outline], &plate.holes))
+        plate.map_or_else(Vec::new, |plate| {
+            contours([&plate.outline], &plate.cut_outs())
+        })
     };
     let spec = parts.pusher.fork_spec();
     let roller = Outline::circle(Point::new(spec.arm_length, 0.0), spec.roller_radius);

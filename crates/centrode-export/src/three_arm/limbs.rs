@@ -36,7 +36,8 @@ impl Limbs {
         let place = Vector::new(pusher.fork_spec().arm_length, 0.0);
         let place = Isometry2::new(place, 0.0);
         let mut roller = plate(Part::Roller)?;
-        for outline in roller.holes.iter_mut().chain([&mut roller.outline]) {
+        let holes = roller.holes.iter_mut().map(|hole| &mut hole.outline);
+        for outline in holes.chain([&mut roller.outline]) {
             *outline = outline.transformed(&place);
         }
         let fork = [

@@ -13,8 +13,8 @@ use nalgebra::Isometry2;
 
 use super::limbs::Limbs;
 use super::machine::{Machine, no_gearbox};
-use super::plate::Plate;
 use super::{Part, arrangement, figures, surroundings};
+use crate::plate::Plate;
 use crate::{ExportError, gear_pair};
 
 /// Where a cam is on the carrier: its frame in the carrier's.
@@ -156,8 +156,7 @@ impl Builder<'_> {
     ) -> Result<Seen, ExportError> {
         let (mut solids, mut masses): (Vec<Solid>, Vec<_>) = (Vec::new(), Vec::new());
         for (plate, span) in plates {
-            let part = plate.part;
-            let named = || ExportError::no_solid(part.name());
+            let named = || ExportError::no_solid(&plate.name);
             solids.push(plate.placed(*span).map_err(named())?);
             masses.push(plate.mass(*span).map_err(named())?);
         }

@@ -1,18 +1,30 @@
 use centrode_geometry::{Outline, Point};
 use centrode_mechanism::arm::{ArmBody, ArmPart};
 use centrode_mechanism::gear::{GearPair, Member};
+use centrode_mechanism::machine::Fit;
 use centrode_mechanism::three_arm::{GearboxBody, Pusher, ThreeArm};
 
 use super::Part;
-use super::plate::Plate;
-use crate::ExportError;
-use crate::drawing::Anchor;
-use crate::sheet::Table;
+use crate::plate::{Hole, Plate};
+use crate::{ExportError, cam};
 
 /// Material of carrier and housings, with its density in kg/m^3.
 const LIGHT: (&str, f64) = ("aluminium alloy", 2700.0);
 /// Material of what carries load, with its density in kg/m^3.
 const STEEL: (&str, f64) = ("steel", 7850.0);
+
+/// Tolerance class, ISO 286, of the holes in which the shafts of the gears turn, which are made to fit the gears.
+const BEARING: &str = "F7";
+/// Classes of what turns on a pin, hole and shaft.
+const RUNNING: [&str; 2] = ["H7", "f7"];
+/// Of pins that are pressed in, ISO 8734.
+const PRESSED: [&str; 2] = ["H7", "m6"];
+/// Of the roller on its pressed pin.
+const ROLLING: [&str; 2] = ["E9", "m6"];
+/// Of openings that only leave room.
+const PASSING: [&str; 2] = ["H11", "h11"];
+/// Of what slides in a slot or a square bore.
+const SLIDING: [&str; 2] = ["H9", "e9"];
 
 /// A mechanism with every part resolved.
 #[derive(Clone, Debug)]
@@ -101,10 +113,11 @@ impl<'a> Machine<'a> {
         (material, density): (&str, f64),
     ) -> Plate {
         Plate {
-            part,
-            quantity: part.quantity(self.mechanism.arms()),
+            name: part.name().into(),
+            title: part.title().into(),
+            quantity: part.quantity(self.mechanism.arms()) as usize,
             outline,
-            holes,
+            holes: holes.into_iter().map(Hole::from).collect(),
             opening: None,
             thickness: top - bottom,
             material: material.into(),
@@ -114,8 +127,56 @@ impl<'a> Machine<'a> {
         }
     }
 
-    /// A part that is a plate, in its own frame.
+    /// Fits of what turns, slides or is pressed in.
+    pub(super) fn fits(&self) -> Vec<Fit> {
+        let spec = self.pusher.fork_spec();
+        let of = |name: &str, size: f64, is_width: bool, [hole, shaft]: [&str; 2]| Fit {
+            name: name.into(),
+            size,
+            is_width,
+            hole: hole.into(),
+            shaft: shaft.into(),
+        };
+        let body = self.pairs[0].driver().body();
+        let rod = self.mechanism.arm_sizes().rod_bore();
+        let all = [
+            of(
+                "shafts in the carrier",
+                body.bore,
+                false,
+                [BEARING, &body.shaft_fit],
+            ),
+            of("pivot of the fork", spec.pivot_bore, false, RUNNING),
+            of("roller's pin in the fork", spec.roller_bore, false, PRESSED),
+            of("roller on its pin", spec.roller_bore, false, ROLLING),
+            of("slot of the fork", spec.slot_width, true, SLIDING),
+            of("pin in the push rod", 0.5 * spec.slot_width, false, PRESSED),
+            of("push rod in the housing", rod, true, SLIDING),
+        ];
+        all.into_iter().filter(|fit| fit.size > 0.0).collect()
+    }
+
+    /// A part that is a plate, in its own frame, its holes with their classes.
     pub(super) fn plate_of(&self, part: Part) -> Option<Plate> {
+        let mut plate = self.bare_plate(part)?;
+        let classes: &[[&str; 2]] = match part {
+            Part::Carrier => &[[BEARING, ""]],
+            Part::Fork => &[RUNNING, PRESSED, SLIDING],
+            Part::Roller => &[ROLLING],
+            Part::PushRod => &[PRESSED],
+            Part::CoverRear | Part::CoverFront => &[PASSING],
+            _ => &[],
+        };
+        // The last class is that of all further holes.
+        let further = classes.last().into_iter().cycle();
+        let all = classes.iter().chain(further);
+        for (hole, [class, _]) in plate.holes.iter_mut().zip(all) {
+            hole.fit = (*class).into();
+        }
+        Some(plate)
+    }
+
+    fn bare_plate(&self, part: Part) -> Option<Plate> {
         let light = |name: &str| {
             let found = self.of_arm(name)?;
             let (outline, holes) = (found.outline.clone(), found.holes.clone());
@@ -167,27 +228,15 @@ impl<'a> Machine<'a> {
     }
 
     fn cam(&self) -> Plate {
-        let cam = self.pusher.cam();
-        let body = cam.body();
-        let disc = cam.disc();
-        let outline = cam.profile().outline().clone();
-        let holes = cam.bore().into_iter().collect();
-        let material = (body.material.as_str(), body.density);
-        let mut plate = self.plate(Part::Cam, outline, holes, self.pusher.cam_span(), material);
+        let names = [Part::Cam.name(), Part::Cam.title()];
+        let quantity = Part::Cam.quantity(self.mechanism.arms()) as usize;
         let spec = self.pusher.fork_spec();
-        plate.notes = vec![
-            "Exact profile: cam.step, points cam.csv.".into(),
-            "x points to the fork's pivot at the carrier's start.".into(),
-            format!(
-                "Base radius {:.4}, roller Ø{:.3} on an arm of {:.3},",
-                disc.base_radius(),
-                2.0 * spec.roller_radius,
-                spec.arm_length
-            ),
-            format!("pivot {:.3} from the cam's axis.", spec.pivot_distance),
-        ];
-        plate.tables = vec![profile(&self.pusher)];
-        plate
+        cam::plate(self.pusher.cam(), names, quantity)
+            .noted("x points to the fork's pivot at the carrier's start.")
+            .noted(&format!(
+                "The roller's arm is {:.3} mm long, its pivot {:.3} mm from the cam's axis.",
+                spec.arm_length, spec.pivot_distance
+            ))
     }
 }
 
@@ -199,31 +248,4 @@ pub(super) fn no_gearbox() -> ExportError {
 /// The fork has no contour.
 pub(super) fn no_fork() -> ExportError {
     ExportError::missing_at("fork", "pivot, roller and slot enclose nothing")
-}
-
-/// The cam's profile by cam angle.
-fn profile(pusher: &Pusher) -> Table {
-    let disc = pusher.cam().disc();
-    let rows = (0..72).map(|i| {
-        let degrees = 5.0 * f64::from(i);
-        let contact = disc.contact(degrees.to_radians());
-        let at = contact.point;
-        let polar = at.y.atan2(at.x).to_degrees().rem_euclid(360.0);
-        vec![
-            format!("{degrees:.0}"),
-            format!("{polar:.3}"),
-            format!("{:.4}", at.coords.norm()),
-            format!("{:.4}", contact.motion.position.to_degrees()),
-            format!("{:.2}", contact.pressure_angle.to_degrees()),
-        ]
-    });
-    Table {
-        title: "Profile".into(),
-        headings: ["cam °", "polar °", "R", "fork °", "pressure °"]
-            .map(String::from)
-            .to_vec(),
-        columns: vec![Anchor::Right; 5],
-        rows: rows.collect(),
-        notes: vec!["all points: cam.csv".into()],
-    }
 }

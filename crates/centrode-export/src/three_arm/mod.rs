@@ -9,11 +9,11 @@ mod limbs;
 mod links;
 mod machine;
 mod part;
-mod plate;
 mod pushed;
 mod surroundings;
 
 use centrode_mechanism::arm::ArmError;
+use centrode_mechanism::design::DrawingSpec;
 use centrode_mechanism::gear::GearPair;
 use centrode_mechanism::machine::Machine as Linked;
 use centrode_mechanism::three_arm::{PusherError, ThreeArm};
@@ -75,7 +75,7 @@ pub fn files(
     package.finer_than(machine.pairs[0].module(), "module")?;
     for part in Part::ALL {
         if let Some((pair, member)) = machine.gear(part) {
-            let label = label(part, mechanism.arms());
+            let label = label(part, mechanism.arms(), &design.drawing, package.design());
             gear_pair::add_gear(&mut package, pair, member, label)?;
         } else if let Some(plate) = machine.plate_of(part) {
             plate.add(&mut package, &design.drawing)?;
@@ -91,7 +91,7 @@ pub fn files(
 }
 
 /// Words for the sheets of a gear.
-fn label(part: Part, arms: u32) -> Label {
+fn label<'a>(part: Part, arms: u32, drawing: &'a DrawingSpec, machine: &'a str) -> Label<'a> {
     Label {
         name: part.name(),
         title: part.title(),
@@ -99,7 +99,9 @@ fn label(part: Part, arms: u32) -> Label {
             Part::Intermediate => "sun and planet",
             _ => Part::Intermediate.name(),
         },
-        quantity: part.quantity(arms),
+        machine,
+        drawing,
+        quantity: part.quantity(arms) as usize,
     }
 }
 

@@ -111,7 +111,7 @@ fn words_touch_nothing_on_the_sheets_of_plates() {
         let spec = (&design.drawing, design.title.as_str());
         let sheets = plate.sheets(spec, &options().sheet, tolerance);
         for sheet in sheets.expect("laid out") {
-            assert_eq!(overlaps(&sheet), [], "{}", plate.part);
+            assert_eq!(overlaps(&sheet), [], "{}", plate.name);
             seen += 1;
         }
     }
@@ -171,11 +171,11 @@ fn meshes_are_closed_and_as_large_as_their_solids() {
     for plate in Part::ALL.into_iter().filter_map(|p| machine.plate_of(p)) {
         let solid = plate.solid().expect("a solid");
         let (mesh, volume) = (solid.mesh(tolerance).expect("apart"), solid.volume());
-        assert!(mesh.is_watertight(), "{}", plate.part);
+        assert!(mesh.is_watertight(), "{}", plate.name);
         assert!(
             (mesh.volume() / volume - 1.0).abs() < 5e-3,
             "{}",
-            plate.part
+            plate.name
         );
     }
     for shape in linked(&machine).expect("linked").shapes {

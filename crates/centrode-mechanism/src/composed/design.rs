@@ -10,7 +10,7 @@ use super::{
     ComposedGoalSpec, ComposedLoadSpec, ComposedLoopSpec, ComposedObstacleSpec, ComposedPlatesSpec,
     ComposedPointsSpec,
 };
-use crate::design::DesignSpec;
+use crate::design::{DesignSpec, DrawingSpec};
 use crate::gear::design::rule::{
     Rule, broken, count_in_range, file_name, finite, in_range, positive, single_line,
 };
@@ -61,6 +61,9 @@ pub struct ComposedDesign {
     /// The bodies as plates.
     #[serde(default)]
     pub plates: ComposedPlatesSpec,
+    /// The drawing sheets.
+    #[serde(default, skip_serializing_if = "DrawingSpec::is_default")]
+    pub drawing: DrawingSpec,
     /// Acceleration of free fall, m/s²: x and y; left out, there is no weight.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub gravity: Option<[f64; 2]>,
@@ -116,6 +119,7 @@ impl DesignSpec for ComposedDesign {
         "cams",
         "copies",
         "plates",
+        "drawing",
         "loads",
         "obstacles",
         "goals",
@@ -212,6 +216,7 @@ impl ComposedDesign {
                 return broken(&key, Rule::NotInOrder(*low, *high));
             }
         }
+        self.drawing.validate().map_err(|e| e.inside("drawing"))?;
         self.plates.validate().map_err(|e| e.inside("plates"))
     }
 }

@@ -6,8 +6,8 @@ use super::load::ComposedLoad;
 use super::pieces::Pieces;
 use super::{Composed, ComposedBody};
 use crate::machine::{
-    Closure, Form, GearMesh, Input, Joint, JointKind, Line, LineRole, Link, LinkPoint, Machine,
-    Mark, Part, PitchCurves, Quantity, Shape, Surface,
+    Closure, Fit, Form, GearMesh, Input, Joint, JointKind, Line, LineRole, Link, LinkPoint,
+    Machine, Mark, Part, PitchCurves, Quantity, Shape, Surface,
 };
 
 impl Composed {
@@ -76,6 +76,8 @@ impl Composed {
         self.add_points(&mut machine);
         self.draw(&mut machine, &pieces);
         self.list(&mut machine, &pieces);
+        self.tell_fits(&mut machine);
+        machine.arrangement.drawing = self.design.drawing.clone();
         Ok(machine)
     }
 
@@ -87,8 +89,10 @@ impl Composed {
             if outline.is_none() && made.mass.is_none() {
                 continue;
             }
+            let material = outline.map_or("", |_| &self.design.plates.material);
             let part = Part {
                 name: body.name.clone(),
+                material: material.to_owned(),
                 mass: made.mass.map(|own| own.mass),
                 ..Part::default()
             };
@@ -128,6 +132,21 @@ impl Composed {
                 &piece.of.body_name,
                 Some(piece.solid.outline()),
             );
+        }
+    }
+
+    /// Tells the fit of the pins in the plates, where there are any.
+    fn tell_fits(&self, machine: &mut Machine) {
+        let spec = &self.design.plates;
+        let mut bodies = 0..self.bodies.len();
+        if bodies.any(|body| self.pin_holes(body).is_some_and(|holes| !holes.is_empty())) {
+            machine.fit(Fit {
+                name: "pins in plates".into(),
+                size: spec.pin_diameter,
+                is_width: false,
+                hole: spec.hole_fit.clone(),
+                shaft: spec.pin_fit.clone(),
+            });
         }
     }
 

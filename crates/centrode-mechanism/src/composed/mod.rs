@@ -71,7 +71,7 @@ pub use law::{ComposedLawError, ComposedLawSpec};
 pub use load::{ComposedLoadSpec, LoadAxes};
 pub use obstacle::{ComposedObstacle, ComposedObstacleSpec};
 pub use pair_figure::PAIR_FIGURES;
-pub use plates::ComposedPlatesSpec;
+pub use plates::{ComposedPlatesSpec, PinHole};
 pub use reversed::{MachineError, ReversedMachine};
 
 use self::expansion::Expansion;

@@ -8,7 +8,7 @@ use super::design::FRAME;
 use super::points::ROLLER;
 use super::{Composed, ComposedBody, ComposedDesign, ComposedError};
 use crate::gear::design::SpecError;
-use crate::gear::design::rule::{in_range, not_negative, positive};
+use crate::gear::design::rule::{in_range, not_negative, positive, single_line};
 use crate::machine::JointKind;
 
 /// Greatest diameter of a pin as a share of its plate's width.
@@ -34,6 +34,12 @@ pub struct ComposedPlatesSpec {
     pub width: f64,
     /// Diameter of the pins, mm.
     pub pin_diameter: f64,
+    /// Tolerance class of the holes, ISO 286, for the drawing.
+    pub hole_fit: String,
+    /// Tolerance class of the pins, ISO 286, for the drawing.
+    pub pin_fit: String,
+    /// Material, for the drawing.
+    pub material: String,
     /// Density, kg/m^3.
     pub density: f64,
 }
@@ -45,6 +51,9 @@ impl Default for ComposedPlatesSpec {
             gap: 1.0,
             width: 8.0,
             pin_diameter: 3.0,
+            hole_fit: "H8".into(),
+            pin_fit: "f7".into(),
+            material: "steel".into(),
             density: 7850.0,
         }
     }
@@ -60,6 +69,13 @@ impl ComposedPlatesSpec {
             positive(key, value)?;
         }
         not_negative("gap", self.gap)?;
+        for (key, value) in [
+            ("hole_fit", &self.hole_fit),
+            ("pin_fit", &self.pin_fit),
+            ("material", &self.material),
+        ] {
+            single_line(key, value)?;
+        }
         let most = PIN * self.width;
         in_range("pin_diameter", self.pin_diameter, [0.0, most], " mm")
     }
@@ -68,6 +84,15 @@ impl ComposedPlatesSpec {
     pub(super) fn least_width(&self) -> f64 {
         self.pin_diameter / PIN
     }
+}
+
+/// Hole of a plate for a pin.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PinHole {
+    /// Name of the point.
+    pub name: String,
+    /// Place in the body's axes, mm.
+    pub at: Point,
 }
 
 /// Contours of the bodies that are drawn by hand, by name.
@@ -86,6 +111,20 @@ impl Composed {
     /// the body's axes; none for a body without a plate.
     #[must_use]
     pub fn contours(&self, body: usize) -> Option<(Outline, Vec<Outline>)> {
+        let pin = self.design.plates.pin_diameter;
+        let holes = self.pin_holes(body)?.into_iter();
+        let holes = holes.map(|hole| Outline::circle(hole.at, 0.5 * pin));
+        let own = self.bodies.get(body)?;
+        let outline = match self.drawn.get(&own.name) {
+            Some(outline) => outline.clone(),
+            None => Outline::hull(&self.circles(own))?,
+        };
+        Some((outline, holes.collect()))
+    }
+
+    /// Holes for pins in a body's plate; none for a body without a plate.
+    #[must_use]
+    pub fn pin_holes(&self, body: usize) -> Option<Vec<PinHole>> {
         let own = self.bodies.get(body)?;
         let name = &own.name;
         let points = self.points.get(name)?;
@@ -99,22 +138,24 @@ impl Composed {
             .iter()
             .filter(|(point, at)| !at.own || pinned.contains(&format!("{name}.{point}")));
         // A mesh places the axis of its body at the body's origin, which need not be a point.
-        let axis = meshed.then(Point::origin);
+        let axis = meshed.then(|| PinHole {
+            name: "axis".into(),
+            at: Point::origin(),
+        });
+        let pins = pins.map(|(point, local)| PinHole {
+            name: point.clone(),
+            at: local.at,
+        });
         let pin = self.design.plates.pin_diameter;
         // Shafts on one axis, as of a carrier and of a gear in its middle, share a hole.
-        let mut holes: Vec<Point> = Vec::new();
-        for at in pins.map(|(_, point)| point.at).chain(axis) {
-            if holes.iter().all(|hole| (at - hole).norm() > ONE * pin) {
-                holes.push(at);
+        let mut holes: Vec<PinHole> = Vec::new();
+        for hole in pins.chain(axis) {
+            let apart = |known: &PinHole| (hole.at - known.at).norm() > ONE * pin;
+            if holes.iter().all(apart) {
+                holes.push(hole);
             }
         }
-        let holes = holes.into_iter();
-        let holes = holes.map(|at| Outline::circle(at, 0.5 * pin)).collect();
-        let outline = match self.drawn.get(name) {
-            Some(outline) => outline.clone(),
-            None => Outline::hull(&self.circles(own))?,
-        };
-        Some((outline, holes))
+        Some(holes)
     }
 
     /// Circles round which a plate is drawn: about its points, and the corners of a block about the origin of one that slides.
@@ -239,7 +280,8 @@ impl Composed {
     }
 
     /// Thickness of a body's plate, mm.
-    pub(super) fn thickness(&self, body: usize) -> f64 {
+    #[must_use]
+    pub fn thickness(&self, body: usize) -> f64 {
         let spec = self.design.bodies.get(&self.bodies[body].name);
         let own = spec.and_then(|body| body.thickness);
         own.unwrap_or(self.design.plates.thickness)

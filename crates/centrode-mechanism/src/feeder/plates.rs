@@ -22,6 +22,14 @@ pub struct PlatesSpec {
     pub slider_length: f64,
     /// Clearance of the slider at the ends of the slot, mm.
     pub slot_play: f64,
+    /// Tolerance class of the holes for the pins, ISO 286, for the drawing.
+    pub hole_fit: String,
+    /// Tolerance class of the pins, ISO 286, for the drawing.
+    pub pin_fit: String,
+    /// Tolerance class of the slot's width, ISO 286, for the drawing.
+    pub slot_fit: String,
+    /// Tolerance class of the slider's width, ISO 286, for the drawing.
+    pub slider_fit: String,
     /// Material, for the drawing.
     pub material: String,
     /// Density, kg/m^3.
@@ -38,6 +46,10 @@ impl Default for PlatesSpec {
             slot_width: 16.0,
             slider_length: 16.0,
             slot_play: 1.0,
+            hole_fit: "H8".into(),
+            pin_fit: "f7".into(),
+            slot_fit: "H9".into(),
+            slider_fit: "e9".into(),
             material: "steel".into(),
             density: 7850.0,
         }
@@ -78,6 +90,15 @@ impl PlatesSpec {
         )?;
         not_negative("gap", self.gap)?;
         not_negative("slot_play", self.slot_play)?;
-        single_line("material", &self.material)
+        for (key, value) in [
+            ("hole_fit", &self.hole_fit),
+            ("pin_fit", &self.pin_fit),
+            ("slot_fit", &self.slot_fit),
+            ("slider_fit", &self.slider_fit),
+            ("material", &self.material),
+        ] {
+            single_line(key, value)?;
+        }
+        Ok(())
     }
 }

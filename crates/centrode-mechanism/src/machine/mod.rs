@@ -6,6 +6,7 @@
 mod arrangement;
 mod contact;
 mod figure;
+mod fit;
 mod jet;
 mod joint;
 mod law;
@@ -27,6 +28,7 @@ use crate::transmission::Transmission;
 pub use arrangement::{Arrangement, Axis, Callout, Datum, Dimension, Place};
 pub use contact::{Closure, Contact, ContactLine, GearMesh, Guide, GuideForce, PitchCurves};
 pub use figure::{Figure, Line, LinePath, LineRole, Mark, Seat, Sketch};
+pub use fit::{Fit, limits_of_size};
 pub use jet::{FrameJet, PointJet};
 pub use joint::{Joint, JointKind};
 pub use law::{Constant, Linear, Piecewise};
@@ -76,6 +78,9 @@ pub struct Machine {
     pub marks: Vec<Mark>,
     /// Parts that a shop makes or buys, in the order of the parts list.
     pub parts: Vec<Part>,
+    /// Fits of holes and of what runs or sits in them, alike ones once.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub fits: Vec<Fit>,
     /// The general arrangement.
     pub arrangement: Arrangement,
     /// Comment of the machine's files.

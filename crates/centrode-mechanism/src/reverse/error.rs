@@ -2,6 +2,7 @@ use centrode_geometry::Point;
 use thiserror::Error;
 
 use super::DrawingError;
+use crate::digits::told;
 
 /// Reason why points or a file give no path.
 #[derive(Clone, Debug, Error, PartialEq)]
@@ -33,6 +34,14 @@ pub enum PathError {
         y: f64,
         /// Greatest coordinate, mm.
         limit: f64,
+    },
+    /// A path that is small beside its distance from the origin.
+    #[error("the path is {} mm across and up to {} mm from the origin of x and y: too few digits are left of it; draw it larger, or nearer to the origin", told(*size), told(*far))]
+    TooSmall {
+        /// Diagonal of the box round it, mm.
+        size: f64,
+        /// Greatest coordinate, mm.
+        far: f64,
     },
     /// Fewer points than make a closed curve.
     #[error("the path has {count} points; a closed curve takes at least {least}")]

@@ -14,6 +14,8 @@ const FEWEST: usize = 4;
 const MOST: usize = 50_000;
 /// Greatest coordinate, mm.
 pub(super) const FARTHEST: f64 = 1e9;
+/// Least size of a path as a share of its distance from the origin: a smaller one has lost the digits that its law needs.
+const SMALLEST: f64 = 1e-6;
 /// Greatest distance of the last point from the first, as a multiple of the greatest of two other neighbours.
 const GAP: f64 = 4.0;
 /// Samples of a turn, and fewest between two breaks.
@@ -56,7 +58,8 @@ impl WantedPath {
     /// The last point may repeat the first.
     ///
     /// # Errors
-    /// [`PathError`] for too few or too many points, one that is no point or given twice, and an open path: one whose last
+    /// [`PathError`] for too few or too many points, one that is no point or given twice, a path a millionth as large as it is far
+    /// from the origin, and an open path: one whose last
     /// point is more than four times as far from the first as any two other neighbours are from each other.
     pub fn through(points: &[Point]) -> Result<Self, PathError> {
         for (i, p) in points.iter().enumerate() {
@@ -84,6 +87,12 @@ impl WantedPath {
         if count > MOST {
             let limit = MOST;
             return Err(PathError::TooMany { count, limit });
+        }
+        let bounds: Bounds = points.iter().copied().collect();
+        let size = bounds.diagonal();
+        let far = points.iter().map(|p| p.coords.amax()).fold(0.0, f64::max);
+        if size < SMALLEST * far {
+            return Err(PathError::TooSmall { size, far });
         }
         let step = |i: usize| (points[(i + 1) % count] - points[i]).norm();
         if let Some(i) = (0..count).find(|&i| step(i) == 0.0) {
@@ -144,7 +153,8 @@ impl WantedPath {
 
     /// Reads points from a CSV file: x and y in mm, a point a line, in order.
     ///
-    /// Further columns, empty lines, lines that begin with `#` and one line of headings are skipped.
+    /// Columns are separated by commas, or by semicolons or tabs, and then a decimal comma is read, too. Further columns, empty
+    /// lines, lines that begin with `#` and one line of headings are skipped.
     ///
     /// # Errors
     /// [`PathError`] with the line, and as [`through`](Self::through).
@@ -152,7 +162,9 @@ impl WantedPath {
         let text = text(bytes)?;
         let mut points = Vec::new();
         let mut lines = 0;
-        for (i, line) in text.lines().enumerate() {
+        // Old programs end a line by a carriage return alone.
+        let end = if text.contains('\n') { '\n' } else { '\r' };
+        for (i, line) in text.split(end).enumerate() {
             let written = line.trim();
             if written.is_empty() || written.starts_with('#') {
                 continue;
@@ -321,7 +333,12 @@ pub(super) fn text(bytes: &[u8]) -> Result<&str, PathError> {
 
 /// Reads a line of a file.
 fn point(line: &str, number: usize) -> Result<Point, PathError> {
-    let words: Vec<&str> = line.split([',', ';', '\t']).map(str::trim).collect();
+    // Spreadsheets that write a decimal comma separate by semicolons or tabs.
+    let (separators, decimal): (&[char], _) = match line.contains([';', '\t']) {
+        true => (&[';', '\t'], ','),
+        false => (&[','], '.'),
+    };
+    let words: Vec<&str> = line.split(separators).map(str::trim).collect();
     let [x, y] = [words.first(), words.get(1)];
     let (Some(x), Some(y)) = (x, y) else {
         return match words[0].parse::<f64>() {
@@ -332,7 +349,10 @@ fn point(line: &str, number: usize) -> Result<Point, PathError> {
             Err(_) => Err(not_number(words[0], number)),
         };
     };
-    let read = |word: &str| word.parse::<f64>().map_err(|_| not_number(word, number));
+    let read = |word: &str| {
+        let number_of = word.replace(decimal, ".").parse::<f64>();
+        number_of.map_err(|_| not_number(word, number))
+    };
     Ok(Point::new(read(x)?, read(y)?))
 }
 

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::Groove;
 use crate::gear::design::SpecError;
-use crate::gear::design::rule::{Rule, broken, not_negative, positive};
+use crate::gear::design::rule::{Rule, broken, not_negative, positive, single_line};
 
 /// The slider: an oblong follower with round ends that turns in its sleeve to lie along the groove.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
@@ -18,6 +18,12 @@ pub struct SliderSpec {
     pub reach: f64,
     /// Diameter of the bore for the pin it turns on, mm.
     pub pin_diameter: f64,
+    /// Tolerance class of that bore, ISO 286, for the drawing.
+    pub hole_fit: String,
+    /// Tolerance class of the pin, ISO 286, for the drawing.
+    pub pin_fit: String,
+    /// Material, for the drawing.
+    pub material: String,
     /// Density, kg/m^3.
     pub density: f64,
 }
@@ -29,6 +35,9 @@ impl Default for SliderSpec {
             clearance: 0.7,
             reach: 3.5,
             pin_diameter: 5.0,
+            hole_fit: "H8".into(),
+            pin_fit: "f7".into(),
+            material: "steel".into(),
             density: 7850.0,
         }
     }
@@ -45,6 +54,13 @@ impl SliderSpec {
         positive("reach", self.reach)?;
         positive("pin_diameter", self.pin_diameter)?;
         positive("density", self.density)?;
+        for (key, value) in [
+            ("hole_fit", &self.hole_fit),
+            ("pin_fit", &self.pin_fit),
+            ("material", &self.material),
+        ] {
+            single_line(key, value)?;
+        }
         let least = width - self.clearance;
         let range = |value, least, greatest| Rule::OutOfRange {
             value,

@@ -68,6 +68,15 @@ fn bundle(
     if command.wants(File::Json) {
         bundle.add("report.json", report::json(found)?.into_bytes())?;
     }
+    if bundle.files().next().is_none() {
+        let parts = match &command.part[..] {
+            [] => String::new(),
+            parts => format!(" of {}", parts.join(", ")),
+        };
+        let message =
+            format!("nothing to write: there are no files{parts} in the formats asked for");
+        return Err(Failure::Usage(message));
+    }
     Ok(bundle)
 }
 
@@ -123,8 +132,9 @@ fn refuse_useless(command: &Export) -> Result<(), Failure> {
     if command.part.is_empty() || any(&drawn) {
         return Ok(());
     }
-    if command.part == [PartName::ASSEMBLY.name] {
-        return refused("--part assembly", "drawings: dxf, svg, sheet and pdf");
+    if command.part == [PartName::ASSEMBLY.name] && !command.wants(File::ThreeMf) {
+        let files = "drawings and the whole in place: dxf, svg, sheet, pdf and 3mf";
+        return refused("--part assembly", files);
     }
     if !any(&solid) {
         return refused("--part", "drawings, solids and tables");

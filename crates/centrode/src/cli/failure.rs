@@ -57,7 +57,7 @@ impl Failure {
         write!(out, "{ERROR}error{ERROR:#}: ")?;
         match self {
             Self::Design { name, text, error } => at_line(out, name, text, error),
-            other => writeln!(out, "{}", printable(&other.to_string())),
+            other => writeln!(out, "{}", printable(&without_code(&other.to_string()))),
         }
     }
 }
@@ -122,6 +122,23 @@ fn at_line(out: &mut impl Write, name: &str, text: &str, error: &DesignError) ->
     )
 }
 
+/// The text without the numbers that the system gives its errors: they say nothing that the words do not.
+fn without_code(text: &str) -> String {
+    const CODE: &str = " (os error ";
+    let mut parts = text.split(CODE);
+    let mut kept = parts.next().unwrap_or_default().to_owned();
+    for part in parts {
+        match part.split_once(')') {
+            Some((number, rest)) if number.chars().all(|c| c.is_ascii_digit()) => kept += rest,
+            _ => {
+                kept += CODE;
+                kept += part;
+            }
+        }
+    }
+    kept
+}
+
 /// The text with control characters replaced, so that a file cannot steer the terminal.
 fn printable(text: &str) -> String {
     let visible = |c: char| if c.is_control() { '\u{fffd}' } else { c };
@@ -133,6 +150,23 @@ fn printable(text: &str) -> String {
 mod tests {
     use super::*;
     use crate::FAMILIES;
+
+    #[test]
+    fn errors_of_the_system_are_told_in_words_alone() {
+        let failure = Failure::Input {
+            name: "a.toml".into(),
+            error: io::Error::from_raw_os_error(2),
+        };
+        let mut told = Vec::new();
+        failure.write(&mut told).expect("written");
+        let told = String::from_utf8(told).expect("text");
+        assert!(
+            told.contains("cannot read a.toml: ") && !told.contains("os error"),
+            "{told}"
+        );
+        let kept = "left (os error two) alone (os error 3), and on";
+        assert_eq!(without_code(kept), "left (os error two) alone, and on");
+    }
 
     fn shown(text: &str) -> String {
         let error = FAMILIES.read(text.as_bytes()).expect_err("a bad design");

@@ -5,12 +5,12 @@ use centrode_export::page::{Curve, Handle, HandlePlane, Picture};
 use centrode_export::{Bundle, ExportError, Format, Options};
 use centrode_export::{composed, machine};
 use centrode_geometry::Tolerance;
-use centrode_mechanism::composed::{Composed, ComposedDesign, DyadKind};
+use centrode_mechanism::composed::{Composed, ComposedDesign, DyadKind, Over};
 use centrode_mechanism::design::{Design, MechanismError};
 use centrode_mechanism::machine::Machine;
 use centrode_mechanism::reverse::{GearDrive, GearDriveError, GearDriveSpec};
 
-use super::{Mechanism, Resolved};
+use super::{Limit, Mechanism, Resolved};
 
 /// Tolerance of the picture, as a share of a plate's width.
 const DRAWN: f64 = 2e-3;
@@ -43,6 +43,21 @@ impl Mechanism for Composed {
 
     fn figures(&self) -> Vec<Table> {
         composed_figures(self)
+    }
+
+    /// Goals of a dyad's least transmission angle are drawn where the least of all dyads is.
+    fn limits(&self, report: &Report) -> Vec<Limit> {
+        let goals = self.design().goals.iter();
+        let of_dyads = goals.filter(|(_, goal)| {
+            goal.figure.starts_with("transmission(") && goal.over == Some(Over::Least)
+        });
+        of_dyads
+            .flat_map(|(name, _)| Limit::of_goal(report, name, "Least transmission angle"))
+            .collect()
+    }
+
+    fn input_speed(&self) -> Option<f64> {
+        Some(self.speed())
     }
 
     fn curves(&self) -> Vec<Curve> {

@@ -14,7 +14,7 @@ use centrode_mechanism::gear::IncompletePair;
 use centrode_mechanism::machine::Machine;
 use serde_json::json;
 
-use super::{Mechanism, Resolved, Widening, WideningError};
+use super::{Limit, Mechanism, Resolved, Widening, WideningError};
 
 /// Points of a cycle at which the torque is computed.
 const LOOKS: u32 = 360;
@@ -47,6 +47,24 @@ impl Mechanism for Feeder {
 
     fn check_with_curves(&self) -> (Report, Vec<Curve>) {
         (check_feeder(self), torques(self))
+    }
+
+    /// The angle of coupler and rocker is wanted as far from a straight line as from none.
+    fn limits(&self, report: &Report) -> Vec<Limit> {
+        let mut all = Limit::of_goal(report, "transmission-angle", "Angle of coupler and rocker");
+        if let Some(least) = all.first() {
+            let greatest = Limit {
+                value: 180.0 - least.value,
+                least: false,
+                ..least.clone()
+            };
+            all.push(greatest);
+        }
+        all
+    }
+
+    fn input_speed(&self) -> Option<f64> {
+        Some(self.speed())
     }
 
     fn curves(&self) -> Vec<Curve> {

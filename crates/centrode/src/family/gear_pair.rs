@@ -12,7 +12,7 @@ use centrode_mechanism::machine::Machine;
 
 use super::contact::contact_curves;
 use super::handles::handles;
-use super::{Mechanism, PartName, Resolved};
+use super::{Limit, Mechanism, PartName, Resolved};
 
 /// Tolerance of the picture, as a share of the module: a tenth of a pixel when a tooth is as high as a hand.
 const DRAWN: f64 = 2e-3;
@@ -76,6 +76,10 @@ impl Mechanism for GearPair {
 
     fn proof(&self) -> Option<Result<Proof, ProofError>> {
         Some(prove(self))
+    }
+
+    fn limits(&self, report: &Report) -> Vec<Limit> {
+        Limit::of_rule(report, "pressure-angle", "Pressure angle")
     }
 
     fn curves(&self) -> Vec<Curve> {

@@ -9,6 +9,8 @@ use centrode_mechanism::design::Design;
 use centrode_mechanism::machine::Machine;
 use centrode_mechanism::reverse::{GearDrive, GearDriveError, GearDriveSpec};
 
+use super::Limit;
+
 /// Finest tolerance that has a meaning for curves without a step of their own, mm.
 pub const FINEST: f64 = 1e-9;
 
@@ -50,6 +52,16 @@ pub trait Mechanism: Any + Debug + Send + Sync {
 
     /// Machine with its crank driven by gears, so that its output does what its goals ask for; `None` in a family without.
     fn gear_drive(&self, _spec: &GearDriveSpec) -> Option<Result<GearDrive, GearDriveError>> {
+        None
+    }
+
+    /// Values that its report requires of figures that are drawn along the cycle.
+    fn limits(&self, _report: &Report) -> Vec<Limit> {
+        Vec::new()
+    }
+
+    /// Speed of the input, rad/s; `None` in a family whose design has none.
+    fn input_speed(&self) -> Option<f64> {
         None
     }
 

@@ -5,6 +5,7 @@ mod contact;
 mod feeder;
 mod gear_pair;
 mod handles;
+mod limit;
 mod mechanism;
 mod moving_box;
 mod open;
@@ -15,6 +16,7 @@ mod tests;
 mod three_arm;
 mod widening;
 
+pub use limit::Limit;
 pub use mechanism::{Depth, FINEST, Mechanism};
 pub use open::OpenDesign;
 pub use registry::{Families, Family, PartName, Resolved};

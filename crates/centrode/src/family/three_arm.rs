@@ -16,7 +16,10 @@ use centrode_mechanism::three_arm::design::ThreeArmDesign;
 
 use super::contact::contact_curves;
 use super::handles::handles;
-use super::{Mechanism, PartName, Resolved};
+use super::{Limit, Mechanism, PartName, Resolved};
+
+/// Chart of the arms' clearance from one another and from the tray.
+const ARM_CLEARANCE: &str = "Clearance of the arms";
 
 /// Parts of a carrier turn in which the arms' clearance is shown.
 const PARTS: u32 = 120;
@@ -52,6 +55,10 @@ impl Mechanism for ThreeArm {
         let teeth = TrainTeeth::of(self);
         let found = check_three_arm_teeth(self, &teeth);
         (found, checked_curves(self, teeth.ok().flatten().as_ref()))
+    }
+
+    fn limits(&self, report: &Report) -> Vec<Limit> {
+        Limit::of_goal(report, "arm-clearance", ARM_CLEARANCE)
     }
 
     fn curves(&self) -> Vec<Curve> {
@@ -129,9 +136,10 @@ fn checked_curves(mechanism: &ThreeArm, teeth: Option<&TrainTeeth>) -> Vec<Curve
             ("from the tray", course.tray),
         ];
         let found = all.into_iter().filter(|(_, value)| !value.is_empty());
-        curves.extend(found.map(|(name, value)| {
-            Curve::new(["Clearance of the arms", name, "mm"], &course.input, value)
-        }));
+        curves
+            .extend(found.map(|(name, value)| {
+                Curve::new([ARM_CLEARANCE, name, "mm"], &course.input, value)
+            }));
     }
     if let Some(teeth) = teeth {
         curves.extend(contact_curves(&teeth.contact).into_iter().map(|curve| {

@@ -7,9 +7,10 @@ use std::process::{Command, Stdio};
 
 use crate::{centrode, fed, shipped, text};
 
-const ALL: [&str; 37] = [
+const ALL: [&str; 38] = [
     "assembly-sheet.dxf",
     "assembly-sheet.svg",
+    "assembly.3mf",
     "assembly.dxf",
     "assembly.pdf",
     "assembly.svg",
@@ -151,7 +152,13 @@ fn the_kinds_asked_for_and_no_others_are_written() {
         ),
         (
             "step,3mf",
-            &["driven.3mf", "driven.step", "driver.3mf", "driver.step"],
+            &[
+                "assembly.3mf",
+                "driven.3mf",
+                "driven.step",
+                "driver.3mf",
+                "driver.step",
+            ],
         ),
     ] {
         let folder = tempfile::tempdir().expect("a place to write");
@@ -195,6 +202,22 @@ fn bad_options_write_nothing_and_end_with_two() {
         assert!(message.contains(word), "{more:?}: {message}");
         assert!(!out.exists(), "{more:?}");
     }
+}
+
+#[test]
+fn an_export_without_any_file_says_so_and_makes_no_folder() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let to = folder.path().join("out");
+    let (design, place) = (shipped("feeder-2022.toml"), to.display().to_string());
+    let run = ["export", &design, "--to", &place, "--part", "gears"];
+    let run = centrode(&[&run[..], &["--format", "step"]].concat());
+    assert_eq!(run.status.code(), Some(2));
+    let told = text(&run.stderr);
+    assert!(
+        told.contains("no files of gears in the formats asked for"),
+        "{told}"
+    );
+    assert!(!to.exists());
 }
 
 #[test]

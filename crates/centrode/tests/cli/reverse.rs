@@ -143,7 +143,7 @@ fn a_drawn_path_is_taken_within_the_distance_asked_for() {
     assert_eq!(corner.status.code(), Some(2));
     let told = text(&corner.stderr);
     assert!(
-        told.contains("standard input: ") && told.contains("round that corner"),
+        told.contains("standard input: ") && told.contains("round corners"),
         "{told}"
     );
 }

@@ -17,7 +17,7 @@ use crate::{
 };
 use centrode_geometry::Tolerance;
 use centrode_mechanism::{
-    design::SheetSize,
+    design::{DrawingSpec, SheetSize},
     gear::{GearPair, Member},
 };
 use part::Part;
@@ -69,16 +69,20 @@ impl From<Member> for Subject {
 }
 
 /// Names of a gear in a machine larger than its pair.
-#[derive(Clone, Copy, Debug, Eq, PartialEq)]
-pub(crate) struct Label {
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Label<'a> {
     /// The name its files have.
-    pub(crate) name: &'static str,
+    pub(crate) name: &'a str,
     /// Name of its drawing.
-    pub(crate) title: &'static str,
+    pub(crate) title: &'a str,
     /// Gear it meshes with.
-    pub(crate) mate: &'static str,
+    pub(crate) mate: &'a str,
+    /// Title of the machine.
+    pub(crate) machine: &'a str,
+    /// Words for the title block.
+    pub(crate) drawing: &'a DrawingSpec,
     /// How many of it a machine has.
-    pub(crate) quantity: u32,
+    pub(crate) quantity: usize,
 }
 
 /// The sheets of one gear, or of both in place: views, dimensions, data, tables.
@@ -98,7 +102,7 @@ pub fn sheets(
 pub(super) fn labelled(
     pair: &GearPair,
     subject: Subject,
-    label: Option<Label>,
+    label: Option<Label<'_>>,
     options: &SheetOptions,
     tolerance: Tolerance,
 ) -> Result<Vec<Sheet>, ExportError> {
@@ -122,8 +126,11 @@ fn block(part: &Part<'_>, options: &SheetOptions) -> TitleBlock {
     };
     TitleBlock {
         title: part.label.map_or(title, |label| label.title).to_owned(),
-        supplement: title_or_name(pair.title(), pair.name()).to_owned(),
-        ..TitleBlock::new(pair.drawing(), part.name(), options)
+        supplement: match part.label {
+            Some(label) => label.machine.to_owned(),
+            None => title_or_name(pair.title(), pair.name()).to_owned(),
+        },
+        ..TitleBlock::new(part.drawing(), part.name(), options)
     }
 }
 
@@ -160,7 +167,7 @@ fn gear(
     let bounds = part.bounds();
     let extent = (bounds.max - bounds.min).amax();
     let flowing = [tables::over_pins(part), tables::profile(part)];
-    let size = options.size.or(part.pair.drawing().sheet);
+    let size = options.size.or(part.drawing().sheet);
     compose(size, &block, extent, &pieces, &flowing)
 }
 

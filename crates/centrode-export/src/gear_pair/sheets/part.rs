@@ -1,5 +1,6 @@
 use super::Label;
 use centrode_geometry::{Bounds, Extreme, Outline, Point, Tolerance, Vector, least};
+use centrode_mechanism::design::DrawingSpec;
 use centrode_mechanism::gear::{Frame, Gear, GearPair, Member, Role};
 use std::f64::consts::TAU;
 
@@ -14,7 +15,7 @@ pub(super) struct Part<'a> {
     pub(super) bore: Option<Outline>,
     pub(super) tolerance: Tolerance,
     /// Name, where not driver or driven.
-    pub(super) label: Option<Label>,
+    pub(super) label: Option<Label<'a>>,
     /// The outermost point of each tooth.
     tips: Vec<Point>,
     /// The innermost point of each space.
@@ -77,8 +78,14 @@ impl<'a> Part<'a> {
     }
 
     /// The name its files have.
-    pub(super) fn name(&self) -> &'static str {
+    pub(super) fn name(&self) -> &'a str {
         self.label.map_or(self.member.name(), |label| label.name)
+    }
+
+    /// Words for the title block.
+    pub(super) fn drawing(&self) -> &DrawingSpec {
+        let label = self.label.map(|label| label.drawing);
+        label.unwrap_or_else(|| self.pair.drawing())
     }
 
     pub(super) fn tips(&self) -> Option<Extremes> {

@@ -1,6 +1,7 @@
 //! The general arrangement of any machine: drawn where it stands, with its dimensions, numbers of its parts, and data.
 
 mod axes;
+mod fits;
 mod measure;
 mod scene;
 mod view;
@@ -63,6 +64,7 @@ pub fn arrangement(
         scene,
     };
     let (parts, data) = (parts_list(machine), data(machine, options));
+    let fits = fits::table(machine);
     let (beside, flowing): (Vec<Table>, Vec<Table>) = motion(machine)
         .into_iter()
         .partition(|table| table.rows.len() <= BESIDE);
@@ -70,6 +72,7 @@ pub fn arrangement(
         let tables = [
             ("parts list", &parts),
             ("data", &data),
+            ("fits", &fits),
             ("distances of axes", &lengths),
         ];
         let filled = tables

@@ -35,5 +35,8 @@ export const axes = (across = {}, up = {}) => [
 /** Steps between whole numbers. */
 export const WHOLE = Array.from({ length: 9 }, (_, power) => [1, 2, 5].map((step) => step * 10 ** power)).flat();
 
+/** Steps of what is divided by tens. */
+export const STEPS = Array.from({ length: 12 }, (_, power) => [1, 2, 5].map((step) => step * 10 ** (power - 6))).flat();
+
 /** A line of a chart: not on whole pixels, which would make stairs of it. */
 export const line = (name, own = {}) => ({ stroke: () => color(name), width: 1.5, pxAlign: 0, points: { show: false }, spanGaps: false, ...own });

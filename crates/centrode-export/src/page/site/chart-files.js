@@ -6,8 +6,13 @@ import { drawn } from "./elements.js";
 const [WIDTH, HEIGHT] = [640, 320];
 const [LEFT, RIGHT, TOP, BOTTOM] = [64, 20, 44, 40];
 /** Colours of paper. */
-const INK = { ink: "#1a2027", accent: "#0a5aa8", pinned: "#8a4b00", grid: "#d5dbe1", muted: "#566270" };
+const INK = { warning: "#7d5200", ink: "#1a2027", accent: "#0a5aa8", pinned: "#8a4b00", grid: "#d5dbe1", muted: "#566270" };
+/** Points of a picture for one of its units. */
+const FINE = 3;
 const MEDIA = { CSV: "text/csv", SVG: "image/svg+xml" };
+
+/** A limit in words. */
+export const bound = ({ value, least }) => `${least ? "at least" : "at most"} ${Number(value.toPrecision(4))}`;
 
 /** A cell as CSV has it. */
 const cell = (text) => (/[",\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text);
@@ -69,12 +74,20 @@ export function svg(chart) {
     root.append(drawn("path", { d: `M${LEFT} ${y(at).toFixed(2)}H${WIDTH - RIGHT}`, stroke: INK.grid }));
     text(words, { x: LEFT - 8, y: (y(at) + 4).toFixed(2), fill: INK.muted, "text-anchor": "end" });
   }
-  text("Input angle", { x: (LEFT + WIDTH - RIGHT) / 2, y: HEIGHT - 4, fill: INK.muted, "text-anchor": "middle" });
+  for (const { value, least } of chart.limits) {
+    if (value < up.min || value > up.max) continue;
+    root.append(drawn("path", { d: `M${LEFT} ${y(value).toFixed(2)}H${WIDTH - RIGHT}`, stroke: INK.warning, "stroke-dasharray": "8 4", "data-limit": value }));
+    text(bound({ value, least }), { x: WIDTH - RIGHT - 4, y: (y(value) - 4).toFixed(2), fill: INK.warning, "text-anchor": "end" });
+  }
+  text(chart.charts.unit === "degrees" ? "Input angle" : `Input, ${chart.charts.unit}`, { x: (LEFT + WIDTH - RIGHT) / 2, y: HEIGHT - 4, fill: INK.muted, "text-anchor": "middle" });
+  const frame = drawn("clipPath", { id: "frame" });
+  frame.append(drawn("rect", { x: LEFT, y: TOP, width: WIDTH - LEFT - RIGHT, height: HEIGHT - TOP - BOTTOM }));
+  root.append(frame);
   const [inputs, ...values] = plot.data;
   let beside = WIDTH - RIGHT;
   chart.lines.forEach(({ name: own, ink, dash, count }, i) => {
     const look = { fill: "none", stroke: INK[ink], "stroke-width": 1.5, ...(dash.length ? { "stroke-dasharray": dash.join(" ") } : {}) };
-    root.append(drawn("path", { ...look, d: way(inputs, values[i], count, [x, y]), "stroke-linejoin": "round", "data-line": own }));
+    root.append(drawn("path", { ...look, d: way(inputs, values[i], count, [x, y]), "stroke-linejoin": "round", "clip-path": "url(#frame)", "data-line": own }));
     if (chart.lines.length === 1) return;
     // From the right, a line and its name each.
     text(own, { x: beside, y: 20, fill: INK[ink], "text-anchor": "end" });
@@ -84,11 +97,21 @@ export function svg(chart) {
   return `${new XMLSerializer().serializeToString(root)}\n`;
 }
 
+/** The picture as points, as fine as a good print wants it. */
+async function png(chart) {
+  const image = new Image();
+  image.src = `data:image/svg+xml,${encodeURIComponent(svg(chart))}`;
+  await image.decode();
+  const canvas = Object.assign(document.createElement("canvas"), { width: FINE * WIDTH, height: FINE * HEIGHT });
+  canvas.getContext("2d").drawImage(image, 0, 0, canvas.width, canvas.height);
+  return new Promise((resolve) => canvas.toBlob(resolve, "image/png"));
+}
+
 /** Hands over a chart of a design as a file. */
-export function take(chart, kind, design) {
-  const text = kind === "CSV" ? csv(chart) : svg(chart);
+export async function take(chart, kind, design) {
+  const file = kind === "PNG" ? await png(chart) : new Blob([kind === "CSV" ? csv(chart) : svg(chart)], { type: MEDIA[kind] });
   const words = `${design || "design"} ${chart.name}`.toLowerCase().replace(/[^a-z0-9.]+/g, "-").replace(/^-|-$/g, "");
-  const href = URL.createObjectURL(new Blob([text], { type: MEDIA[kind] }));
+  const href = URL.createObjectURL(file);
   const link = Object.assign(document.createElement("a"), { href, download: `${words}.${kind.toLowerCase()}` });
   link.click();
   setTimeout(() => URL.revokeObjectURL(href), 60000);

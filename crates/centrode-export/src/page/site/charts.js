@@ -1,16 +1,29 @@
 // Curves along the cycle as small multiples, all at the input of the scrubber.
 
 import uPlot from "./uplot.js";
-import { WHOLE, axes, line } from "./axes.js";
+import { STEPS, WHOLE, axes, labels, line } from "./axes.js";
 import * as files from "./chart-files.js";
 import { byId, element } from "./elements.js";
 import { read } from "./motion.js";
+import { color } from "./theme.js";
 
 const DEG = 180 / Math.PI;
 const HEIGHT = 128;
 const DASH = [[], [6, 3]];
+const LIMIT = [8, 4];
 /** What is smaller is a rounding error, whatever its unit: a figure of a machine is not. */
 const NOISE = 1e-9;
+
+/** Units of the axis: name, what one of them is in degrees, steps between its ticks, and how an input is written. */
+const UNITS = {
+  degrees: { steps: [1, 2, 5, 10, 15, 30, 45, 60, 90, 180, 360, 720, 1080, 1440, 2160, 2880, 3600, 5400, 7200, 10800, 14400, 36000], written: (value) => `${value.toFixed(1)}°` },
+  turns: { steps: STEPS, written: (value) => `${value.toFixed(3)} turns` },
+  seconds: { steps: STEPS, written: (value) => `${value.toPrecision(4)} s` },
+};
+/** A drag that is shorter is none, pixels. */
+const SHORTEST = 6;
+/** Share of the stretch shown that a step of the keys zooms or moves by. */
+const STEP = 0.2;
 
 /** A figure of a curve, short enough to read. */
 function brief(value, count) {
@@ -22,17 +35,70 @@ function brief(value, count) {
 }
 
 export class Charts {
-  /** `go(input)` is called when a place in a chart is picked; `name()` is that of the design. */
-  constructor(go, name) {
-    this.go = go;
-    this.name = name;
+  /** `go(input)` is called when a place in a chart is picked; `name()` is that of the design, `speed()` that of its input, rad/s. */
+  constructor(go, name, speed) {
+    Object.assign(this, { go, name, speed, unit: "degrees" });
+    /** Stretch of the input that is shown, degrees; all of it where there is none. */
+    this.zoomed = null;
+    this.limits = [];
     /** Input under the pointer: all charts are read there. */
     this.hovered = null;
     this.charts = [];
     this.input = 0;
     this.reach = [0, 360];
     this.place = byId("charts");
+    byId("axis").addEventListener("change", (event) => {
+      this.unit = event.target.value;
+      this.refresh();
+    });
+    // Seconds may be those of playing.
+    byId("speed").addEventListener("change", () => this.refresh());
+    for (const [id, step] of [["closer-in", (a, b) => [a + STEP * (b - a), b - STEP * (b - a)]], ["whole-cycle", () => null]]) {
+      byId(id).addEventListener("click", () => this.zoom(step(...this.range)));
+    }
+    for (const [id, way] of [["earlier", -1], ["later", 1]]) {
+      byId(id).addEventListener("click", () => this.zoom(this.range.map((end) => end + way * STEP * (this.range[1] - this.range[0]))));
+    }
     new ResizeObserver(() => this.resize()).observe(this.place);
+  }
+
+  /** The stretch that is shown, degrees. */
+  get range() {
+    return this.zoomed ?? this.reach;
+  }
+
+  /** One of the axis' units, in degrees: seconds are those of the design's speed. */
+  get one() {
+    return { degrees: 1, turns: 360, seconds: this.speed() * DEG }[this.unit];
+  }
+
+  /** An input, in degrees, in the unit of the axis. */
+  written(input) {
+    return UNITS[this.unit].written(input / this.one);
+  }
+
+  /** Shows a stretch of the input, or all of it. */
+  zoom(stretch) {
+    const [first, last] = this.reach;
+    const [a, b] = (stretch ?? this.reach).map((end) => Math.min(Math.max(end, first), last));
+    // Closer than a hundredth of a degree nothing is to be seen.
+    if (b - a < 0.01) return;
+    this.zoomed = a > first || b < last ? [a, b] : null;
+    this.refresh();
+  }
+
+  /** Draws all charts with the axis as it is now. */
+  refresh() {
+    byId("zoomed").hidden = !this.zoomed;
+    for (const { plot } of this.charts) plot.redraw(true, true);
+    this.at(this.input);
+  }
+
+  /** Takes the values that figures are to keep to. */
+  limit(limits) {
+    if (JSON.stringify(limits) === JSON.stringify(this.limits)) return;
+    this.limits = limits;
+    for (const chart of this.charts) chart.bound();
   }
 
   /** Takes new curves; `at` says where in the cycle they are read. */
@@ -44,7 +110,11 @@ export class Charts {
     }
     // All charts show the same stretch of the input.
     const ends = curves.flatMap(({ input }) => [input[0], input.at(-1)]).filter(Number.isFinite);
-    this.reach = [Math.min(...ends), Math.max(...ends)].map((end) => whole(end * DEG));
+    const reach = [Math.min(...ends), Math.max(...ends)].map((end) => whole(end * DEG));
+    // Of another cycle another stretch is looked at.
+    if (this.reach.some((end, i) => end !== reach[i])) this.zoomed = null;
+    this.reach = reach;
+    byId("zoomed").hidden = !this.zoomed;
     const before = new Map((pinned ?? []).map((curve) => [`${curve.chart} ${curve.name}`, curve]));
     const same = this.charts.length === groups.size &&
       [...groups].every(([name, list], i) => this.charts[i].name === name && this.charts[i].fits(list, before));
@@ -86,13 +156,16 @@ class Chart {
   constructor(charts, name, curves, before) {
     this.name = name;
     const unit = curves[0].unit;
+    this.charts = charts;
+    this.limits = [];
+    this.bounds = element("span", { class: "series series-limit" });
     this.values = curves.map(() => element("output", {}));
     const legend = curves.map((curve, i) => element("span", { class: `series series-${i}` }, curve.name ? `${curve.name} ` : "", this.values[i]));
     if (curves.some((curve) => before.has(`${name} ${curve.name}`))) legend.push(element("span", { class: "series series-pinned" }, "pinned"));
     this.box = element("div", { class: "plot" });
     charts.place.append(element("figure", { class: "chart" },
-      element("figcaption", {}, element("b", {}, name), unit ? element("span", { class: "quiet" }, ` ${unit}`) : null, ...legend,
-        element("span", { class: "take" }, ...["CSV", "SVG"].map((kind) =>
+      element("figcaption", {}, element("b", {}, name), unit ? element("span", { class: "quiet" }, ` ${unit}`) : null, ...legend, this.bounds,
+        element("span", { class: "take" }, ...["CSV", "SVG", "PNG"].map((kind) =>
           element("button", { type: "button", class: "link", "aria-label": `${name} as ${kind}`, onclick: () => files.take(this, kind, charts.name()) }, kind)))),
       this.box));
     this.compared = curves.map((curve) => before.has(`${name} ${curve.name}`));
@@ -108,22 +181,23 @@ class Chart {
       height: HEIGHT,
       legend: { show: false },
       cursor: { x: false, y: false, points: { show: false }, drag: { x: false, y: false } },
-      scales: { x: { time: false, range: () => charts.reach }, y: { range: span } },
+      scales: { x: { time: false, range: () => charts.range }, y: { range: (_, least, greatest) => span(least, greatest, this.limits) } },
       series,
       axes: axes(
-        { incrs: [15, 30, 45, 60, 90, 180, 360, 720, 1080, 1440, 2160, 2880, 3600, 5400, 7200, 10800, 14400, 36000], values: (_, list) => list.map((v) => `${v}°`), space: 48 },
+        { incrs: () => UNITS[charts.unit].steps.map((step) => step * charts.one), values: (_, list) => this.ticks(list), space: 48 },
         curves[0].count ? { incrs: WHOLE } : {},
       ),
+      hooks: { draw: [(plot) => this.cross(plot)] },
     }, this.data(curves, before), this.box);
     this.line = element("div", { class: "now" });
     this.degrees = element("span", {});
     this.pointed = element("div", { class: "pointed" }, this.degrees);
     this.plot.over.append(this.line, this.pointed);
     this.curves = curves;
+    this.bound();
+    this.stretch();
     const pick = (event) => {
-      const left = event.clientX - this.plot.over.getBoundingClientRect().left;
-      const [first, last] = charts.reach;
-      const input = Math.min(Math.max(this.plot.posToVal(left, "x"), first), last) / DEG;
+      const input = this.under(event) / DEG;
       // A finger that moves leads the machine; it does not hover.
       if (event.pointerType !== "touch") charts.hover(input);
       if (event.buttons === 1) charts.go(input);
@@ -131,6 +205,79 @@ class Chart {
     this.plot.over.addEventListener("pointerdown", pick);
     this.plot.over.addEventListener("pointermove", pick);
     this.plot.over.addEventListener("pointerleave", () => charts.hover(null));
+  }
+
+  /** The input under the pointer, degrees. */
+  under(event) {
+    const [first, last] = this.charts.range;
+    const left = event.clientX - this.plot.over.getBoundingClientRect().left;
+    return Math.min(Math.max(this.plot.posToVal(left, "x"), first), last);
+  }
+
+  /** A drag along the axis zooms to it; a double click shows the whole cycle again. */
+  stretch() {
+    const { plot, charts } = this;
+    const axis = plot.root.querySelector(".u-axis");
+    axis.classList.add("along");
+    axis.title = "Drag to zoom, double-click for the whole cycle";
+    let start = null;
+    const ends = (event) => [start, this.under(event)].sort((a, b) => a - b);
+    const mark = (a, b) => {
+      const [left, right] = [a, b].map((end) => plot.valToPos(end, "x"));
+      plot.setSelect({ left, width: right - left, top: 0, height: plot.over.clientHeight }, false);
+      return right - left;
+    };
+    axis.addEventListener("pointerdown", (event) => {
+      axis.setPointerCapture(event.pointerId);
+      start = this.under(event);
+    });
+    axis.addEventListener("pointermove", (event) => {
+      if (start !== null) mark(...ends(event));
+    });
+    axis.addEventListener("pointerup", (event) => {
+      if (start === null) return;
+      const drawn = ends(event);
+      if (mark(...drawn) > SHORTEST) charts.zoom(drawn);
+      mark(0, 0);
+      start = null;
+    });
+    axis.addEventListener("pointercancel", () => {
+      mark(0, 0);
+      start = null;
+    });
+    axis.addEventListener("dblclick", () => charts.zoom(null));
+  }
+
+  /** The ticks of the axis in its unit. */
+  ticks(list) {
+    const { unit, one } = this.charts;
+    return labels(list.map((value) => value / one)).map((words) => (unit === "degrees" ? `${words}°` : words));
+  }
+
+  /** The limits of the figure, in the legend and as lines. */
+  bound() {
+    this.limits = this.charts.limits.filter(({ chart }) => chart === this.name);
+    this.bounds.textContent = this.limits.map(files.bound).join(", ");
+    this.bounds.hidden = this.limits.length === 0;
+    this.plot.setData(this.plot.data);
+  }
+
+  /** Draws the limits across the chart. */
+  cross(plot) {
+    const { ctx, bbox: { left, top, width, height } } = plot;
+    ctx.save();
+    ctx.strokeStyle = color("warning");
+    ctx.lineWidth = devicePixelRatio;
+    ctx.setLineDash(LIMIT.map((length) => length * devicePixelRatio));
+    for (const { value } of this.limits) {
+      const y = plot.valToPos(value, "y", true);
+      if (y < top || y > top + height) continue;
+      ctx.beginPath();
+      ctx.moveTo(left, y);
+      ctx.lineTo(left + width, y);
+      ctx.stroke();
+    }
+    ctx.restore();
   }
 
   /** Whether these curves can be shown without building the chart anew. */
@@ -157,12 +304,14 @@ class Chart {
 
   at(input, hovered) {
     const left = (at) => this.plot.valToPos(at * DEG, "x");
-    this.line.style.transform = `translateX(${left(input)}px)`;
+    const now = left(input);
+    this.line.style.transform = `translateX(${now}px)`;
+    this.line.hidden = now < 0 || now > this.plot.over.clientWidth;
     if (hovered !== null) {
       const place = left(hovered);
       this.pointed.style.transform = `translateX(${place}px)`;
       this.pointed.classList.toggle("leftward", place > this.plot.over.clientWidth / 2);
-      this.degrees.textContent = `${(hovered * DEG).toFixed(1)}°`;
+      this.degrees.textContent = this.charts.written(hovered * DEG);
     }
     this.curves.forEach((curve, i) => {
       this.values[i].textContent = brief(read(curve, hovered ?? input), curve.count);
@@ -178,9 +327,17 @@ class Chart {
   }
 }
 
-/** Range of the vertical axis: what is nearly constant is shown as constant, not as its rounding errors. */
-function span(_, least, greatest) {
+/** Range of the vertical axis: what is nearly constant is shown as constant, not as its rounding errors. A limit near by is in it. */
+function span(least, greatest, limits) {
   if (least === null || !Number.isFinite(least)) return [0, 1];
+  const room = greatest - least;
+  for (const { value } of limits) {
+    if (Math.max(least - value, value - greatest) <= room) [least, greatest] = [Math.min(least, value), Math.max(greatest, value)];
+  }
+  return spread(least, greatest);
+}
+
+function spread(least, greatest) {
   const size = Math.max(Math.abs(least), Math.abs(greatest));
   const room = greatest - least < 1e-6 * size ? Math.max(0.1 * size, Number.MIN_VALUE) : 0.08 * (greatest - least);
   return size < NOISE ? [-1, 1] : [least - room, greatest + room];

@@ -1,6 +1,7 @@
 // The design file on disk: kept beside, saved, loaded, exported from, and compared with what others make of it.
 
 import * as dialogs from "./dialogs.js";
+import * as link from "./link.js";
 import { element } from "./elements.js";
 import * as server from "./server.js";
 import { work } from "./work.js";
@@ -92,6 +93,41 @@ export class DesignFile {
     else dialogs.notice("disk", `${this.name} has been changed on disk.`, [["Load the file", () => this.load()]], "warning");
     // Another window that saved has taken the autosave away.
     if (this.history.dirty) this.keep();
+  }
+
+  /** Offers a design that has come with the address; it is not taken by itself. */
+  async offer(text) {
+    const { fault } = await server.fault(text);
+    if (fault) throw new Error(`The link holds no design: ${fault.message}`);
+    if (text === this.history.text) {
+      dialogs.notice("link", "The design of the link is the one that is shown.");
+      return;
+    }
+    dialogs.notice("link", `The link holds ${link.named(text)}. Opened, it takes the place of what is shown; Undo brings that back, and ${this.name} stays until it is saved.`,
+      [["Open it", () => this.page.replace(text)]], "warning");
+  }
+
+  /** Copies a link that holds the design. */
+  async copy() {
+    await this.page.settled();
+    try {
+      const fragment = await link.written(this.history.text);
+      const words = `${fragment.length} characters that hold the whole design. Put behind the address of any page of centrode studio, they offer it there.`;
+      try {
+        await navigator.clipboard.writeText(fragment);
+        dialogs.notice("link", `Copied: ${words}`);
+      } catch {
+        // The browser does not let a page copy.
+        const area = element("textarea", { "aria-label": "Link", readonly: true, rows: 6, cols: 60 });
+        area.value = fragment;
+        const answer = dialogs.ask("Link", [element("p", {}, words), area], [["", "Close"]]);
+        area.select();
+        area.scrollTop = 0;
+        await answer;
+      }
+    } catch (error) {
+      this.page.complain("link", error);
+    }
   }
 
   /** Exports the files of the design, as a zip with a name. */

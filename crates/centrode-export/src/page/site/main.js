@@ -6,7 +6,9 @@ import { byId } from "./elements.js";
 import { DesignFile } from "./file.js";
 import { Form } from "./form.js";
 import { Handles } from "./handles.js";
+import * as help from "./help.js";
 import { History } from "./history.js";
+import * as link from "./link.js";
 import * as response from "./response.js";
 import { Search } from "./search.js";
 import * as server from "./server.js";
@@ -23,6 +25,10 @@ const SLOW = 40;
 const PATIENCE = 300;
 /** A picture that takes longer is not waited for while a drag goes on, ms. */
 const STALE = 2000;
+/** What takes longer is stopped by a change that ends a drag, ms. */
+const LATE = 100;
+/** Goals that take longer do not follow a drag, ms. */
+const LIVE = 250;
 
 const embedded = byId("snapshot");
 const state = {
@@ -35,26 +41,27 @@ const state = {
   draft: new Map(),
   pending: null,
   solving: false,
-  /** Aborts the solve under way, and whether it is out of date for every change since. */
+  /** Aborts the solve under way, and whether it is out of date for changes since: for those that end a drag, and for every one. */
   stop: null,
+  late: false,
   stale: false,
   /** What aborts the last checks. */
   checking: null,
   /** Resolves when nothing is left to solve. */
   work: null,
-  /** Goals of the best design so far, while a search shows it. */
-  goals: null,
   /** Whether the program has not answered of late. */
   away: false,
   /** Resolves when the panels show the snapshot, while they do not yet. */
   shown: null,
   /** How long the last checks took, ms: unknown ones come after the picture. */
   took: Infinity,
+  /** How long the last goals took, ms. */
+  told: 0,
 };
 
 const stage = new Stage((poses) => handles?.place(poses));
 const transport = new Transport(stage);
-const charts = new Charts((input) => transport.go(input), () => state.snapshot.name);
+const charts = new Charts((input) => transport.go(input), () => state.snapshot.name, () => state.snapshot.speed ?? transport.speed);
 transport.charts = charts;
 const form = new Form({ edit, fixed: Boolean(embedded) });
 const handles = embedded ? null : new Handles(stage, { edit, began: () => transport.play(false), points: (table) => form.points.get(table) });
@@ -68,10 +75,11 @@ let search = null;
 function show(snapshot, asked = snapshot.asked) {
   const before = state.snapshot;
   snapshot.asked = asked;
+  if (before?.text === snapshot.text) snapshot.goals ??= before.goals;
   if (snapshot.verdict && !snapshot.error && !search?.showing) state.checked = snapshot;
   if (!snapshot.picture && before?.picture) {
     // No mechanism: the last one stays in sight, faded.
-    snapshot = { ...before, asked, text: snapshot.text, tables: snapshot.tables, error: snapshot.error };
+    snapshot = { ...before, asked, text: snapshot.text, tables: snapshot.tables, error: snapshot.error, goals: undefined };
   } else if (!snapshot.verdict && before) {
     snapshot = { ...snapshot, curves: merged(snapshot.curves, before.curves), stale: true };
   }
@@ -82,6 +90,7 @@ function show(snapshot, asked = snapshot.asked) {
   stage.show(snapshot.picture);
   handles?.show(snapshot.picture?.handles ?? []);
   transport.draw();
+  verdict.mark(snapshot);
   // Panels cost the browser more than the picture does: the eye has that first.
   if (embedded) panels();
   else state.shown ??= painted().then(panels);
@@ -105,10 +114,17 @@ function panels() {
   byId("definition").textContent = snapshot.definition;
   form.show(snapshot, snapshot.asked);
   charts.show(snapshot.curves, state.pinned?.curves);
-  if (!snapshot.verdict && state.goals) verdict.goals(state.goals, state.pinned?.verdict?.goals);
-  verdict.show(snapshot, state.pinned, (input) => transport.go(input));
+  charts.place.classList.toggle("stale", Boolean(snapshot.error));
+  judge();
   transport.show(snapshot.curves);
   buttons();
+}
+
+/** Goals, findings and figures. */
+function judge() {
+  verdict.show(state.snapshot, state.pinned, (input) => transport.go(input));
+  const { error, verdict: found, limits = found?.limits } = state.snapshot;
+  if (limits && !error) charts.limit(limits);
 }
 
 /** The new curves, and of the old those that the checks have yet to draw anew. */
@@ -150,9 +166,19 @@ function replace(text) {
 function request(job) {
   // A change that ends a drag stays one, whatever overtakes it.
   const { text, final, fresh } = state.pending ?? {};
-  state.pending = { text: job.text ?? text, final: job.final || Boolean(final), fresh: job.fresh || (job.text === undefined && Boolean(fresh)), wanted: job.wanted };
+  state.pending = { ...job, text: job.text ?? text, final: job.final || Boolean(final), fresh: job.fresh || (job.text === undefined && Boolean(fresh)) };
   if (!state.solving) state.work = solve();
-  else if (job.final || state.stale) state.stop.abort();
+  else if ((job.final && state.late) || state.stale) state.stop.abort();
+}
+
+/** Begins a solve that a later change stops, any one after `patience`; returns what ends it. */
+function begin(stop, patience) {
+  Object.assign(state, { stop, late: false, stale: false });
+  const timers = [["late", LATE, () => state.pending.final], ["stale", patience, () => true]].map(([mark, time, due]) => setTimeout(() => {
+    state[mark] = true;
+    if (state.pending && due()) stop.abort();
+  }, time));
+  return () => timers.forEach(clearTimeout);
 }
 
 async function solve() {
@@ -168,13 +194,10 @@ async function solve() {
     const text = job.text ?? state.history.text;
     const edits = [...sent].map(([key, value]) => ({ key, value }));
     const slow = state.took > SLOW;
+    let unchecked = null;
     const stop = new AbortController();
-    [state.stop, state.stale] = [stop, false];
+    const end = begin(stop, STALE);
     const waiting = setTimeout(() => document.body.classList.add("busy"), PATIENCE);
-    const staling = setTimeout(() => {
-      state.stale = true;
-      if (state.pending) stop.abort();
-    }, STALE);
     try {
       const start = performance.now();
       const depth = job.sent ? "numbers" : slow ? "picture" : "checks";
@@ -182,10 +205,11 @@ async function solve() {
       if (job.wanted && !job.wanted()) continue;
       if (job.final) settle(snapshot.text, sent, edits.length > 0 || job.fresh);
       if (job.sent && state.pending) continue;
+      snapshot.goals = job.goals;
       show(snapshot, asked);
-      if (!slow) state.took = performance.now() - start;
-      else if (!state.pending && !snapshot.error) check(snapshot);
       dialogs.withdraw("server");
+      if (!slow) state.took = performance.now() - start;
+      else if (!snapshot.error) unchecked = snapshot;
     } catch (error) {
       if (stop.signal.aborted && !job.sent) {
         if (job.final || !state.pending) unsolved = { ...job, sent };
@@ -199,11 +223,43 @@ async function solve() {
       complain("server", error);
     } finally {
       clearTimeout(waiting);
-      clearTimeout(staling);
+      end();
       document.body.classList.remove("busy");
     }
+    if (unchecked && await tell(unchecked) && !state.pending) check(unchecked);
   }
   state.solving = false;
+}
+
+/**
+ * Tells the goals of the picture that is shown, before its details and checks: a drag waits for them while they are quick.
+ * Resolves to whether the checks are to follow.
+ */
+async function tell({ text, coarse, goals }) {
+  if (goals || !coarse) return true;
+  if (state.pending && state.told > LIVE) {
+    // Tried again some pictures later.
+    state.told *= 0.8;
+    return true;
+  }
+  const stop = new AbortController();
+  const end = begin(stop, LIVE);
+  const start = performance.now();
+  try {
+    const answer = await work((signal) => server.solve({ text, edits: [], depth: "goals" }, signal), stop);
+    if (answer.goals && state.snapshot.text === text) {
+      Object.assign(state.snapshot, answer);
+      if (!state.shown) judge();
+    }
+  } catch (error) {
+    if (!stop.signal.aborted) complain("server", error);
+    else if (!state.pending) rest();
+    return false;
+  } finally {
+    end();
+    state.told = performance.now() - start;
+  }
+  return true;
 }
 
 /** Waits until every change given so far is in the text. */
@@ -230,11 +286,16 @@ async function check({ text, coarse }) {
     }
   } catch (error) {
     if (!stop.signal.aborted) complain("server", error);
-    else if (wanted()) verdict.unchecked(() => {
-      verdict.clear();
-      check(state.snapshot);
-    });
+    else if (wanted()) rest();
   }
+}
+
+/** The checks were cancelled: they are done when asked for. */
+function rest() {
+  verdict.unchecked(() => {
+    verdict.clear();
+    check(state.snapshot);
+  });
 }
 
 /** A change has arrived in the text; a step back or forth is in the history already, and is no new one. */
@@ -315,6 +376,7 @@ function listen() {
   byId("pin").addEventListener("click", pin);
   byId("save").addEventListener("click", () => file.save());
   byId("export").addEventListener("click", () => file.download(state.snapshot.name));
+  byId("link").addEventListener("click", () => file.copy());
   byId("optimise").addEventListener("click", () => search.toggle());
   byId("response").addEventListener("click", () => response.ask(state.snapshot, state.history.text));
   byId("source").addEventListener("click", async () => {
@@ -354,14 +416,8 @@ async function start() {
   file = new DesignFile(name, formats, state.history, { settled, replace, complain, saved: buttons });
   search = new Search(methods, {
     text: () => state.history.text,
-    preview: (best, goals) => {
-      state.goals = goals;
-      request({ text: best, final: false, wanted: () => search.showing });
-    },
-    left: () => {
-      state.goals = null;
-      verdict.clear();
-    },
+    preview: (best, goals) => request({ text: best, goals, final: false, wanted: () => search.showing }),
+    left: verdict.clear,
     take: replace,
     drop: () => {
       const text = state.history.text;
@@ -379,6 +435,9 @@ async function start() {
       ["Discard", () => server.forget(left).catch((error) => complain("keep", error))],
     ], "warning");
   }
+  // What the tour points at is in its place then.
+  settled().then(() => state.shown).then(help.start);
+  link.listen((text) => file.offer(text), (error) => complain("link", error));
   server.watch({ disk: (state) => file.compare(state), lost, found });
 }
 

@@ -2,6 +2,7 @@
 
 import * as dialogs from "./dialogs.js";
 import { byId, element } from "./elements.js";
+import * as link from "./link.js";
 import { Painter, Scene } from "./painter.js";
 import * as server from "./server.js";
 import * as theme from "./theme.js";
@@ -107,8 +108,8 @@ const sight = new IntersectionObserver((changes) => {
   load();
 }, { rootMargin: "120px" });
 
-function complain(error) {
-  dialogs.notice("server", error.message, [], "error");
+function complain(error, key = "server") {
+  dialogs.notice(key, error.message, [], "error");
 }
 
 const capital = (words) => words.charAt(0).toUpperCase() + words.slice(1);
@@ -160,6 +161,10 @@ async function open(path) {
   const remark = byId("open-remark");
   remark.replaceChildren();
   try {
+    if (link.holds(path)) {
+      await unfold(await link.read(path));
+      return;
+    }
     const { page, refused } = await server.open(path);
     if (page) {
       location.assign(page);
@@ -171,6 +176,14 @@ async function open(path) {
   } catch (error) {
     complain(error);
   }
+}
+
+/** Asks where the design of a link is to be. */
+async function unfold(text) {
+  const { taken, folder } = await server.offer();
+  const title = link.named(text);
+  const name = title.toLowerCase().replace(/[^a-z0-9]+/g, "-").replace(/^-|-$/g, "").slice(0, 40) || "design";
+  await make({ text }, title, free(name, taken), folder);
 }
 
 /** A card of the gallery. */
@@ -223,6 +236,7 @@ byId("open").addEventListener("submit", (event) => {
 theme.start(() => {
   for (const thumbnail of thumbnails.values()) thumbnail.draw();
 });
+link.listen(unfold, (error) => complain(error, "link"));
 const refresh = () => server.offer().then(show).catch(complain);
 // Back from a design: its file may be new.
 addEventListener("pageshow", (event) => {

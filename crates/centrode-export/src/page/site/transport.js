@@ -32,6 +32,11 @@ export class Transport {
     return this.stage.scene?.motion.cycle ?? 2 * Math.PI;
   }
 
+  /** Speed at which it is played, rad/s. */
+  get speed() {
+    return (Number(byId("speed").value) * 2 * Math.PI) / 60;
+  }
+
   /** Stops, and leads to an input. */
   go(input) {
     this.play(false);
@@ -81,7 +86,7 @@ export class Transport {
     let last = performance.now();
     const step = (now) => {
       if (!this.playing) return;
-      const turned = ((now - last) / 60000) * Number(byId("speed").value) * 2 * Math.PI;
+      const turned = ((now - last) / 1000) * this.speed;
       last = now;
       this.move((this.input + turned) % this.cycle());
       requestAnimationFrame(step);

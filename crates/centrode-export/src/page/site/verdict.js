@@ -5,13 +5,12 @@ import * as figures from "./figures.js";
 
 const SIGN = { error: "✕", warning: "▲", note: "●", good: "✓", open: "○" };
 
-const checking = () => element("p", {}, "Checking …");
-
 /** Nothing is known of the design yet. */
 export function clear() {
   byId("goals").replaceChildren();
-  byId("findings").replaceChildren(checking());
+  byId("findings").replaceChildren(title("Checking …", "open"));
   byId("figures").replaceChildren();
+  byId("verdict").classList.add("stale");
 }
 
 /** The checks were cancelled: what an earlier design was worth says nothing of this one; `again` begins anew. */
@@ -22,34 +21,52 @@ export function unchecked(again) {
     element("p", {}, "The checks were cancelled. ", element("button", { type: "button", class: "link", onclick: again }, "Check")));
 }
 
-/** Shows what the checks say; `go` leads to an input angle. */
+/** Marks goals that are still those of the design before. */
+export function mark({ verdict, goals: told }) {
+  byId("goals").setAttribute("aria-busy", String(!verdict && !told));
+}
+
+/** Shows what the checks say, or what is known before; `go` leads to an input angle. */
 export function show(snapshot, pinned, go) {
   const place = byId("findings");
-  const verdict = snapshot.verdict;
-  byId("verdict").classList.toggle("stale", !verdict || Boolean(snapshot.error));
-  if (snapshot.error) {
-    const { key, line, column, message } = snapshot.error;
+  const { verdict, error } = snapshot;
+  const told = verdict?.goals ?? snapshot.goals;
+  byId("verdict").classList.toggle("stale", !verdict || Boolean(error));
+  mark(snapshot);
+  if (error) {
+    const { key, line, column, message } = error;
+    // Nothing of the design before is left to be taken for this one's.
+    clear();
     place.replaceChildren(
       title(line ? "No mechanism" : "Not solved", "error"),
       element("ul", { class: "findings no-mechanism" }, element("li", { class: "error" },
         element("p", {}, element("b", {}, `${SIGN.error} error `), message),
         line ? element("p", { class: "detail" }, key ? `${key}, line ${line}, column ${column}` : `line ${line}, column ${column}`) : null)),
+      ...(snapshot.picture ? [element("p", { class: "detail" }, "Picture and curves are those of the last good design.")] : []),
     );
     return;
   }
+  if (told) goals(told, pinned?.verdict?.goals);
   if (!verdict) {
     // What is known of the design before says nothing of this one.
-    const before = place.querySelector(".title");
-    if (!before || place.querySelector(".no-mechanism")) place.replaceChildren(checking());
-    else before.replaceWith(title("Checking …", "open"));
+    if (!place.querySelector(".findings:not(.no-mechanism)")) place.replaceChildren(title("Checking …", "open"));
+    const left = [told ? null : byId("goals").firstChild && "goals", place.querySelector("li") && "findings", byId("figures").firstChild && "figures"].filter(Boolean);
+    place.firstChild.replaceWith(title("Checking …", "open", left.length ? `still of the design before: ${left.join(", ")}` : ""));
     return;
   }
   place.replaceChildren(
-    title(verdict.ok ? "Sound" : "Does not do its job", verdict.ok ? "good" : "error", verdict.summary),
+    status(verdict),
     element("ul", { class: "findings" }, ...verdict.findings.map((finding) => item(finding, go))),
   );
-  goals(verdict.goals, pinned?.verdict?.goals);
   figures.show(verdict, pinned?.verdict);
+}
+
+/** The one status: it is as good as the worst that is listed. */
+function status({ ok, goals: list, findings, summary }) {
+  const missed = list.filter((goal) => goal.met === false).length;
+  if (missed) return title(`Misses ${missed} goal${missed > 1 ? "s" : ""}`, "error", summary);
+  if (!ok) return title("Does not do its job", "error", summary);
+  return findings.some(({ severity }) => severity === "warning") ? title("Works, with warnings", "warning", summary) : title("Sound", "good", summary);
 }
 
 /** Goals as bars: figure, range, and how near it is. */

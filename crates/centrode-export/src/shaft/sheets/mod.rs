@@ -58,6 +58,7 @@ pub fn slider_sheets(shaft: &SpiralShaft, options: &Options) -> Result<Vec<Sheet
     let spec = shaft.slider();
     let properties = slider_solid(shaft)?.mass_properties(spec.density);
     block.mass = mass(properties.mass * 1e3);
+    block.material.clone_from(&spec.material);
     let pieces = |scale: Scale, size: SheetSize| {
         let draft = slider::views(shaft, scale, view_letters(size), block.projection);
         vec![Piece::view("slider with section", draft)]

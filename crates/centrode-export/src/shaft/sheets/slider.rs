@@ -1,9 +1,8 @@
 //! The slider along its pin, and a section through it.
 
-use crate::sheet::number;
 use crate::{
     drawing::Shape,
-    sheet::{Draft, Pen, Scale},
+    sheet::{Draft, Pen, Scale, fit, number},
 };
 use centrode_geometry::{Bounds, Outline, Point, Tolerance, Vector};
 use centrode_mechanism::design::Projection;
@@ -55,7 +54,7 @@ pub(super) fn views(
     );
     let tip = p(-0.6 * bore, -0.8 * bore);
     let elbow = p(-long - 4.0, -wide - 7.0);
-    draft.leader(tip, elbow, &[format!("Ø{}", number(spec.pin_diameter, 3))]);
+    draft.leader(tip, elbow, &[fit::bore(spec.pin_diameter, &spec.hole_fit)]);
     let tip = p(long - wide + 0.8 * wide, -0.6 * wide);
     let elbow = p(long + 4.0, -wide - 7.0);
     draft.leader(tip, elbow, &[format!("R{}", number(0.5 * width, 3))]);

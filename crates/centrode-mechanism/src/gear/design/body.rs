@@ -26,6 +26,8 @@ pub struct BodySpec {
     pub material: String,
     /// Tolerance class of the bore, ISO 286, for the drawing.
     pub bore_fit: String,
+    /// Tolerance class of the shaft in the bore, ISO 286, for the drawing.
+    pub shaft_fit: String,
     /// Tolerance class of the keyway's width, ISO 286, for the drawing.
     pub keyway_fit: String,
     /// Heat treatment, for the drawing.
@@ -94,6 +96,7 @@ impl Default for BodySpec {
             density: 7850.0,
             material: "steel".into(),
             bore_fit: "H7".into(),
+            shaft_fit: "h6".into(),
             keyway_fit: "JS9".into(),
             heat_treatment: String::new(),
             accuracy: String::new(),
@@ -115,6 +118,7 @@ impl BodySpec {
         let words = [
             ("material", &self.material),
             ("bore_fit", &self.bore_fit),
+            ("shaft_fit", &self.shaft_fit),
             ("keyway_fit", &self.keyway_fit),
             ("heat_treatment", &self.heat_treatment),
             ("accuracy", &self.accuracy),

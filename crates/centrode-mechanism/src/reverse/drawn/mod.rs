@@ -13,8 +13,9 @@ use crate::digits::told;
 /// Fewest and most points through which a curve is laid.
 const FEWEST: usize = 32;
 const MOST: usize = 1024;
-/// Greatest error of a length along the drawing, as a share of the whole.
+/// Greatest error of a length along the drawing, as a share of the whole, where rounding allows it; roundings allowed for.
 const LENGTH: f64 = 1e-12;
+const ROUNDINGS: f64 = 16.0;
 
 /// Points along a closed path of an SVG file, the first where the drawing begins, evenly spread over its length.
 ///
@@ -32,7 +33,8 @@ impl DrawnPath {
     /// Reads the one path of a drawing whose root tells its size (`width="210mm" viewBox="0 0 210 297"`); `within` is the
     /// greatest distance allowed between drawing and spline, mm.
     ///
-    /// Groups and transforms are followed. Shapes that are no paths (circles, texts), and what is only defined, are left aside.
+    /// Groups and transforms are followed. Shapes that are no paths (circles, texts), and what is only defined or not shown, are
+    /// left aside; drawings within the drawing, uses of other shapes and transforms in styles are refused.
     ///
     /// # Errors
     /// [`DrawingError`] for a file that is no such drawing, an open path, and one with a corner: no spline comes near it.
@@ -49,7 +51,7 @@ impl DrawnPath {
             let path = WantedPath::through(&points)?;
             let step = drawing.length / count as f64;
             // Pieces of the spline, and the drawing's own joints.
-            let ends = pieces(0.0, drawing.length, count as u32, &drawing.starts);
+            let ends = pieces(0.0, drawing.length, count as u32, &drawing.joints());
             let off = |s: f64| path.distance_near(drawing.at(s), s / step);
             let deviation = greatest(off, &ends);
             if deviation.value <= within {
@@ -65,8 +67,14 @@ impl DrawnPath {
 
 /// Pieces of a closed path and the lengths at which they start.
 struct Drawing {
+    /// Pieces and their starts in units of the drawing's size: lengths along a curve are found for curves of a size near 1.
     segments: Vec<PathSeg>,
     starts: Vec<f64>,
+    /// The unit, mm.
+    size: f64,
+    /// Greatest error of a length, in that unit: what is small and far from the origin has fewer digits.
+    accuracy: f64,
+    /// mm.
     length: f64,
 }
 
@@ -74,27 +82,43 @@ impl Drawing {
     fn new(segments: Vec<PathSeg>) -> Self {
         // The whole is at least as long as the polygon of the pieces' ends.
         let size: f64 = segments.iter().map(|s| (s.end() - s.start()).hypot()).sum();
+        let far = |at: kurbo::Point| at.x.abs().max(at.y.abs());
+        let far = segments.iter().map(|s| far(s.start())).fold(0.0, f64::max);
+        let accuracy = (ROUNDINGS * f64::EPSILON * far / size).max(LENGTH);
+        let unit = kurbo::Affine::scale(1.0 / size);
+        let segments: Vec<PathSeg> = segments.iter().map(|s| unit * *s).collect();
         let mut length = 0.0;
         let mut starts = Vec::with_capacity(segments.len());
         for segment in &segments {
             starts.push(length);
-            length += segment.arclen(LENGTH * size);
+            length += segment.arclen(accuracy);
         }
         Self {
             segments,
             starts,
-            length,
+            size,
+            accuracy,
+            length: length * size,
         }
+    }
+
+    /// Lengths at which the pieces start, mm.
+    fn joints(&self) -> Vec<f64> {
+        self.starts.iter().map(|start| start * self.size).collect()
     }
 
     /// Point at a length from the start.
     fn at(&self, s: f64) -> Point {
+        let s = s / self.size;
         let number = self.starts.partition_point(|&start| start <= s);
         let number = number.saturating_sub(1);
         let segment = &self.segments[number];
-        let along = s - self.starts[number];
-        let t = segment.inv_arclen(along, LENGTH * self.length);
-        point(segment.eval(t))
+        let t = segment.inv_arclen(s - self.starts[number], self.accuracy);
+        self.placed(segment.eval(t))
+    }
+
+    fn placed(&self, at: kurbo::Point) -> Point {
+        Point::new(at.x * self.size, at.y * self.size)
     }
 
     /// The sharpest corner, to which no spline comes near.
@@ -103,7 +127,7 @@ impl Drawing {
         let joints = self.segments.iter().zip(next).map(|(one, other)| {
             let (before, after) = (tangent(one, 1.0), tangent(other, 0.0));
             let turn = before.cross(after).atan2(before.dot(after)).abs();
-            (turn.to_degrees(), point(one.end()))
+            (turn.to_degrees(), self.placed(one.end()))
         });
         let sharpest = |a: &(f64, Point), b: &(f64, Point)| a.0.total_cmp(&b.0);
         let (angle, at) = joints.max_by(sharpest).unwrap_or((0.0, Point::origin()));
@@ -130,10 +154,6 @@ fn tangent(segment: &PathSeg, t: f64) -> kurbo::Vec2 {
     cubic.deriv().eval(inner).to_vec2()
 }
 
-fn point(p: kurbo::Point) -> Point {
-    Point::new(p.x, p.y)
-}
-
 /// Reason why a drawing gives no path.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
@@ -157,6 +177,14 @@ pub enum DrawingError {
     Size {
         /// Key at fault, and its value.
         why: String,
+    },
+    /// A way of placing a path that is not followed.
+    #[error("{what} of the drawing is not followed: {remedy}")]
+    NotFollowed {
+        /// Way of placing, in words.
+        what: &'static str,
+        /// How the drawing can do without it.
+        remedy: &'static str,
     },
     /// No path, or several.
     #[error(
@@ -217,7 +245,7 @@ pub enum DrawingError {
     },
     /// A path along which no smooth curve runs.
     #[error(
-        "a smooth curve through {count} points comes within {} mm of the drawing, not within {} mm: it turns by {angle:.2} deg at ({x:.4}, {y:.4}) mm; round that corner, or allow more",
+        "a smooth curve through {count} points comes within {} mm of the drawing, not within {} mm: the sharpest joint of its pieces turns by {angle:.2} deg, at ({x:.4}, {y:.4}) mm; round corners, or allow more",
         told(*reached),
         told(*within)
     )]

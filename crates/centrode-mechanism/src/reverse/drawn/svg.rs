@@ -38,6 +38,7 @@ pub(super) fn closed_path(text: &str) -> Result<Vec<PathSeg>, DrawingError> {
         return Err(DrawingError::NotSvg { root });
     }
     let page = page(root)?;
+    followed(root)?;
     let is_path = |node: &Node<'_, '_>| node.tag_name().name() == "path" && is_shown(*node);
     let paths: Vec<Node<'_, '_>> = root.descendants().filter(is_path).collect();
     let [path] = &paths[..] else {
@@ -100,12 +101,41 @@ fn is_point(segment: &PathSeg) -> bool {
         .all(|p| *p == cubic.p0)
 }
 
-/// Whether a node is drawn where it stands, and not only defined.
+/// Whether a node is drawn where it stands, and neither only defined nor hidden.
 fn is_shown(node: Node<'_, '_>) -> bool {
-    let hidden = ["defs", "clipPath", "marker", "mask", "pattern", "symbol"];
-    !node
-        .ancestors()
-        .any(|outer| hidden.contains(&outer.tag_name().name()))
+    let defined = ["defs", "clipPath", "marker", "mask", "pattern", "symbol"];
+    !node.ancestors().any(|outer| {
+        let display = outer.attribute("display").or(style(outer, "display"));
+        defined.contains(&outer.tag_name().name()) || display == Some("none")
+    })
+}
+
+/// Value of a key in a node's style.
+fn style<'a>(node: Node<'a, '_>, key: &str) -> Option<&'a str> {
+    let mut entries = node.attribute("style")?.split(';');
+    entries.find_map(|entry| {
+        let (name, value) = entry.split_once(':')?;
+        (name.trim() == key).then_some(value.trim())
+    })
+}
+
+/// Refuses ways of placing what is shown that are not followed.
+fn followed(root: Node<'_, '_>) -> Result<(), DrawingError> {
+    let shown = root.descendants().filter(|node| is_shown(*node));
+    for node in shown {
+        let name = node.tag_name().name();
+        let (what, remedy) = if name == "use" {
+            ("<use>", "make it a path of its own (\"unlink clone\")")
+        } else if name == "svg" && node != root {
+            ("<svg> within <svg>", "ungroup the inner drawing")
+        } else if style(node, "transform").is_some_and(|value| value != "none") {
+            ("a transform in a style", "write it as transform=\"...\"")
+        } else {
+            continue;
+        };
+        return Err(DrawingError::NotFollowed { what, remedy });
+    }
+    Ok(())
 }
 
 /// From units of the drawing, y down, to mm, y up.

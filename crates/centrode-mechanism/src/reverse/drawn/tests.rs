@@ -109,6 +109,51 @@ fn groups_transforms_and_units_are_followed() {
 }
 
 #[test]
+fn what_is_hidden_is_left_aside_and_what_is_not_followed_is_refused() {
+    let path = format!("<path d=\"{ELLIPSE}\"/>");
+    let plain = drawn(ELLIPSE);
+    for hidden in [
+        "<g style=\"fill:none; display : none\"><path d=\"M 0 0 L 1 1\"/></g>",
+        "<path display=\"none\" d=\"M 0 0 L 1 1\"/>",
+        "<g style=\"display:none\"><use href=\"#other\"/></g>",
+    ] {
+        let text = page(&format!("{hidden}{path}"));
+        let found = DrawnPath::from_svg(text.as_bytes(), 1e-3).expect("a path");
+        assert_eq!(found, plain, "{hidden}");
+    }
+    for placed in [
+        format!("{path}<use href=\"#other\"/>"),
+        format!("<svg x=\"10\" viewBox=\"0 0 400 200\">{path}</svg>"),
+        path.replace(
+            "<path",
+            "<path style=\"stroke:red;transform:rotate(20deg)\"",
+        ),
+    ] {
+        let found = fault(&page(&placed));
+        assert!(matches!(found, DrawingError::NotFollowed { .. }), "{found}");
+    }
+}
+
+#[test]
+fn a_drawing_of_any_size_gives_the_path_to_its_scale() {
+    let plain = drawn(ELLIPSE);
+    let scaled = |scale: f64| format!("<path transform=\"scale({scale:e})\" d=\"{ELLIPSE}\"/>");
+    let lost = DrawnPath::from_svg(page(&scaled(1e-9)).as_bytes(), 1e-3);
+    assert!(matches!(lost, Err(PathError::TooSmall { .. })), "{lost:?}");
+    for scale in [1e-5, 1e6] {
+        let body = scaled(scale);
+        let found = DrawnPath::from_svg(page(&body).as_bytes(), 1e-3 * scale).expect("a path");
+        assert_eq!(found.points.len(), plain.points.len());
+        let [from, whole] = [&found, &plain].map(|drawn| drawn.points[0]);
+        for (p, q) in found.points.iter().zip(&plain.points) {
+            let off = (p - from) / scale - (q - whole);
+            // Of micrometres, a decimetre from the origin, digits are lost.
+            assert!(off.norm() < 1e-4, "{scale}: {p} {q}");
+        }
+    }
+}
+
+#[test]
 fn a_drawing_that_gives_no_path_is_refused_with_the_reason() {
     let path = format!("<path d=\"{ELLIPSE}\"/>");
     let good = page(&path);

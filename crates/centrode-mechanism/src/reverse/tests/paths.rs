@@ -73,6 +73,12 @@ fn a_file_is_read_line_by_line() {
     }
     let path = WantedPath::from_csv(text.as_bytes()).expect("a path");
     assert_eq!(path.at(2.3), drawn().at(2.3));
+    for (separator, end) in [(";", "\n"), ("\t", "\r\n"), (";", "\r")] {
+        let line = |[x, y]: &[f64; 2]| format!("{x}{separator}{y}{end}").replace('.', ",");
+        let text: String = DRAWN.iter().map(line).collect();
+        let path = WantedPath::from_csv(text.as_bytes()).expect("a path");
+        assert_eq!(path.at(2.3), drawn().at(2.3), "{separator:?} {end:?}");
+    }
     let fault = |text: &[u8]| WantedPath::from_csv(text).expect_err("no path");
     assert!(matches!(
         fault(b"x,y\n0,0\n1,a\n"),

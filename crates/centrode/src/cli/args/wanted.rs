@@ -15,7 +15,12 @@ pub(crate) struct Reverse {
     /// File of the path, CSV (x, y in mm) or SVG (its one path), or - for standard input
     pub(crate) path: PathBuf,
     /// Greatest distance of the machine's path from a drawn one, of an SVG file, mm
-    #[arg(long, default_value_t = 0.01, value_name = "MM")]
+    #[arg(
+        long,
+        default_value_t = 0.01,
+        allow_negative_numbers = true,
+        value_name = "MM"
+    )]
     pub(crate) within: f64,
     /// Axis of the carrier, mm; left out, the mildest: that of the least change of the gears' ratio
     #[arg(long, value_parser = place, allow_hyphen_values = true, value_name = "X,Y")]
@@ -32,11 +37,11 @@ pub(crate) struct Reverse {
     )]
     pub(crate) bend: f64,
     /// Number of arms
-    #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=12))]
+    #[arg(long, default_value_t = 1, allow_negative_numbers = true, value_parser = clap::value_parser!(u32).range(1..=12))]
     pub(crate) arms: u32,
     /// Steps of the tables in which the laws of the gears are written; left out, as few as bring the tip within 1e-7 of its
     /// greatest distance from the axis
-    #[arg(long, value_name = "N")]
+    #[arg(long, allow_negative_numbers = true, value_name = "N")]
     pub(crate) steps: Option<u32>,
     /// Take a path that crosses itself, too
     #[arg(long)]

@@ -2,7 +2,7 @@ use std::sync::Arc;
 
 use crate::analysis::Report;
 use crate::export::page::{Curve, Picture};
-use crate::family::{FAMILIES, Mechanism};
+use crate::family::{FAMILIES, Limit, Mechanism};
 use crate::mechanism::design::DesignError;
 use serde::Serialize;
 
@@ -26,6 +26,8 @@ pub(crate) struct Snapshot {
     /// Whether the picture lacks details that take longer to make.
     coarse: bool,
     curves: Vec<Curve>,
+    /// Speed of the input, rad/s, where the design has one.
+    speed: Option<f64>,
     verdict: Option<Verdict>,
 }
 
@@ -45,8 +47,16 @@ pub(crate) struct Verdict {
     ok: bool,
     summary: String,
     findings: Vec<report::Words>,
-    goals: Vec<report::GoalWords>,
+    #[serde(flatten)]
+    goals: Goals,
     figures: Vec<report::Section>,
+}
+
+/// Goals, and what is required of the figures drawn along the cycle.
+#[derive(Clone, Debug, Serialize)]
+pub(crate) struct Goals {
+    goals: Vec<report::GoalWords>,
+    limits: Vec<Limit>,
 }
 
 impl From<&DesignError> for Fault {
@@ -61,13 +71,22 @@ impl From<&DesignError> for Fault {
 }
 
 impl Verdict {
-    fn of(found: &Report) -> Self {
+    fn of(mechanism: &dyn Mechanism, found: &Report) -> Self {
         Self {
             ok: found.ok(),
             summary: report::summary(found),
             findings: found.findings.iter().map(report::words).collect(),
-            goals: found.goals.iter().map(report::goal_words).collect(),
+            goals: Goals::of(mechanism, found),
             figures: report::sections(found),
+        }
+    }
+}
+
+impl Goals {
+    fn of(mechanism: &dyn Mechanism, found: &Report) -> Self {
+        Self {
+            goals: found.goals.iter().map(report::goal_words).collect(),
+            limits: mechanism.limits(found),
         }
     }
 }
@@ -150,6 +169,7 @@ impl Subject {
         snapshot.picture = Some(mechanism.picture());
         snapshot.coarse = mechanism.is_coarse();
         snapshot.curves = mechanism.curves();
+        snapshot.speed = mechanism.input_speed();
         Ok(Self {
             snapshot,
             mechanism,
@@ -176,12 +196,17 @@ impl Subject {
         snapshot
     }
 
+    /// Goals, checked as far as the motion tells.
+    pub(crate) fn goals(&self) -> Goals {
+        Goals::of(&*self.mechanism, &self.mechanism.check_motion())
+    }
+
     /// Snapshot with the results of the checks.
     pub(crate) fn checked(&self) -> Snapshot {
         let mut snapshot = self.detailed();
         let (found, curves) = self.mechanism.check_with_curves();
         snapshot.curves.extend(curves);
-        snapshot.verdict = Some(Verdict::of(&found));
+        snapshot.verdict = Some(Verdict::of(&*self.mechanism, &found));
         snapshot
     }
 }

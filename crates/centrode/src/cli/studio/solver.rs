@@ -25,6 +25,8 @@ pub(crate) enum Depth {
     Numbers,
     /// Picture that is available at once.
     Picture,
+    /// Goals alone, by the checks of the motion: soon enough to follow a hand.
+    Goals,
     /// Picture with details that take longer to make.
     Detail,
     /// Results of the checks, too.
@@ -112,12 +114,13 @@ impl Solver {
             },
         };
         *held(&self.last) = Some(Arc::clone(&subject));
-        let snapshot = match depth {
-            Depth::Numbers | Depth::Picture => subject.drawn(),
-            Depth::Detail => subject.detailed(),
-            Depth::Checks => subject.checked(),
-        };
-        snapshot.json()
+        match depth {
+            Depth::Numbers | Depth::Picture => subject.drawn().json(),
+            // The page has the rest.
+            Depth::Goals => serde_json::to_string(&subject.goals()),
+            Depth::Detail => subject.detailed().json(),
+            Depth::Checks => subject.checked().json(),
+        }
     }
 }
 

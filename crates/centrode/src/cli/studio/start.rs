@@ -41,14 +41,17 @@ pub(crate) enum Pattern {
     Shipped(String),
     /// Template of a family.
     New(String),
+    /// Text that has come with a link.
+    Text(String),
 }
 
 impl Pattern {
     /// The text; none where nothing has the name.
-    pub(crate) fn text(&self) -> Option<&'static str> {
+    pub(crate) fn text(&self) -> Option<&str> {
         match self {
             Self::Shipped(name) => shipped(name),
             Self::New(family) => FAMILIES.template(family),
+            Self::Text(text) => Some(text),
         }
     }
 }

@@ -43,9 +43,9 @@ async fn picture(Path((kind, name)): Path<(String, String)>) -> Result<Response,
         "shipped" => Pattern::Shipped(name),
         _ => Pattern::New(name),
     };
-    let text = pattern.text();
-    let text = text.ok_or_else(|| Refused::because(StatusCode::NOT_FOUND, OpenError::Pattern))?;
-    let picture = computed(move || drawn(text)).await?;
+    let picture = computed(move || pattern.text().map(drawn)).await?;
+    let picture =
+        picture.ok_or_else(|| Refused::because(StatusCode::NOT_FOUND, OpenError::Pattern))?;
     let picture =
         picture.map_err(|reason| Refused::because(StatusCode::INTERNAL_SERVER_ERROR, reason))?;
     Ok(as_json(picture))

@@ -1,0 +1,94 @@
+use std::sync::Arc;
+
+use centrode_geometry::Outline;
+use centrode_mechanism::composed::{Composed, ComposedGear, PinHole};
+use centrode_mechanism::machine::Machine;
+
+use super::plates;
+use crate::gear_pair::{self, Label};
+use crate::plate::{Hole, Plate};
+use crate::sheet::capital;
+use crate::{ExportError, Package, cam};
+
+/// Offers plates, gears and cams; copies have the files of their originals.
+pub(super) fn add(
+    package: &mut Package<'_>,
+    composed: &Composed,
+    machine: &Machine,
+) -> Result<(), ExportError> {
+    let drawing = &composed.design().drawing;
+    let is_copy = |name: &String| composed.original(name) != name;
+    let quantity = |name: &str| {
+        let part = machine.parts.iter().find(|part| part.name == name);
+        part.map_or(1, |part| part.quantity())
+    };
+    for (index, body) in composed.bodies().iter().enumerate() {
+        if is_copy(&body.name) {
+            continue;
+        }
+        if let Some(plate) = plate(composed, machine, index, quantity(&body.name)) {
+            plate.add(package, drawing)?;
+        }
+    }
+    for gear in composed.gears().iter().filter(|gear| !is_copy(&gear.name)) {
+        let label = Label {
+            name: &gear.name,
+            title: &capital(&gear.name),
+            mate: &mates(composed, gear),
+            machine: package.design(),
+            drawing,
+            quantity: quantity(&gear.name),
+        };
+        gear_pair::add_gear(package, &gear.pair, gear.member, label)?;
+    }
+    for part in composed.cams().iter().filter(|cam| !is_copy(&cam.name)) {
+        let (title, tolerance) = (package.titled(&part.name), package.tolerance());
+        let plate = cam::plate(
+            &part.part,
+            [&part.name, &capital(&part.name)],
+            quantity(&part.name),
+        );
+        plate.add_sheets(package, drawing)?;
+        cam::add(package, &part.part, &title, tolerance)?;
+    }
+    Ok(())
+}
+
+/// A body as a plate; none for one without a contour.
+fn plate(composed: &Composed, machine: &Machine, body: usize, quantity: usize) -> Option<Plate> {
+    let spec = &composed.design().plates;
+    // A link's plate is the first of its solids.
+    let solid = plates(machine, body).first()?;
+    let pins = composed.pin_holes(body)?;
+    let hole = |(outline, pin): (&Outline, PinHole)| Hole {
+        label: pin.name,
+        fit: spec.hole_fit.clone(),
+        ..Hole::from(outline.clone())
+    };
+    let name = &composed.bodies()[body].name;
+    Some(Plate {
+        name: name.clone(),
+        title: capital(name),
+        quantity,
+        outline: solid.outline().clone(),
+        holes: solid.holes().iter().zip(pins).map(hole).collect(),
+        opening: None,
+        thickness: composed.thickness(body),
+        material: spec.material.clone(),
+        density: spec.density,
+        notes: vec!["x and y are the body's axes in the design.".into()],
+        tables: Vec::new(),
+    })
+}
+
+/// Names of the gears of a pair's other member.
+fn mates(composed: &Composed, gear: &ComposedGear) -> String {
+    let gears = composed.gears().iter();
+    let of_pair = gears.filter(|other| Arc::ptr_eq(&other.pair, &gear.pair));
+    let others = of_pair.filter(|other| other.member != gear.member);
+    let originals = others.map(|other| composed.original(&other.name));
+    let mut names: Vec<&str> = originals.collect();
+    names.sort_unstable();
+    names.dedup();
+    names.join(" and ")
+}

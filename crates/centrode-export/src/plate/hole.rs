@@ -1,0 +1,160 @@
+use std::f64::consts::TAU;
+
+use centrode_geometry::{Outline, Point, Segment};
+use centrode_mechanism::gear::design::BodySpec;
+
+use crate::sheet::{fit, number};
+
+/// Share of a radius by which arcs of one circle may differ: rounding.
+const ROUNDING: f64 = 1e-9;
+
+/// A contour cut out of a plate.
+#[derive(Clone, Debug)]
+pub(crate) struct Hole {
+    pub(crate) outline: Outline,
+    /// Letter or name beside it on the sheet; may be empty.
+    pub(crate) label: String,
+    /// Tolerance class of its diameter or width, ISO 286; empty where general tolerances hold.
+    pub(crate) fit: String,
+    /// How far its place may be off either way, mm; 0 where general tolerances hold.
+    pub(crate) off: f64,
+    /// Further lines beside it.
+    pub(crate) notes: Vec<String>,
+}
+
+impl Hole {
+    /// The bore of a body, with its keyway where it has one.
+    pub(crate) fn bore(outline: Outline, body: &BodySpec) -> Self {
+        let mut bore = Self {
+            fit: body.bore_fit.clone(),
+            ..Self::from(outline)
+        };
+        if let Some(key) = body.keyway {
+            let angle = number(body.keyway_angle.to_degrees(), 4);
+            bore.notes = vec![
+                fit::bore(body.bore, &body.bore_fit),
+                format!("keyway {}", fit::keyway(key.width, &body.keyway_fit)),
+                format!(
+                    "Ø + depth {}, at {angle}°",
+                    number(body.bore + key.depth, 3)
+                ),
+            ];
+        }
+        bore
+    }
+}
+
+impl From<Outline> for Hole {
+    fn from(outline: Outline) -> Self {
+        Self {
+            outline,
+            label: String::new(),
+            fit: String::new(),
+            off: 0.0,
+            notes: Vec::new(),
+        }
+    }
+}
+
+/// Shape of a hole that a sheet says in words.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum HoleKind {
+    /// Centre and radius.
+    Round(Point, f64),
+    /// Centres of the round ends and their radius.
+    Slot([Point; 2], f64),
+    /// Given by its contour.
+    Free,
+}
+
+impl Hole {
+    pub(super) fn kind(&self) -> HoleKind {
+        if let Some((center, radius)) = circle(&self.outline) {
+            return HoleKind::Round(center, radius);
+        }
+        match slot(&self.outline) {
+            Some((ends, radius)) => HoleKind::Slot(ends, radius),
+            None => HoleKind::Free,
+        }
+    }
+
+    /// Whether words say nothing of its shape: its contour alone does.
+    pub(super) fn is_by_contour(&self) -> bool {
+        self.kind() == HoleKind::Free && self.notes.is_empty()
+    }
+
+    /// Diameter or width with its limits; empty for a contour of another shape.
+    pub(super) fn size(&self) -> String {
+        match self.kind() {
+            HoleKind::Round(_, radius) => fit::bore(2.0 * radius, &self.fit),
+            HoleKind::Slot(_, radius) => {
+                format!("slot {}", fit::keyway(2.0 * radius, &self.fit))
+            }
+            HoleKind::Free => String::new(),
+        }
+    }
+}
+
+/// Centre and radius of a contour that is a full circle.
+fn circle(contour: &Outline) -> Option<(Point, f64)> {
+    let mut found: Option<(Point, f64)> = None;
+    let mut turned = 0.0;
+    for segment in contour.segments() {
+        let Segment::Arc(arc) = segment else {
+            return None;
+        };
+        let (center, radius) = (arc.center(), arc.radius());
+        let same = found.is_none_or(|(c, r)| {
+            (center - c).norm() < ROUNDING * radius && (r - radius).abs() < ROUNDING * radius
+        });
+        if !same {
+            return None;
+        }
+        found = Some((center, radius));
+        turned += arc.sweep().abs();
+    }
+    found.filter(|_| (turned - TAU).abs() < 1e-6)
+}
+
+/// Centres of the ends and their radius, of a contour of two half circles and two lines.
+fn slot(contour: &Outline) -> Option<([Point; 2], f64)> {
+    let mut ends: Vec<(Point, f64)> = Vec::new();
+    let mut lines = 0;
+    for segment in contour.segments() {
+        match segment {
+            Segment::Line(..) => lines += 1,
+            Segment::Arc(arc) => {
+                let half = (arc.sweep().abs() - 0.5 * TAU).abs() < 1e-6;
+                ends.extend(half.then(|| (arc.center(), arc.radius())));
+            }
+            Segment::Poly(_) => return None,
+        }
+    }
+    match (&ends[..], lines, contour.segments().len()) {
+        ([(a, r), (b, s)], 2, 4) if (r - s).abs() < 1e-6 * r => Some(([*a, *b], *r)),
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn round_holes_and_slots_are_known_by_their_contours() {
+        let p = Point::new;
+        let round = Hole::from(Outline::circle(p(3.0, -1.0), 2.5));
+        assert!(matches!(round.kind(), HoleKind::Round(at, r)
+            if (at - p(3.0, -1.0)).norm() < 1e-12 && (r - 2.5).abs() < 1e-12));
+        let ends = [(p(10.0, 0.0), 4.0), (p(30.0, 0.0), 4.0)];
+        let hull = Outline::hull(&ends).expect("a hull");
+        let slot = Hole {
+            fit: "H9".into(),
+            ..Hole::from(hull)
+        };
+        assert_eq!(slot.size(), "slot 8 H9 (+0.036 / 0)");
+        let corners = [p(0.0, 0.0), p(1.0, 0.0), p(0.0, 1.0)];
+        let free = Hole::from(Outline::polygon(&corners));
+        assert_eq!((free.kind(), free.size()), (HoleKind::Free, String::new()));
+    }
+}

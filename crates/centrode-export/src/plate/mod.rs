@@ -1,0 +1,153 @@
+//! Parts of one thickness: cutting drawing, sheets, solid.
+
+mod hole;
+mod sheet;
+
+use centrode_geometry::{MassProperties, Opening, Outline, Solid, SolidError, Tolerance, Vector};
+use centrode_mechanism::design::DrawingSpec;
+use centrode_mechanism::gear::design::BodySpec;
+
+use crate::drawing::{CENTER, Drawing, HOLE, PROFILE, Shape};
+use crate::dxf::Curves;
+use crate::sheet::{Table, mass};
+use crate::{ExportError, Package};
+pub(crate) use hole::Hole;
+use hole::HoleKind;
+
+/// A part of one thickness.
+#[derive(Clone, Debug)]
+pub(crate) struct Plate {
+    /// Name that its files begin with.
+    pub(crate) name: String,
+    /// Title of its drawing.
+    pub(crate) title: String,
+    /// How many of it a machine has.
+    pub(crate) quantity: usize,
+    pub(crate) outline: Outline,
+    pub(crate) holes: Vec<Hole>,
+    /// Holes through a wall, their height from the middle of the thickness.
+    pub(crate) opening: Option<Opening>,
+    /// mm.
+    pub(crate) thickness: f64,
+    pub(crate) material: String,
+    /// kg/m^3.
+    pub(crate) density: f64,
+    /// Further notes of its sheet.
+    pub(crate) notes: Vec<String>,
+    /// Tables of its sheet.
+    pub(crate) tables: Vec<Table>,
+}
+
+impl Plate {
+    /// A body with its bore, as gears and cams have it, of files of a name and with a title.
+    pub(crate) fn of_body(
+        [name, title]: [&str; 2],
+        outline: Outline,
+        bore: Option<Outline>,
+        body: &BodySpec,
+    ) -> Self {
+        Self {
+            name: name.into(),
+            title: title.into(),
+            quantity: 1,
+            outline,
+            holes: bore
+                .map(|bore| Hole::bore(bore, body))
+                .into_iter()
+                .collect(),
+            opening: None,
+            thickness: body.width,
+            material: body.material.clone(),
+            density: body.density,
+            notes: Vec::new(),
+            tables: Vec::new(),
+        }
+    }
+
+    pub(crate) fn noted(mut self, line: &str) -> Self {
+        self.notes.push(line.into());
+        self
+    }
+
+    /// Contours of the holes.
+    pub(crate) fn cut_outs(&self) -> Vec<Outline> {
+        self.holes.iter().map(|hole| hole.outline.clone()).collect()
+    }
+
+    /// From z = 0 to its thickness.
+    pub(crate) fn solid(&self) -> Result<Solid, SolidError> {
+        self.placed([0.0, self.thickness])
+    }
+
+    /// Plate between other heights.
+    pub(crate) fn placed(&self, [bottom, top]: [f64; 2]) -> Result<Solid, SolidError> {
+        let solid = Solid::new(self.outline.clone(), self.cut_outs(), bottom, top)?;
+        let Some(opening) = &self.opening else {
+            return Ok(solid);
+        };
+        let middle = 0.5 * (bottom + top);
+        solid.with_opening(Opening {
+            span: opening.span.map(|z| middle + z),
+            ..opening.clone()
+        })
+    }
+
+    pub(crate) fn mass(&self, span: [f64; 2]) -> Result<MassProperties, SolidError> {
+        Ok(self.placed(span)?.mass_properties(self.density))
+    }
+
+    /// Mass of one, in words.
+    fn weight(&self) -> String {
+        let volume = self.solid().map_or(0.0, |solid| solid.volume());
+        mass(volume * self.density * 1e-6)
+    }
+
+    /// Offers drawing, sheets and solid.
+    pub(crate) fn add(
+        &self,
+        package: &mut Package<'_>,
+        spec: &DrawingSpec,
+    ) -> Result<(), ExportError> {
+        let (name, tolerance) = (&*self.name, package.tolerance());
+        package.drawing(name, |curves| Ok(self.drawing(curves, tolerance)))?;
+        self.add_sheets(package, spec)?;
+        let title = package.titled(name);
+        package.solid(name, &title, || {
+            self.solid().map_err(ExportError::no_solid(name))
+        })
+    }
+
+    /// Offers the sheets.
+    pub(crate) fn add_sheets(
+        &self,
+        package: &mut Package<'_>,
+        spec: &DrawingSpec,
+    ) -> Result<(), ExportError> {
+        let (name, options, tolerance) = (&*self.name, package.options(), package.tolerance());
+        let spec = (spec, package.design());
+        package.sheets(name, || {
+            self.sheets(spec, &options.sheet, tolerance)
+                .map_err(ExportError::no_sheet(name))
+        })
+    }
+
+    /// The cutting drawing: contour, holes, centre lines.
+    pub(crate) fn drawing(&self, curves: Curves, tolerance: Tolerance) -> Drawing {
+        let plain = |outline: &Outline| match curves {
+            Curves::Arcs => outline.arcs(tolerance),
+            Curves::Splines => outline.clone(),
+        };
+        let mut drawing = Drawing::cutting();
+        drawing.draw(PROFILE, Shape::Contour(plain(&self.outline)));
+        for hole in &self.holes {
+            drawing.draw(HOLE, Shape::Contour(plain(&hole.outline)));
+            if let HoleKind::Round(center, radius) = hole.kind() {
+                let arm = 1.25 * radius + 1.0;
+                let (x, y) = (Vector::new(arm, 0.0), Vector::new(0.0, arm));
+                drawing.draw(CENTER, Shape::Line(center - x, center + x));
+                drawing.draw(CENTER, Shape::Line(center - y, center + y));
+            }
+        }
+        drawing
+    }
+}

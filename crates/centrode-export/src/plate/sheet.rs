@@ -1,0 +1,342 @@
+use centrode_geometry::{Arc, Bounds, Outline, Point, Segment, Tolerance, Vector};
+use centrode_mechanism::design::{DrawingSpec, Projection, SheetSize};
+
+use super::{Hole, HoleKind, Plate};
+use crate::SheetOptions;
+use crate::drawing::{Anchor, Shape};
+use crate::sheet::{
+    Draft, Pen, Piece, Scale, Sheet, SheetError, Table, TitleBlock, compose, fixed, number,
+    view_letters,
+};
+
+/// Most holes with their size and place beside the view; more have a table.
+const CALLED_OUT: usize = 8;
+/// Most sides of a contour that a sheet is read for; more are in the cutting file alone.
+const SIDES: usize = 40;
+/// Bulge of a half circle beyond one by which an arc is no longer: rounding.
+const ROUNDING: f64 = 1e-9;
+/// Places of lengths.
+const PLACES: usize = 3;
+
+impl Plate {
+    /// The drawing sheets: face, edge, dimensions, notes.
+    pub(crate) fn sheets(
+        &self,
+        (spec, supplement): (&DrawingSpec, &str),
+        options: &SheetOptions,
+        tolerance: Tolerance,
+    ) -> Result<Vec<Sheet>, SheetError> {
+        let mut block = TitleBlock::new(spec, &self.name, options);
+        block.title.clone_from(&self.title);
+        block.supplement = supplement.into();
+        block.document = "Part drawing".into();
+        block.material.clone_from(&self.material);
+        block.mass = self.weight();
+        let plain = Plate {
+            outline: self.outline.arcs(tolerance),
+            ..self.clone()
+        };
+        let projection = block.projection;
+        let lines = self.lines();
+        let pieces = |scale: Scale, size: SheetSize| {
+            vec![
+                Piece::notes(&lines),
+                Piece::view("face and edge", plain.views(scale, size, projection)),
+            ]
+        };
+        let bounds = plain.outline.bounds();
+        let extent = (bounds.max - bounds.min).amax();
+        let mut tables = self.tables.clone();
+        tables.extend(self.hole_table());
+        tables.extend(self.contour_table());
+        compose(
+            options.size.or(spec.sheet),
+            &block,
+            extent,
+            &pieces,
+            &tables,
+        )
+    }
+
+    fn lines(&self) -> Vec<String> {
+        let name = &self.name;
+        let mut lines = vec![format!("{} of these a machine.", self.quantity)];
+        lines.push(match self.is_told() {
+            true => format!("Cutting file: {name}.dxf."),
+            false => format!("Contour: {name}.dxf."),
+        });
+        lines.push(match self.shows_axes() {
+            true => {
+                "Places x, y from the crossing of the long centre lines, x to the right.".into()
+            }
+            false => "Places x, y from an origin beside the part, x to the right.".into(),
+        });
+        lines.extend(self.notes.iter().cloned());
+        lines
+    }
+
+    /// Whether the axes of all places cross on the part.
+    fn shows_axes(&self) -> bool {
+        let Bounds { min, max } = self.outline.bounds();
+        min.x < 0.0 && max.x > 0.0 && min.y < 0.0 && max.y > 0.0
+    }
+
+    /// Face, and edge seen from the left.
+    fn views(&self, scale: Scale, size: SheetSize, projection: Projection) -> Draft {
+        let k = scale.factor();
+        let mut draft = Draft::lettered(view_letters(size));
+        draft.draw(Pen::Outline, Shape::Contour(self.outline.scaled(k)));
+        for hole in &self.holes {
+            draft.draw(Pen::Outline, Shape::Contour(hole.outline.scaled(k)));
+            hole.cross(&mut draft, k);
+        }
+        let Bounds { min, max } = self.outline.bounds();
+        let (low, high) = (min * k, max * k);
+        let p = Point::new;
+        if self.shows_axes() {
+            draft.line(Pen::Axis, p(low.x - 3.0, 0.0), p(high.x + 3.0, 0.0));
+            draft.line(Pen::Axis, p(0.0, low.y - 3.0), p(0.0, high.y + 3.0));
+        }
+        let size = max - min;
+        // Below everything, and left of the notes.
+        let below = p(low.x, low.y - 12.0);
+        draft.dimension(
+            [p(low.x, low.y), p(high.x, low.y)],
+            Vector::x(),
+            below,
+            &number(size.x, PLACES),
+        );
+        let around = Bounds {
+            min: low - Vector::repeat(4.0),
+            max: high + Vector::repeat(4.0),
+        };
+        if self.holes.len() > CALLED_OUT {
+            self.letter(&mut draft, k);
+        } else {
+            draft.callouts(around, [f64::NEG_INFINITY; 2], &self.callouts(k));
+        }
+        self.edge(&mut draft, k, projection);
+        draft
+    }
+
+    /// The edge, beside the face: seen from the left it stands on the right in first angle.
+    fn edge(&self, draft: &mut Draft, k: f64, projection: Projection) {
+        let whole = draft.bounds();
+        let Bounds { min, max } = self.outline.bounds();
+        let (low, high) = (min.y * k, max.y * k);
+        let thick = self.thickness * k;
+        let gap = 14.0;
+        let left = match projection {
+            Projection::FirstAngle => whole.max.x + gap,
+            Projection::ThirdAngle => whole.min.x - gap - thick - 16.0,
+        };
+        let p = Point::new;
+        let edge = Bounds {
+            min: p(left, low),
+            max: p(left + thick, high),
+        };
+        draft.rectangle(Pen::Outline, edge);
+        let heights = [p(left + thick, low), p(left + thick, high)];
+        let beside = p(left + thick + 9.0, low);
+        draft.dimension(heights, Vector::y(), beside, &number(max.y - min.y, PLACES));
+        let across = [p(left, low), p(left + thick, low)];
+        draft.dimension(
+            across,
+            Vector::x(),
+            p(left, low - 12.0),
+            &number(self.thickness, PLACES),
+        );
+    }
+
+    /// Label of a hole: its own, or a letter where there are many.
+    fn label(&self, index: usize) -> String {
+        let own = &self.holes[index].label;
+        if !own.is_empty() || self.holes.len() <= CALLED_OUT {
+            return own.clone();
+        }
+        match u8::try_from(index) {
+            Ok(index @ 0..26) => char::from(b'A' + index).to_string(),
+            _ => (index + 1).to_string(),
+        }
+    }
+
+    /// Writes the label of every hole beside it.
+    fn letter(&self, draft: &mut Draft, k: f64) {
+        for (index, hole) in self.holes.iter().enumerate() {
+            let (at, reach) = match hole.kind() {
+                HoleKind::Round(at, radius) | HoleKind::Slot([at, _], radius) => (at, radius),
+                HoleKind::Free => continue,
+            };
+            let beside = 0.72 * reach * k + 0.8;
+            let letters = draft.lettering();
+            let at = at * k + Vector::new(beside, beside);
+            draft.text(at, letters, &self.label(index), Anchor::Left);
+        }
+    }
+
+    /// Holes by their size and place.
+    fn callouts(&self, k: f64) -> Vec<(Point, Vec<String>)> {
+        let holes = self.holes.iter().enumerate();
+        let Bounds { min, max } = self.outline.bounds();
+        let middle = 0.5 * (min.x + max.x);
+        let note = |(index, hole): (usize, &Hole)| {
+            let (center, radius) = match hole.kind() {
+                HoleKind::Round(center, radius) | HoleKind::Slot([center, _], radius) => {
+                    (center, radius)
+                }
+                HoleKind::Free => {
+                    let Bounds { min, max } = hole.outline.bounds();
+                    (min + 0.5 * (max - min), 0.5 * (max - min).amin())
+                }
+            };
+            // Towards the column of words it is put in.
+            let outwards = if center.x < middle { -1.0 } else { 1.0 };
+            let side = Vector::new(outwards * 0.8, 0.6) * radius;
+            let lines = [hole.size()].into_iter().chain(hole.place());
+            let lines = lines.chain(hole.notes.iter().cloned());
+            let mut words: Vec<String> = lines.filter(|line| !line.is_empty()).collect();
+            let label = self.label(index);
+            match words.first_mut() {
+                Some(first) if !label.is_empty() => *first = format!("{label}: {first}"),
+                Some(_) => {}
+                None => return None,
+            }
+            Some(((center + side) * k, words))
+        };
+        holes.filter_map(note).collect()
+    }
+
+    /// Places and sizes of many holes.
+    fn hole_table(&self) -> Option<Table> {
+        if self.holes.len() <= CALLED_OUT {
+            return None;
+        }
+        let holes = self.holes.iter().enumerate();
+        let row = |(index, hole): (usize, &Hole)| {
+            let mut cells = vec![self.label(index), hole.size()];
+            let lines = hole.place().into_iter().chain(hole.notes.iter().cloned());
+            cells.push(lines.collect::<Vec<_>>().join(", "));
+            cells
+        };
+        let named = holes.filter(|(_, hole)| !hole.is_by_contour());
+        Some(Table {
+            title: "Holes".into(),
+            headings: ["", "size", "place"].map(String::from).to_vec(),
+            columns: vec![Anchor::Left; 3],
+            rows: named.map(row).collect(),
+            notes: Vec::new(),
+        })
+    }
+
+    /// Contours that a sheet tells by their corners: the outline, and holes that are neither round nor slots.
+    fn told(&self) -> impl Iterator<Item = &Outline> {
+        let holes = self.holes.iter().filter(|hole| hole.is_by_contour());
+        std::iter::once(&self.outline).chain(holes.map(|hole| &hole.outline))
+    }
+
+    /// Whether the sheet tells all of the contour.
+    fn is_told(&self) -> bool {
+        self.outline.segments().len() <= SIDES
+            && self.told().all(|contour| {
+                let mut sides = contour.segments().iter();
+                !sides.any(|side| matches!(side, Segment::Poly(_)))
+            })
+    }
+
+    /// The contour's corners and roundings; none for one with more than a sheet would be read for.
+    fn contour_table(&self) -> Option<Table> {
+        if !self.is_told() {
+            return None;
+        }
+        let mut rows = Vec::new();
+        let alone = self.told().count() == 1;
+        for (index, contour) in self.told().enumerate() {
+            for segment in contour.segments() {
+                let start = segment.start();
+                let [round, about] = match segment {
+                    Segment::Arc(arc) => [
+                        rounding(arc, contour.is_counter_clockwise()),
+                        written(arc.center()),
+                    ],
+                    _ => ["line".into(), String::new()],
+                };
+                let name = match (index, alone) {
+                    (_, true) => "",
+                    (0, false) => "outside",
+                    _ => "opening",
+                };
+                let [x, y] = [start.x, start.y].map(|x| fixed(x, PLACES));
+                rows.push(vec![name.to_owned(), x, y, round, about]);
+            }
+        }
+        let table = Table {
+            title: "Contour".into(),
+            headings: ["", "x", "y", "radius to the next", "about"]
+                .map(String::from)
+                .to_vec(),
+            columns: vec![
+                Anchor::Left,
+                Anchor::Right,
+                Anchor::Right,
+                Anchor::Right,
+                Anchor::Left,
+            ],
+            rows,
+            notes: Vec::new(),
+        };
+        Some(table.filled())
+    }
+}
+
+/// Radius of an arc of a contour, hollow where it bends into it.
+fn rounding(arc: &Arc, counter_clockwise: bool) -> String {
+    let bulges = (arc.bulge > 0.0) == counter_clockwise;
+    let [hollow, long] = [
+        (!bulges, ", hollow"),
+        (arc.bulge.abs() > 1.0 + ROUNDING, ", over 180°"),
+    ]
+    .map(|(is, words)| if is { words } else { "" });
+    format!("{}{hollow}{long}", number(arc.radius(), PLACES))
+}
+
+/// A place, mm, as exactly as any is written.
+fn written(at: Point) -> String {
+    let [x, y] = [at.x, at.y].map(|x| number(x, PLACES + 1));
+    format!("{x}, {y}")
+}
+
+impl Hole {
+    /// Centre lines.
+    fn cross(&self, draft: &mut Draft, k: f64) {
+        let (centers, radius) = match self.kind() {
+            HoleKind::Round(center, radius) => (vec![center], radius),
+            HoleKind::Slot(ends, radius) => (ends.to_vec(), radius),
+            HoleKind::Free => return,
+        };
+        let arm = radius * k + 2.0;
+        for center in centers {
+            let at = center * k;
+            let (x, y) = (Vector::new(arm, 0.0), Vector::new(0.0, arm));
+            draft.line(Pen::Axis, at - x, at + x);
+            draft.line(Pen::Axis, at - y, at + y);
+        }
+    }
+
+    /// Place in the plate's axes, in words.
+    fn place(&self) -> Vec<String> {
+        let off = match self.off > 0.0 {
+            true => format!(" ±{}", number(self.off, PLACES)),
+            false => String::new(),
+        };
+        match self.kind() {
+            HoleKind::Round(center, _) => vec![format!("at {}{off}", written(center))],
+            HoleKind::Slot([from, to], radius) => vec![format!(
+                "R{} about {} and {}",
+                number(radius, PLACES + 1),
+                written(from),
+                written(to)
+            )],
+            HoleKind::Free => Vec::new(),
+        }
+    }
+}

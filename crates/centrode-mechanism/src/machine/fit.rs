@@ -1,0 +1,186 @@
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::Machine;
+
+/// Upper ends of the ranges of nominal sizes, mm.
+const RANGES: [f64; 13] = [
+    3.0, 6.0, 10.0, 18.0, 30.0, 50.0, 80.0, 120.0, 180.0, 250.0, 315.0, 400.0, 500.0,
+];
+
+/// A number for each range of sizes, µm.
+type Row = [f64; 13];
+
+/// Standard tolerances by grade.
+#[rustfmt::skip]
+const GRADES: [(&str, Row); 7] = [
+    ("5", [4.0, 5.0, 6.0, 8.0, 9.0, 11.0, 13.0, 15.0, 18.0, 20.0, 23.0, 25.0, 27.0]),
+    ("6", [6.0, 8.0, 9.0, 11.0, 13.0, 16.0, 19.0, 22.0, 25.0, 29.0, 32.0, 36.0, 40.0]),
+    ("7", [10.0, 12.0, 15.0, 18.0, 21.0, 25.0, 30.0, 35.0, 40.0, 46.0, 52.0, 57.0, 63.0]),
+    ("8", [14.0, 18.0, 22.0, 27.0, 33.0, 39.0, 46.0, 54.0, 63.0, 72.0, 81.0, 89.0, 97.0]),
+    ("9", [25.0, 30.0, 36.0, 43.0, 52.0, 62.0, 74.0, 87.0, 100.0, 115.0, 130.0, 140.0, 155.0]),
+    ("10", [40.0, 48.0, 58.0, 70.0, 84.0, 100.0, 120.0, 140.0, 160.0, 185.0, 210.0, 230.0, 250.0]),
+    ("11", [60.0, 75.0, 90.0, 110.0, 130.0, 160.0, 190.0, 220.0, 250.0, 290.0, 320.0, 360.0, 400.0]),
+];
+
+/// Distances of the nearer limit from the nominal size by letter: of shafts below it from d to h, above it from k to p.
+#[rustfmt::skip]
+const DEVIATIONS: [(&str, Row); 9] = [
+    ("d", [20.0, 30.0, 40.0, 50.0, 65.0, 80.0, 100.0, 120.0, 145.0, 170.0, 190.0, 210.0, 230.0]),
+    ("e", [14.0, 20.0, 25.0, 32.0, 40.0, 50.0, 60.0, 72.0, 85.0, 100.0, 110.0, 125.0, 135.0]),
+    ("f", [6.0, 10.0, 13.0, 16.0, 20.0, 25.0, 30.0, 36.0, 43.0, 50.0, 56.0, 62.0, 68.0]),
+    ("g", [2.0, 4.0, 5.0, 6.0, 7.0, 9.0, 10.0, 12.0, 14.0, 15.0, 17.0, 18.0, 20.0]),
+    ("h", [0.0; 13]),
+    ("k", [0.0, 1.0, 1.0, 1.0, 2.0, 2.0, 2.0, 3.0, 3.0, 4.0, 4.0, 4.0, 5.0]),
+    ("m", [2.0, 4.0, 6.0, 7.0, 8.0, 9.0, 11.0, 13.0, 15.0, 17.0, 20.0, 21.0, 23.0]),
+    ("n", [4.0, 8.0, 10.0, 12.0, 15.0, 17.0, 20.0, 23.0, 27.0, 31.0, 34.0, 37.0, 40.0]),
+    ("p", [6.0, 12.0, 15.0, 18.0, 22.0, 26.0, 32.0, 37.0, 43.0, 50.0, 56.0, 62.0, 68.0]),
+];
+
+/// Lower and upper deviation of a size in a tolerance class, mm.
+///
+/// Holes have capital letters: D to H and JS in grades 5 to 11, N and P in grade 9, as keyways have them. Shafts have small
+/// ones: d to h and js in grades 5 to 11, k in grades 5 to 7, m to p in grades 5 to 9. `None` for other classes, and for sizes
+/// that are not between 0 and 500 mm.
+///
+/// Source: ISO 286-1:2010, tables of standard tolerance grades and fundamental deviations.
+#[must_use]
+pub fn limits_of_size(size: f64, class: &str) -> Option<[f64; 2]> {
+    let range = RANGES.iter().position(|&end| size <= end);
+    let range = range.filter(|_| size > 0.0)?;
+    let letters = class.trim_end_matches(|c: char| c.is_ascii_digit());
+    let (_, grade) = class.split_at(letters.len());
+    let number: u32 = grade.parse().ok()?;
+    let of = |rows: &[(&str, Row)], name: &str| {
+        let found = rows.iter().find(|(known, _)| *known == name);
+        found.map(|(_, row)| row[range])
+    };
+    let width = of(&GRADES, grade)?;
+    let from = of(&DEVIATIONS, &letters.to_lowercase());
+    let lower = match letters {
+        "D" | "E" | "F" | "G" | "H" => from?,
+        "d" | "e" | "f" | "g" | "h" => -from? - width,
+        "JS" | "js" => -0.5 * width,
+        // Holes up to 3 mm have 4 µm at this grade, larger ones none.
+        "N" if number == 9 => -width - if range == 0 { 4.0 } else { 0.0 },
+        "P" if number == 9 => -width - from?,
+        "k" if number <= 7 => from?,
+        "m" | "n" | "p" if number <= 9 => from?,
+        _ => return None,
+    };
+    Some([lower / 1000.0, (lower + width) / 1000.0])
+}
+
+/// Fit of a hole and what runs or sits in it: one size, a tolerance class for either side.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Fit {
+    /// Name of the place: "pin of A".
+    pub name: String,
+    /// Nominal size, mm: a diameter, or the width of a slot.
+    pub size: f64,
+    /// Whether the size is a width, not a diameter.
+    pub is_width: bool,
+    /// Tolerance class of the hole or slot, ISO 286.
+    pub hole: String,
+    /// Tolerance class of what is in it, ISO 286.
+    pub shaft: String,
+}
+
+impl Fit {
+    /// Least and greatest play, mm, below zero where the parts press: the hole's limits less the shaft's. None where a class or
+    /// the size is beyond the tables of [`limits_of_size`].
+    #[must_use]
+    pub fn play(&self) -> Option<[f64; 2]> {
+        let [least, greatest] = limits_of_size(self.size, &self.hole)?;
+        let [thin, thick] = limits_of_size(self.size, &self.shaft)?;
+        Some([least - thick, greatest - thin])
+    }
+}
+
+impl Machine {
+    /// Adds a fit, or its name to that of one alike.
+    pub fn fit(&mut self, fit: Fit) {
+        let alike = |known: &&mut Fit| {
+            let named = Fit {
+                name: known.name.clone(),
+                ..fit.clone()
+            };
+            **known == named
+        };
+        match self.fits.iter_mut().find(alike) {
+            Some(known) if known.name.split(", ").any(|name| name == fit.name) => {}
+            Some(known) => known.name = format!("{}, {}", known.name, fit.name),
+            None => self.fits.push(fit),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn limits_are_those_of_the_standard() {
+        let found = |size: f64, class: &str| {
+            let micrometres = |mm: f64| (mm * 1e4).round() / 10.0;
+            limits_of_size(size, class).map(|limits| limits.map(micrometres))
+        };
+        for (size, class, limits) in [
+            (12.0, "H7", [0.0, 18.0]),
+            (10.0, "G7", [5.0, 20.0]),
+            (40.0, "E9", [50.0, 112.0]),
+            (12.0, "N9", [-43.0, 0.0]),
+            (2.0, "N9", [-29.0, -4.0]),
+            (8.0, "P9", [-51.0, -15.0]),
+            (40.0, "f7", [-50.0, -25.0]),
+            (25.0, "g6", [-20.0, -7.0]),
+            (60.0, "k6", [2.0, 21.0]),
+            (100.0, "p6", [37.0, 59.0]),
+            (30.0, "js6", [-6.5, 6.5]),
+            (450.0, "h11", [-400.0, 0.0]),
+        ] {
+            assert_eq!(found(size, class), Some(limits), "{size} {class}");
+        }
+        for (size, class) in [
+            (12.0, ""),
+            (12.0, "H"),
+            (12.0, "K7"),
+            (12.0, "k9"),
+            (12.0, "7"),
+            (0.0, "H7"),
+            (501.0, "H7"),
+            (f64::NAN, "H7"),
+            (12.0, "é7"),
+        ] {
+            assert_eq!(found(size, class), None, "{size} {class}");
+        }
+    }
+
+    #[test]
+    fn play_is_least_of_the_smallest_hole_and_the_thickest_shaft() {
+        let fit = |hole: &str, shaft: &str| Fit {
+            name: "pin".into(),
+            size: 10.0,
+            is_width: false,
+            hole: hole.into(),
+            shaft: shaft.into(),
+        };
+        let [least, greatest] = fit("H8", "f7").play().expect("known classes");
+        assert!((least - 0.013).abs() < 1e-12 && (greatest - 0.05).abs() < 1e-12);
+        let [least, greatest] = fit("H7", "p6").play().expect("known classes");
+        assert!((least + 0.024).abs() < 1e-12 && greatest.abs() < 1e-12);
+        assert_eq!(fit("H8", "").play(), None);
+        let mut machine = Machine::default();
+        let named = |name: &str| Fit {
+            name: name.into(),
+            ..fit("H8", "f7")
+        };
+        ["A", "B", "A"]
+            .into_iter()
+            .for_each(|name| machine.fit(named(name)));
+        machine.fit(fit("H7", "p6"));
+        let names: Vec<&str> = machine.fits.iter().map(|fit| &*fit.name).collect();
+        assert_eq!(names, ["A, B", "pin"]);
+    }
+}
