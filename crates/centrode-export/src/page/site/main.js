@@ -167,6 +167,7 @@ function request(job) {
   // A change that ends a drag stays one, whatever overtakes it.
   const { text, final, fresh } = state.pending ?? {};
   state.pending = { ...job, text: job.text ?? text, final: job.final || Boolean(final), fresh: job.fresh || (job.text === undefined && Boolean(fresh)) };
+  byId("verdict").setAttribute("aria-busy", "true");
   if (!state.solving) state.work = solve();
   else if ((job.final && state.late) || state.stale) state.stop.abort();
 }
@@ -229,6 +230,7 @@ async function solve() {
     if (unchecked && await tell(unchecked) && !state.pending) check(unchecked);
   }
   state.solving = false;
+  byId("verdict").setAttribute("aria-busy", "false");
 }
 
 /**
