@@ -140,6 +140,10 @@ def test_plates_are_closed_solids_with_their_volume(feeder):
         mesh = trimesh.load_mesh(folder / f"{part}.stl")
         assert mesh.is_watertight
         area = 30 * length + math.pi * (15**2 - 2 * 5**2)
+        if part == "crank":
+            # At A a bore of 16 with a keyway of 5, to 18.3 from the far side.
+            beyond = 5 * 10.3 - 2.5 * math.sqrt(8**2 - 2.5**2) - 8**2 * math.asin(2.5 / 8)
+            area += math.pi * (5**2 - 8**2) - beyond
         assert mesh.volume == pytest.approx(8 * area, rel=2e-4)
     for part in PARTS:
         assert trimesh.load_mesh(folder / f"{part}.stl").is_watertight
@@ -155,7 +159,32 @@ def test_drawings_are_sound_and_their_holes_are_where_the_joints_are(feeder):
         assert not audit.fixes, path.name
     for part, index in (("crank", 0), ("coupler", 1), ("rocker", 2)):
         holes = sorted(contour.centroid.coords[0] for contour in contours(folder / f"{part}.dxf", "hole"))
-        assert holes == [pytest.approx((x, 0.0), abs=1e-9) for x in (0.0, LENGTHS[name][index])]
+        places = [pytest.approx((x, 0.0), abs=1e-9) for x in (0.0, LENGTHS[name][index])]
+        first = 1 if part == "crank" else 0
+        assert holes[first:] == places[first:]
+    (keyed, _) = sorted(contours(folder / "crank.dxf", "hole"), key=lambda hole: hole.centroid.x)
+    # Its circle is about A.
+    assert shapely.distance(keyed.exterior, shapely.Point(0, 0)) == pytest.approx(8, abs=1e-4)
+
+
+def keyway(folder, part):
+    """Direction of the keyway of the hole at the origin, rad."""
+    (hole,) = (hole for hole in contours(folder / f"{part}.dxf", "hole") if hole.contains(shapely.Point(0, 0)))
+    far = np.array([place for place in hole.exterior.coords[:-1] if math.hypot(*place) > 8.5])
+    assert len(far) == 2
+    return math.atan2(*far.mean(axis=0)[::-1])
+
+
+def test_a_keyed_crank_stands_on_its_shaft_as_it_does_at_rest(feeder):
+    name, folder = feeder
+    # Key and shaft hold keyways on one line: the gear's x axis points from the incomplete gear's shaft then.
+    for part in ("gear-driver", "gear-driven", "gear-entry-cam", "gear-exit-cam"):
+        assert keyway(folder, part) == pytest.approx(0, abs=1e-12), part
+    frame = contours(folder / "frame.dxf", "hole")
+    wide = sorted(hole.centroid.x for hole in frame if hole.area > 100)
+    assert wide == [pytest.approx(-105, abs=1e-9), pytest.approx(0, abs=1e-9)]
+    rest = ct.load(DESIGNS / f"{name}.toml").start
+    assert keyway(folder, "crank") == pytest.approx(-rest, abs=1e-9)
 
 
 def drawn(profile):

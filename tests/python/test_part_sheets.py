@@ -28,6 +28,8 @@ FLAT = ("feeder", "machine", "three-arm")
 NUMBER = r"-?[\d.]+"
 HOLE = re.compile(rf"^(?:[^:]+: )?Ø({NUMBER})(?: (\S+))?")
 PLACE = re.compile(rf"^at ({NUMBER}), ({NUMBER})")
+KEYWAY = re.compile(rf"^keyway ({NUMBER})")
+KEYED = re.compile(rf"^Ø \+ depth ({NUMBER}), at {NUMBER}°$")
 ENDS = re.compile(rf"^R({NUMBER}) about ({NUMBER}), ({NUMBER}) and ({NUMBER}), ({NUMBER})$")
 
 
@@ -161,6 +163,12 @@ def test_a_plate_made_from_its_sheet_alone_is_its_solid(name, exported):
                 assert has(x, y, radius), (part, text, after)
                 # Whatever is drilled has a class, and with it limits.
                 assert hole[2], (part, text)
+                bored = 2 * radius
+            if (keyway := KEYWAY.match(text)) and (keyed := KEYED.match(after)):
+                half, above = float(keyway[1]) / 2, float(keyed[1]) - bored / 2
+                # What the keyway takes beyond the bore's circle.
+                leg = math.sqrt(bored**2 / 4 - half**2)
+                area -= 2 * half * above - half * leg - bored**2 / 4 * math.asin(2 * half / bored)
             if ends := ENDS.match(after):
                 radius, x0, y0, x1, y1 = map(float, ends.groups())
                 area -= math.pi * radius**2 + 2 * radius * math.hypot(x1 - x0, y1 - y0)

@@ -6,6 +6,7 @@ use centrode_mechanism::gear::design::BodySpec;
 use centrode_mechanism::machine::{self, Axis, Datum, Dimension, Fit, Line, LineRole, Machine};
 
 use super::gears;
+use crate::gear_pair;
 use crate::sheet::{fit, number};
 
 /// Corners of a path.
@@ -77,37 +78,24 @@ fn list(feeder: &Feeder, plate: &Plate, machine: &mut Machine) {
     });
 }
 
-/// The pins of the joints: of three shafts in the frame, of B, and of C.
+/// The pins of the joints: of two shafts in the frame, of B, and of C.
 fn pins(feeder: &Feeder, machine: &mut Machine) {
     let pin = feeder.design().plates.pin_diameter;
-    let on = [
-        Part::Frame,
-        Part::Frame,
-        Part::Frame,
-        Part::Crank,
-        Part::Rocker,
-    ];
+    let on = [Part::Frame, Part::Frame, Part::Crank, Part::Rocker];
     let links = on.iter().filter_map(|part| machine.link_named(part.name()));
     let links = links.collect();
     let [_, c, _] = feeder.six_bar().joints(feeder.start());
     let rim = [c.x - 0.5 * pin, c.y];
     let spec = &feeder.design().plates;
-    let fit = Fit {
-        name: "pins of A, B, C, D, F".into(),
-        size: pin,
-        is_width: false,
-        hole: spec.hole_fit.clone(),
-        shaft: spec.pin_fit.clone(),
-    };
-    let remark = format!("{}, of A, B, C, D and F", fit::shaft(&fit));
+    let fit = Fit::new("pins of B, C, D, F", pin, [&spec.hole_fit, &spec.pin_fit]);
+    let remark = format!("{}, of B, C, D and F", fit::shaft(&fit));
     machine.fit(fit);
-    machine.fit(Fit {
-        name: "slider in the slot".into(),
-        size: spec.slot_width,
-        is_width: true,
-        hole: spec.slot_fit.clone(),
-        shaft: spec.slider_fit.clone(),
-    });
+    let classes = [&*spec.slot_fit, &spec.slider_fit];
+    machine.fit(Fit::of_width(
+        "slider in the slot",
+        spec.slot_width,
+        classes,
+    ));
     machine.part(machine::Part {
         name: "pin of a joint".into(),
         links,
@@ -119,19 +107,15 @@ fn pins(feeder: &Feeder, machine: &mut Machine) {
 
 /// Fit of the pins of the cams in the driven gear.
 fn pressed(diameter: f64) -> Fit {
-    Fit {
-        name: "pins of the cams".into(),
-        size: diameter,
-        is_width: false,
-        hole: gears::PIN_HOLES.into(),
-        shaft: gears::PINS.into(),
-    }
+    let classes = [gears::PIN_HOLES, gears::PINS];
+    Fit::new("pins of the cams", diameter, classes)
 }
 
 /// The incomplete gears with their cams and pins, which are not cut for this.
 fn gears(feeder: &Feeder, machine: &mut Machine) {
     let spec = &feeder.design().gears;
     let crank = machine.link_named(Part::Crank.name()).unwrap_or(0);
+    let made = spec.body();
     let rim = |pitches: u32| [0.0, 0.5 * spec.module * f64::from(pitches) + spec.module];
     let bored = |pitches: u32| format!("{pitches} pitches, bore Ø{}", number(spec.bore, PLACES));
     let mut add =
@@ -141,7 +125,7 @@ fn gears(feeder: &Feeder, machine: &mut Machine) {
                 links,
                 material: match file.is_empty() {
                     true => String::new(),
-                    false => BodySpec::default().material,
+                    false => made.material.clone(),
                 },
                 file: file.into(),
                 remark,
@@ -171,7 +155,8 @@ fn gears(feeder: &Feeder, machine: &mut Machine) {
         .gears
         .drive()
         .map_or(0, |drive| drive.stops());
-    if spec.entry > 0.0 && stops > 0 {
+    let cams = if spec.entry > 0.0 && stops > 0 { 2 } else { 0 };
+    if cams > 0 {
         let beside = "beside the incomplete gear";
         add("entry cam", vec![0], "gear-entry-cam", beside.into(), None);
         add("exit cam", vec![0], "gear-exit-cam", beside.into(), None);
@@ -180,20 +165,37 @@ fn gears(feeder: &Feeder, machine: &mut Machine) {
         let remark = format!("{}, pressed into the driven gear", fit::shaft(&pin));
         add("pin of a cam", pins, "", remark, None);
     }
-    let body = BodySpec::default();
-    let shaft = Fit {
-        name: "shafts of the gears".into(),
-        size: spec.bore,
-        is_width: false,
-        hole: body.bore_fit,
-        shaft: body.shaft_fit,
-    };
-    let remark = fit::shaft(&shaft);
-    add("shaft of the incomplete gear", vec![0], "", remark, None);
-    if spec.entry > 0.0 && stops > 0 {
+    if cams > 0 {
         machine.fit(pressed(spec.pin_diameter.unwrap_or(2.5 * spec.module)));
     }
-    machine.fit(shaft);
+    shafts(feeder, crank, cams, machine);
+}
+
+/// Shafts of the gears, what is keyed to them and where they turn.
+fn shafts(feeder: &Feeder, crank: usize, cams: usize, machine: &mut Machine) {
+    let (body, plates) = (feeder.design().gears.body(), &feeder.design().plates);
+    let seat = |name, hole: &str| Fit::new(name, body.bore, [hole, &body.shaft_fit]);
+    let hubs = seat("gears and crank on their shafts", &body.bore_fit);
+    for (name, link) in [
+        ("shaft of the incomplete gear, G", 0),
+        ("shaft of the crank, A", crank),
+    ] {
+        machine.part(machine::Part {
+            name: name.into(),
+            links: vec![link],
+            remark: fit::shaft(&hubs),
+            ..machine::Part::default()
+        });
+    }
+    machine.fit(hubs);
+    machine.fit(seat("shafts A and G in the frame", &plates.bearing_fit));
+    let on_gears = [vec![0; 1 + cams], vec![crank]].concat();
+    gear_pair::list_keys(machine, &body, on_gears);
+    let on_crank = BodySpec {
+        width: plates.thickness,
+        ..body
+    };
+    gear_pair::list_keys(machine, &on_crank, vec![crank]);
 }
 
 fn data(feeder: &Feeder) -> Vec<Datum> {

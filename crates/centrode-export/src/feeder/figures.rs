@@ -26,7 +26,7 @@ pub(super) fn draw(
     };
     let driver = machine.sketch("driver", driver);
     let still = |at: f64| Quantity::Law(Arc::new(Constant(at)));
-    let beside = still(-center_distance(feeder));
+    let beside = still(-feeder.design().gears.center_distance());
     let seat = Seat::Free(Box::new([beside, still(0.0), Quantity::Input(-1.0)]));
     machine.draw_at("driver", seat, [0.0; 3], driver);
     let driven = machine.sketch("driven gear", driven);
@@ -62,12 +62,6 @@ pub(super) fn draw(
             at: joint.at.coords.into(),
         }));
     }
-}
-
-/// Distance between the shafts of the incomplete gears, mm.
-fn center_distance(feeder: &Feeder) -> f64 {
-    let gears = &feeder.design().gears;
-    0.5 * gears.module * f64::from(gears.driver_pitches + gears.driven_pitches)
 }
 
 /// Driver and driven gear by their pitch and tip circles.

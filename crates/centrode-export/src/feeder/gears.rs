@@ -33,6 +33,7 @@ pub(super) fn parts(feeder: &Feeder, gears: &IncompletePair, tolerance: Toleranc
             .noted(&format!("Points of the contour: {name}.csv."))
             .noted("Drawn as the motion begins: on the driver x points to the")
             .noted("driven gear's axis, on the driven gear away from the driver's.")
+            .noted("Keyed along x: gears and cams stand right on the shaft.")
     };
     let mut first = part(DRIVER, gears.driver(), driver.body(), driver.bore());
     first.tables = vec![table(

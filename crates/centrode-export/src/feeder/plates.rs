@@ -1,6 +1,6 @@
 use crate::drawing::{Anchor, CENTER, Color, Drawing, LineType, Shape, Text};
 use crate::plate::{self, Hole};
-use crate::sheet::{capital, fit};
+use crate::sheet::{capital, fit, number};
 use centrode_geometry::{Bounds, Point, Vector};
 use centrode_mechanism::feeder::{Feeder, Part, Plate};
 
@@ -13,7 +13,7 @@ const POINTS: u32 = 360;
 /// A plate of the six-bar as a shop makes it: the distances of its holes are as exact as the swing needs them.
 pub(super) fn made(feeder: &Feeder, plate: &Plate) -> plate::Plate {
     let (spec, making) = (&feeder.design().plates, &feeder.design().making);
-    let joints = plate.joints.iter().filter(|joint| joint.hole);
+    let joints = plate.joints.iter().filter(|joint| joint.hole.is_some());
     let pins = plate.holes.iter().zip(joints).map(|(outline, joint)| {
         // Only the effector's pivot lies off the line through the others.
         let off = match joint.at {
@@ -21,11 +21,17 @@ pub(super) fn made(feeder: &Feeder, plate: &Plate) -> plate::Plate {
             at if at.y == 0.0 => making.length_tolerance,
             _ => making.pivot_tolerance,
         };
+        let mut bored = Hole::bore(outline.clone(), &feeder.hub(joint));
+        if !bored.notes.is_empty() {
+            // Its contour is no circle, whose place the sheet would tell.
+            let [x, y] = [joint.at.x, joint.at.y];
+            let place = format!("at {}, {}", number(x, 4), number(y, 4));
+            bored.notes.insert(1, place);
+        }
         Hole {
             label: joint.name.into(),
-            fit: spec.hole_fit.clone(),
             off,
-            ..Hole::from(outline.clone())
+            ..bored
         }
     });
     let slot = plate.slot.iter().map(|(_, outline)| Hole {
@@ -89,6 +95,10 @@ pub fn assembly(feeder: &Feeder, plates: &[Plate]) -> Drawing {
         ("D", Point::new(frame, 0.0)),
         ("E", e),
         ("F", feeder.six_bar().pivot()),
+        (
+            "G",
+            Point::new(-feeder.design().gears.center_distance(), 0.0),
+        ),
     ];
     let Bounds { min, max } = drawing.bounds();
     let height = 0.015 * (max - min).norm();

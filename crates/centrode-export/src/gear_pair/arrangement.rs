@@ -1,3 +1,4 @@
+use centrode_mechanism::gear::design::BodySpec;
 use centrode_mechanism::gear::{Gear, GearPair, Member};
 use centrode_mechanism::machine::{Callout, Datum, Fit, Machine, Part};
 
@@ -88,24 +89,31 @@ pub(crate) fn list(
     });
 }
 
+/// Lists the keys of a body, one for each of the links, where a standard one fits its keyway.
+pub(crate) fn list_keys(machine: &mut Machine, body: &BodySpec, links: Vec<usize>) {
+    if let Some(name) = body.keyway.and_then(|keyway| keyway.key(body.width)) {
+        machine.part(Part {
+            name,
+            links,
+            remark: "bought".into(),
+            ..Part::default()
+        });
+    }
+}
+
 /// Lists the shafts in the bores of gears, one for each of the links.
 pub(crate) fn list_shafts(machine: &mut Machine, gear: &Gear, name: &str, links: Vec<usize>) {
     if gear.body().bore > 0.0 && !links.is_empty() {
         let body = gear.body();
-        let fit = Fit {
-            name: name.into(),
-            size: body.bore,
-            is_width: false,
-            hole: body.bore_fit.clone(),
-            shaft: body.shaft_fit.clone(),
-        };
+        let fit = Fit::new(name, body.bore, [&body.bore_fit, &body.shaft_fit]);
         machine.part(Part {
             name: name.into(),
-            links,
+            links: links.clone(),
             remark: fit::shaft(&fit),
             ..Part::default()
         });
         machine.fit(fit);
+        list_keys(machine, body, links);
     }
 }
 

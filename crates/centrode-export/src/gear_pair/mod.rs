@@ -12,7 +12,7 @@ mod solid;
 
 use crate::{Bundle, ExportError, Format, Options, Package};
 pub use arrangement::contact_data;
-pub(crate) use arrangement::{list, list_pair, list_shafts, of_both};
+pub(crate) use arrangement::{list, list_keys, list_pair, list_shafts, of_both};
 use centrode_mechanism::gear::{GearPair, GearPairError, Member};
 pub use curves::curves;
 use drawn::Drawn;

@@ -91,13 +91,8 @@ fn list(parts: &Machine<'_>, machine: &mut Linked) -> Result<(), ExportError> {
         remark: format!("{} long", number(slider.length, 3)),
         place: machine.place_on_edge("slider", &slider.outline(shaft.groove().width())),
     });
-    let pin = Fit {
-        name: "slider on its pin".into(),
-        size: slider.pin_diameter,
-        is_width: false,
-        hole: slider.hole_fit.clone(),
-        shaft: slider.pin_fit.clone(),
-    };
+    let classes = [&*slider.hole_fit, &slider.pin_fit];
+    let pin = Fit::new("slider on its pin", slider.pin_diameter, classes);
     machine.part(Part {
         name: "Pin of the slider".into(),
         links: vec![carriage],

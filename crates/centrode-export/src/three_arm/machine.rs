@@ -130,28 +130,20 @@ impl<'a> Machine<'a> {
     /// Fits of what turns, slides or is pressed in.
     pub(super) fn fits(&self) -> Vec<Fit> {
         let spec = self.pusher.fork_spec();
-        let of = |name: &str, size: f64, is_width: bool, [hole, shaft]: [&str; 2]| Fit {
-            name: name.into(),
-            size,
-            is_width,
-            hole: hole.into(),
-            shaft: shaft.into(),
-        };
         let body = self.pairs[0].driver().body();
         let rod = self.mechanism.arm_sizes().rod_bore();
         let all = [
-            of(
+            Fit::new(
                 "shafts in the carrier",
                 body.bore,
-                false,
                 [BEARING, &body.shaft_fit],
             ),
-            of("pivot of the fork", spec.pivot_bore, false, RUNNING),
-            of("roller's pin in the fork", spec.roller_bore, false, PRESSED),
-            of("roller on its pin", spec.roller_bore, false, ROLLING),
-            of("slot of the fork", spec.slot_width, true, SLIDING),
-            of("pin in the push rod", 0.5 * spec.slot_width, false, PRESSED),
-            of("push rod in the housing", rod, true, SLIDING),
+            Fit::new("pivot of the fork", spec.pivot_bore, RUNNING),
+            Fit::new("roller's pin in the fork", spec.roller_bore, PRESSED),
+            Fit::new("roller on its pin", spec.roller_bore, ROLLING),
+            Fit::of_width("slot of the fork", spec.slot_width, SLIDING),
+            Fit::new("pin in the push rod", 0.5 * spec.slot_width, PRESSED),
+            Fit::of_width("push rod in the housing", rod, SLIDING),
         ];
         all.into_iter().filter(|fit| fit.size > 0.0).collect()
     }

@@ -140,13 +140,8 @@ impl Composed {
         let spec = &self.design.plates;
         let mut bodies = 0..self.bodies.len();
         if bodies.any(|body| self.pin_holes(body).is_some_and(|holes| !holes.is_empty())) {
-            machine.fit(Fit {
-                name: "pins in plates".into(),
-                size: spec.pin_diameter,
-                is_width: false,
-                hole: spec.hole_fit.clone(),
-                shaft: spec.pin_fit.clone(),
-            });
+            let classes = [&*spec.hole_fit, &spec.pin_fit];
+            machine.fit(Fit::new("pins in plates", spec.pin_diameter, classes));
         }
     }
 

@@ -4,6 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{Dimension, DimensionSearchSpec, GearsSpec, PlatesSpec};
+use crate::bore;
 use crate::degrees;
 use crate::design::{DesignSpec, DrawingSpec};
 use crate::gear::design::rule::{
@@ -299,6 +300,11 @@ impl FeederDesign {
         not_negative("drive.carried_mass", self.drive.carried_mass)?;
         self.gears.validate().map_err(|e| e.inside("gears"))?;
         self.plates.validate().map_err(|e| e.inside("plates"))?;
+        // Material is left about the shafts in the plates.
+        let bore = self.gears.bore;
+        let beyond = 2.0 * bore::reach(&self.gears.body()) - bore;
+        let widest = (0.9 * self.plates.width - beyond).max(0.0);
+        in_range("gears.bore", bore, [0.0, widest], " mm")?;
         not_negative("making.length_tolerance", self.making.length_tolerance)?;
         not_negative("making.pivot_tolerance", self.making.pivot_tolerance)?;
         self.optimise.validate().map_err(|e| e.inside("optimise"))?;

@@ -44,6 +44,22 @@ pub enum FeederError {
         /// Radius of the pivot's hole, mm.
         radius: f64,
     },
+    /// Two holes of a plate that meet.
+    #[error(
+        "holes {} and {} of the {part} meet: {distance:.4} mm apart, reaching {reach:.4} mm together",
+        joints[0],
+        joints[1]
+    )]
+    HolesMeet {
+        /// The plate.
+        part: &'static str,
+        /// Letters of the joints.
+        joints: [&'static str; 2],
+        /// Distance of their centres, mm.
+        distance: f64,
+        /// Sum of the holes' reaches, mm.
+        reach: f64,
+    },
     /// A part that would have no area.
     #[error("the {0} has no contour")]
     NoPlate(&'static str),
@@ -60,6 +76,7 @@ impl FeederError {
             Self::Drive(IncompleteError::Entry { .. }) => "gears.entry_deg".into(),
             Self::Gears(error) => format!("gears.{}", error.key()),
             Self::SlotMeetsPivot { .. } => "plates.slider_length".into(),
+            Self::HolesMeet { .. } => "plates.pin_diameter".into(),
             Self::NoPlate(_) => "plates".into(),
             Self::Drive(_) | Self::NotOneTurn { .. } => "gears.teeth".into(),
         }

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::degrees;
 use crate::gear::design::rule::{count_in_range, in_range, not_negative, positive};
-use crate::gear::design::{GearPairDesign, SpecError};
+use crate::gear::design::{BodySpec, GearPairDesign, Keyway, SpecError};
 use crate::gear::pitch::{Circle, PitchSpec};
 use crate::gear::{IncompleteDrive, IncompleteError, IncompletePairSpec, Pins};
 
@@ -48,8 +48,11 @@ pub struct GearsSpec {
     pub pin_angle: f64,
     /// Face width of gears and cam, mm.
     pub width: f64,
-    /// Diameter of the bores, mm.
+    /// Diameter of the bores, and of the shafts in them, mm.
     pub bore: f64,
+    /// Keyway in the bores, along the x axis of each gear and cam; left out, that of DIN 6885-1 for the bore.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub keyway: Option<Keyway>,
 }
 
 impl Default for GearsSpec {
@@ -68,6 +71,7 @@ impl Default for GearsSpec {
             pin_angle: FRAC_PI_4,
             width: 15.0,
             bore: 16.0,
+            keyway: None,
         }
     }
 }
@@ -93,6 +97,7 @@ impl GearsSpec {
                 positive(key, value)?;
             }
         }
+        self.body().validate()?;
         not_negative("backlash", self.backlash)?;
         not_negative("lock_play", self.lock_play)?;
         in_range(
@@ -101,6 +106,23 @@ impl GearsSpec {
             [5.0, 85.0],
             " deg",
         )
+    }
+
+    /// Body of the gears and cams; each is keyed to its shaft.
+    #[must_use]
+    pub fn body(&self) -> BodySpec {
+        BodySpec {
+            width: self.width,
+            bore: self.bore,
+            keyway: self.keyway.or_else(|| Keyway::of_bore(self.bore)),
+            ..BodySpec::default()
+        }
+    }
+
+    /// Distance between the two shafts, mm.
+    #[must_use]
+    pub fn center_distance(&self) -> f64 {
+        0.5 * self.module * f64::from(self.driver_pitches + self.driven_pitches)
     }
 
     /// The gears with their teeth.
@@ -114,9 +136,7 @@ impl GearsSpec {
             ..Circle::default()
         }));
         pair.mean_ratio = [driven / divisor, driver / divisor];
-        for body in [&mut pair.driver, &mut pair.driven] {
-            (body.width, body.bore) = (self.width, self.bore);
-        }
+        [pair.driver, pair.driven] = [self.body(), self.body()];
         IncompletePairSpec {
             lock_radius: self.lock_radius,
             lock_play: self.lock_play,

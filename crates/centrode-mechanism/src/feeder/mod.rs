@@ -22,7 +22,7 @@ pub use design::{BoundsSpec, DriveSpec, FeederDesign, FeederGoals, LinkageSpec, 
 pub use dimension::{Dimension, UnknownDimension};
 pub use error::FeederError;
 pub use gears::GearsSpec;
-pub use parts::{Part, Plate, PlateJoint};
+pub use parts::{JointHole, Part, Plate, PlateJoint};
 pub use plates::PlatesSpec;
 pub use search::DimensionSearchSpec;
 

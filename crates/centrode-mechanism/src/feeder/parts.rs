@@ -4,11 +4,13 @@ use centrode_geometry::{Outline, Point, Solid, SolidError, Vector};
 use nalgebra::Isometry2;
 
 use super::{Feeder, FeederError};
+use crate::bore;
+use crate::gear::design::BodySpec;
 
 /// A part of the six-bar, cut from plate.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub enum Part {
-    /// Plate that holds the three shafts A, D and F; one in front of the links, one behind.
+    /// Plate that holds the shafts A, D and F and that of the incomplete gear, G; one in front of the links, one behind.
     Frame,
     /// The crank AB.
     Crank,
@@ -67,15 +69,26 @@ impl Part {
     }
 }
 
+/// Hole of a plate at a joint.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum JointHole {
+    /// For a pin.
+    Pin,
+    /// In which a shaft of the gears turns.
+    Bearing,
+    /// Keyed to a shaft of the gears: direction of the keyway from the plate's x axis, rad.
+    Keyed(f64),
+}
+
 /// A joint of a [`Plate`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlateJoint {
-    /// Letter, A to F.
+    /// Letter, A to G.
     pub name: &'static str,
     /// Position in the plate's own axes, mm.
     pub at: Point,
-    /// Whether there is a hole for a pin.
-    pub hole: bool,
+    /// Its hole; none at the tip.
+    pub hole: Option<JointHole>,
 }
 
 /// A part as a plate in its own axes: the first joint in the origin, the second one along x.
@@ -85,7 +98,7 @@ pub struct Plate {
     pub part: Part,
     /// Contour.
     pub outline: Outline,
-    /// Holes for pins.
+    /// Holes of the joints that have one, in their order.
     pub holes: Vec<Outline>,
     /// Ends of the slot along x, mm, round ends included, and its contour.
     pub slot: Option<([f64; 2], Outline)>,
@@ -125,34 +138,41 @@ impl Plate {
 }
 
 impl Feeder {
-    /// A part as a plate.
+    /// A part as a plate. The crank is keyed to its shaft as the gear is: with both keyways on one line it stands as the
+    /// motion begins.
     ///
     /// # Errors
     /// [`FeederError::SlotMeetsPivot`] for an effector whose slot runs into the hole of its pivot;
     /// [`FeederError::NoPlate`] where the joints leave no contour.
     pub fn plate(&self, part: Part) -> Result<Plate, FeederError> {
-        let spec = &self.design().plates;
+        let (spec, gears) = (&self.design().plates, &self.design().gears);
         let [crank, coupler, rocker, frame] = self.six_bar().four_bar().lengths();
         let joint = |name, x: f64, y: f64, hole| PlateJoint {
             name,
             at: Point::new(x, y),
             hole,
         };
+        let (pin, bearing) = (Some(JointHole::Pin), Some(JointHole::Bearing));
         let pivot = self.six_bar().pivot();
         let joints = match part {
             Part::Frame => vec![
-                joint("A", 0.0, 0.0, true),
-                joint("D", frame, 0.0, true),
-                joint("F", pivot.x, pivot.y, true),
+                joint("A", 0.0, 0.0, bearing),
+                joint("D", frame, 0.0, pin),
+                joint("F", pivot.x, pivot.y, pin),
+                joint("G", -gears.center_distance(), 0.0, bearing),
             ],
-            Part::Crank => vec![joint("A", 0.0, 0.0, true), joint("B", crank, 0.0, true)],
-            Part::Coupler => vec![joint("B", 0.0, 0.0, true), joint("C", coupler, 0.0, true)],
-            Part::Rocker => vec![joint("D", 0.0, 0.0, true), joint("C", rocker, 0.0, true)],
+            Part::Crank => {
+                // The gear's x axis points from the incomplete gear's as the motion begins.
+                let keyed = Some(JointHole::Keyed(-self.start()));
+                vec![joint("A", 0.0, 0.0, keyed), joint("B", crank, 0.0, pin)]
+            }
+            Part::Coupler => vec![joint("B", 0.0, 0.0, pin), joint("C", coupler, 0.0, pin)],
+            Part::Rocker => vec![joint("D", 0.0, 0.0, pin), joint("C", rocker, 0.0, pin)],
             Part::Effector => vec![
-                joint("F", 0.0, 0.0, true),
-                joint("E", self.six_bar().effector_length(), 0.0, false),
+                joint("F", 0.0, 0.0, pin),
+                joint("E", self.six_bar().effector_length(), 0.0, None),
             ],
-            Part::Slider => vec![joint("C", 0.0, 0.0, true)],
+            Part::Slider => vec![joint("C", 0.0, 0.0, pin)],
         };
         let slot = match part {
             Part::Effector => Some(self.slot()?),
@@ -174,8 +194,26 @@ impl Feeder {
             _ => {}
         }
         let no_plate = || FeederError::NoPlate(part.name());
-        let pins = joints.iter().filter(|j| j.hole);
-        let holes = pins.map(|j| Outline::circle(j.at, 0.5 * spec.pin_diameter));
+        let mut holes: Vec<(&PlateJoint, f64, Outline)> = Vec::new();
+        for joint in joints.iter().filter(|joint| joint.hole.is_some()) {
+            let hub = self.hub(joint);
+            let reach = bore::reach(&hub);
+            for (other, beside, _) in &holes {
+                let distance = (joint.at - other.at).norm();
+                if distance <= reach + beside {
+                    return Err(FeederError::HolesMeet {
+                        part: part.name(),
+                        joints: [other.name, joint.name],
+                        distance,
+                        reach: reach + beside,
+                    });
+                }
+            }
+            let hole = bore::outline(&hub).ok_or_else(no_plate)?;
+            let place = Isometry2::translation(joint.at.x, joint.at.y);
+            holes.push((joint, reach, hole.transformed(&place)));
+        }
+        let holes = holes.into_iter().map(|(_, _, hole)| hole).collect();
         let contour = |[start, end]: [f64; 2]| {
             let radius = 0.5 * spec.slot_width;
             let ends = [start + radius, end - radius].map(|x| (Point::new(x, 0.0), radius));
@@ -188,12 +226,36 @@ impl Feeder {
         Ok(Plate {
             part,
             outline: Outline::hull(&circles).ok_or_else(no_plate)?,
-            holes: holes.collect(),
+            holes,
             slot,
             joints,
             bottom: part.layer() * (spec.thickness + spec.gap),
             thickness: spec.thickness,
         })
+    }
+
+    /// Bore of a plate at a joint, with its keyway and its tolerance class; none of the tip.
+    #[must_use]
+    pub fn hub(&self, joint: &PlateJoint) -> BodySpec {
+        let (spec, gears) = (&self.design().plates, self.design().gears.body());
+        let round = |bore, class: &str| BodySpec {
+            bore,
+            bore_fit: class.into(),
+            ..BodySpec::default()
+        };
+        let bored = match joint.hole {
+            None => BodySpec::default(),
+            Some(JointHole::Pin) => round(spec.pin_diameter, &spec.hole_fit),
+            Some(JointHole::Bearing) => round(gears.bore, &spec.bearing_fit),
+            Some(JointHole::Keyed(keyway_angle)) => BodySpec {
+                keyway_angle,
+                ..gears
+            },
+        };
+        BodySpec {
+            width: spec.thickness,
+            ..bored
+        }
     }
 
     /// Ends of the effector's slot, distances from its pivot, mm.

@@ -24,6 +24,8 @@ pub struct PlatesSpec {
     pub slot_play: f64,
     /// Tolerance class of the holes for the pins, ISO 286, for the drawing.
     pub hole_fit: String,
+    /// Tolerance class of the frame's holes in which the gears' shafts turn, ISO 286, for the drawing.
+    pub bearing_fit: String,
     /// Tolerance class of the pins, ISO 286, for the drawing.
     pub pin_fit: String,
     /// Tolerance class of the slot's width, ISO 286, for the drawing.
@@ -47,6 +49,7 @@ impl Default for PlatesSpec {
             slider_length: 16.0,
             slot_play: 1.0,
             hole_fit: "H8".into(),
+            bearing_fit: "F8".into(),
             pin_fit: "f7".into(),
             slot_fit: "H9".into(),
             slider_fit: "e9".into(),
@@ -92,6 +95,7 @@ impl PlatesSpec {
         not_negative("slot_play", self.slot_play)?;
         for (key, value) in [
             ("hole_fit", &self.hole_fit),
+            ("bearing_fit", &self.bearing_fit),
             ("pin_fit", &self.pin_fit),
             ("slot_fit", &self.slot_fit),
             ("slider_fit", &self.slider_fit),

@@ -1,6 +1,6 @@
 use std::f64::consts::{PI, TAU};
 
-use crate::feeder::{Feeder, FeederDesign, FeederError, LinkageSpec};
+use crate::feeder::{Feeder, FeederDesign, FeederError, LinkageSpec, Part};
 use crate::gear::IncompleteError;
 use crate::linkage::{Branch, SixBarError};
 
@@ -113,4 +113,33 @@ fn what_is_no_feeder_is_refused_with_its_key() {
     ] {
         assert_eq!(refused(&change).key(), key);
     }
+}
+
+#[test]
+fn holes_that_meet_and_bores_wider_than_the_plates_are_refused() {
+    let mut design = published();
+    design.gears.bore = 24.0;
+    let error = Feeder::resolve(&design).expect_err("no material about the shafts");
+    assert_eq!(error.key(), "gears.bore");
+    design.gears.bore = 16.0;
+    design.linkage = LinkageSpec {
+        crank: 15.0,
+        coupler: 60.0,
+        rocker: 50.0,
+        frame: 55.0,
+        ..design.linkage
+    };
+    let small = Feeder::resolve(&design).expect("a six-bar");
+    let error = small.plate(Part::Crank).expect_err("16 and 10 wide");
+    assert!(
+        matches!(
+            error,
+            FeederError::HolesMeet {
+                joints: ["A", "B"],
+                distance: 15.0,
+                ..
+            }
+        ),
+        "{error}"
+    );
 }

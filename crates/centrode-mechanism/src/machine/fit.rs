@@ -88,6 +88,27 @@ pub struct Fit {
 }
 
 impl Fit {
+    /// Fit of a diameter (mm), of a hole's and a shaft's class.
+    #[must_use]
+    pub fn new(name: &str, size: f64, [hole, shaft]: [&str; 2]) -> Self {
+        Self {
+            name: name.into(),
+            size,
+            is_width: false,
+            hole: hole.into(),
+            shaft: shaft.into(),
+        }
+    }
+
+    /// Fit of a width (mm), as a slot has it.
+    #[must_use]
+    pub fn of_width(name: &str, size: f64, classes: [&str; 2]) -> Self {
+        Self {
+            is_width: true,
+            ..Self::new(name, size, classes)
+        }
+    }
+
     /// Least and greatest play, mm, below zero where the parts press: the hole's limits less the shaft's. None where a class or
     /// the size is beyond the tables of [`limits_of_size`].
     #[must_use]
@@ -159,13 +180,7 @@ mod tests {
 
     #[test]
     fn play_is_least_of_the_smallest_hole_and_the_thickest_shaft() {
-        let fit = |hole: &str, shaft: &str| Fit {
-            name: "pin".into(),
-            size: 10.0,
-            is_width: false,
-            hole: hole.into(),
-            shaft: shaft.into(),
-        };
+        let fit = |hole: &str, shaft: &str| Fit::new("pin", 10.0, [hole, shaft]);
         let [least, greatest] = fit("H8", "f7").play().expect("known classes");
         assert!((least - 0.013).abs() < 1e-12 && (greatest - 0.05).abs() < 1e-12);
         let [least, greatest] = fit("H7", "p6").play().expect("known classes");

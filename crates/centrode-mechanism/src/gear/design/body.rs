@@ -53,29 +53,72 @@ fn is_along_x(angle: &f64) -> bool {
     *angle == 0.0
 }
 
+/// Width and height of a parallel key, depth left to the hub beyond that of the shaft, mm; DIN 6885-1.
+const KEYS: [(f64, f64, f64); 15] = [
+    (2.0, 2.0, 0.2),
+    (3.0, 3.0, 0.2),
+    (4.0, 4.0, 0.3),
+    (5.0, 5.0, 0.3),
+    (6.0, 6.0, 0.3),
+    (8.0, 7.0, 0.3),
+    (10.0, 8.0, 0.3),
+    (12.0, 8.0, 0.3),
+    (14.0, 9.0, 0.3),
+    (16.0, 10.0, 0.3),
+    (18.0, 11.0, 0.4),
+    (20.0, 12.0, 0.4),
+    (22.0, 14.0, 0.4),
+    (25.0, 14.0, 0.4),
+    (28.0, 16.0, 0.4),
+];
+/// Lengths of parallel keys, mm; DIN 6885-1.
+const LENGTHS: [u16; 34] = [
+    6, 8, 10, 12, 14, 16, 18, 20, 22, 25, 28, 32, 36, 40, 45, 50, 56, 63, 70, 80, 90, 100, 110,
+    125, 140, 160, 180, 200, 220, 250, 280, 320, 360, 400,
+];
+
 impl Keyway {
+    /// Designation of the longest standard key for a hub of a face width, mm; `None` where no standard key is as wide as the
+    /// keyway, or as short as the hub.
+    #[must_use]
+    pub fn key(self, face: f64) -> Option<String> {
+        let (width, height, _) = KEYS.into_iter().find(|(b, ..)| *b == self.width)?;
+        let mut fitting = LENGTHS.into_iter().rev();
+        let length = fitting.find(|&length| f64::from(length) <= face)?;
+        Some(format!("Key DIN 6885-1 A {width} x {height} x {length}"))
+    }
+
+    /// The keyway of a hub on a shaft of a diameter (mm), as ISO/R 773 and DIN 6885-1 ask for parallel keys; `None` below 6 mm,
+    /// and beyond 110 mm.
+    #[must_use]
+    pub fn of_bore(diameter: f64) -> Option<Self> {
+        // Diameters over which and up to which, width of the key, depth in the hub.
+        const HUBS: [(f64, f64, f64); 15] = [
+            (8.0, 2.0, 1.0),
+            (10.0, 3.0, 1.4),
+            (12.0, 4.0, 1.8),
+            (17.0, 5.0, 2.3),
+            (22.0, 6.0, 2.8),
+            (30.0, 8.0, 3.3),
+            (38.0, 10.0, 3.3),
+            (44.0, 12.0, 3.3),
+            (50.0, 14.0, 3.8),
+            (58.0, 16.0, 4.3),
+            (65.0, 18.0, 4.4),
+            (75.0, 20.0, 4.9),
+            (85.0, 22.0, 5.4),
+            (95.0, 25.0, 5.4),
+            (110.0, 28.0, 6.4),
+        ];
+        let row = HUBS.into_iter().find(|(end, ..)| diameter <= *end);
+        let (_, width, depth) = row.filter(|_| diameter > 6.0)?;
+        Some(Self { width, depth })
+    }
+
     /// The keyway of a hub whose parallel key lies in this one of a shaft: as wide, and as deep as DIN 6885-1 asks for
     /// keys of its widths; for others, a square key with room above it.
     #[must_use]
     pub fn of_hub(self) -> Self {
-        // Width and height of the key, depth left to the hub beyond that of the shaft.
-        const KEYS: [(f64, f64, f64); 15] = [
-            (2.0, 2.0, 0.2),
-            (3.0, 3.0, 0.2),
-            (4.0, 4.0, 0.3),
-            (5.0, 5.0, 0.3),
-            (6.0, 6.0, 0.3),
-            (8.0, 7.0, 0.3),
-            (10.0, 8.0, 0.3),
-            (12.0, 8.0, 0.3),
-            (14.0, 9.0, 0.3),
-            (16.0, 10.0, 0.3),
-            (18.0, 11.0, 0.4),
-            (20.0, 12.0, 0.4),
-            (22.0, 14.0, 0.4),
-            (25.0, 14.0, 0.4),
-            (28.0, 16.0, 0.4),
-        ];
         let Self { width, depth } = self;
         let standard = KEYS.into_iter().find(|(b, ..)| *b == width);
         let (_, height, room) = standard.unwrap_or((width, width, 0.06 * width));
@@ -138,5 +181,55 @@ impl BodySpec {
             return broken("keyway.width", Rule::KeywayWidth(width, self.bore));
         }
         Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn keys_are_those_of_the_standard() {
+        let of = |bore: f64| Keyway::of_bore(bore).map(|key| (key.width, key.depth));
+        for (bore, keyway) in [
+            (6.0, None),
+            (8.0, Some((2.0, 1.0))),
+            (16.0, Some((5.0, 2.3))),
+            (17.0, Some((5.0, 2.3))),
+            (17.5, Some((6.0, 2.8))),
+            (40.0, Some((12.0, 3.3))),
+            (110.0, Some((28.0, 6.4))),
+            (111.0, None),
+            (f64::NAN, None),
+        ] {
+            assert_eq!(of(bore), keyway, "{bore}");
+        }
+        let key = |width: f64, face: f64| Keyway { width, depth: 2.0 }.key(face);
+        assert_eq!(
+            key(5.0, 15.0).as_deref(),
+            Some("Key DIN 6885-1 A 5 x 5 x 14")
+        );
+        assert_eq!(
+            key(12.0, 500.0).as_deref(),
+            Some("Key DIN 6885-1 A 12 x 8 x 400")
+        );
+        assert_eq!((key(5.0, 5.9), key(5.5, 15.0)), (None, None));
+    }
+
+    #[test]
+    fn a_keyway_of_a_bore_is_as_deep_as_its_key_and_the_shaft_leave_it() {
+        // Depths in the shaft, DIN 6885-1.
+        for (bore, depth) in [
+            (12.0, 2.5),
+            (16.0, 3.0),
+            (20.0, 3.5),
+            (25.0, 4.0),
+            (35.0, 5.0),
+            (100.0, 10.0),
+        ] {
+            let hub = Keyway::of_bore(bore).expect("a keyway");
+            let shaft = Keyway { depth, ..hub };
+            assert!((shaft.of_hub().depth - hub.depth).abs() < 1e-12, "{bore}");
+        }
     }
 }
