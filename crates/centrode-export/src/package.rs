@@ -36,7 +36,12 @@ pub struct Package<'a> {
     bundle: Bundle,
     /// Names of the parts offered.
     known: Vec<String>,
+    /// Sheets of every part that has a PDF.
+    book: Vec<(String, Vec<Sheet>)>,
 }
+
+/// Name of the PDF of all sheets.
+const BOOK: &str = "sheets.pdf";
 
 impl<'a> Package<'a> {
     /// A package without files of a kind of machine (with its article) and the design's name and title.
@@ -55,6 +60,7 @@ impl<'a> Package<'a> {
             options,
             bundle: Bundle::default(),
             known: Vec::new(),
+            book: Vec::new(),
         }
     }
 
@@ -186,6 +192,7 @@ impl<'a> Package<'a> {
         if self.wants(&[Format::Pdf]) {
             let bytes = pdf::write(&sheets, &self.titled(part), tolerance)?;
             self.file(&format!("{part}.pdf"), bytes)?;
+            self.book.push((format!("{}{part}", self.prefix), sheets));
         }
         Ok(())
     }
@@ -305,7 +312,8 @@ impl<'a> Package<'a> {
         let own = self.prefix.is_empty();
         let models = own && self.wants(&[Format::Csv, Format::Urdf, Format::Mjcf]);
         let sheets = self.takes(ARRANGEMENT, &SHEETS);
-        let whole = own && self.takes(ARRANGEMENT, &[Format::ThreeMf]);
+        let whole = own && self.takes(ARRANGEMENT, &[Format::ThreeMf, Format::Step]);
+        let whole = whole && !self.options.keep_solids;
         if !sheets && !models && !whole {
             return Ok(());
         }
@@ -347,14 +355,32 @@ impl<'a> Package<'a> {
         fill(&mut inner)?;
         inner.known.retain(|part| !self.known.contains(part));
         self.known.append(&mut inner.known);
+        self.book.append(&mut inner.book);
         Ok(self.bundle.append(inner.bundle)?)
+    }
+
+    /// Adds the PDF of all sheets, the general arrangement first, where there are several parts.
+    fn bind(&mut self) -> Result<(), ExportError> {
+        let mut book = std::mem::take(&mut self.book);
+        if book.len() < 2 {
+            return Ok(());
+        }
+        book.sort_by_key(|(part, _)| part != ARRANGEMENT);
+        let parts: Vec<(&str, &[Sheet])> = book
+            .iter()
+            .map(|(part, sheets)| (&**part, &**sheets))
+            .collect();
+        let bytes = pdf::book(&parts, self.design, self.tolerance())?;
+        self.file(BOOK, bytes)
     }
 
     /// The files, not yet on disk.
     ///
     /// # Errors
-    /// [`ExportError::UnknownPart`] where a part asked for was never offered.
-    pub fn finish(self) -> Result<Bundle, ExportError> {
+    /// [`ExportError::UnknownPart`] where a part asked for was never offered; [`ExportError::Pdf`] where the sheets of all
+    /// parts make no file.
+    pub fn finish(mut self) -> Result<Bundle, ExportError> {
+        self.bind()?;
         let wanted = self.options.parts.iter().flatten();
         match wanted.into_iter().find(|part| !self.known.contains(part)) {
             None => Ok(self.bundle),

@@ -6,11 +6,14 @@ use crate::{
 };
 use centrode_geometry::{Outline, Point, Segment, Tolerance};
 use krilla::{
-    Document,
+    Document, SerializeSettings,
     color::luma,
+    configure::{Archival, ConfigurationBuilder},
+    destination::XyzDestination,
     geom::{Path, PathBuilder, Point as Place, Transform},
-    metadata::Metadata,
+    metadata::{DateTime, Metadata},
     num::NormalizedF32,
+    outline::{Outline as Contents, OutlineNode},
     page::PageSettings,
     paint::{Fill, LineCap, LineJoin, Stroke, StrokeDash},
     surface::Surface,
@@ -33,17 +36,47 @@ pub enum PdfError {
     Library(String),
 }
 
-/// Writes sheets as the pages of one PDF: exact sizes, strokes of true width, the font embedded.
+/// Writes sheets as the pages of one PDF/A-2b: exact sizes, strokes of true width, the font embedded.
 ///
-/// Equal sheets give equal bytes: there are no dates and identifiers in it.
+/// Equal sheets give equal bytes: its date is a fixed one.
 ///
 /// # Errors
 /// [`PdfError`] if the library refuses.
 pub fn write(sheets: &[Sheet], title: &str, tolerance: Tolerance) -> Result<Vec<u8>, PdfError> {
+    book(&[(title, sheets)], title, tolerance)
+}
+
+/// Writes the sheets of several parts as one PDF/A-2b like [`write()`], each part by its name in the list of contents.
+///
+/// # Errors
+/// [`PdfError`] if the library refuses.
+pub fn book(
+    parts: &[(&str, &[Sheet])],
+    title: &str,
+    tolerance: Tolerance,
+) -> Result<Vec<u8>, PdfError> {
     let font = Font::new(lettering::FONT.into(), 0).ok_or(PdfError::Font)?;
-    let mut document = Document::new();
-    document.set_metadata(Metadata::new().title(title.to_owned()));
-    for sheet in sheets {
+    let refused = |error| PdfError::Library(format!("{error:?}"));
+    let archival = ConfigurationBuilder::new().with_archival_validator(Archival::A2_B);
+    let mut document = Document::new_with(SerializeSettings {
+        configuration: archival.finish().map_err(refused)?,
+        ..SerializeSettings::default()
+    });
+    let metadata = Metadata::new().title(title.to_owned());
+    // The archive format asks for a date.
+    let dated = metadata.creation_date(DateTime::new(1970).month(1).day(1));
+    document.set_metadata(dated.language("en".into()));
+    if parts.len() > 1 {
+        let mut contents = Contents::new();
+        let mut page = 0;
+        for (name, sheets) in parts {
+            let top = XyzDestination::new(page, Place::from_xy(0.0, 0.0));
+            contents.push_child(OutlineNode::new((*name).to_owned(), top));
+            page += sheets.len();
+        }
+        document.set_outline(contents);
+    }
+    for sheet in parts.iter().flat_map(|(_, sheets)| *sheets) {
         let [width, height] = sheet.size.size().map(|mm| (mm * POINT) as f32);
         let settings = PageSettings::from_wh(width, height)
             .ok_or_else(|| PdfError::Library(format!("no page of {width} x {height} pt")))?;

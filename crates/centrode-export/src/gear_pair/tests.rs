@@ -101,6 +101,7 @@ fn every_format_is_there_and_the_same_twice() {
         "assembly-sheet.svg",
         "assembly.pdf",
         "assembly.3mf",
+        "assembly.step",
         "motion.csv",
         "motion.json",
         "parts.csv",
@@ -108,6 +109,7 @@ fn every_format_is_there_and_the_same_twice() {
         "play_pybullet.py",
         "machine.xml",
         "play_mujoco.py",
+        "sheets.pdf",
     ];
     assert_eq!(names, expected);
     assert_eq!(

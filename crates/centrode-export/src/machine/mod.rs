@@ -14,7 +14,7 @@ mod whole;
 
 use centrode_mechanism::machine::Machine;
 
-use crate::{ExportError, Format, Package, csv, mjcf, threemf, urdf};
+use crate::{ExportError, Format, Package, csv, mjcf, step, threemf, urdf};
 pub(crate) use arrangement::NAME as ARRANGEMENT;
 pub use arrangement::arrangement;
 pub use file::{MachineFileError, plain, read, schema, write};
@@ -77,14 +77,27 @@ pub(crate) fn add(machine: &Machine, package: &mut Package<'_>) -> Result<(), Ex
 
 /// Adds the whole machine in place, one body a link or several.
 pub(crate) fn add_whole(machine: &Machine, package: &mut Package<'_>) -> Result<(), ExportError> {
-    let whole = whole::Whole::new(machine, package.tolerance());
-    let whole = whole.map_err(ExportError::no_solid("link"))?;
-    let objects = whole.objects(machine);
-    if objects.is_empty() {
-        return Ok(());
+    if package.wants(&[Format::ThreeMf]) {
+        let whole = whole::Whole::new(machine, package.tolerance());
+        let whole = whole.map_err(ExportError::no_solid("link"))?;
+        let objects = whole.objects(machine);
+        if !objects.is_empty() {
+            let bytes = threemf::write_assembly(&objects, machine.heading())?;
+            package.file(&format!("{ARRANGEMENT}.3mf"), bytes)?;
+        }
     }
-    let bytes = threemf::write_assembly(&objects, machine.heading())?;
-    package.file(&format!("{ARRANGEMENT}.3mf"), bytes)
+    if package.wants(&[Format::Step]) {
+        let components = whole::components(machine);
+        if !components.is_empty() {
+            let bytes = step::write_assembly(&components, ARRANGEMENT, machine.heading());
+            let bytes = bytes.map_err(|source| ExportError::Step {
+                part: ARRANGEMENT.into(),
+                source,
+            })?;
+            package.file(&format!("{ARRANGEMENT}.step"), bytes)?;
+        }
+    }
+    Ok(())
 }
 
 /// The machine with every column of its table of motion: those of the machine, and the rate of each joint that does not move

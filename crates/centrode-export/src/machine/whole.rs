@@ -1,6 +1,9 @@
 use centrode_geometry::{Mesh, SolidError, Tolerance};
 use centrode_mechanism::machine::{Form, Machine, Shape};
 
+use nalgebra::Isometry3;
+
+use crate::step::{Component, Exact};
 use crate::threemf::Object;
 
 /// Colours of links, one after the other.
@@ -44,23 +47,54 @@ impl Whole {
 
     /// Bodies in their places as the general arrangement shows the machine.
     pub(super) fn objects(&self, machine: &Machine) -> Vec<Object<'_>> {
-        let wanted = vec![true; machine.links.len()];
-        let places = machine.places(machine.arrangement.input, &wanted);
-        self.bodies
-            .iter()
+        let items = items(machine);
+        let bodies = self.bodies.iter();
+        bodies
             .map(|(shape, name, mesh)| Object {
                 name: name.clone(),
                 mesh,
                 color: Some(COLORS[shape % COLORS.len()]),
-                items: links(machine, *shape)
-                    .filter_map(|link| {
-                        let place = places[link]?;
-                        Some((machine.links[link].name.clone(), place))
-                    })
-                    .collect(),
+                items: items[*shape].clone(),
             })
             .collect()
     }
+}
+
+/// Exact bodies in their places as the general arrangement shows the machine; none of those known as meshes alone.
+pub(super) fn components(machine: &Machine) -> Vec<Component<'_>> {
+    let mut components = Vec::new();
+    let shapes = machine.shapes.iter().zip(items(machine));
+    for (index, (shape, items)) in shapes.enumerate() {
+        let bodies = match &shape.form {
+            _ if items.is_empty() => continue,
+            Form::Solids(solids) => solids.iter().map(Exact::Solid).collect(),
+            Form::Body(body) => body.shell().map(Exact::Shell).into_iter().collect(),
+            Form::Mesh(..) => Vec::new(),
+        };
+        if !bodies.is_empty() {
+            components.push(Component {
+                name: name(shape).to_owned(),
+                bodies,
+                color: COLORS[index % COLORS.len()],
+                items,
+            });
+        }
+    }
+    components
+}
+
+/// Name and place of each link that has a shape, by shapes.
+fn items(machine: &Machine) -> Vec<Vec<(String, Isometry3<f64>)>> {
+    let wanted = vec![true; machine.links.len()];
+    let places = machine.places(machine.arrangement.input, &wanted);
+    let of = |shape: usize| {
+        let placed = links(machine, shape).filter_map(|link| {
+            let place = places[link]?;
+            Some((machine.links[link].name.clone(), place))
+        });
+        placed.collect()
+    };
+    (0..machine.shapes.len()).map(of).collect()
 }
 
 /// Links with a shape that belong to the machine, not to its surroundings.

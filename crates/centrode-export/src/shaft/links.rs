@@ -1,7 +1,7 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::sync::Arc;
 
-use centrode_geometry::{MassProperties, Mesh, SolidError, Tolerance};
+use centrode_geometry::{MassProperties, Mesh, Shell, SolidError, Tolerance};
 use centrode_mechanism::gear::Member;
 use centrode_mechanism::machine::{
     self, Body, Form, GearMesh, Guide, GuideForce, Input, Joint, Linear, Link, Load, Piecewise,
@@ -137,6 +137,10 @@ impl Body for Grooved {
     fn mesh(&self, tolerance: Tolerance) -> Result<Mesh, SolidError> {
         // Shaft and groove were found sound when the machine was made.
         Ok(self.0.mesh(tolerance).unwrap_or_default())
+    }
+
+    fn shell(&self) -> Option<Shell> {
+        self.0.shell().ok()
     }
 }
 

@@ -54,6 +54,7 @@ fn every_file_is_there_and_the_same_twice() {
         "assembly-sheet.svg",
         "assembly.pdf",
         "assembly.3mf",
+        "assembly.step",
         "motion.csv",
         "motion.json",
         "parts.csv",
@@ -61,6 +62,7 @@ fn every_file_is_there_and_the_same_twice() {
         "play_pybullet.py",
         "machine.xml",
         "play_mujoco.py",
+        "sheets.pdf",
     ];
     assert_eq!(names, expected);
     let again = files(&shaft(4), &Format::ALL, &options()).expect("made");

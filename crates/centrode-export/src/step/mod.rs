@@ -1,5 +1,6 @@
 //! STEP files, ISO 10303-214: exact solids for CAD, no facets.
 
+mod assembly;
 mod brep;
 mod contour;
 mod opened;
@@ -10,6 +11,7 @@ use centrode_geometry::{Segment, Shell, Solid, Tolerance};
 use part21::{Data, Id, Text};
 use thiserror::Error;
 
+pub use assembly::{Component, Exact, write_assembly};
 pub use brep::poles;
 
 /// Reason why a solid cannot be written as STEP.
@@ -77,7 +79,7 @@ fn file(
 ) -> Result<Vec<u8>, StepError> {
     let mut data = Data::default();
     let name_text = Text(name).to_string();
-    let definition = product(&mut data, &name_text);
+    let definition = Products::new(&mut data).add(&mut data, &name_text);
     let context = context(&mut data);
     let brep = solid(&mut data, &name_text)?;
     let origin = data.add("CARTESIAN_POINT('',(0.0,0.0,0.0))");
@@ -93,6 +95,11 @@ fn file(
     data.add(format_args!(
         "SHAPE_DEFINITION_REPRESENTATION({property},{shape})"
     ));
+    Ok(finished(&data, name, title))
+}
+
+/// The file of these entities.
+fn finished(data: &Data, name: &str, title: &str) -> Vec<u8> {
     // A fixed date: equal designs give equal bytes.
     let header = format!(
         "ISO-10303-21;\nHEADER;\n\
@@ -108,32 +115,52 @@ fn file(
         data.lines(),
         "ENDSEC;\nEND-ISO-10303-21;\n",
     ];
-    Ok(file.concat().into_bytes())
+    file.concat().into_bytes()
 }
 
-/// Writes the product of the file; returns its definition.
-fn product(data: &mut Data, name: &str) -> Id {
-    let application =
-        data.add("APPLICATION_CONTEXT('core data for automotive mechanical design processes')");
-    data.add(format_args!(
-        "APPLICATION_PROTOCOL_DEFINITION('international standard','automotive_design',2000,{application})"
-    ));
-    let context = data.add(format_args!(
-        "PRODUCT_CONTEXT('',{application},'mechanical')"
-    ));
-    let product = data.add(format_args!("PRODUCT({name},{name},'',({context}))"));
-    data.add(format_args!(
-        "PRODUCT_RELATED_PRODUCT_CATEGORY('part',$,({product}))"
-    ));
-    let formation = data.add(format_args!(
-        "PRODUCT_DEFINITION_FORMATION('','',{product})"
-    ));
-    let stage = data.add(format_args!(
-        "PRODUCT_DEFINITION_CONTEXT('part definition',{application},'design')"
-    ));
-    data.add(format_args!(
-        "PRODUCT_DEFINITION('design','',{formation},{stage})"
-    ))
+/// Application and context of all products of a file.
+#[derive(Clone, Copy, Debug)]
+struct Products {
+    application: Id,
+    context: Id,
+}
+
+impl Products {
+    fn new(data: &mut Data) -> Self {
+        let application =
+            data.add("APPLICATION_CONTEXT('core data for automotive mechanical design processes')");
+        data.add(format_args!(
+            "APPLICATION_PROTOCOL_DEFINITION('international standard','automotive_design',2000,{application})"
+        ));
+        let context = data.add(format_args!(
+            "PRODUCT_CONTEXT('',{application},'mechanical')"
+        ));
+        Self {
+            application,
+            context,
+        }
+    }
+
+    /// Writes a product; returns its definition.
+    fn add(self, data: &mut Data, name: &str) -> Id {
+        let Self {
+            application,
+            context,
+        } = self;
+        let product = data.add(format_args!("PRODUCT({name},{name},'',({context}))"));
+        data.add(format_args!(
+            "PRODUCT_RELATED_PRODUCT_CATEGORY('part',$,({product}))"
+        ));
+        let formation = data.add(format_args!(
+            "PRODUCT_DEFINITION_FORMATION('','',{product})"
+        ));
+        let stage = data.add(format_args!(
+            "PRODUCT_DEFINITION_CONTEXT('part definition',{application},'design')"
+        ));
+        data.add(format_args!(
+            "PRODUCT_DEFINITION('design','',{formation},{stage})"
+        ))
+    }
 }
 
 /// Writes the units, millimetres and radians, and the distance under which two points are one.

@@ -19,7 +19,7 @@ mod sound;
 use std::fmt;
 use std::sync::Arc;
 
-use centrode_geometry::{MassProperties, Mesh, Outline, Solid, SolidError, Tolerance};
+use centrode_geometry::{MassProperties, Mesh, Outline, Shell, Solid, SolidError, Tolerance};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -227,6 +227,11 @@ pub trait Body: fmt::Debug + Send + Sync {
     /// # Errors
     /// [`SolidError`] where the tolerance leaves no solid.
     fn mesh(&self, tolerance: Tolerance) -> Result<Mesh, SolidError>;
+
+    /// Its boundary on exact surfaces; none where there is no such.
+    fn shell(&self) -> Option<Shell> {
+        None
+    }
 }
 
 /// Surface with which a link touches others: contours over a range of heights.

@@ -7,12 +7,13 @@ use std::process::{Command, Stdio};
 
 use crate::{centrode, fed, shipped, text};
 
-const ALL: [&str; 38] = [
+const ALL: [&str; 40] = [
     "assembly-sheet.dxf",
     "assembly-sheet.svg",
     "assembly.3mf",
     "assembly.dxf",
     "assembly.pdf",
+    "assembly.step",
     "assembly.svg",
     "driven-pins.csv",
     "driven-sheet-1.dxf",
@@ -46,6 +47,7 @@ const ALL: [&str; 38] = [
     "play_mujoco.py",
     "play_pybullet.py",
     "report.json",
+    "sheets.pdf",
 ];
 
 fn elliptic() -> String {
@@ -154,6 +156,7 @@ fn the_kinds_asked_for_and_no_others_are_written() {
             "step,3mf",
             &[
                 "assembly.3mf",
+                "assembly.step",
                 "driven.3mf",
                 "driven.step",
                 "driver.3mf",

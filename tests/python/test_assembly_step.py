@@ -1,0 +1,132 @@
+"""The whole machine as one STEP file, read by another CAD kernel with its names, places and colours."""
+
+import math
+import re
+from collections import Counter
+
+import centrode as ct
+import numpy as np
+import pytest
+from conftest import ROOT
+from OCP.BRepCheck import BRepCheck_Analyzer
+from OCP.BRepGProp import BRepGProp
+from OCP.collections import Sequence_TDF_Label
+from OCP.GProp import GProp_GProps
+from OCP.IFSelect import IFSelect_RetDone
+from OCP.Quantity import Quantity_Color
+from OCP.STEPCAFControl import STEPCAFControl_Reader
+from OCP.TCollection import TCollection_ExtendedString
+from OCP.TDataStd import TDataStd_Name
+from OCP.TDF import TDF_Label
+from OCP.TDocStd import TDocStd_Document
+from OCP.TopAbs import TopAbs_SOLID
+from OCP.TopExp import TopExp_Explorer
+from OCP.XCAFDoc import XCAFDoc_ColorSurf, XCAFDoc_ColorTool, XCAFDoc_DocumentTool, XCAFDoc_ShapeTool
+
+# Gears in place, loops, cams on forks, a shaft with a groove.
+DESIGNS = ("elliptic-pair-2018", "jansen-leg", "feeder-2022", "three-arm-2021", "spiral-shaft-2018")
+
+
+def listed(sequence):
+    return [sequence.Value(i) for i in range(1, sequence.Length() + 1)]
+
+
+def called(label):
+    name = TDataStd_Name()
+    assert label.FindAttribute(TDataStd_Name.GetID_s(), name)
+    return name.Get().ToExtString()
+
+
+class Assembly:
+    """The pieces of a file: name, product, place."""
+
+    def __init__(self, file):
+        self.document = TDocStd_Document(TCollection_ExtendedString("XmlXCAF"))
+        reader = STEPCAFControl_Reader()
+        reader.SetNameMode(True)
+        reader.SetColorMode(True)
+        assert reader.ReadFile(str(file)) == IFSelect_RetDone
+        assert reader.Transfer(self.document)
+        self.tool = XCAFDoc_DocumentTool.ShapeTool_s(self.document.Main())
+        self.colors = XCAFDoc_DocumentTool.ColorTool_s(self.document.Main())
+        roots = Sequence_TDF_Label()
+        self.tool.GetFreeShapes(roots)
+        (self.root,) = listed(roots)
+        pieces = Sequence_TDF_Label()
+        assert XCAFDoc_ShapeTool.GetComponents_s(self.root, pieces)
+        self.pieces = []
+        for piece in listed(pieces):
+            product = TDF_Label()
+            assert XCAFDoc_ShapeTool.GetReferredShape_s(piece, product)
+            place = XCAFDoc_ShapeTool.GetLocation_s(piece).Transformation()
+            matrix = np.array([[place.Value(i, j) for j in range(1, 5)] for i in range(1, 4)])
+            self.pieces.append((called(piece), called(product), matrix, XCAFDoc_ShapeTool.GetShape_s(product)))
+
+    def painted(self):
+        """Colours of the products' bodies."""
+        shapes = Sequence_TDF_Label()
+        self.tool.GetShapes(shapes)
+        for label in listed(shapes):
+            if XCAFDoc_ShapeTool.IsAssembly_s(label):
+                continue
+            bodies = Sequence_TDF_Label()
+            XCAFDoc_ShapeTool.GetSubShapes_s(label, bodies)
+            for body in [label, *listed(bodies)]:
+                color = Quantity_Color()
+                if XCAFDoc_ColorTool.GetColor_s(body, XCAFDoc_ColorSurf, color):
+                    yield color.Red(), color.Green(), color.Blue()
+
+
+def volume(shape):
+    properties = GProp_GProps()
+    BRepGProp.VolumeProperties_s(shape, properties)
+    return properties.Mass()
+
+
+@pytest.mark.parametrize("name", DESIGNS)
+def test_every_piece_is_a_sound_solid_that_stands_where_its_link_does(name, shipped):
+    machine = ct.load(ROOT / "tests" / "designs" / f"{name}.toml")
+    assembly = Assembly(shipped(name, "step") / "assembly.step")
+    assert called(assembly.root) == (machine.title or machine.name)
+    frames = machine.frames(0.0)
+    assert assembly.pieces
+    for link, _, place, _ in assembly.pieces:
+        if name != "three-arm-2021":
+            # The arrangement shows this machine as an arm picks, all others where the cycle begins.
+            np.testing.assert_allclose(place, np.reshape(frames[link], (4, 4))[:3], atol=1e-12)
+    checked = {product: shape for _, product, _, shape in assembly.pieces}
+    for product, shape in checked.items():
+        assert BRepCheck_Analyzer(shape).IsValid(), product
+        solids = TopExp_Explorer(shape, TopAbs_SOLID)
+        while solids.More():
+            assert volume(solids.Current()) > 0, product
+            solids.Next()
+
+
+def test_bodies_are_written_once_and_colored(shipped):
+    folder = shipped("three-arm-2021", "step")
+    assembly = Assembly(folder / "assembly.step")
+    counts = Counter(product for _, product, _, _ in assembly.pieces)
+    bodies = (folder / "assembly.step").read_text().count("=MANIFOLD_SOLID_BREP(")
+    painted = list(assembly.painted())
+    # Three arms of each body.
+    assert len(assembly.pieces) > 2 * len(counts)
+    assert bodies < len(assembly.pieces)
+    assert len(painted) >= len(counts)
+    assert len(set(painted)) > 4
+
+
+def test_pieces_weigh_what_the_parts_list_says(shipped):
+    folder = shipped("jansen-leg", "csv,step")
+    density = 1200e-9
+    mass = {
+        row.split(",")[1]: float(row.split(",")[4])
+        for row in (folder / "parts.csv").read_text().splitlines()[1:]
+        if re.match(r"[\d.]+$", row.split(",")[4])
+    }
+    assembly = Assembly(folder / "assembly.step")
+    weighed = {product: volume(shape) * density for _, product, _, shape in assembly.pieces}
+    alike = [part for part in mass if part in weighed]
+    assert len(alike) > 3
+    for part in alike:
+        assert math.isclose(weighed[part], mass[part], rel_tol=1e-6), part

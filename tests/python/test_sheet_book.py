@@ -1,0 +1,43 @@
+"""All sheets of a machine as one PDF, read by another program."""
+
+import pypdf
+import pytest
+from conftest import ROOT, centrode
+
+NAMES = ("three-arm-2021", "moving-box-2018", "feeder-2022", "elliptic-pair-2018")
+
+
+def pages(reader):
+    return [(page.mediabox.width, page.mediabox.height, page.extract_text()) for page in reader.pages]
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_its_contents_lead_to_the_sheets_of_every_part(name, shipped):
+    folder = shipped(name, "pdf")
+    book = pypdf.PdfReader(folder / "sheets.pdf")
+    parts = [entry.title for entry in book.outline]
+    assert parts[0] == "assembly"
+    assert sorted(parts) == sorted(file.stem for file in folder.glob("*.pdf") if file.stem != "sheets")
+    starts = [book.get_destination_page_number(entry) for entry in book.outline]
+    ends = [*starts[1:], len(book.pages)]
+    for part, start, end in zip(parts, starts, ends, strict=True):
+        assert pages(book)[start:end] == pages(pypdf.PdfReader(folder / f"{part}.pdf")), part
+
+
+def test_it_says_that_it_is_for_archives_and_embeds_its_font(shipped):
+    book = pypdf.PdfReader(shipped("three-arm-2021", "pdf") / "sheets.pdf")
+    metadata = book.xmp_metadata
+    assert (metadata.pdfaid_part, metadata.pdfaid_conformance) == ("2", "B")
+    assert book.metadata.title.startswith("Three-arm")
+    assert "/OutputIntents" in book.trailer["/Root"]
+    fonts = {font for page in book.pages for font in page["/Resources"]["/Font"].values()}
+    for font in fonts:
+        (inner,) = font.get_object()["/DescendantFonts"]
+        descriptor = inner.get_object()["/FontDescriptor"].get_object()
+        assert {"/FontFile2", "/FontFile3"} & set(descriptor)
+
+
+def test_one_part_alone_has_no_book(tmp_path):
+    design = ROOT / "tests" / "designs" / "elliptic-pair-2018.toml"
+    centrode("export", design, "--to", tmp_path, "--format", "pdf", "--part", "driven")
+    assert [file.name for file in tmp_path.iterdir()] == ["driven.pdf"]
