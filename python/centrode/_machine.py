@@ -18,6 +18,9 @@ if TYPE_CHECKING:
     from ._link import Joint, Link
     from ._solid import Solid
 
+WHOLE = "assembly"
+"""Name of the file of the whole machine."""
+
 LEAST = 1e-6
 """Shortest edge that CAD kernels keep, mm: they take points nearer than a tenth of it for one."""
 
@@ -59,7 +62,7 @@ def body(of: Gear | DiscCam | Mechanism, name: str | Part | None, tolerance: flo
     if not isinstance(of, Mechanism):
         raise TypeError(f"must be a gear, a disc cam or a machine, not {type(of).__name__}")
     wanted = name.file if isinstance(name, Part) else name
-    if wanted:
+    if wanted and wanted != WHOLE:
         try:
             for label, solid in of.solids(parts=[wanted], tolerance=least).items():
                 return label, solid
@@ -68,7 +71,8 @@ def body(of: Gear | DiscCam | Mechanism, name: str | Part | None, tolerance: flo
         except Error:
             # Its own message would not tell which parts have a solid.
             pass
-    known = ", ".join(file.removesuffix(".step") for file in of.files(formats=["step"]))
+    files = (file.removesuffix(".step") for file in of.files(formats=["step"]))
+    known = ", ".join(file for file in files if file != WHOLE)
     what = "left out" if wanted is None else repr(wanted)
     raise DesignError(f"name must be a part with a solid, one of {known}, not {what}", "name")
 

@@ -1,5 +1,7 @@
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Serialize, Serializer};
 
 use crate::Unit;
@@ -47,6 +49,22 @@ impl Serialize for JsonNumber {
             value if value > 0.0 => serializer.serialize_str("Infinity"),
             _ => serializer.serialize_str("-Infinity"),
         }
+    }
+}
+
+impl JsonSchema for JsonNumber {
+    fn schema_name() -> Cow<'static, str> {
+        "Number".into()
+    }
+
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        json_schema!({
+            "description": "A number, or a word for one that JSON does not have.",
+            "anyOf": [
+                { "type": "number" },
+                { "enum": ["Infinity", "-Infinity", "NaN"] },
+            ],
+        })
     }
 }
 

@@ -1,14 +1,15 @@
 use std::borrow::Cow;
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
-use crate::{Unit, figure};
+use crate::{JsonNumber, Unit, figure};
 
 /// Goal of a mechanism: a figure and the range in which it is wanted.
 ///
 /// Margin and progress say how well: both rise as the figure comes nearer to its range, so an optimiser can follow
 /// them.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, JsonSchema, PartialEq, Serialize)]
 pub struct Goal {
     /// Number in its list, from one; several figures may share one goal.
     pub number: u32,
@@ -18,6 +19,7 @@ pub struct Goal {
     pub title: Cow<'static, str>,
     /// Figure, in `unit`; none where it was not checked.
     #[serde(serialize_with = "figure::option")]
+    #[schemars(with = "Option<JsonNumber>")]
     pub value: Option<f64>,
     /// Least and greatest figure wanted; none where it is open.
     pub wanted: [Option<f64>; 2],
@@ -27,6 +29,7 @@ pub struct Goal {
     pub scale: f64,
     /// Distance of the figure from the nearest end of its range: positive inside, negative outside.
     #[serde(serialize_with = "figure::option")]
+    #[schemars(with = "Option<JsonNumber>")]
     pub margin: Option<f64>,
     /// 1 where the goal is reached, falling smoothly to 0 as the figure goes away from it:
     /// 1/(1 + (miss/scale)^2), the scale being the size of what is wanted.

@@ -1,12 +1,13 @@
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 
+use schemars::{JsonSchema, generate::SchemaSettings};
 use serde::Serialize;
 
-use crate::{FigureGroup, Goal, Unit, figure};
+use crate::{FigureGroup, Goal, JsonNumber, Unit, figure};
 
 /// Severity of a finding.
-#[derive(Clone, Copy, Debug, Eq, Ord, PartialEq, PartialOrd, Serialize)]
+#[derive(Clone, Copy, Debug, Eq, JsonSchema, Ord, PartialEq, PartialOrd, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Severity {
     /// Worth knowing; the part works as asked.
@@ -18,7 +19,7 @@ pub enum Severity {
 }
 
 /// Place in the mechanism and its cycle at which a finding was made.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, JsonSchema, PartialEq, Serialize)]
 pub struct Place {
     /// Link or part, as named in the design.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -32,7 +33,7 @@ pub struct Place {
 }
 
 /// A way in which a mechanism is worse than it should be: measured, required, where.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, JsonSchema, PartialEq, Serialize)]
 pub struct Finding {
     /// Short stable name of the rule, such as `undercut`.
     pub rule: &'static str,
@@ -45,12 +46,14 @@ pub struct Finding {
         skip_serializing_if = "Option::is_none",
         serialize_with = "figure::option"
     )]
+    #[schemars(with = "Option<JsonNumber>")]
     pub measured: Option<f64>,
     /// Required figure, in `unit`.
     #[serde(
         skip_serializing_if = "Option::is_none",
         serialize_with = "figure::option"
     )]
+    #[schemars(with = "Option<JsonNumber>")]
     pub required: Option<f64>,
     /// Unit of both figures.
     pub unit: Unit,
@@ -62,7 +65,7 @@ pub struct Finding {
 }
 
 /// Figures in rows and columns.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, JsonSchema, PartialEq, Serialize)]
 pub struct Table {
     /// Short stable name.
     pub name: &'static str,
@@ -74,18 +77,20 @@ pub struct Table {
     pub columns: Vec<String>,
     /// Rows, each with its heading and its figures.
     #[serde(serialize_with = "figure::rows")]
+    #[schemars(with = "Vec<(String, Vec<JsonNumber>)>")]
     pub rows: Vec<(String, Vec<f64>)>,
 }
 
 /// All findings and figures of one mechanism.
 ///
 /// In JSON an infinite figure is a string, as [`JsonNumber`](crate::JsonNumber) says.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, JsonSchema, PartialEq, Serialize)]
 pub struct Report {
     /// Findings, worst first.
     pub findings: Vec<Finding>,
     /// Figures by key.
     #[serde(serialize_with = "figure::values")]
+    #[schemars(with = "BTreeMap<String, JsonNumber>")]
     pub values: BTreeMap<&'static str, f64>,
     /// Titles and units of the figures, in the order in which they are shown.
     #[serde(skip)]
@@ -170,6 +175,39 @@ impl Report {
         });
         let findings: Vec<Finding> = findings.collect();
         self.findings.extend(findings);
+    }
+}
+
+/// Findings, figures and goals of a design as `report.json` has them, and the answer of `centrode check --json`.
+#[derive(Clone, Debug, JsonSchema, PartialEq, Serialize)]
+#[schemars(rename = "Report")]
+pub struct ReportFile<'a> {
+    /// Whether no finding is an error.
+    pub ok: bool,
+    /// Findings, figures and goals.
+    #[serde(flatten)]
+    pub report: &'a Report,
+    /// Units of the figures in `values`.
+    pub units: BTreeMap<&'static str, Unit>,
+}
+
+impl<'a> ReportFile<'a> {
+    /// The file of a report.
+    #[must_use]
+    pub fn new(report: &'a Report) -> Self {
+        Self {
+            ok: report.ok(),
+            report,
+            units: report.units(),
+        }
+    }
+
+    /// JSON schema of the file.
+    #[must_use]
+    pub fn schema() -> serde_json::Value {
+        let settings = SchemaSettings::default().for_serialize();
+        let schema = settings.into_generator().into_root_schema_for::<Self>();
+        schema.to_value()
     }
 }
 

@@ -312,8 +312,8 @@ impl<'a> Package<'a> {
         let own = self.prefix.is_empty();
         let models = own && self.wants(&[Format::Csv, Format::Urdf, Format::Mjcf]);
         let sheets = self.takes(ARRANGEMENT, &SHEETS);
-        let whole = own && self.takes(ARRANGEMENT, &[Format::ThreeMf, Format::Step]);
-        let whole = whole && !self.options.keep_solids;
+        let alone = own && !self.options.keep_solids;
+        let whole = alone && self.takes(ARRANGEMENT, &[Format::ThreeMf, Format::Step]);
         if !sheets && !models && !whole {
             return Ok(());
         }

@@ -2,34 +2,18 @@ mod figures;
 mod findings;
 mod goals;
 
-use std::collections::BTreeMap;
 use std::io::Write;
 
-use crate::analysis::{Report, Unit};
+use crate::analysis::{Report, ReportFile};
 use crate::family::Mechanism;
-use serde::Serialize;
 
 pub(crate) use figures::{Section, sections, write as write_figures};
 pub(crate) use findings::{Words, summary, words};
 pub(crate) use goals::{GoalWords, goal_words};
 
-/// Report as other programs read it.
-#[derive(Serialize)]
-struct Json<'a> {
-    ok: bool,
-    #[serde(flatten)]
-    report: &'a Report,
-    units: BTreeMap<&'static str, Unit>,
-}
-
 /// The report as JSON with every digit; an infinite figure is the string "Infinity". Ends with a newline.
 pub(crate) fn json(report: &Report) -> std::io::Result<String> {
-    let json = Json {
-        ok: report.ok(),
-        report,
-        units: report.units(),
-    };
-    let mut text = serde_json::to_string_pretty(&json)?;
+    let mut text = serde_json::to_string_pretty(&ReportFile::new(report))?;
     text.push('\n');
     Ok(text)
 }

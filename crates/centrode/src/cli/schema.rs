@@ -8,7 +8,7 @@ use crate::cli::args::Schema;
 use crate::cli::failure::Failure;
 
 /// Words beside the families that have a schema: the figures of a composed machine, and files that are exported.
-pub(crate) const FILES: [&str; 4] = ["figures", "machine-model", "motion", "proof"];
+pub(crate) const FILES: [&str; 5] = ["figures", "machine-model", "motion", "proof", "report"];
 
 /// Grammar of the figures of a composed machine: form, meaning, unit.
 fn figures() -> serde_json::Value {
@@ -23,6 +23,7 @@ pub(crate) fn run(command: &Schema, out: &mut impl Write) -> Result<Status, Fail
         Some("figures") => figures(),
         Some("machine-model") => crate::export::machine::schema(),
         Some("motion") => crate::export::machine::motion_schema(),
+        Some("report") => crate::analysis::ReportFile::schema(),
         Some("proof") => crate::analysis::Proof::schema(),
         Some(word) => match FAMILIES.named(word) {
             Some(family) => family.design.json_schema(),
