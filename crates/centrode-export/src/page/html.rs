@@ -24,7 +24,7 @@ macro_rules! assets {
 const STYLES: [Asset; 2] = assets!("text/css; charset=utf-8": "uplot.css", "page.css");
 
 /// The scripts; `main.js` is the one to start.
-const SCRIPTS: [Asset; 27] = assets!(
+const SCRIPTS: [Asset; 28] = assets!(
     "text/javascript; charset=utf-8":
     "uplot.js",
     "axes.js",
@@ -52,6 +52,7 @@ const SCRIPTS: [Asset; 27] = assets!(
     "theme.js",
     "transport.js",
     "verdict.js",
+    "ways.js",
     "work.js",
 );
 

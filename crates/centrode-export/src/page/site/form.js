@@ -14,8 +14,9 @@ function sizeOf(field) {
 
 export class Form {
   /** `edit(edits, final)` takes new values; `fixed` shows them only. */
-  constructor({ edit, fixed }) {
+  constructor({ edit, respond, fixed }) {
     this.edit = edit;
+    this.respond = respond;
     this.fixed = fixed;
     this.place = byId("form");
     this.shape = "";
@@ -136,7 +137,12 @@ export class Form {
     const boxes = this.inputs(field, id, control);
     const unit = element("span", { class: "unit" }, field.unit);
     control.row = element("div", { class: `field ${sizeOf(field)}` }, label, boxes, unit, remark);
-    if (["number", "integer"].includes(field.kind) && !this.fixed) this.draggable(label, control);
+    if (["number", "integer"].includes(field.kind) && !this.fixed) {
+      this.draggable(label, control);
+      // Keys have F4 for it: a stop at each number on the way through the form would be too many.
+      unit.after(element("button", { type: "button", class: "respond", tabindex: -1, title: "What goals and ways do with this number (F4)",
+        "aria-label": `Response to ${words(field.key)}`, onclick: () => this.respond(field.key) }, "∿"));
+    }
     return control.row;
   }
 
@@ -197,6 +203,12 @@ export class Form {
       else give(value);
     });
     box.addEventListener("keydown", (event) => {
+      if (event.key === "F4" && !event.ctrlKey && !event.altKey && !event.metaKey) {
+        event.preventDefault();
+        box.blur();
+        this.respond(key);
+        return;
+      }
       if (event.key === "Enter") {
         box.select();
         return;

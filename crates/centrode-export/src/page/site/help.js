@@ -9,6 +9,7 @@ const KEYS = [
   ]],
   ["A number", [
     ["↑ ↓", "step; with Shift ten times, with Alt a tenth"], ["Enter", "take what is typed: 2*1.5, 1/8 in, pi/9 rad"], ["drag its name", "change it"],
+    ["F4, or ∿ beside it", "what goals and ways do with it"],
   ]],
   ["The drawing", [
     ["← → ↑ ↓, or drag", "move the view"], ["+ −, wheel, or two fingers", "zoom"], ["0, or double-click", "show everything"], ["Space", "play or pause"],

@@ -63,7 +63,7 @@ const stage = new Stage((poses) => handles?.place(poses));
 const transport = new Transport(stage);
 const charts = new Charts((input) => transport.go(input), () => state.snapshot.name, () => state.snapshot.speed ?? transport.speed);
 transport.charts = charts;
-const form = new Form({ edit, fixed: Boolean(embedded) });
+const form = new Form({ edit, respond: (key) => respond(key), fixed: Boolean(embedded) });
 const handles = embedded ? null : new Handles(stage, { edit, began: () => transport.play(false), points: (table) => form.points.get(table) });
 
 let file = null;
@@ -346,6 +346,13 @@ function found() {
   if (state.history.dirty) file.keep();
 }
 
+/** Shows how goals and ways answer a number: that of a field, or one to be chosen. */
+async function respond(key) {
+  await settled();
+  const take = (name, value) => edit([{ key: name, value }], true);
+  if (state.snapshot.tables) await response.ask(state.snapshot, state.history.text, take, key);
+}
+
 function pin() {
   state.pinned = state.pinned ? null : state.snapshot;
   byId("pin").setAttribute("aria-pressed", String(Boolean(state.pinned)));
@@ -380,7 +387,7 @@ function listen() {
   byId("export").addEventListener("click", () => file.download(state.snapshot.name));
   byId("link").addEventListener("click", () => file.copy());
   byId("optimise").addEventListener("click", () => search.toggle());
-  byId("response").addEventListener("click", () => response.ask(state.snapshot, state.history.text));
+  byId("response").addEventListener("click", () => respond());
   byId("source").addEventListener("click", async () => {
     const text = await source.edit(file.name, state.history.text, state.snapshot?.error);
     if (text !== null) replace(text);

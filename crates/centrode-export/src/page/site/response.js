@@ -1,11 +1,12 @@
-// How the goals answer one number of the design, as small multiples.
+// How goals and ways of points answer one number of the design.
 
 import uPlot from "./uplot.js";
 import { axes, line } from "./axes.js";
 import * as dialogs from "./dialogs.js";
-import { element } from "./elements.js";
+import { byId, element } from "./elements.js";
 import * as server from "./server.js";
 import { color } from "./theme.js";
+import { Ways, hue } from "./ways.js";
 
 const SIZE = { width: 250, height: 130 };
 
@@ -37,8 +38,18 @@ function around(value) {
 
 const number = (input) => Number(input.value.trim().replace(",", "."));
 
-/** The dialog: which number, between which values; the answers below. */
-export async function ask(snapshot, text) {
+/** Every third of the values at which goals are known: their ways are drawn. */
+const THINNED = 3;
+
+/** How many goals are reached at one of the values. */
+function reached(charts, i) {
+  const goals = charts.filter(({ wanted, figures }) => wanted.some((end) => end !== null) && figures[i] !== null);
+  const met = goals.filter(({ wanted: [least, greatest], figures }) => figures[i] >= (least ?? -Infinity) && figures[i] <= (greatest ?? Infinity));
+  return goals.length ? `${met.length} of ${goals.length} goals reached` : "";
+}
+
+/** The dialog: which number, between which values; the answers below. `take` has a value for a key. */
+export async function ask(snapshot, text, take, first) {
   const known = new Map(numbers(snapshot));
   const units = new Map([...known.keys()].map((name) => [name, unitOf(snapshot, name)]));
   const key = element("select", { id: "response-key" }, ...[...known.keys()].map((name) => element("option", { value: name }, name)));
@@ -49,6 +60,7 @@ export async function ask(snapshot, text) {
   const reach = () => {
     if (known.size) [from.value, to.value] = around(known.get(key.value));
   };
+  if (known.has(first)) key.value = first;
   key.addEventListener("change", reach);
   reach();
   for (const end of [from, to]) {
@@ -79,9 +91,43 @@ export async function ask(snapshot, text) {
         ? "no value between these makes a mechanism, or none changes a figure"
         : `Across: ${name}${units.get(name) && `, ${units.get(name)}`}. Blue: the design as it is. Dashed: the range that is wanted.${gaps ? " No point: no mechanism, or no such figure." : ""}`;
       for (const chart of answers.charts) draw(place, answers.values, chart, known.get(name));
+      await overlay(name, answers, signal);
     } catch (error) {
       if (!signal.aborted) words.replaceChildren(element("span", { class: "error" }, error.message));
     }
+  };
+  /** Ways of the points at some of the values, and a list of these to take one from. */
+  const overlay = async (name, { values, charts }, signal) => {
+    const ways = new Ways();
+    const list = element("ul", { class: "ways-list" });
+    place.prepend(element("div", { class: "overlay" }, ways.box, list));
+    const unit = units.get(name);
+    const row = (index, words, rest, value) => {
+      const content = [element("span", { class: "swatch" }), element("b", {}, words), ` ${rest}`];
+      content[0].style.background = hue(index);
+      const item = value === undefined ? element("span", {}, ...content) : element("button", { type: "button", title: "Take this value", onclick: () => {
+        byId("dialog").close("");
+        take(name, value);
+      } }, ...content);
+      for (const [event, front] of [["pointerenter", index], ["focus", index], ["pointerleave", undefined], ["blur", undefined]]) item.addEventListener(event, () => ways.draw(front));
+      list.append(element("li", {}, item));
+    };
+    if (snapshot.picture) ways.add(snapshot.picture, "");
+    row(0, `${known.get(name)}${unit && ` ${unit}`}`, "the design as it is");
+    for (let i = 0; i < values.length; i += THINNED) {
+      const value = Number(values[i].toPrecision(6));
+      if (value === known.get(name)) continue;
+      const found = await server.solve({ text, edits: [{ key: name, value }], depth: "picture" }, signal);
+      if (signal.aborted) return;
+      const words = `${value}${unit && ` ${unit}`}`;
+      if (found.error) {
+        list.append(element("li", { class: "error" }, `${words}: ${found.error.message}`));
+        continue;
+      }
+      ways.add(found.picture, String(value));
+      row(ways.drawn.length - 1, words, reached(charts, i), value);
+    }
+    if (ways.count === 0) ways.box.remove();
   };
   await dialogs.ask("Response", [
     element("p", { class: "option" }, element("label", { for: "response-key" }, "Number"), key),
