@@ -2,6 +2,7 @@
 
 use super::ArmBodySpec;
 use super::parts::Reach;
+use crate::machine::preferred_size;
 
 /// Distance of the tip from the planet's axis, mm, for which the default sizes are made.
 const TIP_DISTANCE: f64 = 145.0;
@@ -53,15 +54,22 @@ impl UsualArm {
         (0..SCALES)
             .map(|i| scale * SMALLER.powi(i))
             .find_map(|scale| {
-                let slim = |i| slimmer(ArmBodySpec::default().scaled(scale), SMALLER.powi(i));
+                let slim = |i| slimmer(enlarged(scale), SMALLER.powi(i));
                 let body = (0..HEIGHTS).find_map(|i| fitted(slim(i), &reach))?;
                 Some(Self { scale, body })
             })
             .unwrap_or_else(|| Self {
                 scale,
-                body: ArmBodySpec::default().scaled(scale),
+                body: enlarged(scale),
             })
     }
+}
+
+/// Default sizes enlarged, the bore to a preferred size.
+fn enlarged(scale: f64) -> ArmBodySpec {
+    let mut body = ArmBodySpec::default().scaled(scale);
+    body.housing.bore = preferred_size(body.housing.bore);
+    body
 }
 
 /// The sizes with clamp, rod and pusher a share as high.

@@ -71,6 +71,34 @@ pub fn limits_of_size(size: f64, class: &str) -> Option<[f64; 2]> {
     Some([lower / 1000.0, (lower + width) / 1000.0])
 }
 
+/// Rounded preferred numbers from one to ten, series R''20.
+const PREFERRED: [f64; 21] = [
+    1.0, 1.1, 1.2, 1.4, 1.6, 1.8, 2.0, 2.2, 2.5, 2.8, 3.0, 3.5, 4.0, 4.5, 5.0, 5.5, 6.0, 7.0, 8.0,
+    9.0, 10.0,
+];
+
+/// Preferred size nearest to a size, by ratio: pins, reamers and plates are bought in such sizes.
+///
+/// At most 9 % off, none for what is no positive number: that comes back as it is. Source: ISO 497:1973, series R''20.
+#[must_use]
+pub fn preferred_size(size: f64) -> f64 {
+    if !(size > 0.0 && size.is_finite()) {
+        return size;
+    }
+    let decade = 10_f64.powi(size.log10().floor() as i32);
+    let off = |preferred: f64| (size / (preferred * decade)).ln().abs();
+    let nearest = PREFERRED
+        .into_iter()
+        .min_by(|a, b| off(*a).total_cmp(&off(*b)));
+    // A division by a whole power of ten gives the nearest float of the short decimal.
+    let nearest = nearest.unwrap_or(1.0);
+    if decade < 1.0 {
+        nearest / 10_f64.powi(-(size.log10().floor() as i32))
+    } else {
+        nearest * decade
+    }
+}
+
 /// Fit of a hole and what runs or sits in it: one size, a tolerance class for either side.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
@@ -175,6 +203,30 @@ mod tests {
             (12.0, "é7"),
         ] {
             assert_eq!(found(size, class), None, "{size} {class}");
+        }
+    }
+
+    #[test]
+    fn preferred_sizes_are_near_and_their_own() {
+        for (size, preferred) in [
+            (3.022, 3.0),
+            (4.029, 4.0),
+            (5.036, 5.0),
+            (16.115, 16.0),
+            (8.057, 8.0),
+            (0.97, 1.0),
+            (0.31, 0.3),
+            (1304.0, 1400.0),
+            (0.0, 0.0),
+        ] {
+            assert_eq!(preferred_size(size), preferred, "{size}");
+        }
+        assert!(preferred_size(f64::NAN).is_nan());
+        for i in 0..2000 {
+            let size = 0.01 * 1.007_f64.powi(i);
+            let found = preferred_size(size);
+            assert!((found / size).ln().abs() < 0.09, "{size}");
+            assert_eq!(preferred_size(found), found, "{size}");
         }
     }
 

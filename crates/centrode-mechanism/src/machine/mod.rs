@@ -28,7 +28,7 @@ use crate::transmission::Transmission;
 pub use arrangement::{Arrangement, Axis, Callout, Datum, Dimension, Place};
 pub use contact::{Closure, Contact, ContactLine, GearMesh, Guide, GuideForce, PitchCurves};
 pub use figure::{Figure, Line, LinePath, LineRole, Mark, Seat, Sketch};
-pub use fit::{Fit, limits_of_size};
+pub use fit::{Fit, limits_of_size, preferred_size};
 pub use jet::{FrameJet, PointJet};
 pub use joint::{Joint, JointKind};
 pub use law::{Constant, Linear, Piecewise};

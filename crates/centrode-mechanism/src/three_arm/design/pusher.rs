@@ -5,6 +5,7 @@ use crate::cam::law::LawSpec;
 use crate::degrees;
 use crate::gear::design::rule::{in_range, positive};
 use crate::gear::design::{BodySpec, SpecError};
+use crate::machine::preferred_size;
 
 /// The cam, fixed to the carrier about a planet's axis, that draws the push rod back and lets it go.
 ///
@@ -68,15 +69,15 @@ impl PusherCamSpec {
         self.body.validate().map_err(|e| e.inside("body"))
     }
 
-    /// The usual cam with every length enlarged `k` times.
+    /// The usual cam with every length enlarged `k` times, width and bore to preferred sizes.
     #[must_use]
     pub fn usual(k: f64) -> Self {
         let usual = Self::default();
         Self {
             base_radius: k * usual.base_radius,
             body: BodySpec {
-                width: k * usual.body.width,
-                bore: k * usual.body.bore,
+                width: preferred_size(k * usual.body.width),
+                bore: preferred_size(k * usual.body.bore),
                 ..usual.body
             },
             ..usual
@@ -150,7 +151,7 @@ impl ForkSpec {
         )
     }
 
-    /// The usual fork with every length enlarged `k` times.
+    /// The usual fork with every length enlarged `k` times, its holes, slot and thickness to preferred sizes.
     #[must_use]
     pub fn usual(k: f64) -> Self {
         let usual = Self::default();
@@ -158,11 +159,11 @@ impl ForkSpec {
             pivot_distance: k * usual.pivot_distance,
             arm_length: k * usual.arm_length,
             roller_radius: k * usual.roller_radius,
-            roller_bore: k * usual.roller_bore,
-            pivot_bore: k * usual.pivot_bore,
-            slot_width: k * usual.slot_width,
+            roller_bore: preferred_size(k * usual.roller_bore),
+            pivot_bore: preferred_size(k * usual.pivot_bore),
+            slot_width: preferred_size(k * usual.slot_width),
             wall: k * usual.wall,
-            width: k * usual.width,
+            width: preferred_size(k * usual.width),
         }
     }
 }
