@@ -1,6 +1,10 @@
 """All sheets of a machine as one PDF, read by another program."""
 
+import re
+
+import numpy as np
 import pypdf
+import pypdfium2
 import pytest
 from conftest import ROOT, centrode
 
@@ -35,6 +39,24 @@ def test_it_says_that_it_is_for_archives_and_embeds_its_font(shipped):
         (inner,) = font.get_object()["/DescendantFonts"]
         descriptor = inner.get_object()["/FontDescriptor"].get_object()
         assert {"/FontFile2", "/FontFile3"} & set(descriptor)
+
+
+def test_words_that_the_font_has_not_stop_no_file_and_are_boxes(tmp_path):
+    text = (ROOT / "tests" / "designs" / "elliptic-pair-2018.toml").read_text()
+
+    def exported(title):
+        design = tmp_path / "pair.toml"
+        design.write_text(re.sub("^title = .*", f'title = "{title}"', text, flags=re.MULTILINE))
+        centrode("export", design, "--to", tmp_path, "--format", "pdf")
+        ink = np.asarray(pypdfium2.PdfDocument(tmp_path / "assembly.pdf")[0].render(scale=2).to_pil().convert("L"))
+        return pypdf.PdfReader(tmp_path / "sheets.pdf"), np.count_nonzero(ink < 128)
+
+    book, some = exported("水稻 Ω é 🙂 gears")
+    assert book.metadata.title.startswith("水稻 Ω é 🙂 gears")
+    assert "Ω é" in book.pages[0].extract_text()
+    _, none = exported("Ω é gears")
+    _, more = exported("水稻水稻水稻 Ω é 🙂 gears")
+    assert none + 50 < some < more - 50
 
 
 def test_one_part_alone_has_no_book(tmp_path):

@@ -4,7 +4,7 @@ use crate::{
     drawing::{LineType, Shape, Text},
     sheet::{Sheet, lettering},
 };
-use centrode_geometry::{Outline, Point, Segment, Tolerance};
+use centrode_geometry::{Bounds, Outline, Point, Segment, Tolerance};
 use krilla::{
     Document, SerializeSettings,
     color::luma,
@@ -210,9 +210,14 @@ impl Writer {
     fn text(&self, surface: &mut Surface<'_>, text: &Text) {
         let natural = lettering::width(&text.words, text.height);
         let squeeze = text.width.map_or(1.0, |width| width / natural);
+        let blank = lettering::letters(" ")
+            .next()
+            .map_or(0, |blank| blank.glyph);
         let glyphs: Vec<KrillaGlyph> = lettering::letters(&text.words)
             .map(|letter| {
-                let glyph = GlyphId::new(letter.glyph);
+                // The archive format has no letter that its font has not: a box is drawn there.
+                let missing = letter.empty_box().is_some();
+                let glyph = GlyphId::new(if missing { blank } else { letter.glyph });
                 let advance = letter.advance as f32;
                 KrillaGlyph::new(glyph, advance, 0.0, 0.0, 0.0, letter.bytes, None)
             })
@@ -238,8 +243,39 @@ impl Writer {
             (lettering::em(text.height) * POINT) as f32,
             false,
         );
+        surface.set_fill(None);
+        surface.set_stroke(Some(stroke(LineType::Continuous, 0.1 * text.height)));
+        for path in boxes(text) {
+            surface.draw_path(&path);
+        }
         surface.pop();
     }
+}
+
+/// Boxes in the places of letters that the font has not, from the start of a text.
+fn boxes(text: &Text) -> impl Iterator<Item = Path> {
+    let em = lettering::em(text.height) * POINT;
+    let mut x = 0.0;
+    let boxes = lettering::letters(&text.words).filter_map(move |letter| {
+        let start = x;
+        x += letter.advance;
+        let Bounds { min, max } = letter.empty_box()?;
+        let mut builder = PathBuilder::new();
+        let at = |x: f64, y: f64| (((start + x) * em) as f32, (-y * em) as f32);
+        let corners = [
+            at(min.x, min.y),
+            at(max.x, min.y),
+            at(max.x, max.y),
+            at(min.x, max.y),
+        ];
+        builder.move_to(corners[0].0, corners[0].1);
+        for (x, y) in &corners[1..] {
+            builder.line_to(*x, *y);
+        }
+        builder.close();
+        builder.finish()
+    });
+    boxes.collect::<Vec<_>>().into_iter()
 }
 
 fn black() -> Fill {

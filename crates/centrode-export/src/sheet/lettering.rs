@@ -83,6 +83,11 @@ impl Letter {
     pub(crate) fn is_inked(&self) -> bool {
         self.ink.is_some()
     }
+
+    /// The empty box in the place of a letter that the font has not, in ems from its start.
+    pub(crate) fn empty_box(&self) -> Option<Bounds> {
+        self.ink.filter(|_| self.glyph == GlyphId::NOTDEF.to_u32())
+    }
 }
 
 /// The letters of a line; one the font has not becomes its empty box.
