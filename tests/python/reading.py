@@ -19,6 +19,17 @@ def rows(file):
     return {name: np.array(cells, dtype=str if name == "role" else float) for name, cells in columns.items()}
 
 
+def plain(file):
+    """All entities of a DXF's model space, those drawn for dimensions in their place."""
+    for entity in ezdxf.readfile(file).modelspace():
+        yield from entity.virtual_entities() if entity.dxftype() == "DIMENSION" else [entity]
+
+
+def texts(file):
+    """All words of a DXF, in the order drawn."""
+    return [e.dxf.text for e in plain(file) if e.dxftype() == "TEXT"]
+
+
 def contours(file, layer="profile"):
     """Closed contours of a DXF's layer as polygons, arcs flattened to 1e-5 mm."""
     entities = [e for e in ezdxf.readfile(file).modelspace() if layer in e.dxf.layer.lower()]

@@ -5,7 +5,6 @@ import math
 import re
 from itertools import pairwise
 
-import ezdxf
 import pytest
 import tomllib
 from conftest import ROOT
@@ -20,6 +19,7 @@ from OCP.STEPControl import STEPControl_Reader
 from OCP.TopAbs import TopAbs_FACE
 from OCP.TopExp import TopExp_Explorer
 from OCP.TopoDS import TopoDS
+from reading import texts
 from shapely.geometry import Polygon
 
 DESIGNS = sorted(path.stem for path in (ROOT / "tests" / "designs").glob("*.toml"))
@@ -48,7 +48,7 @@ def parts(folder):
 def words(folder, part):
     """Texts of a part's sheets, in the order drawn."""
     files = sorted(folder.glob(f"{part}-sheet*.dxf"))
-    return [e.dxf.text for file in files for e in ezdxf.readfile(file).modelspace().query("TEXT")]
+    return [text for file in files for text in texts(file)]
 
 
 def family(name):

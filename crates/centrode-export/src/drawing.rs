@@ -1,6 +1,9 @@
 //! Drawings: shapes on layers.
 
+mod group;
+
 use centrode_geometry::{Arc, Bounds, Outline, Point, Vector};
+pub use group::{Dimension, Group, Hatch, Object};
 use nalgebra::Isometry2;
 
 /// Lines, arcs, contours and texts on named layers, in millimetres: what every drawing format is
@@ -114,6 +117,28 @@ pub enum Shape {
     Mark(Point),
     /// One line of text.
     Text(Text),
+    /// Entities that are one object together; its layer is that of this entity.
+    Group(Group),
+}
+
+impl Entity {
+    /// The entity moved, not turned.
+    #[must_use]
+    pub fn moved(&self, by: Vector) -> Self {
+        Self {
+            layer: self.layer.clone(),
+            shape: self.shape.moved(by),
+        }
+    }
+
+    /// Entities that are drawn for this one: itself, or all of its group.
+    pub fn plain(&self) -> impl Iterator<Item = &Self> {
+        let (own, drawn) = match &self.shape {
+            Shape::Group(group) => (None, &group.drawn[..]),
+            _ => (Some(self), &[][..]),
+        };
+        own.into_iter().chain(drawn)
+    }
 }
 
 /// One line of text.
@@ -208,6 +233,11 @@ impl Drawing {
         });
     }
 
+    /// All entities in drawing order, each group by what is drawn for it.
+    pub fn plain(&self) -> impl Iterator<Item = &Entity> {
+        self.entities.iter().flat_map(Entity::plain)
+    }
+
     /// The layer an entity lies on, `None` if the drawing lists none of that name.
     #[must_use]
     pub fn layer_of(&self, entity: &Entity) -> Option<&Layer> {
@@ -248,6 +278,7 @@ impl Shape {
                 at: text.at + by,
                 ..text.clone()
             }),
+            Self::Group(group) => Self::Group(group.moved(by)),
         }
     }
 
@@ -276,6 +307,7 @@ impl Shape {
                 let up = Vector::new(-text.rotation.sin(), text.rotation.cos()) * text.height;
                 of(&[start - up * 0.3, end - up * 0.3, start + up, end + up])
             }
+            Self::Group(group) => group.bounds(),
         }
     }
 }

@@ -88,7 +88,7 @@ pub fn book(
             tolerance,
         };
         for layer in &sheet.drawing.layers {
-            let entities = sheet.drawing.entities.iter();
+            let entities = sheet.drawing.plain();
             for entity in entities.filter(|e| e.layer == layer.name) {
                 writer.shape(
                     &mut surface,
@@ -169,7 +169,7 @@ impl Writer {
                     self.polygon(&[q(0.0, -reach), q(0.0, reach)], false),
                 ]
             }
-            Shape::Text(_) | Shape::Triangle(_) => Vec::new(),
+            Shape::Text(_) | Shape::Triangle(_) | Shape::Group(_) => Vec::new(),
         };
         for path in paths.into_iter().flatten() {
             surface.draw_path(&path);

@@ -48,7 +48,7 @@ pub fn sheet(sheet: &Sheet, tolerance: Tolerance) -> String {
          <rect x=\"0\" y=\"-{height}\" width=\"{width}\" height=\"{height}\" fill=\"#fff\"/>",
     );
     let mut glyphs = BTreeSet::new();
-    for entity in &sheet.drawing.entities {
+    for entity in sheet.drawing.plain() {
         if let Shape::Text(text) = &entity.shape {
             let inked = lettering::letters(&text.words).filter(|l| l.is_inked());
             glyphs.extend(inked.map(|l| l.glyph));
@@ -117,7 +117,7 @@ fn layers(out: &mut String, drawing: &Drawing, tolerance: Tolerance, outlined: b
             paint(layer.color),
             number(layer.line_width),
         );
-        for entity in drawing.entities.iter().filter(|e| e.layer == layer.name) {
+        for entity in drawing.plain().filter(|e| e.layer == layer.name) {
             if let (true, Shape::Text(text)) = (outlined, &entity.shape) {
                 outlined_words(out, text, layer.color);
                 continue;
@@ -172,6 +172,8 @@ fn shape(out: &mut String, shape: &Shape, color: Color, line_width: f64, toleran
             paint(color),
         ),
         Shape::Text(text) => words(out, text, color),
+        // Its entities are written one by one.
+        Shape::Group(_) => Ok(()),
     };
 }
 

@@ -3,40 +3,64 @@
 use super::pairs::{Handle, Pairs};
 use super::tables::weight;
 use super::{Curves, STYLE};
-use crate::drawing::{Anchor, Drawing, Shape, Text};
+use crate::drawing::{Anchor, Drawing, Entity, Object, Shape, Text};
 use centrode_geometry::{Arc, Point, Segment, Tolerance};
 
 /// Writes the entities of a drawing, owned by the model space; each looks as its layer says. The newer version has
 /// the width of the lines at each entity too: some programs ignore that of the layer.
-pub(super) fn entities(
-    file: &mut Pairs,
-    drawing: &Drawing,
-    space: Handle,
-    curves: Curves,
-    tolerance: Tolerance,
-) {
-    file.section("ENTITIES");
-    let mut writer = Writer {
-        file,
-        space,
-        weight: None,
-    };
+pub(super) fn entities(writer: &mut Writer<'_>, drawing: &Drawing, space: Handle) {
+    writer.file.section("ENTITIES");
+    writer.owner = space;
+    let mut dimensions = 0;
     for entity in &drawing.entities {
+        let Shape::Group(group) = &entity.shape else {
+            writer.entity(drawing, entity);
+            continue;
+        };
+        if !writer.file.is_newer() {
+            for drawn in &group.drawn {
+                writer.entity(drawing, drawn);
+            }
+            continue;
+        }
         writer.weight = drawing.layer_of(entity).map(|l| weight(l.line_width));
-        writer.shape(&entity.layer, &entity.shape, curves, tolerance);
+        match &group.object {
+            Object::Dimension(dimension) => {
+                writer.dimension(&entity.layer, dimension, dimensions, drawing);
+                dimensions += 1;
+            }
+            Object::Hatch(hatch) => writer.hatch(&entity.layer, hatch),
+        }
     }
-    file.word(0, "ENDSEC");
+    writer.file.word(0, "ENDSEC");
 }
 
-struct Writer<'a> {
-    file: &'a mut Pairs,
-    space: Handle,
+/// Writes entities one by one.
+pub(super) struct Writer<'a> {
+    pub(super) file: &'a mut Pairs,
+    /// Space or block the entities belong to.
+    pub(super) owner: Handle,
+    /// Weight of the lines of the entity to come.
     weight: Option<u32>,
+    curves: Curves,
+    pub(super) tolerance: Tolerance,
+}
+
+impl<'a> Writer<'a> {
+    pub(super) fn new(file: &'a mut Pairs, curves: Curves, tolerance: Tolerance) -> Self {
+        Self {
+            file,
+            owner: Handle::NONE,
+            weight: None,
+            curves,
+            tolerance,
+        }
+    }
 }
 
 impl Writer<'_> {
-    fn begin(&mut self, kind: &str, layer: &str, class: &str) -> &mut Pairs {
-        self.file.entry(kind, self.space);
+    pub(super) fn begin(&mut self, kind: &str, layer: &str, class: &str) -> &mut Pairs {
+        self.file.entry(kind, self.owner);
         self.file.class("AcDbEntity").word(8, layer);
         if let Some(weight) = self.weight.filter(|_| self.file.is_newer()) {
             self.file.whole(370, weight);
@@ -44,18 +68,24 @@ impl Writer<'_> {
         self.file.class(class)
     }
 
-    fn shape(&mut self, layer: &str, shape: &Shape, curves: Curves, tolerance: Tolerance) {
+    /// Writes an entity that is no group.
+    pub(super) fn entity(&mut self, drawing: &Drawing, entity: &Entity) {
+        self.weight = drawing.layer_of(entity).map(|l| weight(l.line_width));
+        self.shape(&entity.layer, &entity.shape);
+    }
+
+    fn shape(&mut self, layer: &str, shape: &Shape) {
         match shape {
-            Shape::Contour(outline) => match curves {
+            Shape::Contour(outline) => match self.curves {
                 Curves::Arcs => {
-                    let arcs = outline.arcs(tolerance);
+                    let arcs = outline.arcs(self.tolerance);
                     let bulges = arcs.segments().iter().map(|segment| match segment {
                         Segment::Arc(arc) => (arc.start, arc.bulge),
                         other => (other.start(), 0.0),
                     });
                     self.polyline(layer, true, bulges);
                 }
-                Curves::Splines => self.spline(layer, &outline.cubics(tolerance)),
+                Curves::Splines => self.spline(layer, &outline.cubics(self.tolerance)),
             },
             Shape::Polyline(points) => {
                 self.polyline(layer, false, points.iter().map(|p| (*p, 0.0)));
@@ -83,6 +113,8 @@ impl Writer<'_> {
                 self.begin("POINT", layer, "AcDbPoint").point(10, point);
             }
             Shape::Text(text) => self.line_of_text(layer, text),
+            // Its entities are written one by one.
+            Shape::Group(_) => {}
         }
     }
 

@@ -1,12 +1,13 @@
 //! DXF files for cutting machines and drawing programs.
 
 mod entities;
+mod objects;
 mod pairs;
 mod tables;
 
 use crate::drawing::Drawing;
 use centrode_geometry::Tolerance;
-use pairs::Pairs;
+use pairs::{Handle, Pairs};
 use thiserror::Error;
 
 /// Version of DXF.
@@ -55,11 +56,7 @@ pub fn write(
     curves: Curves,
     tolerance: Tolerance,
 ) -> Result<Vec<u8>, DxfError> {
-    if let Some(entity) = drawing
-        .entities
-        .iter()
-        .find(|e| drawing.layer_of(e).is_none())
-    {
+    if let Some(entity) = drawing.plain().find(|e| drawing.layer_of(e).is_none()) {
         return Err(DxfError::Layer {
             name: entity.layer.clone(),
         });
@@ -69,8 +66,13 @@ pub fn write(
     }
     let bounds = drawing.bounds();
     let mut body = Pairs::new(version);
-    let space = tables::tables(&mut body, drawing, &bounds);
-    entities::entities(&mut body, drawing, space, curves, tolerance);
+    let spaces = tables::tables(&mut body, drawing, &bounds);
+    let mut writer = entities::Writer::new(&mut body, curves, tolerance);
+    if let Some(spaces) = &spaces {
+        tables::blocks(&mut writer, drawing, spaces);
+    }
+    let model = spaces.map_or(Handle::NONE, |spaces| spaces[0]);
+    entities::entities(&mut writer, drawing, model);
     if version == Version::R2010 {
         tables::objects(&mut body);
     }

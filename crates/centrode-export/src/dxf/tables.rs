@@ -1,5 +1,7 @@
 //! Parts of a file before its entities: units, line types, layers, lettering styles, blocks.
 
+use super::entities::Writer;
+use super::objects;
 use super::pairs::{Handle, Pairs};
 use super::{STYLE, STYLE_FONT};
 use crate::drawing::{Color, Drawing, LineType, Shape};
@@ -35,32 +37,47 @@ pub(super) fn header(file: &mut Pairs, bounds: &Bounds, seed: Handle) {
     file.word(0, "ENDSEC");
 }
 
-/// Line types, layers and lettering styles, and all else the newer version must have; the handle
-/// is that of the model space, which owns the entities.
-pub(super) fn tables(file: &mut Pairs, drawing: &Drawing, bounds: &Bounds) -> Handle {
+/// Line types, layers and lettering styles, and all else the newer version must have; of that, the handles of the
+/// records of its blocks: the model space, which owns the entities, the paper space, and one for each dimension.
+pub(super) fn tables(file: &mut Pairs, drawing: &Drawing, bounds: &Bounds) -> Option<Vec<Handle>> {
     file.section("TABLES");
     if file.is_newer() {
         view(file, bounds);
     }
     line_types(file, drawing);
     layers(file, drawing);
-    styles(file, drawing);
-    let spaces = file.is_newer().then(|| newer_tables(file));
+    let lettering = styles(file, drawing);
+    let records = file
+        .is_newer()
+        .then(|| newer_tables(file, drawing, lettering));
     file.word(0, "ENDSEC");
-    let Some(spaces) = spaces else {
-        return Handle::NONE;
-    };
-    file.section("BLOCKS");
+    records
+}
+
+/// The blocks of the newer version: its two spaces, empty here, and the pictures of dimensions.
+pub(super) fn blocks(writer: &mut Writer<'_>, drawing: &Drawing, records: &[Handle]) {
+    writer.file.section("BLOCKS");
+    let (spaces, pictures) = records.split_at(SPACES.len());
     for (name, space) in SPACES.into_iter().zip(spaces) {
-        file.entry("BLOCK", space);
-        file.class("AcDbEntity").word(8, "0");
-        file.class("AcDbBlockBegin").word(2, name).whole(70, 0);
-        file.point(10, &Point::origin()).word(3, name).word(1, "");
-        file.entry("ENDBLK", space);
-        file.class("AcDbEntity").word(8, "0").class("AcDbBlockEnd");
+        block(writer, name, *space, &|_| {});
     }
-    file.word(0, "ENDSEC");
-    spaces[0]
+    objects::blocks(writer, drawing, pictures, block);
+    writer.file.word(0, "ENDSEC");
+}
+
+fn block(writer: &mut Writer<'_>, name: &str, record: Handle, draw: &dyn Fn(&mut Writer<'_>)) {
+    // A block that programs have named themselves.
+    let own = u32::from(name.starts_with("*D"));
+    writer.file.entry("BLOCK", record);
+    writer.file.class("AcDbEntity").word(8, "0");
+    let file = writer.file.class("AcDbBlockBegin");
+    file.word(2, name).whole(70, own);
+    file.point(10, &Point::origin()).word(3, name).word(1, "");
+    writer.owner = record;
+    draw(writer);
+    writer.file.entry("ENDBLK", record);
+    let file = writer.file.class("AcDbEntity").word(8, "0");
+    file.class("AcDbBlockEnd");
 }
 
 /// The objects of the newer version: the root of its dictionaries, and the one of groups it must have.
@@ -79,7 +96,7 @@ pub(super) fn objects(file: &mut Pairs) {
 const SPACES: [&str; 2] = ["*Model_Space", "*Paper_Space"];
 
 /// Begins a table of so many records.
-fn table(file: &mut Pairs, name: &str, count: usize) -> Handle {
+pub(super) fn table(file: &mut Pairs, name: &str, count: usize) -> Handle {
     let handle = file
         .word(0, "TABLE")
         .word(2, name)
@@ -89,7 +106,13 @@ fn table(file: &mut Pairs, name: &str, count: usize) -> Handle {
 }
 
 /// Begins a record of a table.
-fn record(file: &mut Pairs, table: Handle, kind: &str, class: &str, name: &str) -> Handle {
+pub(super) fn record(
+    file: &mut Pairs,
+    table: Handle,
+    kind: &str,
+    class: &str,
+    name: &str,
+) -> Handle {
     // The 5 of a dimension style is a block's name.
     let code = if kind == "DIMSTYLE" { 105 } else { 5 };
     let handle = file.word(0, kind).identity(code, table);
@@ -164,22 +187,26 @@ fn layers(file: &mut Pairs, drawing: &Drawing) {
     file.word(0, "ENDTAB");
 }
 
-fn styles(file: &mut Pairs, drawing: &Drawing) {
-    let mut shapes = drawing.entities.iter().map(|entity| &entity.shape);
+/// The lettering styles; the handle is that of fitted texts, where there are any.
+fn styles(file: &mut Pairs, drawing: &Drawing) -> Option<Handle> {
+    let mut shapes = drawing.plain().map(|entity| &entity.shape);
     let fitted = shapes.any(|shape| matches!(shape, Shape::Text(text) if text.width.is_some()));
     let styles = [("STANDARD", "txt"), (STYLE, STYLE_FONT)];
     let styles = if fitted { &styles[..] } else { &styles[..1] };
     let owner = table(file, "STYLE", styles.len());
+    let mut last = None;
     for (name, font) in styles {
-        record(file, owner, "STYLE", "AcDbTextStyleTableRecord", name);
+        let handle = record(file, owner, "STYLE", "AcDbTextStyleTableRecord", name);
         file.number(40, 0.0).number(41, 1.0).number(50, 0.0);
         file.whole(71, 0).number(42, 2.5).word(3, font).word(4, "");
+        last = Some(handle).filter(|_| fitted);
     }
     file.word(0, "ENDTAB");
+    last
 }
 
-/// Tables that only the newer version must have; the handles are those of its two spaces.
-fn newer_tables(file: &mut Pairs) -> [Handle; 2] {
+/// Tables that only the newer version must have; the handles are those of its blocks.
+fn newer_tables(file: &mut Pairs, drawing: &Drawing, lettering: Option<Handle>) -> Vec<Handle> {
     for name in ["VIEW", "UCS"] {
         table(file, name, 0);
         file.word(0, "ENDTAB");
@@ -187,23 +214,20 @@ fn newer_tables(file: &mut Pairs) -> [Handle; 2] {
     let owner = table(file, "APPID", 1);
     record(file, owner, "APPID", "AcDbRegAppTableRecord", "ACAD");
     file.word(0, "ENDTAB");
-    let owner = table(file, "DIMSTYLE", 1);
-    file.class("AcDbDimStyleTable");
-    record(
-        file,
-        owner,
-        "DIMSTYLE",
-        "AcDbDimStyleTableRecord",
-        "STANDARD",
-    );
+    objects::dimension_styles(file, drawing, lettering);
+    let pictures = objects::block_names(drawing);
+    let names: Vec<&str> = SPACES
+        .into_iter()
+        .chain(pictures.iter().map(String::as_str))
+        .collect();
+    let owner = table(file, "BLOCK_RECORD", names.len());
+    let class = "AcDbBlockTableRecord";
+    let records = names
+        .into_iter()
+        .map(|name| record(file, owner, "BLOCK_RECORD", class, name))
+        .collect();
     file.word(0, "ENDTAB");
-    let owner = table(file, "BLOCK_RECORD", SPACES.len());
-    let spaces = SPACES.map(|name| {
-        let class = "AcDbBlockTableRecord";
-        record(file, owner, "BLOCK_RECORD", class, name)
-    });
-    file.word(0, "ENDTAB");
-    spaces
+    records
 }
 
 fn line_type_name(line_type: LineType) -> &'static str {

@@ -84,7 +84,7 @@ impl Plate {
     /// Face, and edge seen from the left.
     fn views(&self, scale: Scale, size: SheetSize, projection: Projection) -> Draft {
         let k = scale.factor();
-        let mut draft = Draft::lettered(view_letters(size));
+        let mut draft = Draft::lettered(view_letters(size)).at_scale(k);
         draft.draw(Pen::Outline, Shape::Contour(self.outline.scaled(k)));
         for hole in &self.holes {
             draft.draw(Pen::Outline, Shape::Contour(hole.outline.scaled(k)));

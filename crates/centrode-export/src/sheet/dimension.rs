@@ -1,7 +1,7 @@
 //! Dimensions and notes with leaders, ISO 129-1.
 
 use super::{Draft, Pen, draft::ARROW, lettering, steady};
-use crate::drawing::{Anchor, Shape};
+use crate::drawing::{Anchor, Dimension, Object, Shape};
 use centrode_geometry::{Arc, Bounds, Point, Vector};
 
 /// Distance of words from their line, mm.
@@ -34,6 +34,7 @@ impl Draft {
         words: &str,
         lines: &[f64],
     ) {
+        let first = self.count();
         let mut along = along.normalize();
         let upwards = along.x.abs() < 1e-9;
         let turned = along.x < -1e-9 || (upwards && along.y < 0.0);
@@ -78,6 +79,16 @@ impl Draft {
         self.arrow(end, sense);
         let at = start + along * middle + up * LIFT;
         self.turned_text(at, self.letters, words, Anchor::Middle, rotation);
+        let dimension = Dimension {
+            ends: [a, b],
+            along,
+            line: end,
+            middle: at + up * (0.5 * self.letters),
+            words: words.to_owned(),
+            letters: self.letters,
+            scale: self.scale,
+        };
+        self.gather(first, Pen::Dimension, Object::Dimension(dimension));
     }
 
     /// Draws a note with an arrow: a line from `tip` to `elbow`, then level under the words; a second line of
@@ -224,7 +235,7 @@ fn below(words: &[String], letters: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::drawing::Shape;
+    use crate::drawing::{Entity, Shape};
 
     #[test]
     fn words_of_a_dimension_leave_the_lines_of_others_free() {
@@ -232,13 +243,12 @@ mod tests {
         let middle = |ends: [Point; 2], along: Vector, lines: &[f64]| {
             let mut draft = Draft::default();
             draft.dimension_clear_of(ends, along, Point::new(0.0, -20.0), "100", lines);
-            let found = draft
-                .into_entities()
-                .into_iter()
-                .find_map(|e| match e.shape {
-                    Shape::Text(text) => Some(text.at.x),
-                    _ => None,
-                });
+            let drawn = draft.into_entities();
+            let mut plain = drawn.iter().flat_map(Entity::plain);
+            let found = plain.find_map(|e| match &e.shape {
+                Shape::Text(text) => Some(text.at.x),
+                _ => None,
+            });
             found.expect("words")
         };
         let half = 0.5 * lettering::width("100", 3.5) + AIR;

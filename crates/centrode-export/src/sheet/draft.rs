@@ -1,5 +1,5 @@
 use super::{Pen, lettering, overlap};
-use crate::drawing::{Anchor, Entity, Shape, Text};
+use crate::drawing::{Anchor, Entity, Group, Object, Shape, Text};
 use centrode_geometry::{Bounds, Outline, Point, Vector};
 
 /// Length of an arrow head, mm.
@@ -14,6 +14,8 @@ pub struct Draft {
     entities: Vec<Entity>,
     /// Height of the letters of dimensions and notes, mm.
     pub(super) letters: f64,
+    /// Millimetres on paper for one of the part.
+    pub(super) scale: f64,
 }
 
 impl Default for Draft {
@@ -30,7 +32,14 @@ impl Draft {
         Self {
             entities: Vec::new(),
             letters,
+            scale: 1.0,
         }
+    }
+
+    /// The draft as one at a scale, millimetres on paper for one of the part.
+    #[must_use]
+    pub fn at_scale(self, scale: f64) -> Self {
+        Self { scale, ..self }
     }
 
     /// Height of the letters of dimensions and notes, mm.
@@ -127,24 +136,37 @@ impl Draft {
 
     /// Adds all of another draft, moved.
     pub fn add(&mut self, other: &Self, by: Vector) {
-        let moved = other.entities.iter().map(|entity| Entity {
-            layer: entity.layer.clone(),
-            shape: entity.shape.moved(by),
-        });
-        self.entities.extend(moved);
+        self.entities
+            .extend(other.entities.iter().map(|e| e.moved(by)));
     }
 
     /// Whether a line or words enter a rectangle.
     #[must_use]
     pub fn touches(&self, rectangle: Bounds) -> bool {
-        let shapes = self.entities.iter().map(|entity| &entity.shape);
-        overlap::enters(shapes, rectangle)
+        overlap::enters(self.plain(), rectangle)
     }
 
     /// Whether a straight line runs through words.
     pub(crate) fn strikes(&self, line: [Point; 2]) -> bool {
-        let shapes = self.entities.iter().map(|entity| &entity.shape);
-        overlap::strikes(shapes, line)
+        overlap::strikes(self.plain(), line)
+    }
+
+    fn plain(&self) -> impl Iterator<Item = &Shape> {
+        let entities = self.entities.iter().flat_map(Entity::plain);
+        entities.map(|entity| &entity.shape)
+    }
+
+    /// Number of entities so far.
+    pub(super) fn count(&self) -> usize {
+        self.entities.len()
+    }
+
+    /// Makes one object of all entities from a number on, on the layer of a pen.
+    pub(super) fn gather(&mut self, from: usize, pen: Pen, object: Object) {
+        let drawn = self.entities.split_off(from);
+        if !drawn.is_empty() {
+            self.draw(pen, Shape::Group(Group { object, drawn }));
+        }
     }
 
     /// A rectangle around everything.

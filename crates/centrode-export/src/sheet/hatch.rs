@@ -1,4 +1,5 @@
 use super::{Draft, Pen};
+use crate::drawing::{Hatch, Object};
 use centrode_geometry::{Outline, Point, Tolerance, Vector};
 use nalgebra::Rotation2;
 use std::f64::consts::FRAC_PI_4;
@@ -9,6 +10,7 @@ const SPACING: f64 = 2.0;
 impl Draft {
     /// Hatches the area between contours, some of which may be holes, at 45 degrees.
     pub fn hatch(&mut self, contours: &[Outline], tolerance: Tolerance) {
+        let first = self.count();
         let turn = Rotation2::new(-FRAC_PI_4);
         let rings: Vec<Vec<Point>> = contours
             .iter()
@@ -31,6 +33,13 @@ impl Draft {
                 }
             }
         }
+        let hatch = Hatch {
+            contours: contours.to_vec(),
+            origin: Point::origin(),
+            angle: FRAC_PI_4,
+            spacing: SPACING,
+        };
+        self.gather(first, Pen::Hatch, Object::Hatch(hatch));
     }
 }
 
@@ -57,7 +66,8 @@ mod tests {
         let mut draft = Draft::default();
         draft.hatch(&ring, tolerance);
         let mut length = 0.0;
-        for entity in draft.into_entities() {
+        let drawn = draft.into_entities();
+        for entity in drawn.iter().flat_map(|entity| entity.plain()) {
             let Shape::Line(a, b) = entity.shape else {
                 panic!("hatching is lines");
             };

@@ -26,7 +26,7 @@ pub fn overlaps(sheet: &Sheet) -> Vec<Overlap> {
     let [width, height] = sheet.size.size();
     let mut texts: Vec<(&Text, Ink)> = Vec::new();
     let mut strokes: Vec<(&str, f64, [Point; 2])> = Vec::new();
-    for entity in &sheet.drawing.entities {
+    for entity in sheet.drawing.plain() {
         if let Shape::Text(text) = &entity.shape {
             texts.push((text, Ink::of(text)));
             continue;
@@ -202,6 +202,6 @@ fn lines(shape: &Shape, add: &mut impl FnMut(Point, Point)) {
             (0..32).for_each(|i| add(at(i), at(i + 1)));
         }
         Shape::Mark(point) => add(*point, *point),
-        Shape::Text(_) => {}
+        Shape::Text(_) | Shape::Group(_) => {}
     }
 }

@@ -101,7 +101,7 @@ fn long_tables_flow_on_to_further_sheets_row_by_row() {
         let sheets = compose(Some(size), &block(), 60.0, &plate(60.0), &[table]).expect("fits");
         let words: Vec<&str> = sheets
             .iter()
-            .flat_map(|sheet| &sheet.drawing.entities)
+            .flat_map(|sheet| sheet.drawing.plain())
             .filter_map(|e| match &e.shape {
                 Shape::Text(text) => Some(text.words.as_str()),
                 _ => None,

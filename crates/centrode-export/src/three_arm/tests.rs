@@ -145,7 +145,7 @@ fn the_general_arrangement_lists_every_part_and_its_words_touch_nothing() {
         }
         let words: Vec<&str> = sheets
             .iter()
-            .flat_map(|sheet| &sheet.drawing.entities)
+            .flat_map(|sheet| sheet.drawing.plain())
             .filter_map(|entity| match &entity.shape {
                 crate::drawing::Shape::Text(text) => Some(text.words.as_str()),
                 _ => None,

@@ -33,7 +33,7 @@ pub(super) fn views(part: &Part<'_>, scale: Scale, letters: f64, projection: Pro
 
 fn face(part: &Part<'_>, scale: Scale, letters: f64) -> Draft {
     let k = scale.factor();
-    let mut draft = Draft::lettered(letters);
+    let mut draft = Draft::lettered(letters).at_scale(k);
     draft.draw(Pen::Outline, Shape::Contour(part.outline.scaled(k)));
     draft.draw(Pen::Axis, Shape::Contour(part.pitch_curve.scaled(k)));
     if let Some(bore) = &part.bore {
@@ -164,7 +164,7 @@ fn section(part: &Part<'_>, scale: Scale) -> Draft {
     let body = part.gear.body();
     let width = body.width * k;
     let half = 0.5 * body.bore * k;
-    let mut draft = Draft::default();
+    let mut draft = Draft::default().at_scale(k);
     let [right_tip, right_root] = part.reach(0.0).map(|r| r * k);
     let [left_tip, left_root] = part.reach(std::f64::consts::PI).map(|r| -r * k);
     let p = Point::new;
@@ -231,7 +231,7 @@ pub(super) fn bore(part: &Part<'_>) -> Option<Draft> {
     let half = 0.5 * body.bore * k;
     let top = half + key.depth * k;
     let wide = 0.5 * key.width * k;
-    let mut draft = Draft::default();
+    let mut draft = Draft::default().at_scale(k);
     let p = Point::new;
     let rim = Outline::circle(Point::origin(), 1.25 * top);
     draft.hatch(&[rim.clone(), outline.scaled(k)], part.tolerance);

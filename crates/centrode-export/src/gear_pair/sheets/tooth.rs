@@ -47,7 +47,7 @@ pub(super) fn detail(part: &Part<'_>, letter: char, tooth: u32, place: &str) -> 
     let upright = |p: Point| Point::from(turn * (p - frame.point) * k);
     let fine = Tolerance::new(0.01 / k).unwrap_or(part.tolerance);
     let reach = 0.9 * pitch * k;
-    let mut draft = Draft::default();
+    let mut draft = Draft::default().at_scale(k);
     let profile = near(&part.gear.outline().flatten(fine), &upright, reach);
     let curve = near(
         &part.gear.pitch_curve().flatten(fine),
@@ -85,7 +85,7 @@ pub(super) fn detail(part: &Part<'_>, letter: char, tooth: u32, place: &str) -> 
     let words = format!("{thick:.3}");
     // Where the thickness stands beside its arrows the heights keep clear of it.
     let beyond = foot[0].x.max(foot[1].x) + lettering::width(&words, 3.5) + 13.0;
-    draft.dimension(foot, Vector::x(), above, &words);
+    draft.dimension(foot, foot[1] - foot[0], above, &words);
     let right = (reach + 9.0).max(beyond);
     let crest = p(0.0, high);
     let words = format!("{:.3}", high / k);

@@ -50,7 +50,7 @@ impl View<'_> {
     pub(super) fn draft(&self, scale: Scale, size: SheetSize) -> Draft {
         let k = scale.factor();
         let letters = view_letters(size);
-        let mut draft = Draft::lettered(letters);
+        let mut draft = Draft::lettered(letters).at_scale(k);
         for (pen, line) in &self.scene.lines {
             match line {
                 Drawn::Closed(outline, mean) => {

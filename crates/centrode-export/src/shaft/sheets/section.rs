@@ -20,7 +20,7 @@ pub(super) fn journal(shaft: &SpiralShaft, tolerance: Tolerance) -> Draft {
     let scale = Scale::largest(body.journal_diameter, ROOM);
     let k = scale.factor();
     let radius = 0.5 * k * body.journal_diameter;
-    let mut draft = Draft::default();
+    let mut draft = Draft::default().at_scale(k);
     let p = Point::new;
     let whole = Outline::circle(Point::origin(), radius);
     let contour = match body.keyway {
@@ -120,7 +120,7 @@ pub(super) fn groove(shaft: &SpiralShaft, tolerance: Tolerance) -> Draft {
     } else {
         segments.extend([floor, wall]);
     }
-    let mut draft = Draft::default();
+    let mut draft = Draft::default().at_scale(k);
     if let Ok(contour) = Outline::new(segments) {
         draft.hatch(std::slice::from_ref(&contour), tolerance);
         for segment in &contour.segments()[3..] {

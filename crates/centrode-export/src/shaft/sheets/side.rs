@@ -48,7 +48,7 @@ impl<'a> Views<'a> {
 
     fn side(&self, scale: Scale, letters: f64) -> Draft {
         let k = scale.factor();
-        let mut draft = Draft::lettered(letters);
+        let mut draft = Draft::lettered(letters).at_scale(k);
         for entity in &self.side.entities {
             let pen = match entity.layer.as_str() {
                 "PROFILE" => Pen::Outline,
@@ -123,7 +123,7 @@ impl<'a> Views<'a> {
 
     fn development(&self, scale: Scale, letters: f64) -> Draft {
         let k = scale.factor();
-        let mut draft = Draft::lettered(letters);
+        let mut draft = Draft::lettered(letters).at_scale(k);
         let unrolled = |p: Point| Point::new(p.y, -p.x);
         for entity in &self.development.entities {
             let pen = match entity.layer.as_str() {

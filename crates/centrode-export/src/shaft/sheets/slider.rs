@@ -26,7 +26,7 @@ pub(super) fn views(
         0.5 * k * spec.pin_diameter,
     );
     let p = Point::new;
-    let mut draft = Draft::lettered(letters);
+    let mut draft = Draft::lettered(letters).at_scale(k);
     let outline = spec.outline(shaft.groove().width()).scaled(k);
     draft.draw(Pen::Outline, Shape::Contour(outline));
     draft.draw(
@@ -77,7 +77,7 @@ fn section(shaft: &SpiralShaft, k: f64, letters: f64) -> Draft {
         0.5 * k * spec.pin_diameter,
     );
     let p = Point::new;
-    let mut draft = Draft::lettered(letters);
+    let mut draft = Draft::lettered(letters).at_scale(k);
     for side in [[-long, -bore], [bore, long]] {
         let (min, max) = (p(side[0], 0.0), p(side[1], high));
         let corners = [min, p(max.x, min.y), max, p(min.x, max.y)];
