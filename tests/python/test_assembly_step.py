@@ -1,13 +1,16 @@
 """The whole machine as one STEP file, read by another CAD kernel with its names, places and colours."""
 
+import csv
 import math
-import re
 from collections import Counter
+from itertools import combinations
 
 import centrode as ct
 import numpy as np
 import pytest
 from conftest import ROOT
+from OCP.Bnd import Bnd_Box
+from OCP.BRepBndLib import BRepBndLib
 from OCP.BRepCheck import BRepCheck_Analyzer
 from OCP.BRepGProp import BRepGProp
 from OCP.collections import Sequence_TDF_Label
@@ -116,17 +119,36 @@ def test_bodies_are_written_once_and_colored(shipped):
     assert len(set(painted)) > 4
 
 
-def test_pieces_weigh_what_the_parts_list_says(shipped):
-    folder = shipped("jansen-leg", "csv,step")
-    density = 1200e-9
-    mass = {
-        row.split(",")[1]: float(row.split(",")[4])
-        for row in (folder / "parts.csv").read_text().splitlines()[1:]
-        if re.match(r"[\d.]+$", row.split(",")[4])
-    }
+@pytest.mark.parametrize(("name", "density"), [("jansen-leg", 1200), ("feeder-2022", 7850)])
+def test_pieces_weigh_what_the_parts_list_says(name, density, shipped):
+    folder = shipped(name, "csv,step")
+    with (folder / "parts.csv").open(newline="") as lines:
+        rows = [row for row in csv.DictReader(lines) if row["files"] and row.get("mass_kg")]
     assembly = Assembly(folder / "assembly.step")
-    weighed = {product: volume(shape) * density for _, product, _, shape in assembly.pieces}
-    alike = [part for part in mass if part in weighed]
-    assert len(alike) > 3
-    for part in alike:
-        assert math.isclose(weighed[part], mass[part], rel_tol=1e-6), part
+    weighed = {product: volume(shape) * density * 1e-9 for _, product, _, shape in assembly.pieces}
+    assert len(rows) > 3
+    for row in rows:
+        # All pieces of a part that is on one link are one product: two plates of a frame.
+        pieces = int(row["quantity"]) if row["files"] == "frame" else 1
+        assert math.isclose(weighed[row["files"]], pieces * float(row["mass_kg"]), rel_tol=1e-6), row["part"]
+
+
+def test_gears_and_plates_of_the_feeder_stand_clear_of_each_other(shipped):
+    assembly = Assembly(shipped("feeder-2022", "step") / "assembly.step")
+    heights = {}
+    for _, product, place, shape in assembly.pieces:
+        assert np.allclose(place[2], [0, 0, 1, 0])
+        solids = TopExp_Explorer(shape, TopAbs_SOLID)
+        while solids.More():
+            box = Bnd_Box()
+            BRepBndLib.AddOptimal_s(solids.Current(), box, False, False)
+            heights.setdefault(product, []).append((box.CornerMin().Z(), box.CornerMax().Z()))
+            solids.Next()
+    assert len(heights["frame"]) == 2
+    assert {"gear-driver", "gear-driven", "gear-entry-cam", "gear-exit-cam"} < set(heights)
+    # In one layer are the gears, which mesh, and the slider in its slot.
+    together = [{"gear-driver", "gear-driven"}, {"effector", "slider"}]
+    spans = [(product, span) for product, all_spans in heights.items() for span in all_spans]
+    for (one, (low, high)), (other, (bottom, top)) in combinations(spans, 2):
+        if {one, other} not in together:
+            assert high < bottom or top < low, (one, other)

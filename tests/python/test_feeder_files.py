@@ -100,7 +100,7 @@ def test_without_the_constraints_mujoco_does_not_follow(feeder, tmp_path):
     text = (folder / "machine.xml").read_text()
     assert text.count("<connect ") == 2
     model = mujoco.MjModel.from_xml_path(str(folder / "machine.xml"))
-    assert (model.neq, model.njnt) == (2, 5)
+    assert (model.neq, model.njnt) == (2, 6)
     data = mujoco.MjData(model)
     data.eq_active[:] = 0
     crank = model.joint("crank_joint")

@@ -29,7 +29,7 @@ NUMBER = r"-?[\d.]+"
 HOLE = re.compile(rf"^(?:[^:]+: )?Ø({NUMBER})(?: (\S+))?")
 PLACE = re.compile(rf"^at ({NUMBER}), ({NUMBER})")
 KEYWAY = re.compile(rf"^keyway ({NUMBER})")
-KEYED = re.compile(rf"^Ø \+ depth ({NUMBER}), at {NUMBER}°$")
+KEYED = re.compile(rf"^Ø \+ depth ({NUMBER}) \(\+0\.100 / 0\), at {NUMBER}°$")
 ENDS = re.compile(rf"^R({NUMBER}) about ({NUMBER}), ({NUMBER}) and ({NUMBER}), ({NUMBER})$")
 
 

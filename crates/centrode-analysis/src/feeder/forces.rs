@@ -62,8 +62,8 @@ impl FeederForces {
             .into_iter()
             .filter(|part| part.carrier().is_some())
         {
-            let body = feeder.body(&feeder.plate(part)?);
-            let (_, mass) = body.map_err(|source| FeederForcesError::Solid {
+            let bodies = feeder.bodies(&feeder.plate(part)?);
+            let (_, mass) = bodies.map_err(|source| FeederForcesError::Solid {
                 part: part.name(),
                 source,
             })?;

@@ -5,7 +5,7 @@ use nalgebra::Isometry2;
 /// Entities that are one object in programs which know it: a dimension, a hatched area.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Group {
-    /// What they are together.
+    /// Meaning of them together.
     pub object: Object,
     /// How it looks, for all who do not know such objects.
     pub drawn: Vec<Entity>,

@@ -118,10 +118,15 @@ fn gears(feeder: &Feeder, machine: &mut Machine) {
     let made = spec.body();
     let rim = |pitches: u32| [0.0, 0.5 * spec.module * f64::from(pitches) + spec.module];
     let bored = |pitches: u32| format!("{pitches} pitches, bore Ø{}", number(spec.bore, PLACES));
+    let [own, mate, entry, exit] = gears::LINKS.map(|name| machine.link_named(name));
     let mut add =
         |name: &str, links: Vec<usize>, file: &str, remark: String, seen: Option<(&str, u32)>| {
+            let weighed = links.first().map(|&link| &machine.links[link]);
             machine.part(machine::Part {
                 name: name.into(),
+                mass: weighed
+                    .filter(|link| link.name == file)
+                    .and_then(|link| Some(link.mass?.mass)),
                 links,
                 material: match file.is_empty() {
                     true => String::new(),
@@ -137,7 +142,7 @@ fn gears(feeder: &Feeder, machine: &mut Machine) {
     let seen = Some(("driver", driver));
     add(
         "incomplete gear",
-        vec![0],
+        vec![own.unwrap_or(0)],
         "gear-driver",
         bored(driver),
         seen,
@@ -145,7 +150,7 @@ fn gears(feeder: &Feeder, machine: &mut Machine) {
     let seen = Some(("driven gear", driven));
     add(
         "gear on the crank",
-        vec![crank],
+        vec![mate.unwrap_or(crank)],
         "gear-driven",
         bored(driven),
         seen,
@@ -158,10 +163,14 @@ fn gears(feeder: &Feeder, machine: &mut Machine) {
     let cams = if spec.entry > 0.0 && stops > 0 { 2 } else { 0 };
     if cams > 0 {
         let beside = "beside the incomplete gear";
-        add("entry cam", vec![0], "gear-entry-cam", beside.into(), None);
-        add("exit cam", vec![0], "gear-exit-cam", beside.into(), None);
+        for (name, link, file) in [
+            ("entry cam", entry, "gear-entry-cam"),
+            ("exit cam", exit, "gear-exit-cam"),
+        ] {
+            add(name, vec![link.unwrap_or(0)], file, beside.into(), None);
+        }
         let pin = pressed(spec.pin_diameter.unwrap_or(2.5 * spec.module));
-        let pins = vec![crank; 2 * stops as usize];
+        let pins = vec![mate.unwrap_or(crank); 2 * stops as usize];
         let remark = format!("{}, pressed into the driven gear", fit::shaft(&pin));
         add("pin of a cam", pins, "", remark, None);
     }
@@ -175,9 +184,10 @@ fn gears(feeder: &Feeder, machine: &mut Machine) {
 fn shafts(feeder: &Feeder, crank: usize, cams: usize, machine: &mut Machine) {
     let (body, plates) = (feeder.design().gears.body(), &feeder.design().plates);
     let seat = |name, hole: &str| Fit::new(name, body.bore, [hole, &body.shaft_fit]);
+    let own = machine.link_named(gears::LINKS[0]).unwrap_or(0);
     let hubs = seat("gears and crank on their shafts", &body.bore_fit);
     for (name, link) in [
-        ("shaft of the incomplete gear, G", 0),
+        ("shaft of the incomplete gear, G", own),
         ("shaft of the crank, A", crank),
     ] {
         machine.part(machine::Part {
@@ -189,7 +199,7 @@ fn shafts(feeder: &Feeder, crank: usize, cams: usize, machine: &mut Machine) {
     }
     machine.fit(hubs);
     machine.fit(seat("shafts A and G in the frame", &plates.bearing_fit));
-    let on_gears = [vec![0; 1 + cams], vec![crank]].concat();
+    let on_gears = [vec![own; 1 + cams], vec![crank]].concat();
     gear_pair::list_keys(machine, &body, on_gears);
     let on_crank = BodySpec {
         width: plates.thickness,

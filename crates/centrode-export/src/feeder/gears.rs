@@ -1,11 +1,14 @@
-use centrode_geometry::{Outline, Point, Segment, Tolerance};
-use centrode_mechanism::feeder::Feeder;
+use std::sync::Arc;
+
+use centrode_geometry::{Outline, Point, Segment, SolidError, Tolerance};
+use centrode_mechanism::feeder::{Feeder, Part};
 use centrode_mechanism::gear::design::BodySpec;
 use centrode_mechanism::gear::{Gear, IncompletePair};
+use centrode_mechanism::machine::{Form, Joint, Linear, Link, Machine, Quantity, Shape};
 use nalgebra::Isometry2;
 
 use crate::csv::Column;
-use crate::drawing::{Anchor, CENTER, Color, Drawing, HOLE, LineType, PROFILE, Shape};
+use crate::drawing::{Anchor, CENTER, Color, Drawing, HOLE, LineType, PROFILE, Shape as Drawn};
 use crate::plate::{Hole, Plate};
 use crate::sheet::{Table, capital, number};
 
@@ -15,6 +18,12 @@ const CAM: &str = "CAM";
 const DRIVER: &str = "gear-driver";
 const DRIVEN: &str = "gear-driven";
 const CAMS: [&str; 2] = ["gear-entry-cam", "gear-exit-cam"];
+
+/// Accuracy of their bodies in the machine, mm.
+const FINE: f64 = 1e-3;
+
+/// Links of the gears: the incomplete gear with its cams on the shaft G, its mate on that of the crank.
+pub(super) const LINKS: [&str; 4] = [DRIVER, DRIVEN, CAMS[0], CAMS[1]];
 
 /// Tolerance class of the holes into which the pins are pressed.
 pub(super) const PIN_HOLES: &str = "H7";
@@ -87,6 +96,66 @@ fn data(feeder: &Feeder, gears: &IncompletePair, gear: &Gear, teeth: String) -> 
     }
 }
 
+/// Adds the gears as links with their bodies, behind the rear frame plate: from there the exit cam, the gears, the entry cam.
+pub(super) fn mount(
+    feeder: &Feeder,
+    gears: &IncompletePair,
+    machine: &mut Machine,
+) -> Result<(), SolidError> {
+    let parts = parts(
+        feeder,
+        gears,
+        Tolerance::new(FINE).unwrap_or(gears.accuracy()),
+    );
+    let (frame, crank) = (Part::Frame.link(), Part::Crank.link());
+    let (spec, plates) = (&feeder.design().gears, &feeder.design().plates);
+    let next = spec.width + plates.gap;
+    let behind = -(plates.thickness + plates.gap) - next;
+    let middle = if parts.len() > 2 {
+        behind - next
+    } else {
+        behind
+    };
+    let mut driver = frame;
+    for part in &parts {
+        let link = machine.link(Link {
+            name: part.name.clone(),
+            ..Link::default()
+        });
+        let (joint, bottom) = match &*part.name {
+            DRIVER => {
+                driver = link;
+                let law = Linear {
+                    start: 0.0,
+                    slope: -1.0,
+                };
+                let joint = Joint::turning(frame, link, Arc::new(law));
+                (joint.at([-spec.center_distance(), 0.0, 0.0]), middle)
+            }
+            DRIVEN => (Joint::fixed(crank, link), middle),
+            name if name == CAMS[0] => (Joint::fixed(driver, link), middle - next),
+            _ => (Joint::fixed(driver, link), behind),
+        };
+        let joint = machine.joint(joint);
+        if link == driver {
+            // Its locking arc and its teeth hold the crank to it.
+            machine.joints[Part::Crank.joint()].leader = Some(joint);
+            let meaning = "incomplete gear against the frame, counter-clockwise";
+            let name = "gear_driver_joint_rad";
+            machine.column(name, "rad", meaning, Quantity::joint(joint));
+        }
+        let span = [bottom, bottom + part.thickness];
+        machine.links[link].mass = Some(part.mass(span)?);
+        let shape = machine.shape(Shape {
+            name: format!("links/{}", part.name),
+            part: String::new(),
+            form: Form::Solids(vec![part.placed(span)?]),
+        });
+        machine.links[link].shape = Some(shape);
+    }
+    Ok(())
+}
+
 /// Corners of a part's contour, in order, and how the side that begins there is bent: the tangent of a quarter of its angle.
 pub(super) fn columns(part: &Plate) -> Vec<Column> {
     let segments = part.outline.segments();
@@ -116,10 +185,10 @@ pub(super) fn assembly(gears: &IncompletePair, parts: &[Plate]) -> Drawing {
             false => PROFILE,
         };
         for hole in &part.holes {
-            drawing.draw(HOLE, Shape::Contour(hole.outline.transformed(&place)));
+            drawing.draw(HOLE, Drawn::Contour(hole.outline.transformed(&place)));
         }
-        drawing.draw(CENTER, Shape::Mark(place * Point::origin()));
-        drawing.draw(layer, Shape::Contour(part.outline.transformed(&place)));
+        drawing.draw(CENTER, Drawn::Mark(place * Point::origin()));
+        drawing.draw(layer, Drawn::Contour(part.outline.transformed(&place)));
     }
     drawing
 }

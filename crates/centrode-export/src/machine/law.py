@@ -11,7 +11,7 @@ class Law:
     def __init__(self, folder):
         """Reads both files."""
         self.about = json.loads((folder / "motion.json").read_text())
-        self.table = np.genfromtxt(folder / self.about["table"], delimiter=",", names=True)
+        self.table = np.genfromtxt(folder / self.about["table"], delimiter=",", names=True, deletechars="")
         # Lists: single values are read from them faster than from arrays.
         self.values = {name: self.table[name].tolist() for name in self.table.dtype.names}
         self.period = self.about["input"]["period_rad"]

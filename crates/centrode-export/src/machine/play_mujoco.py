@@ -37,7 +37,7 @@ class Machine:
         self.input = self.law.about["input"]["joint"]
         self.travelled = 0.0
         self.forces = dict.fromkeys(self.joints, 0.0)
-        self.free, self.load, self.reached = [], {}, {}
+        self.held, self.free, self.load, self.reached = [], [], {}, {}
         # Of several chains that are alike the first tells.
         self.meshes = [mesh for mesh in self.law.about["meshes"] if mesh["copy"] == 0]
         self.touch({link for mesh in self.meshes for link in mesh["links"]})
@@ -63,7 +63,9 @@ class Machine:
         """Leaves free what teeth and closed loops carry, with a load at the end of a chain of gears."""
         about, model, meshes = self.law.about, self.model, self.meshes
         carried = [mesh["joint"] for mesh in meshes]
-        self.free = [name for name in (self.joints if about["closures"] else carried) if name != self.input]
+        led = [name for name, joint in self.law.joints.items() if joint["leader"] == self.input]
+        self.held = [self.input, *led]
+        self.free = [name for name in (self.joints if about["closures"] else carried) if name not in self.held]
         if not self.free:
             raise SystemExit("--contact is for machines with gears or closed loops")
         # Only teeth and closures may tie the links: no joint follows another by an equation.
@@ -73,7 +75,7 @@ class Machine:
         for name in self.joints:
             if name not in self.free:
                 # Too heavy to be held up, or moved, by what it touches.
-                model.dof_armature[self.joints[name].dofadr] = 1e3 if name == self.input else 1e6
+                model.dof_armature[self.joints[name].dofadr] = 1e3 if name in self.held else 1e6
         drives = {link for mesh in meshes for link in mesh["links"][:1]}
         for mesh in meshes:
             if mesh["links"][1] not in drives:
@@ -113,11 +115,11 @@ class Machine:
         self.travelled = travel
 
     def carry(self, step):
-        """One step of what teeth and closures carry, the input by its law, followers by what leads them."""
+        """One step of what teeth and closures carry, the input and what it leads by their laws, others by what leads them."""
         ahead = self.travelled + self.speed * step
-        joint = self.joints[self.input]
-        now, then = self.law(self.input, self.travelled), self.law(self.input, ahead)
-        self.data.qpos[joint.qposadr], self.data.qvel[joint.dofadr] = now, (then - now) / step
+        for name in self.held:
+            joint, now, then = self.joints[name], self.law(name, self.travelled), self.law(name, ahead)
+            self.data.qpos[joint.qposadr], self.data.qvel[joint.dofadr] = now, (then - now) / step
         for name, load in self.load.items():
             column = self.law.joints[name]["load"]
             if column:

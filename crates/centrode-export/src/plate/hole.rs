@@ -34,10 +34,7 @@ impl Hole {
             bore.notes = vec![
                 fit::bore(body.bore, &body.bore_fit),
                 format!("keyway {}", fit::keyway(key.width, &body.keyway_fit)),
-                format!(
-                    "Ø + depth {}, at {angle}°",
-                    number(body.bore + key.depth, 3)
-                ),
+                format!("Ø + depth {}, at {angle}°", fit::hub_depth(body.bore, key)),
             ];
         }
         bore

@@ -1,5 +1,6 @@
 //! Holes, keyways and shafts as written on a drawing, with their limits.
 
+use centrode_mechanism::gear::design::Keyway;
 use centrode_mechanism::machine::{Fit, limits_of_size};
 
 use super::number;
@@ -9,9 +10,21 @@ pub(crate) fn bore(diameter: f64, class: &str) -> String {
     fitted(&format!("Ø{}", number(diameter, 4)), diameter, class)
 }
 
-/// A keyway's width as written on a drawing.
+/// Width of a keyway, of a slot or of what runs in it as written on a drawing.
 pub(crate) fn keyway(width: f64, class: &str) -> String {
     fitted(&number(width, 3), width, class)
+}
+
+/// Diameter and depth of a keyway in a hub as written on a drawing.
+pub(crate) fn hub_depth(bore: f64, key: Keyway) -> String {
+    let deeper = key.depth_tolerance().map(|most| [0.0, most]);
+    limited(&number(bore + key.depth, 3), deeper)
+}
+
+/// Rest of a shaft's diameter under a keyway as written on a drawing.
+pub(crate) fn shaft_depth(diameter: f64, key: Keyway) -> String {
+    let deeper = key.depth_tolerance().map(|most| [-most, 0.0]);
+    limited(&number(diameter - key.depth, 3), deeper)
 }
 
 /// Size of what is in a hole or slot as written on a drawing.
@@ -26,16 +39,24 @@ pub(crate) fn size(fit: &Fit) -> String {
 }
 
 fn fitted(size: &str, nominal: f64, class: &str) -> String {
+    let size = match class {
+        "" => size.to_owned(),
+        class => format!("{size} {class}"),
+    };
+    limited(&size, limits_of_size(nominal, class))
+}
+
+/// A size with its limits, upper one first, where there are any, mm.
+fn limited(size: &str, limits: Option<[f64; 2]>) -> String {
     // Half of an odd grade is written to the half micrometre.
     let signed = |mm: f64| match (mm * 1e4).round() {
         0.0 => "0".to_owned(),
         tenths if tenths % 10.0 == 0.0 => format!("{mm:+.3}"),
         _ => format!("{mm:+.4}"),
     };
-    match limits_of_size(nominal, class) {
-        Some([low, high]) => format!("{size} {class} ({} / {})", signed(high), signed(low)),
-        None if class.is_empty() => size.to_owned(),
-        None => format!("{size} {class}"),
+    match limits {
+        Some([low, high]) => format!("{size} ({} / {})", signed(high), signed(low)),
+        None => size.to_owned(),
     }
 }
 
@@ -66,5 +87,9 @@ mod tests {
             ..Fit::default()
         };
         assert_eq!(shaft(&fit), "Ø16 h6 (0 / -0.011)");
+        let key = |width: f64, depth: f64| Keyway { width, depth };
+        assert_eq!(hub_depth(12.0, key(4.0, 1.8)), "13.8 (+0.100 / 0)");
+        assert_eq!(shaft_depth(25.0, key(8.0, 4.0)), "21 (0 / -0.200)");
+        assert_eq!(hub_depth(12.0, key(4.5, 1.8)), "13.8");
     }
 }

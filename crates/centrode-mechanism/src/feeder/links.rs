@@ -2,7 +2,7 @@ use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use centrode_geometry::{MassProperties, Solid, SolidError, Vector};
-use nalgebra::{Isometry2, Isometry3};
+use nalgebra::Isometry2;
 
 use super::{Feeder, Part, Plate};
 use crate::machine::{Closure, Input, Joint, Link, LinkPoint, Load, Machine, STANDARD_GRAVITY};
@@ -101,21 +101,24 @@ impl Feeder {
         machine
     }
 
-    /// Body of a plate in the frame of its link, and the mass of all its plates: a second one of the frame stands above the others.
+    /// Plates of a part in the frame of its link, and the mass of all: a second one of the frame stands above the others.
     ///
     /// # Errors
     /// [`SolidError`] where the plate encloses no volume.
-    pub fn body(&self, plate: &Plate) -> Result<(Solid, MassProperties), SolidError> {
+    pub fn bodies(&self, plate: &Plate) -> Result<(Vec<Solid>, MassProperties), SolidError> {
         let place = self.place(plate.part, self.start());
         let turned = Isometry2::new(Vector::zeros(), place.rotation.angle());
-        let solid = plate.solid_at(&turned, plate.bottom)?;
         let spec = &self.design().plates;
-        let one = solid.mass_properties(spec.density);
         let above = 5.0 * (spec.thickness + spec.gap);
-        let all: Vec<MassProperties> = (0..plate.part.quantity())
-            .map(|k| one.placed(&Isometry3::translation(0.0, 0.0, f64::from(k) * above)))
+        let heights = (0..plate.part.quantity()).map(|k| plate.bottom + f64::from(k) * above);
+        let solids = heights.map(|bottom| plate.solid_at(&turned, bottom));
+        let solids = solids.collect::<Result<Vec<Solid>, _>>()?;
+        let masses: Vec<MassProperties> = solids
+            .iter()
+            .map(|solid| solid.mass_properties(spec.density))
             .collect();
-        Ok((solid, MassProperties::together(&all).unwrap_or(one)))
+        let together = MassProperties::together(&masses).unwrap_or(masses[0]);
+        Ok((solids, together))
     }
 
     /// Direction of the effector's slot where it rests, and how far the slider goes in it either way, mm.

@@ -14,6 +14,10 @@ pub struct SliderSpec {
     pub length: f64,
     /// Difference of the groove's width and its own, mm.
     pub clearance: f64,
+    /// Tolerance class of the groove's width, ISO 286, for the drawing.
+    pub groove_fit: String,
+    /// Tolerance class of its own width, ISO 286, for the drawing.
+    pub slider_fit: String,
     /// Depth to which it reaches into the groove, mm.
     pub reach: f64,
     /// Diameter of the bore for the pin it turns on, mm.
@@ -33,6 +37,8 @@ impl Default for SliderSpec {
         Self {
             length: 42.0,
             clearance: 0.7,
+            groove_fit: "H11".into(),
+            slider_fit: "h11".into(),
             reach: 3.5,
             pin_diameter: 5.0,
             hole_fit: "H8".into(),
@@ -55,6 +61,8 @@ impl SliderSpec {
         positive("pin_diameter", self.pin_diameter)?;
         positive("density", self.density)?;
         for (key, value) in [
+            ("groove_fit", &self.groove_fit),
+            ("slider_fit", &self.slider_fit),
             ("hole_fit", &self.hole_fit),
             ("pin_fit", &self.pin_fit),
             ("material", &self.material),

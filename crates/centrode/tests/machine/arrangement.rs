@@ -13,7 +13,7 @@ use super::machines;
 fn printed(sheet: &Sheet) -> (Vec<&str>, Vec<(&str, usize)>) {
     let mut words = Vec::new();
     let mut lines: Vec<(&str, usize)> = Vec::new();
-    for entity in &sheet.drawing.entities {
+    for entity in sheet.drawing.plain() {
         if let Shape::Text(text) = &entity.shape {
             words.push(text.words.as_str());
             continue;

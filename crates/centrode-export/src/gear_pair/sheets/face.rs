@@ -241,7 +241,7 @@ pub(super) fn bore(part: &Part<'_>) -> Option<Draft> {
     draft.line(Pen::Axis, p(-reach, 0.0), p(reach, 0.0));
     draft.line(Pen::Axis, p(0.0, -reach), p(0.0, reach));
     let below = p(0.0, -reach - 6.0);
-    let depth = number(body.bore + key.depth, 3);
+    let depth = fit::hub_depth(body.bore, key);
     draft.dimension([p(-half, 0.0), p(top, wide)], Vector::x(), below, &depth);
     let beside = p(reach + 5.0, 0.0);
     let width = fit::keyway(key.width, &body.keyway_fit);

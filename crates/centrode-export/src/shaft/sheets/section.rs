@@ -1,6 +1,6 @@
 //! Sections of the shaft: its journal with the keyway, and the groove.
 
-use crate::sheet::number;
+use crate::sheet::{fit, number};
 use crate::{
     drawing::{Anchor, Shape},
     sheet::{Draft, Pen, Scale},
@@ -35,11 +35,11 @@ pub(super) fn journal(shaft: &SpiralShaft, tolerance: Tolerance) -> Draft {
     if let Some(key) = body.keyway {
         let (half, foot) = (0.5 * k * key.width, radius - k * key.depth);
         let below = p(0.0, -reach - 6.0);
-        let rest = number(body.journal_diameter - key.depth, 3);
+        let rest = fit::shaft_depth(body.journal_diameter, key);
         draft.dimension([p(-foot, -half), p(radius, 0.0)], Vector::x(), below, &rest);
         let edge = (radius * radius - half * half).max(0.0).sqrt();
         let beside = p(-reach - 5.0, 0.0);
-        let width = number(key.width, 3);
+        let width = fit::keyway(key.width, &body.keyway_fit);
         draft.dimension(
             [p(-edge, -half), p(-edge, half)],
             Vector::y(),
@@ -52,7 +52,7 @@ pub(super) fn journal(shaft: &SpiralShaft, tolerance: Tolerance) -> Draft {
     draft.leader(
         tip,
         elbow,
-        &[format!("Ø{}", number(body.journal_diameter, 3))],
+        &[fit::bore(body.journal_diameter, &body.journal_fit)],
     );
     title(&mut draft, &format!("A-A ({scale})"));
     draft
@@ -132,7 +132,7 @@ pub(super) fn groove(shaft: &SpiralShaft, tolerance: Tolerance) -> Draft {
         }
     }
     draft.line(Pen::Axis, p(0.0, -deep - 2.0), p(0.0, 4.0));
-    let width = number(groove.width(), 3);
+    let width = fit::keyway(groove.width(), &shaft.slider().groove_fit);
     draft.dimension(
         [p(-half, 0.0), p(half, 0.0)],
         Vector::x(),

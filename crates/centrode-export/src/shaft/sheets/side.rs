@@ -1,7 +1,7 @@
 //! The shaft from the side, and its surface unrolled below.
 
 use super::scaled;
-use crate::sheet::number;
+use crate::sheet::{fit, number};
 use crate::{
     ExportError,
     drawing::{Anchor, Drawing},
@@ -90,7 +90,7 @@ impl<'a> Views<'a> {
             [p(end, -j), p(end, j)],
             upright,
             beside(0.0),
-            &diameter(2.0 * j),
+            &fit::bore(2.0 * j, &body.journal_fit),
         );
         draft.dimension(
             [p(high, -r), p(high, r)],

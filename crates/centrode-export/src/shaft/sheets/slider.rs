@@ -50,7 +50,7 @@ pub(super) fn views(
         [p(0.0, -wide), p(0.0, wide)],
         Vector::y(),
         beside,
-        &number(width, 3),
+        &fit::keyway(width, &spec.slider_fit),
     );
     let tip = p(-0.6 * bore, -0.8 * bore);
     let elbow = p(-long - 4.0, -wide - 7.0);

@@ -115,6 +115,15 @@ impl Keyway {
         Some(Self { width, depth })
     }
 
+    /// How much deeper than its nominal depth the keyway of a standard parallel key may be, in hub and shaft, mm; `None` for
+    /// other widths. Source: DIN 6885-1.
+    #[must_use]
+    pub fn depth_tolerance(self) -> Option<f64> {
+        let mut keys = KEYS.into_iter();
+        let (width, ..) = keys.find(|(b, ..)| *b == self.width)?;
+        Some(if width <= 6.0 { 0.1 } else { 0.2 })
+    }
+
     /// The keyway of a hub whose parallel key lies in this one of a shaft: as wide, and as deep as DIN 6885-1 asks for
     /// keys of its widths; for others, a square key with room above it.
     #[must_use]
@@ -214,6 +223,8 @@ mod tests {
             Some("Key DIN 6885-1 A 12 x 8 x 400")
         );
         assert_eq!((key(5.0, 5.9), key(5.5, 15.0)), (None, None));
+        let room = |width: f64| Keyway { width, depth: 2.0 }.depth_tolerance();
+        assert_eq!([6.0, 8.0, 5.5].map(room), [Some(0.1), Some(0.2), None]);
     }
 
     #[test]

@@ -19,6 +19,8 @@ pub struct ShaftBody {
     pub fillet: f64,
     /// Diameter of the journals at both ends, mm.
     pub journal_diameter: f64,
+    /// Tolerance class of the journals, ISO 286, for the drawing.
+    pub journal_fit: String,
     /// Length of each journal, mm.
     pub journal_length: f64,
     /// Chamfers at 45 deg on every end, mm.
@@ -26,6 +28,8 @@ pub struct ShaftBody {
     /// Keyway in the near journal, along x, open at its end; depth from the journal's surface.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub keyway: Option<Keyway>,
+    /// Tolerance class of the keyway's width, ISO 286, for the drawing.
+    pub keyway_fit: String,
     /// Length of the keyway, mm.
     pub keyway_length: f64,
     /// Density, kg/m^3.
@@ -40,12 +44,14 @@ impl Default for ShaftBody {
             margin: 8.0,
             fillet: 0.5,
             journal_diameter: 16.0,
+            journal_fit: "h6".into(),
             journal_length: 25.0,
             chamfer: 1.0,
             keyway: Some(Keyway {
                 width: 5.0,
                 depth: 3.0,
             }),
+            keyway_fit: "N9".into(),
             keyway_length: 18.0,
             density: 7850.0,
             material: "steel".into(),
@@ -69,7 +75,13 @@ impl ShaftBody {
         positive("journal_length", self.journal_length)?;
         not_negative("chamfer", self.chamfer)?;
         positive("density", self.density)?;
-        single_line("material", &self.material)?;
+        for (key, value) in [
+            ("journal_fit", &self.journal_fit),
+            ("keyway_fit", &self.keyway_fit),
+            ("material", &self.material),
+        ] {
+            single_line(key, value)?;
+        }
         let below = |key: &str, value: f64, limit: f64| {
             if value < limit {
                 return Ok(());
