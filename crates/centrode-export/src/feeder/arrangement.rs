@@ -3,7 +3,9 @@ use std::f64::consts::TAU;
 use centrode_geometry::Point;
 use centrode_mechanism::feeder::{Feeder, Part, Plate};
 use centrode_mechanism::gear::design::BodySpec;
-use centrode_mechanism::machine::{self, Axis, Datum, Dimension, Fit, Line, LineRole, Machine};
+use centrode_mechanism::machine::{
+    self, Axis, Blank, Datum, Dimension, Fit, Form, Line, LineRole, Machine,
+};
 
 use super::gears;
 use crate::gear_pair;
@@ -71,6 +73,7 @@ fn list(feeder: &Feeder, plate: &Plate, machine: &mut Machine) {
         name: name.into(),
         links: vec![link; part.quantity() as usize],
         material: spec.material.clone(),
+        blank: Blank::plate(&plate.outline, plate.thickness),
         mass: Some(volume * spec.density * 1e-9),
         file: name.into(),
         remark: format!("z = {}", number(plate.bottom, PLACES)),
@@ -122,8 +125,17 @@ fn gears(feeder: &Feeder, machine: &mut Machine) {
     let mut add =
         |name: &str, links: Vec<usize>, file: &str, remark: String, seen: Option<(&str, u32)>| {
             let weighed = links.first().map(|&link| &machine.links[link]);
+            let body = weighed.and_then(|link| match &machine.shapes[link.shape?].form {
+                Form::Solids(solids) if link.name == file => solids.first(),
+                _ => None,
+            });
+            let blank = body.and_then(|body| match seen {
+                Some(_) => Blank::round(body.outline(), spec.width),
+                None => Blank::plate(body.outline(), spec.width),
+            });
             machine.part(machine::Part {
                 name: name.into(),
+                blank,
                 mass: weighed
                     .filter(|link| link.name == file)
                     .and_then(|link| Some(link.mass?.mass)),
@@ -135,7 +147,6 @@ fn gears(feeder: &Feeder, machine: &mut Machine) {
                 file: file.into(),
                 remark,
                 place: seen.and_then(|(figure, pitches)| machine.place_on(figure, rim(pitches))),
-                ..machine::Part::default()
             });
         };
     let (driver, driven) = (spec.driver_pitches, spec.driven_pitches);

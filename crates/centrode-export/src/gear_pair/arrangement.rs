@@ -1,6 +1,6 @@
 use centrode_mechanism::gear::design::BodySpec;
 use centrode_mechanism::gear::{Gear, GearPair, Member};
-use centrode_mechanism::machine::{Callout, Datum, Fit, Machine, Part};
+use centrode_mechanism::machine::{Blank, Callout, Datum, Fit, Machine, Part};
 
 use crate::sheet::{fit, number, range};
 
@@ -82,6 +82,7 @@ pub(crate) fn list(
         name: name.into(),
         links,
         material: gear.body().material.clone(),
+        blank: Blank::round(gear.outline(), gear.body().width),
         mass: Some(mass(gear)),
         file: file.into(),
         remark: format!("{} teeth", gear.tooth_count()),

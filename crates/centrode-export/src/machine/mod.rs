@@ -3,6 +3,7 @@
 
 mod arrangement;
 mod bodies;
+mod cuts;
 mod file;
 mod model;
 mod motion;

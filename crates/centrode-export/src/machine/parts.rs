@@ -75,6 +75,11 @@ pub(super) fn columns(machine: &Machine) -> Vec<Column> {
         words("part", &|part| part.name.clone()),
         words("quantity", &|part| part.quantity().to_string()),
         words("material", &|part| part.material.clone()),
+        words("blank", &|part| {
+            part.blank
+                .map(|blank| blank.to_string())
+                .unwrap_or_default()
+        }),
         words("mass_kg", &|part| {
             part.mass
                 .map(|mass| format!("{mass:?}"))

@@ -1,7 +1,7 @@
 use std::f64::consts::TAU;
 
 use centrode_mechanism::gear::Member;
-use centrode_mechanism::machine::{Axis, Datum, Dimension, Fit, Machine as Linked, Part};
+use centrode_mechanism::machine::{Axis, Blank, Datum, Dimension, Fit, Machine as Linked, Part};
 use centrode_mechanism::shaft::ShaftSolid;
 
 use super::figures;
@@ -72,11 +72,16 @@ fn list(parts: &Machine<'_>, machine: &mut Linked) -> Result<(), ExportError> {
     let weight = |machine: &Linked, link: usize| machine.links[link].mass.map(|mass| mass.mass);
     let [turned, carriage, slid] =
         ["shaft", "box", "slider"].map(|name| machine.link_named(name).unwrap_or(0));
-    let [low, _] = ShaftSolid::new(shaft.groove(), body)?.ends();
+    let solid = ShaftSolid::new(shaft.groove(), body)?;
+    let ([low, _], [near, far]) = (solid.ends(), solid.whole());
     machine.part(Part {
         name: "Spiral shaft".into(),
         links: vec![turned],
         material: body.material.clone(),
+        blank: Some(Blank::Round {
+            diameter: 2.0 * shaft.groove().radius(),
+            length: far - near,
+        }),
         mass: weight(machine, turned),
         file: "shaft".into(),
         place: machine.place_on("shaft", [low, -0.25 * TAU * shaft.groove().radius()]),
@@ -86,6 +91,7 @@ fn list(parts: &Machine<'_>, machine: &mut Linked) -> Result<(), ExportError> {
         name: "Slider".into(),
         links: vec![slid],
         material: slider.material.clone(),
+        blank: Blank::plate(&slider.outline(shaft.groove().width()), slider.reach),
         mass: weight(machine, slid),
         file: "slider".into(),
         remark: format!("{} long", number(slider.length, 3)),

@@ -1,6 +1,6 @@
 use centrode_geometry::Point;
 use centrode_mechanism::gear::Member;
-use centrode_mechanism::machine::{self, Axis, Callout, Datum, Dimension};
+use centrode_mechanism::machine::{self, Axis, Blank, Callout, Datum, Dimension};
 use centrode_mechanism::three_arm::ThreeArm;
 
 use super::Part;
@@ -139,6 +139,7 @@ fn list(parts: &Machine<'_>, part: Part, machine: &mut machine::Machine) {
         name: part.title().into(),
         links,
         material: plate.material,
+        blank: Blank::plate(&plate.outline, plate.thickness),
         mass: mass.map(|mass| mass.mass),
         file: part.name().into(),
         remark: format!("{} thick", number(plate.thickness, 3)),

@@ -6,7 +6,7 @@ use super::load::ComposedLoad;
 use super::pieces::Pieces;
 use super::{Composed, ComposedBody};
 use crate::machine::{
-    Closure, Fit, Form, GearMesh, Input, Joint, JointKind, Line, LineRole, Link, LinkPoint,
+    Blank, Closure, Fit, Form, GearMesh, Input, Joint, JointKind, Line, LineRole, Link, LinkPoint,
     Machine, Mark, Part, PitchCurves, Quantity, Shape, Surface,
 };
 
@@ -84,7 +84,7 @@ impl Composed {
     /// Lists the plates, the bodies of given masses, the gears and the cams as parts, each with the files of its name; copies
     /// are pieces of one part.
     fn list(&self, machine: &mut Machine, pieces: &[Pieces<'_>]) {
-        for (body, made) in self.bodies.iter().zip(pieces) {
+        for (index, (body, made)) in self.bodies.iter().zip(pieces).enumerate() {
             let outline = made.plate.as_ref().map(|plate| plate.outline());
             if outline.is_none() && made.mass.is_none() {
                 continue;
@@ -93,6 +93,7 @@ impl Composed {
             let part = Part {
                 name: body.name.clone(),
                 material: material.to_owned(),
+                blank: outline.and_then(|outline| Blank::plate(outline, self.thickness(index))),
                 mass: made.mass.map(|own| own.mass),
                 ..Part::default()
             };
@@ -105,6 +106,7 @@ impl Composed {
             let part = Part {
                 name: piece.of.name.clone(),
                 material: gear.body().material.clone(),
+                blank: Blank::round(gear.outline(), gear.body().width),
                 mass: Some(piece.mass.mass),
                 remark: format!("{} teeth", gear.tooth_count()),
                 ..Part::default()
@@ -122,6 +124,7 @@ impl Composed {
             let part = Part {
                 name: piece.of.name.clone(),
                 material: piece.of.part.body().material.clone(),
+                blank: Blank::plate(piece.solid.outline(), piece.of.part.body().width),
                 mass: Some(piece.mass.mass),
                 remark: format!("moves {}", piece.of.followers.join(", ")),
                 ..Part::default()

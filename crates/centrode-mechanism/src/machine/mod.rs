@@ -4,6 +4,7 @@
 //! and nothing else. Loops are closed when it is made: the joints' laws already hold them, and the closures stay known.
 
 mod arrangement;
+mod blank;
 mod contact;
 mod figure;
 mod fit;
@@ -26,6 +27,7 @@ use serde::{Deserialize, Serialize};
 use crate::transmission::Transmission;
 
 pub use arrangement::{Arrangement, Axis, Callout, Datum, Dimension, Place};
+pub use blank::Blank;
 pub use contact::{Closure, Contact, ContactLine, GearMesh, Guide, GuideForce, PitchCurves};
 pub use figure::{Figure, Line, LinePath, LineRole, Mark, Seat, Sketch};
 pub use fit::{Fit, limits_of_size, preferred_size};

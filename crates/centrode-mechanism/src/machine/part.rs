@@ -2,7 +2,7 @@ use centrode_geometry::MassProperties;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Machine, Place};
+use super::{Blank, Machine, Place};
 
 /// Part that a shop makes or buys: a line of the parts list.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
@@ -14,6 +14,9 @@ pub struct Part {
     pub links: Vec<usize>,
     /// Material; empty where the design says nothing of it.
     pub material: String,
+    /// Stock that a piece is made from; none where it is bought, or not known.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub blank: Option<Blank>,
     /// Mass of one piece, kg; none where it is not known.
     pub mass: Option<f64>,
     /// Name that its drawings, sheets and solids begin with; empty for a part without files.

@@ -10,6 +10,7 @@ use centrode_geometry::Tolerance;
 use centrode_mechanism::design::SheetSize;
 use centrode_mechanism::machine::{Column, Machine, Place};
 
+use super::cuts::cut_list;
 use super::parts::parts_list;
 use crate::SheetOptions;
 use crate::drawing::Anchor;
@@ -65,9 +66,10 @@ pub fn arrangement(
     };
     let (parts, data) = (parts_list(machine), data(machine, options));
     let fits = fits::table(machine);
-    let (beside, flowing): (Vec<Table>, Vec<Table>) = motion(machine)
+    let (beside, mut flowing): (Vec<Table>, Vec<Table>) = motion(machine)
         .into_iter()
         .partition(|table| table.rows.len() <= BESIDE);
+    flowing.insert(0, cut_list(machine));
     let pieces = |scale: Scale, size| {
         let tables = [
             ("parts list", &parts),

@@ -1,0 +1,55 @@
+"""Blanks of the cut list, held against the cutting drawings by a polygon library."""
+
+import csv
+import re
+
+import numpy as np
+import pypdf
+import pytest
+from conftest import ROOT
+from reading import contours
+
+DESIGNS = sorted(file.stem for file in (ROOT / "tests" / "designs").glob("*.toml"))
+PLATE = re.compile(r"plate ([\d.]+): ([\d.]+) x ([\d.]+)$")
+ROUND = re.compile(r"round Ø([\d.]+) x ([\d.]+)$")
+
+
+def rectangle(polygon):
+    """Sides of the least rectangle around a polygon, the longer first."""
+    corners = np.array(polygon.minimum_rotated_rectangle.exterior.coords)
+    sides = np.linalg.norm(np.diff(corners, axis=0), axis=1)[:2]
+    return sides.max(), sides.min()
+
+
+@pytest.mark.parametrize("name", DESIGNS)
+def test_blanks_are_the_least_that_the_contours_need(name, shipped):
+    folder = shipped(name, "csv,dxf")
+    with (folder / "parts.csv").open(newline="") as lines:
+        rows = [row for row in csv.DictReader(lines) if row.get("blank") and row["files"] != "shaft"]
+    for row in rows:
+        drawing = folder / f"{row['files']}.dxf"
+        if not drawing.is_file():
+            continue
+        # A gear's drawing shows its tip and pitch curves, too.
+        polygon = max(contours(drawing), key=lambda p: p.area)
+        if plate := PLATE.match(row["blank"]):
+            told = [float(side) for side in plate.groups()[1:]]
+            needed = rectangle(polygon)
+        else:
+            told = [float(ROUND.match(row["blank"])[1])]
+            points = np.array(polygon.exterior.coords)
+            middle = (points.min(axis=0) + points.max(axis=0)) / 2
+            about = np.linalg.norm(points - middle, axis=1)
+            # A disc about its own middle, a gear about its bore.
+            needed = [2 * (about if np.ptp(about) < 1e-2 else np.linalg.norm(points, axis=1)).max()]
+        for side, least in zip(told, needed, strict=True):
+            # Rounded up to a tenth.
+            assert least - 1e-2 < side < least + 0.103, row
+
+
+def test_the_book_of_sheets_has_the_cut_list(shipped):
+    for name in ("feeder-2022", "three-arm-2021", "composed-three-arm"):
+        folder = shipped(name, "pdf")
+        words = "\n".join(page.extract_text() for page in pypdf.PdfReader(folder / "sheets.pdf").pages)
+        assert "Cut list" in words
+        assert "plate " in words
