@@ -140,6 +140,25 @@ impl Gear {
         Ok(record::over_pins(py, &over)?)
     }
 
+    /// Pins in teeth of the greatest and of the least thickness that `thickness_deviations` of the pair allow; None where it
+    /// has none.
+    ///
+    /// >>> import centrode as ct
+    /// >>> pitch = ct.pitch.circle(module=2, tooth_count=24)
+    /// >>> pair = ct.GearPair(pitch, thickness_deviations=(-0.03, -0.06))
+    /// >>> high, low = pair.driver.pin_limits()
+    /// >>> print(f"{high.across[0]:.4f} {low.across[0]:.4f}")
+    /// 51.9968 51.9222
+    fn pin_limits<'py>(&self, py: Python<'py>) -> Answer<Option<Vec<Bound<'py, PyAny>>>> {
+        let (pair, member) = (self.pair.clone(), self.member);
+        let limits = py.detach(move || pair.pin_limits(member))?;
+        let Some(limits) = limits else {
+            return Ok(None);
+        };
+        let records = limits.iter().map(|over| record::over_pins(py, over));
+        Ok(Some(records.collect::<PyResult<_>>()?))
+    }
+
     /// The toothed contour, (N, 2), mm: corners of a closed polygon, counter-clockwise.
     ///
     /// The first point is not repeated at the end. The polygon is nowhere farther than `tolerance` (mm) from

@@ -64,6 +64,8 @@ fn within_turns(input: f64) -> Answer<()> {
 ///     backlash_angle: Play of the driven gear at most, rad, instead of `backlash`.
 ///     thickness_split: The driver's share of the pitch.
 ///     least_tip_width_coefficient: Least width of a tooth at its tip, in modules, before it is reported.
+///     thickness_deviations: Upper and lower deviation of the finished teeth's thickness, mm, neither above zero:
+///         limits of the measures over pins.
 ///     pin_diameter: Diameter of the measuring pins, mm; chosen if left out.
 ///     driver: Body of the driver.
 ///     driven: Body of the driven gear.
@@ -110,7 +112,7 @@ impl GearPair {
 #[pymethods]
 impl GearPair {
     #[new]
-    #[pyo3(signature = (pitch, *, mean_ratio=[Count::Fits(1), Count::Fits(1)], tooth_count=None, center_distance=None, tool=None, addendum="full", phase=Place(Phase::Auto), backlash=0.0, backlash_angle=None, thickness_split=0.5, least_tip_width_coefficient=0.2, pin_diameter=None, driver=None, driven=None, drawing=None, name="gear-pair", title=""), text_signature = "(pitch, *, mean_ratio=(1, 1), tooth_count=None, center_distance=None, tool=None, addendum='full', phase='auto', backlash=0.0, backlash_angle=None, thickness_split=0.5, least_tip_width_coefficient=0.2, pin_diameter=None, driver=None, driven=None, drawing=None, name='gear-pair', title='')")]
+    #[pyo3(signature = (pitch, *, mean_ratio=[Count::Fits(1), Count::Fits(1)], tooth_count=None, center_distance=None, tool=None, addendum="full", phase=Place(Phase::Auto), backlash=0.0, backlash_angle=None, thickness_split=0.5, least_tip_width_coefficient=0.2, thickness_deviations=None, pin_diameter=None, driver=None, driven=None, drawing=None, name="gear-pair", title=""), text_signature = "(pitch, *, mean_ratio=(1, 1), tooth_count=None, center_distance=None, tool=None, addendum='full', phase='auto', backlash=0.0, backlash_angle=None, thickness_split=0.5, least_tip_width_coefficient=0.2, thickness_deviations=None, pin_diameter=None, driver=None, driven=None, drawing=None, name='gear-pair', title='')")]
     #[expect(clippy::too_many_arguments, reason = "keyword arguments")]
     fn new(
         py: Python<'_>,
@@ -125,6 +127,7 @@ impl GearPair {
         backlash_angle: Option<f64>,
         thickness_split: f64,
         least_tip_width_coefficient: f64,
+        thickness_deviations: Option<[f64; 2]>,
         pin_diameter: Option<f64>,
         driver: Option<PyRef<'_, Body>>,
         driven: Option<PyRef<'_, Body>>,
@@ -151,6 +154,7 @@ impl GearPair {
                 backlash_angle,
                 thickness_split,
                 least_tip_width_coefficient,
+                thickness_deviations,
                 pin_diameter,
             },
             driver: spec_of(driver),

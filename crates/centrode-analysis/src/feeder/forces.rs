@@ -29,7 +29,7 @@ pub enum FeederForcesError {
     Balance(#[from] ForcesError),
 }
 
-/// A feeder with the masses of its plates: the torque its crank needs and the forces in its joints.
+/// A feeder with the masses of its plates and of its gears, where these can be cut: the torque its crank needs and the forces in its joints.
 ///
 /// The y axis points up. The links' inertia at the design's speed is counted or left out; a jump of speed, which has no
 /// finite force, and friction are not.
@@ -69,6 +69,11 @@ impl FeederForces {
             })?;
             machine.links[part.link()].mass = Some(mass);
         }
+        let mounted = feeder.mount_gears(&mut machine);
+        mounted.map_err(|source| FeederForcesError::Solid {
+            part: "gears",
+            source,
+        })?;
         let balance = Balance::new(machine)?;
         Ok(Self { balance })
     }

@@ -1,7 +1,7 @@
 use std::f64::consts::TAU;
 
 use centrode_geometry::Point;
-use centrode_mechanism::feeder::{Feeder, Part, Plate};
+use centrode_mechanism::feeder::{Feeder, GearBody, Part, Plate};
 use centrode_mechanism::gear::design::BodySpec;
 use centrode_mechanism::machine::{
     self, Axis, Blank, Datum, Dimension, Fit, Form, Line, LineRole, Machine,
@@ -121,7 +121,7 @@ fn gears(feeder: &Feeder, machine: &mut Machine) {
     let made = spec.body();
     let rim = |pitches: u32| [0.0, 0.5 * spec.module * f64::from(pitches) + spec.module];
     let bored = |pitches: u32| format!("{pitches} pitches, bore Ø{}", number(spec.bore, PLACES));
-    let [own, mate, entry, exit] = gears::LINKS.map(|name| machine.link_named(name));
+    let [own, mate, entry, exit] = GearBody::NAMES.map(|name| machine.link_named(name));
     let mut add =
         |name: &str, links: Vec<usize>, file: &str, remark: String, seen: Option<(&str, u32)>| {
             let weighed = links.first().map(|&link| &machine.links[link]);
@@ -195,7 +195,7 @@ fn gears(feeder: &Feeder, machine: &mut Machine) {
 fn shafts(feeder: &Feeder, crank: usize, cams: usize, machine: &mut Machine) {
     let (body, plates) = (feeder.design().gears.body(), &feeder.design().plates);
     let seat = |name, hole: &str| Fit::new(name, body.bore, [hole, &body.shaft_fit]);
-    let own = machine.link_named(gears::LINKS[0]).unwrap_or(0);
+    let own = machine.link_named(GearBody::NAMES[0]).unwrap_or(0);
     let hubs = seat("gears and crank on their shafts", &body.bore_fit);
     for (name, link) in [
         ("shaft of the incomplete gear, G", own),

@@ -2,7 +2,7 @@ use centrode_mechanism::feeder::{Feeder, Part, Plate};
 use centrode_mechanism::gear::IncompletePair;
 use centrode_mechanism::machine::{Form, Machine, Quantity, Shape};
 
-use super::{arrangement, figures, gears};
+use super::{arrangement, figures};
 use crate::ExportError;
 
 /// The links as a tree, every joint zero where the effector rests; the loops close at C. The gears are drawn with the teeth
@@ -32,10 +32,8 @@ pub(super) fn drawn(feeder: &Feeder, plates: &[Plate], gears: Option<&Incomplete
 /// Gears that cannot be cut are left out: the six-bar moves without them.
 pub(super) fn machine(feeder: &Feeder, plates: &[Plate]) -> Result<Machine, ExportError> {
     let mut machine = drawn(feeder, plates, None);
-    if let Ok(pair) = feeder.gears() {
-        let mounted = gears::mount(feeder, &pair, &mut machine);
-        mounted.map_err(ExportError::no_solid("gears"))?;
-    }
+    let mounted = feeder.mount_gears(&mut machine);
+    mounted.map_err(ExportError::no_solid("gears"))?;
     arrangement::tell(feeder, plates, &mut machine);
     for plate in plates {
         let name = plate.part.name();

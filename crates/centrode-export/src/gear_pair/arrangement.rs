@@ -161,7 +161,7 @@ pub(crate) fn of_both(pair: &GearPair) -> Vec<Datum> {
     let (least, greatest) = pair.rolling().radii(Member::Driver);
     let ratios = [least / (a - least), greatest / (a - greatest)];
     let turns = format!("{driver}:{driven}");
-    vec![
+    let mut data = vec![
         Datum::new("Mean ratio, turns driver : driven", "", turns),
         Datum::new("Ratio, driven : driver speed", "i", range(ratios, 6)),
         Datum::new("Centre distance", "a", number(a, 6)),
@@ -170,5 +170,29 @@ pub(crate) fn of_both(pair: &GearPair) -> Vec<Datum> {
             "jn",
             number(pair.backlash(), 4),
         ),
-    ]
+    ];
+    let Some(deviations) = pair.design().teeth.thickness_deviations else {
+        return data;
+    };
+    let (sin, cos) = pair.teeth().tool.pressure_angle.sin_cos();
+    // Both gears are thinner, each by one deviation.
+    let play = deviations.map(|deviation| pair.backlash() - 2.0 * deviation * cos);
+    // Nowhere takes a shorter distance more backlash than twice its share across a flank where the pitch curves are square to
+    // the line of centres.
+    let shorter = play[0] / (2.0 * sin);
+    let [upper, lower] = deviations.map(|deviation| number(deviation, 4));
+    data.extend([
+        Datum::new(
+            "Tooth thickness, deviations",
+            "Es",
+            format!("{upper} / {lower}"),
+        ),
+        Datum::new("Backlash by thickness, normal", "jn", range(play, 4)),
+        Datum::new(
+            "Centre distance, least by backlash",
+            "a",
+            number(a - shorter, 4),
+        ),
+    ]);
+    data
 }

@@ -117,8 +117,9 @@ fn add(
     package.table(name, name, || {
         outline::columns(pair.gear(member), tolerance)
     })?;
+    let limits = pair.pin_limits(member).map_err(ExportError::missing)?;
     package.table(name, &format!("{name}-pins"), || {
-        pins::columns(pair, member)
+        pins::columns(pair, member, limits.as_ref())
     })
 }
 

@@ -1,9 +1,15 @@
 use crate::csv::Column;
-use centrode_mechanism::gear::{GearPair, Member, Pin};
+use centrode_mechanism::gear::{GearPair, Member, OverPins, Pin};
 
 /// Measuring pins, a row a tooth space: where the pin lies, and the measures over it. Cells of a space
 /// that cannot be measured are empty, and the last column says why.
-pub(super) fn columns(pair: &GearPair, member: Member) -> Vec<Column> {
+///
+/// Where the design tells deviations of tooth thickness, the limits that they leave follow.
+pub(super) fn columns(
+    pair: &GearPair,
+    member: Member,
+    limits: Option<&[OverPins; 2]>,
+) -> Vec<Column> {
     let over = pair.gear(member).over_pins(pair.pin_diameter(member));
     let cells = |figure: &dyn Fn(&Pin) -> f64| -> Vec<String> {
         let each = over.pins.iter();
@@ -15,7 +21,7 @@ pub(super) fn columns(pair: &GearPair, member: Member) -> Vec<Column> {
     };
     let across: Vec<Option<(usize, f64)>> = (0..over.pins.len()).map(|k| over.across(k)).collect();
     let spaces = 0..over.pins.len();
-    vec![
+    let mut columns = vec![
         Column::words("space", spaces.clone().map(|k| k.to_string())),
         Column::numbers("pin_diameter_mm", spaces.map(|_| over.diameter)),
         Column::words("pin_x_mm", cells(&|p| p.center.x)),
@@ -42,7 +48,25 @@ pub(super) fn columns(pair: &GearPair, member: Member) -> Vec<Column> {
                 Err(fault) => fault.to_string().replace([',', '"'], ";"),
             }),
         ),
-    ]
+    ];
+    for (over, end) in limits.into_iter().flatten().zip(["greatest", "least"]) {
+        let cell = |value: Option<f64>| value.map_or_else(String::new, |mm| mm.to_string());
+        let radial = |pin: &Result<Pin, _>| cell(pin.as_ref().ok().map(|pin| pin.radial));
+        let both = |(k, across): (usize, &Option<(usize, f64)>)| {
+            cell(across.and_then(|(j, _)| over.over(k, j)))
+        };
+        columns.extend([
+            Column::words(
+                &format!("axis_to_far_side_{end}_mm"),
+                over.pins.iter().map(radial),
+            ),
+            Column::words(
+                &format!("over_two_pins_{end}_mm"),
+                across.iter().enumerate().map(both),
+            ),
+        ]);
+    }
+    columns
 }
 
 /// Polar angle of a pin's center, 0 to 360 deg.

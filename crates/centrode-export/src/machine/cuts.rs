@@ -3,7 +3,10 @@ use centrode_mechanism::machine::{Blank, Machine, Part};
 use crate::drawing::Anchor;
 use crate::sheet::Table;
 
-/// The pieces of stock that a machine is made from, those of one material and thickness together.
+/// Parts from which on a list of what is cut pays: those of a gear pair are told by their own sheets.
+const WORTH_IT: usize = 4;
+
+/// The pieces of stock that a machine is made from, those of one material and thickness together; empty for a few parts.
 pub(super) fn cut_list(machine: &Machine) -> Table {
     let mut cuts: Vec<(usize, &Part, Blank)> = machine
         .parts
@@ -11,6 +14,9 @@ pub(super) fn cut_list(machine: &Machine) -> Table {
         .enumerate()
         .filter_map(|(index, part)| Some((index + 1, part, part.blank?)))
         .collect();
+    if cuts.len() < WORTH_IT {
+        cuts.clear();
+    }
     cuts.sort_by(|(_, a, first), (_, b, second)| {
         let by_stock = key(first).total_cmp(&key(second));
         a.material.cmp(&b.material).then(by_stock)

@@ -287,6 +287,7 @@ pub(super) fn description(
             .map(|closure| ClosureWords {
                 links: closure.links.map(link),
                 at_mm: closure.at,
+                joints: closure.joints.map(|joint| machine.joint_name(joint)).into(),
             })
             .collect(),
     }

@@ -132,4 +132,6 @@ pub struct ClosureWords {
     pub links: [String; 2],
     /// Place of the pin in the first one's frame, mm.
     pub at_mm: [f64; 3],
+    /// The joints that it moves.
+    pub joints: Vec<String>,
 }

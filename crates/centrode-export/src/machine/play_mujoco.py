@@ -63,9 +63,9 @@ class Machine:
         """Leaves free what teeth and closed loops carry, with a load at the end of a chain of gears."""
         about, model, meshes = self.law.about, self.model, self.meshes
         carried = [mesh["joint"] for mesh in meshes]
-        led = [name for name, joint in self.law.joints.items() if joint["leader"] == self.input]
-        self.held = [self.input, *led]
-        self.free = [name for name in (self.joints if about["closures"] else carried) if name not in self.held]
+        loops = [joint for closure in about["closures"] for joint in closure["joints"]]
+        self.free = [name for name in self.joints if name in carried + loops]
+        self.held = [name for name, joint in self.law.joints.items() if not {name, joint["leader"]} & set(self.free)]
         if not self.free:
             raise SystemExit("--contact is for machines with gears or closed loops")
         # Only teeth and closures may tie the links: no joint follows another by an equation.
@@ -115,7 +115,7 @@ class Machine:
         self.travelled = travel
 
     def carry(self, step):
-        """One step of what teeth and closures carry, the input and what it leads by their laws, others by what leads them."""
+        """One step of what teeth and closures carry: all else by its law, or by what leads it."""
         ahead = self.travelled + self.speed * step
         for name in self.held:
             joint, now, then = self.joints[name], self.law(name, self.travelled), self.law(name, ahead)

@@ -9,6 +9,7 @@ mod dimension;
 mod error;
 mod gears;
 mod links;
+mod mount;
 mod parts;
 mod plates;
 mod search;
@@ -22,6 +23,7 @@ pub use design::{BoundsSpec, DriveSpec, FeederDesign, FeederGoals, LinkageSpec, 
 pub use dimension::{Dimension, UnknownDimension};
 pub use error::FeederError;
 pub use gears::GearsSpec;
+pub use mount::GearBody;
 pub use parts::{JointHole, Part, Plate, PlateJoint};
 pub use plates::PlatesSpec;
 pub use search::DimensionSearchSpec;

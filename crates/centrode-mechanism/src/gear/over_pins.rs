@@ -1,7 +1,7 @@
 use centrode_geometry::{Point, Segment, Vector, bracketed_minimum, bracketed_root, checkpoint};
 
 use super::{
-    pair::{Gear, GearPair},
+    pair::{Gear, GearPair, GearPairError},
     profile::Role,
     rolling::Member,
 };
@@ -56,11 +56,39 @@ impl OverPins {
         let (j, other) = others
             .filter_map(|(j, p)| p.ok().map(|p| (j, p)))
             .max_by(|a, b| turned(&a.1).total_cmp(&turned(&b.1)))?;
-        (j != k).then(|| (j, (other.center - pin.center).norm() + self.diameter))
+        (j != k).then(|| (j, self.distance(&pin, &other)))
+    }
+
+    /// Measure over the pins of two spaces, mm; `None` where either cannot be measured.
+    #[must_use]
+    pub fn over(&self, k: usize, j: usize) -> Option<f64> {
+        let pin = |space: usize| self.pins.get(space)?.ok();
+        Some(self.distance(&pin(k)?, &pin(j)?))
+    }
+
+    fn distance(&self, one: &Pin, other: &Pin) -> f64 {
+        (other.center - one.center).norm() + self.diameter
     }
 }
 
 impl GearPair {
+    /// Pins of a member's usual diameter in teeth of the greatest and the least thickness that the design allows: the
+    /// teeth are cut anew with each. `None` where it tells no deviations.
+    ///
+    /// # Errors
+    /// [`GearPairError`] where a deviation leaves too little of a tooth.
+    pub fn pin_limits(&self, member: Member) -> Result<Option<[OverPins; 2]>, GearPairError> {
+        let Some([upper, lower]) = self.design().teeth.thickness_deviations else {
+            return Ok(None);
+        };
+        let diameter = self.pin_diameter(member);
+        let over = |deviation: f64| {
+            let pair = self.thinned(-deviation);
+            pair.map(|pair| pair.gear(member).over_pins(diameter))
+        };
+        Ok(Some([over(upper)?, over(lower)?]))
+    }
+
     /// Diameter of the measuring pin for a member, mm: as written in the design, or the pin that would
     /// touch a straight flank on the pitch curve, `space width / cos alpha`, rounded to a pin there is
     /// (steps of 0.25 mm from 1 mm on, of 0.05 mm below).
@@ -298,6 +326,47 @@ mod tests {
     fn involute_angle(value: f64) -> f64 {
         let f = |x: f64| x.tan() - x - value;
         bracketed_root(f, 0.0, 1.2, f(0.0), f(1.2))
+    }
+
+    #[test]
+    fn limits_are_the_textbook_measures_of_thicker_and_thinner_teeth() {
+        let mut design = circular(0.05).design().clone();
+        design.teeth.thickness_deviations = Some([-0.03, -0.06]);
+        let pair = GearPair::resolve(&design).expect("a sound pair");
+        let (z, m, alpha) = (24.0, 2.0, 20.0_f64.to_radians());
+        let base = 0.5 * m * z * alpha.cos();
+        for member in [Member::Driver, Member::Driven] {
+            let limits = pair.pin_limits(member).expect("teeth").expect("told");
+            for (over, thinner) in limits.iter().zip([0.03, 0.06]) {
+                let space = 0.5 * std::f64::consts::PI * m + 0.05 / (2.0 * alpha.cos()) + thinner;
+                let inv = alpha.tan() - alpha + over.diameter / (2.0 * base) - space / (m * z);
+                let radial = base / involute_angle(inv).cos() + 0.5 * over.diameter;
+                let pin = over.pins[5].expect("measurable");
+                assert!(
+                    (pin.radial - radial).abs() < 2e-9,
+                    "{} {radial}",
+                    pin.radial
+                );
+                assert!((over.over(5, 17).expect("both") - 2.0 * radial).abs() < 4e-9);
+            }
+        }
+        assert_eq!(
+            circular(0.05).pin_limits(Member::Driver).expect("teeth"),
+            None
+        );
+        for wrong in [
+            [0.01, -0.06],
+            [-0.06, -0.03],
+            [f64::NAN, -0.1],
+            [-0.1, f64::INFINITY],
+        ] {
+            design.teeth.thickness_deviations = Some(wrong);
+            let error = GearPair::resolve(&design).expect_err("not in order");
+            assert!(
+                error.to_string().contains("thickness_deviations"),
+                "{error}"
+            );
+        }
     }
 
     #[test]

@@ -186,7 +186,7 @@ mod tests {
         assert_eq!(
             shown(text),
             "error: teeth.backlsh: unknown key, did you mean \"backlash\"?; known are addendum, phase, \
-             backlash, backlash_angle_deg, thickness_split, least_tip_width_coefficient, pin_diameter\n \
+             backlash, backlash_angle_deg, thickness_split, least_tip_width_coefficient, thickness_deviations, pin_diameter\n \
              --> pair.toml:6:1\n  |\n6 | backlsh = 1\n  | ^^^^^^^\n"
         );
     }

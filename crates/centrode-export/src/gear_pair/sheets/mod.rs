@@ -18,7 +18,7 @@ use crate::{
 use centrode_geometry::Tolerance;
 use centrode_mechanism::{
     design::{DrawingSpec, SheetSize},
-    gear::{GearPair, Member},
+    gear::{GearPair, Member, OverPins},
 };
 use part::Part;
 pub(super) use part::middle;
@@ -110,7 +110,8 @@ pub(super) fn labelled(
         Some(member) => {
             let mut part = Part::new(pair, member, tolerance);
             part.label = label;
-            gear(&part, block(&part, options), options)
+            let limits = pair.pin_limits(member).map_err(ExportError::missing)?;
+            gear(&part, limits.as_ref(), block(&part, options), options)
         }
         None => arrangement(&drawn(pair), options, tolerance),
     };
@@ -136,6 +137,7 @@ fn block(part: &Part<'_>, options: &SheetOptions) -> TitleBlock {
 
 fn gear(
     part: &Part<'_>,
+    limits: Option<&[OverPins; 2]>,
     mut block: TitleBlock,
     options: &SheetOptions,
 ) -> Result<Vec<Sheet>, SheetError> {
@@ -166,7 +168,7 @@ fn gear(
     };
     let bounds = part.bounds();
     let extent = (bounds.max - bounds.min).amax();
-    let flowing = [tables::over_pins(part), tables::profile(part)];
+    let flowing = [tables::over_pins(part, limits), tables::profile(part)];
     let size = options.size.or(part.drawing().sheet);
     compose(size, &block, extent, &pieces, &flowing)
 }

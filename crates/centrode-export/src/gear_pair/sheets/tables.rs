@@ -7,7 +7,7 @@ use crate::{
     sheet::{Table, broken, fixed, number, range},
 };
 use centrode_mechanism::{
-    gear::{CurvatureRange, GearPair, Member, PinFault, ToolKind, design::Addendum},
+    gear::{CurvatureRange, GearPair, Member, OverPins, PinFault, ToolKind, design::Addendum},
     machine::Datum,
 };
 
@@ -96,24 +96,35 @@ fn mate_name(pair: &GearPair, mate: Member) -> String {
     format!("{name}, {} teeth{same}", pair.gear(mate).tooth_count())
 }
 
-/// The measure over a pin in every space.
-pub(super) fn over_pins(part: &Part<'_>) -> Table {
+/// The measure over a pin in every space, with limits where the thickness of the teeth has them.
+pub(super) fn over_pins(part: &Part<'_>, limits: Option<&[OverPins; 2]>) -> Table {
     let pins = part.gear.over_pins(part.pair.pin_diameter(part.member));
+    // Of thicker teeth the measures are greater.
+    let between = |of: &dyn Fn(&OverPins) -> Option<f64>| {
+        let ends = limits.map(|both| both.each_ref().map(of));
+        match ends {
+            Some([Some(high), Some(low)]) => format!("{} / {}", fixed(high, 4), fixed(low, 4)),
+            _ => String::new(),
+        }
+    };
     let mut faults = Vec::new();
     let rows = pins.pins.iter().enumerate().map(|(space, pin)| match pin {
         Ok(pin) => {
-            let [j, m] = pins
-                .across(space)
-                .map_or([String::new(), String::new()], |(j, m)| {
-                    [j.to_string(), fixed(m, 4)]
-                });
+            let across = pins.across(space);
+            let [j, m, limits_across] = across.map_or_else(Default::default, |(j, m)| {
+                let limits = between(&|over| over.over(space, j));
+                [j.to_string(), fixed(m, 4), limits]
+            });
+            let limits = between(&|over| over.pins[space].as_ref().ok().map(|pin| pin.radial));
             vec![
                 space.to_string(),
                 fixed(degrees(pin.center), 4),
                 fixed(pin.center.coords.norm(), 4),
                 fixed(pin.radial, 4),
+                limits,
                 j,
                 m,
+                limits_across,
             ]
         }
         Err(fault) => {
@@ -124,7 +135,7 @@ pub(super) fn over_pins(part: &Part<'_>) -> Table {
             });
             let mark = format!("*{}", at + 1);
             let mut row = vec![space.to_string()];
-            row.extend(std::iter::repeat_n(mark, 5));
+            row.extend(std::iter::repeat_n(mark, 7));
             row
         }
     });
@@ -134,17 +145,30 @@ pub(super) fn over_pins(part: &Part<'_>) -> Table {
         "M: from the axis of the bore over the pin".to_owned(),
         "M2: over this pin and the one in the space opposite".to_owned(),
     ];
+    if limits.is_some() {
+        notes.push("limits: by the deviations of tooth thickness".to_owned());
+    }
     let named = faults.iter().enumerate();
     notes.extend(named.map(|(i, fault): (usize, &PinFault)| format!("*{} {fault}", i + 1)));
     Table {
         title: format!("Over pins Ø{}", number(pins.diameter, 3)),
-        headings: ["space", "angle °", "R", "M", "opposite", "M2"]
-            .map(String::from)
-            .to_vec(),
-        columns: vec![Anchor::Right; 6],
+        headings: [
+            "space",
+            "angle °",
+            "R",
+            "M",
+            "limits of M",
+            "opposite",
+            "M2",
+            "limits of M2",
+        ]
+        .map(String::from)
+        .to_vec(),
+        columns: vec![Anchor::Right; 8],
         rows,
         notes,
     }
+    .filled()
 }
 
 /// Points of the contour, every so many of those in the CSV file.

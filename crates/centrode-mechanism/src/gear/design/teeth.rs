@@ -28,6 +28,10 @@ pub struct TeethSpec {
     pub thickness_split: f64,
     /// Least width of a tooth at its tip, as a multiple of the module, before it is reported.
     pub least_tip_width_coefficient: f64,
+    /// Upper and lower deviation of the thickness of every finished tooth along its pitch curve, mm, neither above zero: limits
+    /// for the shop. The teeth designed stand at zero.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub thickness_deviations: Option<[f64; 2]>,
     /// Diameter of the measuring pins, mm; left out, a pin that touches near the pitch curve.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pin_diameter: Option<f64>,
@@ -42,6 +46,7 @@ impl Default for TeethSpec {
             backlash_angle: None,
             thickness_split: 0.5,
             least_tip_width_coefficient: 0.2,
+            thickness_deviations: None,
             pin_diameter: None,
         }
     }
@@ -158,6 +163,10 @@ impl TeethSpec {
             if self.backlash != 0.0 {
                 return broken("backlash_angle_deg", Rule::Excludes("backlash"));
             }
+        }
+        if let Some([upper, lower]) = self.thickness_deviations {
+            finite("thickness_deviations", lower)?;
+            in_range("thickness_deviations", upper, [lower.min(0.0), 0.0], " mm")?;
         }
         if let Some(diameter) = self.pin_diameter {
             positive("pin_diameter", diameter)?;

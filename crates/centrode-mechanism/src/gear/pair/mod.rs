@@ -8,7 +8,7 @@ use centrode_geometry::Tolerance;
 use crate::design::DrawingSpec;
 
 use super::{
-    design::{BodySpec, GearPairDesign, ToolSpec},
+    design::{BodySpec, GearPairDesign, Phase, ToolSpec},
     profile::Cutter,
     rolling::{Member, Rolling},
     teeth::{Counts, TeethParameters, layout},
@@ -137,6 +137,19 @@ impl GearPair {
         pair.driver.body = body.clone();
         pair.driver.clears_bore()?;
         Ok(pair)
+    }
+
+    /// Makes the pair with all teeth of both gears thinner by a length along the pitch curve (mm), all else as it is.
+    ///
+    /// # Errors
+    /// [`GearPairError`] where too little of a tooth is left.
+    pub fn thinned(&self, by: f64) -> Result<Self, GearPairError> {
+        let mut design = self.design.clone();
+        design.teeth.phase = Phase::Pitches(self.phase);
+        design.teeth.backlash_angle = None;
+        // Each gear takes half of the backlash, and that on two flanks.
+        design.teeth.backlash = self.backlash + 2.0 * by * self.teeth.tool.pressure_angle.cos();
+        Self::resolve(&design)
     }
 
     /// Design of the pair.
