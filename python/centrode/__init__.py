@@ -48,7 +48,7 @@ from ._optimised import Optimised
 from ._over_pins import OverPins
 from ._part import Part
 from ._remedy import PairRemedy
-from ._report import Finding, Place, Report, Table
+from ._report import Finding, FlankPlace, Place, Report, Table
 from ._sheet import Drawing, Sheets
 from ._six_bar import DeadCenters
 from ._slider_force import SliderForce
@@ -73,6 +73,7 @@ __all__ = [
     "ExportError",
     "Feeder",
     "Finding",
+    "FlankPlace",
     "Forces",
     "Gear",
     "GearDrive",

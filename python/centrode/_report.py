@@ -6,6 +6,21 @@ from ._goal import Goal
 
 
 @dataclass(frozen=True, slots=True)
+class FlankPlace:
+    """Side of a tooth, and from where on a finding holds there."""
+
+    __module__ = "centrode"
+
+    tooth: int
+    """Tooth number, from zero."""
+    side: Literal["leading", "trailing"]
+    """The flank reached first, or last, in the order the teeth mesh."""
+    radius: float | None
+    """Distance from the gear's axis at which the flank ends, mm: below it undercut has taken the flank, or above it no more can
+    be cut. None where no flank is left."""
+
+
+@dataclass(frozen=True, slots=True)
 class Place:
     """Where in the mechanism and its cycle a finding was made."""
 
@@ -17,6 +32,8 @@ class Place:
     """Tooth numbers, from zero."""
     input: float | None
     """Input angle, rad."""
+    flanks: tuple[FlankPlace, ...] = ()
+    """Sides of these teeth, where the finding is about flanks."""
 
 
 @dataclass(frozen=True, slots=True)

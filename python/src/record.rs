@@ -228,9 +228,13 @@ fn finding<'py>(py: Python<'py>, finding: &Finding) -> PyResult<Bound<'py, PyAny
         Severity::Warning => "warning",
         Severity::Error => "error",
     };
+    let flanks = finding.place.flanks.iter();
+    let flanks = flanks
+        .map(|flank| record!(py, "centrode._report" "FlankPlace", flank => [tooth, side, radius]));
     let place = record!(py, "centrode._report" "Place", finding.place => [input]
         part: finding.place.part.as_deref(),
         teeth: PyTuple::new(py, &finding.place.teeth)?,
+        flanks: tuple(py, flanks)?,
     )?;
     record!(py, "centrode._report" "Finding", finding => [rule, measured, required, remedy]
         unit: finding.unit.symbol(),

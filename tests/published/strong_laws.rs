@@ -187,3 +187,23 @@ fn of_the_published_driver_two_flanks_alone_are_free_of_undercut() {
     }
     assert_eq!(found, [(2, '-'), (14, '+')]);
 }
+
+#[test]
+fn the_check_tells_of_each_undercut_flank_from_where_on_it_is_there() {
+    let pair = published();
+    let report = check(&pair);
+    let of_driver = report.findings.iter().find(|finding| {
+        finding.rule == "undercut" && finding.place.part.as_deref() == Some("driver")
+    });
+    let flanks = &of_driver.expect("undercut").place.flanks;
+    assert_eq!(flanks.len(), 26);
+    let told = |tooth, side| flanks.iter().any(|f| (f.tooth, f.side) == (tooth, side));
+    assert!(!told(1, "leading") && !told(13, "trailing"));
+    // The root's corner of what is left of the flank stands on the contour, and nothing of the flank lies below it.
+    for flank in flanks {
+        let radius = flank.radius.expect("some flank is left");
+        let roots = pair.driver().outline().segments().iter();
+        let near = roots.map(|s| (s.start().coords.norm() - radius).abs());
+        assert!(near.fold(f64::INFINITY, f64::min) < 1e-6, "{flank:?}");
+    }
+}

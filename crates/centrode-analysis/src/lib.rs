@@ -30,7 +30,7 @@ pub use figure::{FigureGroup, FigureRow, JsonNumber};
 pub use gear_pair::{MOST_TEETH, PairRemedy, check, check_contact, remedies};
 pub use goal::Goal;
 pub use incomplete_contact::IncompleteContact;
-pub use report::{Finding, Place, Report, ReportFile, Severity, Table};
+pub use report::{Finding, FlankPlace, Place, Report, ReportFile, Severity, Table};
 pub use response::{Answer, Response};
 pub use shaft::{check_moving_box, check_shaft};
 pub use three_arm::{

@@ -27,9 +27,25 @@ pub struct Place {
     /// Tooth numbers, counted from zero counter-clockwise.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub teeth: Vec<u32>,
+    /// Sides of these teeth, where the finding is about flanks.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub flanks: Vec<FlankPlace>,
     /// Input angle, rad.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub input: Option<f64>,
+}
+
+/// Side of a tooth, and from where on a finding holds there.
+#[derive(Clone, Debug, JsonSchema, PartialEq, Serialize)]
+pub struct FlankPlace {
+    /// Tooth number, counted from zero counter-clockwise.
+    pub tooth: u32,
+    /// Side: `leading` is reached first in the order the teeth mesh, `trailing` last.
+    pub side: &'static str,
+    /// Distance from the gear's axis at which the flank ends, mm: below it undercut has taken the flank, or above it no more can
+    /// be cut; absent where no flank is left.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub radius: Option<f64>,
 }
 
 /// A way in which a mechanism is worse than it should be: measured, required, where.

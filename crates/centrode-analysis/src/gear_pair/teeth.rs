@@ -1,7 +1,33 @@
-use centrode_mechanism::gear::{Gear, GearPair, Limits, Member, Tooth};
+use centrode_mechanism::gear::{Gear, GearPair, Limits, Member, Side, Tooth, ToothSide};
 
 use super::remedy::remedy_of_teeth;
-use crate::{Finding, Place, Report, Severity, Unit};
+use crate::{Finding, FlankPlace, Place, Report, Severity, Unit};
+
+/// Flanks of teeth that are not cut off of which `found` holds, with the end at the root or at the tip.
+fn flanks(
+    pair: &GearPair,
+    gear: &Gear,
+    found: &dyn Fn(&ToothSide) -> bool,
+    at_tip: bool,
+) -> Vec<FlankPlace> {
+    let mut places = Vec::new();
+    for (number, tooth) in gear.teeth().iter().enumerate().filter(|(_, t)| !t.severed) {
+        for (side, word, made) in [
+            (Side::Leading, "leading", tooth.leading),
+            (Side::Trailing, "trailing", tooth.trailing),
+        ] {
+            if found(&made) {
+                let radii = pair.flank_radii(gear.member(), number, side);
+                places.push(FlankPlace {
+                    tooth: number as u32,
+                    side: word,
+                    radius: radii.map(|radii| radii[usize::from(at_tip)]),
+                });
+            }
+        }
+    }
+    places
+}
 
 pub(super) fn teeth(pair: &GearPair, gear: &Gear, limits: &Limits, report: &mut Report) {
     let part = gear.member().name();
@@ -45,6 +71,11 @@ pub(super) fn teeth(pair: &GearPair, gear: &Gear, limits: &Limits, report: &mut 
             place: Place {
                 part: Some(part.into()),
                 teeth,
+                flanks: match rule {
+                    "undercut" => flanks(pair, gear, &|side| side.undercut > 0.0, false),
+                    "short-tooth" => flanks(pair, gear, &|side| side.shortened > small, true),
+                    _ => Vec::new(),
+                },
                 input: None,
             },
         });

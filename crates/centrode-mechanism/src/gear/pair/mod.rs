@@ -9,6 +9,7 @@ use crate::design::DrawingSpec;
 
 use super::{
     design::{BodySpec, GearPairDesign, Phase, ToolSpec},
+    flank::{Flank, Side},
     profile::Cutter,
     rolling::{Member, Rolling},
     teeth::{Counts, TeethParameters, layout},
@@ -277,6 +278,31 @@ impl GearPair {
             Member::Driver => &self.driver,
             Member::Driven => &self.driven,
         }
+    }
+
+    /// Distances of the flank of a tooth's side from the gear's axis, mm: where the flank begins above the root, and where it ends
+    /// at the tip. `None` where undercut leaves no flank, or there is no such tooth.
+    #[must_use]
+    pub fn flank_radii(&self, member: Member, tooth: usize, side: Side) -> Option<[f64; 2]> {
+        let tooth = self.gear(member).teeth().get(tooth)?;
+        let made = match side {
+            Side::Leading => tooth.leading,
+            Side::Trailing => tooth.trailing,
+        };
+        let (low, high) = made.active?;
+        let flank = Flank {
+            rolling: &self.rolling,
+            member,
+            tool: &self.teeth.tool,
+            side,
+            crossing: made.crossing,
+        };
+        let radius = |arc: f64| flank.point(self.rolling.parameter(arc)).coords.norm();
+        // The leading flank rises with the arc length of roll, the trailing one falls.
+        Some(match side {
+            Side::Leading => [radius(low), radius(high)],
+            Side::Trailing => [radius(high), radius(low)],
+        })
     }
 
     /// Driver angle of a whole cycle, after which both gears are as they were, rad.

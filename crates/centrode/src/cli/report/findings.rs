@@ -1,6 +1,6 @@
 use std::io::{Result, Write};
 
-use crate::analysis::{Finding, Report, Severity};
+use crate::analysis::{Finding, FlankPlace, Report, Severity};
 use anstyle::{AnsiColor, Style};
 use serde::Serialize;
 
@@ -47,6 +47,9 @@ pub(crate) struct Words {
     /// Part, teeth and input.
     #[serde(rename = "where")]
     place: String,
+    /// Flanks, each with where it ends; the first of many.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    flanks: Option<String>,
     /// Measured and required figure.
     figures: String,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -88,6 +91,7 @@ pub(crate) fn words(finding: &Finding) -> Words {
         severity: finding.severity,
         message: finding.message.clone(),
         place: about.join("; "),
+        flanks: flanks(&finding.place.flanks),
         figures,
         remedy: finding.remedy,
         causes: causes(finding.rule),
@@ -111,6 +115,9 @@ fn one(finding: &Finding, out: &mut impl Write) -> Result<()> {
     )?;
     if !words.place.is_empty() {
         writeln!(out, "    where: {}", words.place)?;
+    }
+    if let Some(flanks) = words.flanks {
+        writeln!(out, "    flanks: {flanks}")?;
     }
     if !words.figures.is_empty() {
         writeln!(out, "    {}", words.figures)?;
@@ -143,6 +150,23 @@ fn causes(rule: &str) -> &'static [&'static str] {
         "shaper-radius" => &["tool.tooth_count"],
         _ => &[],
     }
+}
+
+/// Tooth and side of flanks with the radius at which they end, the first of many.
+fn flanks(flanks: &[FlankPlace]) -> Option<String> {
+    const SHOWN: usize = 6;
+    let one = |flank: &FlankPlace| {
+        let end = match flank.radius {
+            Some(radius) => format!("ends at radius {radius:.3} mm"),
+            None => "is gone".into(),
+        };
+        format!("{} {} {end}", flank.tooth, flank.side)
+    };
+    let mut words: Vec<String> = flanks.iter().take(SHOWN).map(one).collect();
+    if flanks.len() > SHOWN {
+        words.push(format!("and {} more (--json)", flanks.len() - SHOWN));
+    }
+    (!words.is_empty()).then(|| words.join(", "))
 }
 
 /// Tooth numbers in rising order, runs of three or more shortened to first and last.
@@ -184,6 +208,11 @@ mod tests {
                 place: Place {
                     part: Some("driver".into()),
                     teeth: vec![4, 5, 6],
+                    flanks: vec![FlankPlace {
+                        tooth: 4,
+                        side: "trailing",
+                        radius: Some(21.340_4),
+                    }],
                     input: Some(std::f64::consts::PI),
                 },
             }],
@@ -195,7 +224,7 @@ mod tests {
         assert_eq!(
             text,
             "1 warning\nwarning [undercut] 3 of 23 teeth of the driver are undercut\n    \
-             where: driver, teeth 4-6; input at 180.00 deg\n    measured 0.0312 mm, required 0\u{20}mm\n    \
+             where: driver, teeth 4-6; input at 180.00 deg\n    flanks: 4 trailing ends at radius 21.340 mm\n    measured 0.0312 mm, required 0\u{20}mm\n    \
              remedy: fewer teeth of a larger module\n"
         );
     }
