@@ -81,7 +81,10 @@ proptest! {
         type Pick = fn(&Contact) -> &Vec<f64>;
         // Angles are told within 1e-12, lengths by the centre distance.
         let (angle, length) = (1e-12, 1e-12 * pair.center_distance());
-        let cases: [(&str, Pick, [Option<Extreme>; 2], f64); 3] = [
+        let cases: [(&str, Pick, [Option<Extreme>; 2], f64); 6] = [
+            ("clearance", |c| &c.clearance, [Some(extremes.clearance), None], length),
+            ("fillet clearance", |c| &c.fillet_clearance, [Some(extremes.fillet_clearance), None], length),
+            ("sliding", |c| &c.sliding, [None, Some(extremes.sliding)], length),
             ("overlap", |c| &c.overlap, [None, Some(extremes.overlap)], length),
             ("backlash", |c| &c.backlash, extremes.backlash.map(Some), angle),
             ("normal backlash", |c| &c.normal_backlash, extremes.normal_backlash.map(Some), length),

@@ -74,15 +74,48 @@ pub fn bracketed_root(
 ///
 /// The value is exact to the float limit; the point to the square root of it where `f` is smooth.
 pub fn bracketed_minimum(mut f: impl FnMut(f64) -> f64, low: f64, high: f64) -> (f64, f64) {
-    let golden = 0.5 * (3.0 - 5.0_f64.sqrt());
+    let x = low + GOLDEN * (high - low);
+    let value = (x, f(x));
+    minimum(f, [low, high], [value; 3], |_, _| false)
+}
+
+/// The point and value of a minimum of `f` between the first and the last of three points with their values, the middle one the
+/// least, as far as it matters beside a value known already.
+///
+/// Ends where the last two steps changed the value by at most `rounding`, or where three times their change does not lead from
+/// the least value below `known`.
+pub fn bracketed_minimum_below(
+    f: impl FnMut(f64) -> f64,
+    [low, middle, high]: [(f64, f64); 3],
+    known: f64,
+    rounding: f64,
+) -> (f64, f64) {
+    minimum(f, [low.0, high.0], [middle, low, high], |least, change| {
+        change <= rounding || least - 3.0 * change >= known
+    })
+}
+
+/// Share of golden section.
+const GOLDEN: f64 = 0.381_966_011_250_105_1;
+
+/// Brent's method from the least of known values and two more; `ends` tells by the least value and the greater change of the
+/// last two steps whether that will do.
+fn minimum(
+    mut f: impl FnMut(f64) -> f64,
+    [low, high]: [f64; 2],
+    [(mut x, mut fx), (mut w, mut fw), (mut v, mut fv)]: [(f64, f64); 3],
+    ends: impl Fn(f64, f64) -> bool,
+) -> (f64, f64) {
     let (mut a, mut b) = (low, high);
-    let mut x = a + golden * (b - a);
-    let (mut w, mut v) = (x, x);
-    let mut fx = f(x);
-    let (mut fw, mut fv) = (fx, fx);
-    let (mut d, mut e) = (0.0_f64, 0.0_f64);
+    // A parabola through three points may be followed at once.
+    let start = if w == x { 0.0 } else { high - low };
+    let (mut d, mut e) = (start, start);
+    let mut changes = [f64::INFINITY; 2];
     for _ in 0..120 {
         crate::checkpoint();
+        if ends(fx, changes[0].max(changes[1])) {
+            break;
+        }
         let middle = 0.5 * (a + b);
         let limit = 1e-10 * (high - low).abs() + 2.0 * f64::EPSILON * x.abs();
         if (x - middle).abs() <= 2.0 * limit - 0.5 * (b - a) {
@@ -111,7 +144,7 @@ pub fn bracketed_minimum(mut f: impl FnMut(f64) -> f64, low: f64, high: f64) -> 
         }
         if !parabola {
             e = if x < middle { b - x } else { a - x };
-            d = golden * e;
+            d = GOLDEN * e;
         }
         let u = if d.abs() >= limit {
             x + d
@@ -119,6 +152,7 @@ pub fn bracketed_minimum(mut f: impl FnMut(f64) -> f64, low: f64, high: f64) -> 
             x + limit.copysign(d)
         };
         let fu = f(u);
+        changes = [changes[1], (fu - fx).abs()];
         if fu <= fx {
             if u < x {
                 b = x;
@@ -165,5 +199,24 @@ mod tests {
         assert!((x - 0.7).abs() < 1e-9 && v < 1e-9);
         let (x, v) = bracketed_minimum(|x| (x - 0.7).powi(2) + 2.0, -2.0, 3.0);
         assert!((x - 0.7).abs() < 1e-7 && (v - 2.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn a_minimum_that_a_known_value_leaves_aside_is_not_followed_to_its_end() {
+        let looks = |known: f64, rounding: f64| {
+            let looks = std::cell::Cell::new(0);
+            let f = |x: f64| {
+                looks.set(looks.get() + 1);
+                2.0 + (x - 0.7).powi(2) + 0.1 * (x - 0.7).powi(4)
+            };
+            let points = [-2.0, 0.0, 3.0].map(|x| (x, f(x)));
+            looks.set(0);
+            let (_, value) = bracketed_minimum_below(f, points, known, rounding);
+            (looks.get(), value - 2.0)
+        };
+        let (few, some) = looks(1.0, 1e-12);
+        let (more, near) = looks(3.0, 1e-12);
+        assert!(few < more && more < 14, "{few} {more}");
+        assert!(some < 0.1 && near < 1e-12, "{some} {near}");
     }
 }

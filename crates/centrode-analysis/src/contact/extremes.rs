@@ -1,15 +1,27 @@
 //! Greatest and least figures of a contact, sought between its samples.
 
-use centrode_geometry::{Extreme, bracketed_minimum};
+use centrode_geometry::{Extreme, bracketed_minimum_below};
 use centrode_mechanism::gear::GearPair;
 
-use super::{Contact, meshing::Meshing};
+use super::{CARRIED, Contact, edges::edge_contacts, meshing::Meshing};
 
 /// Angle, rad, of which a seat tells no more.
 const ROUNDING: f64 = 1e-12;
 
 /// Share of a figure by which no peak is told from another.
 const SAME: f64 = 1e-10;
+
+/// Samples a pitch among which the least clearance from a fillet is sought.
+const SAMPLES_PER_PITCH: u32 = 16;
+
+/// Multiple of the least clearance known within which a lesser one is looked for.
+const BEYOND: f64 = 4.0;
+
+/// Least such distance, modules.
+const LEAST: f64 = 0.02;
+
+/// Distance from an edge's contact, pitches, at which the contact that ends there is looked at.
+const BESIDE: f64 = 1e-10;
 
 /// Figures of a contact that change steadily along the cycle, where they are greatest and least.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,6 +36,12 @@ pub struct ContactExtremes {
     pub backlash: [Extreme; 2],
     /// Least and greatest normal backlash, mm.
     pub normal_backlash: [Extreme; 2],
+    /// Least distance of a tip from a root, mm; infinite where none is near.
+    pub clearance: Extreme,
+    /// Least clearance from a fillet, mm; infinite where nothing is near.
+    pub fillet_clearance: Extreme,
+    /// Greatest sliding speed of flanks in contact per driver speed, mm/rad.
+    pub sliding: Extreme,
 }
 
 /// A figure of one sample of a contact.
@@ -43,11 +61,7 @@ impl Contact {
         };
         let a = pair.center_distance();
         let least = |search: &mut Search<'_>, figure: Figure, rounding: f64| {
-            let found = search.greatest(|c, k| -figure(c, k), rounding);
-            Extreme {
-                value: -found.value,
-                ..found
-            }
+            negative(search.greatest(|c, k| -figure(c, k), rounding))
         };
         let error: Figure = |c, k| c.transmission_error[k].abs();
         let reverse: Figure = |c, k| c.reverse_transmission_error[k].abs();
@@ -66,7 +80,62 @@ impl Contact {
                 least(&mut search, normal, a * ROUNDING),
                 search.greatest(normal, a * ROUNDING),
             ],
+            clearance: search.least_clearance(|c, k| c.clearance[k]),
+            fillet_clearance: search.least_fillet_clearance(),
+            sliding: search.fastest(),
         }
+    }
+
+    /// Whether the flanks carry the motion at every sample.
+    pub(super) fn carries(&self) -> bool {
+        let sure = |errors: &[f64]| errors.iter().all(|e| e.abs() < CARRIED);
+        sure(&self.transmission_error) && sure(&self.reverse_transmission_error)
+    }
+}
+
+/// An extreme of the figure with the other sign.
+fn negative(extreme: Extreme) -> Extreme {
+    Extreme {
+        value: -extreme.value,
+        ..extreme
+    }
+}
+
+/// A clearance by the greatest nearness; infinite where nothing is as near as `within`.
+fn told(nearest: Extreme, within: f64) -> Extreme {
+    match nearest.value > -within {
+        true => negative(nearest),
+        false => Extreme {
+            value: f64::INFINITY,
+            ..nearest
+        },
+    }
+}
+
+/// The greatest of some values, and its input.
+fn highest(inputs: &[f64], values: &[f64]) -> Extreme {
+    let first = Extreme {
+        input: inputs.first().copied().unwrap_or(0.0),
+        value: f64::NEG_INFINITY,
+    };
+    let samples = inputs.iter().zip(values);
+    samples.fold(first, |best, (&input, &value)| match value > best.value {
+        true => Extreme { input, value },
+        false => best,
+    })
+}
+
+/// Three neighbouring samples, the middle one no less than the others: inputs and values.
+struct Peak([(f64, f64); 3]);
+
+impl Peak {
+    fn value(&self) -> f64 {
+        self.0[1].1
+    }
+
+    /// Height above it at most reached beside it: eight times that of a parabola, and twice that of a kink.
+    fn above(&self) -> f64 {
+        2.0 * self.value() - self.0[0].1 - self.0[2].1
     }
 }
 
@@ -78,34 +147,50 @@ struct Search<'a> {
     meshing: Option<Meshing<'a>>,
 }
 
-impl Search<'_> {
-    /// Greatest value of a figure, where differences of `rounding` tell nothing.
+impl<'a> Search<'a> {
+    fn meshing(&mut self) -> &mut Meshing<'a> {
+        let pair = self.pair;
+        self.meshing.get_or_insert_with(|| Meshing::new(pair))
+    }
+
+    /// Greatest value of a figure of the samples, where differences of `rounding` tell nothing.
     fn greatest(&mut self, figure: impl Fn(&Contact, usize) -> f64, rounding: f64) -> Extreme {
-        let inputs = &self.contact.input;
-        let values: Vec<f64> = (0..inputs.len()).map(|k| figure(self.contact, k)).collect();
-        let mut best = Extreme {
-            input: inputs.first().copied().unwrap_or(0.0),
-            value: f64::NEG_INFINITY,
-        };
-        for (&input, &value) in inputs.iter().zip(&values) {
-            if value > best.value {
-                best = Extreme { input, value };
-            }
-        }
+        let contact = self.contact;
+        let values: Vec<f64> = (0..contact.input.len())
+            .map(|k| figure(contact, k))
+            .collect();
+        let between = |search: &mut Self, phi: f64| search.value(&figure, phi);
+        self.greatest_among((&contact.input, &values), between, rounding)
+    }
+
+    /// Greatest value of a figure over the cycle, from samples of it and from what it is between them.
+    fn greatest_among(
+        &mut self,
+        (inputs, values): (&[f64], &[f64]),
+        between: impl Fn(&mut Self, f64) -> f64,
+        rounding: f64,
+    ) -> Extreme {
+        let mut best = highest(inputs, values);
         if !best.value.is_finite() {
             return best;
         }
-        let mut peaks: Vec<(f64, f64, [f64; 2])> = (0..values.len())
-            .filter_map(|k| self.peak(&values, k))
+        let mut peaks: Vec<Peak> = (0..values.len())
+            .filter_map(|k| self.peak(inputs, values, k))
             .collect();
         // Higher ones first: they leave the others nothing to reach.
-        peaks.sort_by(|p, q| q.0.total_cmp(&p.0));
-        for (value, above, [low, high]) in peaks {
+        peaks.sort_by(|p, q| q.value().total_cmp(&p.value()));
+        for peak in peaks {
             let least = rounding.max(SAME * best.value.abs());
-            if above <= least || value + above <= best.value + least {
+            let above = peak.above();
+            if above <= least || peak.value() + above <= best.value + least {
                 continue;
             }
-            let (input, lowest) = bracketed_minimum(|phi| -self.value(&figure, phi), low, high);
+            let (input, lowest) = bracketed_minimum_below(
+                |phi| -between(self, phi),
+                peak.0.map(|(input, value)| (input, -value)),
+                -best.value - least,
+                rounding,
+            );
             if -lowest > best.value {
                 best = Extreme {
                     input: input.rem_euclid(self.pair.cycle()),
@@ -116,26 +201,82 @@ impl Search<'_> {
         best
     }
 
-    /// Value of a sample that is a peak, the height above it at most reached beside it, eight times that of a parabola
-    /// and twice that of a kink, and the samples beside it.
-    fn peak(&self, values: &[f64], k: usize) -> Option<(f64, f64, [f64; 2])> {
+    /// Least value of a clearance of the samples; infinite where all are.
+    fn least_clearance(&mut self, figure: Figure) -> Extreme {
+        // Nothing farther apart is looked at.
+        let near = self.meshing().near;
+        let found = self.greatest(|c, k| -figure(c, k).min(near), near * ROUNDING);
+        told(found, near)
+    }
+
+    /// Least clearance from a fillet.
+    ///
+    /// A tip is near a fillet over a fourth of a pitch or less, so more samples are needed than of other figures. Flanks that
+    /// carry the motion leave the driven gear at the law's angle, where no seat has to be sought.
+    fn least_fillet_clearance(&mut self) -> Extreme {
+        let (contact, pair) = (self.contact, self.pair);
+        let figure: Figure = |c, k| c.fillet_clearance[k];
+        let pitches = pair.driver().tooth_count() * pair.mean_ratio().0;
+        let is_fine = contact.input.len() > (pitches * SAMPLES_PER_PITCH) as usize;
+        if is_fine || !contact.carries() {
+            return self.least_clearance(figure);
+        }
+        let near = self.meshing().near;
+        let known = contact.fillet_clearance.iter().copied();
+        let known = known.fold(near, f64::min);
+        let within = (BEYOND * known).max(LEAST * pair.module()).min(near);
+        let at = |search: &mut Self, phi: f64| {
+            -search.meshing().fillet_clearance(phi, within).min(within)
+        };
+        let inputs = Contact::parameters(pair, SAMPLES_PER_PITCH);
+        let inputs: Vec<f64> = inputs.map(|t| pair.rolling().angle(t)).collect();
+        let values: Vec<f64> = inputs.iter().map(|&phi| at(self, phi)).collect();
+        let found = self.greatest_among((&inputs, &values), at, near * ROUNDING);
+        told(found, within)
+    }
+
+    /// Greatest sliding speed: flanks slide faster the farther they touch from the pitch point, so fastest where the contact
+    /// reaches an edge. Where an edge carries the motion itself, the samples tell.
+    fn fastest(&mut self) -> Extreme {
+        let sliding = |c: &Contact, k: usize| c.sliding[k];
+        let contact = self.contact;
+        let mut best = highest(&contact.input, &contact.sliding);
+        let pair = self.pair;
+        let meshing = self.meshing();
+        let edges = edge_contacts(pair, [&meshing.driver, &meshing.driven]);
+        let beside = BESIDE * pair.cycle() / f64::from(pair.driver().tooth_count());
+        for edge in edges {
+            if edge.sliding <= best.value * (1.0 + SAME) {
+                break;
+            }
+            for phi in [edge.input - beside, edge.input + beside] {
+                let value = self.value(&sliding, phi);
+                if value > best.value {
+                    let input = phi.rem_euclid(pair.cycle());
+                    best = Extreme { input, value };
+                }
+            }
+        }
+        best
+    }
+
+    /// Sample that is a peak with those beside it.
+    fn peak(&self, inputs: &[f64], values: &[f64], k: usize) -> Option<Peak> {
         let (count, cycle) = (values.len(), self.pair.cycle());
-        let inputs = &self.contact.input;
         let (before, after) = ((k + count - 1) % count, (k + 1) % count);
         let low = inputs[before] - if k == 0 { cycle } else { 0.0 };
         let high = inputs[after] + if after == 0 { cycle } else { 0.0 };
         let (value, beside) = (values[k], [values[before], values[after]]);
-        let above = 2.0 * value - beside[0] - beside[1];
         let is_peak = beside.iter().all(|&b| b <= value) && low < inputs[k] && inputs[k] < high;
-        (is_peak && above.is_finite()).then_some((value, above, [low, high]))
+        let peak = Peak([(low, beside[0]), (inputs[k], value), (high, beside[1])]);
+        (is_peak && peak.above().is_finite()).then_some(peak)
     }
 
     /// A figure at a driver angle.
     fn value(&mut self, figure: &impl Fn(&Contact, usize) -> f64, phi: f64) -> f64 {
-        let pair = self.pair;
-        let meshing = self.meshing.get_or_insert_with(|| Meshing::new(pair));
+        let law = self.pair.driven_angle(phi);
         let mut out = Contact::default();
-        meshing.sample(phi, pair.driven_angle(phi), &mut out);
+        self.meshing().sample(phi, law, &mut out);
         figure(&out, 0)
     }
 }

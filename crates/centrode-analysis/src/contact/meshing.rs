@@ -6,12 +6,13 @@ use centrode_mechanism::gear::GearPair;
 use super::{
     Contact,
     body::Body,
-    places::{Candidates, Kind, Place, SHALLOW},
+    hit::Hit,
+    places::{Candidates, Kind, Place, SHALLOW, gaps},
     proof::{Feature, Meeting},
     stretch::Stretch,
     touch::{self, Pose, Touch},
     tree::Run,
-    turning::{Hit, Limits, Turning},
+    turning::{Limits, Turning},
 };
 
 /// Greatest distance, in modules, of places that are examined.
@@ -118,6 +119,13 @@ impl<'a> Meshing<'a> {
         let play = back.angle - forward.angle;
         out.backlash.push(play);
         out.normal_backlash.push(play * forward.lever);
+        // Flanks that stand as designed slide on each other where they face each other at the law's angle; where none do, an edge
+        // slides where it touches.
+        let touching: Vec<(Point, Vector)> = self
+            .designed(&places, 1.0)
+            .filter(|place| place.touch.is_on_both())
+            .map(|place| (place.touch.point, place.touch.normal))
+            .collect();
         // Wedged between two sides: half of the missing room.
         out.overlap
             .push((-play * 0.5 * forward.lever.min(back.lever)).max(0.0));
@@ -130,23 +138,19 @@ impl<'a> Meshing<'a> {
         } else {
             (places, candidates.clash)
         };
-        let least = |kind: Kind| {
-            let gaps = places
-                .iter()
-                .filter(|p| p.kind == kind)
-                .map(|p| p.touch.gap);
-            gaps.fold(f64::INFINITY, f64::min)
-        };
-        let tip = least(Kind::TipAndRoot);
-        out.clearance
-            .push(if clash > 0.0 { tip.min(-clash) } else { tip });
-        out.fillet_clearance.push(least(Kind::Fillet));
+        let [tip, fillet] = gaps(&places, clash);
+        out.clearance.push(tip);
+        out.fillet_clearance.push(fillet);
         out.contacts.push(forward.contacts);
+        let touches = if touching.is_empty() {
+            forward.touches
+        } else {
+            touching
+        };
         let ratio = self.pair.ratio(phi);
-        let sliding = forward
-            .touches
-            .iter()
-            .map(|&(point, normal)| sliding(point, normal, phi, a, ratio));
+        let sliding = touches
+            .into_iter()
+            .map(|(point, normal)| sliding(point, normal, phi, a, ratio));
         out.sliding.push(sliding.fold(0.0, f64::max));
     }
 
@@ -186,6 +190,18 @@ impl<'a> Meshing<'a> {
         seats
     }
 
+    /// Places at the law's angle at which flanks face each other with half the designed backlash, where the driver pushes on
+    /// (`sign` above zero) or back.
+    fn designed<'p>(&self, places: &'p [Place], sign: f64) -> impl Iterator<Item = &'p Place> {
+        let (half, near) = (0.5 * self.pair.backlash(), DESIGNED * self.module);
+        places.iter().filter(move |p| {
+            p.kind == Kind::Flanks
+                && p.corner.is_none()
+                && sign * p.touch.lever > 0.0
+                && (half - p.touch.gap).abs() < near
+        })
+    }
+
     /// Angle of the driven gear if the flanks had the designed backlash exactly.
     ///
     /// At the law's own angle flanks thinned for play are parallel and half the play apart; the driven gear is turned
@@ -195,11 +211,7 @@ impl<'a> Meshing<'a> {
             return law;
         }
         let off = |p: &Place| (half.abs() - p.touch.gap).abs();
-        let mut facing: Vec<&Place> = places
-            .iter()
-            .filter(|p| p.kind == Kind::Flanks && p.corner.is_none() && half * p.touch.lever > 0.0)
-            .filter(|p| off(p) < DESIGNED * self.module)
-            .collect();
+        let mut facing: Vec<&Place> = self.designed(places, half).collect();
         facing.sort_by(|p, q| off(p).total_cmp(&off(q)));
         let touching = facing.into_iter().find_map(|place| {
             let wrong = (half.abs() - place.touch.gap) / place.touch.lever;

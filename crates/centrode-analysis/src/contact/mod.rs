@@ -5,7 +5,9 @@
 //! outlines face each other is measured.
 
 mod body;
+mod edges;
 mod extremes;
+mod hit;
 mod meshing;
 mod places;
 mod proof;
@@ -28,6 +30,9 @@ const SAMPLES_PER_PITCH: u32 = 4;
 
 /// Samples a pitch where contact may be lost.
 const FINE_SAMPLES_PER_PITCH: u32 = 48;
+
+/// Transmission error, rad, below which flanks carry the motion.
+const CARRIED: f64 = 1e-9;
 
 /// The contact of a pair along one whole cycle, one value an input.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -75,10 +80,7 @@ impl Contact {
     pub fn of(pair: &GearPair) -> Self {
         if pair.teeth().addendum == Addendum::Full && is_whole(pair) {
             let found = Self::sampled(pair, SAMPLES_PER_PITCH);
-            let sure = |e: &f64| e.abs() < 1e-9;
-            if found.transmission_error.iter().all(sure)
-                && found.reverse_transmission_error.iter().all(sure)
-            {
+            if found.carries() {
                 return found;
             }
         }
@@ -89,19 +91,24 @@ impl Contact {
     /// and never in step with the teeth.
     #[must_use]
     pub fn sampled(pair: &GearPair, per_pitch: u32) -> Self {
+        let rolling = pair.rolling();
+        let mut meshing = Meshing::new(pair);
+        let mut out = Self::default();
+        for t in Self::parameters(pair, per_pitch) {
+            meshing.sample(rolling.angle(t), rolling.driven_angle_at(t), &mut out);
+        }
+        out
+    }
+
+    /// Parameters of the driver's pitch curve over one whole cycle, about `per_pitch` a pitch, evenly along it.
+    fn parameters(pair: &GearPair, per_pitch: u32) -> impl Iterator<Item = f64> {
         let (n1, _) = pair.mean_ratio();
         let rolling = pair.rolling();
         let teeth = pair.driver().tooth_count() * n1;
         // One more than a multiple of the teeth: every sample is elsewhere on its tooth.
         let count = teeth * per_pitch.max(1) + 1;
         let length = rolling.pitch_length(Member::Driver) * f64::from(n1);
-        let mut meshing = Meshing::new(pair);
-        let mut out = Self::default();
-        for i in 0..count {
-            let t = rolling.parameter(length * f64::from(i) / f64::from(count));
-            meshing.sample(rolling.angle(t), rolling.driven_angle_at(t), &mut out);
-        }
-        out
+        (0..count).map(move |i| rolling.parameter(length * f64::from(i) / f64::from(count)))
     }
 
     /// Analyses given driver angles, rad.

@@ -76,6 +76,16 @@ impl Meshing<'_> {
 
     /// Finds every point at which the outlines face each other nearer than the limit.
     pub(super) fn places(&mut self, candidates: &mut Candidates, pose: &Pose) -> Vec<Place> {
+        self.places_of(candidates, pose, |_| true)
+    }
+
+    /// Points of wanted kinds at which the outlines face each other.
+    fn places_of(
+        &mut self,
+        candidates: &mut Candidates,
+        pose: &Pose,
+        wanted: impl Fn(Kind) -> bool,
+    ) -> Vec<Place> {
         let (near, close, module) = (self.near, self.close, self.module);
         let mut out = Vec::with_capacity(16);
         let mut memory = Vec::with_capacity(16);
@@ -105,7 +115,8 @@ impl Meshing<'_> {
             let i = stretch.part;
             let (a, b) = (&self.driver.parts[i], &self.driven.parts[j]);
             let kind = kind(a.role, b.role);
-            if normals.opposes(&b.normals)
+            if wanted(kind)
+                && normals.opposes(&b.normals)
                 && in_range(stretch, &self.stretches[j], &b.normals, limit(kind), module)
                 && self.driver.curvature(i).1 + self.driven.curvature(j).1 > 0.0
             {
@@ -121,6 +132,7 @@ impl Meshing<'_> {
                 apart.norm_squared() <= reach * reach
             };
             if let Some(corner) = &a.corner
+                && wanted(corner_kind(corner.on_flank, b.role))
                 && near_corner(corner, b, stretch.point[0] - b.center.coords)
             {
                 let normal = pose.turn_back(&corner.normals.direction);
@@ -135,6 +147,7 @@ impl Meshing<'_> {
                 }
             }
             if let Some(corner) = &b.corner
+                && wanted(corner_kind(corner.on_flank, a.role))
                 && near_corner(corner, a, corner.point.coords - stretch.center)
                 && corner.normals.opposes(normals)
             {
@@ -159,6 +172,18 @@ impl Meshing<'_> {
         }
         self.memory = memory;
         out
+    }
+
+    /// Least clearance from a fillet where the driven gear is at the law's angle, mm; infinite where nothing is within so many mm.
+    pub(super) fn fillet_clearance(&mut self, phi: f64, within: f64) -> f64 {
+        checkpoint();
+        let near = std::mem::replace(&mut self.near, within);
+        let (law, a) = (self.pair.driven_angle(phi), self.pair.center_distance());
+        let pose = Pose::new(phi, law, a);
+        let mut candidates = self.candidates(&pose);
+        let places = self.places_of(&mut candidates, &pose, |kind| kind == Kind::Fillet);
+        self.near = near;
+        gaps(&places, 0.0)[1]
     }
 
     /// Whether a deep penetration is real: the far sides of two neighbouring teeth face each other too, but neither
@@ -195,4 +220,15 @@ fn corner_kind(on_flank: bool, part: Role) -> Kind {
         Role::Fillet => Kind::Fillet,
         _ => Kind::TipAndRoot,
     }
+}
+
+/// Least clearance of tips from roots, and from fillets, among places, mm; infinite where none is near.
+pub(super) fn gaps(places: &[Place], clash: f64) -> [f64; 2] {
+    let least = |kind: Kind| {
+        let of_kind = places.iter().filter(|p| p.kind == kind);
+        of_kind.map(|p| p.touch.gap).fold(f64::INFINITY, f64::min)
+    };
+    let tip = least(Kind::TipAndRoot);
+    let tip = if clash > 0.0 { tip.min(-clash) } else { tip };
+    [tip, least(Kind::Fillet)]
 }

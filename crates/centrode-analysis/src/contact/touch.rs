@@ -74,6 +74,11 @@ pub(super) struct Touch {
 }
 
 impl Touch {
+    /// Whether both points are on their parts, to rounding, and not a little beyond an end.
+    pub(super) fn is_on_both(&self) -> bool {
+        self.at.0.abs().max(self.at.1.abs()) <= 1.0 + ON_PART
+    }
+
     fn new(point: Point, mate: Point, normal: Vector, at: (f64, f64), pose: &Pose) -> Self {
         let arm = mate - pose.axis;
         Self {
@@ -91,6 +96,9 @@ const SETTLED: f64 = 3e-7;
 
 /// Distance beyond an end, as a parameter, within which a point belongs to the neighbour as well.
 const JOINT: f64 = 1e-3;
+
+/// Rounding of a parameter at an end, where neighbouring parts must not both miss a point.
+const ON_PART: f64 = 1e-10;
 
 /// Parameter beyond an end up to which a part is the same curve.
 const CONTINUED: f64 = 0.25;
@@ -141,7 +149,9 @@ fn newton(a: &Part<'_>, b: &Part<'_>, pose: &Pose, at: (f64, f64), beyond: f64) 
             // Nearest, not farthest: the two must curve away from each other.
             let bend_a = p.first.perp(&p.second) / size.powi(3);
             let bend_b = q.first.perp(&q.second) / q.first.norm().powi(3);
-            let touch = Touch::new(p.point, q.point, normal, (u, v), pose);
+            // With the last step, which is too small to look again.
+            let ends = [p.point + p.first * du, q.point + q.first * dv];
+            let touch = Touch::new(ends[0], ends[1], normal, (u + du, v + dv), pose);
             let opening = bend_a + bend_b + bend_a * bend_b * touch.gap;
             return (opening > 0.0).then_some(touch);
         }

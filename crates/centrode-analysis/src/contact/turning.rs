@@ -6,87 +6,17 @@
 //! whose least curvatures sum to more than nothing, it has one extreme: inside, where the tangents meet, or at an
 //! end. Stretches that bend otherwise are halved.
 
-use centrode_geometry::{Point, Vector, bracketed_root};
+use centrode_geometry::{Vector, bracketed_root};
 
 use super::{
     body::Body,
+    hit::{Hit, Meeting},
     stretch::{Contour, SETTLED, Stretch},
     touch::Pose,
 };
 
 /// Size, as a share of a contact's allowance, below which a stretch is a point.
 const POINT: f64 = 1e-5;
-
-/// Pair of points, one on either contour, at one distance from the driven axis.
-#[derive(Clone, Copy, Debug)]
-struct Meeting {
-    u: f64,
-    v: f64,
-    /// Point and tangent on the driver.
-    driver: (Vector, Vector),
-    /// Point and tangent on the driven gear.
-    driven: (Vector, Vector),
-}
-
-impl Meeting {
-    /// Turn of the driven gear that brings the points together, rad.
-    fn angle(&self) -> f64 {
-        let ((a, _), (b, tangent)) = (self.driver, self.driven);
-        let turned = b.perp(&a).atan2(b.dot(&a));
-        // Remaining difference of the distances, along the driven contour.
-        let over = 0.5 * (a.norm_squared() - b.norm_squared()) / b.dot(&tangent);
-        let rest = b.perp(&tangent) / b.norm_squared() * over;
-        if rest.is_finite() {
-            turned - rest
-        } else {
-            turned
-        }
-    }
-
-    /// Slope of the angle over the distance, driver's less driven gear's, but for a factor.
-    fn difference(&self) -> f64 {
-        let ((a, first), (b, tangent)) = (self.driver, self.driven);
-        // The distances of the two contours run opposite ways: the product of their rates is negative.
-        b.perp(&tangent) * a.dot(&first) - a.perp(&first) * b.dot(&tangent)
-    }
-}
-
-/// Contact at which the gears meet when the driven gear turns.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Hit {
-    /// Turn of the driven gear from the first pose, rad.
-    pub(super) turn: f64,
-    /// Distance of the driven axis from the common normal, mm.
-    pub(super) lever: f64,
-    /// Parts of driver and driven gear.
-    pub(super) parts: (usize, usize),
-    /// Whether a corner of the driver touches.
-    at_corner: bool,
-    meeting: Meeting,
-}
-
-impl Hit {
-    /// Parameters on the two parts.
-    pub(super) fn at(&self) -> (f64, f64) {
-        (self.meeting.u, self.meeting.v)
-    }
-
-    /// Tangents there: the driver's, and the driven gear's as it is turned.
-    pub(super) fn tangents(&self) -> [Vector; 2] {
-        let ((sin, cos), t) = (self.turn.sin_cos(), self.meeting.driven.1);
-        let turned = Vector::new(cos * t.x - sin * t.y, sin * t.x + cos * t.y);
-        [self.meeting.driver.1, turned]
-    }
-
-    /// The point on the driver and its outward normal there, in the driver's axes.
-    pub(super) fn touch(&self, pose: &Pose) -> (Point, Vector) {
-        let [on_driver, on_driven] = self.tangents();
-        let tangent = [on_driver, -on_driven][usize::from(self.at_corner)];
-        let normal = Vector::new(tangent.y, -tangent.x) / tangent.norm();
-        let point = pose.place(&Point::from(self.meeting.driver.0));
-        (point, pose.turn(&normal))
-    }
-}
 
 /// Search for the first contacts when the driven gear turns back (`sign` 1) or on (-1).
 pub(super) struct Turning<'a> {

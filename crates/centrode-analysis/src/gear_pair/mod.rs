@@ -178,11 +178,10 @@ fn mesh(pair: &GearPair, contact: &Contact, report: &mut Report) {
     let error = pick(extremes.transmission_error);
     let reverse = pick(extremes.reverse_transmission_error);
     let overlap = pick(extremes.overlap);
-    let clearance = at(&contact.clearance, f64::min);
-    let fillet = at(&contact.fillet_clearance, f64::min);
+    let clearance = pick(extremes.clearance);
+    let fillet = pick(extremes.fillet_clearance);
     let counts: Vec<f64> = contact.contacts.iter().map(|&n| f64::from(n)).collect();
     let fewest = at(&counts, f64::min);
-    let sliding = at(&contact.sliding, f64::max);
     let values = &mut report.values;
     values.insert("transmission_error_max", error.0.max(reverse.0));
     values.insert("overlap_max", overlap.0);
@@ -204,7 +203,7 @@ fn mesh(pair: &GearPair, contact: &Contact, report: &mut Report) {
     );
     values.insert("clearance_min", clearance.0);
     values.insert("fillet_clearance_min", fillet.0);
-    values.insert("sliding_max", sliding.0);
+    values.insert("sliding_max", extremes.sliding.value);
     let place = |input: f64| Place {
         input: Some(input),
         ..Place::default()

@@ -4,7 +4,7 @@ use centrode_geometry::Vector;
 use centrode_mechanism::gear::Member;
 use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
 
-use super::super::{meshing::Meshing, touch::Pose, turning::Hit};
+use super::super::{hit::Hit, meshing::Meshing, touch::Pose};
 
 /// Sine of the angle between tangents from which on a corner touches and no flank.
 const SMOOTH: f64 = 1e-4;
