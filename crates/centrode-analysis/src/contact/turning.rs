@@ -10,46 +10,13 @@ use centrode_geometry::{Point, Vector, bracketed_root};
 
 use super::{
     body::Body,
+    meeting::Meeting,
     stretch::{Contour, SETTLED, Stretch},
     touch::Pose,
 };
 
 /// Size, as a share of a contact's allowance, below which a stretch is a point.
 const POINT: f64 = 1e-5;
-
-/// Pair of points, one on either contour, at one distance from the driven axis.
-#[derive(Clone, Copy, Debug)]
-struct Meeting {
-    u: f64,
-    v: f64,
-    /// Point and tangent on the driver.
-    driver: (Vector, Vector),
-    /// Point and tangent on the driven gear.
-    driven: (Vector, Vector),
-}
-
-impl Meeting {
-    /// Turn of the driven gear that brings the points together, rad.
-    fn angle(&self) -> f64 {
-        let ((a, _), (b, tangent)) = (self.driver, self.driven);
-        let turned = b.perp(&a).atan2(b.dot(&a));
-        // Remaining difference of the distances, along the driven contour.
-        let over = 0.5 * (a.norm_squared() - b.norm_squared()) / b.dot(&tangent);
-        let rest = b.perp(&tangent) / b.norm_squared() * over;
-        if rest.is_finite() {
-            turned - rest
-        } else {
-            turned
-        }
-    }
-
-    /// Slope of the angle over the distance, driver's less driven gear's, but for a factor.
-    fn difference(&self) -> f64 {
-        let ((a, first), (b, tangent)) = (self.driver, self.driven);
-        // The distances of the two contours run opposite ways: the product of their rates is negative.
-        b.perp(&tangent) * a.dot(&first) - a.perp(&first) * b.dot(&tangent)
-    }
-}
 
 /// Contact at which the gears meet when the driven gear turns.
 #[derive(Clone, Copy, Debug)]
@@ -100,7 +67,7 @@ pub(super) struct Turning<'a> {
     /// Lever, mm, below which a contact stops nothing.
     idle: f64,
     facing: &'a [(usize, usize, (f64, f64))],
-    overlaps: &'a dyn Fn(&Vector, &Vector) -> bool,
+    penetrates: &'a dyn Fn(&Vector, &Vector) -> bool,
     /// Greatest `sign * turn` found.
     best: f64,
     /// Difference from the best, rad, within which a contact is kept too.
@@ -123,7 +90,7 @@ pub(super) struct Limits<'a> {
     /// Parts that face each other in the first pose, and their parameters there.
     pub(super) facing: &'a [(usize, usize, (f64, f64))],
     /// Whether a point of the driver lies in the driven gear or one of the driven gear in the driver.
-    pub(super) overlaps: &'a dyn Fn(&Vector, &Vector) -> bool,
+    pub(super) penetrates: &'a dyn Fn(&Vector, &Vector) -> bool,
 }
 
 impl<'a> Turning<'a> {
@@ -149,7 +116,7 @@ impl<'a> Turning<'a> {
             shallow: limits.seated,
             idle: limits.idle,
             facing: limits.facing,
-            overlaps: limits.overlaps,
+            penetrates: limits.penetrates,
             best: -limits.window,
             slack: 0.0,
             floor: (sin, cos, -limits.window),
@@ -372,7 +339,7 @@ impl<'a> Turning<'a> {
         }
         // Where the gears seem to penetrate now, one of the two points lies in the other gear.
         if value * meeting.driver.0.norm() > self.shallow
-            && !(self.overlaps)(&meeting.driver.0, &meeting.driven.0)
+            && !(self.penetrates)(&meeting.driver.0, &meeting.driven.0)
         {
             return;
         }
