@@ -31,8 +31,8 @@ class Contact:
     """Play along the common normal of the driving contact, mm."""
     contacts: NDArray[uint32]
     """Pairs of teeth in contact when the driver pushes the driven gear on."""
-    overlap: NDArray[float64]
-    """Deepest overlap of the two outlines with the driven gear seated, mm."""
+    penetration: NDArray[float64]
+    """Deepest penetration of the two outlines with the driven gear seated, mm."""
     clearance: NDArray[float64]
     """Least distance of a tip from a root, mm; infinite where none is near."""
     fillet_clearance: NDArray[float64]

@@ -124,6 +124,17 @@ impl Values {
 }
 
 impl Numbers {
+    /// The inputs, if all are finite and none is farther than that, rad: a far angle is not known well enough.
+    pub(crate) fn up_to(self, farthest: f64) -> Answer<Vec<f64>> {
+        for &input in &self.0 {
+            if finite("every input", input)?.abs() > farthest {
+                let rule = format!("must be from {} to {farthest} rad, not {input}", -farthest);
+                return Err(Raised::rule("every input", &rule));
+            }
+        }
+        Ok(self.0)
+    }
+
     pub(crate) fn into_vec(self) -> Vec<f64> {
         self.0
     }

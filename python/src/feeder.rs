@@ -25,10 +25,10 @@ fn forces(
     Ok(forces.collect::<Result<_, _>>()?)
 }
 
-/// A willow-cutting feeder: a picking six-bar that rests while it is filled, driven by an incomplete gear.
+/// A willow-cutting feeder: a picking six-bar that rests while it is filled, driven by an intermittent gear.
 ///
 /// Made by `from_toml` or `load`; `template("feeder")` is a design to start from. The input `phi` is the angle the
-/// incomplete gear has turned since the effector left its place under the store, rad; a cycle is one turn.
+/// intermittent gear has turned since the effector left its place under the store, rad; a cycle is one turn.
 ///
 /// >>> import centrode as ct
 /// >>> feeder = ct.Feeder.from_toml(ct.template("feeder"))
@@ -154,7 +154,7 @@ impl Feeder {
         self.0.dwell_time()
     }
 
-    /// Speed of the incomplete gear, rad/s.
+    /// Speed of the intermittent gear, rad/s.
     #[getter]
     fn speed(&self) -> f64 {
         self.0.speed()

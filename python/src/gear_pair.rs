@@ -18,7 +18,7 @@ use crate::body::{Body, spec_of};
 use crate::count::{Count, optional};
 use crate::design::Class;
 use crate::drawing::DrawingSpec;
-use crate::error::{Answer, Raised, finite};
+use crate::error::Answer;
 use crate::files::_write;
 use crate::gear::Gear;
 use crate::made::Made;
@@ -36,15 +36,6 @@ const MOST_PER_PITCH: u32 = 10_000;
 
 /// Greatest driver angle of a contact analysis, rad: with all its digits one is known to 1e-10 rad.
 const FARTHEST: f64 = 1e6;
-
-/// Refuses a driver angle that is not known well enough for the contact.
-fn within_turns(input: f64) -> Answer<()> {
-    if input.abs() <= FARTHEST {
-        return Ok(());
-    }
-    let rule = format!("must be from {} to {FARTHEST} rad, not {input}", -FARTHEST);
-    Err(Raised::rule("every input", &rule))
-}
 
 /// A non-circular gear pair: exact pitch curves, finished teeth.
 ///
@@ -331,10 +322,7 @@ impl GearPair {
         let contact = match inputs {
             None => wait(py, move || Contact::sampled(&pair, per_pitch)),
             Some(inputs) => {
-                let inputs = inputs.into_vec();
-                for &input in &inputs {
-                    within_turns(finite("every input", input)?)?;
-                }
+                let inputs = inputs.up_to(FARTHEST)?;
                 wait(py, move || Contact::at(&pair, &inputs))
             }
         };

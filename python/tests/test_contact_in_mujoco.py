@@ -35,7 +35,7 @@ def turned(folder, sense):
 
 
 @pytest.mark.parametrize("sense", [1, -1])
-def test_hollow_teeth_carry_the_driven_gear_where_the_analysis_says(folder, sense):
+def test_concave_teeth_carry_the_driven_gear_where_the_analysis_says(folder, sense):
     pair = ct.load(DESIGN)
     travel, off = turned(folder, sense)
     contact = pair.contact(inputs=travel)

@@ -67,4 +67,4 @@ def test_teeth_that_lie_deep_in_each_other_have_no_play():
     pair, _ = campaign.draw(1, 750)
     contact = pair.contact(inputs=[2.8341962179305247, 2.918759260113339])
     assert (contact.backlash < 0).all()
-    assert (contact.overlap > 0).all()
+    assert (contact.penetration > 0).all()

@@ -67,7 +67,7 @@ def test_a_design_reads_back_and_bad_ones_say_where(feeder, tmp_path):
 def test_check_and_files(feeder, tmp_path):
     report = feeder.check()
     assert report.ok
-    assert report.values["gear_overlap_max"] < 3e-3
+    assert report.values["gear_penetration_max"] < 3e-3
     paths = feeder.export(tmp_path, formats=["csv", "mjcf"])
     assert {"machine.xml", "motion.csv"} <= {path.name for path in paths}
 

@@ -157,7 +157,7 @@ def test_teeth_alone_carry_a_chain_of_the_design_that_meets_all_goals(tmp_path):
     found = json.loads(subprocess.run(run, check=True, capture_output=True, text=True).stdout)
     planet = found["joints"]["planet_0_joint"]
     assert np.degrees(planet["off_max"]) < 0.05
-    assert found["overlap_max_mm"] < 0.01
+    assert found["penetration_max_mm"] < 0.01
     rows = np.genfromtxt(tmp_path / "found.csv", delimiter=",", names=True)
     assert np.ptp(rows["travel_rad"]) > 6.2
     # The planet's speed wavers a little about its law, as teeth come and go.

@@ -185,8 +185,8 @@ def examine(pair, number, words, inputs, seed):
         return outcome
     noise = 4 * polygons.chord
     clearance = np.minimum(contact.clearance, contact.fillet_clearance)
-    # Of two seats past each other each has on its other side all that is missing, twice the overlap told.
-    told = 2 * contact.overlap
+    # Of two seats past each other each has on its other side all that is missing, twice the penetration told.
+    told = 2 * contact.penetration
     seats = zip(phis, contact.driven_angle, contact.reverse_driven_angle, clearance, told, strict=True)
     for phi, on, back, clear, missing in seats:
         if not math.isfinite(on):

@@ -22,7 +22,7 @@ fn turned(p: Point, angle: f64) -> Point {
 
 /// Overlapping area of the placed gears, by a polygon library that knows nothing of gears and shares nothing with the
 /// crates: of all packages here only these tests depend on it.
-fn overlap(pair: &GearPair, phi: f64, psi: f64) -> f64 {
+fn penetration(pair: &GearPair, phi: f64, psi: f64) -> f64 {
     let a = pair.center_distance();
     let driver = polygon(pair.driver(), pair.module(), |p| turned(p, -phi));
     let driven = polygon(pair.driven(), pair.module(), |p| {
@@ -44,7 +44,7 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(12))]
 
     #[test]
-    fn meshed_gears_overlap_nowhere_and_overlap_after_a_small_turn_either_way(
+    fn meshed_gears_penetrate_nowhere_and_do_after_a_small_turn_either_way(
         design in sound_pair(),
         inputs in proptest::collection::vec(0.0..1.0_f64, 4),
     ) {
@@ -57,11 +57,11 @@ proptest! {
         let small = 0.02 * module / pair.center_distance();
         for (i, &phi) in phis.iter().enumerate() {
             let law = pair.driven_angle(phi);
-            let seated = overlap(&pair, phi, law);
+            let seated = penetration(&pair, phi, law);
             prop_assert!(seated < noise, "{seated:e} mm2 at {phi}");
             let play = contact.backlash[i];
             for turn in [play + small, -play - small] {
-                let after = overlap(&pair, phi, law + turn);
+                let after = penetration(&pair, phi, law + turn);
                 prop_assert!(after > 3.0 * noise, "{after:e} mm2 at {phi} turned by {turn}");
             }
         }
@@ -85,7 +85,7 @@ proptest! {
             ("clearance", |c| &c.clearance, [Some(extremes.clearance), None], length),
             ("fillet clearance", |c| &c.fillet_clearance, [Some(extremes.fillet_clearance), None], length),
             ("sliding", |c| &c.sliding, [None, Some(extremes.sliding)], length),
-            ("overlap", |c| &c.overlap, [None, Some(extremes.overlap)], length),
+            ("penetration", |c| &c.penetration, [None, Some(extremes.penetration)], length),
             ("backlash", |c| &c.backlash, extremes.backlash.map(Some), angle),
             ("normal backlash", |c| &c.normal_backlash, extremes.normal_backlash.map(Some), length),
         ];
@@ -110,8 +110,8 @@ proptest! {
         let pair = GearPair::resolve(&design).expect("valid");
         let report = check(&pair);
         prop_assert!(report.ok(), "{:?}", report.findings);
-        prop_assert!(report.values["overlap_max"] < 1e-9 * pair.module());
-        prop_assert!(report.values["contact_ratio_min"] >= 1.0);
+        prop_assert!(report.values["penetration_max"] < 1e-9 * pair.module());
+        prop_assert!(report.values["pairs_in_contact_min"] >= 1.0);
         if pair.backlash() == 0.0 {
             prop_assert!(report.values["transmission_error_max"] < 1e-8);
         }

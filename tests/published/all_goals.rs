@@ -55,7 +55,7 @@ fn its_full_teeth_carry_the_motion_over_the_whole_cycle() {
         .iter()
         .filter(|f| f.severity >= Severity::Warning);
     assert_eq!(worst.count(), 0, "{:?}", report.findings);
-    assert!(report.values["contact_ratio_min"] >= 1.0);
+    assert!(report.values["pairs_in_contact_min"] >= 1.0);
 }
 
 /// The table of `docs/three-arm.md`: parameters, then figures.

@@ -177,7 +177,7 @@ def keyway(folder, part):
 
 def test_a_keyed_crank_stands_on_its_shaft_as_it_does_at_rest(feeder):
     name, folder = feeder
-    # Key and shaft hold keyways on one line: the gear's x axis points from the incomplete gear's shaft then.
+    # Key and shaft hold keyways on one line: the gear's x axis points from the intermittent gear's shaft then.
     for part in ("gear-driver", "gear-driven", "gear-entry-cam", "gear-exit-cam"):
         assert keyway(folder, part) == pytest.approx(0, abs=1e-12), part
     frame = contours(folder / "frame.dxf", "hole")

@@ -130,7 +130,7 @@ def test_the_script_plays_the_law(exported, tmp_path):
     result = play(exported.folder)
     assert result["mode"] == "law"
     assert result["joints"]["driven_joint"]["off_max"] < 1e-11
-    assert result["overlap_max_mm"] < 2e-3
+    assert result["penetration_max_mm"] < 2e-3
 
 
 @pytest.mark.parametrize("way", [(), ("--backward",)])

@@ -230,7 +230,7 @@ def test_turned_by_the_teeth_alone_the_box_follows(machines):
     # The shaft is not put where it is: it stays behind by the play of the teeth, which do touch.
     assert json.loads((machines / "moving-box" / "motion.json").read_text())["input"]["joint"] == "driver_joint"
     assert result["joints"]["shaft_joint"]["off_max"] > 1e-5
-    assert result["overlap_max_mm"] > 0
+    assert result["penetration_max_mm"] > 0
     assert 1e3 * result["joints"]["box_joint"]["off_max"] < 0.1
 
 

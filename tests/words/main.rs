@@ -61,3 +61,40 @@ fn summary_lines_stand_alone() -> io::Result<()> {
     );
     Ok(())
 }
+
+/// Words that were replaced by the field's own.
+const GONE: [&str; 8] = [
+    "by chance",
+    "upright box",
+    "looked over",
+    "incomplete gear",
+    "incompletepair",
+    "contact_ratio_min",
+    "contact_ratio_max",
+    "overlap_max",
+];
+
+#[test]
+fn replaced_words_stay_gone() -> io::Result<()> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let mut files = Vec::new();
+    for folder in ["crates", "python/src"] {
+        rust_files(&root.join(folder), &mut files)?;
+    }
+    assert!(files.len() > 100, "only {} files found", files.len());
+    let mut found = Vec::new();
+    for path in files {
+        let name = path.strip_prefix(&root).unwrap_or(&path).display();
+        for (index, line) in fs::read_to_string(&path)?.lines().enumerate() {
+            let line = line.to_lowercase();
+            let gone = GONE.iter().filter(|word| line.contains(**word));
+            found.extend(gone.map(|word| format!("{name}:{}: {word}", index + 1)));
+        }
+    }
+    assert!(
+        found.is_empty(),
+        "say it in the field's words:\n{}",
+        found.join("\n")
+    );
+    Ok(())
+}

@@ -8,8 +8,8 @@ mod figure;
 pub mod forces;
 mod gear_pair;
 mod goal;
-mod incomplete_contact;
 pub mod interference;
+mod intermittent_contact;
 pub mod optimise;
 mod report;
 mod response;
@@ -29,7 +29,7 @@ pub use feeder::{
 pub use figure::{FigureGroup, FigureRow, JsonNumber};
 pub use gear_pair::{MOST_TEETH, PairRemedy, check, check_contact, remedies};
 pub use goal::Goal;
-pub use incomplete_contact::IncompleteContact;
+pub use intermittent_contact::IntermittentContact;
 pub use report::{Finding, FlankPlace, Place, Report, ReportFile, Severity, Table};
 pub use response::{Answer, Response};
 pub use shaft::{check_moving_box, check_shaft};

@@ -1,6 +1,6 @@
 use std::fs::{self, File, TryLockError};
 use std::hash::{BuildHasher as _, Hasher as _, RandomState};
-use std::io;
+use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
 
 /// Beginning and end of a stage's name, about a number of its own.
@@ -56,6 +56,41 @@ impl Drop for Stage {
         // Files that cannot be removed now are cleared by the next stage.
         let _ = fs::remove_dir_all(&self.path);
     }
+}
+
+/// Where a file of that name is written: itself, or where its links lead.
+pub(crate) fn destination(target: &Path) -> io::Result<PathBuf> {
+    /// Most links in a row, as on Linux.
+    const LINKS: u32 = 40;
+    match fs::metadata(target) {
+        Ok(there) if there.is_dir() => Err(io::ErrorKind::IsADirectory.into()),
+        Ok(there) if !there.is_file() => Err(io::Error::other("it is no regular file")),
+        Ok(_) if target.is_symlink() => target.canonicalize(),
+        // Links to what is still to be made.
+        Err(error) if error.kind() == io::ErrorKind::NotFound && target.is_symlink() => {
+            let mut path = target.to_owned();
+            for _ in 0..LINKS {
+                if !path.is_symlink() {
+                    return Ok(path);
+                }
+                let next = fs::read_link(&path)?;
+                path = path.parent().unwrap_or(Path::new("")).join(next);
+            }
+            Err(error)
+        }
+        Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
+        _ => Ok(target.to_owned()),
+    }
+}
+
+/// Writes and flushes a new file that is to take the place of another, with its permissions.
+pub(crate) fn put(bytes: &[u8], place: &Path, target: &Path) -> io::Result<()> {
+    let mut file = File::create_new(place)?;
+    if let Ok(before) = fs::metadata(target) {
+        fs::set_permissions(place, before.permissions())?;
+    }
+    file.write_all(bytes)?;
+    file.sync_all()
 }
 
 /// File by which a stage is locked; made where it is missing.

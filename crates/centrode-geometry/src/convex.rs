@@ -32,14 +32,14 @@ pub fn convex_pieces(polygon: &[Point], tolerance: Tolerance) -> ConvexPieces {
             continue;
         }
         let corners = convex_hull(&part);
-        let hollow = deepest(&part, &corners);
-        let cut = hollow
+        let concavity = deepest(&part, &corners);
+        let cut = concavity
             .filter(|(_, depth)| *depth > tolerance.mm())
             .and_then(|(bottom, _)| across(&part, bottom).map(|end| split(&part, bottom, end)));
         if let Some([one, other]) = cut {
             parts.extend([other, one]);
         } else {
-            found.excess = hollow.map_or(found.excess, |(_, depth)| depth.max(found.excess));
+            found.excess = concavity.map_or(found.excess, |(_, depth)| depth.max(found.excess));
             found
                 .pieces
                 .push(corners.iter().map(|&i| part[i]).collect());
@@ -256,7 +256,7 @@ mod tests {
     }
 
     #[test]
-    fn a_star_of_many_hollows_comes_apart() {
+    fn a_star_of_many_concavities_comes_apart() {
         let star: Vec<Point> = (0..14)
             .map(|k| (PI * f64::from(k) / 7.0, if k % 2 == 0 { 5.0 } else { 2.0 }))
             .map(|(t, r)| Point::new(r * t.cos(), r * t.sin()))

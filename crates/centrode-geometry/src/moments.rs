@@ -24,16 +24,6 @@ impl AreaMoments {
         Point::from(self.first / self.area)
     }
 
-    /// Moments with the sign that makes the area positive.
-    #[must_use]
-    pub fn unsigned(self) -> Self {
-        if self.area < 0.0 {
-            self.times(-1.0)
-        } else {
-            self
-        }
-    }
-
     /// Moments less those of a region cut out.
     #[must_use]
     pub fn without(self, other: Self) -> Self {

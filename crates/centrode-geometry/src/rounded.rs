@@ -15,7 +15,7 @@ pub struct ShortSide {
 }
 
 impl Outline {
-    /// Polygon with every corner, hollow ones too, rounded to a radius by an arc tangent to both sides.
+    /// Polygon with every corner, concave ones too, rounded to a radius by an arc tangent to both sides.
     ///
     /// An arc takes the radius times the tangent of half the corner's turn from each of its sides; a corner in a straight
     /// line takes nothing.

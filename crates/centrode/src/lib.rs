@@ -24,7 +24,7 @@ pub fn sheet_data(report: &analysis::Report) -> Vec<Datum> {
         let ends = [report.values.get(least)?, report.values.get(greatest)?];
         ends.iter().all(|x| x.is_finite()).then(|| ends.map(|x| *x))
     };
-    let contact_ratio = range("contact_ratio_min", "contact_ratio_max");
+    let contact_ratio = range("pairs_in_contact_min", "pairs_in_contact_max");
     let backlash = range("normal_backlash_min", "normal_backlash_max");
     contact_ratio
         .zip(backlash)

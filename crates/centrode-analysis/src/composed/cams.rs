@@ -18,8 +18,8 @@ pub(super) fn cams(composed: &Composed, report: &mut Report) {
         let input = |angle: f64| cam.inputs(angle, composed.period()).first().copied();
         angles.push((cam.name.clone(), vec![rise.value, fall.value]));
         let (least, greatest) = cam.part.radii();
-        let [convex, hollow] = [limits.least_radius.value, limits.largest_wheel.value];
-        radii.push((cam.name.clone(), vec![least, greatest, convex, hollow]));
+        let [convex, concave] = [limits.least_radius.value, limits.largest_wheel.value];
+        radii.push((cam.name.clone(), vec![least, greatest, convex, concave]));
         let swings = disc.follower().swings();
         let checked = CheckedCam {
             part: &cam.name,
@@ -55,7 +55,7 @@ pub(super) fn cams(composed: &Composed, report: &mut Report) {
         name: "cam-radii",
         title: "Radius of cam, and least radii of curvature",
         unit: Unit::Millimetre,
-        columns: ["least", "greatest", "convex", "hollow"]
+        columns: ["least", "greatest", "convex", "concave"]
             .map(String::from)
             .into(),
         rows: radii,

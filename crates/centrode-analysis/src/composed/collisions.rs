@@ -9,7 +9,7 @@ use super::clearance::surfaces;
 use crate::interference::LinkPair;
 use crate::{Finding, Place, Report, Severity, Unit};
 
-/// Accuracy to which parts are looked over for collisions, as a share of a plate's width.
+/// Accuracy to which collisions of parts are sought, as a share of a plate's width.
 const ACCURACY: f64 = 1e-3;
 
 /// Accuracy to which it is found how near the circles around two parts come, as a share of their distance.

@@ -36,7 +36,7 @@ pub(super) fn pairs(made: &Made<'_>, report: &mut Report) {
             told.place.input = None;
             told
         }));
-        let carrying = ["contact_ratio_min", "contact_ratio_mean"];
+        let carrying = ["pairs_in_contact_min", "contact_ratio_mean"];
         let value = |key: &str| own.values.get(key).copied().unwrap_or(f64::NAN);
         rows.push((name.to_owned(), carrying.map(value).to_vec()));
     }

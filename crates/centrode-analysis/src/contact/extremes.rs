@@ -30,8 +30,8 @@ pub struct ContactExtremes {
     pub transmission_error: Extreme,
     /// Greatest size of the transmission error with the driver pushing back, rad.
     pub reverse_transmission_error: Extreme,
-    /// Greatest overlap of the gears where there is no room for them, mm.
-    pub overlap: Extreme,
+    /// Greatest penetration of the gears where there is no room for them, mm.
+    pub penetration: Extreme,
     /// Least and greatest angular backlash, rad.
     pub backlash: [Extreme; 2],
     /// Least and greatest normal backlash, mm.
@@ -65,13 +65,13 @@ impl Contact {
         };
         let error: Figure = |c, k| c.transmission_error[k].abs();
         let reverse: Figure = |c, k| c.reverse_transmission_error[k].abs();
-        let overlap: Figure = |c, k| c.overlap[k];
+        let penetration: Figure = |c, k| c.penetration[k];
         let backlash: Figure = |c, k| c.backlash[k];
         let normal: Figure = |c, k| c.normal_backlash[k];
         ContactExtremes {
             transmission_error: search.greatest(error, ROUNDING),
             reverse_transmission_error: search.greatest(reverse, ROUNDING),
-            overlap: search.greatest(overlap, a * ROUNDING),
+            penetration: search.greatest(penetration, a * ROUNDING),
             backlash: [
                 least(&mut search, backlash, ROUNDING),
                 search.greatest(backlash, ROUNDING),

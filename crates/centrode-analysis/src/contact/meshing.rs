@@ -106,7 +106,7 @@ impl<'a> Meshing<'a> {
                 list.push(f64::INFINITY);
             }
             out.contacts.push(0);
-            out.overlap.push(0.0);
+            out.penetration.push(0.0);
             out.sliding.push(0.0);
             return;
         };
@@ -127,7 +127,7 @@ impl<'a> Meshing<'a> {
             .map(|place| (place.touch.point, place.touch.normal))
             .collect();
         // Wedged between two sides: half of the missing room.
-        out.overlap
+        out.penetration
             .push((-play * 0.5 * forward.lever.min(back.lever)).max(0.0));
         // Where the gears penetrate at the law's angle though there is room for them, they are put in its middle.
         let off = (law - back.angle).max(forward.angle - law);
@@ -344,7 +344,7 @@ impl<'a> Meshing<'a> {
     /// Contacts that hold the driven gear when it is turned from a pose, the first of them first.
     fn first_hits(&self, candidates: &Candidates, pose: &Pose, sign: f64) -> Vec<Hit> {
         let (driver, driven) = (&self.driver, &self.driven);
-        let overlaps = |a: &Vector, b: &Vector| {
+        let penetrates = |a: &Vector, b: &Vector| {
             driven.contains(Point::from(*a)) || driver.contains(pose.place(&Point::from(*b)))
         };
         let limits = Limits {
@@ -353,7 +353,7 @@ impl<'a> Meshing<'a> {
             seated: SEATED * self.module,
             idle: IDLE * self.module,
             facing: &self.memory,
-            overlaps: &overlaps,
+            penetrates: &penetrates,
         };
         let mut turning = Turning::new(&self.driver, &self.driven, *pose, sign, &limits);
         for &(k, j) in &candidates.pairs {

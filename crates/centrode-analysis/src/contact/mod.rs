@@ -8,6 +8,7 @@ mod body;
 mod edges;
 mod extremes;
 mod hit;
+mod meeting;
 mod meshing;
 mod places;
 mod proof;
@@ -56,7 +57,7 @@ pub struct Contact {
     /// Pairs of teeth in contact when the driver pushes the driven gear on.
     pub contacts: Vec<u32>,
     /// Deepest penetration of the two outlines with the driven gear seated, mm.
-    pub overlap: Vec<f64>,
+    pub penetration: Vec<f64>,
     /// Least distance of a tip from a root, mm; infinite where none is near.
     pub clearance: Vec<f64>,
     /// Least clearance from a fillet, mm; infinite where nothing is near.

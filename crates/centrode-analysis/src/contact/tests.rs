@@ -29,7 +29,7 @@ fn edges_that_touch_bound_the_backlash_of_trimmed_teeth() {
             contact.backlash[i]
         );
         assert!(contact.transmission_error[i].abs() < 6e-5, "at {input}");
-        assert!(contact.overlap[i] == 0.0, "at {input}");
+        assert!(contact.penetration[i] == 0.0, "at {input}");
     }
 }
 

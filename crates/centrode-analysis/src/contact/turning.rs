@@ -10,7 +10,8 @@ use centrode_geometry::{Vector, bracketed_root};
 
 use super::{
     body::Body,
-    hit::{Hit, Meeting},
+    hit::Hit,
+    meeting::Meeting,
     stretch::{Contour, SETTLED, Stretch},
     touch::Pose,
 };
@@ -30,7 +31,7 @@ pub(super) struct Turning<'a> {
     /// Lever, mm, below which a contact stops nothing.
     idle: f64,
     facing: &'a [(usize, usize, (f64, f64))],
-    overlaps: &'a dyn Fn(&Vector, &Vector) -> bool,
+    penetrates: &'a dyn Fn(&Vector, &Vector) -> bool,
     /// Greatest `sign * turn` found.
     best: f64,
     /// Difference from the best, rad, within which a contact is kept too.
@@ -53,7 +54,7 @@ pub(super) struct Limits<'a> {
     /// Parts that face each other in the first pose, and their parameters there.
     pub(super) facing: &'a [(usize, usize, (f64, f64))],
     /// Whether a point of the driver lies in the driven gear or one of the driven gear in the driver.
-    pub(super) overlaps: &'a dyn Fn(&Vector, &Vector) -> bool,
+    pub(super) penetrates: &'a dyn Fn(&Vector, &Vector) -> bool,
 }
 
 impl<'a> Turning<'a> {
@@ -79,7 +80,7 @@ impl<'a> Turning<'a> {
             shallow: limits.seated,
             idle: limits.idle,
             facing: limits.facing,
-            overlaps: limits.overlaps,
+            penetrates: limits.penetrates,
             best: -limits.window,
             slack: 0.0,
             floor: (sin, cos, -limits.window),
@@ -302,7 +303,7 @@ impl<'a> Turning<'a> {
         }
         // Where the gears seem to penetrate now, one of the two points lies in the other gear.
         if value * meeting.driver.0.norm() > self.shallow
-            && !(self.overlaps)(&meeting.driver.0, &meeting.driven.0)
+            && !(self.penetrates)(&meeting.driver.0, &meeting.driven.0)
         {
             return;
         }

@@ -64,7 +64,7 @@ pub(crate) const FIGURES: &[FigureGroup] = &[
             row("teeth left on the driver", &["gear_teeth"], Count),
             row("centre distance", &["gear_center_distance"], Millimetre),
             row("radius of the locking arc", &["gear_lock_radius"], Millimetre),
-            row("overlap", &["gear_overlap_max"], Millimetre),
+            row("penetration", &["gear_penetration_max"], Millimetre),
         ],
     },
 ];

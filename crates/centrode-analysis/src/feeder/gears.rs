@@ -3,19 +3,19 @@ use std::sync::Arc;
 use centrode_geometry::{Recent, Tolerance};
 use centrode_mechanism::feeder::{Feeder, GearsSpec};
 
-use crate::{Finding, IncompleteContact, Place, Report, Severity, Unit};
+use crate::{Finding, IntermittentContact, Place, Report, Severity, Unit};
 
 /// Number of inputs at which the intermittent gears are held against each other.
 const GEAR_LOOKS: u32 = 240;
 /// Distance of their contours from the polygons, in modules.
 const CONTOUR: f64 = 1e-4;
 /// Penetration above which they do not run, in modules.
-const OVERLAP: f64 = 1e-3;
+const PENETRATION: f64 = 1e-3;
 /// Backlash above which they are loose, as a multiple of the one asked for.
 const LOOSE: f64 = 2.0;
 
 /// Contact of the gears of the designs checked last.
-static PROVEN: Recent<GearsSpec, Arc<IncompleteContact>> = Recent::new();
+static PROVEN: Recent<GearsSpec, Arc<IntermittentContact>> = Recent::new();
 
 /// Checks that the intermittent gears can be cut, and hold the crank all the way: nothing penetrates, and the crank is
 /// free by no more than the backlash asked for.
@@ -50,7 +50,7 @@ pub(super) fn gears(feeder: &Feeder, report: &mut Report) {
         return;
     };
     let contact = PROVEN.get(spec, || {
-        Arc::new(IncompleteContact::of(&pair, GEAR_LOOKS, tolerance))
+        Arc::new(IntermittentContact::of(&pair, GEAR_LOOKS, tolerance))
     });
     let most = |moving| {
         let [ahead, back] = [&contact.ahead, &contact.back];
@@ -58,20 +58,20 @@ pub(super) fn gears(feeder: &Feeder, report: &mut Report) {
             .greatest(ahead, moving)
             .max(contact.greatest(back, moving))
     };
-    let (moving, resting, overlap) = (most(true), most(false), contact.deepest());
+    let (moving, resting, penetration) = (most(true), most(false), contact.deepest());
     let values = &mut report.values;
     values.insert("gear_center_distance", pair.center_distance());
     values.insert("gear_teeth", f64::from(pair.teeth()));
     values.insert("gear_lock_radius", pair.lock_radius());
     values.insert("gear_play_moving_max", moving);
     values.insert("gear_play_resting_max", resting);
-    values.insert("gear_overlap_max", overlap);
-    let limit = OVERLAP * spec.module;
-    if overlap > limit {
-        let message = format!("the incomplete gears overlap by {overlap:.4} mm");
-        let figures = [Some(overlap), Some(limit)];
+    values.insert("gear_penetration_max", penetration);
+    let limit = PENETRATION * spec.module;
+    if penetration > limit {
+        let message = format!("the intermittent gears penetrate each other by {penetration:.4} mm");
+        let figures = [Some(penetration), Some(limit)];
         report.findings.push(about_gears(
-            "gears-overlap",
+            "gears-penetrate",
             Severity::Error,
             message,
             figures,
@@ -90,7 +90,7 @@ pub(super) fn gears(feeder: &Feeder, report: &mut Report) {
     let allowed = LOOSE * asked + 1e-4;
     if loose > allowed {
         let message = format!(
-            "the incomplete gears leave the crank free by {:.3} deg",
+            "the intermittent gears leave the crank free by {:.3} deg",
             loose.to_degrees()
         );
         let figures = [Some(loose), Some(allowed)];

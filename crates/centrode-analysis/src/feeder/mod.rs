@@ -39,7 +39,7 @@ pub fn check_feeder(feeder: &Feeder) -> Report {
     report
 }
 
-/// Checks a feeder without the contact analysis of its incomplete gears, some ten times sooner than [`check_feeder`].
+/// Checks a feeder without the contact analysis of its intermittent gears, some ten times sooner than [`check_feeder`].
 #[must_use]
 pub fn check_strokes(feeder: &Feeder) -> Report {
     let mut report = Report {

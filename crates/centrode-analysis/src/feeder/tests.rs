@@ -80,7 +80,7 @@ fn bounds_that_allow_the_angle_need_no_widening() {
     );
 }
 
-/// Power of crank and incomplete gear is the growth of the links' energy, and the force of the tip's mass in F is its weight.
+/// Power of crank and intermittent gear is the growth of the links' energy, and the force of the tip's mass in F is its weight.
 #[test]
 fn the_crank_moves_the_masses_of_the_plates() {
     let feeder = feeder([59.718, 105.477, 98.497, 129.79], [84.118, 63.61]);
@@ -89,7 +89,7 @@ fn the_crank_moves_the_masses_of_the_plates() {
     let at = |forces: &FeederForces, input, moving| forces.at(input, moving).expect("it turns");
     let step = 1e-4;
     let power = |forces: &Forces, turned: f64| {
-        // The incomplete gear, out of balance, turns clockwise as fast as the input.
+        // The intermittent gear, out of balance, turns clockwise as fast as the input.
         FeederForces::torque(forces) * turned - forces.joints[Part::ALL.len() - 1].drive
     };
     for i in 1..40 {

@@ -31,12 +31,12 @@ pub(crate) const FIGURES: &[FigureGroup] = &[
         columns: &["least", "greatest"],
         rows: &[
             row("ratio, driven to driver", &["ratio_min", "ratio_max"], Number),
-            row("contacts at once", &["contact_ratio_min", "contact_ratio_max"], Count),
+            row("contacts at once", &["pairs_in_contact_min", "pairs_in_contact_max"], Count),
             row("contact ratio, mean", &["contact_ratio_mean"], Number),
             row("backlash of the driven gear", &["backlash_min", "backlash_max"], Angle),
             row("backlash, normal", &["normal_backlash_min", "normal_backlash_max"], Millimetre),
             row("transmission error", &["", "transmission_error_max"], Radian),
-            row("overlap", &["", "overlap_max"], Millimetre),
+            row("penetration", &["", "penetration_max"], Millimetre),
             row("pressure angle", &["", "pressure_angle_max"], Angle),
             row("sliding a rad of the driver", &["", "sliding_max"], Millimetre),
             row("clearance, tip to root", &["clearance_min"], Millimetre),
@@ -49,7 +49,7 @@ pub(crate) const FIGURES: &[FigureGroup] = &[
         rows: &[
             row("centre distance", &["center_distance"], Millimetre),
             row("module", &["module"], Millimetre),
-            row("largest wheel to grind it", &["cam_hollow_radius_min"], Millimetre),
+            row("largest wheel to grind it", &["cam_concave_radius_min"], Millimetre),
             row("largest module for the tool's flanks", &["largest_module"], Millimetre),
             row("largest addendum, no undercut", &["largest_addendum"], Millimetre),
             row("phase of the first tooth", &["phase"], Pitch),

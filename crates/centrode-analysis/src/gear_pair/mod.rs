@@ -19,7 +19,7 @@ pub use remedies::{MOST_TEETH, PairRemedy, remedies};
 pub(crate) use remedies::{is_carried, least_count};
 
 /// Penetration, in modules, above which two outlines are reported to interfere.
-const OVERLAP: f64 = 1e-6;
+const PENETRATION: f64 = 1e-6;
 /// Transmission error, rad, above which contact is reported as lost.
 const LOST: f64 = 1e-6;
 
@@ -177,14 +177,14 @@ fn mesh(pair: &GearPair, contact: &Contact, report: &mut Report) {
     let pick = |found: Extreme| (found.value, found.input);
     let error = pick(extremes.transmission_error);
     let reverse = pick(extremes.reverse_transmission_error);
-    let overlap = pick(extremes.overlap);
+    let penetration = pick(extremes.penetration);
     let clearance = pick(extremes.clearance);
     let fillet = pick(extremes.fillet_clearance);
     let counts: Vec<f64> = contact.contacts.iter().map(|&n| f64::from(n)).collect();
     let fewest = at(&counts, f64::min);
     let values = &mut report.values;
     values.insert("transmission_error_max", error.0.max(reverse.0));
-    values.insert("overlap_max", overlap.0);
+    values.insert("penetration_max", penetration.0);
     for (names, [least, greatest]) in [
         (["backlash_min", "backlash_max"], extremes.backlash),
         (
@@ -195,8 +195,8 @@ fn mesh(pair: &GearPair, contact: &Contact, report: &mut Report) {
         values.insert(names[0], least.value);
         values.insert(names[1], greatest.value);
     }
-    values.insert("contact_ratio_min", fewest.0);
-    values.insert("contact_ratio_max", at(&counts, f64::max).0);
+    values.insert("pairs_in_contact_min", fewest.0);
+    values.insert("pairs_in_contact_max", at(&counts, f64::max).0);
     values.insert(
         "contact_ratio_mean",
         counts.iter().sum::<f64>() / counts.len() as f64,
@@ -227,19 +227,22 @@ fn mesh(pair: &GearPair, contact: &Contact, report: &mut Report) {
     }
     // Clearance below zero is a penetration that no turning of the driven gear removes.
     let deepest = [
-        (overlap.0, overlap.1),
+        (penetration.0, penetration.1),
         (-clearance.0, clearance.1),
         (-fillet.0, fillet.1),
     ]
     .into_iter()
     .max_by(|a, b| a.0.total_cmp(&b.0))
     .unwrap_or((0.0, 0.0));
-    if deepest.0 > OVERLAP * module {
+    if deepest.0 > PENETRATION * module {
         report.findings.push(Finding {
             rule: "interference",
             remedy: remedy("interference"),
             severity: Severity::Error,
-            message: format!("the gears overlap by up to {:.3e} mm", deepest.0),
+            message: format!(
+                "the gears penetrate each other by up to {:.3e} mm",
+                deepest.0
+            ),
             measured: Some(deepest.0),
             required: Some(0.0),
             unit: Unit::Millimetre,

@@ -3,7 +3,7 @@
 use centrode_mechanism::gear::GearPair;
 use centrode_mechanism::gear::design::{Addendum, GearPairDesign};
 
-use super::{OVERLAP, thinned};
+use super::{PENETRATION, thinned};
 use crate::Contact;
 
 /// Transmission error up to which the flanks carry the motion by themselves, rad.
@@ -25,7 +25,7 @@ pub struct PairRemedy {
 
 /// Finds from which tooth count on full teeth, and fitted ones, carry the motion of a pair by their flanks alone.
 ///
-/// They do where the transmission error stays below 1e-9 rad, more only by what the play thins them, and nothing overlaps,
+/// They do where the transmission error stays below 1e-9 rad, more only by what the play thins them, and nothing penetrates,
 /// over the samples of [`Contact::of`]. Counts grow by a quarter till one does and are halved between it and the greatest that does
 /// not: the count found carries the motion and the one below it does not, but a greater one may fail again. A kind of teeth that does not up to [`MOST_TEETH`]
 /// is left out. Each count tried costs a pair and its contact.
@@ -96,9 +96,12 @@ fn is_exact(pair: &GearPair, found: &Contact) -> bool {
     let allowed = CARRIED.max(thinned(pair));
     let errors = [&found.transmission_error, &found.reverse_transmission_error];
     let mut errors = errors.into_iter().flatten();
-    let deepest = OVERLAP * pair.module();
+    let deepest = PENETRATION * pair.module();
     let mut clear = found.clearance.iter().chain(&found.fillet_clearance);
     errors.all(|error| error.abs() <= allowed)
-        && found.overlap.iter().all(|&overlap| overlap <= deepest)
+        && found
+            .penetration
+            .iter()
+            .all(|&penetration| penetration <= deepest)
         && clear.all(|&clear| clear >= -deepest)
 }

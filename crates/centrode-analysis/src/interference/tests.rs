@@ -201,10 +201,10 @@ fn inside_is_overlap_and_pulled_apart_is_not() {
     let hole = Outline::circle(Point::origin(), 8.0).reversed();
     let ring = Body::new(&[rectangle(10.0, 10.0), hole], tolerance(1e-6)).expect("a body");
     let (a, b) = (moving(&ring, &home), moving(&small, &home));
-    let hollow = clearance(&a, &b, [0.0, 1.0], tolerance(1e-6)).expect("finite");
+    let concave = clearance(&a, &b, [0.0, 1.0], tolerance(1e-6)).expect("finite");
     assert!(
-        (hollow.least - (8.0 - 2_f64.sqrt())).abs() < 3e-6,
-        "{hollow:?}"
+        (concave.least - (8.0 - 2_f64.sqrt())).abs() < 3e-6,
+        "{concave:?}"
     );
 }
 

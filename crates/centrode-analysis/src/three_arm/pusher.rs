@@ -36,7 +36,7 @@ pub(crate) fn check_pusher(mechanism: &ThreeArm, report: &mut Report) {
     let values = &mut report.values;
     values.insert("cam_pressure_angle_max", limits.rise_pressure_angle.value);
     values.insert("cam_radius_min", limits.least_radius.value);
-    values.insert("cam_hollow_radius_min", limits.largest_wheel.value);
+    values.insert("cam_concave_radius_min", limits.largest_wheel.value);
     values.insert("push_rod_stroke", pusher.stroke());
     let checked = CheckedCam {
         part: "cam",

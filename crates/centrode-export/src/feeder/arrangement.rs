@@ -114,7 +114,7 @@ fn pressed(diameter: f64) -> Fit {
     Fit::new("pins of the cams", diameter, classes)
 }
 
-/// The incomplete gears with their cams and pins, which are not cut for this.
+/// The intermittent gears with their cams and pins, which are not cut for this.
 fn gears(feeder: &Feeder, machine: &mut Machine) {
     let spec = &feeder.design().gears;
     let crank = machine.link_named(Part::Crank.name()).unwrap_or(0);
@@ -152,7 +152,7 @@ fn gears(feeder: &Feeder, machine: &mut Machine) {
     let (driver, driven) = (spec.driver_pitches, spec.driven_pitches);
     let seen = Some(("driver", driver));
     add(
-        "incomplete gear",
+        "intermittent gear",
         vec![own.unwrap_or(0)],
         "gear-driver",
         bored(driver),
@@ -173,7 +173,7 @@ fn gears(feeder: &Feeder, machine: &mut Machine) {
         .map_or(0, |drive| drive.stops());
     let cams = if spec.entry > 0.0 && stops > 0 { 2 } else { 0 };
     if cams > 0 {
-        let beside = "beside the incomplete gear";
+        let beside = "beside the intermittent gear";
         for (name, link, file) in [
             ("entry cam", entry, "gear-entry-cam"),
             ("exit cam", exit, "gear-exit-cam"),
@@ -198,7 +198,7 @@ fn shafts(feeder: &Feeder, crank: usize, cams: usize, machine: &mut Machine) {
     let own = machine.link_named(GearBody::NAMES[0]).unwrap_or(0);
     let hubs = seat("gears and crank on their shafts", &body.bore_fit);
     for (name, link) in [
-        ("shaft of the incomplete gear, G", own),
+        ("shaft of the intermittent gear, G", own),
         ("shaft of the crank, A", crank),
     ] {
         machine.part(machine::Part {

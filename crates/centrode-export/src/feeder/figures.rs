@@ -2,7 +2,7 @@ use std::sync::Arc;
 
 use centrode_geometry::{Outline, Point};
 use centrode_mechanism::feeder::{Feeder, Part, Plate};
-use centrode_mechanism::gear::IncompletePair;
+use centrode_mechanism::gear::IntermittentPair;
 use centrode_mechanism::linkage::SixBar;
 use centrode_mechanism::machine::{Constant, Line, LineRole, Machine, Mark, Quantity, Seat};
 
@@ -12,12 +12,12 @@ use crate::gear_pair;
 const PIVOTS: usize = 240;
 
 /// Draws the six-bar with the path of the tip and with all places of the effector's pivot that would give the swing asked
-/// for: a chord for half a turn, see [`SixBar::pivots`]. Behind it the incomplete gears that turn its crank, the driver to
+/// for: a chord for half a turn, see [`SixBar::pivots`]. Behind it the intermittent gears that turn its crank, the driver to
 /// the left; by their pitch circles without a pair.
 pub(super) fn draw(
     feeder: &Feeder,
     plates: &[Plate],
-    gears: Option<&IncompletePair>,
+    gears: Option<&IntermittentPair>,
     machine: &mut Machine,
 ) {
     let [driver, driven] = match gears {
@@ -81,7 +81,7 @@ fn plain(feeder: &Feeder) -> [Vec<Line>; 2] {
 }
 
 /// Driver and driven gear with their teeth and locking arcs, cams and pins as lines, each in its own axes.
-fn cut(pair: &IncompletePair) -> [Vec<Line>; 2] {
+fn cut(pair: &IntermittentPair) -> [Vec<Line>; 2] {
     let gears = pair.pair();
     let mut both = [
         gear_pair::lines_within(pair.driver(), gears.driver()),

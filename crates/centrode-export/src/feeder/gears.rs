@@ -1,6 +1,6 @@
 use centrode_geometry::{Point, Segment, Tolerance};
 use centrode_mechanism::feeder::{Feeder, GearBody};
-use centrode_mechanism::gear::{Gear, IncompletePair};
+use centrode_mechanism::gear::{Gear, IntermittentPair};
 use nalgebra::Isometry2;
 
 use crate::csv::Column;
@@ -16,7 +16,7 @@ pub(super) const PIN_HOLES: &str = "H7";
 pub(super) const PINS: &str = "m6";
 
 /// Driver, driven gear and, where there is an entry angle, the cams beside the driver; with arcs within the tolerance.
-pub(super) fn parts(feeder: &Feeder, gears: &IncompletePair, tolerance: Tolerance) -> Vec<Plate> {
+pub(super) fn parts(feeder: &Feeder, gears: &IntermittentPair, tolerance: Tolerance) -> Vec<Plate> {
     let pair = gears.pair();
     let (driver, driven) = (pair.driver(), pair.driven());
     let table = |gear: &Gear, teeth: String| data(feeder, gears, gear, teeth);
@@ -59,7 +59,7 @@ pub(super) fn parts(feeder: &Feeder, gears: &IncompletePair, tolerance: Toleranc
 }
 
 /// The data of a gear.
-fn data(feeder: &Feeder, gears: &IncompletePair, gear: &Gear, teeth: String) -> Table {
+fn data(feeder: &Feeder, gears: &IntermittentPair, gear: &Gear, teeth: String) -> Table {
     let (pair, spec) = (gears.pair(), &feeder.design().gears);
     let tool = &pair.teeth().tool;
     let pitch = gear.pitch_length() / std::f64::consts::PI;
@@ -101,7 +101,7 @@ pub(super) fn columns(part: &Plate) -> Vec<Column> {
 }
 
 /// The gears in place as the motion begins.
-pub(super) fn assembly(gears: &IncompletePair, parts: &[Plate]) -> Drawing {
+pub(super) fn assembly(gears: &IntermittentPair, parts: &[Plate]) -> Drawing {
     let mut drawing = Drawing::cutting().layer(CAM, Color::Green, LineType::Continuous, 0.25);
     for part in parts {
         let x = match &*part.name {

@@ -1,5 +1,5 @@
 use centrode_mechanism::feeder::{Feeder, Part, Plate};
-use centrode_mechanism::gear::IncompletePair;
+use centrode_mechanism::gear::IntermittentPair;
 use centrode_mechanism::machine::{Form, Machine, Quantity, Shape};
 
 use super::{arrangement, figures};
@@ -7,10 +7,14 @@ use crate::ExportError;
 
 /// The links as a tree, every joint zero where the effector rests; the loops close at C. The gears are drawn with the teeth
 /// of a pair, or by their pitch circles.
-pub(super) fn drawn(feeder: &Feeder, plates: &[Plate], gears: Option<&IncompletePair>) -> Machine {
+pub(super) fn drawn(
+    feeder: &Feeder,
+    plates: &[Plate],
+    gears: Option<&IntermittentPair>,
+) -> Machine {
     let mut machine = feeder.links(feeder.design().drive.carried_mass);
     let meaning =
-        "angle the incomplete gear has turned by since the effector left its place of rest";
+        "angle the intermittent gear has turned by since the effector left its place of rest";
     machine.column("input_angle_rad", "rad", meaning, Quantity::Input(1.0));
     let time = Quantity::Input(1.0 / feeder.speed());
     machine.column("time_s", "s", "time at the design's speed", time);

@@ -10,7 +10,7 @@ mod plates;
 use crate::package::title_or_name;
 use crate::{Bundle, ExportError, Format, Options, Package};
 use centrode_mechanism::feeder::{Feeder, FeederError, Part, Plate};
-use centrode_mechanism::gear::IncompletePair;
+use centrode_mechanism::gear::IntermittentPair;
 use centrode_mechanism::machine::Machine;
 pub use curves::curves;
 pub use plates::assembly;
@@ -32,7 +32,7 @@ pub fn machine(feeder: &Feeder) -> Result<Machine, ExportError> {
 /// The six-bar as it moves and is drawn, without bodies: the gears with the teeth of a pair, or by their pitch circles alone,
 /// for which nothing is cut. Links that make no plate are not drawn.
 #[must_use]
-pub fn drawn(feeder: &Feeder, gears: Option<&IncompletePair>) -> Machine {
+pub fn drawn(feeder: &Feeder, gears: Option<&IntermittentPair>) -> Machine {
     let plates = Part::ALL
         .into_iter()
         .filter_map(|part| feeder.plate(part).ok());
@@ -48,7 +48,7 @@ fn cut(feeder: &Feeder) -> Result<Vec<Plate>, FeederError> {
 /// The files of a feeder in the formats asked for, not yet on disk.
 ///
 /// Each link is a plate with holes for pins, the effector's with a slot, named after it; `assembly` is the six-bar
-/// where it rests. The incomplete gears are parts, too: `gear-driver`, `gear-driven`, the cams `gear-entry-cam` and
+/// where it rests. The intermittent gears are parts, too: `gear-driver`, `gear-driven`, the cams `gear-entry-cam` and
 /// `gear-exit-cam`, with `gears` in place. MJCF closes the loops of the linkage by equality constraints; URDF, which has no loops, leaves
 /// them open and says so. Both bring the solids they show, in a folder `links`, and the motion of every joint.
 ///
@@ -84,7 +84,7 @@ const PARTS: [Format; 8] = [
     Format::Csv,
 ];
 
-/// Offers the incomplete gears, which take long to cut.
+/// Offers the intermittent gears, which take long to cut.
 fn add_gears(package: &mut Package<'_>, feeder: &Feeder) -> Result<(), ExportError> {
     if !package.wants(&PARTS) && package.options().parts.is_none() {
         return Ok(());

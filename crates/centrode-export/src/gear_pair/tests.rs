@@ -35,7 +35,7 @@ fn circular() -> GearPair {
     }))
 }
 
-/// A driver with a waist, whose tooth flanks there are hollow.
+/// A driver with a waist, whose tooth flanks there are concave.
 fn pair_of_lobes() -> GearPair {
     pair(PitchSpec::Polar(Polar {
         expression: Some("1 + 0.35*cos(2*phi)".into()),
@@ -188,9 +188,9 @@ fn outside(gear: &Gear, point: Point) -> f64 {
 }
 
 #[test]
-fn teeth_are_one_convex_body_each_or_several_where_they_are_hollow() {
-    let (plain, hollow) = (elliptic(), pair_of_lobes());
-    for pair in [&plain, &hollow] {
+fn teeth_are_one_convex_body_each_or_several_where_they_are_concave() {
+    let (plain, waisted) = (elliptic(), pair_of_lobes());
+    for pair in [&plain, &waisted] {
         let machine = machine(pair).expect("linked");
         let simulated = crate::machine::simulated(
             &machine,
@@ -228,7 +228,7 @@ fn teeth_are_one_convex_body_each_or_several_where_they_are_hollow() {
                 let vertices = &body.mesh.vertices;
                 let (low, high) = vertices.split_at(vertices.len() / 2);
                 assert!(low.iter().all(|v| v[2] == 0.0) && high.iter().all(|v| v[2] == width));
-                // The hull's edges, which bridge hollows, in their middles.
+                // The hull's edges, which bridge concavities, in their middles.
                 for (a, b) in low.iter().zip(low.iter().cycle().skip(1)) {
                     let middle = Point::new(0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1]));
                     let out = outside(gear, middle);

@@ -151,7 +151,7 @@ class Machine:
         """Rate of a joint by the input."""
         return self.data.qvel[self.joints[name].dofadr[0]] / self.speed
 
-    def overlap(self):
+    def penetration(self):
         """Depth of the deepest contact, mm."""
         return 1e3 * max(0.0, *(-self.data.contact.dist), 0.0)
 
@@ -187,12 +187,12 @@ def check(machine, options):
     # Rows enough to see every tooth.
     stride = max(1, steps // 20000)
     names = list(machine.off())
-    rows, overlap, pushes = [], 0.0, {name: [0.0, 0.0] for name in machine.joints}
+    rows, penetration, pushes = [], 0.0, {name: [0.0, 0.0] for name in machine.joints}
     for step in range(before + steps):
         machine.advance()
         if step < before or step % stride:
             continue
-        overlap = max(overlap, machine.overlap())
+        penetration = max(penetration, machine.penetration())
         off, row = machine.off(), [machine.travelled]
         for name in names:
             row += [off[name], machine.rate(name) - law.rate(name, machine.travelled)]
@@ -211,7 +211,7 @@ def check(machine, options):
         }
         if machine.mode == "drive":
             result["joints"][name]["force_range"] = pushes[name]
-    result |= {"overlap_max_mm": overlap, "seconds": machine.data.time}
+    result |= {"penetration_max_mm": penetration, "seconds": machine.data.time}
     if machine.mode == "law":
         result["point_off_max_m"] = law.check(machine.point)
     print(json.dumps(result))

@@ -61,14 +61,14 @@ impl DiscCam {
         let roller = self.follower().roller_radius();
         let roller = roller.map(|roller| (roller, radius_of(most), radius_of(least)));
         let (least_radius, largest_wheel) = match roller {
-            Some((roller, convex, hollow)) => (
+            Some((roller, convex, concave)) => (
                 Extreme {
                     value: convex.value - roller,
                     ..convex
                 },
                 Extreme {
-                    value: hollow.value + roller,
-                    ..hollow
+                    value: concave.value + roller,
+                    ..concave
                 },
             ),
             None => (

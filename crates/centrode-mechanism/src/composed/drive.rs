@@ -6,7 +6,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::degrees;
-use crate::gear::IncompleteDrive;
+use crate::gear::IntermittentDrive;
 use crate::gear::design::SpecError;
 use crate::gear::design::rule::{count_in_range, finite, in_range, positive};
 use crate::shaft::{Reversal, SpeedLaw, Traverse};
@@ -15,7 +15,7 @@ use crate::transmission::Transmission;
 /// Most pitches round a gear.
 const MOST_PITCHES: u32 = 1000;
 
-/// Motion of a gear driven by an incomplete one: it turns and rests.
+/// Motion of a gear driven by an intermittent one: it turns and rests.
 ///
 /// N teeth turn the driven gear by N of its pitches while the driver turns by N of its own and the entry angle; over the rest of
 /// the driver's turn it is locked. Entry and exit bring it to speed along 10 u³ - 15 u⁴ + 6 u⁵.
@@ -97,7 +97,7 @@ impl IntermittentSpec {
     /// The motion by the driver's turn, or why there is none.
     pub(super) fn resolve(&self) -> Result<Arc<dyn Transmission>, String> {
         let (driver, driven) = (self.driver_pitches, self.driven_pitches);
-        let drive = IncompleteDrive::new(driver, driven, self.teeth, self.entry);
+        let drive = IntermittentDrive::new(driver, driven, self.teeth, self.entry);
         Ok(Arc::new(drive.map_err(|e| e.to_string())?.transmission()))
     }
 }

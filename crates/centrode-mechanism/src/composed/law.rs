@@ -63,7 +63,7 @@ pub struct ComposedLawSpec {
     /// Cam that moves the body as its follower.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub follows: Option<String>,
-    /// Turning and rest, as of a gear that an incomplete gear drives.
+    /// Turning and rest, as of a gear that an intermittent gear drives.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub intermittent: Option<IntermittentSpec>,
     /// Strokes out and back, as of a slider in the groove of a spiral shaft.

@@ -13,7 +13,7 @@ use crate::gear::design::rule::{
 use crate::gear::design::{SpecError, rule::in_range};
 use crate::linkage::Branch;
 
-/// A feeder: a picking six-bar driven through an incomplete gear by a chain from a motor.
+/// A feeder: a picking six-bar driven through an intermittent gear by a chain from a motor.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct FeederDesign {
@@ -34,7 +34,7 @@ pub struct FeederDesign {
     /// Motor, chain and receiving slots.
     #[serde(default)]
     pub drive: DriveSpec,
-    /// The incomplete gear and its mate on the crank's shaft.
+    /// The intermittent gear and its mate on the crank's shaft.
     #[serde(default)]
     pub gears: GearsSpec,
     /// The links as plates.
@@ -119,7 +119,7 @@ pub struct FeederGoals {
 pub struct DriveSpec {
     /// Speed of the motor, turns a minute.
     pub motor_rpm: f64,
-    /// Turns of the motor for one of the incomplete gear.
+    /// Turns of the motor for one of the intermittent gear.
     pub chain_ratio: f64,
     /// Cuttings the effector takes in one cycle.
     pub slots: u32,

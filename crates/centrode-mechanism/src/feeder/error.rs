@@ -2,7 +2,7 @@ use thiserror::Error;
 
 use crate::design::MechanismError;
 use crate::gear::design::SpecError;
-use crate::gear::{IncompleteError, IncompletePairError};
+use crate::gear::{IntermittentError, IntermittentPairError};
 use crate::linkage::{FourBarError, SixBarError};
 
 /// Error of a feeder that cannot be made.
@@ -20,10 +20,10 @@ pub enum FeederError {
     SixBar(#[from] SixBarError),
     /// There is no such intermittent drive.
     #[error(transparent)]
-    Drive(#[from] IncompleteError),
+    Drive(#[from] IntermittentError),
     /// The gears cannot be cut.
     #[error(transparent)]
-    Gears(#[from] IncompletePairError),
+    Gears(#[from] IntermittentPairError),
     /// A cycle that does not bring the crank back to where it rested.
     #[error(
         "{teeth} teeth turn the crank by {teeth}/{driven} of a turn each cycle: a feeder needs one whole turn, so teeth must be {driven}"
@@ -73,7 +73,7 @@ impl FeederError {
             Self::Spec(error) => error.key.clone(),
             Self::SixBar(SixBarError::PivotOnPath { .. }) => "linkage.pivot".into(),
             Self::FourBar(_) | Self::SixBar(_) => "linkage.crank".into(),
-            Self::Drive(IncompleteError::Entry { .. }) => "gears.entry_deg".into(),
+            Self::Drive(IntermittentError::Entry { .. }) => "gears.entry_deg".into(),
             Self::Gears(error) => format!("gears.{}", error.key()),
             Self::SlotMeetsPivot { .. } => "plates.slider_length".into(),
             Self::HolesMeet { .. } => "plates.pin_diameter".into(),

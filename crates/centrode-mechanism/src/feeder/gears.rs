@@ -7,9 +7,9 @@ use crate::degrees;
 use crate::gear::design::rule::{count_in_range, in_range, not_negative, positive};
 use crate::gear::design::{BodySpec, GearPairDesign, Keyway, SpecError};
 use crate::gear::pitch::{Circle, PitchSpec};
-use crate::gear::{IncompleteDrive, IncompleteError, IncompletePairSpec, Pins};
+use crate::gear::{IntermittentDrive, IntermittentError, IntermittentPairSpec, Pins};
 
-/// The incomplete gear and its mate as written.
+/// The intermittent gear and its mate as written.
 ///
 /// The default turns the mate once while the driver turns three quarters of a turn and an entry angle, and locks
 /// it for the rest: 30 teeth on 40 pitches drive 30 pitches.
@@ -127,7 +127,7 @@ impl GearsSpec {
 
     /// The gears with their teeth.
     #[must_use]
-    pub fn pair(&self) -> IncompletePairSpec {
+    pub fn pair(&self) -> IntermittentPairSpec {
         let (driver, driven) = (self.driver_pitches, self.driven_pitches);
         let divisor = greatest_common_divisor(driver, driven);
         let mut pair = GearPairDesign::new(PitchSpec::Circle(Circle {
@@ -137,7 +137,7 @@ impl GearsSpec {
         }));
         pair.mean_ratio = [driven / divisor, driver / divisor];
         [pair.driver, pair.driven] = [self.body(), self.body()];
-        IncompletePairSpec {
+        IntermittentPairSpec {
             lock_radius: self.lock_radius,
             lock_play: self.lock_play,
             backlash: self.backlash,
@@ -146,17 +146,17 @@ impl GearsSpec {
                 circle: self.pin_circle,
                 angle: self.pin_angle,
             },
-            ..IncompletePairSpec::new(pair, self.teeth, self.entry)
+            ..IntermittentPairSpec::new(pair, self.teeth, self.entry)
         }
     }
 
     /// Motion of the gears.
     ///
     /// # Errors
-    /// [`IncompleteError`], for instance for equal pitch circles, which leave nothing to dwell.
-    pub fn drive(&self) -> Result<IncompleteDrive, IncompleteError> {
+    /// [`IntermittentError`], for instance for equal pitch circles, which leave nothing to dwell.
+    pub fn drive(&self) -> Result<IntermittentDrive, IntermittentError> {
         let (driver, driven) = (self.driver_pitches, self.driven_pitches);
-        IncompleteDrive::new(driver, driven, self.teeth, self.entry)
+        IntermittentDrive::new(driver, driven, self.teeth, self.entry)
     }
 }
 

@@ -46,7 +46,7 @@ impl Feeder {
             name: design.name.clone(),
             title: design.title.clone(),
             input: Input {
-                name: "incomplete gear".into(),
+                name: "intermittent gear".into(),
                 period: TAU,
                 speed: self.speed(),
             },

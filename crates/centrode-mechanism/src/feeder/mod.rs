@@ -1,6 +1,6 @@
-//! The willow-cutting feeder: a picking six-bar that rests while it is filled, driven by an incomplete gear.
+//! The willow-cutting feeder: a picking six-bar that rests while it is filled, driven by an intermittent gear.
 //!
-//! The input is the angle the incomplete gear has turned since the effector left its place under the store,
+//! The input is the angle the intermittent gear has turned since the effector left its place under the store,
 //! rad, counter-clockwise for the crank. Lengths are mm. After Ye et al., "Optimal design and test of picking
 //! mechanism of automatic feeding device for cutting willows", 2022, DOI 10.6041/j.issn.1000-1298.2022.05.010.
 
@@ -28,7 +28,7 @@ pub use parts::{JointHole, Part, Plate, PlateJoint};
 pub use plates::PlatesSpec;
 pub use search::DimensionSearchSpec;
 
-use crate::gear::{IncompleteDrive, IncompletePair, IncompletePairError};
+use crate::gear::{IntermittentDrive, IntermittentPair, IntermittentPairError};
 use crate::linkage::{FourBar, SixBar};
 use crate::transmission::{MotionJet, Transmission};
 
@@ -53,7 +53,7 @@ pub struct Stroke {
 pub struct Feeder {
     design: FeederDesign,
     six_bar: SixBar,
-    drive: IncompleteDrive,
+    drive: IntermittentDrive,
     law: Arc<dyn Transmission>,
     start: f64,
 }
@@ -109,23 +109,25 @@ impl Feeder {
         &self.six_bar
     }
 
-    /// The motion of the incomplete gear.
+    /// The motion of the intermittent gear.
     #[must_use]
-    pub fn drive(&self) -> &IncompleteDrive {
+    pub fn drive(&self) -> &IntermittentDrive {
         &self.drive
     }
 
-    /// The incomplete gear and its mate with their teeth, locking arcs and entry cam.
+    /// The intermittent gear and its mate with their teeth, locking arcs and entry cam.
     ///
     /// Cutting them takes long; those of a design in which other things change are cut once.
     ///
     /// # Errors
     /// [`FeederError::Gears`] where they cannot be cut.
-    pub fn gears(&self) -> Result<Arc<IncompletePair>, FeederError> {
-        static CUT: Recent<GearsSpec, Result<Arc<IncompletePair>, IncompletePairError>> =
+    pub fn gears(&self) -> Result<Arc<IntermittentPair>, FeederError> {
+        static CUT: Recent<GearsSpec, Result<Arc<IntermittentPair>, IntermittentPairError>> =
             Recent::new();
         let spec = &self.design.gears;
-        Ok(CUT.get(spec, || IncompletePair::resolve(&spec.pair()).map(Arc::new))?)
+        Ok(CUT.get(spec, || {
+            IntermittentPair::resolve(&spec.pair()).map(Arc::new)
+        })?)
     }
 
     /// Crank angle at which the effector rests and is filled, rad: the end of its swing from which the slower
@@ -213,13 +215,13 @@ impl Feeder {
         }
     }
 
-    /// Speed of the incomplete gear, rad/s.
+    /// Speed of the intermittent gear, rad/s.
     #[must_use]
     pub fn speed(&self) -> f64 {
         self.cycles_per_minute() * TAU / 60.0
     }
 
-    /// Cycles a minute: turns of the incomplete gear.
+    /// Cycles a minute: turns of the intermittent gear.
     #[must_use]
     pub fn cycles_per_minute(&self) -> f64 {
         self.design.drive.motor_rpm / self.design.drive.chain_ratio

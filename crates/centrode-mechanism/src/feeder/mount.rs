@@ -3,14 +3,14 @@ use std::sync::Arc;
 use centrode_geometry::{Outline, Solid, SolidError, Tolerance};
 
 use super::{Feeder, Part};
-use crate::gear::IncompletePair;
+use crate::gear::IntermittentPair;
 use crate::machine::{Form, Joint, Linear, Link, Machine, Quantity, Shape};
 
-/// Name of the incomplete gear: of its files and its link.
+/// Name of the intermittent gear: of its files and its link.
 const DRIVER: &str = "gear-driver";
 /// Name of its mate.
 const DRIVEN: &str = "gear-driven";
-/// Names of the cams beside the incomplete gear.
+/// Names of the cams beside the intermittent gear.
 const CAMS: [&str; 2] = ["gear-entry-cam", "gear-exit-cam"];
 
 /// Accuracy of the bodies in the machine, mm.
@@ -30,12 +30,12 @@ pub struct GearBody {
 }
 
 impl GearBody {
-    /// Names of all that there can be: the incomplete gear, its mate, the entry cam, the exit cam.
+    /// Names of all that there can be: the intermittent gear, its mate, the entry cam, the exit cam.
     pub const NAMES: [&str; 4] = [DRIVER, DRIVEN, CAMS[0], CAMS[1]];
 
     /// The gears and cams of a pair, with arcs within a tolerance.
     #[must_use]
-    pub fn all(gears: &IncompletePair, tolerance: Tolerance) -> Vec<Self> {
+    pub fn all(gears: &IntermittentPair, tolerance: Tolerance) -> Vec<Self> {
         let pair = gears.pair();
         // Cut as short chords: lines and arcs of the same accuracy, which a solid can have, too.
         let cut = |outline: &Outline| outline.arcs_of_chords(gears.accuracy(), tolerance);
@@ -112,7 +112,7 @@ impl Feeder {
             };
             let joint = machine.joint(joint);
             if link == driver {
-                let meaning = "incomplete gear against the frame, counter-clockwise";
+                let meaning = "intermittent gear against the frame, counter-clockwise";
                 let name = "gear_driver_joint_rad";
                 machine.column(name, "rad", meaning, Quantity::joint(joint));
             }

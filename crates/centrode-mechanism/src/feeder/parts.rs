@@ -10,7 +10,7 @@ use crate::gear::design::BodySpec;
 /// A part of the six-bar, cut from plate.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub enum Part {
-    /// Plate that holds the shafts A, D and F and that of the incomplete gear, G; one in front of the links, one behind.
+    /// Plate that holds the shafts A, D and F and that of the intermittent gear, G; one in front of the links, one behind.
     Frame,
     /// The crank AB.
     Crank,
@@ -162,7 +162,7 @@ impl Feeder {
                 joint("G", -gears.center_distance(), 0.0, bearing),
             ],
             Part::Crank => {
-                // The gear's x axis points from the incomplete gear's as the motion begins.
+                // The gear's x axis points from the intermittent gear's as the motion begins.
                 let keyed = Some(JointHole::Keyed(-self.start()));
                 vec![joint("A", 0.0, 0.0, keyed), joint("B", crank, 0.0, pin)]
             }

@@ -1,7 +1,7 @@
 use std::f64::consts::{PI, TAU};
 
 use crate::feeder::{Feeder, FeederDesign, FeederError, LinkageSpec, Part};
-use crate::gear::IncompleteError;
+use crate::gear::IntermittentError;
 use crate::linkage::{Branch, SixBarError};
 
 fn published() -> FeederDesign {
@@ -82,7 +82,7 @@ fn what_is_no_feeder_is_refused_with_its_key() {
     let equal = refused(&|d| d.gears.driver_pitches = 30);
     assert!(matches!(
         equal,
-        FeederError::Drive(IncompleteError::NoDwell { kept: 30, .. })
+        FeederError::Drive(IntermittentError::NoDwell { kept: 30, .. })
     ));
     assert_eq!(equal.key(), "gears.teeth");
     let half = refused(&|d| d.gears.teeth = 15);

@@ -5,7 +5,7 @@ pub mod design;
 mod fitted;
 mod flank;
 mod flank_count;
-mod incomplete;
+mod intermittent;
 mod limits;
 mod over_pins;
 mod pair;
@@ -20,9 +20,9 @@ mod tooth_passage;
 pub use conjugate::ConjugateCurve;
 pub use flank::Side;
 pub use flank_count::FlankCount;
-pub use incomplete::{
-    Cam, IncompleteDrive, IncompleteError, IncompleteLaw, IncompletePair, IncompletePairError,
-    IncompletePairSpec, Pins,
+pub use intermittent::{
+    Cam, IntermittentDrive, IntermittentError, IntermittentLaw, IntermittentPair,
+    IntermittentPairError, IntermittentPairSpec, Pins,
 };
 pub use limits::{CurvatureRange, Limits, PitchPoint};
 pub use over_pins::{OverPins, Pin, PinFault};

@@ -1,4 +1,4 @@
-use centrode_geometry::{Extreme, Point, Vector, greatest, least};
+use centrode_geometry::{Extreme, Point, Vector, greatest};
 
 use super::{ShaftError, Traverse};
 use crate::gear::design::rule::positive;
@@ -191,16 +191,6 @@ impl Groove {
         r * motion.acceleration / r.hypot(motion.velocity).powi(3)
     }
 
-    /// Curvature of the centre line in space, 1/mm.
-    #[must_use]
-    pub fn space_curvature(&self, theta: f64) -> f64 {
-        let motion = self.traverse.at(theta);
-        let (r, v, a) = (self.radius, motion.velocity, motion.acceleration);
-        let speed = r * r + v * v;
-        // |r' x r''|^2 = R^2 (v^2 + R^2 + a^2) for r = (R cos, R sin, s).
-        r * (v * v + r * r + a * a).sqrt() / speed.powf(1.5)
-    }
-
     /// Greatest curvature of the development, 1/mm, without sign, and the shaft angle of it.
     #[must_use]
     pub fn tightest(&self) -> Extreme {
@@ -264,12 +254,5 @@ impl Groove {
             (half - radial.dot(&normal)).abs()
         };
         greatest(apart, &self.ends()).value
-    }
-
-    /// Least speed over the cycle's strokes, mm/rad, and where.
-    #[must_use]
-    pub fn slowest_of_stroke(&self) -> Extreme {
-        let ends = self.ends_between(0.0, self.traverse.stroke());
-        least(|theta| self.traverse.at(theta).velocity, &ends)
     }
 }

@@ -10,7 +10,7 @@ use centrode_export::{Bundle, ExportError, Format, Options};
 use centrode_geometry::Tolerance;
 use centrode_mechanism::design::{Design, MechanismError};
 use centrode_mechanism::feeder::{Dimension, Feeder, FeederDesign, Part};
-use centrode_mechanism::gear::IncompletePair;
+use centrode_mechanism::gear::IntermittentPair;
 use centrode_mechanism::machine::Machine;
 use serde_json::json;
 
@@ -157,7 +157,7 @@ fn torques(machine: &Feeder) -> Vec<Curve> {
     vec![curve("moving", true), curve("held still", false)]
 }
 
-fn drawn(machine: &Feeder, gears: Option<&IncompletePair>) -> Picture {
+fn drawn(machine: &Feeder, gears: Option<&IntermittentPair>) -> Picture {
     let frame = machine.six_bar().four_bar().lengths()[3];
     let coarseness = gears.map_or(COARSE, |_| 1.0);
     let Ok(tolerance) = Tolerance::new(coarseness * DRAWN * frame) else {

@@ -7,7 +7,7 @@ use std::path::Path;
 
 use centrode::FAMILIES;
 use centrode::analysis::forces::{Balance, Forces};
-use centrode::analysis::interference::between_links;
+use centrode::analysis::interference::{Clearance, LinkPair, between_links};
 use centrode::export::machine::{picture, plain, read, schema, write};
 use centrode::export::page::Picture;
 use centrode::export::{Bundle, Format, Options, Package};
@@ -68,8 +68,27 @@ fn files(machine: &Machine, options: &Options) -> Bundle {
     package.finish().expect("whole")
 }
 
-/// Names and clearances of the links that do not mesh and touch others in the plane, to within the tolerance.
-fn clearances(machine: &Machine, tolerance: Tolerance) -> Vec<(String, f64, f64)> {
+/// Least clearance of two links, lower bound of it: over the period, of links that mesh at some inputs (the teeth of a whole
+/// period take minutes).
+fn clearance(machine: &Machine, pair: [usize; 2], tolerance: Tolerance) -> Option<Vec<[f64; 2]>> {
+    let figures = |found: Clearance| [found.least, found.lower_bound];
+    let meshes = |links: [usize; 2]| links == pair || links == [pair[1], pair[0]];
+    if !machine.meshes.iter().any(|mesh| meshes(mesh.links)) {
+        let found = between_links(machine, pair, tolerance).ok()??;
+        return Some(vec![figures(found)]);
+    }
+    let surfaces = pair.map(|link| {
+        let own = machine.links[link].surfaces.iter();
+        own.map(|&surface| &machine.surfaces[surface]).collect()
+    });
+    let links = LinkPair::new(machine, pair, surfaces, tolerance).ok()??;
+    let inputs = (0..3).map(|i| machine.input.period * (0.11 + 0.31 * f64::from(i)));
+    let found = inputs.map(|input| links.at(input).ok().map(figures));
+    found.collect()
+}
+
+/// Names and clearances of the links that touch others in the plane, to within the tolerance.
+fn clearances(machine: &Machine, tolerance: Tolerance) -> Vec<(String, Vec<[f64; 2]>)> {
     let touching: Vec<usize> = (0..machine.links.len())
         .filter(|link| !machine.links[*link].surfaces.is_empty())
         .collect();
@@ -77,17 +96,10 @@ fn clearances(machine: &Machine, tolerance: Tolerance) -> Vec<(String, f64, f64)
     for (i, &one) in touching.iter().enumerate() {
         for &other in &touching[i + 1..] {
             let pair = [one, other];
-            let meshes = |links: [usize; 2]| links == pair || links == [other, one];
-            if machine.meshes.iter().any(|mesh| meshes(mesh.links)) {
-                continue;
-            }
-            let Ok(Some(clearance)) = between_links(machine, pair, tolerance) else {
-                continue;
-            };
             let name = pair
                 .map(|link| machine.links[link].name.as_str())
                 .join(" and ");
-            found.push((name, clearance.least, clearance.lower_bound));
+            found.extend(clearance(machine, pair, tolerance).map(|figures| (name, figures)));
         }
     }
     found
@@ -96,30 +108,58 @@ fn clearances(machine: &Machine, tolerance: Tolerance) -> Vec<(String, f64, f64)
 #[test]
 fn links_keep_the_same_clearance_in_the_machine_read_back_from_its_plain_file() {
     let tolerance = Tolerance::new(0.2).expect("positive");
-    let mut compared = 0;
+    let (mut designs, mut compared) = (0, 0);
     for (name, machine) in machines() {
-        // Of a machine of many links some are enough.
-        if !["feeder-2022", "three-arm-2021"].contains(&name.as_str()) {
-            continue;
-        }
         let bytes = write(&plain(&machine, tolerance).expect("meshed")).expect("plain");
         let again = read(&bytes).expect("readable");
         let [one, other] = [&machine, &again].map(|machine| clearances(machine, tolerance));
-        assert_eq!(one.len(), other.len(), "{name}");
-        for ((links, least, bound), (_, least_again, bound_again)) in one.iter().zip(&other) {
-            let off = (least - least_again).abs().max((bound - bound_again).abs());
-            assert!(off < 1e-9, "{name}: {links}: {least} and {least_again}");
-            assert!(
-                bound <= least && least - bound <= tolerance.mm(),
-                "{name}: {links}"
-            );
+        let links = |all: &[(String, Vec<[f64; 2]>)]| -> Vec<String> {
+            all.iter().map(|(links, _)| links.clone()).collect()
+        };
+        assert_eq!(links(&one), links(&other), "{name}");
+        for ((links, first), (_, second)) in one.iter().zip(&other) {
+            for (a, b) in first.iter().zip(second) {
+                let ([least, bound], [least_again, bound_again]) = (*a, *b);
+                let off = (least - least_again).abs();
+                assert!(
+                    off < 1e-10 * (1.0 + least.abs()),
+                    "{name}: {links}: {a:?} {b:?}"
+                );
+                // Where the search stops hangs on rounding.
+                let off = (bound - bound_again).abs();
+                assert!(off < 1e-3 * tolerance.mm(), "{name}: {links}: {a:?} {b:?}");
+                assert!(
+                    bound <= least && least - bound <= tolerance.mm(),
+                    "{name}: {links}"
+                );
+            }
         }
+        designs += usize::from(!one.is_empty());
         compared += one.len();
     }
-    assert!(compared > 2, "{compared} pairs");
+    // The others have no two links that touch at one height: bare linkages, a feeder, a shaft across its slider.
+    assert!(
+        designs >= 16 && compared > 90,
+        "{compared} pairs of {designs} designs"
+    );
 }
 
-/// Holds two tables against each other: positions to rounding, derivatives of pieces less closely.
+/// Share of its column's greatest value by which a number of the table may be off once laws are in pieces: positions by
+/// rounding, each derivative by some hundred times more than the one before it.
+fn allowed(column: &str) -> f64 {
+    let ends = |ending: &str| column.ends_with(ending);
+    if ends("_per_s3") {
+        1e-5
+    } else if ends("_per_s2") || ends("_slope_per_rad") {
+        1e-7
+    } else if ends("_per_s") || ends("_per_rad") || column == "ratio" {
+        1e-9
+    } else {
+        1e-12
+    }
+}
+
+/// Holds two tables against each other, column by column.
 fn assert_near(one: &[u8], other: &[u8], name: &str) {
     let rows = |bytes: &[u8]| -> Vec<Vec<f64>> {
         let text = String::from_utf8_lossy(bytes).into_owned();
@@ -130,18 +170,20 @@ fn assert_near(one: &[u8], other: &[u8], name: &str) {
         };
         text.lines().skip(1).map(numbers).collect()
     };
+    let text = String::from_utf8_lossy(one);
+    let names = text.lines().next().expect("a header").split(',');
     let (one, other) = (rows(one), rows(other));
     assert_eq!(one.len(), other.len(), "{name}");
-    for column in 0..one[0].len() {
-        let size = one.iter().map(|row| row[column].abs()).fold(1e-3, f64::max);
+    for (column, title) in names.enumerate() {
+        let size = one.iter().map(|row| row[column].abs()).fold(1.0, f64::max);
         let off = one
             .iter()
             .zip(&other)
             .map(|(a, b)| (a[column] - b[column]).abs());
         let off = off.fold(0.0, f64::max);
         assert!(
-            off <= 1e-5 * size,
-            "{name} column {column}: {off} of {size}"
+            off <= allowed(title) * size,
+            "{name} {title}: {off} of {size}"
         );
     }
 }

@@ -65,7 +65,7 @@ fn teeth_that_do_not_carry_are_told_with_their_pair_and_goals_may_name_their_fig
     assert_eq!(report.goals[1].unit, Unit::Radian);
     assert_eq!(report.goals[1].met(), Some(false));
     let carrying = [
-        own.values["contact_ratio_min"],
+        own.values["pairs_in_contact_min"],
         own.values["contact_ratio_mean"],
     ];
     assert_eq!(table(&report, "contact-ratios").rows[0].1, carrying);

@@ -76,9 +76,9 @@ pub(crate) fn check_gear_train(mechanism: &ThreeArm, teeth: &TrainTeeth, report:
     let of_pair = check_contact(pair, contact);
     for name in [
         "transmission_error_max",
-        "overlap_max",
-        "contact_ratio_min",
-        "contact_ratio_max",
+        "penetration_max",
+        "pairs_in_contact_min",
+        "pairs_in_contact_max",
         "contact_ratio_mean",
         "backlash_min",
         "backlash_max",

@@ -27,7 +27,7 @@ fn gentle(change: impl Fn(&mut ThreeArmDesign)) -> (ThreeArm, GearPair) {
     (mechanism, pair)
 }
 
-/// Both gears of every mesh placed by the links: contact carries the law, and nothing overlaps.
+/// Both gears of every mesh placed by the links: contact carries the law, and nothing penetrates.
 #[test]
 fn all_six_meshes_carry_their_law_over_a_whole_cycle() {
     let (mechanism, pair) = gentle(|_| {});
@@ -47,7 +47,7 @@ fn all_six_meshes_carry_their_law_over_a_whole_cycle() {
             worst(&contact.reverse_transmission_error) < 1e-6,
             "{mesh:?}"
         );
-        assert!(worst(&contact.overlap) < 1e-9 && contact.contacts.iter().all(|&n| n > 0));
+        assert!(worst(&contact.penetration) < 1e-9 && contact.contacts.iter().all(|&n| n > 0));
     }
 }
 
@@ -74,7 +74,7 @@ fn a_finding_of_the_teeth_is_told_at_the_carriers_turn() {
     for direction in [Direction::Clockwise, Direction::CounterClockwise] {
         let (mechanism, mut teeth) = toothed(|d| d.direction = direction);
         let at = teeth.contact.input.len() / 5;
-        teeth.contact.overlap[at] = 0.5;
+        teeth.contact.penetration[at] = 0.5;
         let mut report = Report::default();
         check_gear_train(&mechanism, &teeth, &mut report);
         let found = report.findings.iter().find(|f| f.rule == "interference");
@@ -93,7 +93,7 @@ fn the_check_tells_phases_contact_and_clearance() {
     assert!(report.findings.is_empty(), "{:?}", report.findings);
     assert!(report.values["mesh_phase_error_max"] < 1e-11);
     assert!(report.values["transmission_error_max"] < 1e-6);
-    assert!(report.values["contact_ratio_min"] >= 1.0);
+    assert!(report.values["pairs_in_contact_min"] >= 1.0);
     assert!(report.values["gear_clearance"] > 10.0);
 }
 
@@ -104,7 +104,7 @@ fn gears_of_neighbouring_chains_that_collide_are_told() {
     let mut report = Report::default();
     check_gear_train(&mechanism, &teeth, &mut report);
     let found = report.findings.iter().find(|f| f.rule == "gears-collide");
-    let found = found.expect("they overlap");
+    let found = found.expect("they penetrate");
     assert!(
         found.message.contains("intermediate gear"),
         "{}",

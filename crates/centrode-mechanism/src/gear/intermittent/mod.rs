@@ -8,10 +8,10 @@ mod radial;
 mod spec;
 
 pub use cams::Cam;
-pub use drive::{IncompleteDrive, IncompleteError};
-pub use law::IncompleteLaw;
-pub use pair::IncompletePair;
-pub use spec::{IncompletePairError, IncompletePairSpec, Pins};
+pub use drive::{IntermittentDrive, IntermittentError};
+pub use law::IntermittentLaw;
+pub use pair::IntermittentPair;
+pub use spec::{IntermittentPairError, IntermittentPairSpec, Pins};
 
 #[cfg(test)]
 mod tests;

@@ -6,7 +6,7 @@ use crate::gear::design::{GearPairDesign, SpecError};
 
 /// Intermittent gear pair as asked for.
 #[derive(Clone, Debug, PartialEq)]
-pub struct IncompletePairSpec {
+pub struct IntermittentPairSpec {
     /// The complete pair: any pitch curve, the mean ratio that of all pitches round both gears.
     pub pair: GearPairDesign,
     /// Pitches by which the driver turns the driven gear in one turn of its own, from the polar angle 0 of its curve.
@@ -44,7 +44,7 @@ impl Default for Pins {
     }
 }
 
-impl IncompletePairSpec {
+impl IntermittentPairSpec {
     /// Makes an intermittent pair with every other value at its default.
     #[must_use]
     pub fn new(pair: GearPairDesign, teeth: u32, entry: f64) -> Self {
@@ -92,7 +92,7 @@ impl IncompletePairSpec {
 /// Reason why there is no intermittent gear pair.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
-pub enum IncompletePairError {
+pub enum IntermittentPairError {
     /// A value breaks a rule of its own.
     #[error(transparent)]
     Spec(#[from] SpecError),
@@ -182,7 +182,7 @@ pub enum IncompletePairError {
     NoLock,
 }
 
-impl IncompletePairError {
+impl IntermittentPairError {
     /// The key to blame.
     #[must_use]
     pub fn key(&self) -> String {

@@ -2,9 +2,9 @@ use std::f64::consts::{PI, TAU};
 
 use centrode_geometry::{Outline, Point, Tolerance, Vector};
 
-use super::pair::IncompletePair;
+use super::pair::IntermittentPair;
 use super::radial::Radial;
-use super::{IncompletePairError, Pins};
+use super::{IntermittentPairError, Pins};
 use crate::gear::Member;
 use crate::transmission::Transmission;
 
@@ -32,21 +32,21 @@ pub struct Cam {
 /// Corners of a pin.
 const PIN_CORNERS: u32 = 96;
 
-impl IncompletePair {
+impl IntermittentPair {
     /// Cuts the cams of entry and exit, one on each side of the teeth: on one the pins of the other would be in the way.
     pub(super) fn cut_cams(
         &self,
         pins: &Pins,
         play: f64,
         accuracy: Tolerance,
-    ) -> Result<Vec<Cam>, IncompletePairError> {
+    ) -> Result<Vec<Cam>, IntermittentPairError> {
         let radius = 0.5 * pins.diameter.unwrap_or(2.5 * self.pair().module());
         let pitch = self.pair().rolling().pitch_length(Member::Driven) / TAU;
         let circle = 0.5 * pins.circle.unwrap_or(1.5 * pitch);
         let nearest = self.center_distance() - circle - radius;
         let hub = 0.5 * self.pair().driver().body().bore;
         if nearest <= hub {
-            return Err(IncompletePairError::PinMeetsHub { nearest, hub });
+            return Err(IntermittentPairError::PinMeetsHub { nearest, hub });
         }
         let (entry, motion) = (self.law().entry, self.law().motion_angle());
         // Entry pins lie below the line of centres, where the driver's surface comes from; exit pins above.

@@ -1,6 +1,6 @@
 use std::f64::consts::TAU;
 
-use super::{IncompletePair, IncompletePairError, IncompletePairSpec};
+use super::{IntermittentPair, IntermittentPairError, IntermittentPairSpec};
 use crate::gear::design::GearPairDesign;
 use crate::gear::pitch::{Circle, PitchSpec};
 use crate::transmission::Transmission;
@@ -18,14 +18,14 @@ fn circles(driver: u32, mean_ratio: [u32; 2]) -> GearPairDesign {
     design
 }
 
-fn forty_to_thirty(entry: f64) -> IncompletePairSpec {
-    IncompletePairSpec::new(circles(40, [3, 4]), 30, entry)
+fn forty_to_thirty(entry: f64) -> IntermittentPairSpec {
+    IntermittentPairSpec::new(circles(40, [3, 4]), 30, entry)
 }
 
 #[test]
 fn one_driven_turn_a_driver_turn_and_then_rest() {
     for entry in [0.0, 0.35] {
-        let pair = IncompletePair::resolve(&forty_to_thirty(entry)).expect("a pair");
+        let pair = IntermittentPair::resolve(&forty_to_thirty(entry)).expect("a pair");
         assert!((pair.center_distance() - 105.0).abs() < 1e-9);
         assert!((pair.lock_radius() - 60.0).abs() < 1e-9);
         let law = pair.law();
@@ -43,34 +43,34 @@ fn one_driven_turn_a_driver_turn_and_then_rest() {
 }
 
 #[test]
-fn what_is_no_incomplete_pair_is_refused() {
-    let refused = |change: &dyn Fn(&mut IncompletePairSpec)| {
+fn what_is_no_intermittent_pair_is_refused() {
+    let refused = |change: &dyn Fn(&mut IntermittentPairSpec)| {
         let mut spec = forty_to_thirty(0.0);
         change(&mut spec);
-        IncompletePair::resolve(&spec).expect_err("refused")
+        IntermittentPair::resolve(&spec).expect_err("refused")
     };
     assert_eq!(refused(&|s| s.teeth = 0).key(), "teeth");
     let equal = refused(&|s| s.pair = circles(30, [1, 1]));
     assert!(matches!(
         equal,
-        IncompletePairError::NoDwell { kept: 30, .. }
+        IntermittentPairError::NoDwell { kept: 30, .. }
     ));
     // The whole turn goes to entry and exit: a dwell of nothing.
     assert!(matches!(
         refused(&|s| s.entry = 0.26 * TAU),
-        IncompletePairError::NoDwell { .. }
+        IntermittentPairError::NoDwell { .. }
     ));
     assert!(matches!(
         refused(&|s| s.teeth = 20),
-        IncompletePairError::Stops { kept: 20, .. }
+        IntermittentPairError::Stops { kept: 20, .. }
     ));
     assert!(matches!(
         refused(&|s| s.lock_radius = Some(50.0)),
-        IncompletePairError::LockTooSmall { .. }
+        IntermittentPairError::LockTooSmall { .. }
     ));
     assert!(matches!(
         refused(&|s| s.lock_radius = Some(100.0)),
-        IncompletePairError::LockOverlaps { .. }
+        IntermittentPairError::LockOverlaps { .. }
     ));
     assert_eq!(refused(&|s| s.lock_play = -1.0).key(), "lock_play");
     assert_eq!(refused(&|s| s.entry = f64::NAN).key(), "entry_deg");

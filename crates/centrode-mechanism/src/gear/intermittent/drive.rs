@@ -5,7 +5,7 @@ use crate::transmission::{FromFn, MotionJet, Transmission};
 /// Reason why there is no intermittent drive.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
-pub enum IncompleteError {
+pub enum IntermittentError {
     /// A count of zero.
     #[error("{name} is 0; it must be at least 1")]
     NoTeeth {
@@ -53,40 +53,40 @@ pub enum IncompleteError {
 /// to 1 over beta, and the exit slows it likewise: no jump of speed or acceleration. Each takes the driven
 /// gear through ratio beta / 2.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct IncompleteDrive {
+pub struct IntermittentDrive {
     driver_pitches: u32,
     driven_pitches: u32,
     kept: u32,
     entry: f64,
 }
 
-impl IncompleteDrive {
+impl IntermittentDrive {
     /// Makes the drive of a driver with `kept` teeth in a row on `driver_pitches` pitches, a driven gear of
     /// `driven_pitches`, and entry and exit of the driver angle `entry` each, rad.
     ///
     /// # Errors
-    /// [`IncompleteError`].
+    /// [`IntermittentError`].
     pub fn new(
         driver_pitches: u32,
         driven_pitches: u32,
         kept: u32,
         entry: f64,
-    ) -> Result<Self, IncompleteError> {
+    ) -> Result<Self, IntermittentError> {
         for (name, count) in [
             ("the driver's number of pitches", driver_pitches),
             ("the driven gear's number of pitches", driven_pitches),
             ("the number of teeth kept", kept),
         ] {
             if count == 0 {
-                return Err(IncompleteError::NoTeeth { name });
+                return Err(IntermittentError::NoTeeth { name });
             }
         }
         if !(entry.is_finite() && entry >= 0.0) {
-            return Err(IncompleteError::Entry { angle: entry });
+            return Err(IntermittentError::Entry { angle: entry });
         }
         if !kept.is_multiple_of(driven_pitches) && !driven_pitches.is_multiple_of(kept) {
             let driven = driven_pitches;
-            return Err(IncompleteError::Stops { kept, driven });
+            return Err(IntermittentError::Stops { kept, driven });
         }
         let drive = Self {
             driver_pitches,
@@ -96,10 +96,10 @@ impl IncompleteDrive {
         };
         let motion = drive.motion_angle();
         if kept >= driver_pitches || motion >= TAU {
-            return Err(IncompleteError::NoDwell { kept, motion });
+            return Err(IntermittentError::NoDwell { kept, motion });
         }
         if 2.0 * entry > motion {
-            return Err(IncompleteError::Entry { angle: entry });
+            return Err(IntermittentError::Entry { angle: entry });
         }
         Ok(drive)
     }
@@ -218,30 +218,30 @@ mod tests {
 
     #[test]
     fn equal_pitch_circles_a_full_turn_and_a_dwell_contradict_each_other() {
-        let refused = IncompleteDrive::new(30, 30, 30, 0.0);
+        let refused = IntermittentDrive::new(30, 30, 30, 0.0);
         assert!(matches!(
             refused,
-            Err(IncompleteError::NoDwell { kept: 30, .. })
+            Err(IntermittentError::NoDwell { kept: 30, .. })
         ));
-        assert!(IncompleteDrive::new(30, 30, 0, 0.0).is_err());
-        assert!(IncompleteDrive::new(40, 30, 20, 0.0).is_err());
-        assert!(IncompleteDrive::new(40, 30, 30, -0.1).is_err());
-        assert!(IncompleteDrive::new(40, 30, 30, f64::NAN).is_err());
+        assert!(IntermittentDrive::new(30, 30, 0, 0.0).is_err());
+        assert!(IntermittentDrive::new(40, 30, 20, 0.0).is_err());
+        assert!(IntermittentDrive::new(40, 30, 30, -0.1).is_err());
+        assert!(IntermittentDrive::new(40, 30, 30, f64::NAN).is_err());
         // An entry that eats the dwell.
         assert!(matches!(
-            IncompleteDrive::new(40, 30, 30, 1.6),
-            Err(IncompleteError::NoDwell { .. })
+            IntermittentDrive::new(40, 30, 30, 1.6),
+            Err(IntermittentError::NoDwell { .. })
         ));
         assert!(matches!(
-            IncompleteDrive::new(400, 30, 30, 3.0),
-            Err(IncompleteError::Entry { .. })
+            IntermittentDrive::new(400, 30, 30, 3.0),
+            Err(IntermittentError::Entry { .. })
         ));
     }
 
     #[test]
     fn one_driven_turn_a_driver_turn_and_then_a_dwell() {
         for entry in [0.0, 0.3] {
-            let drive = IncompleteDrive::new(40, 30, 30, entry).expect("a drive");
+            let drive = IntermittentDrive::new(40, 30, 30, entry).expect("a drive");
             assert!((drive.ratio() - 4.0 / 3.0).abs() < 1e-15);
             assert!((drive.dwell_angle() - (TAU / 4.0 - entry)).abs() < 1e-14);
             assert_eq!(drive.stops(), 1);
@@ -252,17 +252,17 @@ mod tests {
             assert_eq!(law.at(2.0).velocity, drive.ratio());
         }
         // 11.11 r/min: a quarter turn of dwell is 1.35 s.
-        let drive = IncompleteDrive::new(40, 30, 30, 0.0).expect("a drive");
+        let drive = IntermittentDrive::new(40, 30, 30, 0.0).expect("a drive");
         assert!((drive.dwell_time(30.0 / 2.7 * TAU / 60.0) - 1.35).abs() < 1e-12);
         assert!((drive.shock() - 4.0 / 3.0).abs() < 1e-15);
-        let quarter = IncompleteDrive::new(24, 20, 5, 0.1).expect("a drive");
+        let quarter = IntermittentDrive::new(24, 20, 5, 0.1).expect("a drive");
         assert_eq!(quarter.stops(), 4);
         assert!((quarter.driven_angle() - TAU / 4.0).abs() < 1e-15);
     }
 
     #[test]
     fn the_entry_takes_the_jump_out_of_speed_and_acceleration() {
-        let drive = IncompleteDrive::new(40, 30, 30, 0.4).expect("a drive");
+        let drive = IntermittentDrive::new(40, 30, 30, 0.4).expect("a drive");
         let law = drive.transmission();
         assert_eq!(drive.shock(), 0.0);
         for at in law.breaks() {

@@ -1,7 +1,7 @@
 use std::f64::consts::{PI, TAU};
 
 use centrode_geometry::{Outline, Point, Tolerance, Vector, checkpoint};
-use centrode_mechanism::gear::IncompletePair;
+use centrode_mechanism::gear::IntermittentPair;
 use centrode_mechanism::transmission::Transmission;
 use nalgebra::Isometry2;
 
@@ -17,7 +17,7 @@ const PIN_CORNERS: u32 = 240;
 /// Works on the finished contours alone: every corner of either gear is turned about the driven gear's axis until it
 /// meets an edge of the other.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct IncompleteContact {
+pub struct IntermittentContact {
     /// Driver's turn, rad.
     pub input: Vec<f64>,
     /// Whether the driven gear moves.
@@ -27,15 +27,15 @@ pub struct IncompleteContact {
     /// Angle by which it can turn back, rad.
     pub back: Vec<f64>,
     /// Deepest penetration along the driven gear's turning, mm.
-    pub overlap: Vec<f64>,
+    pub penetration: Vec<f64>,
 }
 
-impl IncompleteContact {
+impl IntermittentContact {
     /// Analyses one turn of the driver at so many even inputs, never in step with the teeth.
     ///
     /// Contours are taken as polygons nowhere farther off than the tolerance.
     #[must_use]
-    pub fn of(pair: &IncompletePair, count: u32, tolerance: Tolerance) -> Self {
+    pub fn of(pair: &IntermittentPair, count: u32, tolerance: Tolerance) -> Self {
         let motion = pair.law().motion_angle();
         let mut layers = vec![(
             Wheel::star(pair.driver(), tolerance),
@@ -63,7 +63,7 @@ impl IncompleteContact {
             out.moving.push(input < motion);
             out.ahead.push(room.ahead);
             out.back.push(room.back);
-            out.overlap.push(room.overlap);
+            out.penetration.push(room.penetration);
         }
         out
     }
@@ -78,7 +78,7 @@ impl IncompleteContact {
     /// Deepest penetration of all, mm.
     #[must_use]
     pub fn deepest(&self) -> f64 {
-        self.overlap.iter().copied().fold(0.0, f64::max)
+        self.penetration.iter().copied().fold(0.0, f64::max)
     }
 }
 
@@ -139,7 +139,7 @@ impl Wheel {
 struct Room {
     ahead: f64,
     back: f64,
-    overlap: f64,
+    penetration: f64,
 }
 
 impl Default for Room {
@@ -147,7 +147,7 @@ impl Default for Room {
         Self {
             ahead: FREE,
             back: FREE,
-            overlap: 0.0,
+            penetration: 0.0,
         }
     }
 }
@@ -207,7 +207,7 @@ impl Room {
             return;
         }
         let depth = ahead.min(back);
-        self.overlap = self.overlap.max(depth * squared.sqrt());
+        self.penetration = self.penetration.max(depth * squared.sqrt());
         if ahead < back {
             self.back = self.back.min(-ahead);
         } else {
@@ -260,11 +260,11 @@ mod tests {
     use super::*;
     use centrode_mechanism::gear::design::GearPairDesign;
     use centrode_mechanism::gear::pitch::{Circle, PitchSpec, Polar};
-    use centrode_mechanism::gear::{IncompletePairSpec, Member};
+    use centrode_mechanism::gear::{IntermittentPairSpec, Member};
 
     use crate::optimise::Random;
 
-    fn spec(driver: u32, mean_ratio: [u32; 2], teeth: u32, entry: f64) -> IncompletePairSpec {
+    fn spec(driver: u32, mean_ratio: [u32; 2], teeth: u32, entry: f64) -> IntermittentPairSpec {
         let mut pair = GearPairDesign::new(PitchSpec::Circle(Circle {
             module: Some(3.0),
             tooth_count: Some(driver),
@@ -272,24 +272,24 @@ mod tests {
         }));
         pair.mean_ratio = mean_ratio;
         (pair.driver.bore, pair.driven.bore) = (16.0, 16.0);
-        IncompletePairSpec::new(pair, teeth, entry)
+        IntermittentPairSpec::new(pair, teeth, entry)
     }
 
-    fn contact(spec: &IncompletePairSpec) -> (IncompletePair, IncompleteContact) {
-        let pair = IncompletePair::resolve(spec).expect("a pair");
+    fn contact(spec: &IntermittentPairSpec) -> (IntermittentPair, IntermittentContact) {
+        let pair = IntermittentPair::resolve(spec).expect("a pair");
         let tolerance = Tolerance::new(1e-4).expect("positive");
-        let contact = IncompleteContact::of(&pair, 360, tolerance);
+        let contact = IntermittentContact::of(&pair, 360, tolerance);
         (pair, contact)
     }
 
     /// Angular backlash of a tooth on the driven gear, rad.
-    fn play(pair: &IncompletePair) -> f64 {
+    fn play(pair: &IntermittentPair) -> f64 {
         let length = pair.pair().rolling().pitch_length(Member::Driven);
         0.05 / (length / TAU * 20_f64.to_radians().cos())
     }
 
     /// Guards that nothing penetrates, and that the driven gear is held all the way, moving or not.
-    fn held(spec: &IncompletePairSpec) {
+    fn held(spec: &IntermittentPairSpec) {
         let (pair, contact) = contact(spec);
         assert!(contact.deepest() < 1e-3, "{spec:?}: {}", contact.deepest());
         let most = 1.1 * play(&pair);
@@ -358,7 +358,7 @@ mod tests {
     }
 
     #[test]
-    fn a_gear_turned_too_far_overlaps() {
+    fn a_gear_turned_too_far_penetrates() {
         let (pair, contact) = contact(&spec(40, [3, 4], 30, 0.35));
         let tolerance = Tolerance::new(1e-4).expect("positive");
         let [driver, driven] = [pair.driver(), pair.driven()].map(|o| Wheel::star(o, tolerance));
@@ -369,7 +369,7 @@ mod tests {
             let place = placed.inverse() * Isometry2::rotation(-input);
             let mut room = Room::default();
             room.narrow(&driver, &place, &driven);
-            assert_eq!(room.overlap == 0.0, free, "{off}");
+            assert_eq!(room.penetration == 0.0, free, "{off}");
         }
     }
 }

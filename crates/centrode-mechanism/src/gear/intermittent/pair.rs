@@ -5,9 +5,9 @@ use centrode_geometry::{Outline, Point, Tolerance, Vector, checkpoint};
 use nalgebra::{Isometry2, Rotation2};
 
 use super::cams::Cam;
-use super::law::IncompleteLaw;
+use super::law::IntermittentLaw;
 use super::radial::{Chain, Radial};
-use super::{IncompletePairError, IncompletePairSpec};
+use super::{IntermittentPairError, IntermittentPairSpec};
 use crate::gear::pitch::PitchSpec;
 use crate::gear::{GearPair, Member};
 use crate::transmission::Transmission;
@@ -30,9 +30,9 @@ const TOOTH: f64 = 0.2;
 /// The driver turns clockwise about the origin by the input, the driven gear counter-clockwise about (centre
 /// distance, 0). Contours are polygons within a ten-thousandth of the module.
 #[derive(Clone, Debug)]
-pub struct IncompletePair {
+pub struct IntermittentPair {
     pair: GearPair,
-    law: IncompleteLaw,
+    law: IntermittentLaw,
     lock_radius: f64,
     locked_play: f64,
     driver: Outline,
@@ -43,19 +43,19 @@ pub struct IncompletePair {
     accuracy: Tolerance,
 }
 
-impl IncompletePair {
+impl IntermittentPair {
     /// Cuts both gears, and the cam where there is an entry angle.
     ///
     /// # Errors
-    /// [`IncompletePairError`] naming the violated rule and its numbers.
-    pub fn resolve(spec: &IncompletePairSpec) -> Result<Self, IncompletePairError> {
+    /// [`IntermittentPairError`] naming the violated rule and its numbers.
+    pub fn resolve(spec: &IntermittentPairSpec) -> Result<Self, IntermittentPairError> {
         spec.validate()?;
         let pair = GearPair::resolve(&spec.pair)?;
         let law = Self::law_of(&pair, spec)?;
         let stops = (pair.driven().tooth_count() / spec.teeth).max(1);
         let lock_radius = Self::lock(&pair, spec)?;
         let accuracy =
-            Tolerance::new(ACCURACY * pair.module()).map_err(|_| IncompletePairError::NoLock)?;
+            Tolerance::new(ACCURACY * pair.module()).map_err(|_| IntermittentPairError::NoLock)?;
         let mut made = Self {
             law,
             lock_radius,
@@ -76,7 +76,7 @@ impl IncompletePair {
         let driver = made.swept(blank, std::slice::from_ref(&tool), play, false);
         made.teeth = teeth(&driver, lock_radius + TOOTH * made.pair.module());
         if made.teeth == 0 {
-            return Err(IncompletePairError::NoTeethLeft {
+            return Err(IntermittentPairError::NoTeethLeft {
                 kept: spec.teeth,
                 lock_radius,
             });
@@ -93,21 +93,21 @@ impl IncompletePair {
 
     fn law_of(
         pair: &GearPair,
-        spec: &IncompletePairSpec,
-    ) -> Result<IncompleteLaw, IncompletePairError> {
+        spec: &IntermittentPairSpec,
+    ) -> Result<IntermittentLaw, IntermittentPairError> {
         let (driver, driven) = (pair.driver().tooth_count(), pair.driven().tooth_count());
         let kept = spec.teeth;
         if !kept.is_multiple_of(driven) && !driven.is_multiple_of(kept) {
-            return Err(IncompletePairError::Stops { kept, driven });
+            return Err(IntermittentPairError::Stops { kept, driven });
         }
         let round = matches!(spec.pair.pitch, PitchSpec::Circle(_));
         if kept < driven && !round {
-            return Err(IncompletePairError::StopsNeedCircles { kept, driven });
+            return Err(IntermittentPairError::StopsNeedCircles { kept, driven });
         }
         let pitch = pair.rolling().pitch_length(Member::Driver) / f64::from(driver);
         let rolling = Arc::new(pair.rolling().clone());
         let arc = rolling.angle(rolling.parameter(pitch * f64::from(kept)));
-        let law = IncompleteLaw {
+        let law = IntermittentLaw {
             arc,
             entry: spec.entry,
             driven: rolling.driven_angle(arc) - rolling.driven_angle(0.0),
@@ -115,10 +115,10 @@ impl IncompletePair {
         };
         let motion = law.motion_angle();
         if kept >= driver || motion >= TAU {
-            return Err(IncompletePairError::NoDwell { kept, motion });
+            return Err(IntermittentPairError::NoDwell { kept, motion });
         }
         if 2.0 * spec.entry > motion {
-            return Err(IncompletePairError::Entry {
+            return Err(IntermittentPairError::Entry {
                 entry: spec.entry,
                 motion,
             });
@@ -127,7 +127,7 @@ impl IncompletePair {
     }
 
     /// Radius of the locking arc: as written, or that of the driver's pitch point at rest.
-    fn lock(pair: &GearPair, spec: &IncompletePairSpec) -> Result<f64, IncompletePairError> {
+    fn lock(pair: &GearPair, spec: &IntermittentPairSpec) -> Result<f64, IntermittentPairError> {
         let a = pair.center_distance();
         let rolling = pair.rolling();
         let pitch_point = rolling.frame(Member::Driver, rolling.parameter(0.0)).point;
@@ -135,13 +135,13 @@ impl IncompletePair {
         let (_, tip) = pair.driven().radii();
         let hub = 0.5 * spec.pair.driven.bore;
         if radius <= a - tip {
-            return Err(IncompletePairError::LockTooSmall {
+            return Err(IntermittentPairError::LockTooSmall {
                 radius,
                 least: a - tip,
             });
         }
         if radius >= a - hub {
-            return Err(IncompletePairError::LockOverlaps {
+            return Err(IntermittentPairError::LockOverlaps {
                 radius,
                 greatest: a - hub,
             });
@@ -238,7 +238,7 @@ impl IncompletePair {
 
     /// The driven angle as a function of the driver's turn.
     #[must_use]
-    pub fn law(&self) -> &IncompleteLaw {
+    pub fn law(&self) -> &IntermittentLaw {
         &self.law
     }
 

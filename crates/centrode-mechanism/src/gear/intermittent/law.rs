@@ -3,10 +3,10 @@ use std::sync::Arc;
 
 use crate::transmission::{MotionJet, Transmission};
 
-/// The motion of an [`IncompletePair`](super::IncompletePair): the law of its pitch curves over the toothed arc, eased in and out over the
+/// The motion of an [`IntermittentPair`](super::IntermittentPair): the law of its pitch curves over the toothed arc, eased in and out over the
 /// entry angle, and rest.
 #[derive(Clone, Debug)]
-pub struct IncompleteLaw {
+pub struct IntermittentLaw {
     pub(super) pair: Arc<crate::gear::Rolling>,
     /// Driver angle of the toothed arc.
     pub(super) arc: f64,
@@ -14,7 +14,7 @@ pub struct IncompleteLaw {
     pub(super) driven: f64,
 }
 
-impl IncompleteLaw {
+impl IntermittentLaw {
     /// The driver angle from start to stop, rad.
     #[must_use]
     pub fn motion_angle(&self) -> f64 {
@@ -54,7 +54,7 @@ impl IncompleteLaw {
     }
 }
 
-impl Transmission for IncompleteLaw {
+impl Transmission for IntermittentLaw {
     fn at(&self, input: f64) -> MotionJet {
         let turns = (input / TAU).floor();
         let within = input - turns * TAU;

@@ -1,0 +1,204 @@
+use super::*;
+
+fn names(directory: &Path) -> Vec<String> {
+    let mut names: Vec<String> = fs::read_dir(directory)
+        .expect("readable")
+        .map(|entry| {
+            entry
+                .expect("entry")
+                .file_name()
+                .to_string_lossy()
+                .into_owned()
+        })
+        .collect();
+    names.sort();
+    names
+}
+
+#[test]
+fn files_are_written_whole_into_a_new_directory_and_over_old_ones() {
+    let root = tempfile::tempdir().expect("a place to write");
+    let directory = root.path().join("a").join("b");
+    let mut bundle = Bundle::default();
+    bundle.add("one.txt", b"first".to_vec()).expect("plain");
+    bundle.add("two.txt", vec![7; 100_000]).expect("plain");
+    let paths = bundle.write_to(&directory).expect("written");
+    assert_eq!(paths.len(), 2);
+    assert_eq!(names(&directory), ["one.txt", "two.txt"]);
+    let mut second = Bundle::default();
+    second.add("one.txt", b"second".to_vec()).expect("plain");
+    second.write_to(&directory).expect("written over");
+    assert_eq!(
+        fs::read(directory.join("one.txt")).expect("there"),
+        b"second"
+    );
+    assert_eq!(names(&directory), ["one.txt", "two.txt"]);
+}
+
+#[test]
+fn a_failure_leaves_old_files_and_no_temporaries() {
+    let root = tempfile::tempdir().expect("a place to write");
+    fs::write(root.path().join("one.txt"), b"old").expect("written");
+    fs::create_dir(root.path().join("two.txt")).expect("a directory in the way");
+    let mut bundle = Bundle::default();
+    bundle.add("one.txt", b"new".to_vec()).expect("plain");
+    bundle.add("two.txt", b"new".to_vec()).expect("plain");
+    let error = bundle.write_to(root.path()).expect_err("in the way");
+    assert!(error.to_string().contains("two.txt"), "{error}");
+    assert_eq!(
+        fs::read(root.path().join("one.txt")).expect("there"),
+        b"old"
+    );
+    assert_eq!(names(root.path()), ["one.txt", "two.txt"]);
+    let file = root.path().join("one.txt");
+    let error = bundle.write_to(&file).expect_err("a file, not a directory");
+    assert!(matches!(error, BundleError::Disk { .. }) && error.to_string().contains("one.txt"));
+}
+
+#[test]
+fn folders_of_a_bundle_are_made() {
+    let root = tempfile::tempdir().expect("a place to write");
+    let mut bundle = Bundle::default();
+    bundle.add("top.txt", b"top".to_vec()).expect("plain");
+    bundle.add("a/b/low.txt", b"low".to_vec()).expect("plain");
+    bundle.write_to(root.path()).expect("written");
+    assert_eq!(names(root.path()), ["a", "top.txt"]);
+    let low = root.path().join("a").join("b");
+    assert_eq!(names(&low), ["low.txt"]);
+    assert_eq!(fs::read(low.join("low.txt")).expect("there"), b"low");
+}
+
+#[test]
+fn one_file_is_written_over_the_old_one_or_not_at_all() {
+    let root = tempfile::tempdir().expect("a place to write");
+    let path = root.path().join("new").join("gear.step");
+    write_file(&path, b"first".to_vec()).expect("written");
+    write_file(&path, b"second".to_vec()).expect("written over");
+    assert_eq!(fs::read(&path).expect("there"), b"second");
+    for bad in ["..", "/", "new/gear.step/below", "new/.hidden"] {
+        assert!(write_file(&root.path().join(bad), vec![]).is_err(), "{bad}");
+    }
+    assert_eq!(names(path.parent().expect("a folder")), ["gear.step"]);
+}
+
+#[test]
+fn many_threads_write_the_same_files_into_one_folder() {
+    let root = tempfile::tempdir().expect("a place to write");
+    let bundle = |letter: u8| {
+        let mut bundle = Bundle::default();
+        for name in ["one.txt", "two.txt", "deep/three.txt"] {
+            bundle.add(name, vec![letter; 20_000]).expect("plain");
+        }
+        bundle
+    };
+    std::thread::scope(|scope| {
+        for thread in 0..8 {
+            let (root, bundle) = (root.path(), bundle(b'a' + thread));
+            scope.spawn(move || {
+                for _ in 0..12 {
+                    bundle.write_to(root).expect("written");
+                    let read = fs::read(root.join("deep/three.txt")).expect("there");
+                    assert_eq!(read, vec![read[0]; 20_000]);
+                }
+            });
+        }
+    });
+    assert_eq!(names(root.path()), ["deep", "one.txt", "two.txt"]);
+    assert_eq!(names(&root.path().join("deep")), ["three.txt"]);
+}
+
+#[test]
+fn a_cancelled_write_leaves_what_was_there() {
+    let root = tempfile::tempdir().expect("a place to write");
+    fs::write(root.path().join("one.txt"), b"old").expect("written");
+    let mut bundle = Bundle::default();
+    bundle.add("one.txt", b"new".to_vec()).expect("plain");
+    let cancel = centrode_geometry::Cancel::default();
+    cancel.cancel();
+    assert!(cancel.run(|| bundle.write_to(root.path())).is_err());
+    assert_eq!(names(root.path()), ["one.txt"]);
+    assert_eq!(
+        fs::read(root.path().join("one.txt")).expect("there"),
+        b"old"
+    );
+}
+
+#[test]
+fn an_archive_holds_every_file() {
+    let mut bundle = Bundle::default();
+    bundle.add("one.txt", b"first".to_vec()).expect("plain");
+    bundle.add("two.bin", vec![7; 100_000]).expect("plain");
+    let bytes = bundle.zip().expect("small");
+    assert_eq!(bytes, bundle.zip().expect("small"));
+    let mut archive = zip::ZipArchive::new(Cursor::new(bytes)).expect("a zip");
+    assert_eq!(archive.len(), 2);
+    for (name, content) in bundle.files() {
+        let mut file = archive.by_name(name).expect("there");
+        let mut read = Vec::new();
+        io::Read::read_to_end(&mut file, &mut read).expect("readable");
+        assert_eq!(read, content);
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn a_private_file_stays_private() {
+    use std::os::unix::fs::PermissionsExt as _;
+    let root = tempfile::tempdir().expect("a place to write");
+    let path = root.path().join("one.txt");
+    fs::write(&path, b"old").expect("written");
+    fs::set_permissions(&path, fs::Permissions::from_mode(0o600)).expect("set");
+    let mut bundle = Bundle::default();
+    bundle.add("one.txt", b"new".to_vec()).expect("plain");
+    bundle.write_to(root.path()).expect("written");
+    let mode = fs::metadata(&path).expect("there").permissions().mode();
+    assert_eq!(mode & 0o777, 0o600);
+    assert_eq!(fs::read(&path).expect("there"), b"new");
+}
+
+#[cfg(unix)]
+#[test]
+fn links_are_written_through_and_what_is_no_file_is_refused() {
+    use std::os::unix::{fs::symlink, net::UnixListener};
+    let root = tempfile::tempdir().expect("a place to write");
+    let [deep, link, socket] = ["deep", "link", "socket"].map(|name| root.path().join(name));
+    fs::create_dir(&deep).expect("made");
+    symlink("deep/between", &link).expect("linked");
+    symlink("one.txt", deep.join("between")).expect("linked");
+    for text in [b"first", b"other"] {
+        // First made, then written over.
+        write_file(&link, text.to_vec()).expect("written");
+        assert_eq!(fs::read(deep.join("one.txt")).expect("there"), text);
+        assert!(link.is_symlink() && deep.join("between").is_symlink());
+    }
+    assert_eq!(names(&deep), ["between", "one.txt"]);
+    symlink("loop", root.path().join("loop")).expect("linked");
+    assert!(write_file(&root.path().join("loop"), vec![]).is_err());
+    let _listener = UnixListener::bind(&socket).expect("bound");
+    symlink("socket", root.path().join("to-socket")).expect("linked");
+    for name in ["socket", "to-socket"] {
+        let error = write_file(&root.path().join(name), vec![]).expect_err("a socket");
+        assert!(error.to_string().contains("no regular file"), "{error}");
+    }
+    assert!(!socket.is_file() && root.path().join("to-socket").is_symlink());
+    let all = ["deep", "link", "loop", "socket", "to-socket"];
+    assert_eq!(names(root.path()), all);
+}
+
+#[test]
+fn names_that_lead_elsewhere_or_repeat_are_refused() {
+    let mut bundle = Bundle::default();
+    for name in [
+        "", "..", ".hidden", "a//b", "a\\b", "c:d", "/etc", "a\nb", "../x", "a/../b", "a/", "a/.b",
+    ] {
+        assert!(
+            matches!(bundle.add(name, vec![]), Err(BundleError::Name { .. })),
+            "{name}"
+        );
+    }
+    bundle.add("a.dxf", vec![]).expect("plain");
+    assert!(matches!(
+        bundle.add("A.DXF", vec![]),
+        Err(BundleError::Twice { .. })
+    ));
+}

@@ -1,0 +1,141 @@
+use centrode_geometry::bracketed_root;
+
+use super::*;
+use crate::gear::design::{GearPairDesign, TeethSpec};
+use crate::gear::pitch::{Circle, Ellipse, PitchSpec};
+
+fn circular(backlash: f64) -> GearPair {
+    let mut design = GearPairDesign::new(PitchSpec::Circle(Circle {
+        module: Some(2.0),
+        tooth_count: Some(24),
+        ..Circle::default()
+    }));
+    design.teeth = TeethSpec {
+        backlash,
+        ..TeethSpec::default()
+    };
+    GearPair::resolve(&design).expect("a sound pair")
+}
+
+/// Inverse involute function: the angle x with tan x - x = `value`.
+fn involute_angle(value: f64) -> f64 {
+    let f = |x: f64| x.tan() - x - value;
+    bracketed_root(f, 0.0, 1.2, f(0.0), f(1.2))
+}
+
+#[test]
+fn limits_are_the_textbook_measures_of_thicker_and_thinner_teeth() {
+    let mut design = circular(0.05).design().clone();
+    design.teeth.thickness_deviations = Some([-0.03, -0.06]);
+    let pair = GearPair::resolve(&design).expect("a sound pair");
+    let (z, m, alpha) = (24.0, 2.0, 20.0_f64.to_radians());
+    let base = 0.5 * m * z * alpha.cos();
+    for member in [Member::Driver, Member::Driven] {
+        let limits = pair.pin_limits(member).expect("teeth").expect("told");
+        for (over, thinner) in limits.iter().zip([0.03, 0.06]) {
+            let space = 0.5 * std::f64::consts::PI * m + 0.05 / (2.0 * alpha.cos()) + thinner;
+            let inv = alpha.tan() - alpha + over.diameter / (2.0 * base) - space / (m * z);
+            let radial = base / involute_angle(inv).cos() + 0.5 * over.diameter;
+            let pin = over.pins[5].expect("measurable");
+            assert!(
+                (pin.radial - radial).abs() < 2e-9,
+                "{} {radial}",
+                pin.radial
+            );
+            assert!((over.over(5, 17).expect("both") - 2.0 * radial).abs() < 4e-9);
+        }
+    }
+    assert_eq!(
+        circular(0.05).pin_limits(Member::Driver).expect("teeth"),
+        None
+    );
+    for wrong in [
+        [0.01, -0.06],
+        [-0.06, -0.03],
+        [f64::NAN, -0.1],
+        [-0.1, f64::INFINITY],
+    ] {
+        design.teeth.thickness_deviations = Some(wrong);
+        let error = GearPair::resolve(&design).expect_err("not in order");
+        assert!(
+            error.to_string().contains("thickness_deviations"),
+            "{error}"
+        );
+    }
+}
+
+#[test]
+fn a_circular_gear_has_the_textbook_measure() {
+    // inv(alpha_M) = inv(alpha) + d / (z m cos alpha) - (space width on the pitch circle) ... :
+    // the half angle of the space taken from the pin's own.
+    for backlash in [0.0, 0.08] {
+        let pair = circular(backlash);
+        let (z, m, alpha) = (24.0, 2.0, 20.0_f64.to_radians());
+        let d = 3.5;
+        let base = 0.5 * m * z * alpha.cos();
+        let thinned = backlash / (2.0 * alpha.cos());
+        let space = 0.5 * std::f64::consts::PI * m + thinned;
+        let inv = alpha.tan() - alpha + d / (2.0 * base) - space / (m * z);
+        let radial = base / involute_angle(inv).cos() + 0.5 * d;
+        for gear in [pair.driver(), pair.driven()] {
+            let over = gear.over_pins(d);
+            assert_eq!(over.pins.len(), 24);
+            for (k, pin) in over.pins.iter().enumerate() {
+                let pin = pin.expect("measurable");
+                assert!(
+                    (pin.radial - radial).abs() < 2e-9,
+                    "{} {radial}",
+                    pin.radial
+                );
+                let (j, across) = over.across(k).expect("opposite");
+                assert_eq!(j, (k + 12) % 24);
+                assert!((across - 2.0 * radial).abs() < 4e-9);
+            }
+        }
+    }
+}
+
+#[test]
+fn the_pin_lies_between_its_own_two_teeth() {
+    let pair = GearPair::resolve(&GearPairDesign::new(PitchSpec::Ellipse(Ellipse {
+        eccentricity: 0.2679,
+        module: Some(2.25),
+        tooth_count: Some(23),
+        ..Ellipse::default()
+    })))
+    .expect("a sound pair");
+    for member in [Member::Driver, Member::Driven] {
+        let gear = pair.gear(member);
+        let d = pair.pin_diameter(member);
+        assert_eq!(d, 3.75);
+        let over = gear.over_pins(d);
+        let pitch = gear.pitch_length() / 23.0;
+        for (k, pin) in over.pins.iter().enumerate() {
+            let pin = pin.expect("measurable");
+            let tooth = &gear.teeth()[k];
+            let middle = 0.5 * (tooth.leading.crossing + tooth.trailing.crossing) + 0.5 * pitch;
+            let rolling = pair.rolling();
+            let frame = rolling.frame(member, rolling.parameter(middle));
+            let off = pin.center - frame.point;
+            assert!(off.dot(&frame.tangent).abs() < 0.1 && off.dot(&frame.normal) > 0.0);
+            for contact in pin.contacts {
+                assert!(((pin.center - contact).norm() - 0.5 * d).abs() < 1e-12);
+                let inside = contact + (contact - pin.center) * 1e-6;
+                assert!(gear.outline().contains(inside));
+            }
+        }
+    }
+}
+
+#[test]
+fn a_pin_that_does_not_touch_the_flanks_says_why() {
+    let gear = circular(0.0).driver().clone();
+    let only = |d: f64| {
+        let pins = gear.over_pins(d).pins;
+        assert!(pins.windows(2).all(|w| w[0].is_err() && w[0] == w[1]));
+        pins[0].expect_err("not measurable")
+    };
+    assert_eq!(only(0.5), PinFault::TooSmall);
+    assert_eq!(only(9.0), PinFault::TooLarge);
+    assert_eq!(only(f64::NAN), PinFault::TooSmall);
+}
