@@ -24,7 +24,7 @@ macro_rules! assets {
 const STYLES: [Asset; 2] = assets!("text/css; charset=utf-8": "uplot.css", "page.css");
 
 /// The scripts; `main.js` is the one to start.
-const SCRIPTS: [Asset; 28] = assets!(
+const SCRIPTS: [Asset; 31] = assets!(
     "text/javascript; charset=utf-8":
     "uplot.js",
     "axes.js",
@@ -33,11 +33,14 @@ const SCRIPTS: [Asset; 28] = assets!(
     "dialogs.js",
     "elements.js",
     "figures.js",
+    "find.js",
     "file.js",
     "form.js",
     "handles.js",
     "help.js",
+    "hints.js",
     "history.js",
+    "layout.js",
     "link.js",
     "main.js",
     "motion.js",

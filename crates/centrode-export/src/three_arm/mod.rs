@@ -20,7 +20,7 @@ use centrode_mechanism::three_arm::{PusherError, ThreeArm};
 
 use crate::gear_pair::{self, Label};
 use crate::{Bundle, ExportError, Format, Options, Package, cam};
-pub use curves::curves;
+pub use curves::{arm_curves, curves};
 use machine::Machine;
 pub use part::Part;
 

@@ -127,9 +127,9 @@ impl Resolved for ThreeArm {
     }
 }
 
-/// Clearances of the arms, and contact of the flanks of sun and first intermediate gear, by the carrier's turn.
+/// Motion of all arms, their clearances, and contact of the flanks of sun and first intermediate gear, by the carrier's turn.
 fn checked_curves(mechanism: &ThreeArm, teeth: Option<&TrainTeeth>) -> Vec<Curve> {
-    let mut curves = Vec::new();
+    let mut curves = three_arm::arm_curves(mechanism);
     if let Some(course) = arm_clearance_course(mechanism, PARTS) {
         let all = [
             ("from one another", course.arms),

@@ -9,6 +9,8 @@ import { color } from "./theme.js";
 
 const DEG = 180 / Math.PI;
 const HEIGHT = 128;
+/** Height of the one chart that is enlarged, pixels. */
+const LARGE = 380;
 const DASH = [[], [6, 3]];
 const LIMIT = [8, 4];
 /** What is smaller is a rounding error, whatever its unit: a figure of a machine is not. */
@@ -43,6 +45,8 @@ export class Charts {
     this.limits = [];
     /** Input under the pointer: all charts are read there. */
     this.hovered = null;
+    /** Name of the chart that is enlarged. */
+    this.large = null;
     this.charts = [];
     this.input = 0;
     this.reach = [0, 360];
@@ -142,9 +146,17 @@ export class Charts {
   resize() {
     for (const chart of this.charts) {
       const width = chart.box.clientWidth;
-      if (width > 0) chart.plot.setSize({ width, height: HEIGHT });
+      if (width > 0) chart.plot.setSize({ width, height: chart.height });
     }
     this.at(this.input);
+  }
+
+  /** Gives one chart the whole width; the one that has it, its own place again. */
+  enlarge(name) {
+    this.large = this.large === name ? null : name;
+    for (const chart of this.charts) chart.grow();
+    this.resize();
+    this.charts.find((chart) => chart.name === this.large)?.figure.scrollIntoView({ block: "nearest" });
   }
 
   recolor() {
@@ -163,11 +175,14 @@ class Chart {
     const legend = curves.map((curve, i) => element("span", { class: `series series-${i}` }, curve.name ? `${curve.name} ` : "", this.values[i]));
     if (curves.some((curve) => before.has(`${name} ${curve.name}`))) legend.push(element("span", { class: "series series-pinned" }, "pinned"));
     this.box = element("div", { class: "plot" });
-    charts.place.append(element("figure", { class: "chart" },
+    this.larger = element("button", { type: "button", class: "link", "aria-label": `${name} enlarged`, onclick: () => charts.enlarge(name) }, "Enlarge");
+    this.figure = element("figure", { class: "chart" },
       element("figcaption", {}, element("b", {}, name), unit ? element("span", { class: "quiet" }, ` ${unit}`) : null, ...legend, this.bounds,
-        element("span", { class: "take" }, ...["CSV", "SVG", "PNG"].map((kind) =>
+        element("span", { class: "take" }, this.larger, ...["CSV", "SVG", "PNG"].map((kind) =>
           element("button", { type: "button", class: "link", "aria-label": `${name} as ${kind}`, onclick: () => files.take(this, kind, charts.name()) }, kind)))),
-      this.box));
+      this.box);
+    charts.place.append(this.figure);
+    this.grow();
     this.compared = curves.map((curve) => before.has(`${name} ${curve.name}`));
     const series = [{}];
     curves.forEach((curve, i) => {
@@ -178,7 +193,7 @@ class Chart {
     });
     this.plot = new uPlot({
       width: Math.max(this.box.clientWidth, 160),
-      height: HEIGHT,
+      height: this.height,
       legend: { show: false },
       cursor: { x: false, y: false, points: { show: false }, drag: { x: false, y: false } },
       scales: { x: { time: false, range: () => charts.range }, y: { range: (_, least, greatest) => span(least, greatest, this.limits) } },
@@ -205,6 +220,18 @@ class Chart {
     this.plot.over.addEventListener("pointerdown", pick);
     this.plot.over.addEventListener("pointermove", pick);
     this.plot.over.addEventListener("pointerleave", () => charts.hover(null));
+  }
+
+  get height() {
+    return this.charts.large === this.name ? LARGE : HEIGHT;
+  }
+
+  /** Takes the room that it has. */
+  grow() {
+    const large = this.charts.large === this.name;
+    this.figure.classList.toggle("large", large);
+    this.larger.setAttribute("aria-pressed", String(large));
+    this.larger.textContent = large ? "Smaller" : "Enlarge";
   }
 
   /** The input under the pointer, degrees. */

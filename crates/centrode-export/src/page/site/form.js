@@ -1,6 +1,8 @@
 // The numbers of the design, one field a key.
 
 import { byId, element, words } from "./elements.js";
+import { Find } from "./find.js";
+import * as hints from "./hints.js";
 import { stepOf, stepped, tidy, typed, worked } from "./numbers.js";
 import { Points, pointsOf } from "./points.js";
 
@@ -14,8 +16,10 @@ function sizeOf(field) {
 
 export class Form {
   /** `edit(edits, final)` takes new values; `fixed` shows them only. */
-  constructor({ edit, respond, fixed }) {
+  constructor({ edit, hold, respond, fixed }) {
     this.edit = edit;
+    /** Told when a drag of a number begins and ends. */
+    this.hold = hold;
     this.respond = respond;
     this.fixed = fixed;
     this.place = byId("form");
@@ -23,6 +27,7 @@ export class Form {
     this.controls = new Map();
     /** Points of curves, by the tables they are in. */
     this.points = new Map();
+    this.find = new Find(this);
     /** Id of what gets the focus once it is there. */
     this.wish = null;
     this.folded = new Set(["drawing"]);
@@ -31,6 +36,7 @@ export class Form {
     /** Grows with every change of an input, which keeps the number it was changed at. */
     this.clock = 0;
     this.changed = new WeakMap();
+    hints.listen(this);
     this.place.addEventListener("input", ({ target }) => this.touch(target));
   }
 
@@ -61,6 +67,7 @@ export class Form {
       for (const field of table.fields) this.fill(field);
     }
     this.remark(snapshot);
+    this.find.again();
   }
 
   /** The control of a key, or of the nearest around it. */
@@ -79,7 +86,7 @@ export class Form {
     const [start, end] = ahead.includes(focused) ? [focused.selectionStart, focused.selectionEnd] : [];
     this.controls.clear();
     this.points.clear();
-    this.place.replaceChildren(...tables.filter((table) => table.fields.length).map((table) => this.table(table)));
+    this.place.replaceChildren(this.find.place, ...tables.filter((table) => table.fields.length).map((table) => this.table(table)));
     for (const old of ahead) this.carry(old, byId(old.id));
     const again = focused?.id ? byId(focused.id) : null;
     again?.focus();
@@ -234,6 +241,7 @@ export class Form {
       const value = typed(control.inputs[0].value);
       if (event.button !== 0 || typeof value !== "number") return;
       label.setPointerCapture(event.pointerId);
+      this.hold(true);
       start = { x: event.clientX, value, step: stepOf(control.field, value), now: value, moved: false };
     });
     const follow = (event, final) => {
@@ -247,7 +255,9 @@ export class Form {
         this.touch(control.inputs[0]);
         this.edit([{ key: control.field.key, value: next }], final);
       }
-      if (final) start = null;
+      if (!final) return;
+      start = null;
+      this.hold(false);
     };
     label.addEventListener("pointermove", (event) => follow(event, false));
     label.addEventListener("pointerup", (event) => follow(event, true));

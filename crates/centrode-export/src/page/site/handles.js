@@ -138,6 +138,7 @@ export class Handles {
       this.marks.get(taken).setPointerCapture(event.pointerId);
       this.dragged = taken;
       this.stage.held = true;
+      this.stage.remember(true);
       this.began();
     });
     mark.addEventListener("pointermove", (event) => {
@@ -148,6 +149,7 @@ export class Handles {
         if (this.dragged !== name) return;
         this.dragged = null;
         this.stage.held = false;
+        this.stage.remember(false);
         this.move(name, this.pointed(event), true);
       });
     }

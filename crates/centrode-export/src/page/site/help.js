@@ -10,6 +10,7 @@ const KEYS = [
   ["A number", [
     ["↑ ↓", "step; with Shift ten times, with Alt a tenth"], ["Enter", "take what is typed: 2*1.5, 1/8 in, pi/9 rad"], ["drag its name", "change it"],
     ["F4, or ∿ beside it", "what goals and ways do with it"],
+    ["F1, or a tap on its name", "what it is, and its range"],
   ]],
   ["The drawing", [
     ["← → ↑ ↓, or drag", "move the view"], ["+ −, wheel, or two fingers", "zoom"], ["0, or double-click", "show everything"], ["Space", "play or pause"],
@@ -23,7 +24,10 @@ const KEYS = [
   ["The input, below the drawing", [["← →", "turn by a degree"], ["Page up, Page down", "turn by ten degrees"]]],
   ["Curves", [
     ["point at one", "read all of them there"], ["click, or drag across", "lead the machine there"],
-    ["drag along the axis", "zoom; double-click shows the whole cycle"],
+    ["drag along the axis", "zoom; double-click shows the whole cycle"], ["Enlarge", "one chart over the whole width"],
+  ]],
+  ["Borders between the panes", [
+    ["drag, or ← →", "move; double-click for the usual width"],
   ]],
 ];
 

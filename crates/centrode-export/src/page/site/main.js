@@ -8,6 +8,7 @@ import { Form } from "./form.js";
 import { Handles } from "./handles.js";
 import * as help from "./help.js";
 import { History } from "./history.js";
+import * as layout from "./layout.js";
 import * as link from "./link.js";
 import * as response from "./response.js";
 import { Search } from "./search.js";
@@ -63,7 +64,7 @@ const stage = new Stage((poses) => handles?.place(poses));
 const transport = new Transport(stage);
 const charts = new Charts((input) => transport.go(input), () => state.snapshot.name, () => state.snapshot.speed ?? transport.speed);
 transport.charts = charts;
-const form = new Form({ edit, respond: (key) => respond(key), fixed: Boolean(embedded) });
+const form = new Form({ edit, hold: (on) => stage.remember(on), respond: (key) => respond(key), fixed: Boolean(embedded) });
 const handles = embedded ? null : new Handles(stage, { edit, began: () => transport.play(false), points: (table) => form.points.get(table) });
 
 let file = null;
@@ -364,6 +365,7 @@ function pin() {
 // Start
 
 function listen() {
+  layout.start();
   theme.start(() => {
     stage.draw();
     charts.recolor();

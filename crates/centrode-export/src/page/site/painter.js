@@ -216,10 +216,10 @@ export class Painter {
     context.fillText(name, px + 8, py - 6);
   }
 
-  ghost(link, pose) {
+  ghost(link, pose, tint) {
     if (!pose) return;
     const width = this.enter(pose);
-    this.context.strokeStyle = color("pinned");
+    this.context.strokeStyle = color(tint);
     this.context.lineWidth = width(1.2);
     this.context.setLineDash([width(4), width(3)]);
     this.context.stroke(link.body);

@@ -18,10 +18,22 @@ function reach(text, line) {
 
 /** Shows the text; resolves to another that reads as a design, or to null. */
 export async function edit(file, text, error) {
-  const area = element("textarea", { "aria-label": "Design file", spellcheck: "false", rows: 28, cols: 92, oninput: () => {
+  const area = element("textarea", { "aria-label": "Design file", spellcheck: "false", wrap: "off", rows: 28, cols: 92, oninput: () => {
     kept = area.value;
   } });
   area.value = kept ?? text;
+  const numbers = element("pre", { class: "line-numbers", "aria-hidden": "true" });
+  const count = () => {
+    const lines = area.value.split("\n").length;
+    if (numbers.dataset.lines === String(lines)) return;
+    numbers.dataset.lines = lines;
+    numbers.textContent = Array.from({ length: lines }, (_, i) => i + 1).join("\n");
+  };
+  count();
+  area.addEventListener("input", count);
+  area.addEventListener("scroll", () => {
+    numbers.scrollTop = area.scrollTop;
+  });
   const remark = element("p", { class: "remark", role: "status" });
   const complain = (words) => remark.replaceChildren(element("span", { class: "error" }, words));
   if (kept !== null) remark.textContent = "This text has not been applied yet.";
@@ -39,7 +51,7 @@ export async function edit(file, text, error) {
     }
     return false;
   };
-  const answer = await ask(file, [remark, area], [["cancel", "Cancel"], ["apply", "Apply", "main"]], sound);
+  const answer = await ask(file, [remark, element("div", { class: "numbered" }, numbers, area)], [["cancel", "Cancel"], ["apply", "Apply", "main"]], sound);
   if (answer) kept = null;
   return answer === "apply" ? area.value : null;
 }

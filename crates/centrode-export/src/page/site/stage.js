@@ -16,6 +16,8 @@ export class Stage extends Painter {
     this.fitted = true;
     /** Whether a point is being drawn aside: the view must not move under it. */
     this.held = false;
+    /** Picture from before a drag, which is drawn below it. */
+    this.before = null;
     this.resize();
     new ResizeObserver(() => this.resize()).observe(this.box);
     this.listen();
@@ -32,6 +34,12 @@ export class Stage extends Painter {
   pin(picture) {
     this.pinned = picture ? new Scene(picture) : null;
     this.draw();
+  }
+
+  /** Keeps the picture as it is now in sight, as a ghost, or no longer. */
+  remember(on) {
+    this.before = on ? this.scene : null;
+    if (!on) this.draw();
   }
 
   at(input) {
@@ -80,9 +88,10 @@ export class Stage extends Painter {
     if (!this.scene) return;
     this.context.globalAlpha = this.stale ? 0.45 : 1;
     const poses = this.parts(this.input);
-    if (this.pinned) {
-      const before = this.pinned.motion.at(this.input * this.pinned.motion.cycle / this.scene.motion.cycle);
-      this.pinned.links.forEach((link, i) => this.ghost(link, before[i]));
+    for (const [scene, tint] of [[this.before, "muted"], [this.pinned, "pinned"]]) {
+      if (!scene || scene === this.scene) continue;
+      const poses = scene.motion.at(this.input * scene.motion.cycle / this.scene.motion.cycle);
+      scene.links.forEach((link, i) => this.ghost(link, poses[i], tint));
     }
     this.axes(poses);
     this.marks(poses);

@@ -82,17 +82,18 @@ export function goals(list, pinned) {
   byId("goals").replaceChildren(
     element("div", { class: "title" }, element("h2", {}, `Goals: ${met} of ${checked.length} reached`),
       open ? element("span", { class: "quiet" }, `${open} not checked`) : null),
-    ...list.map((goal) => bar(goal, before.get(goal.name))));
+    ...list.map((goal, i) => bar(goal, before.get(goal.name), i + 1)));
 }
 
-function bar(goal, before) {
+/** A goal; `number` counts those listed, where a paper may give one number to several. */
+function bar(goal, before, number) {
   const state = goal.met === null ? "open" : goal.met ? "met" : "unmet";
   const sign = { open: "○", met: "✓", unmet: "✕" }[state];
   const fill = element("div", { class: "bar-fill" });
   fill.style.transform = `scaleX(${goal.progress ?? 0})`;
   const was = before && before.value !== goal.value ? ` (was ${before.value})` : "";
   return element("div", { class: `goal ${state}`, "data-goal": goal.name },
-    element("div", { class: "head" }, element("span", {}, `${goal.number}. ${goal.title}`),
+    element("div", { class: "head" }, element("span", {}, `${number}. ${goal.title}`, goal.number === number ? null : element("span", { class: "quiet" }, ` goal ${goal.number} of the paper`)),
       element("b", { title: goal.exact }, `${sign} ${goal.value}${goal.unit && ` ${goal.unit}`}${was}`)),
     element("div", { class: "track", role: "progressbar", "aria-label": goal.title, "aria-valuemin": 0, "aria-valuemax": 1,
       "aria-valuenow": goal.progress ?? undefined, "aria-valuetext": `${goal.value} ${goal.unit}, wanted ${goal.wanted}, ${goal.verdict}` }, fill),
