@@ -77,7 +77,7 @@ EXEMPT = {
     },
     "docs/how-to/shop.md": {
         INPUT: (r"release 12", r"than 0\.01", r"of 1/"),
-        FORMULA: (r"a - j / \(2 sin α\)",),
+        FORMULA: (r"a - j / \(2 sin .\)",),
     },
     "docs/how-to/simulation.md": {
         "a size of PyBullet": (r"margin of 1 mm",),
@@ -158,6 +158,7 @@ EXEMPT = {
             r"below 12,",
             r"below 315,",
             r"to 1e-10 rad",
+            r"within 0\.1 mm",
         ),
         RUST: (r"near 1e-9 rad for q = 400",),
         TIME: (r"^## What it costs\n(?:.*\n)*",),

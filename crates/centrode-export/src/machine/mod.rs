@@ -11,6 +11,7 @@ mod motion_file;
 mod parts;
 mod picture;
 mod rim;
+mod spatial;
 mod whole;
 
 use centrode_mechanism::machine::Machine;
@@ -25,6 +26,7 @@ pub use motion_file::{
 };
 pub use parts::parts_list;
 pub use picture::picture;
+pub use spatial::spatial;
 #[cfg(test)]
 pub(crate) use {model::simulated, motion::lines};
 

@@ -75,6 +75,11 @@ pub(crate) fn simulated(
     })
 }
 
+/// A shape's mesh to be seen, with the name of its file.
+pub(super) fn shown(shape: &Shape, tolerance: Tolerance) -> Result<(String, Mesh), SolidError> {
+    show(shape, tolerance).map(|seen| (seen.file, seen.mesh))
+}
+
 /// A shape's mesh to be seen; under the name of its part where both are the same.
 fn show(shape: &Shape, tolerance: Tolerance) -> Result<Seen, SolidError> {
     let (mesh, off) = meshed(&shape.form, tolerance)?;

@@ -9,6 +9,36 @@ pub struct Asset {
     pub text: &'static str,
 }
 
+/// A vendored module of the page, packed by gzip: every browser takes it as it is.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+pub struct Packed {
+    /// File name.
+    pub name: &'static str,
+    /// Media type of what is packed.
+    pub media_type: &'static str,
+    /// The content, packed by gzip.
+    pub gzip: &'static [u8],
+}
+
+macro_rules! packed {
+    ($folder:literal: $($name:literal),+ $(,)?) => {
+        [$(Packed {
+            name: $name,
+            media_type: "text/javascript; charset=utf-8",
+            gzip: include_bytes!(concat!("vendor/", $folder, "/", $name, ".gz")),
+        }),+]
+    };
+}
+
+/// three.js, which draws in space; the page fetches it when that is asked for.
+const PACKED: [Packed; 2] = packed!("three-0.184.0": "three.module.min.js", "three.core.min.js");
+
+/// The packed module of the page with a name.
+#[must_use]
+pub fn packed(name: &str) -> Option<&'static Packed> {
+    PACKED.iter().find(|packed| packed.name == name)
+}
+
 /// The page itself, empty.
 pub const INDEX: &str = include_str!("site/index.html");
 
@@ -24,7 +54,7 @@ macro_rules! assets {
 const STYLES: [Asset; 2] = assets!("text/css; charset=utf-8": "uplot.css", "page.css");
 
 /// The scripts; `main.js` is the one to start.
-const SCRIPTS: [Asset; 31] = assets!(
+const SCRIPTS: [Asset; 33] = assets!(
     "text/javascript; charset=utf-8":
     "uplot.js",
     "axes.js",
@@ -51,6 +81,8 @@ const SCRIPTS: [Asset; 31] = assets!(
     "search.js",
     "server.js",
     "source.js",
+    "space.js",
+    "space-view.js",
     "stage.js",
     "theme.js",
     "transport.js",

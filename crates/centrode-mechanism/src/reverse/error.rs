@@ -113,13 +113,15 @@ pub enum PathError {
         /// The word found.
         found: String,
     },
-    /// A line without x or without y.
-    #[error("line {line} has {count} values; it must hold x and y in mm, separated by a comma")]
+    /// A line of too few values.
+    #[error("line {line} has {count} values; it must hold {wanted}, separated by a comma")]
     Columns {
         /// Line, from one.
         line: usize,
         /// Number of values.
         count: usize,
+        /// Values that a line must hold.
+        wanted: &'static str,
     },
 }
 

@@ -159,24 +159,8 @@ impl WantedPath {
     /// # Errors
     /// [`PathError`] with the line, and as [`through`](Self::through).
     pub fn from_csv(bytes: &[u8]) -> Result<Self, PathError> {
-        let text = text(bytes)?;
-        let mut points = Vec::new();
-        let mut lines = 0;
-        // Old programs end a line by a carriage return alone.
-        let end = if text.contains('\n') { '\n' } else { '\r' };
-        for (i, line) in text.split(end).enumerate() {
-            let written = line.trim();
-            if written.is_empty() || written.starts_with('#') {
-                continue;
-            }
-            lines += 1;
-            match point(written, i + 1) {
-                Ok(point) => points.push(point),
-                // Headings.
-                Err(PathError::NotNumber { .. }) if lines == 1 => {}
-                Err(error) => return Err(error),
-            }
-        }
+        let points = rows(bytes)?;
+        let points: Vec<Point> = points.into_iter().map(|row: [f64; 2]| row.into()).collect();
         Self::through(&points)
     }
 
@@ -331,29 +315,57 @@ pub(super) fn text(bytes: &[u8]) -> Result<&str, PathError> {
     Ok(text.trim_start_matches('\u{feff}'))
 }
 
+/// Numbers at the head of every line of a CSV file, as [`WantedPath::from_csv`] reads it.
+pub(super) fn rows<const N: usize>(bytes: &[u8]) -> Result<Vec<[f64; N]>, PathError> {
+    let text = text(bytes)?;
+    let mut found = Vec::new();
+    let mut lines = 0;
+    // Old programs end a line by a carriage return alone.
+    let end = if text.contains('\n') { '\n' } else { '\r' };
+    for (i, line) in text.split(end).enumerate() {
+        let written = line.trim();
+        if written.is_empty() || written.starts_with('#') {
+            continue;
+        }
+        lines += 1;
+        match row(written, i + 1) {
+            Ok(row) => found.push(row),
+            // Headings.
+            Err(PathError::NotNumber { .. }) if lines == 1 => {}
+            Err(error) => return Err(error),
+        }
+    }
+    Ok(found)
+}
+
 /// Reads a line of a file.
-fn point(line: &str, number: usize) -> Result<Point, PathError> {
+fn row<const N: usize>(line: &str, number: usize) -> Result<[f64; N], PathError> {
     // Spreadsheets that write a decimal comma separate by semicolons or tabs.
     let (separators, decimal): (&[char], _) = match line.contains([';', '\t']) {
         true => (&[';', '\t'], ','),
         false => (&[','], '.'),
     };
     let words: Vec<&str> = line.split(separators).map(str::trim).collect();
-    let [x, y] = [words.first(), words.get(1)];
-    let (Some(x), Some(y)) = (x, y) else {
+    if words.len() < N {
         return match words[0].parse::<f64>() {
             Ok(_) => Err(PathError::Columns {
                 line: number,
                 count: words.len(),
+                wanted: if N == 2 {
+                    "x and y in mm"
+                } else {
+                    "x and y in mm and the direction in degrees"
+                },
             }),
             Err(_) => Err(not_number(words[0], number)),
         };
-    };
-    let read = |word: &str| {
-        let number_of = word.replace(decimal, ".").parse::<f64>();
-        number_of.map_err(|_| not_number(word, number))
-    };
-    Ok(Point::new(read(x)?, read(y)?))
+    }
+    let mut row = [0.0; N];
+    for (value, word) in row.iter_mut().zip(&words) {
+        let read = word.replace(decimal, ".").parse::<f64>();
+        *value = read.map_err(|_| not_number(word, number))?;
+    }
+    Ok(row)
 }
 
 fn not_number(word: &str, line: usize) -> PathError {

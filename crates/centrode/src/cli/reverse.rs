@@ -5,7 +5,7 @@ use crate::geometry::Point;
 use crate::mechanism::design::Design as _;
 use crate::mechanism::gear::design::Addendum;
 use crate::mechanism::reverse::{
-    AxisMap, AxisRange, DrawnPath, ReversedMachine, Split, SplitKind, TwoBar, WantedPath,
+    AxisMap, AxisRange, DrawnPath, KeyPoses, ReversedMachine, Split, SplitKind, TwoBar, WantedPath,
 };
 use crate::mechanism::three_arm::design::Direction;
 
@@ -25,38 +25,21 @@ pub(crate) fn run(command: &Reverse, out: &mut impl Write) -> Result<Status, Fai
     if let Some(output) = &command.output {
         source.keep(output, "the path")?;
     }
-    let drawn = drawn(&source, command.within)?;
-    let path = match &drawn {
-        Some(drawn) => WantedPath::through(&drawn.points),
-        None => WantedPath::from_csv(source.bytes()),
-    };
-    let path = path.map_err(|error| source.refused(&error))?;
-    if !command.crossing {
-        path.check_simple().map_err(|error| {
-            let name = source.name();
-            Failure::Usage(format!(
-                "{name}: {error} With --crossing such a path is taken."
-            ))
-        })?;
-    }
-    let kinds = SplitKind::NAMES.iter();
-    let mut kinds = kinds.filter(|(name, _)| *name == command.split);
-    let kind = kinds.next().map(|(_, kind)| *kind).unwrap_or_default();
+    let mut kinds = SplitKind::NAMES.iter();
+    let kind = kinds.find(|(name, _)| *name == command.split);
+    let kind = kind.map(|(_, kind)| *kind).unwrap_or_default();
     let progress = Progress::new(4);
-    progress.step("trying axes");
-    let range = AxisRange::about(&path);
-    let map = AxisMap::new(&path, range);
-    let chain = match command.axis {
-        Some([x, y]) => TwoBar::new(&path, Point::new(x, y), None)
-            .map_err(|fault| Failure::Usage(format!("--axis {x},{y}: {fault}")))?,
-        None => map.mildest(&path).ok_or_else(|| none_possible(&map))?,
+    let found = match command.poses {
+        true => Found::by_poses(&source, &progress)?,
+        false => Found::by_path(command, &source, &progress)?,
     };
+    let chain = &found.chain;
     progress.step("splitting the motion");
     let bend = command.bend.to_radians();
-    let split = Split::new(&chain, kind, bend)
+    let split = Split::new(chain, kind, bend)
         .map_err(|error| Failure::Usage(format!("--bend {}: {error}", command.bend)))?;
     progress.step("rolling the pitch curves");
-    let made = ReversedMachine::new(&chain, &split, command.arms, command.steps);
+    let made = ReversedMachine::new(chain, &split, command.arms, command.steps);
     let made = made.map_err(|error| Failure::Files(Box::new(error)))?;
     progress.step("looking for sound teeth");
     let toothed = command
@@ -64,17 +47,15 @@ pub(crate) fn run(command: &Reverse, out: &mut impl Write) -> Result<Status, Fai
         .as_ref()
         .map(|_| with_sound_teeth(&made.design, |_| true));
     drop(progress);
-    if let Some(drawn) = drawn {
-        let off = Unit::Millimetre.tell(drawn.deviation.value);
-        let words = format!(
-            "through {} points, within {off} of the drawing",
-            drawn.points.len()
-        );
-        line(out, "path", &words)?;
+    for (name, words) in &found.told {
+        line(out, name, words)?;
     }
-    chosen(command, &chain, &split, out)?;
+    chosen(command, &found, &split, out)?;
     gears(&made, out)?;
-    others(&chain, &map, kind, bend, out)?;
+    if let Some(map) = &found.map {
+        possible(map, out)?;
+    }
+    others(chain, kind, bend, out)?;
     let (Some(output), Some(toothed)) = (&command.output, toothed) else {
         return Ok(Status::Good);
     };
@@ -87,6 +68,86 @@ pub(crate) fn run(command: &Reverse, out: &mut impl Write) -> Result<Status, Fai
     writeln!(out)?;
     output::write_one(output, text.into_bytes(), out)?;
     Ok(Status::Good)
+}
+
+/// Carrier and arm that were found.
+struct Found {
+    chain: TwoBar,
+    /// Why this axis.
+    why: String,
+    /// Axes tried for a path.
+    map: Option<AxisMap>,
+    /// What else there is to tell: names and words.
+    told: Vec<(String, String)>,
+}
+
+impl Found {
+    fn by_path(command: &Reverse, source: &Source, progress: &Progress) -> Result<Self, Failure> {
+        let drawn = drawn(source, command.within)?;
+        let path = match &drawn {
+            Some(drawn) => WantedPath::through(&drawn.points),
+            None => WantedPath::from_csv(source.bytes()),
+        };
+        let path = path.map_err(|error| source.refused(&error))?;
+        if !command.crossing {
+            path.check_simple().map_err(|error| {
+                let name = source.name();
+                Failure::Usage(format!(
+                    "{name}: {error} With --crossing such a path is taken."
+                ))
+            })?;
+        }
+        progress.step("trying axes");
+        let map = AxisMap::new(&path, AxisRange::about(&path));
+        let (chain, why) = match command.axis {
+            Some([x, y]) => {
+                let chain = TwoBar::new(&path, Point::new(x, y), None);
+                let chain =
+                    chain.map_err(|fault| Failure::Usage(format!("--axis {x},{y}: {fault}")))?;
+                (chain, "as asked")
+            }
+            None => {
+                let chain = map.mildest(&path).ok_or_else(|| none_possible(&map))?;
+                (chain, "the mildest found")
+            }
+        };
+        let of_drawing = drawn.map(|drawn| {
+            let off = Unit::Millimetre.tell(drawn.deviation.value);
+            let points = drawn.points.len();
+            let words = format!("through {points} points, within {off} of the drawing");
+            ("path".to_owned(), words)
+        });
+        Ok(Self {
+            chain,
+            why: why.into(),
+            map: Some(map),
+            told: of_drawing.into_iter().collect(),
+        })
+    }
+
+    fn by_poses(source: &Source, progress: &Progress) -> Result<Self, Failure> {
+        progress.step("trying places of the arm's axis");
+        let found = KeyPoses::from_csv(source.bytes()).map_err(|error| source.refused(&error))?;
+        let clamp = (
+            "clamp".to_owned(),
+            format!("{} from the arm", Unit::Angle.tell(found.clamp)),
+        );
+        let pose = |(index, [off, turned]): (usize, &[f64; 2])| {
+            let (off, turned) = (Unit::Millimetre.tell(*off), Unit::Angle.tell(*turned));
+            let name = format!("pose {}", index + 1);
+            (name, format!("missed by {off} and {turned}"))
+        };
+        let poses = found.misses.iter().enumerate().map(pose);
+        Ok(Self {
+            told: std::iter::once(clamp).chain(poses).collect(),
+            chain: found.chain,
+            why: format!(
+                "the mildest found from {} starts that meet the poses in order",
+                found.possible
+            ),
+            map: None,
+        })
+    }
 }
 
 /// Points along the path of an SVG file; none where the file is another.
@@ -130,15 +191,12 @@ pub(crate) fn range(ratios: [f64; 2]) -> String {
 
 fn chosen(
     command: &Reverse,
-    chain: &TwoBar,
+    found: &Found,
     split: &Split,
     out: &mut impl Write,
 ) -> std::io::Result<()> {
+    let (chain, why) = (&found.chain, &found.why);
     let mm = |x: f64| Unit::Millimetre.tell(x);
-    let why = match command.axis {
-        Some(_) => "as asked",
-        None => "the mildest found",
-    };
     let factor = chain.unevenness().exp();
     let axis = chain.axis();
     let at = format!("{:.4}, {:.4} mm, {why}", axis.x, axis.y);
@@ -200,14 +258,8 @@ pub(crate) fn least_radii(
     line(out, &format!("pair {pair}"), &words)
 }
 
-/// Prints what else is possible: other axes, and the other split.
-fn others(
-    chain: &TwoBar,
-    map: &AxisMap,
-    kind: SplitKind,
-    bend: f64,
-    out: &mut impl Write,
-) -> std::io::Result<()> {
+/// Prints how many of the axes tried are possible.
+fn possible(map: &AxisMap, out: &mut impl Write) -> std::io::Result<()> {
     let (all, possible) = (map.found().len(), map.possible());
     let inside = map.found().iter().flatten();
     let inside = inside.filter(|axis| axis.carrier > axis.arm).count();
@@ -215,7 +267,11 @@ fn others(
         "{possible} of {all} tried: {inside} inside the path, {} outside",
         possible - inside
     );
-    line(out, "possible axes", &words)?;
+    line(out, "possible axes", &words)
+}
+
+/// Prints what the splits that were not chosen would be.
+fn others(chain: &TwoBar, kind: SplitKind, bend: f64, out: &mut impl Write) -> std::io::Result<()> {
     for (name, other) in SplitKind::NAMES {
         if other == kind {
             continue;

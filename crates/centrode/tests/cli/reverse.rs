@@ -37,6 +37,56 @@ fn what_was_chosen_is_printed() {
     }
 }
 
+/// Four key poses of a machine with a carrier of 70 mm and an arm of 160 mm.
+fn poses() -> String {
+    let pose = |share: f64| {
+        let psi = std::f64::consts::TAU * share;
+        let arm = 0.4 - 0.3 * psi.sin();
+        let x = 30.0 + 70.0 * psi.cos() + 160.0 * arm.cos();
+        let y = -20.0 + 70.0 * psi.sin() + 160.0 * arm.sin();
+        format!("{x},{y},{}\n", (arm + 0.25).to_degrees())
+    };
+    [0.05, 0.3, 0.55, 0.8].map(pose).concat()
+}
+
+#[test]
+fn key_poses_are_met_and_bad_ones_refused() {
+    let csv = format!("x,y,direction\n{}", poses());
+    let run = fed(&["reverse", "-", "--poses", "--bend", "40"], csv.as_bytes());
+    let told = text(&run.stdout);
+    assert_eq!(run.status.code(), Some(0), "{}", text(&run.stderr));
+    for number in 1..=4 {
+        let line = told
+            .lines()
+            .find(|line| line.starts_with(&format!("pose {number} ")));
+        let line = line.unwrap_or_else(|| panic!("pose {number}: {told}"));
+        let mut numbers = line.split(' ').filter_map(|word| word.parse::<f64>().ok());
+        let [_, off, turned] = [(); 3].map(|()| numbers.next().expect("a number"));
+        assert!(off < 0.1 && turned < 0.1, "{line}");
+    }
+    assert!(
+        told.contains("starts that meet the poses in order"),
+        "{told}"
+    );
+    for (csv, wrong) in [
+        (
+            "0,0,0\n10,0,0\n",
+            "2 key poses are given; a machine is found for 3 to 7",
+        ),
+        ("0,0,0\n10,0\n20,5,1\n", "line 2 has 2 values"),
+        ("1,1,0\n1,1,5\n1,1,9\n", "all key poses are at one place"),
+    ] {
+        let run = fed(&["reverse", "-", "--poses"], csv.as_bytes());
+        assert_eq!(run.status.code(), Some(2), "{csv}");
+        assert!(text(&run.stderr).contains(wrong), "{}", text(&run.stderr));
+    }
+    let both = fed(
+        &["reverse", "-", "--poses", "--axis", "0,0"],
+        csv.as_bytes(),
+    );
+    assert_eq!(both.status.code(), Some(2));
+}
+
 #[test]
 fn the_design_written_resolves_and_its_tip_runs_along_the_path() {
     let folder = tempfile::tempdir().expect("a folder");

@@ -14,6 +14,7 @@ import * as response from "./response.js";
 import { Search } from "./search.js";
 import * as server from "./server.js";
 import * as source from "./source.js";
+import { Space } from "./space.js";
 import { Stage } from "./stage.js";
 import * as theme from "./theme.js";
 import { Transport } from "./transport.js";
@@ -60,12 +61,17 @@ const state = {
   told: 0,
 };
 
-const stage = new Stage((poses) => handles?.place(poses));
+const stage = new Stage((poses) => {
+  handles?.place(poses);
+  space?.follow();
+});
 const transport = new Transport(stage);
 const charts = new Charts((input) => transport.go(input), () => state.snapshot.name, () => state.snapshot.speed ?? transport.speed);
 transport.charts = charts;
 const form = new Form({ edit, hold: (on) => stage.remember(on), respond: (key) => respond(key), fixed: Boolean(embedded) });
 const handles = embedded ? null : new Handles(stage, { edit, began: () => transport.play(false), points: (table) => form.points.get(table) });
+
+const space = embedded ? null : new Space(stage, () => ({ text: state.snapshot?.text, sound: Boolean(state.snapshot?.picture && !state.snapshot.error) }));
 
 let file = null;
 let search = null;

@@ -67,6 +67,7 @@ export const searched = () => json(ask("search", "GET"));
 export const stopSearch = () => json(ask("search", "DELETE"));
 export const response = (options, signal) => json(ask("response", "POST", options, signal));
 export const files = async (options, signal) => (await ask("export", "POST", options, signal)).blob();
+export const meshes = async (text, signal) => (await ask("meshes", "POST", { text }, signal)).arrayBuffer();
 export const solve = (request, signal) => json(ask("solve", "POST", { page, turn: (turn += 1), ...request }, signal));
 
 /** Calls `disk` with the file's text, or with what is missing, whenever that changes; `lost` and `found` as the program goes and comes. */

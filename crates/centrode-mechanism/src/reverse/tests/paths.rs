@@ -86,7 +86,11 @@ fn a_file_is_read_line_by_line() {
     ));
     assert!(matches!(
         fault(b"0,0\n1\n"),
-        PathError::Columns { line: 2, count: 1 }
+        PathError::Columns {
+            line: 2,
+            count: 1,
+            wanted: "x and y in mm"
+        }
     ));
     assert!(matches!(
         fault(b"0,0\n\xff"),

@@ -9,7 +9,7 @@ use crate::mechanism::reverse::SplitKind;
 
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Example: centrode reverse path.csv --axis 260,160 --bend 40 --arms 3 -o arms.toml\n\nThe path is closed: a point a line, x and y in mm, in the order in which the tip passes them.\n\nExit status: 0 good; 2 no machine, a bad path, or the file cannot be written."
+    after_help = "Example: centrode reverse path.csv --axis 260,160 --bend 40 --arms 3 -o arms.toml\n\nThe path is closed: a point a line, x and y in mm, in the order in which the tip passes them. With --poses: centrode reverse poses.csv --poses -o arms.toml\n\nExit status: 0 good; 2 no machine, a bad path, or the file cannot be written."
 )]
 pub(crate) struct Reverse {
     /// File of the path, CSV (x, y in mm) or SVG (its one path), or - for standard input
@@ -25,6 +25,10 @@ pub(crate) struct Reverse {
     /// Axis of the carrier, mm; left out, the mildest: that of the least change of the gears' ratio
     #[arg(long, value_parser = place, allow_hyphen_values = true, value_name = "X,Y")]
     pub(crate) axis: Option<[f64; 2]>,
+    /// The file holds 3 to 7 key poses, x and y in mm and the clamp's direction in degrees, that the arm meets in order; the path
+    /// between them is free
+    #[arg(long, conflicts_with_all = ["axis", "crossing", "within"])]
+    pub(crate) poses: bool,
     /// How two stages of gears share the motion
     #[arg(long, value_parser = PossibleValuesParser::new(SplitKind::NAMES.map(|(name, _)| name)), default_value = "powers")]
     pub(crate) split: String,

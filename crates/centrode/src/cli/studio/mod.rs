@@ -3,6 +3,7 @@
 mod document;
 mod guard;
 mod listener;
+mod meshes;
 mod response;
 mod routes;
 mod search;

@@ -21,7 +21,7 @@ use super::StudioState;
 use super::document::SaveError;
 use super::guard::{self, Guard};
 use super::solver::{Depth, Unsolved};
-use super::{response, search};
+use super::{meshes, response, search};
 use crate::cli::args::{Arguments, Command, Export, File};
 use crate::cli::export;
 use crate::cli::page::{Edit, Fault, edited};
@@ -49,6 +49,7 @@ pub(crate) fn design_page(state: Arc<StudioState>) -> Router {
         .route("/keep", post(keep).delete(forget))
         .route("/reread", post(reread))
         .route("/export", post(bundle))
+        .route("/meshes", post(meshes::answer))
         .route("/search", get(searched).post(searching).delete(unsearched))
         .route("/response", post(respond));
     limited(page).with_state(state)
@@ -106,7 +107,17 @@ pub(crate) fn as_json(text: String) -> Response {
 pub(crate) async fn asset(Path(name): Path<String>) -> Response {
     match page::asset(&name) {
         Some(asset) => ([(header::CONTENT_TYPE, asset.media_type)], asset.text).into_response(),
-        None => StatusCode::NOT_FOUND.into_response(),
+        None => match page::packed(&name) {
+            Some(packed) => (
+                [
+                    (header::CONTENT_TYPE, packed.media_type),
+                    (header::CONTENT_ENCODING, "gzip"),
+                ],
+                packed.gzip,
+            )
+                .into_response(),
+            None => StatusCode::NOT_FOUND.into_response(),
+        },
     }
 }
 
@@ -181,8 +192,8 @@ async fn solve(State(state): Shared, Json(ask): Json<Solve>) -> Result<Response,
 }
 
 #[derive(Deserialize)]
-struct Text {
-    text: String,
+pub(crate) struct Text {
+    pub(crate) text: String,
 }
 
 /// Reason why a text does not read as a design; null where it does.

@@ -1,0 +1,183 @@
+use std::f64::consts::TAU;
+
+use centrode_geometry::gauss_legendre;
+use nalgebra::{DMatrix, DVector};
+
+use super::{Circle, KeyPose};
+
+/// Harmonics of the logarithm of the ratio.
+const HARMONICS: usize = 12;
+const TERMS: usize = 2 * HARMONICS + 1;
+/// Parts in which the turns wanted grow from those of even motion.
+const GROWTH: usize = 8;
+/// Newton steps, and the error at which they end, rad.
+const STEPS: usize = 30;
+const CLOSED: f64 = 1e-13;
+/// Least turn of a body between two poses, rad.
+const LEAST_TURN: f64 = 1e-3;
+/// Greatest |ln| of a ratio: that of gears no one makes.
+const UNEVEN: f64 = 3.0;
+
+/// Turns of carrier and planet from pose to pose, both in the carrier's sense.
+#[derive(Clone, Debug)]
+pub(super) struct Law {
+    sense: f64,
+    /// Directions of carrier and arm in the first pose, rad.
+    start: [f64; 2],
+    turns: Vec<[f64; 2]>,
+}
+
+/// The law with the logarithm of its ratio as a sum of harmonics.
+#[derive(Clone, Debug)]
+pub(super) struct MildLaw {
+    law: Law,
+    amplitudes: [f64; TERMS],
+}
+
+/// One, then cosines and sines of the harmonics.
+fn waves(psi: f64) -> [f64; TERMS] {
+    let mut waves = [1.0; TERMS];
+    for k in 1..=HARMONICS {
+        let (sin, cos) = (k as f64 * psi).sin_cos();
+        waves[2 * k - 1] = cos;
+        waves[2 * k] = sin;
+    }
+    waves
+}
+
+/// Cost of a squared amplitude: of the logarithm and of its second derivative.
+fn cost(term: usize) -> f64 {
+    let k = term.div_ceil(2) as f64;
+    1.0 + k.powi(4)
+}
+
+impl Law {
+    pub(super) fn through(poses: &[KeyPose], circle: &Circle, sense: f64) -> Self {
+        let angles: Vec<[f64; 2]> = poses
+            .iter()
+            .map(|pose| [circle.direction(pose), pose.direction + circle.clamp()])
+            .collect();
+        let next = angles.iter().cycle().skip(1);
+        let turns = angles.iter().zip(next).map(|(one, other)| {
+            let carrier = sense * (other[0] - one[0]);
+            let arm = sense * (other[1] - one[1]);
+            // The planet turns as the arm does against the carrier, the other way.
+            [carrier.rem_euclid(TAU), (carrier - arm).rem_euclid(TAU)]
+        });
+        Self {
+            sense,
+            start: angles[0],
+            turns: turns.collect(),
+        }
+    }
+
+    /// Number of poses passed within one turn of both bodies.
+    pub(super) fn passed(&self) -> usize {
+        let mut sum = [0.0; 2];
+        let within = self.turns.iter().take_while(|turn| {
+            sum = [sum[0] + turn[0], sum[1] + turn[1]];
+            let moves = turn.iter().all(|turn| *turn >= LEAST_TURN);
+            moves && sum.iter().all(|sum| *sum <= TAU + 1e-9)
+        });
+        within.count()
+    }
+
+    pub(super) fn is_in_order(&self) -> bool {
+        self.passed() == self.turns.len()
+    }
+
+    /// The law of least mean square of ln(ratio) and of its second derivative; none where it does not come out.
+    pub(super) fn mildest(&self) -> Option<MildLaw> {
+        let count = self.turns.len();
+        let mut amplitudes = [0.0; TERMS];
+        for part in 1..=GROWTH {
+            let share = part as f64 / GROWTH as f64;
+            let mut is_met = false;
+            for _ in 0..STEPS {
+                let mut off = DVector::zeros(count);
+                let mut slopes = DMatrix::zeros(count, TERMS);
+                let mut from = 0.0;
+                for (i, [carrier, planet]) in self.turns.iter().enumerate() {
+                    let wanted = carrier + share * (planet - carrier);
+                    let mut turn = 0.0;
+                    visit(from, from + carrier, |psi, weight| {
+                        let waves = waves(psi);
+                        let ratio = weight * ratio(&amplitudes, &waves);
+                        turn += ratio;
+                        for (j, wave) in waves.into_iter().enumerate() {
+                            slopes[(i, j)] += ratio * wave;
+                        }
+                    });
+                    from += carrier;
+                    off[i] = wanted - turn;
+                }
+                is_met = off.amax() < CLOSED * 100.0;
+                // The least amplitudes that meet the turns, as far as these are linear.
+                let now = DVector::from_iterator(TERMS, amplitudes);
+                let right = &off + &slopes * &now;
+                let scaled = DMatrix::from_fn(TERMS, count, |j, i| slopes[(i, j)] / cost(j));
+                let factors = (&slopes * &scaled).lu().solve(&right)?;
+                let next = scaled * factors;
+                let step = (&next - &now).amax();
+                let share = (0.5 / step).min(1.0);
+                for (a, next) in amplitudes.iter_mut().zip(next.iter()) {
+                    *a += share * (next - *a);
+                }
+                if is_met && step < 1e-12 {
+                    break;
+                }
+            }
+            if !is_met {
+                return None;
+            }
+        }
+        let found = MildLaw {
+            law: self.clone(),
+            amplitudes,
+        };
+        (found.unevenness() < UNEVEN).then_some(found)
+    }
+}
+
+impl MildLaw {
+    pub(super) fn sense(&self) -> f64 {
+        self.law.sense
+    }
+
+    /// Greatest |ln| of the ratio at 360 places: it ranks laws, no more.
+    pub(super) fn unevenness(&self) -> f64 {
+        let at = |i: u32| ratio(&self.amplitudes, &waves(f64::from(i).to_radians()));
+        (0..360).map(|i| at(i).ln().abs()).fold(0.0, f64::max)
+    }
+
+    /// Directions of carrier and arm at even places of the carrier from the first pose on, rad.
+    pub(super) fn places(&self, count: usize) -> Vec<[f64; 2]> {
+        let [carrier, arm] = self.law.start;
+        let step = TAU / count as f64;
+        let mut planet = 0.0;
+        let place = |i: usize| {
+            let psi = step * i as f64;
+            let turned = psi - planet;
+            gauss_legendre(psi, psi + step, |psi, weight| {
+                planet += weight * ratio(&self.amplitudes, &waves(psi));
+            });
+            let sense = self.law.sense;
+            [carrier + sense * psi, arm + sense * turned]
+        };
+        (0..count).map(place).collect()
+    }
+}
+
+fn ratio(amplitudes: &[f64; TERMS], waves: &[f64; TERMS]) -> f64 {
+    let terms = amplitudes.iter().zip(waves).map(|(a, wave)| a * wave);
+    terms.sum::<f64>().exp()
+}
+
+/// Visits nodes of a quadrature of a stretch in parts of half a turn at most.
+fn visit(from: f64, to: f64, mut see: impl FnMut(f64, f64)) {
+    let parts = ((to - from) / (0.5 * TAU)).ceil().max(1.0);
+    for part in 0..parts as usize {
+        let at = |i: usize| from + (to - from) * i as f64 / parts;
+        gauss_legendre(at(part), at(part + 1), &mut see);
+    }
+}

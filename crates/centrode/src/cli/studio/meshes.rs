@@ -1,0 +1,35 @@
+use axum::Json;
+use axum::body::Bytes;
+use axum::http::{StatusCode, header};
+use axum::response::{IntoResponse, Response};
+use clap::Parser as _;
+
+use super::routes::{Refused, Text, computed};
+use crate::FAMILIES;
+use crate::cli::args::{Arguments, Command};
+use crate::export::machine;
+
+/// Meshes of a design as `export` writes them by default, and where they stand at the picture's inputs.
+pub(crate) async fn answer(Json(ask): Json<Text>) -> Result<Response, Refused> {
+    let made = computed(move || meshes(&ask.text)).await?;
+    let bytes =
+        made.map_err(|reason| Refused::because(StatusCode::UNPROCESSABLE_ENTITY, reason))?;
+    let kind = [(header::CONTENT_TYPE, "application/octet-stream")];
+    Ok((kind, Bytes::from(bytes)).into_response())
+}
+
+fn meshes(text: &str) -> Result<Vec<u8>, String> {
+    let words = ["centrode", "export", "-", "--to=."];
+    let tolerance = match Arguments::try_parse_from(words).map(|asked| asked.command) {
+        Ok(Command::Export(command)) => command.tolerance,
+        Ok(_) => return Err("not an export".into()),
+        Err(error) => return Err(error.to_string()),
+    };
+    let read = FAMILIES.read(text.as_bytes());
+    let mechanism = read.and_then(|file| file.mechanism());
+    let mechanism = mechanism.map_err(|error| error.message())?;
+    let input = mechanism.picture().motion.input;
+    let made = mechanism.machine();
+    let made = made.and_then(|made| machine::spatial(&made, &input, tolerance));
+    made.map_err(|error| error.to_string())
+}
