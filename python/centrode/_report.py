@@ -16,8 +16,9 @@ class FlankPlace:
     side: Literal["leading", "trailing"]
     """The flank reached first, or last, in the order the teeth mesh."""
     radius: float | None
-    """Distance from the gear's axis at which the flank ends, mm; None where no flank is left. Below it undercut has taken
-    the flank, or above it no more can be cut."""
+    """Distance from the gear's axis at which the flank ends, mm; None where no flank is left.
+
+    Below it undercut has taken the flank, or above it no more can be cut."""
 
 
 @dataclass(frozen=True, slots=True)
