@@ -30,9 +30,9 @@ CIRCLE = ROOT / "tests" / "designs" / "circular-pair.toml"
 
 def settled(page):
     """Waits until every change has been drawn, and its checks have been heard."""
-    expect(page.locator("#findings h2")).to_be_visible(timeout=30_000)
+    expect(page.locator("#findings h2")).to_be_attached(timeout=30_000)
     # A change just made has marked nothing stale: it is on its way.
-    expect(page.locator("#verdict:not(.stale, [aria-busy=true])")).to_be_visible(timeout=30_000)
+    expect(page.locator("#verdict:not(.stale, [aria-busy=true])")).to_be_attached(timeout=30_000)
 
 
 @contextmanager

@@ -289,6 +289,8 @@ def test_the_arms_have_the_table_too_and_a_report_shows_it_fixed(browser, tmp_pa
 def test_points_are_for_everybody(browser, tmp_path, width, scheme):
     with opened(browser, tmp_path, POINTS, color_scheme=scheme) as (page, _):
         page.set_viewport_size({"width": width, "height": 900})
+        if width < 1060:
+            page.get_by_role("tab", name="Design").click()
         for dialog in (False, True):
             if dialog:
                 page.get_by_role("button", name="As text").click()

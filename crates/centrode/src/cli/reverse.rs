@@ -77,7 +77,7 @@ struct Found {
     why: String,
     /// Axes tried for a path.
     map: Option<AxisMap>,
-    /// What else there is to tell: names and words.
+    /// Further lines to tell: names and words.
     told: Vec<(String, String)>,
 }
 

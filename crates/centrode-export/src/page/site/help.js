@@ -85,6 +85,9 @@ function tour() {
     const [place, name, told] = STEPS[at];
     unmark();
     const target = document.querySelector(place);
+    // In a narrow window it may lie behind another tab.
+    const pane = target.closest("[role=tabpanel]");
+    if (pane) document.querySelector(`#tabs [aria-controls=${pane.id}]`)?.click();
     target.classList.add("toured");
     target.scrollIntoView({ block: "nearest" });
     title.textContent = `${at + 1} of ${STEPS.length}: ${name}`;

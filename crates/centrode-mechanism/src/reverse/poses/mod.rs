@@ -16,7 +16,7 @@ use super::{AxisFault, PathError, TwoBar, WantedPath};
 use crate::digits::told;
 use crate::three_arm::design::Direction;
 
-/// Number of key poses: three give a circle, more than seven are met by chance alone.
+/// Number of key poses: three give a circle, no machine meets more than seven but a special one.
 const FEWEST: usize = 3;
 const MOST: usize = 7;
 /// Distance of the tip from a pose, with the arm in the pose's direction, at which the pose is met, mm.
