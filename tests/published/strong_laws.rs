@@ -47,7 +47,10 @@ fn in_words(design: &GearPairDesign) -> String {
     }
     let deep = report.findings.iter().find(|f| f.rule == "interference");
     match deep {
-        Some(finding) => format!("tips cut in {} mm", short(finding.measured.expect("a depth"))),
+        Some(finding) => format!(
+            "tips cut in {} mm",
+            short(finding.measured.expect("a depth"))
+        ),
         None if report.ok() => "carries".into(),
         None => panic!("{:?}", report.findings),
     }
