@@ -36,19 +36,27 @@ fn summaries(text: &str) -> impl Iterator<Item = (usize, &str)> {
     })
 }
 
-#[test]
-fn summary_lines_stand_alone() -> io::Result<()> {
+/// Name and text of every Rust source of the crates and of the Python module.
+fn sources() -> io::Result<Vec<(String, String)>> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     let mut files = Vec::new();
     for folder in ["crates", "python/src"] {
         rust_files(&root.join(folder), &mut files)?;
     }
     assert!(files.len() > 100, "only {} files found", files.len());
-    let mut found = Vec::new();
-    for path in files {
+    let read = |path: PathBuf| {
         let name = path.strip_prefix(&root).unwrap_or(&path).display();
         let name = name.to_string().replace('\\', "/");
-        for (line, summary) in summaries(&fs::read_to_string(&path)?) {
+        Ok((name, fs::read_to_string(&path)?))
+    };
+    files.into_iter().map(read).collect()
+}
+
+#[test]
+fn summary_lines_stand_alone() -> io::Result<()> {
+    let mut found = Vec::new();
+    for (name, text) in sources()? {
+        for (line, summary) in summaries(&text) {
             if VAGUE.iter().any(|word| summary.starts_with(word)) {
                 found.push(format!("{name}:{line}: {summary}"));
             }
@@ -76,16 +84,9 @@ const GONE: [&str; 8] = [
 
 #[test]
 fn replaced_words_stay_gone() -> io::Result<()> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
-    let mut files = Vec::new();
-    for folder in ["crates", "python/src"] {
-        rust_files(&root.join(folder), &mut files)?;
-    }
-    assert!(files.len() > 100, "only {} files found", files.len());
     let mut found = Vec::new();
-    for path in files {
-        let name = path.strip_prefix(&root).unwrap_or(&path).display();
-        for (index, line) in fs::read_to_string(&path)?.lines().enumerate() {
+    for (name, text) in sources()? {
+        for (index, line) in text.lines().enumerate() {
             let line = line.to_lowercase();
             let gone = GONE.iter().filter(|word| line.contains(**word));
             found.extend(gone.map(|word| format!("{name}:{}: {word}", index + 1)));
