@@ -13,6 +13,9 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 
 pub(crate) use wanted::{Drive, Reverse};
 
+/// Tolerance of an export that asks for none, mm.
+pub(crate) const TOLERANCE: &str = "0.001";
+
 /// Finest tolerance that can be asked for, mm: below it lie the rounding errors of the outlines.
 const FINEST: f64 = 1e-7;
 
@@ -99,7 +102,7 @@ pub(crate) struct Export {
     #[arg(long, value_enum, value_delimiter = ',', value_name = "KINDS")]
     pub(crate) format: Vec<File>,
     /// Greatest distance of what is written from the exact curve, mm
-    #[arg(long, default_value = "0.001", value_parser = tolerance, allow_negative_numbers = true, value_name = "MM")]
+    #[arg(long, default_value = TOLERANCE, value_parser = tolerance, allow_negative_numbers = true, value_name = "MM")]
     pub(crate) tolerance: Tolerance,
     /// Flavour of the DXF files
     #[arg(long, value_enum, default_value_t = Dxf::R2010)]
@@ -220,7 +223,7 @@ pub(crate) enum Dxf {
     Spline,
 }
 
-fn tolerance(word: &str) -> Result<Tolerance, String> {
+pub(crate) fn tolerance(word: &str) -> Result<Tolerance, String> {
     let mm: f64 = word
         .parse()
         .map_err(|_| "not a number of millimetres".to_owned())?;

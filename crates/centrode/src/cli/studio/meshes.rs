@@ -2,11 +2,10 @@ use axum::Json;
 use axum::body::Bytes;
 use axum::http::{StatusCode, header};
 use axum::response::{IntoResponse, Response};
-use clap::Parser as _;
 
 use super::routes::{Refused, Text, computed};
 use crate::FAMILIES;
-use crate::cli::args::{Arguments, Command};
+use crate::cli::args::{TOLERANCE, tolerance};
 use crate::export::machine;
 
 /// Meshes of a design as `export` writes them by default, and where they stand at the picture's inputs.
@@ -19,12 +18,7 @@ pub(crate) async fn answer(Json(ask): Json<Text>) -> Result<Response, Refused> {
 }
 
 fn meshes(text: &str) -> Result<Vec<u8>, String> {
-    let words = ["centrode", "export", "-", "--to=."];
-    let tolerance = match Arguments::try_parse_from(words).map(|asked| asked.command) {
-        Ok(Command::Export(command)) => command.tolerance,
-        Ok(_) => return Err("not an export".into()),
-        Err(error) => return Err(error.to_string()),
-    };
+    let tolerance = tolerance(TOLERANCE)?;
     let read = FAMILIES.read(text.as_bytes());
     let mechanism = read.and_then(|file| file.mechanism());
     let mechanism = mechanism.map_err(|error| error.message())?;
