@@ -181,7 +181,7 @@ pub(crate) fn optimised<'py>(
 /// The goals of a mechanism.
 pub(crate) fn goals<'py>(py: Python<'py>, goals: &[Goal]) -> PyResult<Bound<'py, PyTuple>> {
     let one = |goal: &Goal| {
-        record!(py, "centrode._goal" "Goal", goal => [number, value, scale, margin, progress]
+        record!(py, "centrode._goal" "Goal", goal => [number, paper, value, scale, margin, progress]
             name: &*goal.name,
             title: &*goal.title,
             unit: goal.unit.symbol(),

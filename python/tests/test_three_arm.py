@@ -92,7 +92,8 @@ def test_the_arm_carries_its_tip(arms):
 
 def test_goals(arms):
     goals = {goal.name: goal for goal in arms.goals()}
-    assert [goal.number for goal in arms.goals()] == [1, 2, 3, 4, 5, 6, 7, 8, 8]
+    assert [goal.number for goal in arms.goals()] == [1, 2, 3, 4, 5, 6, 7, 8, 9]
+    assert [goal.paper for goal in arms.goals()] == 8 * [None] + [8]
     assert goals["pick-angle"].met
     assert goals["pick-angle"].progress == 1
     assert goals["arm-clearance"].met is True

@@ -174,7 +174,7 @@ def test_a_bad_value_shows_its_error_and_leaves_the_picture(points):
     assert page.locator(".chart").count() >= 8
     backlash.fill("thin")
     backlash.press("Enter")
-    expect(remark).to_contain_text("expected a number")
+    expect(remark).to_contain_text("must be a number")
     page.locator("#undo").click()
     page.locator("#undo").click()
     expect(remark).to_be_empty()

@@ -249,3 +249,33 @@ def test_the_start_page_is_for_everybody(browser, served, width, scheme):
             found = Axe().run(page).response["violations"]
             assert not [(rule["id"], [node["target"] for node in rule["nodes"]]) for rule in found]
             assert page.evaluate("document.documentElement.scrollWidth") <= width
+
+
+def test_files_opened_of_late_are_offered_again_from_another_folder(browser, tmp_path):
+    first, second = tmp_path / "first", tmp_path / "second"
+    first.mkdir()
+    second.mkdir()
+    (first / "pair.toml").write_text(POINTS.read_text())
+    context = {}
+
+    def opened(page):
+        page.locator("#found button").first.click()
+        expect(page.locator("#file")).to_contain_text("pair.toml")
+        settled(page)
+        context["cookies"] = page.context.cookies()
+
+    with studio(None, cwd=first) as running, shown(browser, running.url, ready=listed) as page:
+        expect(page.locator("#recent-title")).to_be_hidden()
+        opened(page)
+    # The program stands at another address now.
+    with studio(None, cwd=second) as running:
+        fresh = browser.new_context()
+        fresh.add_cookies(context["cookies"])
+        page = fresh.new_page()
+        page.goto(running.url)
+        expect(page.locator("#recent button")).to_have_count(1)
+        expect(page.locator("#recent button .quiet")).to_have_text(str(first / "pair.toml"))
+        page.locator("#recent button").click()
+        expect(page.locator("#file")).to_contain_text("pair.toml")
+        settled(page)
+        fresh.close()

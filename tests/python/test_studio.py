@@ -176,6 +176,7 @@ def test_a_text_is_read_and_its_fault_told(served, text, fault):
         assert answer["fault"] is None
     else:
         assert answer["fault"].pop("message")
+        assert answer["fault"].pop("rule")
         assert answer["fault"] == fault
 
 

@@ -11,8 +11,11 @@ use crate::{JsonNumber, Unit, figure};
 /// them.
 #[derive(Clone, Debug, JsonSchema, PartialEq, Serialize)]
 pub struct Goal {
-    /// Number in its list, from one; several figures may share one goal.
+    /// Number in its list, from one; 0 for a constraint of a search beside the goals.
     pub number: u32,
+    /// Number in the paper that it is from, where that is another: several figures may share one goal there.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub paper: Option<u32>,
     /// Short stable name, such as `pick-angle`.
     pub name: Cow<'static, str>,
     /// The goal in a few words.
@@ -52,6 +55,7 @@ impl Goal {
     ) -> Self {
         let goal = Self {
             number,
+            paper: None,
             name: name.into(),
             title: title.into(),
             value: None,
@@ -65,6 +69,15 @@ impl Goal {
             Some(value) => goal.with(value),
             None => goal,
         }
+    }
+
+    /// Goals of a paper, numbered as they are listed.
+    pub(crate) fn listed(mut goals: Vec<Self>) -> Vec<Self> {
+        for (number, goal) in (1..).zip(&mut goals) {
+            goal.paper = (goal.number != number).then_some(goal.number);
+            goal.number = number;
+        }
+        goals
     }
 
     /// Goal with another figure.

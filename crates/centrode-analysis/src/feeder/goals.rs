@@ -95,7 +95,7 @@ pub(crate) fn goals(feeder: &Feeder) -> Vec<Goal> {
             size(pushing_time),
         ),
     ]);
-    goals
+    Goal::listed(goals)
 }
 
 /// A finding for each goal that is missed.

@@ -37,7 +37,10 @@ impl fmt::Display for GuidedStep {
     /// Step in words: its goal, the moves, and the gain.
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (number, title) = &self.goal;
-        write!(out, "goal {number} {title}: ")?;
+        match number {
+            0 => write!(out, "{title}: ")?,
+            number => write!(out, "goal {number} {title}: ")?,
+        }
         for (i, (name, [from, to])) in self.moves.iter().enumerate() {
             let comma = if i > 0 { ", " } else { "" };
             write!(out, "{comma}{name} {from} -> {to}")?;

@@ -24,7 +24,7 @@ pub fn goals(figures: &Figures, wanted: &GoalsSpec) -> Vec<Goal> {
     let length = |about, value, wanted: f64| {
         Goal::new(about, value, least(wanted), Unit::Millimetre, size(wanted))
     };
-    vec![
+    Goal::listed(vec![
         length(
             (1, "arm-clearance", "arms clear of each other"),
             None,
@@ -68,7 +68,7 @@ pub fn goals(figures: &Figures, wanted: &GoalsSpec) -> Vec<Goal> {
             Unit::Count,
             10.0,
         ),
-    ]
+    ])
 }
 
 pub(super) fn all_goals(

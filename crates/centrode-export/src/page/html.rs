@@ -51,21 +51,29 @@ macro_rules! assets {
     };
 }
 
-const STYLES: [Asset; 2] = assets!("text/css; charset=utf-8": "uplot.css", "page.css");
+const STYLES: [Asset; 4] = assets!(
+    "text/css; charset=utf-8":
+    "uplot.css",
+    "page.css",
+    "picture.css",
+    "windows.css",
+);
 
 /// The scripts; `main.js` is the one to start.
-const SCRIPTS: [Asset; 33] = assets!(
+const SCRIPTS: [Asset; 39] = assets!(
     "text/javascript; charset=utf-8":
     "uplot.js",
     "axes.js",
     "chart-files.js",
     "charts.js",
+    "compare.js",
     "dialogs.js",
     "elements.js",
     "figures.js",
     "find.js",
     "file.js",
     "form.js",
+    "gif.js",
     "handles.js",
     "help.js",
     "hints.js",
@@ -76,14 +84,18 @@ const SCRIPTS: [Asset; 33] = assets!(
     "motion.js",
     "numbers.js",
     "painter.js",
+    "overlays.js",
+    "picture-files.js",
     "points.js",
     "response.js",
     "search.js",
     "server.js",
+    "solving.js",
     "source.js",
     "space.js",
     "space-view.js",
     "stage.js",
+    "state.js",
     "theme.js",
     "transport.js",
     "verdict.js",

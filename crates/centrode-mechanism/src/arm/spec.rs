@@ -10,6 +10,7 @@ use crate::gear::design::rule::{not_negative, positive};
 /// points. A point behind another is at a smaller x.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(default, deny_unknown_fields)]
+#[schemars(extend("x-detail" = true))]
 pub struct ArmBodySpec {
     /// Housing that encloses cam, fork and spring.
     pub housing: HousingSpec,

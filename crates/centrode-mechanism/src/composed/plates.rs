@@ -25,6 +25,7 @@ const CHECKED: f64 = 1e-6;
 /// The bodies as plates drawn round their points.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(default, deny_unknown_fields)]
+#[schemars(extend("x-detail" = true))]
 pub struct ComposedPlatesSpec {
     /// Thickness of a plate, mm.
     pub thickness: f64,

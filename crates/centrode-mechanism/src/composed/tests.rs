@@ -174,7 +174,7 @@ fn bad_files_are_told_by_key_and_line() {
         (
             "law = { ratio = 1 }",
             "law = \"input\"",
-            "bodies.crank.law: invalid type: string \"input\", expected a table",
+            "bodies.crank.law: must be a table, not \"input\"",
         ),
         (
             "points = { A = [15, 0] }",

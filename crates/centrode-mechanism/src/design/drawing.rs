@@ -9,6 +9,7 @@ use crate::gear::design::rule::single_line;
 /// An entry left empty stays empty on the sheet.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(default, deny_unknown_fields)]
+#[schemars(extend("x-detail" = true))]
 pub struct DrawingSpec {
     /// Drawing number; the part's name is added to it.
     #[serde(skip_serializing_if = "String::is_empty")]

@@ -182,23 +182,36 @@ impl<'a> Reader<'a> {
             let offset = self.keys.offset(&path).unwrap_or(0);
             return self.error(fault, path, offset);
         }
-        let plain = message
-            .replace("floating point", "number")
-            .replace("expected f64", "expected a number")
-            .replace("expected u32", "expected a whole number, not negative");
-        self.error(DesignFault::WrongType(tabled(&plain)), key, offset)
+        self.error(DesignFault::WrongType(plain(message)), key, offset)
     }
 }
 
-/// A message with a table where it names a type of Rust.
-fn tabled(message: &str) -> String {
-    match message.split_once("expected struct ") {
-        Some((before, after)) => {
-            let rest = after.trim_start_matches(|c: char| c.is_alphanumeric() || c == '_');
-            format!("{before}expected a table{rest}")
+/// A message of serde on a value of another type, without the names of types.
+fn plain(message: &str) -> String {
+    let after = |start: &str| message.strip_prefix(start)?.split_once(", expected ");
+    let Some((given, expected)) = after("invalid type: ").or_else(|| after("invalid value: "))
+    else {
+        return message.into();
+    };
+    let given = match given.split_once(' ') {
+        // The value itself stands behind the name of its type, numbers in backticks.
+        Some((_, value)) if value.starts_with(['"', '`']) || value.starts_with("point `") => {
+            value.trim_start_matches("point ").trim_matches('`')
         }
-        None => message.into(),
-    }
+        _ => match given {
+            "sequence" => "a list",
+            "map" => "a table",
+            other => other,
+        },
+    };
+    let expected = match expected {
+        "f64" => "a number",
+        "u32" | "u64" | "usize" => "a whole number, 0 or greater",
+        "i32" | "i64" => "a whole number",
+        other if other.starts_with("struct ") => "a table",
+        other => other,
+    };
+    format!("must be {expected}, not {given}")
 }
 
 /// The parts of a message in backticks.

@@ -82,7 +82,7 @@ fn every_bad_line_is_named_with_key_and_place() {
         (
             "eccentricity = 0.25",
             "eccentricity = \"high\"",
-            "line 7, column 16: pitch.eccentricity: invalid type: string \"high\", expected a number",
+            "line 7, column 16: pitch.eccentricity: must be a number, not \"high\"",
         ),
         (
             "eccentricity = 0.25",
@@ -132,12 +132,12 @@ fn every_bad_line_is_named_with_key_and_place() {
         (
             "tooth_count = 23",
             "tooth_count = -23",
-            "line 9, column 15: pitch.tooth_count: invalid value: integer `-23`, expected a whole number",
+            "line 9, column 15: pitch.tooth_count: must be a whole number, 0 or greater, not -23",
         ),
         (
             "tooth_count = 23",
             "tooth_count = 23.5",
-            "line 9, column 15: pitch.tooth_count: invalid type: number `23.5`, expected a whole number",
+            "line 9, column 15: pitch.tooth_count: must be a whole number, 0 or greater, not 23.5",
         ),
         (
             "kind = \"rack\"",
@@ -177,12 +177,12 @@ fn every_bad_line_is_named_with_key_and_place() {
         (
             "backlash = 0.05",
             "phase = \"twooth\"",
-            "line 16, column 9: teeth.phase: invalid value: string \"twooth\", expected \"auto\"",
+            "line 16, column 9: teeth.phase: must be \"auto\", \"tooth\"",
         ),
         (
             "width = 10",
             "width = true",
-            "line 19, column 9: driver.width: invalid type: boolean `true`, expected a number",
+            "line 19, column 9: driver.width: must be a number, not true",
         ),
         (
             "width = 10",

@@ -49,8 +49,10 @@ pub struct GearsSpec {
     /// Face width of gears and cam, mm.
     pub width: f64,
     /// Diameter of the bores, and of the shafts in them, mm.
+    #[schemars(extend("x-detail" = true))]
     pub bore: f64,
     /// Keyway in the bores, along the x axis of each gear and cam; left out, that of DIN 6885-1 for the bore.
+    #[schemars(extend("x-detail" = true))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub keyway: Option<Keyway>,
 }

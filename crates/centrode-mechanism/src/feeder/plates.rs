@@ -7,6 +7,7 @@ use crate::gear::design::rule::{in_range, not_negative, positive, single_line};
 /// The links as plates, stacked along the shafts: crank, coupler, rocker, effector.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(default, deny_unknown_fields)]
+#[schemars(extend("x-detail" = true))]
 pub struct PlatesSpec {
     /// Thickness of a plate, mm.
     pub thickness: f64,

@@ -97,22 +97,27 @@ export function svg(chart) {
   return `${new XMLSerializer().serializeToString(root)}\n`;
 }
 
-/** The picture as points, as fine as a good print wants it. */
-async function png(chart) {
-  const image = new Image();
-  image.src = `data:image/svg+xml,${encodeURIComponent(svg(chart))}`;
-  await image.decode();
-  const canvas = Object.assign(document.createElement("canvas"), { width: FINE * WIDTH, height: FINE * HEIGHT });
-  canvas.getContext("2d").drawImage(image, 0, 0, canvas.width, canvas.height);
+/** A picture in SVG as points, so many across and up. */
+export async function image(text, width, height) {
+  const made = new Image();
+  made.src = `data:image/svg+xml,${encodeURIComponent(text)}`;
+  await made.decode();
+  const canvas = Object.assign(document.createElement("canvas"), { width: Math.round(width), height: Math.round(height) });
+  canvas.getContext("2d").drawImage(made, 0, 0, canvas.width, canvas.height);
   return new Promise((resolve) => canvas.toBlob(resolve, "image/png"));
+}
+
+/** Hands over a file, named by words and its ending. */
+export function handOver(file, words, ending) {
+  const name = (words || "design").toLowerCase().replace(/[^a-z0-9.]+/g, "-").replace(/^-|-$/g, "");
+  const href = URL.createObjectURL(file);
+  Object.assign(document.createElement("a"), { href, download: `${name}.${ending}` }).click();
+  setTimeout(() => URL.revokeObjectURL(href), 60000);
 }
 
 /** Hands over a chart of a design as a file. */
 export async function take(chart, kind, design) {
-  const file = kind === "PNG" ? await png(chart) : new Blob([kind === "CSV" ? csv(chart) : svg(chart)], { type: MEDIA[kind] });
-  const words = `${design || "design"} ${chart.name}`.toLowerCase().replace(/[^a-z0-9.]+/g, "-").replace(/^-|-$/g, "");
-  const href = URL.createObjectURL(file);
-  const link = Object.assign(document.createElement("a"), { href, download: `${words}.${kind.toLowerCase()}` });
-  link.click();
-  setTimeout(() => URL.revokeObjectURL(href), 60000);
+  // As fine as a good print wants it.
+  const file = kind === "PNG" ? await image(svg(chart), FINE * WIDTH, FINE * HEIGHT) : new Blob([kind === "CSV" ? csv(chart) : svg(chart)], { type: MEDIA[kind] });
+  handOver(file, `${design || "design"} ${chart.name}`, kind.toLowerCase());
 }

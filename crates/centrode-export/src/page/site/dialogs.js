@@ -27,8 +27,8 @@ export function ask(title, content, buttons, sound) {
   });
 }
 
-/** What to export, of kinds given as word and description; resolves to the options, or to null. */
-export async function files(formats) {
+/** What to export, of kinds given as word and description, with choices of the drawing's keys; resolves to the options, or to null. */
+export async function files(formats, sheets) {
   const boxes = formats.map(([name]) => {
     const box = element("input", { type: "checkbox", value: name });
     box.checked = true;
@@ -38,15 +38,23 @@ export async function files(formats) {
   const dxf = element("select", { id: "export-dxf" },
     ...[["r2010", "R2010, lines and arcs"], ["r12", "R12, for old controllers"], ["spline", "R2010, splines"]]
       .map(([value, words]) => element("option", { value }, words)));
+  const keys = sheets.map(({ key, words, value, choices }) => {
+    const select = element("select", { id: `export-${key.split(".").pop()}` },
+      ...(value === null ? [element("option", { value: "" }, "as needed")] : []), ...choices.map(({ word }) => element("option", { value: word }, word)));
+    select.value = value ?? "";
+    return { key, words, value: select.value, select };
+  });
   const answer = await ask("Export", [
     element("fieldset", {}, element("legend", {}, "Files"),
       ...boxes.map((box, i) => element("label", {}, box, ` ${box.value.toUpperCase()} `, element("span", { class: "quiet" }, formats[i][1])))),
     element("p", { class: "option" }, element("label", { for: "export-tolerance" }, "Tolerance"), tolerance, element("span", {}, "mm")),
     element("p", { class: "option" }, element("label", { for: "export-dxf" }, "DXF"), dxf),
+    ...keys.map(({ words, select }) => element("p", { class: "option" }, element("label", { for: select.id }, words), select)),
   ], [["", "Cancel"], ["export", "Export zip", "main"]]);
   if (answer !== "export") return null;
   const chosen = boxes.filter((box) => box.checked).map((box) => box.value);
-  return { formats: chosen, tolerance: tolerance.value, dxf: dxf.value };
+  const edits = keys.filter(({ value, select }) => select.value !== value).map(({ key, select }) => ({ key, value: select.value }));
+  return { options: { formats: chosen, tolerance: tolerance.value, dxf: dxf.value }, edits };
 }
 
 /** A line below the bar; `key` names it, so that the next of its kind takes its place. */

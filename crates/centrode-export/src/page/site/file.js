@@ -2,7 +2,7 @@
 
 import * as dialogs from "./dialogs.js";
 import * as link from "./link.js";
-import { element } from "./elements.js";
+import { element, words } from "./elements.js";
 import * as server from "./server.js";
 import { work } from "./work.js";
 
@@ -130,11 +130,14 @@ export class DesignFile {
     }
   }
 
-  /** Exports the files of the design, as a zip with a name. */
-  async download(name) {
+  /** Exports the files of the design, as a zip with a name; sheets may differ from what the design says of them. */
+  async download(name, tables) {
     await this.page.settled();
-    const options = await dialogs.files(this.formats);
-    if (!options) return;
+    const drawing = tables.find(({ key }) => key === "drawing")?.fields ?? [];
+    const sheets = drawing.filter(({ choices }) => choices?.length).map(({ key, value, choices }) => ({ key, value, choices, words: words(key) }));
+    const asked = await dialogs.files(this.formats, sheets);
+    if (!asked) return;
+    const { options, edits } = asked;
     if (options.formats.length === 0) {
       dialogs.notice("export", "nothing to export: no kind of file is chosen", [], "warning");
       return;
@@ -142,7 +145,10 @@ export class DesignFile {
     dialogs.withdraw("export");
     const stop = new AbortController();
     try {
-      const blob = await work((signal) => server.files({ text: this.history.text, ...options }, signal), stop);
+      const blob = await work(async (signal) => {
+        const text = edits.length ? (await server.solve({ text: this.history.text, edits, depth: "numbers" }, signal)).text : this.history.text;
+        return server.files({ text, ...options }, signal);
+      }, stop);
       const link = Object.assign(document.createElement("a"), { href: URL.createObjectURL(blob), download: `${name || "design"}.zip` });
       link.click();
       setTimeout(() => URL.revokeObjectURL(link.href), 60000);

@@ -35,7 +35,7 @@ export class Find {
     for (const { field, row, remark } of all) {
       const place = row.closest(".points") ?? row;
       const table = field.key.split(".").slice(0, -1).join(" ");
-      const told = [words(field.key), field.key, table, field.symbol, field.doc].join(" ").replaceAll("_", " ").toLowerCase();
+      const told = [words(field.key), field.key, table, field.doc].join(" ").replaceAll("_", " ").concat(" ", field.symbol ?? "").toLowerCase();
       const meant = asked.every((word) => told.includes(word)) && (!this.few.checked || Find.essential(field) || remark.childNodes.length > 0);
       places.set(place, (places.get(place) ?? false) || meant);
     }

@@ -1,9 +1,9 @@
 // The numbers of the design, one field a key.
 
-import { byId, element, words } from "./elements.js";
+import { byId, element, fault, symbol, words } from "./elements.js";
 import { Find } from "./find.js";
 import * as hints from "./hints.js";
-import { stepOf, stepped, tidy, typed, worked } from "./numbers.js";
+import { brief, stepOf, stepped, tidy, typed, worked } from "./numbers.js";
 import { Points, pointsOf } from "./points.js";
 
 const SLOW = 4;
@@ -140,7 +140,7 @@ export class Form {
     const remark = element("p", { class: "remark", id: `remark-${field.key}` });
     const control = { field, remark, inputs: [] };
     this.controls.set(field.key, control);
-    const label = element("label", { for: id, title: field.doc || undefined }, words(field.key));
+    const label = element("label", { for: id, title: field.doc || undefined }, words(field.key), ...(field.symbol ? [" ", symbol(field.symbol)] : []));
     const boxes = this.inputs(field, id, control);
     const unit = element("span", { class: "unit" }, field.unit);
     control.row = element("div", { class: `field ${sizeOf(field)}` }, label, boxes, unit, remark);
@@ -314,17 +314,18 @@ export class Form {
       const control = this.near(key);
       if (control) remarks.set(control, [...(remarks.get(control) ?? []), { severity, message }]);
     };
-    if (snapshot.error) put(snapshot.error.key, "error", snapshot.error.message);
+    const wrong = snapshot.error ?? snapshot.detail;
+    if (wrong) put(wrong.key, "error", brief(fault(wrong)));
     for (const finding of snapshot.error ? [] : snapshot.verdict?.findings ?? []) {
       const cause = finding.causes.find((key) => {
         const control = this.controls.get(key);
         return control && control.field?.value !== null;
       });
-      if (cause && finding.severity !== "note") put(cause, finding.severity, `${finding.rule}: ${finding.message}`);
+      if (cause && finding.severity !== "note") put(cause, finding.severity, `${finding.rule}: ${brief(finding.message)}`);
     }
     // Until the checks are done their last remarks stay, but those of an error that is no more do not.
-    if (!snapshot.error && !snapshot.verdict && !this.failed) return;
-    this.failed = Boolean(snapshot.error);
+    if (!wrong && !snapshot.verdict && !this.failed) return;
+    this.failed = Boolean(wrong);
     for (const control of this.controls.values()) {
       const list = remarks.get(control) ?? [];
       const said = JSON.stringify(list);

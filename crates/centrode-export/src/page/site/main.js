@@ -1,6 +1,7 @@
 // The page: one design, what it looks like, how it moves, what the checks say.
 
 import { Charts } from "./charts.js";
+import { Compare } from "./compare.js";
 import * as dialogs from "./dialogs.js";
 import { byId } from "./elements.js";
 import { DesignFile } from "./file.js";
@@ -10,57 +11,21 @@ import * as help from "./help.js";
 import { History } from "./history.js";
 import * as layout from "./layout.js";
 import * as link from "./link.js";
+import * as pictures from "./picture-files.js";
 import * as response from "./response.js";
 import { Search } from "./search.js";
 import * as server from "./server.js";
+import { SLOW, connect, edit, request, settled } from "./solving.js";
 import * as source from "./source.js";
 import { Space } from "./space.js";
 import { Stage } from "./stage.js";
+import { state } from "./state.js";
 import * as theme from "./theme.js";
 import { Transport } from "./transport.js";
 import * as verdict from "./verdict.js";
-import { CANCELLED, work } from "./work.js";
-
-/** Checks slower than this come after the picture, ms. */
-const SLOW = 40;
-/** Whoever waits longer is told so, ms. */
-const PATIENCE = 300;
-/** A picture that takes longer is not waited for while a drag goes on, ms. */
-const STALE = 2000;
-/** What takes longer is stopped by a change that ends a drag, ms. */
-const LATE = 100;
-/** Goals that take longer do not follow a drag, ms. */
-const LIVE = 250;
+import { CANCELLED } from "./work.js";
 
 const embedded = byId("snapshot");
-const state = {
-  snapshot: null,
-  pinned: null,
-  /** The last snapshot with checks that is no search's. */
-  checked: null,
-  history: null,
-  /** Values given but not answered for yet, by key. */
-  draft: new Map(),
-  pending: null,
-  solving: false,
-  /** Aborts the solve under way, and whether it is out of date for changes since: for those that end a drag, and for every one. */
-  stop: null,
-  late: false,
-  stale: false,
-  /** What aborts the last checks. */
-  checking: null,
-  /** Resolves when nothing is left to solve. */
-  work: null,
-  /** Whether the program has not answered of late. */
-  away: false,
-  /** Resolves when the panels show the snapshot, while they do not yet. */
-  shown: null,
-  /** How long the last checks took, ms: unknown ones come after the picture. */
-  took: Infinity,
-  /** How long the last goals took, ms. */
-  told: 0,
-};
-
 const stage = new Stage((poses) => {
   handles?.place(poses);
   space?.follow();
@@ -71,10 +36,12 @@ transport.charts = charts;
 const form = new Form({ edit, hold: (on) => stage.remember(on), respond: (key) => respond(key), fixed: Boolean(embedded) });
 const handles = embedded ? null : new Handles(stage, { edit, began: () => transport.play(false), points: (table) => form.points.get(table) });
 
-const space = embedded ? null : new Space(stage, () => ({ text: state.snapshot?.text, sound: Boolean(state.snapshot?.picture && !state.snapshot.error) }));
+const space = embedded ? null : new Space(stage, () => ({ text: state.snapshot?.text, sound: Boolean(state.snapshot?.picture && !state.snapshot.error && !state.snapshot.detail) }));
 
 let file = null;
 let search = null;
+
+connect({ form, file: () => file, show, judge, complain });
 
 // What is shown
 
@@ -156,167 +123,11 @@ function buttons() {
 
 // Changes
 
-/** New values for keys of the design; `final` ends a drag. */
-function edit(edits, final) {
-  for (const { key, value } of edits) state.draft.set(key, value);
-  request({ final });
-}
-
 /** Another text altogether; what is searched for the old one is no more. */
 function replace(text) {
   if (search?.showing) search.abandon();
   state.draft.clear();
   request({ text, final: true, fresh: true });
-}
-
-/** Asks for a text or for the draft; what is not `wanted` any more when the answer comes is not shown. */
-function request(job) {
-  // A change that ends a drag stays one, whatever overtakes it.
-  const { text, final, fresh } = state.pending ?? {};
-  state.pending = { ...job, text: job.text ?? text, final: job.final || Boolean(final), fresh: job.fresh || (job.text === undefined && Boolean(fresh)) };
-  byId("verdict").setAttribute("aria-busy", "true");
-  if (!state.solving) state.work = solve();
-  else if ((job.final && state.late) || state.stale) state.stop.abort();
-}
-
-/** Begins a solve that a later change stops, any one after `patience`; returns what ends it. */
-function begin(stop, patience) {
-  Object.assign(state, { stop, late: false, stale: false });
-  const timers = [["late", LATE, () => state.pending.final], ["stale", patience, () => true]].map(([mark, time, due]) => setTimeout(() => {
-    state[mark] = true;
-    if (state.pending && due()) stop.abort();
-  }, time));
-  return () => timers.forEach(clearTimeout);
-}
-
-async function solve() {
-  state.solving = true;
-  // A change whose solve was stopped: it is made all the same, unsolved.
-  let unsolved = null;
-  while (unsolved || state.pending) {
-    const job = unsolved ?? state.pending;
-    if (unsolved) unsolved = null;
-    else state.pending = null;
-    const sent = job.sent ?? new Map(state.draft);
-    const asked = form.clock;
-    const text = job.text ?? state.history.text;
-    const edits = [...sent].map(([key, value]) => ({ key, value }));
-    const slow = state.took > SLOW;
-    let unchecked = null;
-    const stop = new AbortController();
-    const end = begin(stop, STALE);
-    const waiting = setTimeout(() => document.body.classList.add("busy"), PATIENCE);
-    try {
-      const start = performance.now();
-      const depth = job.sent ? "numbers" : slow ? "picture" : "checks";
-      const snapshot = await work((signal) => server.solve({ text, edits, depth }, signal), job.sent ? undefined : stop);
-      if (job.wanted && !job.wanted()) continue;
-      if (job.final) settle(snapshot.text, sent, edits.length > 0 || job.fresh);
-      if (job.sent && state.pending) continue;
-      snapshot.goals = job.goals;
-      show(snapshot, asked);
-      dialogs.withdraw("server");
-      if (!slow) state.took = performance.now() - start;
-      else if (!snapshot.error) unchecked = snapshot;
-    } catch (error) {
-      if (stop.signal.aborted && !job.sent) {
-        if (job.final || !state.pending) unsolved = { ...job, sent };
-        state.took = Infinity;
-        continue;
-      }
-      // What was typed is due when the program answers again.
-      const away = error instanceof server.Away;
-      if (job.final && !away) forgetDraft(sent);
-      if (away && job.fresh) state.history.push(text);
-      complain("server", error);
-    } finally {
-      clearTimeout(waiting);
-      end();
-      document.body.classList.remove("busy");
-    }
-    if (unchecked && await tell(unchecked) && !state.pending) check(unchecked);
-  }
-  state.solving = false;
-  byId("verdict").setAttribute("aria-busy", "false");
-}
-
-/**
- * Tells the goals of the picture that is shown, before its details and checks: a drag waits for them while they are quick.
- * Resolves to whether the checks are to follow.
- */
-async function tell({ text, coarse, goals }) {
-  if (goals || !coarse) return true;
-  if (state.pending && state.told > LIVE) {
-    // Tried again some pictures later.
-    state.told *= 0.8;
-    return true;
-  }
-  const stop = new AbortController();
-  const end = begin(stop, LIVE);
-  const start = performance.now();
-  try {
-    const answer = await work((signal) => server.solve({ text, edits: [], depth: "goals" }, signal), stop);
-    if (answer.goals && state.snapshot.text === text) {
-      Object.assign(state.snapshot, answer);
-      if (!state.shown) judge();
-    }
-  } catch (error) {
-    if (!stop.signal.aborted) complain("server", error);
-    else if (!state.pending) rest();
-    return false;
-  } finally {
-    end();
-    state.told = performance.now() - start;
-  }
-  return true;
-}
-
-/** Waits until every change given so far is in the text. */
-async function settled() {
-  while (state.solving) await state.work;
-}
-
-/** Has the design that is shown drawn in full and checked, while changes to it go on being drawn. */
-async function check({ text, coarse }) {
-  const stop = new AbortController();
-  state.checking = stop;
-  const wanted = () => state.checking === stop && !state.solving && state.snapshot.text === text;
-  // The screen first: the checks take the computer's time.
-  await state.shown;
-  try {
-    for (const depth of coarse ? ["detail", "checks"] : ["checks"]) {
-      if (!wanted()) return;
-      const start = performance.now();
-      const asked = form.clock;
-      const snapshot = await work((signal) => server.solve({ text, edits: [], depth }, signal), stop);
-      if (snapshot.overtaken || !wanted()) return;
-      if (depth === "checks") state.took = performance.now() - start;
-      show(snapshot, asked);
-    }
-  } catch (error) {
-    if (!stop.signal.aborted) complain("server", error);
-    else if (wanted()) rest();
-  }
-}
-
-/** The checks were cancelled: they are done when asked for. */
-function rest() {
-  verdict.unchecked(() => {
-    verdict.clear();
-    check(state.snapshot);
-  });
-}
-
-/** A change has arrived in the text; a step back or forth is in the history already, and is no new one. */
-function settle(text, sent, fresh) {
-  const changed = text !== state.history.text;
-  if (fresh) state.history.push(text);
-  forgetDraft(sent);
-  if (changed) file.keep();
-}
-
-function forgetDraft(sent) {
-  for (const [key, value] of sent) if (state.draft.get(key) === value) state.draft.delete(key);
 }
 
 function complain(key, error) {
@@ -386,13 +197,15 @@ function listen() {
     stage.resize();
     charts.recolor();
   }));
+  pictures.listen(stage, () => state.snapshot?.name, complain);
   if (embedded) return;
   byId("undo").addEventListener("click", () => step("undo"));
   byId("redo").addEventListener("click", () => step("redo"));
   byId("reset").addEventListener("click", () => replace(state.history.saved));
   byId("pin").addEventListener("click", pin);
+  new Compare(() => state.snapshot, replace);
   byId("save").addEventListener("click", () => file.save());
-  byId("export").addEventListener("click", () => file.download(state.snapshot.name));
+  byId("export").addEventListener("click", () => file.download(state.snapshot.name, state.snapshot.tables));
   byId("link").addEventListener("click", () => file.copy());
   byId("optimise").addEventListener("click", () => search.toggle());
   byId("response").addEventListener("click", () => respond());

@@ -23,6 +23,15 @@ export const tidy = (power) => Number(power.toPrecision(1));
 /** A number some steps on, with no digits but its own and the step's: back again it is what it was. */
 export const stepped = (value, count, step) => Number((value + count * step).toFixed(Math.min(100, Math.max(decimals(value), decimals(step)))));
 
+/** More digits of a number in a message mean nothing to its reader. */
+const TOLD = 6;
+
+/** A message with its numbers as short as they can be read. */
+export const brief = (text) => text.replace(/\d+\.\d+(e[-+]?\d+)?/gi, (number) => {
+  const digits = number.split(/e/i)[0].replace(".", "").replace(/^0+/, "").length;
+  return digits > TOLD ? String(Number(Number(number).toPrecision(TOLD))) : number;
+});
+
 /** Units that a number may be given in, and how many of the field's own they are. */
 const UNITS = {
   mm: { mm: 1, cm: 10, m: 1000, in: 25.4, '"': 25.4 },

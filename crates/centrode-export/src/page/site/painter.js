@@ -63,11 +63,19 @@ const LINES = {
   window: ["pinned", 1.2, [6, 4]],
 };
 
+/** How a line of a role is drawn at a scale: strokes over each other, each a colour, a width and dashes in pixels. */
+export function strokes(role, scale) {
+  if (role !== "bar" && role !== "clamp") return [LINES[role]];
+  // A bar: an edge around a core.
+  const breadth = Math.min(14, Math.max(3, 4 * scale)) * (role === "clamp" ? 0.5 : 1);
+  return [["ink", breadth + 2, []], [role === "clamp" ? "accent" : "bar", breadth, []]];
+}
+
 /** Draws a scene on a canvas, `width` times `height` pixels of the page large. */
 export class Painter {
-  constructor(canvas) {
+  constructor(canvas, options) {
     this.canvas = canvas;
-    this.context = canvas.getContext("2d");
+    this.context = canvas.getContext("2d", options);
     this.scene = null;
     this.view = { x: 0, y: 0, scale: 1 };
     this.density = 1;
@@ -170,35 +178,19 @@ export class Painter {
     if (link.lines.length === 0) return;
     const { context } = this;
     const width = this.enter(pose);
-    for (const { role, path } of link.lines) {
-      if (role === "bar" || role === "clamp") {
-        this.bar(path, role, width);
-        continue;
-      }
-      if (role === "pitch" && !this.pitched) continue;
-      const [name, pixels, dashes] = LINES[role];
-      context.strokeStyle = color(name);
-      context.lineWidth = width(pixels);
-      context.setLineDash(dashes.map(width));
-      context.stroke(path);
-    }
-    context.setLineDash([]);
-  }
-
-  /** A bar: an edge around a core. */
-  bar(path, role, width) {
-    const { context } = this;
-    const breadth = Math.min(14, Math.max(3, 4 * this.view.scale)) * (role === "clamp" ? 0.5 : 1);
-    context.setLineDash([]);
-    context.lineCap = "round";
     context.lineJoin = "round";
-    context.strokeStyle = color("ink");
-    context.lineWidth = width(breadth + 2);
-    context.stroke(path);
-    context.strokeStyle = color(role === "clamp" ? "accent" : "bar");
-    context.lineWidth = width(breadth);
-    context.stroke(path);
+    for (const { role, path } of link.lines) {
+      if (role === "pitch" && !this.pitched) continue;
+      for (const [name, pixels, dashes] of strokes(role, this.view.scale)) {
+        context.lineCap = dashes.length ? "butt" : "round";
+        context.strokeStyle = color(name);
+        context.lineWidth = width(pixels);
+        context.setLineDash(dashes.map(width));
+        context.stroke(path);
+      }
+    }
     context.lineCap = "butt";
+    context.setLineDash([]);
   }
 
   /** A dot with its name beside it. */

@@ -1,7 +1,7 @@
 // Points of a curve as a table: typed, added, deleted, and pasted from a spreadsheet.
 
 import { ask } from "./dialogs.js";
-import { element, words } from "./elements.js";
+import { element, symbol, words } from "./elements.js";
 import { typed } from "./numbers.js";
 
 /** Lists that hold the coordinates of points where a table has both. */
@@ -62,7 +62,7 @@ export class Points {
     this.given = null;
     this.controls = pair.map((field) => {
       const remark = element("p", { class: "remark", id: `remark-${field.key}` });
-      const row = element("th", { scope: "col", title: field.doc || undefined }, words(field.key), " ", element("span", { class: "unit" }, field.unit));
+      const row = element("th", { scope: "col", title: field.doc || undefined }, words(field.key), ...(field.symbol ? [" ", symbol(field.symbol)] : []), " ", element("span", { class: "unit" }, field.unit));
       const control = { field, remark, row, inputs: [] };
       form.controls.set(field.key, control);
       return control;

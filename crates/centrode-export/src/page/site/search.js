@@ -38,6 +38,7 @@ export class Search {
     this.drop = element("button", { type: "button", id: "search-drop", onclick: () => this.close(false) }, "Drop");
     this.bar = element("progress", { max: 1, value: 0, "aria-label": "Evaluations done" });
     this.words = element("p", { class: "detail", role: "status" });
+    this.missed = element("table", { class: "missed" });
     this.box = element("div", { class: "plot" });
     const row = (words, input) => element("p", { class: "option" }, element("label", { for: input.id }, words), input);
     for (const input of [this.seed, this.evaluations]) {
@@ -49,7 +50,7 @@ export class Search {
       element("h2", {}, "Optimise"),
       row("Method", this.method), row("Seed", this.seed), row("Evaluations", this.evaluations),
       element("div", { class: "buttons" }, this.start, this.stop, this.take, this.drop),
-      this.bar, this.words, this.box);
+      this.bar, this.words, this.missed, this.box);
     this.show(null);
     // A page loaded anew finds its search again.
     server.searched().then((state) => {
@@ -166,6 +167,7 @@ export class Search {
     if (state) [this.method.value, this.evaluations.value] = [state.method, String(state.evaluations)];
     this.words.classList.remove("error");
     this.bar.hidden = !state;
+    this.tell(state?.missed ?? []);
     this.box.hidden = !state || state.history.length < 2;
     if (!state) {
       this.words.textContent = "";
@@ -174,9 +176,20 @@ export class Search {
     const last = state.history.at(-1);
     const done = last?.evaluations ?? 0;
     this.bar.value = Math.min(1, done / state.evaluations);
-    const worth = !last ? "" : last.violation > 0 ? `; goals missed by ${last.violation.toPrecision(4)}` : `; goals reached, objective ${last.objective.toPrecision(6)}`;
+    const worth = !last ? "" : last.violation > 0 ? `; goals missed by ${last.violation.toPrecision(4)} of their scales in all` : `; goals reached, objective ${last.objective.toPrecision(6)}`;
     this.words.textContent = `${done} evaluations${worth}${state.ended ? `; ${ENDED[state.ended] ?? state.ended}` : ""}${state.remark ? `; ${state.remark}` : ""}`;
     if (!this.box.hidden) this.draw(state.history);
+  }
+
+  /** What is counted as missed: at the start, by the best so far, and the range it is wanted in. */
+  tell(list) {
+    this.missed.hidden = list.length === 0;
+    const cell = (value, unit) => element("td", {}, `${value}${unit && ` ${unit}`}`);
+    this.missed.replaceChildren(
+      element("caption", {}, "Counted as missed"),
+      element("thead", {}, element("tr", {}, ...["", "start", "now", "wanted"].map((words) => element("th", { scope: "col" }, words)))),
+      element("tbody", {}, ...list.map(({ title, unit, start, best, wanted, met }) => element("tr", { class: met ? "met" : "unmet" },
+        element("th", { scope: "row" }, title), cell(start, unit), cell(`${met ? "✓ " : ""}${best}`, unit), cell(wanted, unit)))));
   }
 
   /** The history: what the goals are missed by, then the objective. */

@@ -1,6 +1,7 @@
 // The drawing: links to scale where the motion has them, with zoom and pan.
 
 import { byId } from "./elements.js";
+import * as overlays from "./overlays.js";
 import { Painter, Scene } from "./painter.js";
 
 const CLOSEST = 1e5;
@@ -93,8 +94,10 @@ export class Stage extends Painter {
       const poses = scene.motion.at(this.input * scene.motion.cycle / this.scene.motion.cycle);
       scene.links.forEach((link, i) => this.ghost(link, poses[i], tint));
     }
+    if (byId("show-poses").checked) overlays.poses(this);
     this.axes(poses);
     this.marks(poses);
+    if (byId("show-distances").checked) overlays.distances(this, poses);
     this.context.globalAlpha = 1;
     this.measure();
     this.moved?.(poses);
@@ -167,7 +170,7 @@ export class Stage extends Painter {
     byId("closer").addEventListener("click", () => this.zoom(1.25));
     byId("farther").addEventListener("click", () => this.zoom(0.8));
     byId("fit").addEventListener("click", () => this.fit());
-    byId("show-pitch").addEventListener("change", () => this.draw());
+    for (const id of ["show-pitch", "show-poses", "show-distances"]) byId(id).addEventListener("change", () => this.draw());
   }
 }
 

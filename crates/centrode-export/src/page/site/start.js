@@ -11,6 +11,8 @@ import * as theme from "./theme.js";
 const SPEED = (2 * Math.PI * 6) / 60000;
 /** Pictures asked for at once: they take the computer's time. */
 const AT_ONCE = 2;
+/** Cookie of the files opened of late. */
+const RECENT = "centrode-recent=";
 /** Room around a picture, pixels. */
 const ROOM = [16, 16];
 
@@ -144,7 +146,10 @@ async function make(from, title, file, folder) {
   path.focus();
   path.setSelectionRange(0, path.value.length - ".toml".length);
   await answer;
-  if (page) location.assign(page);
+  if (page) {
+    remember(path.value.trim());
+    location.assign(page);
+  }
 
   function ask() {
     return dialogs.ask("New design file", [
@@ -167,6 +172,7 @@ async function open(path) {
     }
     const { page, refused } = await server.open(path);
     if (page) {
+      remember(path);
       location.assign(page);
       return;
     }
@@ -184,6 +190,25 @@ async function unfold(text) {
   const title = link.named(text);
   const name = title.toLowerCase().replace(/[^a-z0-9]+/g, "-").replace(/^-|-$/g, "").slice(0, 40) || "design";
   await make({ text }, title, free(name, taken), folder);
+}
+
+/** Paths opened from here of late, the last first: a cookie has them, since the program stands at another address each time. */
+const recent = () => {
+  const found = document.cookie.split("; ").find((own) => own.startsWith(RECENT));
+  try {
+    return found ? JSON.parse(decodeURIComponent(found.slice(RECENT.length))) : [];
+  } catch {
+    return [];
+  }
+};
+
+/** Remembers a path, from the root of the disk. */
+function remember(path) {
+  const whole = /^(\/|[A-Za-z]:[\\/])/.test(path) ? path : `${byId("folder").textContent}/${path}`;
+  let list = [whole, ...recent().filter((own) => own !== whole)].slice(0, 8);
+  // A cookie has 4096 bytes at most.
+  while (encodeURIComponent(JSON.stringify(list)).length > 3500) list = list.slice(0, -1);
+  document.cookie = `${RECENT}${encodeURIComponent(JSON.stringify(list))}; max-age=31536000; path=/; SameSite=Strict`;
 }
 
 /** A card of the gallery. */
@@ -207,6 +232,10 @@ function gallery(id, title, words, cards) {
 
 function show(offer) {
   byId("folder").textContent = offer.folder;
+  const paths = recent();
+  byId("recent-title").hidden = paths.length === 0;
+  byId("recent").replaceChildren(...paths.map((path) => element("li", {}, element("button", { type: "button", onclick: () => open(path) },
+    element("b", {}, path.split(/[\\/]/).pop()), element("span", { class: "quiet" }, path)))));
   byId("found").replaceChildren(...offer.files.map(({ file, title, family }) => element("li", {},
     element("button", { type: "button", onclick: () => open(file) }, element("b", {}, file), element("span", { class: "quiet" }, title || family)))));
   if (offer.files.length === 0) byId("found").replaceChildren(element("li", { class: "quiet" }, "No design yet."));

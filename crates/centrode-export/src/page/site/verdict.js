@@ -1,7 +1,8 @@
 // Goals and findings.
 
-import { byId, element } from "./elements.js";
+import { byId, element, fault, place as path } from "./elements.js";
 import * as figures from "./figures.js";
+import { brief } from "./numbers.js";
 
 const SIGN = { error: "✕", warning: "▲", note: "●", good: "✓", open: "○" };
 
@@ -34,14 +35,16 @@ export function show(snapshot, pinned, go) {
   byId("verdict").classList.toggle("stale", !verdict || Boolean(error));
   mark(snapshot);
   if (error) {
-    const { key, line, column, message } = error;
+    const { key, line, column } = error;
+    const words = brief(fault(error));
     // Nothing of the design before is left to be taken for this one's.
     clear();
     place.replaceChildren(
       title(line ? "No mechanism" : "Not solved", "error"),
       element("ul", { class: "findings no-mechanism" }, element("li", { class: "error" },
-        element("p", {}, element("b", {}, `${SIGN.error} error `), message),
-        line ? element("p", { class: "detail" }, key ? `${key}, line ${line}, column ${column}` : `line ${line}, column ${column}`) : null)),
+        element("p", {}, element("b", {}, `${SIGN.error} error `), key ? `${path(key)}: ${words}` : words),
+        // What is no design at all has no form: its place is one in the text.
+        line && !key ? element("p", { class: "detail" }, `line ${line}, column ${column}`) : null)),
       ...(snapshot.picture ? [element("p", { class: "detail" }, "Picture and curves are those of the last good design.")] : []),
     );
     return;
@@ -63,6 +66,7 @@ export function show(snapshot, pinned, go) {
 
 /** The one status: it is as good as the worst that is listed. */
 function status({ ok, goals: list, findings, summary }) {
+  if (findings.some(({ rule }) => rule === "detail")) return title("Cannot be made", "error", summary);
   const missed = list.filter((goal) => goal.met === false).length;
   if (missed) return title(`Misses ${missed} goal${missed > 1 ? "s" : ""}`, "error", summary);
   if (!ok) return title("Does not do its job", "error", summary);
@@ -82,18 +86,18 @@ export function goals(list, pinned) {
   byId("goals").replaceChildren(
     element("div", { class: "title" }, element("h2", {}, `Goals: ${met} of ${checked.length} reached`),
       open ? element("span", { class: "quiet" }, `${open} not checked`) : null),
-    ...list.map((goal, i) => bar(goal, before.get(goal.name), i + 1)));
+    ...list.map((goal) => bar(goal, before.get(goal.name))));
 }
 
-/** A goal; `number` counts those listed, where a paper may give one number to several. */
-function bar(goal, before, number) {
+/** A goal; a paper may give one number to several. */
+function bar(goal, before) {
   const state = goal.met === null ? "open" : goal.met ? "met" : "unmet";
   const sign = { open: "○", met: "✓", unmet: "✕" }[state];
   const fill = element("div", { class: "bar-fill" });
   fill.style.transform = `scaleX(${goal.progress ?? 0})`;
   const was = before && before.value !== goal.value ? ` (was ${before.value})` : "";
   return element("div", { class: `goal ${state}`, "data-goal": goal.name },
-    element("div", { class: "head" }, element("span", {}, `${number}. ${goal.title}`, goal.number === number ? null : element("span", { class: "quiet" }, ` goal ${goal.number} of the paper`)),
+    element("div", { class: "head" }, element("span", {}, `${goal.number}. ${goal.title}`, goal.paper === null ? null : element("span", { class: "quiet" }, ` goal ${goal.paper} of the paper`)),
       element("b", { title: goal.exact }, `${sign} ${goal.value}${goal.unit && ` ${goal.unit}`}${was}`)),
     element("div", { class: "track", role: "progressbar", "aria-label": goal.title, "aria-valuemin": 0, "aria-valuemax": 1,
       "aria-valuenow": goal.progress ?? undefined, "aria-valuetext": `${goal.value} ${goal.unit}, wanted ${goal.wanted}, ${goal.verdict}` }, fill),
@@ -109,7 +113,7 @@ function title(words, kind, summary) {
 function item(finding, go) {
   const details = [finding.where, finding.figures].filter(Boolean).join("; ");
   return element("li", { class: finding.severity },
-    element("p", {}, element("b", {}, `${SIGN[finding.severity]} ${finding.severity} `), finding.message),
+    element("p", {}, element("b", {}, `${SIGN[finding.severity]} ${finding.severity} `), brief(finding.message)),
     details ? element("p", { class: "detail" }, details,
       finding.input === null ? null : element("button", { type: "button", class: "link", onclick: () => go(finding.input) }, "show")) : null,
     finding.remedy ? element("p", { class: "detail" }, `remedy: ${finding.remedy}`) : null);

@@ -7,6 +7,7 @@ use crate::degrees;
 /// Body of a gear: all but its teeth.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(default, deny_unknown_fields)]
+#[schemars(extend("x-detail" = true))]
 pub struct BodySpec {
     /// Face width, mm.
     pub width: f64,

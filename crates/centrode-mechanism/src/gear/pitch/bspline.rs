@@ -20,6 +20,7 @@ pub struct Bspline {
     pub interpolate: bool,
     /// Radii, mm (plane "polar").
     #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[schemars(extend("x-symbol" = "r_i"))]
     pub radius: Vec<f64>,
     /// Polar angles, rad (degrees in the file), increasing within one turn (plane "polar").
     #[serde(

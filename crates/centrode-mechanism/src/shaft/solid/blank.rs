@@ -12,6 +12,7 @@ use crate::shaft::{Groove, ShaftError};
 /// Body of the shaft, apart from its groove.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(default, deny_unknown_fields)]
+#[schemars(extend("x-detail" = true))]
 pub struct ShaftBody {
     /// Length of full cylinder beyond the groove at each end, mm.
     pub margin: f64,

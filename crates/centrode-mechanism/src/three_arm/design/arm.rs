@@ -13,12 +13,14 @@ use crate::gear::design::rule::{in_range, not_negative, positive};
 pub struct ArmSpec {
     /// Direction of the tip from the planet's axis, from the planet's zero, rad (degrees in the file).
     #[serde(rename = "mounting_angle_deg", with = "degrees")]
-    #[schemars(with = "f64")]
+    #[schemars(with = "f64", extend("x-symbol" = "beta_0"))]
     pub mounting_angle: f64,
     /// Distance of the tip from the planet's axis, mm.
+    #[schemars(extend("x-symbol" = "S"))]
     pub tip_distance: f64,
     /// Distance of the pusher's axis, which ends at the tip, from the planet's axis, mm: positive where the clamp
     /// points more counter-clockwise than the tip lies.
+    #[schemars(extend("x-symbol" = "H_1"))]
     pub pusher_offset: f64,
     /// Length of the clamp back from the tip along the pusher's axis, mm: the part that passes between seedlings.
     #[serde(default = "default_clamp_length")]

@@ -43,12 +43,12 @@ pub struct ThreeArmDesign {
     pub direction: Direction,
     /// Direction of the first intermediate gear's axis from the sun's at the start, rad (degrees in the file).
     #[serde(rename = "carrier_start_deg", with = "degrees")]
-    #[schemars(with = "f64")]
+    #[schemars(with = "f64", extend("x-symbol" = "phi_0"))]
     pub carrier_start: f64,
     /// Bend of each chain: from the direction sun to intermediate to the direction intermediate to planet, rad
     /// (degrees in the file).
     #[serde(rename = "bend_deg", with = "degrees")]
-    #[schemars(with = "f64")]
+    #[schemars(with = "f64", extend("x-symbol" = "gamma_0"))]
     pub bend: f64,
     /// Angle of the planet's zero behind the chain's second leg at the start, rad (degrees in the file); left
     /// out, the intermediate's turn over the first |bend| of carrier turn.
@@ -58,13 +58,14 @@ pub struct ThreeArmDesign {
         with = "degrees::option",
         skip_serializing_if = "Option::is_none"
     )]
-    #[schemars(with = "Option<f64>")]
+    #[schemars(with = "Option<f64>", extend("x-symbol" = "phi_30"))]
     pub planet_reference: Option<f64>,
     /// Teeth of every gear; left out, there are no teeth to check.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tooth_count: Option<u32>,
     /// Centre distance of each mesh, mm; left out, it follows from the pitch curve.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-symbol" = "a"))]
     pub center_distance: Option<f64>,
     /// Pitch curve of the sun, which starts in the direction of `carrier_start_deg`; the planets are alike.
     pub pitch: PitchSpec,

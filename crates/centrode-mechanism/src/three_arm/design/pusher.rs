@@ -13,6 +13,7 @@ use crate::machine::preferred_size;
 /// spring throws the rod out and the seedling with it.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(default, deny_unknown_fields)]
+#[schemars(extend("x-detail" = true))]
 pub struct PusherCamSpec {
     /// Radius of the base circle, on which the roller lies with the rod thrown out, mm.
     pub base_radius: f64,
@@ -91,6 +92,7 @@ impl PusherCamSpec {
 /// Its pivot is on the line from the planet's axis square to the pusher's axis.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(default, deny_unknown_fields)]
+#[schemars(extend("x-detail" = true))]
 pub struct ForkSpec {
     /// Distance of the pivot from the planet's axis, mm: less than the pusher's.
     pub pivot_distance: f64,

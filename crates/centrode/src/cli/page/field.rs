@@ -4,7 +4,12 @@ use crate::FAMILIES;
 use serde::Serialize;
 use serde_json::{Map, Value};
 
-use super::schema::{Shape, described, shape};
+use super::schema::{Shape, described, marked, shape};
+
+/// Mark of the schema on what says how bodies look and moves nothing.
+const DETAIL: &str = "x-detail";
+/// Mark of the schema with the symbol that a paper uses.
+const SYMBOL: &str = "x-symbol";
 
 /// Table of the design file as a form: one field a key.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -14,6 +19,12 @@ pub(crate) struct Table {
     doc: String,
     /// Whether it may be left out as a whole.
     optional: bool,
+    /// Whether the table is in the file and may be taken out of it.
+    #[serde(skip)]
+    pub(super) may_go: bool,
+    /// Whether it says what bodies look like, and moves nothing.
+    #[serde(skip)]
+    pub(super) detail: bool,
     pub(crate) fields: Vec<Field>,
 }
 
@@ -23,6 +34,9 @@ pub(crate) struct Field {
     /// Path of the key, `teeth.backlash`.
     pub(crate) key: String,
     doc: String,
+    /// Symbol of the paper, `gamma_0`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    symbol: Option<String>,
     unit: &'static str,
     kind: Kind,
     /// The words to choose from, where there are any.
@@ -34,6 +48,9 @@ pub(crate) struct Field {
     written: bool,
     /// Whether the key may be left out.
     optional: bool,
+    /// Whether it says what bodies look like, and moves nothing.
+    #[serde(skip)]
+    pub(super) detail: bool,
     #[serde(skip_serializing_if = "Option::is_none")]
     least: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -101,6 +118,13 @@ pub(crate) fn tables(text: &str) -> Vec<Table> {
         None,
         &mut out,
     );
+    // What lies within a detail is one, too.
+    for inner in 1..out.len() {
+        let (around, rest) = out.split_at_mut(inner);
+        let own = &mut rest[0];
+        let holds = |table: &Table| own.key.starts_with(&format!("{}.", table.key));
+        own.detail |= around.iter().any(|table| table.detail && holds(table));
+    }
     out
 }
 
@@ -186,6 +210,8 @@ fn add(
         key: key.into(),
         doc,
         optional,
+        may_go: false,
+        detail: marked(schema(), sub, DETAIL).is_some(),
         fields: Vec::new(),
     });
     let path = |name: &str| {
@@ -201,12 +227,14 @@ fn add(
         fields.push(Field {
             key: path(tag),
             doc: "What kind it is".into(),
+            symbol: None,
             unit: "",
             kind: Kind::Choice,
             choices: words,
             written: written.is_some_and(|w| w.get(tag).is_some()),
             value,
             optional: false,
+            detail: false,
             least: None,
             greatest: None,
         });
@@ -221,6 +249,7 @@ fn add(
         match shape(schema(), sub, own.or(default).unwrap_or(&nothing)) {
             Shape::Table { .. } | Shape::Tagged { .. } => {
                 let optional = !required && default.is_none();
+                let inner = out.len();
                 add(
                     sub,
                     &path(name),
@@ -230,11 +259,13 @@ fn add(
                     default,
                     out,
                 );
+                out[inner].may_go = own.is_some() && !required;
             }
             Shape::Leaf(leaf) => {
                 let words = described(sub);
                 fields.push(Field {
                     key: path(name),
+                    symbol: symbol(sub),
                     unit: unit(name, &words),
                     doc: words,
                     kind: leaf.kind,
@@ -242,6 +273,7 @@ fn add(
                     value: own.or(default).cloned().unwrap_or_default(),
                     written: own.is_some(),
                     optional: !required,
+                    detail: marked(schema(), sub, DETAIL).is_some(),
                     least: leaf.least,
                     greatest: leaf.greatest,
                 });
@@ -249,6 +281,12 @@ fn add(
         }
     }
     out[at].fields = fields;
+}
+
+/// Symbol of a key in its paper.
+fn symbol(sub: &Value) -> Option<String> {
+    let mark = marked(schema(), sub, SYMBOL)?;
+    Some(mark.as_str()?.to_owned())
 }
 
 /// Unit in which a key is written: that of its name, else that of its description.
@@ -325,6 +363,21 @@ mod tests {
         assert_eq!(field(text, "mean_ratio").kind, Kind::Integers);
         assert!(field(text, "pitch.kind").choices.len() > 8);
         assert!(field(text, "driver.keyway.width").value.is_null());
+    }
+
+    #[test]
+    fn fields_have_the_symbol_of_the_paper() {
+        let text = FAMILIES.template("three-arm").expect("a template");
+        for (key, symbol) in [
+            ("carrier_start_deg", "phi_0"),
+            ("bend_deg", "gamma_0"),
+            ("arm.tip_distance", "S"),
+            ("arm.pusher_offset", "H_1"),
+            ("pitch.radius", "r_i"),
+        ] {
+            assert_eq!(field(text, key).symbol.as_deref(), Some(symbol), "{key}");
+        }
+        assert_eq!(field(text, "teeth.backlash").symbol, None);
     }
 
     #[test]

@@ -1,5 +1,6 @@
 //! Snapshot of a design for the page: its numbers, picture, curves, figures and findings, as one JSON value.
 
+mod detail;
 mod edit;
 mod field;
 mod kind;

@@ -78,6 +78,15 @@ fn followed<'a>(root: &'a Value, sub: &'a Value) -> &'a Value {
     here
 }
 
+/// Mark on a part of the schema: beside it, or where it leads, absence aside.
+pub(super) fn marked<'a>(root: &'a Value, sub: &'a Value, mark: &str) -> Option<&'a Value> {
+    let options = sub.get("anyOf").and_then(Value::as_array);
+    let options = options.into_iter().flatten();
+    let places = [sub, followed(root, sub)].into_iter();
+    let mut places = places.chain(options.map(|option| followed(root, option)));
+    places.find_map(|place| place.get(mark))
+}
+
 /// Key whose single allowed word distinguishes an alternative from the others.
 fn tag_of(option: &Value) -> Option<&str> {
     let properties = option.get("properties")?.as_object()?;

@@ -1,11 +1,12 @@
 use std::sync::Arc;
 
-use crate::analysis::Report;
+use crate::analysis::{Finding, Place, Report, Severity, Unit};
 use crate::export::page::{Curve, Picture};
 use crate::family::{FAMILIES, Limit, Mechanism};
 use crate::mechanism::design::DesignError;
 use serde::Serialize;
 
+use super::detail::without_details;
 use super::field::{Table, tables};
 use crate::cli::report;
 
@@ -22,6 +23,8 @@ pub(crate) struct Snapshot {
     tables: Vec<Table>,
     /// Reason why there is no mechanism.
     error: Option<Fault>,
+    /// Error of a detail of a body: picture, curves and checks are those of the design without it.
+    detail: Option<Fault>,
     picture: Option<Picture>,
     /// Whether the picture lacks details that take longer to make.
     coarse: bool,
@@ -39,6 +42,8 @@ pub(crate) struct Fault {
     line: usize,
     column: usize,
     message: String,
+    /// The message without the key: it stands beside its field.
+    rule: String,
 }
 
 /// Results of the checks.
@@ -66,6 +71,23 @@ impl From<&DesignError> for Fault {
             line: error.line,
             column: error.column,
             message: error.message(),
+            rule: error.fault.to_string(),
+        }
+    }
+}
+
+impl Fault {
+    /// The finding of a detail that cannot be.
+    fn finding(&self) -> Finding {
+        Finding {
+            rule: "detail",
+            severity: Severity::Error,
+            message: self.message.clone(),
+            measured: None,
+            required: None,
+            unit: Unit::Number,
+            remedy: None,
+            place: Place::default(),
         }
     }
 }
@@ -93,10 +115,12 @@ impl Goals {
 
 /// Picture of a design alone, as JSON: that of its page before the details are made.
 pub(crate) fn drawn(text: &str) -> Result<String, String> {
-    let read = FAMILIES.read(text.as_bytes());
-    let mechanism = read.and_then(|file| file.mechanism());
-    let mechanism = mechanism.map_err(|error| error.message())?;
+    let mechanism = resolved(text).map_err(|error| error.message())?;
     serde_json::to_string(&mechanism.picture()).map_err(|error| error.to_string())
+}
+
+fn resolved(text: &str) -> Result<Arc<dyn Mechanism>, DesignError> {
+    FAMILIES.read(text.as_bytes())?.mechanism()
 }
 
 /// Design that has become a mechanism.
@@ -129,6 +153,7 @@ impl Snapshot {
                 line: 0,
                 column: 0,
                 message: "cancelled; the next change solves it anew".into(),
+                rule: String::new(),
             }),
             ..Self::of_text(text)
         }
@@ -157,12 +182,31 @@ impl Snapshot {
 impl Subject {
     /// Resolves a design file and draws it; without a mechanism, the snapshot says why.
     pub(crate) fn of(text: String) -> Result<Self, Box<Snapshot>> {
+        let snapshot = Snapshot::of_text(text);
+        match resolved(&snapshot.text) {
+            Ok(mechanism) => Ok(Self::new(snapshot, mechanism)),
+            Err(error) => Err(Box::new(snapshot.with_error(&error))),
+        }
+    }
+
+    /// Resolves and draws a design that is worked on: a detail of a body that cannot be is a finding, and the rest is drawn without it.
+    pub(crate) fn without_faulty_details(text: String) -> Result<Self, Box<Snapshot>> {
         let mut snapshot = Snapshot::of_text(text);
-        let read = FAMILIES.read(snapshot.text.as_bytes());
-        let mechanism = match read.and_then(|file| file.mechanism()) {
-            Ok(mechanism) => mechanism,
-            Err(error) => return Err(Box::new(snapshot.with_error(&error))),
+        let error = match resolved(&snapshot.text) {
+            Ok(mechanism) => return Ok(Self::new(snapshot, mechanism)),
+            Err(error) => error,
         };
+        let Some((mechanism, left_out)) = without_details(&snapshot.text, &error) else {
+            return Err(Box::new(snapshot.with_error(&error)));
+        };
+        let mut fault = Fault::from(&error);
+        let left_out = left_out.join(", ");
+        fault.message = format!("{}; what is shown is without {left_out}", fault.message);
+        snapshot.detail = Some(fault);
+        Ok(Self::new(snapshot, mechanism))
+    }
+
+    fn new(mut snapshot: Snapshot, mechanism: Arc<dyn Mechanism>) -> Self {
         snapshot.name = mechanism.design().name().into();
         snapshot.title = mechanism.design().title().into();
         snapshot.definition = mechanism.definition();
@@ -170,10 +214,10 @@ impl Subject {
         snapshot.coarse = mechanism.is_coarse();
         snapshot.curves = mechanism.curves();
         snapshot.speed = mechanism.input_speed();
-        Ok(Self {
+        Self {
             snapshot,
             mechanism,
-        })
+        }
     }
 
     /// Whether this is the mechanism of a text.
@@ -204,7 +248,10 @@ impl Subject {
     /// Snapshot with the results of the checks.
     pub(crate) fn checked(&self) -> Snapshot {
         let mut snapshot = self.detailed();
-        let (found, curves) = self.mechanism.check_with_curves();
+        let (mut found, curves) = self.mechanism.check_with_curves();
+        if let Some(fault) = &snapshot.detail {
+            found.findings.insert(0, fault.finding());
+        }
         snapshot.curves.extend(curves);
         snapshot.verdict = Some(Verdict::of(&*self.mechanism, &found));
         snapshot

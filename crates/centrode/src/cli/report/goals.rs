@@ -37,6 +37,8 @@ pub(super) fn write(report: &Report, out: &mut impl Write) -> Result<()> {
 #[derive(Clone, Debug, Serialize)]
 pub(crate) struct GoalWords {
     number: u32,
+    /// Number in the paper it is from, where that is another.
+    paper: Option<u32>,
     name: String,
     title: String,
     value: String,
@@ -93,6 +95,7 @@ pub(crate) fn goal_words(goal: &Goal) -> GoalWords {
     };
     GoalWords {
         number: goal.number,
+        paper: goal.paper,
         name: goal.name.clone().into_owned(),
         title: goal.title.clone().into_owned(),
         value: goal.value.map_or("-".into(), |value| goal.unit.show(value)),
@@ -122,7 +125,11 @@ fn one(goal: &Goal, out: &mut impl Write) -> Result<()> {
         Some(progress) => bar(progress),
         None => ".".repeat(BAR),
     };
-    writeln!(out, "  [{bar}]  {style}{}{style:#}", words.verdict)
+    write!(out, "  [{bar}]  {style}{}{style:#}", words.verdict)?;
+    match words.paper {
+        Some(paper) => writeln!(out, "; goal {paper} of the paper"),
+        None => writeln!(out),
+    }
 }
 
 /// A bar filled in proportion; full only where the goal is reached.

@@ -5,6 +5,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 use crate::FAMILIES;
+use crate::analysis::Goal;
 use crate::analysis::optimise::{DesignProblem, DesignSearch, Ended, Progress, Settings, Strategy};
 use serde::{Deserialize, Serialize};
 
@@ -46,6 +47,20 @@ pub(crate) struct State {
     text: String,
     /// Goals of that design.
     goals: Vec<GoalWords>,
+    /// Goals and constraints missed at the start, or by the best.
+    missed: Vec<Missed>,
+}
+
+/// Goal or constraint that a search counts as missed, figures in `unit`.
+#[derive(Clone, Debug, Serialize)]
+struct Missed {
+    title: String,
+    unit: &'static str,
+    start: String,
+    best: String,
+    /// Range it is wanted in.
+    wanted: String,
+    met: bool,
 }
 
 struct Run {
@@ -109,6 +124,7 @@ impl Searching {
                 remark: None,
                 history: Vec::new(),
                 goals: goals(&ask.text),
+                missed: Vec::new(),
                 text: ask.text.clone(),
             }),
         });
@@ -160,7 +176,33 @@ fn goals(text: &str) -> Vec<GoalWords> {
     )
 }
 
+/// Goals and constraints that a search counts as missed, at its start and at a point.
+fn missed(start: &[Goal], best: &[Goal]) -> Vec<Missed> {
+    let fails = |goal: &Goal| goal.met() == Some(false);
+    let pairs = start.iter().filter_map(|before| {
+        let now = best.iter().find(|goal| goal.name == before.name)?;
+        (fails(before) || fails(now)).then_some((before, now))
+    });
+    let missed = pairs.map(|(before, now)| {
+        let [told, words] = [before, now].map(goal_words);
+        Missed {
+            title: now.title.clone().into_owned(),
+            unit: words.unit(),
+            start: told.value().to_owned(),
+            best: words.value().to_owned(),
+            wanted: words.wanted().to_owned(),
+            met: !fails(now),
+        }
+    });
+    missed.collect()
+}
+
 fn work(run: &Run, text: &str, problem: &dyn DesignProblem, mut search: DesignSearch) {
+    let at = |point: &[f64]| problem.goals(point).unwrap_or_default();
+    let start = problem.start().map(|point| at(&point)).unwrap_or_default();
+    run.state().missed = missed(&start, &start);
+    // Checks of all constraints may be slow: they take a tenth of the time at most.
+    let mut next = Instant::now();
     let ended = loop {
         let due = Instant::now() + SHOW;
         let mut shown = false;
@@ -179,13 +221,22 @@ fn work(run: &Run, text: &str, problem: &dyn DesignProblem, mut search: DesignSe
             let goals = goals(&best);
             let mut state = run.state();
             (state.text, state.goals) = (best, goals);
+            drop(state);
+            let asked = Instant::now();
+            if asked >= next {
+                let now = missed(&start, &at(&search.best()));
+                run.state().missed = now;
+                next = Instant::now() + 9 * asked.elapsed();
+            }
         }
         if !shown || run.stopped() {
             break ended;
         }
     };
     let remark = problem.remark(&search.best());
+    let last = missed(&start, &at(&search.best()));
     let mut state = run.state();
+    state.missed = last;
     state.remark = remark;
     state.running = false;
     state.ended = Some(ended);

@@ -108,7 +108,7 @@ impl Solver {
         let last = held(&self.last).clone();
         let subject = match last.filter(|subject| subject.is_of(&text)) {
             Some(subject) => subject,
-            None => match Subject::of(text) {
+            None => match Subject::without_faulty_details(text) {
                 Ok(subject) => Arc::new(subject),
                 Err(snapshot) => return snapshot.json(),
             },

@@ -27,6 +27,14 @@ impl Edit {
         }
     }
 
+    /// Takes a key or a table out.
+    pub(super) fn removal(key: &str) -> Self {
+        Self {
+            key: key.into(),
+            value: Json::Null,
+        }
+    }
+
     /// A word for a key.
     #[cfg(test)]
     pub(crate) fn word(key: &str, word: &str) -> Self {

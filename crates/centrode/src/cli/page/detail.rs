@@ -1,0 +1,129 @@
+use std::sync::Arc;
+
+use crate::family::{FAMILIES, Mechanism};
+use crate::mechanism::design::DesignError;
+
+use super::edit::{Edit, edited};
+use super::field::{Table, tables};
+
+/// Greatest number of details that are left out of one design.
+const MOST: usize = 6;
+
+/// Mechanism of a design without the details of its bodies that are at fault, and the keys left out.
+///
+/// A detail moves nothing: the motion is that of the design as written. `None` where the fault is in anything else.
+pub(super) fn without_details(
+    text: &str,
+    error: &DesignError,
+) -> Option<(Arc<dyn Mechanism>, Vec<String>)> {
+    let mut text = text.to_owned();
+    let mut left_out = Vec::new();
+    let mut blamed = error.key.clone();
+    while left_out.len() < MOST {
+        let key = written_detail(&tables(&text), &blamed)?;
+        text = edited(&text, &[Edit::removal(&key)]).ok()?;
+        left_out.push(key);
+        let read = FAMILIES.read(text.as_bytes());
+        match read.and_then(|file| file.mechanism()) {
+            Ok(mechanism) => return Some((mechanism, left_out)),
+            Err(error) => blamed = error.key,
+        }
+    }
+    None
+}
+
+/// Key or table of a detail that is written and may go: the blamed one, else the nearest around it.
+fn written_detail(tables: &[Table], blamed: &str) -> Option<String> {
+    let mut path = blamed;
+    loop {
+        let fields = tables.iter().flat_map(|table| {
+            let fields = table.fields.iter();
+            fields.filter(|field| table.detail || field.detail)
+        });
+        let mut fields = fields.filter(|field| field.may_go());
+        if fields.any(|field| field.key == path) {
+            return Some(path.to_owned());
+        }
+        let mut around = tables.iter().filter(|table| table.detail && table.may_go);
+        if around.any(|table| table.key == path) {
+            return Some(path.to_owned());
+        }
+        path = &path[..path.rfind(['.', '['])?];
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fs;
+    use std::path::Path;
+
+    use super::*;
+
+    fn design(name: &str) -> String {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/designs");
+        fs::read_to_string(folder.join(name)).expect("there")
+    }
+
+    fn mechanism(text: &str) -> Result<Arc<dyn Mechanism>, DesignError> {
+        let file = FAMILIES.read(text.as_bytes())?;
+        file.mechanism()
+    }
+
+    #[test]
+    fn a_detail_of_a_body_that_cannot_be_leaves_the_motion_as_it_is() {
+        for (name, old, new, keys) in [
+            (
+                "circular-pair.toml",
+                "bore = 14",
+                "bore = 100",
+                &["driver.bore", "driver.keyway"][..],
+            ),
+            (
+                "circular-pair.toml",
+                "depth = 2.3",
+                "depth = 23",
+                &["driver.bore", "driver.keyway"],
+            ),
+            (
+                "three-arm-2021.toml",
+                "bore = 10",
+                "bore = -1",
+                &["sun.bore"],
+            ),
+            (
+                "spiral-shaft-2018.toml",
+                "keyway = { width = 5, depth = 3 }",
+                "keyway = { width = 500, depth = 3 }",
+                &["body.keyway"],
+            ),
+        ] {
+            let text = design(name);
+            let good = mechanism(&text).expect("sound");
+            let bad = text.replacen(old, new, 1);
+            let error = mechanism(&bad).map(drop).expect_err("at fault");
+            let (found, left_out) = without_details(&bad, &error).expect("a mechanism");
+            assert!(
+                left_out.iter().all(|key| keys.contains(&key.as_str())),
+                "{name}: {error}: {left_out:?}"
+            );
+            assert_eq!(found.picture().motion, good.picture().motion, "{name}");
+            assert_eq!(found.curves(), good.curves(), "{name}");
+        }
+    }
+
+    #[test]
+    fn a_fault_of_the_motion_is_no_detail() {
+        for (old, new) in [
+            ("module = 2", "module = -2"),
+            ("tooth_count = 24", "tooth_count = 0"),
+            (
+                "mean_ratio = [3, 2]",
+                "mean_ratio = [3, 2]\ncenter_distance = 1",
+            ),
+        ] {
+            let bad = design("circular-pair.toml").replacen(old, new, 1);
+            let error = mechanism(&bad).map(drop).expect_err("at fault");
+            assert!(without_details(&bad, &error).is_none(), "{new}");
+        }
+    }
+}

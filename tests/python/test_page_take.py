@@ -1,0 +1,216 @@
+"""What can be taken from the design page: pictures, animations, files, designs side by side."""
+
+import base64
+import io
+import re
+import zipfile
+from xml.etree import ElementTree
+
+import pytest
+from axe_playwright_python.sync_playwright import Axe
+from conftest import centrode
+from page import ARMS, CIRCLE, FEEDER, field, opened, settled, shown
+from PIL import Image, ImageChops, ImageStat
+from playwright.sync_api import expect
+
+SVG = "{http://www.w3.org/2000/svg}"
+
+
+def taken(page, kind, width=None, seconds=None):
+    """The picture as a file, with its name."""
+    page.locator("#take-picture").click()
+    page.locator("#picture-kind").select_option(kind)
+    if width:
+        page.locator("#picture-width").select_option(str(width))
+        page.locator("#picture-seconds").fill(str(seconds))
+    with page.expect_download(timeout=60_000) as download:
+        page.get_by_role("button", name="Take", exact=True).click()
+    expect(page.locator("#dialog")).to_be_hidden()
+    return download.value.suggested_filename, download.value.path().read_bytes()
+
+
+@pytest.mark.parametrize("design", [CIRCLE, FEEDER, ARMS], ids=lambda path: path.stem)
+def test_the_picture_as_svg_and_png_is_the_one_that_is_shown(browser, tmp_path, design):
+    with opened(browser, tmp_path, design, color_scheme="light") as (page, _):
+        page.locator("#scrub").focus()
+        page.keyboard.press("PageUp")
+        name, text = taken(page, "svg")
+        root = ElementTree.fromstring(text)
+        assert name == f"{design.stem}.svg"
+        assert root.find(f"{SVG}title").text == design.stem
+        assert len(root.findall(f".//{SVG}path")) > 3
+        assert not re.search(rb"NaN|undefined|Infinity", text)
+        name, png = taken(page, "png")
+        box = page.locator("#stage").bounding_box()
+        picture = Image.open(io.BytesIO(png)).convert("RGB")
+        assert picture.size == (round(3 * box["width"]), round(3 * box["height"]))
+        canvas = page.locator("#stage canvas").evaluate("canvas => canvas.toDataURL()").split(",")[1]
+        seen = Image.open(io.BytesIO(base64.b64decode(canvas))).convert("RGBA")
+        white = Image.alpha_composite(Image.new("RGBA", seen.size, "white"), seen).convert("RGB")
+        small = picture.resize(white.size, Image.Resampling.BOX)
+        # Crosses at axes are the screen's alone; the rest differs by how edges are smoothed.
+        differ = ImageStat.Stat(ImageChops.difference(small, white)).mean
+        assert max(differ) < 3, differ
+        bare = ImageStat.Stat(ImageChops.difference(Image.new("RGB", white.size, "white"), white)).mean
+        assert max(differ) < 0.3 * max(bare), (differ, bare)
+
+
+def test_a_gif_is_one_cycle_of_the_stated_length_and_size(browser, tmp_path):
+    with opened(browser, tmp_path, CIRCLE) as (page, _):
+        name, data = taken(page, "gif", 320, 2)
+        assert name == "circular-pair.gif"
+        film = Image.open(io.BytesIO(data))
+        frames = []
+        for index in range(film.n_frames):
+            film.seek(index)
+            frames.append(film.convert("RGB"))
+        assert film.size[0] == 320
+        assert film.n_frames * film.info["duration"] == 2000
+        assert film.info["loop"] == 0
+        assert ImageChops.difference(frames[0], frames[len(frames) // 2]).getbbox()
+        # White around, and nothing cut off at the edge.
+        for x in range(320):
+            assert frames[3].getpixel((x, 0)) == frames[3].getpixel((x, film.size[1] - 1)) == (255, 255, 255)
+        expect(page.locator("#notices")).to_contain_text(
+            f"One cycle in 2 s, 320 pixels wide, {round(len(data) / 1024)} kB."
+        )
+
+
+def test_a_webm_plays_for_the_stated_length(browser, tmp_path):
+    with opened(browser, tmp_path, CIRCLE) as (page, _):
+        name, data = taken(page, "webm", 320, 1)
+        assert name == "circular-pair.webm"
+        assert data.startswith(b"\x1a\x45\xdf\xa3")
+        player = page.context.new_page()
+        size = player.evaluate(
+            """async data => {
+              const video = document.createElement("video");
+              video.src = "data:video/webm;base64," + data;
+              await new Promise((resolve, reject) => Object.assign(video, { onloadeddata: resolve, onerror: reject }));
+              // A recording has no length in its head: its end has.
+              video.currentTime = 1e6;
+              await new Promise(resolve => { video.onseeked = resolve; });
+              return [video.videoWidth, video.videoHeight, video.currentTime];
+            }""",
+            base64.b64encode(data).decode(),
+        )
+        player.close()
+        assert size[0] == 320
+        assert size[2] == pytest.approx(1, abs=0.25)
+
+
+def test_a_length_that_cannot_be_is_refused_in_words(browser, tmp_path):
+    with opened(browser, tmp_path, CIRCLE) as (page, _):
+        page.locator("#take-picture").click()
+        page.locator("#picture-kind").select_option("gif")
+        page.locator("#picture-seconds").fill("90")
+        page.get_by_role("button", name="Take", exact=True).click()
+        expect(page.locator("#dialog .remark")).to_have_text("the length is 90; it must be 0.5 to 30 s")
+        assert Axe().run(page).response["violations"] == []
+
+
+def test_a_report_gives_its_picture_too(browser, tmp_path):
+    out = tmp_path / "pair.html"
+    centrode("report", CIRCLE, "-o", out, check=False)
+    with shown(browser, out.as_uri(), offline=True) as page:
+        name, text = taken(page, "svg")
+        assert name == "circular-pair.svg"
+        assert ElementTree.fromstring(text).tag == f"{SVG}svg"
+        assert taken(page, "gif", 320, 0.5)[1].startswith(b"GIF89a")
+    assert out.stat().st_size < 3e6
+
+
+def test_the_export_takes_sheet_and_projection_of_its_own(browser, tmp_path):
+    def zipped(path):
+        with zipfile.ZipFile(path) as files:
+            return {name: files.read(name) for name in files.namelist()}
+
+    with opened(browser, tmp_path, CIRCLE) as (page, copy):
+        page.locator("#export").click()
+        for box in page.locator("fieldset input").all():
+            box.set_checked(box.get_attribute("value") == "pdf")
+        page.locator("#export-sheet").select_option("A2")
+        page.locator("#export-projection").select_option("third-angle")
+        with page.expect_download(timeout=60_000) as download:
+            page.get_by_role("button", name="Export zip").click()
+        found = zipped(download.value.path())
+        # The design itself stays as it is.
+        assert copy.read_text() == CIRCLE.read_text()
+        expect(page.locator("#save")).to_be_disabled()
+        asked = tmp_path / "asked.toml"
+        asked.write_text(CIRCLE.read_text() + '\n[drawing]\nsheet = "A2"\nprojection = "third-angle"\n')
+        centrode("export", asked, "--to", tmp_path / "out", "--format", "pdf")
+        sheets = {name: data for name, data in found.items() if name.endswith(".pdf")}
+        assert sheets
+        for name, data in sheets.items():
+            assert (tmp_path / "out" / name).read_bytes() == data
+
+
+def test_designs_are_compared_side_by_side_and_one_is_taken(browser, tmp_path):
+    with opened(browser, tmp_path, FEEDER) as (page, _):
+        crank = field(page, "linkage.crank")
+        first = crank.input_value()
+        goal = page.locator('[data-goal="transmission-angle"] b').inner_text().split()[1]
+        for value in [None, "60.5", "61"]:
+            if value:
+                crank.fill(value)
+                crank.press("Enter")
+                settled(page)
+            page.locator("#compare").click()
+            page.locator("#compare-keep").click()
+            page.locator("#dialog").get_by_role("button", name="Close").click()
+        page.locator("#compare").click()
+        heads = page.locator(".compared thead b").all_inner_texts()
+        assert heads == ["Kept 1", "Kept 2", "Kept 3"]
+        row = (
+            page.locator(".compared tbody tr")
+            .filter(has_text="least transmission angle")
+            .locator("td")
+            .all_inner_texts()
+        )
+        assert len(set(row)) == 3
+        assert row[0].split()[1] == goal
+        pictures = "all => all.map(canvas => canvas.toDataURL())"
+        before = page.locator(".compared canvas").evaluate_all(pictures)
+        assert len(set(before)) == 3
+        page.locator("#compare-place").focus()
+        page.keyboard.press("PageUp")
+        assert all(a != b for a, b in zip(before, page.locator(".compared canvas").evaluate_all(pictures), strict=True))
+        assert Axe().run(page).response["violations"] == []
+        page.get_by_role("button", name="Take Kept 1").click()
+        settled(page)
+        expect(crank).to_have_value(first)
+        page.locator("#undo").click()
+        settled(page)
+        expect(crank).to_have_value("61")
+
+
+def test_poses_and_distances_lie_over_the_picture(browser, tmp_path):
+    with opened(browser, tmp_path, CIRCLE) as (page, _):
+        words = """() => {
+          const told = [], paint = CanvasRenderingContext2D.prototype.fillText;
+          CanvasRenderingContext2D.prototype.fillText = function (text, ...rest) {
+            told.push(text);
+            return paint.call(this, text, ...rest);
+          };
+          const box = document.getElementById("show-distances");
+          box.click();
+          CanvasRenderingContext2D.prototype.fillText = paint;
+          return told;
+        }"""
+        # Module 2, 24 and 36 teeth.
+        assert "60 mm" in page.evaluate(words)
+        strokes = """() => {
+          let count = 0;
+          const stroke = CanvasRenderingContext2D.prototype.stroke;
+          CanvasRenderingContext2D.prototype.stroke = function (...rest) {
+            count += 1;
+            return stroke.call(this, ...rest);
+          };
+          document.getElementById("show-poses").click();
+          CanvasRenderingContext2D.prototype.stroke = stroke;
+          return count;
+        }"""
+        more, fewer = page.evaluate(strokes), page.evaluate(strokes)
+        # Both gears at twelve places.
+        assert more - fewer >= 24
