@@ -1,4 +1,4 @@
-//! Driver angles at which a contact reaches the edge of a tooth.
+//! Driver angles at which a contact reaches the end of a flank.
 
 use centrode_geometry::{Point, Vector, bracketed_root};
 use centrode_mechanism::gear::{GearPair, Member, Role};
@@ -25,14 +25,14 @@ pub(super) struct EdgeContact {
     pub(super) sliding: f64,
 }
 
-/// Edge of a flank: its point and the flank's outward normal there, in the axes of its gear.
+/// End of a flank: its point and the flank's outward normal there, in the axes of its gear.
 #[derive(Clone, Copy, Debug)]
 struct Edge {
     point: Point,
     normal: Vector,
 }
 
-/// Edges at the ends of flanks that push the driven gear on.
+/// Ends of flanks that push the driven gear on: at the tip, and where the fillet begins.
 fn edges(body: &Body<'_>) -> Vec<Edge> {
     let count = body.parts.len();
     // The driver turns clockwise and pushes along its outward normals; the driven gear turns the other way and is pushed against
@@ -47,12 +47,13 @@ fn edges(body: &Body<'_>) -> Vec<Edge> {
     };
     let mut found = Vec::new();
     for (k, after) in body.parts.iter().enumerate() {
-        let Some(corner) = &after.corner else {
-            continue;
-        };
         let before = &body.parts[(k + count - 1) % count];
-        found.extend(edge(before, corner.point, before.span.tangents[1]));
-        found.extend(edge(after, corner.point, after.span.tangents[0]));
+        let is_end = after.corner.is_some() || before.role != after.role;
+        let point = after.ends[0];
+        if is_end {
+            found.extend(edge(before, point, before.span.tangents[1]));
+            found.extend(edge(after, point, after.span.tangents[0]));
+        }
     }
     found.retain(drives);
     found

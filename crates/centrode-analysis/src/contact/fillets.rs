@@ -17,7 +17,7 @@ const STEPS: u32 = 16;
 const BEYOND: f64 = 4.0;
 
 /// Least such distance, modules.
-const LEAST: f64 = 0.02;
+const LEAST: f64 = 0.05;
 
 /// Way of an edge along a fillet in a step, modules, at most.
 const STEP: f64 = 0.25;
@@ -228,23 +228,31 @@ impl Approach<'_> {
         best: &mut Option<Extreme>,
     ) {
         let rounding = self.within * ROUNDING;
-        for beside in steps.windows(3) {
-            let [before, here, after] = [0, 1, 2].map(|k| &beside[k]);
-            let (Some(f), Some(value), Some(g)) = (before.gap, here.gap, after.gap) else {
+        // Beyond what is looked at there is nothing nearer.
+        let gap_at = |step: usize| {
+            let known = steps.iter().find(|s| s.step == step);
+            known.and_then(|s| s.gap).unwrap_or(self.within)
+        };
+        for here in steps {
+            let (Some(value), step) = (here.gap, here.step) else {
                 continue;
             };
-            let above = f + g - 2.0 * value;
-            let known = best.map_or(f64::INFINITY, |b| b.value);
-            if after.step - before.step != 2 || value > f.min(g) || value - above >= known {
+            if step == 0 || step + 1 == walk.inputs.len() {
                 continue;
             }
-            let at = |s: &Step, gap: f64| (walk.inputs[s.step], gap);
+            let [f, g] = [gap_at(step - 1), gap_at(step + 1)];
+            let above = f + g - 2.0 * value;
+            let known = best.map_or(f64::INFINITY, |b| b.value);
+            if value > f.min(g) || value - above >= known {
+                continue;
+            }
+            let at = |step: usize, gap: f64| (walk.inputs[step], gap);
             let (phi, value) = bracketed_minimum_below(
                 |phi| {
                     let gap = self.fillet_gap(here.fillet, fillets, &self.pose(phi));
                     gap.unwrap_or(self.within)
                 },
-                [at(before, f), at(here, value), at(after, g)],
+                [at(step - 1, f), at(step, value), at(step + 1, g)],
                 known,
                 rounding,
             );
