@@ -359,9 +359,7 @@ impl Reversed {
                 let keywords = keywords.with("path", Rows::of(points))?;
                 ("reverse", keywords.with("axis", *axis)?)
             }
-            Given::Poses { rows, .. } => {
-                ("reverse_poses", keywords.with("poses", rows.clone())?)
-            }
+            Given::Poses { rows, .. } => ("reverse_poses", keywords.with("poses", rows.clone())?),
         };
         let keywords = keywords
             .with("split", self.split())?

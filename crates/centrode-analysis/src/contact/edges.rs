@@ -6,15 +6,12 @@ use centrode_mechanism::gear::{GearPair, Member, Role};
 use super::{
     body::{Body, Part},
     meshing::Meshing,
-    touch::{self, Pose},
+    touch::Pose,
     walk::Walk,
 };
 
 /// Steps a pitch at which a contact's edge is bracketed.
 const STEPS: u32 = 8;
-
-/// Distance, modules, within which a mate's flank is where it is meant to be.
-const DESIGNED: f64 = 1e-6;
 
 /// Driver angle at which the normal of a flank at its edge passes through the pitch point: there the contact, by the law of
 /// gearing, comes to the edge or leaves it.
@@ -93,9 +90,7 @@ impl Meshing<'_> {
                         }
                         let (from, to) = (walk.inputs[k], walk.inputs[k + 1]);
                         let phi = bracketed_root(|phi| aside(&at(phi)), from, to, f, g);
-                        if (0.0..pair.cycle()).contains(&phi)
-                            && self.meets_flank(&edge, member, phi)
-                        {
+                        if (0.0..pair.cycle()).contains(&phi) {
                             found.push(self.edge_contact(&edge, member, phi));
                         }
                     }
@@ -122,28 +117,5 @@ impl Meshing<'_> {
     /// The point of the mate's flank that an edge faces at the law's angle.
     fn opposite(&self, edge: &Edge) -> Point {
         edge.point + edge.normal * (0.5 * self.pair.backlash())
-    }
-
-    /// Whether the mate has a flank where the edge is to touch it.
-    fn meets_flank(&self, edge: &Edge, member: Member, phi: f64) -> bool {
-        let pose = Pose::new(
-            phi,
-            self.pair.driven_angle(phi),
-            self.pair.center_distance(),
-        );
-        let opposite = self.opposite(edge);
-        let (mate, point) = match member {
-            Member::Driver => (&self.driven, pose.back(&opposite)),
-            Member::Driven => (&self.driver, pose.place(&opposite)),
-        };
-        let near = DESIGNED * self.module;
-        mate.tree.any(
-            &|run| (run.center - point).norm() < run.radius + near,
-            &|i| {
-                let part = &mate.parts[i];
-                let off = touch::foot(part, &point).map(|(_, jet)| (jet.point - point).norm());
-                part.role == Role::Flank && off.is_some_and(|off| off < near)
-            },
-        )
     }
 }
