@@ -42,7 +42,7 @@ pub(crate) struct Reversed {
     axes: OnceLock<AxisMap>,
 }
 
-/// What a machine is made from.
+/// Path or key poses from which a machine is made.
 #[derive(Debug)]
 enum Given {
     Path {

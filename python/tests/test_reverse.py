@@ -235,4 +235,6 @@ def test_as_many_key_poses_as_no_machine_meets_are_refused_by_number():
     with pytest.raises(ct.DesignError, match=r"\(N, 3\)"):
         ct.reverse_poses([(0, 0)] * 4)
     with pytest.raises(ct.MechanismError, match="circle"):
-        ct.reverse_poses([(0, 0, 0), (0, 0, 180), (1000, 0, 0), (0, 1000, 90), (-1000, 0, 45), (0, -1000, 10), (500, 5, 77)])
+        ct.reverse_poses(
+            [(0, 0, 0), (0, 0, 180), (1000, 0, 0), (0, 1000, 90), (-1000, 0, 45), (0, -1000, 10), (500, 5, 77)]
+        )
