@@ -34,6 +34,7 @@ from ._centrode import (
     __version__,
     gear_drive,
     reverse,
+    reverse_poses,
     template,
 )
 from ._clearance import Clearance
@@ -121,6 +122,7 @@ __all__ = [
     "pitch",
     "plot",
     "reverse",
+    "reverse_poses",
     "schema",
     "sweep",
     "template",

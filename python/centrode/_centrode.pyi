@@ -74,6 +74,7 @@ __all__ = [
     "polynomial",
     "return_",
     "reverse",
+    "reverse_poses",
     "rise",
     "swinging_flat",
     "swinging_roller",
@@ -1082,6 +1083,10 @@ class Reversed:
     @property
     def tip_error(self) -> float: ...
     @property
+    def clamp_deg(self) -> float | None: ...
+    @property
+    def misses(self) -> NDArray[float64] | None: ...
+    @property
     def splits(self) -> tuple[SplitFigures, SplitFigures, SplitFigures]: ...
     @property
     def axes(self) -> AxisMap: ...
@@ -1092,6 +1097,13 @@ class Reversed:
     def machine(self) -> Machine: ...
     def __reduce__(self) -> tuple[Any, ...]: ...
 
+def reverse_poses(
+    poses: ArrayLike,
+    *,
+    split: Literal["powers", "mildest", "one-pair"] = "powers",
+    bend_deg: _Real = 60.0,
+    arms: _Count = 1,
+) -> Reversed: ...
 def reverse(
     path: ArrayLike,
     axis: tuple[_Real, _Real] | None = None,

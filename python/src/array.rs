@@ -105,14 +105,17 @@ impl Values {
 
     /// Points of the plane, from an array (N, 2).
     pub(crate) fn points(self, key: &str) -> Answer<Vec<Point>> {
+        let rows = self.rows::<2>(key)?;
+        Ok(rows.into_iter().map(Point::from).collect())
+    }
+
+    /// Rows of an array of so many columns.
+    pub(crate) fn rows<const COLUMNS: usize>(self, key: &str) -> Answer<Vec<[f64; COLUMNS]>> {
         match self.shape[..] {
-            [_, 2] => {
-                let (pairs, _) = self.flat.as_chunks::<2>();
-                Ok(pairs.iter().map(|&pair| pair.into()).collect())
-            }
+            [_, columns] if columns == COLUMNS => Ok(self.flat.as_chunks::<COLUMNS>().0.to_vec()),
             _ => {
                 let shape = &self.shape;
-                let rule = format!("must be an array of the shape (N, 2), not {shape:?}");
+                let rule = format!("must be an array of the shape (N, {COLUMNS}), not {shape:?}");
                 Err(Raised::rule(key, &rule))
             }
         }
@@ -296,6 +299,7 @@ pub(crate) fn row(jet: &MotionJet) -> [f64; 4] {
 }
 
 /// Rows of numbers, handed over as an (N, COLUMNS) array.
+#[derive(Clone, Debug)]
 pub(crate) struct Rows<const COLUMNS: usize, T = f64>(pub(crate) Vec<[T; COLUMNS]>);
 
 impl Rows<2> {

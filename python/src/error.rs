@@ -14,7 +14,9 @@ use centrode_mechanism::gear::GearPairError;
 use centrode_mechanism::gear::design::SpecError;
 use centrode_mechanism::gear::pitch::PitchError;
 use centrode_mechanism::linkage::{FourBarError, SixBarError};
-use centrode_mechanism::reverse::{AxisFault, GearDriveError, MachineError, PathError, SplitError};
+use centrode_mechanism::reverse::{
+    AxisFault, GearDriveError, MachineError, PathError, PoseError, SplitError,
+};
 use centrode_mechanism::shaft::ShaftError;
 use centrode_mechanism::three_arm::PusherError;
 use pyo3::exceptions::PyOSError;
@@ -79,6 +81,10 @@ raised! {
     NotWidened { _ => MechanismError("optimise"), }
     SearchError { _ => MechanismError("optimise"), }
     PathError { _ => DesignError("path"), }
+    PoseError {
+        PoseError::Path(_) | PoseError::Count { .. } | PoseError::OnePlace => DesignError("poses"),
+        _ => MechanismError("poses"),
+    }
     AxisFault { _ => MechanismError("axis"), }
     SplitError { _ => MechanismError("split"), }
     NoSoundTeeth { _ => MechanismError("pairs"), }

@@ -60,7 +60,7 @@ mod _centrode {
             from_transmission, limacon, lobed_ellipse, polar,
         },
         pitch::{_pitch_from_toml, Pitch},
-        reverse::{_drawn_path, Reversed, reverse},
+        reverse::{_drawn_path, Reversed, reverse, reverse_poses},
         shaft::BoxDrive,
         shaft::MovingBox,
         shaft::SpiralShaft,

@@ -4,8 +4,8 @@ use centrode_analysis::with_sound_teeth;
 use centrode_geometry::Point;
 use centrode_mechanism::machine::Piecewise;
 use centrode_mechanism::reverse::{
-    AxisFault, AxisMap, AxisRange, DrawnPath, PossibleAxis, ReversedMachine, Split, SplitKind,
-    TwoBar, WantedPath,
+    AxisFault, AxisMap, AxisRange, DrawnPath, KeyPose, KeyPoses, PossibleAxis, ReversedMachine,
+    Split, SplitKind, TwoBar, WantedPath,
 };
 use centrode_mechanism::transmission::Transmission as _;
 use numpy::{IntoPyArray, PyArrayMethods};
@@ -25,16 +25,14 @@ use crate::word::Word;
 /// Bytes read of a path's file: one more than it may have.
 pub(crate) const LARGEST: usize = WantedPath::LARGEST + 1;
 
-/// A machine made from the path wanted of its tip, by `reverse`.
+/// A machine made from the path wanted of its tip, by `reverse`, or from key poses, by `reverse_poses`.
 ///
 /// A carrier turns about `axis` and bears an arm; a train of gears whose sun stands still turns the arm once against it while
 /// it turns once.
 #[pyclass(frozen, module = "centrode")]
 #[derive(Debug)]
 pub(crate) struct Reversed {
-    /// Given, for copies.
-    points: Vec<Point>,
-    axis: Option<(f64, f64)>,
+    given: Given,
     bend_deg: f64,
     arms: u32,
     chain: TwoBar,
@@ -42,6 +40,22 @@ pub(crate) struct Reversed {
     split: Split,
     made: ReversedMachine,
     axes: OnceLock<AxisMap>,
+}
+
+/// Path or key poses from which a machine is made.
+#[derive(Debug)]
+enum Given {
+    Path {
+        points: Vec<Point>,
+        axis: Option<(f64, f64)>,
+    },
+    Poses {
+        rows: Rows<3>,
+        /// Direction of the clamp less that of the arm, rad.
+        clamp: f64,
+        /// How far each pose is missed, mm and rad.
+        misses: Vec<[f64; 2]>,
+    },
 }
 
 /// Makes a machine from the path wanted of its tip.
@@ -93,14 +107,74 @@ pub(crate) fn reverse(
                 chain
             }
         };
+        let given = Given::Path { points, axis };
+        Reversed::new(given, chain, axes, (kind, bend_deg, arms))
+    })?
+}
+
+/// Makes a machine whose arm takes key poses in order, the path between them free.
+///
+/// Args:
+///     poses: Three to seven places of the tip, mm, and directions of the clamp there, degrees, an array (N, 3).
+///     split: "powers", two different pairs, "mildest", two whose sharpest pitch curve is as blunt as can be, or "one-pair", one
+///         pair twice.
+///     bend_deg: Angle from the carrier's first leg, to the intermediate gear, to its second, degrees.
+///     arms: Number of arms.
+///
+/// Raises:
+///     DesignError: The poses are no three to seven different ones, or a value breaks a rule of its own.
+///     MechanismError: No carrier and arm meet the poses in order; the sentence tells how near the nearest comes.
+///
+/// >>> import centrode as ct
+/// >>> poses = [(249.08, 50.03, 31.93), (167.32, 64.88, 20.89), (104.40, 34.05, 42.55), (175.51, 14.69, 53.59)]
+/// >>> arms = ct.reverse_poses(poses, bend_deg=40)
+/// >>> arms.misses.shape, bool((arms.misses < 0.1).all())
+/// ((4, 2), True)
+#[pyfunction]
+#[pyo3(
+    signature = (poses, *, split="powers", bend_deg=60.0, arms=Count::Fits(1)),
+    text_signature = "(poses, *, split='powers', bend_deg=60.0, arms=1)"
+)]
+pub(crate) fn reverse_poses(
+    py: Python<'_>,
+    poses: Values,
+    split: &str,
+    bend_deg: f64,
+    arms: Count,
+) -> Answer<Reversed> {
+    let kind: SplitKind = Word::of("split", split)?;
+    let arms = arms.within("arms", 1, 12)?;
+    let rows: Rows<3> = Rows(poses.rows("poses")?);
+    wait(py, move || {
+        let pose = |&[x, y, direction]: &[f64; 3]| KeyPose {
+            point: Point::new(x, y),
+            direction: direction.to_radians(),
+        };
+        let poses: Vec<KeyPose> = rows.0.iter().map(pose).collect();
+        let found = KeyPoses::new(&poses)?;
+        let given = Given::Poses {
+            rows,
+            clamp: found.clamp,
+            misses: found.misses,
+        };
+        Reversed::new(given, found.chain, OnceLock::new(), (kind, bend_deg, arms))
+    })?
+}
+
+impl Reversed {
+    fn new(
+        given: Given,
+        chain: TwoBar,
+        axes: OnceLock<AxisMap>,
+        (kind, bend_deg, arms): (SplitKind, f64, u32),
+    ) -> Answer<Self> {
         let split = Split::new(&chain, kind, bend_deg.to_radians())?;
         let made = ReversedMachine::new(&chain, &split, arms, None)?;
         let law = chain
             .law()
             .map_err(centrode_mechanism::reverse::SplitError::from)?;
-        Ok(Reversed {
-            points,
-            axis,
+        Ok(Self {
+            given,
             bend_deg,
             arms,
             chain,
@@ -109,7 +183,7 @@ pub(crate) fn reverse(
             made,
             axes,
         })
-    })?
+    }
 }
 
 /// Points along the path of an SVG file's bytes.
@@ -182,6 +256,28 @@ impl Reversed {
     #[getter]
     fn tip_error(&self) -> f64 {
         self.made.tip_error.value
+    }
+
+    /// Direction of the clamp less that of the arm, degrees; None where a path was given.
+    #[getter]
+    fn clamp_deg(&self) -> Option<f64> {
+        match &self.given {
+            Given::Path { .. } => None,
+            Given::Poses { clamp, .. } => Some(clamp.to_degrees()),
+        }
+    }
+
+    /// How far the path is from each key pose, mm, and the clamp there from its direction, degrees: an array (N, 2); None where
+    /// a path was given.
+    #[getter]
+    fn misses(&self) -> Option<Rows<2>> {
+        match &self.given {
+            Given::Path { .. } => None,
+            Given::Poses { misses, .. } => {
+                let told = |[off, turned]: &[f64; 2]| [*off, turned.to_degrees()];
+                Some(Rows(misses.iter().map(told).collect()))
+            }
+        }
     }
 
     /// Turn of the planet against the carrier by the carrier's direction, rad, zero where the bars are stretched: of an array,
@@ -257,13 +353,19 @@ impl Reversed {
     }
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
-        let keywords = Keywords::new(py)
-            .with("path", Rows::of(&self.points))?
-            .with("axis", self.axis)?
+        let keywords = Keywords::new(py);
+        let (name, keywords) = match &self.given {
+            Given::Path { points, axis } => {
+                let keywords = keywords.with("path", Rows::of(points))?;
+                ("reverse", keywords.with("axis", *axis)?)
+            }
+            Given::Poses { rows, .. } => ("reverse_poses", keywords.with("poses", rows.clone())?),
+        };
+        let keywords = keywords
             .with("split", self.split())?
             .with("bend_deg", self.bend_deg)?
             .with("arms", self.arms)?;
-        by("reverse", keywords)
+        by(name, keywords)
     }
 
     fn __repr__(&self) -> String {

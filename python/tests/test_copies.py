@@ -66,6 +66,7 @@ def objects():
     report = arms.check()
     reverse = ct.reverse([(0, 0), (60, 70), (150, 150), (230, 215), (262, 262), (235, 300), (170, 330), (100, 330),
                           (40, 300), (-5, 250), (-30, 190), (-38, 130), (-30, 60)], bend_deg=40)  # fmt: skip
+    posed = ct.reverse_poses([(249.08, 50.03, 31.93), (167.32, 64.88, 20.89), (104.40, 34.05, 42.55)], bend_deg=40)
     press = ct.Machine.from_toml(PRESS)
     over = pair.driver.over_pins()
     housing = arms.solids(parts=["housing"])["housing"]
@@ -123,6 +124,7 @@ def objects():
         arms.arm_clearance(),
         ct.PairRemedy("full", 23, pair),
         reverse,
+        posed,
         reverse.axes,
         reverse.splits[0],
         ct.gear_drive(press, center_distance=130, direction_deg=100),

@@ -218,3 +218,23 @@ def test_a_drawing_that_gives_no_path_is_refused_with_its_file(tmp_path):
         ct.drawn_path(square, within=-1)
     with pytest.raises(FileNotFoundError):
         ct.drawn_path(tmp_path / "none.svg")
+
+
+POSES = [(249.08, 50.03, 31.93), (167.32, 64.88, 20.89), (104.40, 34.05, 42.55), (175.51, 14.69, 53.59)]
+
+
+def test_key_poses_are_met_by_the_machine_they_make():
+    made = ct.reverse_poses(POSES, bend_deg=40)
+    assert made.misses.shape == (4, 2)
+    assert (made.misses < 0.1).all()
+
+
+def test_as_many_key_poses_as_no_machine_meets_are_refused_by_number():
+    with pytest.raises(ct.DesignError, match="3 to 7"):
+        ct.reverse_poses(POSES[:2])
+    with pytest.raises(ct.DesignError, match=r"\(N, 3\)"):
+        ct.reverse_poses([(0, 0)] * 4)
+    with pytest.raises(ct.MechanismError, match="circle"):
+        ct.reverse_poses(
+            [(0, 0, 0), (0, 0, 180), (1000, 0, 0), (0, 1000, 90), (-1000, 0, 45), (0, -1000, 10), (500, 5, 77)]
+        )

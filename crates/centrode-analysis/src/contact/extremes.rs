@@ -3,22 +3,13 @@
 use centrode_geometry::{Extreme, bracketed_minimum_below};
 use centrode_mechanism::gear::GearPair;
 
-use super::{CARRIED, Contact, edges::edge_contacts, meshing::Meshing};
+use super::{CARRIED, Contact, meshing::Meshing};
 
 /// Angle, rad, of which a seat tells no more.
 const ROUNDING: f64 = 1e-12;
 
 /// Share of a figure by which no peak is told from another.
 const SAME: f64 = 1e-10;
-
-/// Samples a pitch among which the least clearance from a fillet is sought.
-const SAMPLES_PER_PITCH: u32 = 16;
-
-/// Multiple of the least clearance known within which a lesser one is looked for.
-const BEYOND: f64 = 4.0;
-
-/// Least such distance, modules.
-const LEAST: f64 = 0.02;
 
 /// Distance from an edge's contact, pitches, at which the contact that ends there is looked at.
 const BESIDE: f64 = 1e-10;
@@ -211,28 +202,21 @@ impl<'a> Search<'a> {
 
     /// Least clearance from a fillet.
     ///
-    /// A tip is near a fillet over a fourth of a pitch or less, so more samples are needed than of other figures. Flanks that
-    /// carry the motion leave the driven gear at the law's angle, where no seat has to be sought.
+    /// Flanks that carry the motion leave the driven gear at the law's angle, where an edge can be followed along a fillet; what
+    /// comes nearer than any edge is found among the samples.
     fn least_fillet_clearance(&mut self) -> Extreme {
-        let (contact, pair) = (self.contact, self.pair);
         let figure: Figure = |c, k| c.fillet_clearance[k];
-        let pitches = pair.driver().tooth_count() * pair.mean_ratio().0;
-        let is_fine = contact.input.len() > (pitches * SAMPLES_PER_PITCH) as usize;
-        if is_fine || !contact.carries() {
+        if !self.contact.carries() {
             return self.least_clearance(figure);
         }
-        let near = self.meshing().near;
-        let known = contact.fillet_clearance.iter().copied();
-        let known = known.fold(near, f64::min);
-        let within = (BEYOND * known).max(LEAST * pair.module()).min(near);
-        let at = |search: &mut Self, phi: f64| {
-            -search.meshing().fillet_clearance(phi, within).min(within)
-        };
-        let inputs = Contact::parameters(pair, SAMPLES_PER_PITCH);
-        let inputs: Vec<f64> = inputs.map(|t| pair.rolling().angle(t)).collect();
-        let values: Vec<f64> = inputs.iter().map(|&phi| at(self, phi)).collect();
-        let found = self.greatest_among((&inputs, &values), at, near * ROUNDING);
-        told(found, within)
+        let rounding = self.meshing().near * ROUNDING;
+        let sampled = self.contact.fillet_clearance.iter().copied();
+        let sampled = sampled.fold(f64::INFINITY, f64::min);
+        let edges = self.meshing().edges_to_fillets(sampled);
+        match edges {
+            Some(edges) if edges.value <= sampled + rounding => edges,
+            _ => self.least_clearance(figure),
+        }
     }
 
     /// Greatest sliding speed: flanks slide faster the farther they touch from the pitch point, so fastest where the contact
@@ -243,7 +227,7 @@ impl<'a> Search<'a> {
         let mut best = highest(&contact.input, &contact.sliding);
         let pair = self.pair;
         let meshing = self.meshing();
-        let edges = edge_contacts(pair, [&meshing.driver, &meshing.driven]);
+        let edges = meshing.edge_contacts();
         let beside = BESIDE * pair.cycle() / f64::from(pair.driver().tooth_count());
         for edge in edges {
             if edge.sliding <= best.value * (1.0 + SAME) {

@@ -7,6 +7,7 @@
 mod body;
 mod edges;
 mod extremes;
+mod fillets;
 mod hit;
 mod meeting;
 mod meshing;
@@ -19,6 +20,7 @@ mod tests;
 mod touch;
 mod tree;
 mod turning;
+mod walk;
 
 use centrode_mechanism::gear::design::Addendum;
 use centrode_mechanism::gear::{GearPair, Member, Tooth, ToothSide};

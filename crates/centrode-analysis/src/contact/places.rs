@@ -76,27 +76,14 @@ impl Meshing<'_> {
 
     /// Finds every point at which the outlines face each other nearer than the limit.
     pub(super) fn places(&mut self, candidates: &mut Candidates, pose: &Pose) -> Vec<Place> {
-        self.places_of(candidates, pose, |_| true)
-    }
-
-    /// Points of wanted kinds at which the outlines face each other.
-    fn places_of(
-        &mut self,
-        candidates: &mut Candidates,
-        pose: &Pose,
-        wanted: impl Fn(Kind) -> bool,
-    ) -> Vec<Place> {
         let (near, close, module) = (self.near, self.close, self.module);
         let mut out = Vec::with_capacity(16);
         let mut memory = Vec::with_capacity(16);
         let limit = |kind: Kind| if kind == Kind::Flanks { close } else { near };
         let mut keep =
             |touch: Option<Touch>, kind: Kind, parts: (usize, usize), corner: Option<Member>| {
-                // A penetration deeper than half a module is the far side of a tooth.
                 if let Some(touch) = touch
-                    && touch.gap < limit(kind)
-                    && touch.gap > -0.5 * module
-                    && self.real(&touch, pose)
+                    && self.in_reach(&touch, limit(kind), pose)
                 {
                     if corner.is_none() {
                         memory.push((parts.0, parts.1, touch.at));
@@ -115,8 +102,7 @@ impl Meshing<'_> {
             let i = stretch.part;
             let (a, b) = (&self.driver.parts[i], &self.driven.parts[j]);
             let kind = kind(a.role, b.role);
-            if wanted(kind)
-                && normals.opposes(&b.normals)
+            if normals.opposes(&b.normals)
                 && in_range(stretch, &self.stretches[j], &b.normals, limit(kind), module)
                 && self.driver.curvature(i).1 + self.driven.curvature(j).1 > 0.0
             {
@@ -132,7 +118,6 @@ impl Meshing<'_> {
                 apart.norm_squared() <= reach * reach
             };
             if let Some(corner) = &a.corner
-                && wanted(corner_kind(corner.on_flank, b.role))
                 && near_corner(corner, b, stretch.point[0] - b.center.coords)
             {
                 let normal = pose.turn_back(&corner.normals.direction);
@@ -147,7 +132,6 @@ impl Meshing<'_> {
                 }
             }
             if let Some(corner) = &b.corner
-                && wanted(corner_kind(corner.on_flank, a.role))
                 && near_corner(corner, a, corner.point.coords - stretch.center)
                 && corner.normals.opposes(normals)
             {
@@ -174,16 +158,10 @@ impl Meshing<'_> {
         out
     }
 
-    /// Least clearance from a fillet where the driven gear is at the law's angle, mm; infinite where nothing is within so many mm.
-    pub(super) fn fillet_clearance(&mut self, phi: f64, within: f64) -> f64 {
-        checkpoint();
-        let near = std::mem::replace(&mut self.near, within);
-        let (law, a) = (self.pair.driven_angle(phi), self.pair.center_distance());
-        let pose = Pose::new(phi, law, a);
-        let mut candidates = self.candidates(&pose);
-        let places = self.places_of(&mut candidates, &pose, |kind| kind == Kind::Fillet);
-        self.near = near;
-        gaps(&places, 0.0)[1]
+    /// Whether two points that face each other are nearer than a limit and neither lies on the far side of a tooth.
+    pub(super) fn in_reach(&self, touch: &Touch, limit: f64, pose: &Pose) -> bool {
+        let deepest = -0.5 * self.module;
+        touch.gap < limit && touch.gap > deepest && self.real(touch, pose)
     }
 
     /// Whether a deep penetration is real: the far sides of two neighbouring teeth face each other too, but neither

@@ -196,7 +196,7 @@ pub(super) fn driver_corner(corner: &Corner, b: &Part<'_>, pose: &Pose) -> Optio
 }
 
 /// Foot of the normal from a point to a part.
-fn foot(part: &Part<'_>, point: &Point) -> Option<(f64, SegmentJet)> {
+pub(super) fn foot(part: &Part<'_>, point: &Point) -> Option<(f64, SegmentJet)> {
     let chord = part.segment.end() - part.segment.start();
     let mut u = 2.0 * (point - part.segment.start()).dot(&chord) / chord.norm_squared() - 1.0;
     u = u.clamp(-1.0, 1.0);
@@ -209,7 +209,8 @@ fn foot(part: &Part<'_>, point: &Point) -> Option<(f64, SegmentJet)> {
             return None;
         }
         if step.abs() < SETTLED {
-            return (u.abs() <= 1.0 + 1e-6).then_some((u, jet));
+            let end = u + step;
+            return (end.abs() <= 1.0 + ON_PART).then_some((end, jet));
         }
         // Well outside and still going.
         if u.abs() > 1.25 && u * step > 0.0 {

@@ -97,6 +97,20 @@ impl Tree {
             }
     }
 
+    /// Every part found in runs that pass a test.
+    pub(super) fn each(&self, may: &impl Fn(&Run) -> bool, found: &mut impl FnMut(usize)) {
+        let mut open: Vec<Run> = self.root().into_iter().collect();
+        while let Some(run) = open.pop() {
+            if !may(&run) {
+                continue;
+            }
+            match run.single() {
+                Some(part) => found(part),
+                None => open.extend(self.halves(&run)),
+            }
+        }
+    }
+
     /// Depth to which the circle around some part lies within a circle; zero where none does.
     pub(super) fn deepest(&self, center: &Point, radius: f64) -> f64 {
         let mut deepest = 0.0;

@@ -1,0 +1,68 @@
+//! Steps along a cycle, and those at which a point of a gear passes the line of centres.
+
+use std::f64::consts::{PI, TAU};
+
+use centrode_geometry::{Point, checkpoint};
+use centrode_mechanism::gear::{GearPair, Member};
+
+use super::touch::Pose;
+
+/// Pitches on either side of its passage within which a point of a tooth is near the mate: for a pressure angle of 14.5 degrees
+/// the edge of a full tooth touches within 1.3 of them.
+const WITHIN: u32 = 2;
+
+/// Poses of a pair at its law, evenly over one cycle and a little more on either side.
+pub(super) struct Walk {
+    /// Driver angles, rad, ascending.
+    pub(super) inputs: Vec<f64>,
+    pub(super) poses: Vec<Pose>,
+    /// Direction of the other axis in each gear's own axes, ascending in the sense of `SENSES`.
+    directions: [Vec<f64>; 2],
+    /// Steps within which a point is near the mate.
+    beside: usize,
+}
+
+/// Whether the direction of the other axis turns on or back in a gear's axes.
+const SENSES: [f64; 2] = [1.0, -1.0];
+
+impl Walk {
+    pub(super) fn new(pair: &GearPair, steps_per_pitch: u32) -> Self {
+        let teeth = pair.driver().tooth_count() * pair.mean_ratio().0;
+        let (steps, beside) = (teeth * steps_per_pitch, WITHIN * steps_per_pitch);
+        let step = pair.cycle() / f64::from(steps);
+        let inputs = (0..=steps + 2 * beside).map(|k| (f64::from(k) - f64::from(beside)) * step);
+        let inputs: Vec<f64> = inputs.collect();
+        let turned: Vec<f64> = inputs.iter().map(|&phi| pair.driven_angle(phi)).collect();
+        let a = pair.center_distance();
+        let both = || inputs.iter().zip(&turned);
+        Self {
+            poses: both().map(|(&phi, &psi)| Pose::new(phi, psi, a)).collect(),
+            directions: [inputs.clone(), turned.iter().map(|psi| PI - psi).collect()],
+            beside: beside as usize,
+            inputs,
+        }
+    }
+
+    /// First and last step of every passage of a gear's point by the line of centres.
+    pub(super) fn passages(
+        &self,
+        member: Member,
+        point: Point,
+    ) -> impl Iterator<Item = (usize, usize)> {
+        let sense = SENSES[member as usize];
+        let directions = &self.directions[member as usize];
+        let last = directions.len() - 1;
+        let [first, end] = [directions[0], directions[last]].map(|d| sense * d);
+        let own = sense * point.y.atan2(point.x);
+        let start = own + TAU * ((first - own) / TAU).ceil();
+        (0_u32..)
+            .map(move |turn| start + TAU * f64::from(turn))
+            .take_while(move |&direction| direction < end)
+            .map(move |direction| {
+                checkpoint();
+                let middle = directions.partition_point(|d| sense * d < direction);
+                let low = middle.saturating_sub(self.beside);
+                (low, (middle + self.beside).min(last))
+            })
+    }
+}
