@@ -1,26 +1,30 @@
 """Parts of every shipped design, made again from their sheets alone and held against their solids."""
 
 import csv
+import ctypes
 import math
 import re
 from itertools import pairwise
 
+import pypdfium2
 import pytest
 import tomllib
 from conftest import ROOT
 from OCP.Bnd import Bnd_Box
-from OCP.BRepAdaptor import BRepAdaptor_Surface
+from OCP.BRepAdaptor import BRepAdaptor_Curve, BRepAdaptor_Surface
 from OCP.BRepBndLib import BRepBndLib
 from OCP.BRepGProp import BRepGProp
 from OCP.GeomAbs import GeomAbs_Cylinder
 from OCP.GProp import GProp_GProps
 from OCP.IFSelect import IFSelect_RetDone
 from OCP.STEPControl import STEPControl_Reader
-from OCP.TopAbs import TopAbs_FACE
+from OCP.TopAbs import TopAbs_EDGE, TopAbs_FACE
 from OCP.TopExp import TopExp_Explorer
 from OCP.TopoDS import TopoDS
 from reading import texts
-from shapely.geometry import Polygon
+from shapely import STRtree
+from shapely.affinity import rotate
+from shapely.geometry import Point, Polygon, box
 
 DESIGNS = sorted(path.stem for path in (ROOT / "tests" / "designs").glob("*.toml"))
 # Families whose parts are plates, gears and cams alone.
@@ -68,13 +72,37 @@ def test_every_part_with_files_has_a_drawing_a_solid_a_sheet_and_a_material(name
         assert row["material"], part
 
 
-@pytest.mark.parametrize("name", [name for name in DESIGNS if family(name) in FLAT])
+def named_files(folder):
+    """Files that any sheet of a folder names, with the sheet."""
+    for sheet in sorted(folder.glob("*-sheet*.dxf")):
+        for text in texts(sheet):
+            for file in re.findall(r"[\w-]+\.(?:dxf|step|csv|ngc)\b", text):
+                yield sheet.name, file
+
+
+@pytest.mark.parametrize("name", DESIGNS)
 def test_every_file_named_on_a_sheet_exists(name, exported):
     folder = exported(name)
-    for row in parts(folder):
-        for text in words(folder, row["files"]):
-            for file in re.findall(r"[\w-]+\.(?:dxf|step|csv)\b", text):
-                assert (folder / file).exists(), (row["files"], text)
+    named = list(named_files(folder))
+    assert named
+    assert [(sheet, file) for sheet, file in named if not (folder / file).exists()] == []
+
+
+@pytest.mark.parametrize("name", ["elliptic-pair-2018", "spiral-shaft-2018", "three-arm-2021", "feeder-2022"])
+def test_sheets_alone_bring_the_points_they_name_and_tell_their_rows_and_columns(name, shipped):
+    folder = shipped(name, "sheet")
+    told = 0
+    for sheet in sorted(folder.glob("*-sheet*.dxf")):
+        words = texts(sheet)
+        for at in (i for i, text in enumerate(words) if text == "Rows"):
+            told += 1
+            file, rows = words[at - 1], int(words[at + 1])
+            header, *points = (folder / file).read_text().splitlines()
+            assert len(points) == rows
+            assert words[at + 2] == "Columns"
+            columns = "".join(words[at + 3 :]).replace(" ", "")
+            assert columns.startswith(header), (sheet.name, columns)
+    assert told
 
 
 def contours(texts):
@@ -193,3 +221,195 @@ def test_a_plate_made_from_its_sheet_alone_is_its_solid(name, exported):
         # Corners are written to a micrometre.
         assert abs(properties.Mass() - area * thickness) < 1e-3 * length * thickness, part
     assert made
+
+
+TEMPLATES = ("gear-pair", "three-arm", "spiral-shaft", "moving-box", "feeder", "machine")
+
+
+def inked(page):
+    """Rectangles around the ink of each line of words on a page, mm, as PDFium draws it."""
+    for text in page.get_objects(filter=[pypdfium2.raw.FPDF_PAGEOBJ_TEXT]):
+        yield box(*(side * 25.4 / 72 for side in text.get_bounds()))
+
+
+def corners(page):
+    """Ends and control points of the lines on a page, mm; the sharp corners of wide strokes are not told by PDFium."""
+    for path in page.get_objects(filter=[pypdfium2.raw.FPDF_PAGEOBJ_PATH]):
+        matrix = path.get_matrix()
+        x, y = ctypes.c_float(), ctypes.c_float()
+        for index in range(pypdfium2.raw.FPDFPath_CountSegments(path.raw)):
+            segment = pypdfium2.raw.FPDFPath_GetPathSegment(path.raw, index)
+            assert pypdfium2.raw.FPDFPathSegment_GetPoint(segment, x, y)
+            yield tuple(side * 25.4 / 72 for side in matrix.on_point(x.value, y.value))
+
+
+@pytest.fixture(scope="module")
+def drawn(shipped, tmp_path_factory, run):
+    """Folder with the sheets of a shipped design, or of the template of a family."""
+
+    def folder(name):
+        if name not in TEMPLATES:
+            return shipped(name, "pdf")
+        to = tmp_path_factory.mktemp(name)
+        design = to / "new.toml"
+        design.write_text(run("new", name).stdout)
+        run("export", design, "--to", to, "--format", "pdf", check=False)
+        return to
+
+    return folder
+
+
+@pytest.mark.parametrize("name", [*DESIGNS, *TEMPLATES])
+def test_no_words_overlap_others_and_nothing_leaves_the_frame(name, drawn):
+    sheets = sorted(drawn(name).glob("*.pdf"))
+    assert sheets
+    for sheet in sheets:
+        for number, page in enumerate(pypdfium2.PdfDocument(sheet)):
+            where = (sheet.name, number + 1)
+            width, height = (side * 25.4 / 72 for side in page.get_size())
+            words = list(inked(page))
+            assert len(words) > 30, where
+            tree = STRtree(words)
+            one, other = tree.query(words, predicate="intersects")
+            assert [words[i].bounds for i, j in zip(one, other, strict=True) if i < j] == [], where
+            # ISO 5457: the frame lies 20 mm from the left edge and 10 mm from the others, with letters between.
+            fields = box(0, 0, width, height) - box(20, 10, width - 10, height - 10)
+            inside = box(20, 10, width - 10, height - 10)
+            for shape in words:
+                assert inside.contains(shape) or fields.contains(shape), (where, shape.bounds)
+            for x, y in corners(page):
+                assert -1e-3 < x < width + 1e-3, where
+                assert -1e-3 < y < height + 1e-3, where
+
+
+KEY_WIDTH = re.compile(rf"^({NUMBER}) (?:JS|N|P|D)\d+ \(")
+KEY_DEPTH = re.compile(rf"^({NUMBER}) \(\+0\.[12]00 / 0\)$")
+KEY_ANGLE = re.compile(rf"^Keyway at polar angle ({NUMBER})°")
+KEY_LINE = re.compile(rf"^Ø \+ depth ({NUMBER}) \(\+0\.[12]00 / 0\), at ({NUMBER})°$")
+
+
+def told_points(folder, texts):
+    """The contour in the file that a sheet names, its arcs as short chords."""
+    with (folder / texts[texts.index("File") + 1]).open(newline="") as lines:
+        table = list(csv.DictReader(lines))
+    assert len(table) == int(texts[texts.index("Rows") + 1])
+    table = [row for row in table if row.get("state") != "undercut"]
+    points = [(float(row["x_mm"]), float(row["y_mm"])) for row in table]
+    if "bulge" not in table[0]:
+        return Polygon(points)
+    found = []
+    for row, start, end in zip(table, points, points[1:] + points[:1], strict=True):
+        found.append(start)
+        if bulge := float(row["bulge"]):
+            # From the middle of the chord to the arc's centre.
+            along = (end[0] - start[0], end[1] - start[1])
+            off = (1 / bulge - bulge) / 4
+            center = ((start[0] + end[0]) / 2 - off * along[1], (start[1] + end[1]) / 2 + off * along[0])
+            radius, first = math.dist(center, start), math.atan2(start[1] - center[1], start[0] - center[0])
+            steps = 8 + math.ceil(abs(4 * math.atan(bulge)) / 2e-3)
+            turned = [first + 4 * math.atan(bulge) * i / steps for i in range(1, steps)]
+            found += [(center[0] + radius * math.cos(a), center[1] + radius * math.sin(a)) for a in turned]
+    return Polygon(found)
+
+
+def keyed(diameter, width, over, degrees):
+    """A bore with a keyway that reaches so far over its diameter."""
+    bore = Point(0, 0).buffer(diameter / 2, quad_segs=512)
+    slot = box(0, -width / 2, over - diameter / 2, width / 2)
+    return rotate(bore.union(slot), degrees, origin=(0, 0))
+
+
+def told_holes(texts):
+    """Holes of a gear or cam as its sheet tells them: by a detail of the bore, or by lines beside it."""
+    found = []
+    for index, text in enumerate(texts):
+        if not (hole := HOLE.match(text)) or text.startswith("Ø +") or "(" not in text:
+            continue
+        diameter, after = float(hole[1]), texts[index + 1 : index + 3]
+        if at := PLACE.match(after[0]):
+            found.append(Point(float(at[1]), float(at[2])).buffer(diameter / 2, quad_segs=512))
+        elif (key := KEYWAY.match(after[0])) and (line := KEY_LINE.match(after[1])):
+            found.append(keyed(diameter, float(key[1]), float(line[1]), float(line[2])))
+        else:
+            widths = [float(match[1]) for text in texts if (match := KEY_WIDTH.match(text))]
+            depths = [float(match[1]) for text in texts if (match := KEY_DEPTH.match(text))]
+            angles = [float(match[1]) for text in texts if (match := KEY_ANGLE.match(text))]
+            assert len(widths) == len(depths) <= 1
+            key = [widths[0], depths[0]] if widths else [0.0, diameter]
+            found.append(keyed(diameter, *key, (angles or [0.0])[0]))
+    return found
+
+
+def edge_points(shape, z):
+    """Places along the edges of a solid at a height."""
+    explorer = TopExp_Explorer(shape, TopAbs_EDGE)
+    while explorer.More():
+        curve = BRepAdaptor_Curve(TopoDS.Edge(explorer.Current()))
+        first, last = curve.FirstParameter(), curve.LastParameter()
+        points = [curve.Value(first + (last - first) * i / 8) for i in range(9)]
+        if all(abs(p.Z() - z) < 1e-6 for p in points):
+            yield from ((p.X(), p.Y()) for p in points)
+        explorer.Next()
+
+
+@pytest.mark.parametrize("name", DESIGNS)
+def test_a_gear_or_cam_made_from_its_sheet_and_the_file_it_names_is_its_solid(name, exported):
+    folder = exported(name)
+    made = 0
+    for row in parts(folder):
+        part = row["files"]
+        texts = words(folder, part)
+        if "Profile points" not in texts:
+            continue
+        made += 1
+        outline, holes = told_points(folder, texts), told_holes(texts)
+        flat = outline
+        for hole in holes:
+            assert outline.contains(hole)
+            flat = flat.difference(hole)
+        shape = solid(folder / f"{part}.step")
+        bounds = Bnd_Box()
+        BRepBndLib.AddOptimal_s(shape, bounds, True, False)
+        low, high = bounds.CornerMin().Z(), bounds.CornerMax().Z()
+        numbers = [float(text) for text in texts if re.fullmatch(r"\d+(\.\d+)?", text)]
+        assert min(abs(high - low - x) for x in numbers) < 6e-4, part
+        points = list(edge_points(shape, low))
+        assert len(points) > 100
+        # Points of a cam stand half a degree apart; all others are within a micrometre of the contour.
+        far = max(flat.boundary.distance(Point(p)) for p in points)
+        assert far < 5e-3, (part, far)
+        properties = GProp_GProps()
+        BRepGProp.VolumeProperties_s(shape, properties)
+        assert abs(properties.Mass() / (high - low) - flat.area) < 2e-3 * flat.length, part
+    assert made or family(name) in ("machine", "spiral-shaft"), name
+
+
+@pytest.mark.parametrize("name", ["spiral-shaft-2018", "moving-box-2018"])
+def test_the_turned_shaft_has_the_diameters_and_lengths_of_its_sheet(name, exported):
+    folder = exported(name)
+    texts = words(folder, "shaft")
+    journal = next(float(match[1]) for text in texts if (match := re.match(rf"^Ø({NUMBER}) h6 \(", text)))
+    thick = next(float(match[1]) for text in texts if (match := re.fullmatch(rf"Ø({NUMBER})", text)))
+    shape = solid(folder / "shaft.step")
+    radii = {round(radius, 6) for radius in turned_radii(shape)}
+    assert {journal / 2, thick / 2} <= radii
+    bounds = Bnd_Box()
+    BRepBndLib.AddOptimal_s(shape, bounds, True, False)
+    low, high = bounds.CornerMin(), bounds.CornerMax()
+    longest = max(high.X() - low.X(), high.Y() - low.Y(), high.Z() - low.Z())
+    lengths = [float(text) for text in texts if re.fullmatch(r"\d+(\.\d+)?", text)]
+    assert min(abs(longest - x) for x in lengths) < 6e-4
+    # Two journals and what lies between them are the whole length.
+    (short,) = {x for x in lengths if lengths.count(x) >= 2 and any(abs(longest - 2 * x - y) < 2e-3 for y in lengths)}
+    assert short > 0
+    assert any(text.startswith("Centre holes at both ends: ISO 6411-A") for text in texts)
+
+
+def turned_radii(shape):
+    """Radii of the round faces of a solid."""
+    explorer = TopExp_Explorer(shape, TopAbs_FACE)
+    while explorer.More():
+        surface = BRepAdaptor_Surface(TopoDS.Face(explorer.Current()))
+        if surface.GetType() == GeomAbs_Cylinder:
+            yield surface.Cylinder().Radius()
+        explorer.Next()

@@ -84,6 +84,11 @@ impl<'a> Package<'a> {
         formats.iter().any(|format| self.formats.contains(format))
     }
 
+    /// Name that the files of a part begin with.
+    pub(crate) fn name_of(&self, part: &str) -> String {
+        format!("{}{part}", self.prefix)
+    }
+
     /// The design and one of its parts in words.
     pub(crate) fn titled(&self, part: &str) -> String {
         format!("{}: {part}", self.design)
@@ -91,7 +96,7 @@ impl<'a> Package<'a> {
 
     /// Whether a part is asked for, and in one of these formats.
     fn takes(&mut self, part: &str, formats: &[Format]) -> bool {
-        let part = format!("{}{part}", self.prefix);
+        let part = self.name_of(part);
         let wanted = self.options.wants(&part) && self.wants(formats);
         if !self.known.contains(&part) {
             self.known.push(part);
@@ -101,7 +106,7 @@ impl<'a> Package<'a> {
 
     /// Adds a file.
     pub(crate) fn file(&mut self, name: &str, bytes: Vec<u8>) -> Result<(), ExportError> {
-        Ok(self.bundle.add(&format!("{}{name}", self.prefix), bytes)?)
+        Ok(self.bundle.add(&self.name_of(name), bytes)?)
     }
 
     /// Adds the STL file of a mesh unless a file of its name is there already.
@@ -110,7 +115,7 @@ impl<'a> Package<'a> {
         name: &str,
         make: impl FnOnce() -> Result<Mesh, ExportError>,
     ) -> Result<(), ExportError> {
-        let file = format!("{}{name}", self.prefix);
+        let file = self.name_of(name);
         if self.bundle.files().any(|(known, _)| known == file) {
             return Ok(());
         }
@@ -192,7 +197,7 @@ impl<'a> Package<'a> {
         if self.wants(&[Format::Pdf]) {
             let bytes = pdf::write(&sheets, &self.titled(part), tolerance)?;
             self.file(&format!("{part}.pdf"), bytes)?;
-            self.book.push((format!("{}{part}", self.prefix), sheets));
+            self.book.push((self.name_of(part), sheets));
         }
         Ok(())
     }
@@ -212,7 +217,7 @@ impl<'a> Package<'a> {
         }
         let solid = make()?;
         if self.options.keep_solids {
-            self.bundle.keep(&format!("{}{part}", self.prefix), solid);
+            self.bundle.keep(&self.name_of(part), solid);
             return Ok(());
         }
         self.exact(part, || Ok(step::write(&solid, part, title)))?;
@@ -280,7 +285,27 @@ impl<'a> Package<'a> {
         name: &str,
         columns: impl FnOnce() -> Vec<Column>,
     ) -> Result<(), ExportError> {
-        if !self.takes(part, &[Format::Csv]) {
+        self.columns([part, name], &[Format::Csv], columns)
+    }
+
+    /// Offers points that the sheets of a part name: they go with those sheets, too.
+    pub(crate) fn points(
+        &mut self,
+        part: &str,
+        name: &str,
+        columns: impl FnOnce() -> Vec<Column>,
+    ) -> Result<(), ExportError> {
+        let [sheet, pdf] = SHEETS;
+        self.columns([part, name], &[Format::Csv, sheet, pdf], columns)
+    }
+
+    fn columns(
+        &mut self,
+        [part, name]: [&str; 2],
+        formats: &[Format],
+        columns: impl FnOnce() -> Vec<Column>,
+    ) -> Result<(), ExportError> {
+        if !self.takes(part, formats) {
             return Ok(());
         }
         self.file(&format!("{name}.csv"), csv::write(&columns())?)

@@ -68,7 +68,7 @@ pub(crate) fn add(
     package.solid(name, title, || {
         solid(cam).map_err(ExportError::no_solid("cam"))
     })?;
-    package.table(name, name, || columns(cam, ROWS))
+    package.points(name, name, || columns(cam, ROWS))
 }
 
 /// The drawing of a cam, with exact contours.

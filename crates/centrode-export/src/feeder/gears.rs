@@ -1,12 +1,15 @@
 use centrode_geometry::{Point, Segment, Tolerance};
 use centrode_mechanism::feeder::{Feeder, GearBody};
-use centrode_mechanism::gear::{Gear, IntermittentPair};
+use centrode_mechanism::gear::{IntermittentPair, Member};
+use centrode_mechanism::machine::Datum;
 use nalgebra::Isometry2;
 
+use super::pins::pins;
 use crate::csv::Column;
 use crate::drawing::{Anchor, CENTER, Color, Drawing, HOLE, LineType, PROFILE, Shape};
+use crate::gear_pair::{measured, over_pins};
 use crate::plate::{Hole, Plate};
-use crate::sheet::{Table, capital, number};
+use crate::sheet::{Table, broken, capital, number};
 
 const CAM: &str = "CAM";
 
@@ -19,7 +22,6 @@ pub(super) const PINS: &str = "m6";
 pub(super) fn parts(feeder: &Feeder, gears: &IntermittentPair, tolerance: Tolerance) -> Vec<Plate> {
     let pair = gears.pair();
     let (driver, driven) = (pair.driver(), pair.driven());
-    let table = |gear: &Gear, teeth: String| data(feeder, gears, gear, teeth);
     let part = |body: GearBody| {
         let name = body.name;
         let is_cam = body.is_cam();
@@ -29,7 +31,6 @@ pub(super) fn parts(feeder: &Feeder, gears: &IntermittentPair, tolerance: Tolera
             body.bore,
             driver.body(),
         )
-        .noted(&format!("Points of the contour: {name}.csv."))
         .noted("Drawn as the motion begins: on the driver x points to the")
         .noted("driven gear's axis, on the driven gear away from the driver's.")
         .noted("Keyed along x: gears and cams stand right on the shaft.");
@@ -52,36 +53,53 @@ pub(super) fn parts(feeder: &Feeder, gears: &IntermittentPair, tolerance: Tolera
         format!("{} of {}", gears.teeth(), driver.tooth_count()),
         driven.tooth_count().to_string(),
     ];
-    for ((part, gear), teeth) in all.iter_mut().zip([driver, driven]).zip(teeth) {
-        part.tables = vec![table(gear, teeth)];
+    let members = [Member::Driver, Member::Driven];
+    for ((part, member), teeth) in all.iter_mut().zip(members).zip(teeth) {
+        let pins = pins(gears, member, 0.5 * feeder.design().gears.entry);
+        let measured = (0..)
+            .zip(&pins.pins)
+            .find_map(|(k, pin)| Some((k, pin.ok()?.center)));
+        if let Some((space, at)) = measured {
+            let angle = number(at.y.atan2(at.x).to_degrees(), 4);
+            part.notes.push(format!(
+                "Timing: middle of space {space} at {angle}° from the keyway."
+            ));
+        }
+        part.tables = vec![data(feeder, gears, member, &teeth), over_pins(&pins, None)];
+    }
+    for part in &mut all {
+        let file = format!("{}.csv", part.name);
+        let points = Table::of_file("Profile points", &file, &columns(part));
+        part.tables.push(points);
     }
     all
 }
 
 /// The data of a gear.
-fn data(feeder: &Feeder, gears: &IntermittentPair, gear: &Gear, teeth: String) -> Table {
+fn data(feeder: &Feeder, gears: &IntermittentPair, member: Member, teeth: &str) -> Table {
     let (pair, spec) = (gears.pair(), &feeder.design().gears);
     let tool = &pair.teeth().tool;
-    let pitch = gear.pitch_length() / std::f64::consts::PI;
-    let row = |name: &str, value: String| vec![name.to_owned(), value];
+    let pitch = pair.gear(member).pitch_length() / std::f64::consts::PI;
+    let angle = format!("{}°", number(tool.pressure_angle.to_degrees(), 4));
+    let mut data = vec![
+        Datum::new("Teeth, of pitches all round", "", teeth),
+        Datum::new("Module", "m", number(pair.module(), 4)),
+        Datum::new("Pressure angle", "α", angle),
+        Datum::new("Pitch diameter", "d", number(pitch, 4)),
+        Datum::new("Normal backlash", "jn", number(spec.backlash, 4)),
+        Datum::new("Radius of locking arc", "", number(gears.lock_radius(), 4)),
+        Datum::new("Play of lock", "", number(spec.lock_play, 4)),
+        Datum::new("Centre distance", "a", number(gears.center_distance(), 4)),
+    ];
+    data.extend(measured(pair, member));
+    let rows = data
+        .iter()
+        .flat_map(|datum| broken(&datum.name, &datum.symbol, &datum.value));
     Table {
         title: "Gear data".into(),
-        headings: Vec::new(),
-        columns: vec![Anchor::Left, Anchor::Right],
-        rows: vec![
-            row("Teeth, of pitches all round", teeth),
-            row("Module", number(pair.module(), 4)),
-            row(
-                "Pressure angle",
-                format!("{}°", number(tool.pressure_angle.to_degrees(), 4)),
-            ),
-            row("Pitch diameter", number(pitch, 4)),
-            row("Normal backlash", number(spec.backlash, 4)),
-            row("Radius of locking arc", number(gears.lock_radius(), 4)),
-            row("Play of lock", number(spec.lock_play, 4)),
-            row("Centre distance", number(gears.center_distance(), 4)),
-        ],
-        notes: Vec::new(),
+        columns: vec![Anchor::Left; 3],
+        rows: rows.collect(),
+        ..Table::default()
     }
 }
 

@@ -5,6 +5,7 @@ mod curves;
 mod figures;
 mod gears;
 mod links;
+mod pins;
 mod plates;
 
 use crate::package::title_or_name;
@@ -93,7 +94,7 @@ fn add_gears(package: &mut Package<'_>, feeder: &Feeder) -> Result<(), ExportErr
     let parts = gears::parts(feeder, &pair, package.tolerance());
     for part in &parts {
         part.add(package, &feeder.design().drawing)?;
-        package.table(&part.name, &part.name, || gears::columns(part))?;
+        package.points(&part.name, &part.name, || gears::columns(part))?;
     }
     package.drawing("gears", |_| Ok(gears::assembly(&pair, &parts)))
 }

@@ -31,6 +31,7 @@ pub(super) fn made(feeder: &Feeder, plate: &Plate) -> plate::Plate {
         Hole {
             label: joint.name.into(),
             off,
+            is_seat: !bored.notes.is_empty(),
             ..bored
         }
     });

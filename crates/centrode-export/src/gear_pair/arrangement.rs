@@ -171,15 +171,27 @@ pub(crate) fn of_both(pair: &GearPair) -> Vec<Datum> {
             number(pair.backlash(), 4),
         ),
     ];
-    let Some(deviations) = pair.design().teeth.thickness_deviations else {
-        return data;
-    };
     let (sin, cos) = pair.teeth().tool.pressure_angle.sin_cos();
     // Both gears are thinner, each by one deviation.
-    let play = deviations.map(|deviation| pair.backlash() - 2.0 * deviation * cos);
+    let written = pair.design().teeth.thickness_deviations;
+    let play = written
+        .unwrap_or_default()
+        .map(|deviation| pair.backlash() - 2.0 * deviation * cos);
     // Nowhere takes a shorter distance more backlash than twice its share across a flank where the pitch curves are square to
     // the line of centres.
     let shorter = play[0] / (2.0 * sin);
+    let half = number(0.5 * shorter, 3);
+    if shorter > 0.0 {
+        let within = format!("{} ±{half}", number(a, 4));
+        data.push(Datum::new(
+            "Centre distance, by half the backlash",
+            "a",
+            within,
+        ));
+    }
+    let Some(deviations) = written else {
+        return data;
+    };
     let [upper, lower] = deviations.map(|deviation| number(deviation, 4));
     data.extend([
         Datum::new(

@@ -1,5 +1,6 @@
 //! The files of a gear pair.
 
+mod accuracy;
 mod arrangement;
 mod curves;
 mod drawn;
@@ -11,6 +12,7 @@ mod sheets;
 mod solid;
 
 use crate::{Bundle, ExportError, Format, Options, Package};
+pub(crate) use accuracy::flank_tolerances;
 pub use arrangement::contact_data;
 pub(crate) use arrangement::{list, list_keys, list_pair, list_shafts, of_both};
 use centrode_mechanism::gear::{GearPair, GearPairError, Member};
@@ -18,7 +20,7 @@ pub use curves::curves;
 use drawn::Drawn;
 pub use links::{drawn, machine};
 pub(crate) use links::{embody, lines, lines_within, teeth};
-pub(crate) use sheets::Label;
+pub(crate) use sheets::{Label, measured, over_pins};
 pub use sheets::{Subject, sheets};
 pub use solid::{mesh, solid};
 
@@ -106,15 +108,16 @@ fn add(
     let Some(member) = subject.member() else {
         return Ok(());
     };
+    let file = package.name_of(name);
     package.sheets(name, || {
-        sheets::labelled(pair, subject, label, &sheet, tolerance)
+        sheets::labelled(pair, subject, (label, &file), &sheet, tolerance)
     })?;
     let title = match label {
         None => package.titled(&format!("{name} gear")),
         Some(_) => package.titled(name),
     };
     package.solid(name, &title, || solid(pair, member))?;
-    package.table(name, name, || {
+    package.points(name, name, || {
         outline::columns(pair.gear(member), tolerance)
     })?;
     let limits = pair.pin_limits(member).map_err(ExportError::missing)?;

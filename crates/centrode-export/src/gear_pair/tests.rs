@@ -73,10 +73,8 @@ fn every_format_is_there_and_the_same_twice() {
     let expected = [
         "driver.dxf",
         "driver.svg",
-        "driver-sheet-1.dxf",
-        "driver-sheet-1.svg",
-        "driver-sheet-2.dxf",
-        "driver-sheet-2.svg",
+        "driver-sheet.dxf",
+        "driver-sheet.svg",
         "driver.pdf",
         "driver.step",
         "driver.stl",

@@ -18,6 +18,8 @@ pub(crate) struct Hole {
     pub(crate) fit: String,
     /// How far its place may be off either way, mm; 0 where general tolerances hold.
     pub(crate) off: f64,
+    /// Whether it is the seat of a shaft.
+    pub(crate) is_seat: bool,
     /// Further lines beside it.
     pub(crate) notes: Vec<String>,
 }
@@ -27,6 +29,7 @@ impl Hole {
     pub(crate) fn bore(outline: Outline, body: &BodySpec) -> Self {
         let mut bore = Self {
             fit: body.bore_fit.clone(),
+            is_seat: true,
             ..Self::from(outline)
         };
         if let Some(key) = body.keyway {
@@ -48,6 +51,7 @@ impl From<Outline> for Hole {
             label: String::new(),
             fit: String::new(),
             off: 0.0,
+            is_seat: false,
             notes: Vec::new(),
         }
     }
@@ -65,6 +69,18 @@ pub(super) enum HoleKind {
 }
 
 impl Hole {
+    /// Middle of a round hole, or of the bore of a seat with a keyway.
+    pub(super) fn axis(&self) -> Option<Point> {
+        if let HoleKind::Round(center, _) = self.kind() {
+            return Some(center);
+        }
+        let mut sides = self.outline.segments().iter().filter(|_| self.is_seat);
+        sides.find_map(|side| match side {
+            Segment::Arc(arc) => Some(arc.center()),
+            _ => None,
+        })
+    }
+
     pub(super) fn kind(&self) -> HoleKind {
         if let Some((center, radius)) = circle(&self.outline) {
             return HoleKind::Round(center, radius);

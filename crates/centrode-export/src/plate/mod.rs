@@ -1,5 +1,6 @@
 //! Parts of one thickness: cutting drawing, sheets, solid.
 
+mod geometrical;
 mod hole;
 mod sheet;
 

@@ -4,6 +4,7 @@ use centrode_mechanism::design::{DrawingSpec, Projection, SheetSize};
 use super::{Hole, HoleKind, Plate};
 use crate::SheetOptions;
 use crate::drawing::{Anchor, Shape};
+use crate::sheet::geometrical::{Characteristic, Frame, in_words};
 use crate::sheet::{
     Draft, Pen, Piece, Scale, Sheet, SheetError, Table, TitleBlock, compose, fixed, number,
     view_letters,
@@ -71,6 +72,11 @@ impl Plate {
             }
             false => "Places x, y from an origin beside the part, x to the right.".into(),
         });
+        let frames = self.frames();
+        let mut frames = frames.iter().flatten();
+        if frames.any(|frame| frame.characteristic == Characteristic::Position) {
+            lines.push("Places of holes with a position tolerance are exact.".into());
+        }
         lines.extend(self.notes.iter().cloned());
         lines
     }
@@ -146,10 +152,15 @@ impl Plate {
             p(left, low - 12.0),
             &number(self.thickness, PLACES),
         );
+        if let Some(frame) = self.face_runout() {
+            let tip = p(left, high - 0.2 * (high - low));
+            let at = p(left - 4.0, (high + 8.0).max(whole.max.y + 4.0));
+            draft.pointed_frame(tip, at, &frame, "both faces");
+        }
     }
 
     /// Label of a hole: its own, or a letter where there are many.
-    fn label(&self, index: usize) -> String {
+    pub(super) fn label(&self, index: usize) -> String {
         let own = &self.holes[index].label;
         if !own.is_empty() || self.holes.len() <= CALLED_OUT {
             return own.clone();
@@ -176,6 +187,7 @@ impl Plate {
 
     /// Holes by their size and place.
     fn callouts(&self, k: f64) -> Vec<(Point, Vec<String>)> {
+        let geometrical = self.geometrical();
         let holes = self.holes.iter().enumerate();
         let Bounds { min, max } = self.outline.bounds();
         let middle = 0.5 * (min.x + max.x);
@@ -194,6 +206,7 @@ impl Plate {
             let side = Vector::new(outwards * 0.8, 0.6) * radius;
             let lines = [hole.size()].into_iter().chain(hole.place());
             let lines = lines.chain(hole.notes.iter().cloned());
+            let lines = lines.chain(geometrical[index].iter().cloned());
             let mut words: Vec<String> = lines.filter(|line| !line.is_empty()).collect();
             let label = self.label(index);
             match words.first_mut() {
@@ -206,16 +219,31 @@ impl Plate {
         holes.filter_map(note).collect()
     }
 
+    /// Lines of the frames of each hole.
+    fn geometrical(&self) -> Vec<Vec<String>> {
+        let own = self.frames().into_iter();
+        let mut lines: Vec<Vec<String>> = own
+            .map(|frame| frame.iter().map(Frame::line).collect())
+            .collect();
+        if let Some((index, datum)) = self.second_datum() {
+            lines[index].push(datum.line());
+        }
+        lines
+    }
+
     /// Places and sizes of many holes.
     fn hole_table(&self) -> Option<Table> {
         if self.holes.len() <= CALLED_OUT {
             return None;
         }
+        let geometrical = self.geometrical();
         let holes = self.holes.iter().enumerate();
         let row = |(index, hole): (usize, &Hole)| {
             let mut cells = vec![self.label(index), hole.size()];
             let lines = hole.place().into_iter().chain(hole.notes.iter().cloned());
-            cells.push(lines.collect::<Vec<_>>().join(", "));
+            let lines = lines.chain(geometrical[index].iter().cloned());
+            let words = lines.map(|line| in_words(&line).to_owned());
+            cells.push(words.collect::<Vec<_>>().join(", "));
             cells
         };
         let named = holes.filter(|(_, hole)| !hole.is_by_contour());
@@ -324,12 +352,8 @@ impl Hole {
 
     /// Place in the plate's axes, in words.
     fn place(&self) -> Vec<String> {
-        let off = match self.off > 0.0 {
-            true => format!(" ±{}", number(self.off, PLACES)),
-            false => String::new(),
-        };
         match self.kind() {
-            HoleKind::Round(center, _) => vec![format!("at {}{off}", written(center))],
+            HoleKind::Round(center, _) => vec![format!("at {}", written(center))],
             HoleKind::Slot([from, to], radius) => vec![format!(
                 "R{} about {} and {}",
                 number(radius, PLACES + 1),

@@ -121,7 +121,7 @@ fn all(
     package.mesh("shaft", &title, |tolerance| Ok(shaft.mesh(tolerance)?))?;
     let title = package.titled("slider");
     package.solid("slider", &title, || slider_solid(shaft))?;
-    package.table("groove", "lead-table", || tables::lead(shaft))?;
+    package.points("shaft", "lead-table", || tables::lead(shaft))?;
     package.table("shaft", "schedule", || tables::schedule(&machine.schedule))?;
     package.table("groove", "tool-path", || {
         tables::tool_path(shaft, tolerance)

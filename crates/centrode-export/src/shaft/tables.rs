@@ -4,10 +4,10 @@ use centrode_mechanism::shaft::{Schedule, SpiralShaft};
 use centrode_mechanism::transmission::Transmission;
 use std::f64::consts::PI;
 
-/// Step of the lead table, rad: 5 deg.
-const LEAD_STEP: f64 = PI / 36.0;
+/// Step of the lead table, rad: 1 deg.
+const LEAD_STEP: f64 = PI / 180.0;
 
-/// Place, speed and lead angle every 5 deg over the whole cycle.
+/// Place, speed and lead angle every degree over the whole cycle.
 pub(super) fn lead(shaft: &SpiralShaft) -> Vec<Column> {
     let groove = shaft.groove();
     let steps = groove.steps(LEAD_STEP);

@@ -77,12 +77,12 @@ fn a_tolerance_that_leaves_no_groove_is_refused() {
 }
 
 #[test]
-fn the_lead_table_has_a_row_every_five_degrees_of_28_turns() {
+fn the_lead_table_has_a_row_every_degree_of_28_turns() {
     let table = text(
         &files(&shaft(14), &[Format::Csv], &options()).expect("made"),
         "lead-table.csv",
     );
-    assert_eq!(table.lines().count(), 1 + 28 * 72 + 1);
+    assert_eq!(table.lines().count(), 1 + 28 * 360 + 1);
     let last = table.lines().last().expect("rows");
     let cells: Vec<f64> = last
         .split(',')

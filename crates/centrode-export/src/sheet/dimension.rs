@@ -1,6 +1,6 @@
 //! Dimensions and notes with leaders, ISO 129-1.
 
-use super::{Draft, Pen, draft::ARROW, lettering, steady};
+use super::{Draft, Pen, draft::ARROW, geometrical, lettering, steady};
 use crate::drawing::{Anchor, Dimension, Object, Shape};
 use centrode_geometry::{Arc, Bounds, Point, Vector};
 
@@ -98,7 +98,7 @@ impl Draft {
         self.line(Pen::Dimension, tip, elbow);
         let width = words
             .iter()
-            .map(|w| lettering::width(w, self.letters))
+            .map(|w| geometrical::width(w, self.letters))
             .fold(0.0, f64::max);
         let side = if elbow.x >= tip.x { 1.0 } else { -1.0 };
         let end = elbow + Vector::new(side * (width + 2.0), 0.0);
@@ -111,7 +111,7 @@ impl Draft {
                 -(self.letters + LIFT + 0.2) - (self.letters + 2.0) * (row as f64 - 1.0)
             };
             let at = Point::new(left, elbow.y + y);
-            self.text(at, self.letters, line, Anchor::Left);
+            self.line_of_note(at, line);
         }
     }
 

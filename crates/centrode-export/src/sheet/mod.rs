@@ -4,6 +4,7 @@ mod dimension;
 mod draft;
 pub(crate) mod fit;
 mod frame;
+pub(crate) mod geometrical;
 mod hatch;
 mod layout;
 pub(crate) mod lettering;

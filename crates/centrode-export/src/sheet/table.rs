@@ -1,4 +1,5 @@
 use super::{Draft, Pen, lettering};
+use crate::csv::Column;
 use crate::drawing::Anchor;
 use centrode_geometry::{Bounds, Point};
 use std::ops::Range;
@@ -30,6 +31,28 @@ pub struct Table {
 }
 
 impl Table {
+    /// Table that names a CSV file of points with the number of its rows and its columns.
+    pub(crate) fn of_file(title: &str, file: &str, columns: &[Column]) -> Self {
+        let rows = columns.first().map_or(0, Column::len);
+        let headings: Vec<&str> = columns.iter().map(|c| c.heading.as_str()).collect();
+        let lines = [
+            ("File", file.to_owned()),
+            ("Rows", rows.to_string()),
+            ("Columns", headings.join(", ")),
+        ];
+        let mut rows: Vec<Vec<String>> = Vec::new();
+        for (name, value) in lines {
+            rows.extend(broken(name, "", &value));
+        }
+        Self {
+            title: title.to_owned(),
+            columns: vec![Anchor::Left; 3],
+            rows,
+            ..Self::default()
+        }
+        .filled()
+    }
+
     /// Table without the columns in which no row says anything.
     pub(crate) fn filled(mut self) -> Self {
         let said = |k: usize| {

@@ -82,7 +82,7 @@ pub fn files(
         }
     }
     let cam = machine.pusher.cam();
-    package.table(Part::Cam.name(), "cam", || cam::columns(cam, cam::ROWS))?;
+    package.points(Part::Cam.name(), "cam", || cam::columns(cam, cam::ROWS))?;
     package.drawing(Part::Assembly.name(), |_| {
         Ok(assembly::drawing(&machine, tolerance))
     })?;

@@ -7,7 +7,7 @@ use std::process::{Command, Stdio};
 
 use crate::{centrode, fed, shipped, text};
 
-const ALL: [&str; 40] = [
+const ALL: [&str; 36] = [
     "assembly-sheet.dxf",
     "assembly-sheet.svg",
     "assembly.3mf",
@@ -16,10 +16,8 @@ const ALL: [&str; 40] = [
     "assembly.step",
     "assembly.svg",
     "driven-pins.csv",
-    "driven-sheet-1.dxf",
-    "driven-sheet-1.svg",
-    "driven-sheet-2.dxf",
-    "driven-sheet-2.svg",
+    "driven-sheet.dxf",
+    "driven-sheet.svg",
     "driven.3mf",
     "driven.csv",
     "driven.dxf",
@@ -28,10 +26,8 @@ const ALL: [&str; 40] = [
     "driven.stl",
     "driven.svg",
     "driver-pins.csv",
-    "driver-sheet-1.dxf",
-    "driver-sheet-1.svg",
-    "driver-sheet-2.dxf",
-    "driver-sheet-2.svg",
+    "driver-sheet.dxf",
+    "driver-sheet.svg",
     "driver.3mf",
     "driver.csv",
     "driver.dxf",

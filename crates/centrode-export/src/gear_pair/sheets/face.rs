@@ -3,7 +3,7 @@
 use super::part::{Extremes, Part, degrees};
 use crate::{
     drawing::{Anchor, Shape},
-    sheet::{Draft, Pen, Scale, fit, lettering, number},
+    sheet::{Draft, Pen, Scale, fit, geometrical::Frame, lettering, number},
 };
 use centrode_geometry::{Bounds, Outline, Point, Vector};
 use centrode_mechanism::design::Projection;
@@ -91,11 +91,12 @@ fn notes(part: &Part<'_>, k: f64) -> Vec<(Point, Vec<String>)> {
     }
     let body = part.gear.body();
     if body.bore > 0.0 {
+        let datum = Frame::datum('A').line();
         let at = Vector::new(-0.6, 0.8) * (0.5 * body.bore * k);
         let words = if body.keyway.is_some() {
             vec!["detail B".to_owned()]
         } else {
-            vec![fit::bore(body.bore, &body.bore_fit)]
+            vec![fit::bore(body.bore, &body.bore_fit), datum]
         };
         notes.push((Point::from(at), words));
     }
@@ -214,6 +215,12 @@ fn section(part: &Part<'_>, scale: Scale) -> Draft {
     let beside = p(right_tip + 10.0, 0.0);
     let edges = [p(right_tip, 0.0), p(right_tip, width)];
     draft.dimension(edges, Vector::y(), beside, &number(body.width, 3));
+    let face = part.tips().map(|tips| 2.0 * tips.greatest.coords.norm());
+    let runout = face.filter(|_| half > 0.0);
+    if let Some(frame) = runout.and_then(|face| Frame::runout(face, "A")) {
+        let tip = p(0.5 * (left_root - half), 0.0);
+        draft.pointed_frame(tip, tip + Vector::new(4.0, -9.0), &frame, "both faces");
+    }
     let title = p(0.0, width + 7.0);
     draft.text(title, 5.0, "A-A", Anchor::Middle);
     draft
@@ -248,7 +255,8 @@ pub(super) fn bore(part: &Part<'_>) -> Option<Draft> {
     draft.dimension([p(top, -wide), p(top, wide)], Vector::y(), beside, &width);
     let tip = p(-0.5 * half, 0.75_f64.sqrt() * half);
     let elbow = p(-0.75 * reach, reach + 3.0);
-    draft.leader(tip, elbow, &[fit::bore(body.bore, &body.bore_fit)]);
+    let datum = Frame::datum('A').line();
+    draft.leader(tip, elbow, &[fit::bore(body.bore, &body.bore_fit), datum]);
     let bounds = draft.bounds();
     let title = p(0.0, bounds.max.y + 5.0);
     draft.text(title, 5.0, &format!("B ({scale})"), Anchor::Middle);

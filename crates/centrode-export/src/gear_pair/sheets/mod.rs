@@ -22,6 +22,7 @@ use centrode_mechanism::{
 };
 use part::Part;
 pub(super) use part::middle;
+pub(crate) use tables::{measured, over_pins};
 
 /// Subject of a sheet.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
@@ -95,14 +96,15 @@ pub fn sheets(
     options: &SheetOptions,
     tolerance: Tolerance,
 ) -> Result<Vec<Sheet>, ExportError> {
-    labelled(pair, subject, None, options, tolerance)
+    let names = (None, subject.name());
+    labelled(pair, subject, names, options, tolerance)
 }
 
-/// The sheets of a gear under a label, or of a subject.
+/// The sheets of a gear under a label, or of a subject, whose files have a name.
 pub(super) fn labelled(
     pair: &GearPair,
     subject: Subject,
-    label: Option<Label<'_>>,
+    (label, file): (Option<Label<'_>>, &str),
     options: &SheetOptions,
     tolerance: Tolerance,
 ) -> Result<Vec<Sheet>, ExportError> {
@@ -110,6 +112,7 @@ pub(super) fn labelled(
         Some(member) => {
             let mut part = Part::new(pair, member, tolerance);
             part.label = label;
+            part.file = file.to_owned();
             let limits = pair.pin_limits(member).map_err(ExportError::missing)?;
             gear(&part, limits.as_ref(), block(&part, options), options)
         }
@@ -168,15 +171,15 @@ fn gear(
     };
     let bounds = part.bounds();
     let extent = (bounds.max - bounds.min).amax();
-    let flowing = [tables::over_pins(part, limits), tables::profile(part)];
+    let pins = part.gear.over_pins(part.pair.pin_diameter(part.member));
+    let flowing = [tables::over_pins(&pins, limits), tables::profile(part)];
     let size = options.size.or(part.drawing().sheet);
     compose(size, &block, extent, &pieces, &flowing)
 }
 
 fn notes(part: &Part<'_>) -> Vec<String> {
-    let name = part.name();
     let mut lines = vec![
-        format!("Exact tooth profile: {name}.step, points {name}.csv."),
+        format!("Exact tooth profile: {}.step.", part.file),
         "Polar angles from the line of centres at φ = 0,".to_owned(),
         format!(
             "counter-clockwise; the mate's axis lies at {}°.",

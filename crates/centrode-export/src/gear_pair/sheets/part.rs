@@ -16,6 +16,8 @@ pub(super) struct Part<'a> {
     pub(super) tolerance: Tolerance,
     /// Name, where not driver or driven.
     pub(super) label: Option<Label<'a>>,
+    /// Name that its files begin with.
+    pub(super) file: String,
     /// The outermost point of each tooth.
     tips: Vec<Point>,
     /// The innermost point of each space.
@@ -72,6 +74,7 @@ impl<'a> Part<'a> {
             bore: gear.bore(),
             tolerance,
             label: None,
+            file: member.name().to_owned(),
             tips: points(tips),
             roots: points(roots),
         }

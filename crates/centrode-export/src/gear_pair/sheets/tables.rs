@@ -1,7 +1,7 @@
 //! The tables of a gear's sheets.
 
 use super::part::{Part, degrees};
-use crate::gear_pair::arrangement;
+use crate::gear_pair::{arrangement, flank_tolerances, outline};
 use crate::{
     drawing::Anchor,
     sheet::{Table, broken, fixed, number, range},
@@ -10,9 +10,6 @@ use centrode_mechanism::{
     gear::{CurvatureRange, GearPair, Member, OverPins, PinFault, ToolKind, design::Addendum},
     machine::Datum,
 };
-
-/// Most points of the contour on paper.
-const POINTS: usize = 138;
 
 /// The gear data, in the order of ISO 1340 as far as it goes.
 pub(super) fn data(part: &Part<'_>, found: &[Datum]) -> Table {
@@ -24,7 +21,6 @@ pub(super) fn data(part: &Part<'_>, found: &[Datum]) -> Table {
         Member::Driver => tool.profile_shift,
         Member::Driven => -tool.profile_shift,
     };
-    let body = gear.body();
     let mut rows = Rows::default();
     rows.add("Number of teeth", "z", gear.tooth_count().to_string());
     rows.add("Module", "m", number(m, 6));
@@ -79,10 +75,23 @@ pub(super) fn data(part: &Part<'_>, found: &[Datum]) -> Table {
     for datum in arrangement::of_both(pair).iter().chain(found) {
         rows.add(&datum.name, &datum.symbol, &datum.value);
     }
-    rows.add("Accuracy class", "", body.accuracy.clone());
-    rows.add("Material", "", body.material.clone());
-    rows.add("Heat treatment", "", body.heat_treatment.clone());
+    for datum in measured(pair, part.member) {
+        rows.add(&datum.name, &datum.symbol, &datum.value);
+    }
     rows.table("Gear data")
+}
+
+/// Flank tolerances, material and heat treatment of a gear, for the table of its data.
+pub(crate) fn measured(pair: &GearPair, member: Member) -> Vec<Datum> {
+    let body = pair.gear(member).body();
+    let treated = match body.heat_treatment.as_str() {
+        "" => "none: as the material is supplied",
+        treated => treated,
+    };
+    let mut data = flank_tolerances(pair, member);
+    data.push(Datum::new("Material", "", &*body.material));
+    data.push(Datum::new("Heat treatment", "", treated));
+    data
 }
 
 fn mate_name(pair: &GearPair, mate: Member) -> String {
@@ -97,8 +106,7 @@ fn mate_name(pair: &GearPair, mate: Member) -> String {
 }
 
 /// The measure over a pin in every space, with limits where the thickness of the teeth has them.
-pub(super) fn over_pins(part: &Part<'_>, limits: Option<&[OverPins; 2]>) -> Table {
-    let pins = part.gear.over_pins(part.pair.pin_diameter(part.member));
+pub(crate) fn over_pins(pins: &OverPins, limits: Option<&[OverPins; 2]>) -> Table {
     // Of thicker teeth the measures are greater.
     let between = |of: &dyn Fn(&OverPins) -> Option<f64>| {
         let ends = limits.map(|both| both.each_ref().map(of));
@@ -107,39 +115,36 @@ pub(super) fn over_pins(part: &Part<'_>, limits: Option<&[OverPins; 2]>) -> Tabl
             _ => String::new(),
         }
     };
-    let mut faults = Vec::new();
-    let rows = pins.pins.iter().enumerate().map(|(space, pin)| match pin {
-        Ok(pin) => {
-            let across = pins.across(space);
-            let [j, m, limits_across] = across.map_or_else(Default::default, |(j, m)| {
-                let limits = between(&|over| over.over(space, j));
-                [j.to_string(), fixed(m, 4), limits]
-            });
-            let limits = between(&|over| over.pins[space].as_ref().ok().map(|pin| pin.radial));
-            vec![
-                space.to_string(),
-                fixed(degrees(pin.center), 4),
-                fixed(pin.center.coords.norm(), 4),
-                fixed(pin.radial, 4),
-                limits,
-                j,
-                m,
-                limits_across,
-            ]
-        }
-        Err(fault) => {
-            let known = faults.iter().position(|f| f == fault);
-            let at = known.unwrap_or_else(|| {
-                faults.push(*fault);
-                faults.len() - 1
-            });
-            let mark = format!("*{}", at + 1);
-            let mut row = vec![space.to_string()];
-            row.extend(std::iter::repeat_n(mark, 7));
-            row
-        }
-    });
-    let rows = rows.collect();
+    let mut faults: Vec<(PinFault, Vec<usize>)> = Vec::new();
+    let mut rows = Vec::new();
+    for (space, pin) in pins.pins.iter().enumerate() {
+        let pin = match pin {
+            Ok(pin) => pin,
+            Err(fault) => {
+                match faults.iter_mut().find(|(known, _)| known == fault) {
+                    Some((_, spaces)) => spaces.push(space),
+                    None => faults.push((*fault, vec![space])),
+                }
+                continue;
+            }
+        };
+        let across = pins.across(space);
+        let [j, m, limits_across] = across.map_or_else(Default::default, |(j, m)| {
+            let limits = between(&|over| over.over(space, j));
+            [j.to_string(), fixed(m, 4), limits]
+        });
+        let limits = between(&|over| over.pins[space].as_ref().ok().map(|pin| pin.radial));
+        rows.push(vec![
+            space.to_string(),
+            fixed(degrees(pin.center), 4),
+            fixed(pin.center.coords.norm(), 4),
+            fixed(pin.radial, 4),
+            limits,
+            j,
+            m,
+            limits_across,
+        ]);
+    }
     let mut notes = vec![
         "angle, R: polar position of the pin's centre".to_owned(),
         "M: from the axis of the bore over the pin".to_owned(),
@@ -148,8 +153,10 @@ pub(super) fn over_pins(part: &Part<'_>, limits: Option<&[OverPins; 2]>) -> Tabl
     if limits.is_some() {
         notes.push("limits: by the deviations of tooth thickness".to_owned());
     }
-    let named = faults.iter().enumerate();
-    notes.extend(named.map(|(i, fault): (usize, &PinFault)| format!("*{} {fault}", i + 1)));
+    for (fault, spaces) in faults {
+        notes.push(format!("spaces not measured: {}", runs(&spaces)));
+        notes.push(fault.to_string());
+    }
     Table {
         title: format!("Over pins Ø{}", number(pins.diameter, 3)),
         headings: [
@@ -171,44 +178,20 @@ pub(super) fn over_pins(part: &Part<'_>, limits: Option<&[OverPins; 2]>) -> Tabl
     .filled()
 }
 
-/// Points of the contour, every so many of those in the CSV file.
-pub(super) fn profile(part: &Part<'_>) -> Table {
-    let samples = part.gear.outline().samples(part.tolerance);
-    let every = samples.len().div_ceil(POINTS).max(1);
-    let rows = samples.iter().enumerate().step_by(every).map(|(i, s)| {
-        let role = part.gear.roles().get(s.segment).map_or("", |r| r.name());
-        let owner = part.gear.owners().get(s.segment);
-        vec![
-            (i + 1).to_string(),
-            fixed(s.point.x, 4),
-            fixed(s.point.y, 4),
-            role.to_owned(),
-            owner.map_or_else(String::new, u32::to_string),
-        ]
+/// Numbers in rising order, neighbours as a run: "0, 4 to 7".
+fn runs(numbers: &[usize]) -> String {
+    let runs = numbers.chunk_by(|a, b| a + 1 == *b);
+    let words = runs.map(|run| match run {
+        [first, .., last] => format!("{first} to {last}"),
+        _ => run.iter().map(usize::to_string).collect(),
     });
-    let name = part.name();
-    let which = match every {
-        1 => "every point".to_owned(),
-        n => format!("one point in {n}"),
-    };
-    Table {
-        title: "Profile".into(),
-        headings: ["row", "x", "y", "part", "tooth"]
-            .map(String::from)
-            .to_vec(),
-        columns: vec![
-            Anchor::Right,
-            Anchor::Right,
-            Anchor::Right,
-            Anchor::Left,
-            Anchor::Right,
-        ],
-        rows: rows.collect(),
-        notes: vec![
-            format!("{which}; all {}:", samples.len()),
-            format!("{name}.csv, same rows"),
-        ],
-    }
+    words.collect::<Vec<_>>().join(", ")
+}
+
+/// File of the points of the contour.
+pub(super) fn profile(part: &Part<'_>) -> Table {
+    let points = outline::columns(part.gear, part.tolerance);
+    Table::of_file("Profile points", &format!("{}.csv", part.file), &points)
 }
 
 #[derive(Default)]

@@ -18,7 +18,7 @@ use centrode_geometry::Point;
 use centrode_mechanism::design::SheetSize;
 use centrode_mechanism::shaft::{ShaftSolid, SpiralShaft};
 
-/// The sheets of a spiral shaft: side view and development with dimensions, sections, data and lead table.
+/// The sheets of a spiral shaft: side view and development with dimensions, sections, data and the file of the lead table.
 ///
 /// # Errors
 /// [`ExportError`] if the size asked for is too small.
@@ -83,12 +83,36 @@ fn notes(shaft: &SpiralShaft) -> Vec<String> {
         "it faces the viewer in the side view.".to_owned(),
         "Outline of the side view cut in the plane of the paper.".to_owned(),
         "Walls stand on the surface's offset and point to the axis.".to_owned(),
-        "Exact groove: groove.dxf, lead-table.csv, tool-path.csv.".to_owned(),
+        "Exact groove: groove.dxf, tool-path.csv, program groove.ngc.".to_owned(),
     ];
+    if let Some(centre) = centre(shaft.body().journal_diameter) {
+        lines.push(format!("Centre holes at both ends: {centre}."));
+    }
     if shaft.body().keyway.is_some() {
         lines.push("Keyway at θ = 0.".to_owned());
     }
     lines
+}
+
+/// Centre hole of a turned part, of form A: the widest that takes no more than a third of the end's diameter.
+fn centre(diameter: f64) -> Option<String> {
+    // Diameters of the pilot hole and of the countersink, mm; ISO 866.
+    const SIZES: [(f64, f64); 11] = [
+        (1.0, 2.12),
+        (1.25, 2.65),
+        (1.6, 3.35),
+        (2.0, 4.25),
+        (2.5, 5.3),
+        (3.15, 6.7),
+        (4.0, 8.5),
+        (5.0, 10.6),
+        (6.3, 13.2),
+        (8.0, 17.0),
+        (10.0, 21.2),
+    ];
+    let mut fitting = SIZES.iter().rev();
+    let (pilot, wide) = fitting.find(|(_, wide)| 3.0 * wide <= diameter)?;
+    Some(format!("ISO 6411-A{pilot}/{wide}"))
 }
 
 /// A shape of a drawing at a scale, with every point put where `place` says; `None` for words and heads.

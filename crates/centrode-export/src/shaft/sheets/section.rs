@@ -1,6 +1,6 @@
 //! Sections of the shaft: its journal with the keyway, and the groove.
 
-use crate::sheet::{fit, number};
+use crate::sheet::{fit, geometrical::Frame, number};
 use crate::{
     drawing::{Anchor, Shape},
     sheet::{Draft, Pen, Scale},
@@ -52,7 +52,11 @@ pub(super) fn journal(shaft: &SpiralShaft, tolerance: Tolerance) -> Draft {
     draft.leader(
         tip,
         elbow,
-        &[fit::bore(body.journal_diameter, &body.journal_fit)],
+        &[
+            fit::bore(body.journal_diameter, &body.journal_fit),
+            Frame::datum('A').line(),
+            "both journals".to_owned(),
+        ],
     );
     title(&mut draft, &format!("A-A ({scale})"));
     draft

@@ -1,7 +1,7 @@
 //! The shaft from the side, and its surface unrolled below.
 
 use super::scaled;
-use crate::sheet::{fit, number};
+use crate::sheet::{fit, geometrical::Frame, number};
 use crate::{
     ExportError,
     drawing::{Anchor, Drawing},
@@ -112,6 +112,10 @@ impl<'a> Views<'a> {
                 k * (start + 0.5 * body.keyway_length),
                 k * j + 2.0,
             );
+        }
+        if let Some(frame) = Frame::runout(2.0 * r, "A") {
+            let tip = p(0.5 * (low + high), r);
+            draft.pointed_frame(tip, tip + Vector::new(5.0, 16.0), &frame, "");
         }
         if c > 0.0 {
             let tip = p(high + 0.5 * c, r - 0.5 * c);

@@ -1,14 +1,9 @@
 //! The tables of a shaft's sheets.
 
 use super::table;
-use crate::sheet::{fixed, number};
+use crate::sheet::number;
 use crate::{drawing::Anchor, sheet::Table};
 use centrode_mechanism::shaft::SpiralShaft;
-use centrode_mechanism::transmission::Transmission;
-use std::f64::consts::{PI, TAU};
-
-/// Step of the lead table, rad: 5 deg.
-const STEP: f64 = PI / 36.0;
 
 /// Data of the shaft and its motion.
 pub(in crate::shaft) fn data(shaft: &SpiralShaft) -> Table {
@@ -61,65 +56,25 @@ pub(in crate::shaft) fn data(shaft: &SpiralShaft) -> Table {
     data
 }
 
-/// Places of the centre line every 5 deg: one turn of a stroke, and both reversals.
+/// File of the centre line, with the angles from which strokes and ends count.
 pub(super) fn lead(shaft: &SpiralShaft) -> Table {
     let traverse = shaft.traverse();
     let (stroke, turn) = (traverse.stroke(), traverse.reversal());
     let begin = traverse.start();
-    let mut lead = table(
-        "Lead table",
-        &[
-            "θ",
-            "stroke, mm",
-            "lead angle",
-            "far end, mm",
-            "near end, mm",
-        ],
-        vec![Anchor::Right; 5],
-    );
-    let steps = (TAU.max(turn) / STEP).round() as u32;
-    for i in 0..=steps {
-        let theta = STEP * f64::from(i);
-        let within = |limit: f64| theta <= limit + 1e-9;
-        let place = |start: f64| fixed(traverse.at(start + theta.min(turn)).position, 4);
-        let none = String::new;
-        lead.rows.push(vec![
-            format!("{}°", number(theta.to_degrees(), 0)),
-            if within(TAU) {
-                fixed(shaft.law().moved(begin, begin + theta), 4)
-            } else {
-                none()
-            },
-            if within(TAU) {
-                let angle =
-                    (shaft.law().at(begin + theta).velocity / shaft.groove().radius()).atan();
-                format!("{:.4}°", angle.to_degrees())
-            } else {
-                none()
-            },
-            if within(turn) {
-                place(begin + stroke)
-            } else {
-                none()
-            },
-            if within(turn) {
-                place(begin + 2.0 * stroke + turn)
-            } else {
-                none()
-            },
-        ]);
-    }
     let turns = shaft.design().holes - 1;
     let [out, far, near] =
         [0.0, stroke, 2.0 * stroke + turn].map(|gone| number((begin + gone).to_degrees(), 3));
-    lead.notes = vec![
-        format!(
-            "The stroke out runs through {turns} turns, each {} mm on; the stroke back is its mirror image.",
-            number(shaft.law().lead(), 4)
-        ),
-        format!(
-            "θ counts from {out}°, where the stroke out begins, from {far}° for the far end and {near}° for the near one."
-        ),
-    ];
-    lead
+    let points = super::super::tables::lead(shaft);
+    Table {
+        notes: vec![
+            format!(
+                "The stroke out runs through {turns} turns, each {} mm on; the stroke back is its mirror image.",
+                number(shaft.law().lead(), 4)
+            ),
+            format!(
+                "The stroke out begins at {out}°, the far end at {far}°, the near end at {near}°."
+            ),
+        ],
+        ..Table::of_file("Lead table", "lead-table.csv", &points)
+    }
 }

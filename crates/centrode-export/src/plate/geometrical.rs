@@ -1,0 +1,83 @@
+//! Datums of a plate and what is toleranced to them.
+
+use centrode_geometry::Point;
+
+use super::{Hole, Plate};
+use crate::sheet::geometrical::{Characteristic, Frame};
+
+impl Plate {
+    /// Frames of each hole. The first datum is the seat of a shaft, or else the first hole with a class; the second is the hole
+    /// with a class that lies farthest from it. All others lie in position to both.
+    pub(super) fn frames(&self) -> Vec<Option<Frame>> {
+        let mut frames = vec![None; self.holes.len()];
+        let Some((first, origin)) = self.first_datum() else {
+            return frames;
+        };
+        let [one, two] = self.letters();
+        let fitted = self.holes.iter().enumerate().filter_map(|(index, hole)| {
+            let at = hole.axis().filter(|_| !hole.fit.is_empty())?;
+            Some((index, (at - origin).norm()))
+        });
+        let others: Vec<(usize, f64)> = fitted.filter(|(index, _)| *index != first).collect();
+        let second = others.iter().max_by(|a, b| a.1.total_cmp(&b.1));
+        for (index, distance) in &others {
+            let datums = match second {
+                Some((far, _)) if far != index => format!("{one} {two}"),
+                _ => one.to_string(),
+            };
+            frames[*index] = Frame::position(*distance, self.holes[*index].off, &datums);
+        }
+        frames[first] = Some(Frame::datum(one));
+        frames
+    }
+
+    /// Letter of the second datum with the number of its hole, where holes lie to it.
+    pub(super) fn second_datum(&self) -> Option<(usize, Frame)> {
+        let frames = self.frames();
+        let [one, two] = self.letters();
+        let both = format!("{one} {two}");
+        let position = |frame: &Option<Frame>| {
+            let found = frame.as_ref();
+            found
+                .filter(|frame| frame.characteristic == Characteristic::Position)
+                .cloned()
+        };
+        let lies_to = |frame: &Frame, to: &str| frame.datums() == to;
+        let mut positions = frames.iter().map(position);
+        positions
+            .clone()
+            .flatten()
+            .find(|frame| lies_to(frame, &both))?;
+        let found =
+            positions.position(|frame| frame.is_some_and(|f| lies_to(&f, &one.to_string())));
+        found.map(|index| (index, Frame::datum(two)))
+    }
+
+    /// Runout of the faces of a body that turns on its shaft, by the circle about it.
+    pub(super) fn face_runout(&self) -> Option<Frame> {
+        let (first, origin) = self.first_datum()?;
+        if !self.holes[first].is_seat {
+            return None;
+        }
+        let corners = self.outline.segments().iter().map(|side| side.start());
+        let reach = corners.map(|p| (p - origin).norm()).fold(0.0, f64::max);
+        let [one, _] = self.letters();
+        Frame::runout(2.0 * reach, &one.to_string())
+    }
+
+    fn first_datum(&self) -> Option<(usize, Point)> {
+        let with_class = |hole: &&Hole| !hole.fit.is_empty() && hole.axis().is_some();
+        let seat = self
+            .holes
+            .iter()
+            .position(|hole| hole.is_seat && with_class(&hole));
+        let first = seat.or_else(|| self.holes.iter().position(|hole| with_class(&hole)))?;
+        Some((first, self.holes[first].axis()?))
+    }
+
+    /// Letters of both datums: not those that name holes.
+    fn letters(&self) -> [char; 2] {
+        let named = (0..self.holes.len()).any(|index| self.label(index).chars().count() == 1);
+        if named { ['P', 'Q'] } else { ['A', 'B'] }
+    }
+}

@@ -1,0 +1,241 @@
+//! Datums and geometrical tolerances, ISO 5459 and ISO 1101.
+
+use std::fmt;
+
+use centrode_geometry::{Bounds, Outline, Point, Vector};
+use centrode_mechanism::machine::limits_of_size;
+
+use super::{Draft, Pen, draft::ARROW, lettering, number};
+use crate::drawing::{Anchor, Shape};
+
+/// Room beside the words of a cell, mm.
+const PAD: f64 = 1.0;
+/// Height of the letters in a frame, mm.
+const LETTERS: f64 = 2.5;
+/// Half the height of a frame, mm.
+const HALF: f64 = 2.15;
+
+/// Tolerated property of a feature.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+pub(crate) enum Characteristic {
+    /// Place of an axis; the zone is a cylinder.
+    Position,
+    /// Circular runout, axial on a face and radial on a cylinder.
+    Runout,
+    /// A feature that others refer to, with its letter.
+    Datum,
+}
+
+impl Characteristic {
+    const ALL: [Self; 3] = [Self::Position, Self::Runout, Self::Datum];
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Position => "position",
+            Self::Runout => "runout",
+            Self::Datum => "datum",
+        }
+    }
+}
+
+/// A line beside a feature that is drawn as a frame.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Frame {
+    pub(crate) characteristic: Characteristic,
+    /// Value and letters, each in a cell.
+    cells: Vec<String>,
+}
+
+impl Frame {
+    /// Datum of a letter.
+    pub(crate) fn datum(letter: char) -> Self {
+        Self {
+            characteristic: Characteristic::Datum,
+            cells: vec![letter.to_string()],
+        }
+    }
+
+    /// Position of an axis at a distance from its datum: within the eighth grade of that distance, or twice what it may be off
+    /// either way. None beyond the grades of ISO 286-1.
+    pub(crate) fn position(distance: f64, off: f64, datums: &str) -> Option<Self> {
+        let width = match off > 0.0 {
+            true => 2.0 * off,
+            false => grade(distance, "H8")?,
+        };
+        let value = format!("Ø{}", number(width, 3));
+        Some(Self::new(Characteristic::Position, value, datums))
+    }
+
+    /// Runout of a feature of a diameter: within the seventh grade of that. None beyond the grades of ISO 286-1.
+    pub(crate) fn runout(diameter: f64, datums: &str) -> Option<Self> {
+        let value = number(grade(diameter, "H7")?, 3);
+        Some(Self::new(Characteristic::Runout, value, datums))
+    }
+
+    fn new(characteristic: Characteristic, value: String, datums: &str) -> Self {
+        let letters = datums.split(' ').map(String::from);
+        Self {
+            characteristic,
+            cells: std::iter::once(value).chain(letters).collect(),
+        }
+    }
+
+    /// Letters of the datums it refers to.
+    pub(crate) fn datums(&self) -> String {
+        self.cells[1..].join(" ")
+    }
+
+    /// The frame that a line of words stands for, if it does.
+    fn read(line: &str) -> Option<Self> {
+        let mut words = line.strip_prefix('|')?.split(' ');
+        let name = words.next()?;
+        let mut all = Characteristic::ALL.into_iter();
+        Some(Self {
+            characteristic: all.find(|known| known.name() == name)?,
+            cells: words.map(String::from).collect(),
+        })
+    }
+
+    /// Line of words beside a feature that is drawn as this frame.
+    pub(crate) fn line(&self) -> String {
+        format!("|{self}")
+    }
+
+    fn widths(&self) -> Vec<f64> {
+        let wide = |cell: &String| lettering::width(cell, LETTERS) + 2.0 * PAD;
+        let cells = self.cells.iter().map(wide).map(|w| w.max(2.0 * HALF));
+        // The triangle of a datum stands where the symbol of a tolerance does.
+        std::iter::once(2.0 * HALF).chain(cells).collect()
+    }
+}
+
+/// Words of a line; a frame's say what it shows.
+pub(crate) fn in_words(line: &str) -> &str {
+    line.strip_prefix('|').unwrap_or(line)
+}
+
+impl fmt::Display for Frame {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} {}", self.characteristic.name(), self.cells.join(" "))
+    }
+}
+
+/// Width of a tolerance grade for a size, mm, ISO 286-1, by a class of holes of that grade.
+fn grade(size: f64, class: &str) -> Option<f64> {
+    limits_of_size(size, class).map(|[low, high]| high - low)
+}
+
+/// Width of a line beside a feature, mm.
+pub(super) fn width(line: &str, letters: f64) -> f64 {
+    match Frame::read(line) {
+        Some(frame) => frame.widths().iter().sum(),
+        None => lettering::width(line, letters),
+    }
+}
+
+impl Draft {
+    /// Writes a line beside a feature, from the left end of its baseline, or draws the frame that it stands for.
+    pub(super) fn line_of_note(&mut self, at: Point, line: &str) {
+        match Frame::read(line) {
+            Some(frame) => self.frame(at + Vector::new(0.0, 0.5 * self.letters), &frame),
+            None => self.text(at, self.letters, line, Anchor::Left),
+        }
+    }
+
+    /// Draws a frame from the middle of its left side, with a leader from a feature and words behind it.
+    pub(crate) fn pointed_frame(&mut self, tip: Point, at: Point, frame: &Frame, words: &str) {
+        self.arrow(tip, tip - at);
+        self.line(Pen::Dimension, tip, at);
+        self.frame(at, frame);
+        let beyond: f64 = frame.widths().iter().sum();
+        let at = at + Vector::new(beyond + 1.0, -0.5 * LETTERS);
+        self.text(at, LETTERS, words, Anchor::Left);
+    }
+
+    fn frame(&mut self, at: Point, frame: &Frame) {
+        let mut left = at.x;
+        for (index, width) in frame.widths().into_iter().enumerate() {
+            let middle = Point::new(left + 0.5 * width, at.y);
+            match index.checked_sub(1) {
+                None => self.symbol(frame.characteristic, middle),
+                Some(cell) => {
+                    let base = middle - Vector::new(0.0, 0.5 * LETTERS);
+                    self.text(base, LETTERS, &frame.cells[cell], Anchor::Middle);
+                }
+            }
+            if index > 0 || frame.characteristic != Characteristic::Datum {
+                self.rectangle(
+                    Pen::Dimension,
+                    Bounds {
+                        min: Point::new(left, at.y - HALF),
+                        max: Point::new(left + width, at.y + HALF),
+                    },
+                );
+            }
+            left += width;
+        }
+    }
+
+    fn symbol(&mut self, characteristic: Characteristic, middle: Point) {
+        let p = |x: f64, y: f64| middle + Vector::new(x, y);
+        match characteristic {
+            Characteristic::Position => {
+                let circle = Outline::circle(middle, 0.9);
+                self.draw(Pen::Dimension, Shape::Contour(circle));
+                self.line(Pen::Dimension, p(-1.5, 0.0), p(1.5, 0.0));
+                self.line(Pen::Dimension, p(0.0, -1.5), p(0.0, 1.5));
+            }
+            Characteristic::Runout => {
+                self.line(Pen::Dimension, p(-1.4, -1.4), p(1.4, 1.4));
+                let head = Vector::new(1.0, 1.0).normalize();
+                let side = Vector::new(-head.y, head.x) * (0.16 * ARROW);
+                let foot = p(1.4, 1.4) - head * (0.5 * ARROW);
+                let corners = [p(1.4, 1.4), foot + side, foot - side];
+                self.draw(Pen::Dimension, Shape::Triangle(corners));
+            }
+            Characteristic::Datum => {
+                let corners = [p(-1.8, 1.3), p(-1.8, -1.3), p(0.4, 0.0)];
+                self.draw(Pen::Dimension, Shape::Triangle(corners));
+                self.line(Pen::Dimension, p(0.4, 0.0), p(HALF, 0.0));
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn values_are_grades_of_iso_286_and_lines_are_read_back() {
+        // IT8 of 50 to 80 mm is 46 um, IT7 of 80 to 120 mm 35 um.
+        let position = Frame::position(60.0, 0.0, "A B").expect("a grade");
+        assert_eq!(position.to_string(), "position Ø0.046 A B");
+        let off = Frame::position(60.0, 0.02, "A").expect("a grade");
+        assert_eq!(off.to_string(), "position Ø0.04 A");
+        let runout = Frame::runout(100.0, "A").expect("a grade");
+        assert_eq!(runout.to_string(), "runout 0.035 A");
+        for frame in [position, runout, Frame::datum('A')] {
+            assert_eq!(Frame::read(&frame.line()), Some(frame));
+        }
+        assert_eq!(Frame::read("runout 0.035 A"), None);
+        assert_eq!(Frame::runout(501.0, "A"), None);
+        assert_eq!(in_words("|datum A"), "datum A");
+    }
+
+    #[test]
+    fn a_frame_is_as_wide_as_its_line_says() {
+        for frame in [
+            Frame::runout(30.0, "A"),
+            Frame::position(30.0, 0.0, "A B"),
+            Some(Frame::datum('B')),
+        ] {
+            let frame = frame.expect("a grade");
+            let mut draft = Draft::default();
+            draft.frame(Point::new(5.0, 0.0), &frame);
+            let bounds = draft.bounds();
+            assert!((bounds.max.x - 5.0 - width(&frame.line(), 3.5)).abs() < 1e-9);
+            assert!(bounds.max.y < HALF + 1e-9 && bounds.min.y > -HALF - 1e-9);
+        }
+    }
+}
