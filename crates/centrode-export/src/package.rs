@@ -1,4 +1,6 @@
-use centrode_geometry::{Mesh, Shell, Solid, Tolerance};
+mod solids;
+
+use centrode_geometry::Tolerance;
 use centrode_mechanism::machine::Machine;
 
 use crate::{
@@ -9,8 +11,7 @@ use crate::{
     machine::{self, ARRANGEMENT},
     pdf,
     sheet::Sheet,
-    step::{self, StepError},
-    stl, svg, threemf,
+    svg,
 };
 
 /// Formats of drawing sheets.
@@ -109,19 +110,6 @@ impl<'a> Package<'a> {
         Ok(self.bundle.add(&self.name_of(name), bytes)?)
     }
 
-    /// Adds the STL file of a mesh unless a file of its name is there already.
-    pub(crate) fn shown(
-        &mut self,
-        name: &str,
-        make: impl FnOnce() -> Result<Mesh, ExportError>,
-    ) -> Result<(), ExportError> {
-        let file = self.name_of(name);
-        if self.bundle.files().any(|(known, _)| known == file) {
-            return Ok(());
-        }
-        self.file(name, stl::write(&make()?))
-    }
-
     /// Refuses a tolerance of more than a tenth of a size of the machine, mm.
     pub(crate) fn finer_than(&self, size: f64, of: &'static str) -> Result<(), ExportError> {
         let (tolerance, largest) = (self.tolerance().mm(), 0.1 * size);
@@ -198,79 +186,6 @@ impl<'a> Package<'a> {
             let bytes = pdf::write(&sheets, &self.titled(part), tolerance)?;
             self.file(&format!("{part}.pdf"), bytes)?;
             self.book.push((self.name_of(part), sheets));
-        }
-        Ok(())
-    }
-
-    /// Offers a part as a solid, which its files call by a title.
-    ///
-    /// # Errors
-    /// [`ExportError`] where it cannot be made or written.
-    pub fn solid(
-        &mut self,
-        part: &str,
-        title: &str,
-        make: impl FnOnce() -> Result<Solid, ExportError>,
-    ) -> Result<(), ExportError> {
-        if !self.takes(part, &[Format::Step, Format::Stl, Format::ThreeMf]) {
-            return Ok(());
-        }
-        let solid = make()?;
-        if self.options.keep_solids {
-            self.bundle.keep(&self.name_of(part), solid);
-            return Ok(());
-        }
-        self.exact(part, || Ok(step::write(&solid, part, title)))?;
-        self.mesh(part, title, |tolerance| {
-            solid.mesh(tolerance).map_err(ExportError::no_solid(part))
-        })
-    }
-
-    /// Offers a part as an exact shell.
-    pub(crate) fn shell(
-        &mut self,
-        part: &str,
-        make: impl FnOnce() -> Result<Shell, ExportError>,
-    ) -> Result<(), ExportError> {
-        if self.options.keep_solids {
-            return Ok(());
-        }
-        let title = self.titled(part);
-        self.exact(part, || Ok(step::write_shell(&make()?, part, &title)))
-    }
-
-    fn exact(
-        &mut self,
-        part: &str,
-        write: impl FnOnce() -> Result<Result<Vec<u8>, StepError>, ExportError>,
-    ) -> Result<(), ExportError> {
-        if !self.takes(part, &[Format::Step]) {
-            return Ok(());
-        }
-        let bytes = write()?.map_err(|source| ExportError::Step {
-            part: part.to_owned(),
-            source,
-        })?;
-        self.file(&format!("{part}.step"), bytes)
-    }
-
-    /// Offers a part as triangles within a tolerance, which its files call by a title.
-    pub(crate) fn mesh(
-        &mut self,
-        part: &str,
-        title: &str,
-        make: impl FnOnce(Tolerance) -> Result<Mesh, ExportError>,
-    ) -> Result<(), ExportError> {
-        if !self.takes(part, &[Format::Stl, Format::ThreeMf]) {
-            return Ok(());
-        }
-        let mesh = make(self.tolerance())?;
-        if self.wants(&[Format::Stl]) {
-            self.file(&format!("{part}.stl"), stl::write(&mesh))?;
-        }
-        if self.wants(&[Format::ThreeMf]) {
-            let bytes = threemf::write(&mesh, part, title)?;
-            self.file(&format!("{part}.3mf"), bytes)?;
         }
         Ok(())
     }
