@@ -223,8 +223,22 @@ def test_a_drawing_that_gives_no_path_is_refused_with_its_file(tmp_path):
 POSES = [(249.08, 50.03, 31.93), (167.32, 64.88, 20.89), (104.40, 34.05, 42.55), (175.51, 14.69, 53.59)]
 
 
-def test_key_poses_are_met_by_the_machine_they_make():
+def test_key_poses_are_met_in_order_by_the_machine_they_make():
     made = ct.reverse_poses(POSES, bend_deg=40)
+    machine = made.machine()
+    phi = np.linspace(0, 2 * np.pi, 200_001)
+    tip, arm = machine.point("arm.tip", phi), machine.frames(phi)["arm"]
+    clamp = np.degrees(np.arctan2(*(tip - arm[:, :2, 3]).T[::-1])) + made.clamp_deg
+    at = []
+    for x, y, direction in POSES:
+        off = np.hypot(*(tip - [x, y]).T)
+        at.append(np.argmin(off))
+        turned = (clamp[at[-1]] - direction + 180) % 360 - 180
+        # Between two places looked at the tip moves some hundredths.
+        assert off[at[-1]] < 0.1
+        assert abs(turned) < 0.1
+    steps = np.diff([*at, at[0]]) % (len(phi) - 1)
+    assert steps.sum() == len(phi) - 1
     assert made.misses.shape == (4, 2)
     assert (made.misses < 0.1).all()
 

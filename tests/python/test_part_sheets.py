@@ -149,16 +149,22 @@ def solid(file):
     return reader.OneShape()
 
 
+def pieces(shape, kind):
+    """Faces or edges of a shape."""
+    explorer = TopExp_Explorer(shape, kind)
+    while explorer.More():
+        yield explorer.Current()
+        explorer.Next()
+
+
 def cylinders(shape):
     """Axes and radii of the round faces."""
-    explorer = TopExp_Explorer(shape, TopAbs_FACE)
-    while explorer.More():
-        surface = BRepAdaptor_Surface(TopoDS.Face(explorer.Current()))
+    for face in pieces(shape, TopAbs_FACE):
+        surface = BRepAdaptor_Surface(TopoDS.Face(face))
         if surface.GetType() == GeomAbs_Cylinder:
             cylinder = surface.Cylinder()
             at = cylinder.Location()
             yield at.X(), at.Y(), cylinder.Radius()
-        explorer.Next()
 
 
 @pytest.mark.parametrize("name", [name for name in DESIGNS if family(name) in FLAT])
@@ -342,14 +348,12 @@ def told_holes(texts):
 
 def edge_points(shape, z):
     """Places along the edges of a solid at a height."""
-    explorer = TopExp_Explorer(shape, TopAbs_EDGE)
-    while explorer.More():
-        curve = BRepAdaptor_Curve(TopoDS.Edge(explorer.Current()))
+    for edge in pieces(shape, TopAbs_EDGE):
+        curve = BRepAdaptor_Curve(TopoDS.Edge(edge))
         first, last = curve.FirstParameter(), curve.LastParameter()
         points = [curve.Value(first + (last - first) * i / 8) for i in range(9)]
         if all(abs(p.Z() - z) < 1e-6 for p in points):
             yield from ((p.X(), p.Y()) for p in points)
-        explorer.Next()
 
 
 @pytest.mark.parametrize("name", DESIGNS)

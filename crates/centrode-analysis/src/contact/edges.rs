@@ -1,6 +1,6 @@
 //! Driver angles at which a contact reaches the end of a flank.
 
-use centrode_geometry::{Point, Vector, bracketed_root};
+use centrode_geometry::{Point, Vector};
 use centrode_mechanism::gear::{GearPair, Member, Role};
 
 use super::{
@@ -56,10 +56,8 @@ fn edges(body: &Body<'_>) -> Vec<Edge> {
     found
 }
 
-/// The pitch point in the axes of one gear.
-fn pitch_point(pair: &GearPair, member: Member, input: f64) -> Vector {
-    let a = pair.center_distance();
-    let pose = Pose::new(input, pair.driven_angle(input), a);
+/// The pitch point in the axes of one gear, in the pose of an input.
+fn pitch_point(pair: &GearPair, member: Member, input: f64, pose: &Pose) -> Vector {
     let ratio = pair.ratio(input);
     let from_driver = pose.axis.coords * (ratio / (1.0 + ratio));
     match member {
@@ -78,22 +76,19 @@ impl Meshing<'_> {
             .into_iter()
             .zip([&self.driver, &self.driven])
         {
-            let at = |phi: f64| pitch_point(pair, member, phi);
-            let points: Vec<Vector> = walk.inputs.iter().map(|&phi| at(phi)).collect();
+            let at = |phi: f64, pose: &Pose| pitch_point(pair, member, phi, pose);
+            let steps = walk.inputs.iter().zip(&walk.poses);
+            let points: Vec<Vector> = steps.map(|(&phi, pose)| at(phi, pose)).collect();
             for edge in edges(body) {
-                let aside = |p: &Vector| edge.normal.perp(&(p - edge.point.coords));
-                for (low, high) in walk.passages(member, edge.point) {
-                    for k in low..high {
-                        let [f, g] = [&points[k], &points[k + 1]].map(aside);
-                        if (f > 0.0) == (g > 0.0) {
-                            continue;
-                        }
-                        let (from, to) = (walk.inputs[k], walk.inputs[k + 1]);
-                        let phi = bracketed_root(|phi| aside(&at(phi)), from, to, f, g);
-                        if (0.0..pair.cycle()).contains(&phi) {
-                            found.push(self.edge_contact(&edge, member, phi));
-                        }
-                    }
+                let aside = |p: Vector| edge.normal.perp(&(p - edge.point.coords));
+                for steps in walk.passages(member, edge.point) {
+                    let roots = walk.roots(
+                        steps,
+                        |k| aside(points[k]),
+                        |phi| aside(at(phi, &Pose::at_law(pair, phi))),
+                    );
+                    let within = roots.filter(|phi| (0.0..pair.cycle()).contains(phi));
+                    found.extend(within.map(|phi| self.edge_contact(&edge, member, phi)));
                 }
             }
         }
@@ -105,17 +100,13 @@ impl Meshing<'_> {
         // On the driver: flanks at the law's angle are half the backlash apart.
         let touched = match member {
             Member::Driver => edge.point,
-            Member::Driven => self.opposite(edge),
+            Member::Driven => edge.point + edge.normal * (0.5 * self.pair.backlash()),
         };
-        let away = pitch_point(self.pair, member, phi) - touched.coords;
+        let pose = Pose::at_law(self.pair, phi);
+        let away = pitch_point(self.pair, member, phi, &pose) - touched.coords;
         EdgeContact {
             input: phi,
             sliding: away.norm() * (1.0 + self.pair.ratio(phi)),
         }
-    }
-
-    /// The point of the mate's flank that an edge faces at the law's angle.
-    fn opposite(&self, edge: &Edge) -> Point {
-        edge.point + edge.normal * (0.5 * self.pair.backlash())
     }
 }

@@ -1,12 +1,14 @@
 //! Least clearance of the edges of teeth from the fillets of the mate, with the gears at their law.
 
-use centrode_geometry::{Extreme, Point, bracketed_minimum_below, bracketed_root};
+use std::ops::Range;
+
+use centrode_geometry::{Extreme, Point, bracketed_minimum_below};
 use centrode_mechanism::gear::{Member, Role};
 
 use super::{
     body::{Body, Corner},
     meshing::Meshing,
-    touch::{self, Pose, Touch},
+    touch::{self, Pose},
     walk::Walk,
 };
 
@@ -28,6 +30,9 @@ const ROUNDING: f64 = 1e-12;
 /// An edge of one gear on its way along a fillet of the other.
 struct Approach<'a> {
     meshing: &'a Meshing<'a>,
+    walk: &'a Walk,
+    /// First part of the fillet of each part of the mate.
+    fillets: &'a [Option<usize>],
     /// Distance beyond which nothing is looked at, mm.
     within: f64,
     /// The gear with the edge.
@@ -76,15 +81,17 @@ impl Meshing<'_> {
             for corner in own.parts.iter().filter_map(|part| part.corner.as_ref()) {
                 let approach = Approach {
                     meshing: self,
+                    walk: &walk,
+                    fillets: &fillets,
                     within,
                     member,
                     corner,
                 };
-                for (low, high) in walk.passages(member, corner.point) {
-                    let steps = approach.steps(&walk, (low, high), &fillets);
+                for steps in walk.passages(member, corner.point) {
+                    let steps = approach.steps(steps);
                     for steps in steps.chunk_by(|a, b| a.fillet == b.fillet) {
-                        approach.at_ends(&walk, steps, &fillets, &mut best);
-                        approach.between_ends(&walk, steps, &fillets, &mut best);
+                        approach.at_ends(steps, &mut best);
+                        approach.between_ends(steps, &mut best);
                     }
                 }
             }
@@ -110,8 +117,7 @@ impl Approach<'_> {
     }
 
     fn pose(&self, phi: f64) -> Pose {
-        let pair = self.meshing.pair;
-        Pose::new(phi, pair.driven_angle(phi), pair.center_distance())
+        Pose::at_law(self.meshing.pair, phi)
     }
 
     /// Distance from a part that faces the edge.
@@ -121,35 +127,29 @@ impl Approach<'_> {
             Member::Driver => touch::driver_corner(self.corner, part, pose),
             Member::Driven => touch::driven_corner(part, self.corner, pose),
         };
-        touch
-            .filter(|touch| self.counts(touch, pose))
-            .map(|touch| touch.gap)
+        let touch = touch.filter(|t| self.meshing.in_reach(t, self.within, pose))?;
+        Some(touch.gap)
     }
 
-    fn counts(&self, touch: &Touch, pose: &Pose) -> bool {
-        self.meshing.in_reach(touch, self.within, pose)
+    /// Parts of a fillet, in the contour's order.
+    fn parts(&self, fillet: usize) -> impl Iterator<Item = usize> {
+        let count = self.fillets.len();
+        let parts = (0..count).map(move |k| (fillet + k) % count);
+        parts.take_while(move |&i| self.fillets[i] == Some(fillet))
     }
 
     /// Least distance from the parts of a fillet that face the edge.
-    fn fillet_gap(&self, fillet: usize, fillets: &[Option<usize>], pose: &Pose) -> Option<f64> {
-        let count = fillets.len();
-        let parts = (0..count).map(|k| (fillet + k) % count);
-        let parts = parts.take_while(|&i| fillets[i] == Some(fillet));
-        let gaps = parts.filter_map(|i| self.gap(i, pose));
+    fn fillet_gap(&self, fillet: usize, pose: &Pose) -> Option<f64> {
+        let gaps = self.parts(fillet).filter_map(|i| self.gap(i, pose));
         gaps.reduce(f64::min)
     }
 
     /// Steps at which a fillet is near, fillet by fillet.
-    fn steps(
-        &self,
-        walk: &Walk,
-        (low, high): (usize, usize),
-        fillets: &[Option<usize>],
-    ) -> Vec<Step> {
+    fn steps(&self, all: Range<usize>) -> Vec<Step> {
         let (mate, near) = (self.mate(), self.within + STEP * self.meshing.module);
         let mut found: Vec<Step> = Vec::new();
-        for step in low..=high {
-            let pose = &walk.poses[step];
+        for step in all {
+            let pose = &self.walk.poses[step];
             let point = self.point(pose);
             if !mate.is_near(&point.coords, near) {
                 continue;
@@ -157,8 +157,8 @@ impl Approach<'_> {
             let start = found.len();
             mate.tree.each(
                 &|run| (run.center - point).norm() < run.radius + near,
-                &mut |i| {
-                    let Some(fillet) = fillets[i] else {
+                |i| {
+                    let Some(fillet) = self.fillets[i] else {
                         return;
                     };
                     let part = &mate.parts[i];
@@ -177,41 +177,17 @@ impl Approach<'_> {
         found
     }
 
-    /// Distances at the steps' ends of a fillet: where the edge passes the normal there.
-    fn at_ends(
-        &self,
-        walk: &Walk,
-        steps: &[Step],
-        fillets: &[Option<usize>],
-        best: &mut Option<Extreme>,
-    ) {
-        let (parts, count) = (&self.mate().parts, fillets.len());
-        let first = steps[0].fillet;
-        let last = (0..count)
-            .map(|k| (first + k) % count)
-            .take_while(|&i| fillets[i] == Some(first))
-            .last();
-        let last = last.unwrap_or(first);
-        let (from, to) = (
-            steps[0].step.saturating_sub(1),
-            steps[steps.len() - 1].step + 1,
-        );
+    /// Distances where the edge passes the normals at the ends of a fillet.
+    fn at_ends(&self, steps: &[Step], best: &mut Option<Extreme>) {
+        let (first, walk) = (steps[0].fillet, self.walk);
+        let last = self.parts(first).last().unwrap_or(first);
+        let from = steps[0].step.saturating_sub(1);
+        let to = (steps[steps.len() - 1].step + 1).min(walk.inputs.len() - 1);
         for (part, u) in [(first, -1.0), (last, 1.0)] {
-            let jet = parts[part].segment.at(u);
+            let jet = self.mate().parts[part].segment.at(u);
             let along = |pose: &Pose| (self.point(pose) - jet.point).dot(&jet.first);
-            for k in from..to.min(walk.inputs.len() - 1) {
-                let [f, g] = [&walk.poses[k], &walk.poses[k + 1]].map(along);
-                if (f > 0.0) == (g > 0.0) {
-                    continue;
-                }
-                let phi = bracketed_root(
-                    |phi| along(&self.pose(phi)),
-                    walk.inputs[k],
-                    walk.inputs[k + 1],
-                    f,
-                    g,
-                );
-                // Both sides of the end, since rounding decides on which the foot is.
+            let at_step = |k: usize| along(&walk.poses[k]);
+            for phi in walk.roots(from..to, at_step, |phi| along(&self.pose(phi))) {
                 if let Some(value) = self.gap(part, &self.pose(phi)) {
                     self.keep(best, phi, value);
                 }
@@ -220,13 +196,7 @@ impl Approach<'_> {
     }
 
     /// Least distances where the fillet faces the edge on and on.
-    fn between_ends(
-        &self,
-        walk: &Walk,
-        steps: &[Step],
-        fillets: &[Option<usize>],
-        best: &mut Option<Extreme>,
-    ) {
+    fn between_ends(&self, steps: &[Step], best: &mut Option<Extreme>) {
         let rounding = self.within * ROUNDING;
         // Beyond what is looked at there is nothing nearer.
         let gap_at = |step: usize| {
@@ -237,7 +207,7 @@ impl Approach<'_> {
             let (Some(value), step) = (here.gap, here.step) else {
                 continue;
             };
-            if step == 0 || step + 1 == walk.inputs.len() {
+            if step == 0 || step + 1 == self.walk.inputs.len() {
                 continue;
             }
             let [f, g] = [gap_at(step - 1), gap_at(step + 1)];
@@ -246,10 +216,10 @@ impl Approach<'_> {
             if value > f.min(g) || value - above >= known {
                 continue;
             }
-            let at = |step: usize, gap: f64| (walk.inputs[step], gap);
+            let at = |step: usize, gap: f64| (self.walk.inputs[step], gap);
             let (phi, value) = bracketed_minimum_below(
                 |phi| {
-                    let gap = self.fillet_gap(here.fillet, fillets, &self.pose(phi));
+                    let gap = self.fillet_gap(here.fillet, &self.pose(phi));
                     gap.unwrap_or(self.within)
                 },
                 [at(step - 1, f), at(step, value), at(step + 1, g)],

@@ -328,12 +328,12 @@ impl<'a> Meshing<'a> {
             let center = pose.place(&run.center).coords;
             driver.is_near(&center, run.radius + deep)
         };
-        driver.tree.any(&on_driver, &|i| {
+        driver.tree.any(&on_driver, &mut |i| {
             driver.inner(i, deep).is_some_and(|p| {
                 let back = pose.back(&p);
                 driven.is_near(&back.coords, 0.0) && driven.contains(back)
             })
-        }) || driven.tree.any(&on_driven, &|j| {
+        }) || driven.tree.any(&on_driven, &mut |j| {
             driven.inner(j, deep).is_some_and(|p| {
                 let placed = pose.place(&p);
                 driver.is_near(&placed.coords, 0.0) && driver.contains(placed)

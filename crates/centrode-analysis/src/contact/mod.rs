@@ -94,24 +94,19 @@ impl Contact {
     /// and never in step with the teeth.
     #[must_use]
     pub fn sampled(pair: &GearPair, per_pitch: u32) -> Self {
-        let rolling = pair.rolling();
-        let mut meshing = Meshing::new(pair);
-        let mut out = Self::default();
-        for t in Self::parameters(pair, per_pitch) {
-            meshing.sample(rolling.angle(t), rolling.driven_angle_at(t), &mut out);
-        }
-        out
-    }
-
-    /// Parameters of the driver's pitch curve over one whole cycle, about `per_pitch` a pitch, evenly along it.
-    fn parameters(pair: &GearPair, per_pitch: u32) -> impl Iterator<Item = f64> {
         let (n1, _) = pair.mean_ratio();
         let rolling = pair.rolling();
         let teeth = pair.driver().tooth_count() * n1;
         // One more than a multiple of the teeth: every sample is elsewhere on its tooth.
         let count = teeth * per_pitch.max(1) + 1;
         let length = rolling.pitch_length(Member::Driver) * f64::from(n1);
-        (0..count).map(move |i| rolling.parameter(length * f64::from(i) / f64::from(count)))
+        let mut meshing = Meshing::new(pair);
+        let mut out = Self::default();
+        for i in 0..count {
+            let t = rolling.parameter(length * f64::from(i) / f64::from(count));
+            meshing.sample(rolling.angle(t), rolling.driven_angle_at(t), &mut out);
+        }
+        out
     }
 
     /// Analyses given driver angles, rad.

@@ -1,4 +1,5 @@
 use centrode_geometry::{Point, SegmentJet, Vector};
+use centrode_mechanism::gear::GearPair;
 
 use super::body::{Corner, Part};
 
@@ -20,6 +21,11 @@ impl Pose {
             sin,
             cos,
         }
+    }
+
+    /// Pose at a driver angle with the driven gear where the law has it.
+    pub(super) fn at_law(pair: &GearPair, phi: f64) -> Self {
+        Self::new(phi, pair.driven_angle(phi), pair.center_distance())
     }
 
     pub(super) fn turn(&self, v: &Vector) -> Vector {
@@ -196,7 +202,7 @@ pub(super) fn driver_corner(corner: &Corner, b: &Part<'_>, pose: &Pose) -> Optio
 }
 
 /// Foot of the normal from a point to a part.
-pub(super) fn foot(part: &Part<'_>, point: &Point) -> Option<(f64, SegmentJet)> {
+fn foot(part: &Part<'_>, point: &Point) -> Option<(f64, SegmentJet)> {
     let chord = part.segment.end() - part.segment.start();
     let mut u = 2.0 * (point - part.segment.start()).dot(&chord) / chord.norm_squared() - 1.0;
     u = u.clamp(-1.0, 1.0);

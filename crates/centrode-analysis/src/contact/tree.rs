@@ -76,7 +76,11 @@ impl Tree {
     }
 
     /// Whether a part is found that passes both tests, looked for only in runs that pass the first.
-    pub(super) fn any(&self, may: &impl Fn(&Run) -> bool, passes: &impl Fn(usize) -> bool) -> bool {
+    pub(super) fn any(
+        &self,
+        may: &impl Fn(&Run) -> bool,
+        passes: &mut impl FnMut(usize) -> bool,
+    ) -> bool {
         self.root()
             .is_some_and(|run| self.any_in(&run, may, passes))
     }
@@ -85,7 +89,7 @@ impl Tree {
         &self,
         run: &Run,
         may: &impl Fn(&Run) -> bool,
-        passes: &impl Fn(usize) -> bool,
+        passes: &mut impl FnMut(usize) -> bool,
     ) -> bool {
         may(run)
             && match run.single() {
@@ -98,17 +102,11 @@ impl Tree {
     }
 
     /// Every part found in runs that pass a test.
-    pub(super) fn each(&self, may: &impl Fn(&Run) -> bool, found: &mut impl FnMut(usize)) {
-        let mut open: Vec<Run> = self.root().into_iter().collect();
-        while let Some(run) = open.pop() {
-            if !may(&run) {
-                continue;
-            }
-            match run.single() {
-                Some(part) => found(part),
-                None => open.extend(self.halves(&run)),
-            }
-        }
+    pub(super) fn each(&self, may: &impl Fn(&Run) -> bool, mut found: impl FnMut(usize)) {
+        self.any(may, &mut |part| {
+            found(part);
+            false
+        });
     }
 
     /// Depth to which the circle around some part lies within a circle; zero where none does.

@@ -1,8 +1,9 @@
 //! Steps along a cycle, and those at which a point of a gear passes the line of centres.
 
 use std::f64::consts::{PI, TAU};
+use std::ops::Range;
 
-use centrode_geometry::{Point, checkpoint};
+use centrode_geometry::{Point, bracketed_root, checkpoint};
 use centrode_mechanism::gear::{GearPair, Member};
 
 use super::touch::Pose;
@@ -43,12 +44,12 @@ impl Walk {
         }
     }
 
-    /// First and last step of every passage of a gear's point by the line of centres.
+    /// Steps from the first to before the last of every passage of a gear's point by the line of centres.
     pub(super) fn passages(
         &self,
         member: Member,
         point: Point,
-    ) -> impl Iterator<Item = (usize, usize)> {
+    ) -> impl Iterator<Item = Range<usize>> {
         let sense = SENSES[member as usize];
         let directions = &self.directions[member as usize];
         let last = directions.len() - 1;
@@ -61,8 +62,21 @@ impl Walk {
             .map(move |direction| {
                 checkpoint();
                 let middle = directions.partition_point(|d| sense * d < direction);
-                let low = middle.saturating_sub(self.beside);
-                (low, (middle + self.beside).min(last))
+                middle.saturating_sub(self.beside)..(middle + self.beside).min(last)
             })
+    }
+
+    /// Inputs between steps at which a function that is known at every step changes its sign.
+    pub(super) fn roots(
+        &self,
+        steps: Range<usize>,
+        at_step: impl Fn(usize) -> f64,
+        at: impl Fn(f64) -> f64,
+    ) -> impl Iterator<Item = f64> {
+        steps.filter_map(move |k| {
+            let [f, g] = [k, k + 1].map(&at_step);
+            let (low, high) = (self.inputs[k], self.inputs[k + 1]);
+            ((f > 0.0) != (g > 0.0)).then(|| bracketed_root(&at, low, high, f, g))
+        })
     }
 }

@@ -1,11 +1,9 @@
 //! Measuring pins in the spaces of the intermittent gears as they are cut.
 
-use centrode_geometry::{Point, checkpoint};
+use centrode_geometry::{Point, bracketed_root, checkpoint};
 use centrode_mechanism::gear::{IntermittentPair, Member, OverPins, Pin, PinFault};
 use nalgebra::Rotation2;
 
-/// Halvings of an angle or of a radius.
-const HALVINGS: u32 = 40;
 /// Share of its radius by which a pin that rests may be off a flank.
 const OFF: f64 = 1e-6;
 
@@ -45,15 +43,15 @@ fn rest(corners: &[Point], start: Point, radius: f64) -> Option<Pin> {
     let place = |angle: f64, reach: f64| Rotation2::new(angle) * Point::new(reach, 0.0);
     // Farther out a pin is farther from the nearer flank.
     let seat = |angle: f64| {
-        let reach = halved([middle - radius, middle + radius], |reach| {
+        let reach = root([middle - radius, middle + radius], |reach| {
             let [left, right] = gaps(&sides, place(angle, reach)).map(|(gap, _)| gap);
-            left.min(right) - radius
+            Some(left.min(right) - radius)
         })?;
         Some(place(angle, reach))
     };
     let aside = 0.15 * radius / middle;
     // Turned on counter-clockwise a pin is nearer to the flank there.
-    let angle = halved([polar - aside, polar + aside], |angle| {
+    let angle = root([polar - aside, polar + aside], |angle| {
         let [left, right] = seat(angle).map(|at| gaps(&sides, at).map(|(gap, _)| gap))?;
         Some(right - left)
     })?;
@@ -71,20 +69,12 @@ fn rest(corners: &[Point], start: Point, radius: f64) -> Option<Pin> {
     })
 }
 
-/// Input at which a rising function is nought, by halving; none where it does not change its sign.
-fn halved<T: Into<Option<f64>>>(
-    [mut low, mut high]: [f64; 2],
-    f: impl Fn(f64) -> T,
-) -> Option<f64> {
-    let sound = f(low).into()? <= 0.0 && f(high).into()? >= 0.0;
-    for _ in 0..HALVINGS {
-        let middle = 0.5 * (low + high);
-        match f(middle).into()? < 0.0 {
-            true => low = middle,
-            false => high = middle,
-        }
-    }
-    sound.then_some(0.5 * (low + high))
+/// Root of a function that rises; none where it does not change its sign.
+fn root([low, high]: [f64; 2], f: impl Fn(f64) -> Option<f64>) -> Option<f64> {
+    let (below, above) = (f(low)?, f(high)?);
+    // Of what cannot be told no root comes: the pin found is looked at.
+    let told = |x: f64| f(x).unwrap_or(f64::NAN);
+    (below <= 0.0 && above >= 0.0).then(|| bracketed_root(told, low, high, below, above))
 }
 
 /// Nearest points of lines to a point, with their distances: counter-clockwise of the ray from the origin through it, and

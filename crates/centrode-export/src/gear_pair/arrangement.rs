@@ -180,9 +180,8 @@ pub(crate) fn of_both(pair: &GearPair) -> Vec<Datum> {
     // Nowhere takes a shorter distance more backlash than twice its share across a flank where the pitch curves are square to
     // the line of centres.
     let shorter = play[0] / (2.0 * sin);
-    let half = number(0.5 * shorter, 3);
     if shorter > 0.0 {
-        let within = format!("{} ±{half}", number(a, 4));
+        let within = format!("{} ±{}", number(a, 4), number(0.5 * shorter, 3));
         data.push(Datum::new(
             "Centre distance, by half the backlash",
             "a",

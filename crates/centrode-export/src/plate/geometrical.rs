@@ -3,13 +3,13 @@
 use centrode_geometry::Point;
 
 use super::{Hole, Plate};
-use crate::sheet::geometrical::{Characteristic, Frame};
+use crate::sheet::geometrical::Frame;
 
 impl Plate {
     /// Frames of each hole. The first datum is the seat of a shaft, or else the first hole with a class; the second is the hole
     /// with a class that lies farthest from it. All others lie in position to both.
-    pub(super) fn frames(&self) -> Vec<Option<Frame>> {
-        let mut frames = vec![None; self.holes.len()];
+    pub(super) fn frames(&self) -> Vec<Vec<Frame>> {
+        let mut frames = vec![Vec::new(); self.holes.len()];
         let Some((first, origin)) = self.first_datum() else {
             return frames;
         };
@@ -20,37 +20,24 @@ impl Plate {
         });
         let others: Vec<(usize, f64)> = fitted.filter(|(index, _)| *index != first).collect();
         let second = others.iter().max_by(|a, b| a.1.total_cmp(&b.1));
-        for (index, distance) in &others {
-            let datums = match second {
-                Some((far, _)) if far != index => format!("{one} {two}"),
-                _ => one.to_string(),
+        let second = second.map(|(index, _)| *index);
+        for &(index, distance) in &others {
+            let datums = match Some(index) == second {
+                true => one.to_string(),
+                false => format!("{one} {two}"),
             };
-            frames[*index] = Frame::position(*distance, self.holes[*index].off, &datums);
+            let position = Frame::position(distance, self.holes[index].off, &datums);
+            frames[index].extend(position);
         }
-        frames[first] = Some(Frame::datum(one));
+        // A letter that nothing lies to is not told.
+        let is_used = others
+            .iter()
+            .any(|&(index, _)| Some(index) != second && !frames[index].is_empty());
+        if let Some(second) = second.filter(|_| is_used) {
+            frames[second].push(Frame::datum(two));
+        }
+        frames[first].push(Frame::datum(one));
         frames
-    }
-
-    /// Letter of the second datum with the number of its hole, where holes lie to it.
-    pub(super) fn second_datum(&self) -> Option<(usize, Frame)> {
-        let frames = self.frames();
-        let [one, two] = self.letters();
-        let both = format!("{one} {two}");
-        let position = |frame: &Option<Frame>| {
-            let found = frame.as_ref();
-            found
-                .filter(|frame| frame.characteristic == Characteristic::Position)
-                .cloned()
-        };
-        let lies_to = |frame: &Frame, to: &str| frame.datums() == to;
-        let mut positions = frames.iter().map(position);
-        positions
-            .clone()
-            .flatten()
-            .find(|frame| lies_to(frame, &both))?;
-        let found =
-            positions.position(|frame| frame.is_some_and(|f| lies_to(&f, &one.to_string())));
-        found.map(|index| (index, Frame::datum(two)))
     }
 
     /// Runout of the faces of a body that turns on its shaft, by the circle about it.

@@ -73,8 +73,11 @@ impl Plate {
             false => "Places x, y from an origin beside the part, x to the right.".into(),
         });
         let frames = self.frames();
-        let mut frames = frames.iter().flatten();
-        if frames.any(|frame| frame.characteristic == Characteristic::Position) {
+        if frames
+            .iter()
+            .flatten()
+            .any(|frame| frame.characteristic == Characteristic::Position)
+        {
             lines.push("Places of holes with a position tolerance are exact.".into());
         }
         lines.extend(self.notes.iter().cloned());
@@ -221,14 +224,8 @@ impl Plate {
 
     /// Lines of the frames of each hole.
     fn geometrical(&self) -> Vec<Vec<String>> {
-        let own = self.frames().into_iter();
-        let mut lines: Vec<Vec<String>> = own
-            .map(|frame| frame.iter().map(Frame::line).collect())
-            .collect();
-        if let Some((index, datum)) = self.second_datum() {
-            lines[index].push(datum.line());
-        }
-        lines
+        let lines = |frames: &Vec<Frame>| frames.iter().map(Frame::line).collect();
+        self.frames().iter().map(lines).collect()
     }
 
     /// Places and sizes of many holes.

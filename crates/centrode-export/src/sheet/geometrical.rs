@@ -80,11 +80,6 @@ impl Frame {
         }
     }
 
-    /// Letters of the datums it refers to.
-    pub(crate) fn datums(&self) -> String {
-        self.cells[1..].join(" ")
-    }
-
     /// The frame that a line of words stands for, if it does.
     fn read(line: &str) -> Option<Self> {
         let mut words = line.strip_prefix('|')?.split(' ');

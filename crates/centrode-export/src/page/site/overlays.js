@@ -35,7 +35,7 @@ function axes(scene, places) {
 }
 
 /** The shortest lines that join all points: pairs of them. */
-export function joined(points) {
+function joined(points) {
   const pairs = [];
   const [tree, rest] = [points.slice(0, 1), points.slice(1)];
   while (rest.length) {

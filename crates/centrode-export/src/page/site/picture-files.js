@@ -20,7 +20,7 @@ const ROOM = [24, 24];
 const [ALONG, PLACES] = [32, 48];
 
 /** Lines and arcs of a snapshot as the path of an SVG. */
-export function path({ vertices, closed }) {
+function path({ vertices, closed }) {
   const count = vertices.length / 3;
   if (count === 0) return "";
   const at = (i) => [vertices[3 * i], vertices[3 * i + 1]];
@@ -39,10 +39,19 @@ export function path({ vertices, closed }) {
   return closed ? `${words}Z` : words;
 }
 
-/** The picture as it is shown, on white. */
-export function svg(stage, title) {
-  const { scene, view, width, height } = stage;
+/** Draws on paper's colours, whatever those of the screen. */
+function onPaper(draw) {
   paper(true, () => {});
+  try {
+    return draw();
+  } finally {
+    paper(false, () => {});
+  }
+}
+
+/** The picture as it is shown, on white. */
+function svg(stage, title) {
+  const { scene, view, width, height } = stage;
   const root = drawn("svg", { viewBox: `0 0 ${width} ${height}`, width, height, "font-family": "sans-serif", "font-size": 12 });
   const name = drawn("title");
   name.textContent = title;
@@ -77,7 +86,6 @@ export function svg(stage, title) {
     label.textContent = words;
     root.append(drawn("circle", { cx: px, cy: py, r: 4, fill: color("pinned") }), label);
   }
-  paper(false, () => {});
   return `${new XMLSerializer().serializeToString(root)}\n`;
 }
 
@@ -127,16 +135,6 @@ class Film extends Painter {
     const poses = this.parts(share * this.scene.motion.cycle);
     this.axes(poses);
     this.marks(poses);
-  }
-}
-
-/** Draws on paper's colours, whatever those of the screen. */
-function onPaper(draw) {
-  paper(true, () => {});
-  try {
-    return draw();
-  } finally {
-    paper(false, () => {});
   }
 }
 
@@ -228,8 +226,8 @@ export async function take(stage, name, complain) {
       return true;
     }
   };
-  const svgFile = () => new Blob([svg(stage, name)], { type: "image/svg+xml" });
-  const pngFile = () => image(svg(stage, name), FINE * stage.width, FINE * stage.height);
+  const svgFile = () => new Blob([onPaper(() => svg(stage, name))], { type: "image/svg+xml" });
+  const pngFile = () => image(onPaper(() => svg(stage, name)), FINE * stage.width, FINE * stage.height);
   await dialogs.ask("Take the picture", [
     element("p", { class: "option" }, element("label", { for: "picture-kind" }, "File"), kind), film, words,
   ], [["", "Close"], ["take", "Take", "main"]], made);

@@ -1,10 +1,11 @@
 use std::sync::Arc;
 
-use crate::family::{FAMILIES, Mechanism};
+use crate::family::Mechanism;
 use crate::mechanism::design::DesignError;
 
 use super::edit::{Edit, edited};
 use super::field::{Table, tables};
+use super::snapshot::resolved;
 
 /// Greatest number of details that are left out of one design.
 const MOST: usize = 6;
@@ -23,8 +24,7 @@ pub(super) fn without_details(
         let key = written_detail(&tables(&text), &blamed)?;
         text = edited(&text, &[Edit::removal(&key)]).ok()?;
         left_out.push(key);
-        let read = FAMILIES.read(text.as_bytes());
-        match read.and_then(|file| file.mechanism()) {
+        match resolved(&text) {
             Ok(mechanism) => return Some((mechanism, left_out)),
             Err(error) => blamed = error.key,
         }
@@ -64,11 +64,6 @@ mod tests {
         fs::read_to_string(folder.join(name)).expect("there")
     }
 
-    fn mechanism(text: &str) -> Result<Arc<dyn Mechanism>, DesignError> {
-        let file = FAMILIES.read(text.as_bytes())?;
-        file.mechanism()
-    }
-
     #[test]
     fn a_detail_of_a_body_that_cannot_be_leaves_the_motion_as_it_is() {
         for (name, old, new, keys) in [
@@ -98,9 +93,9 @@ mod tests {
             ),
         ] {
             let text = design(name);
-            let good = mechanism(&text).expect("sound");
+            let good = resolved(&text).expect("sound");
             let bad = text.replacen(old, new, 1);
-            let error = mechanism(&bad).map(drop).expect_err("at fault");
+            let error = resolved(&bad).map(drop).expect_err("at fault");
             let (found, left_out) = without_details(&bad, &error).expect("a mechanism");
             assert!(
                 left_out.iter().all(|key| keys.contains(&key.as_str())),
@@ -122,7 +117,7 @@ mod tests {
             ),
         ] {
             let bad = design("circular-pair.toml").replacen(old, new, 1);
-            let error = mechanism(&bad).map(drop).expect_err("at fault");
+            let error = resolved(&bad).map(drop).expect_err("at fault");
             assert!(without_details(&bad, &error).is_none(), "{new}");
         }
     }

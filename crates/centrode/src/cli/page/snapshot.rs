@@ -119,7 +119,8 @@ pub(crate) fn drawn(text: &str) -> Result<String, String> {
     serde_json::to_string(&mechanism.picture()).map_err(|error| error.to_string())
 }
 
-fn resolved(text: &str) -> Result<Arc<dyn Mechanism>, DesignError> {
+/// Mechanism of a design file.
+pub(super) fn resolved(text: &str) -> Result<Arc<dyn Mechanism>, DesignError> {
     FAMILIES.read(text.as_bytes())?.mechanism()
 }
 
