@@ -18,7 +18,7 @@ use centrode_mechanism::reverse::{
     AxisFault, GearDriveError, MachineError, PathError, PoseError, SplitError,
 };
 use centrode_mechanism::shaft::ShaftError;
-use centrode_mechanism::three_arm::PusherError;
+use centrode_mechanism::three_arm::{NotPosed, PusherError};
 use pyo3::exceptions::PyOSError;
 use pyo3::prelude::{PyErr, Python};
 
@@ -87,6 +87,7 @@ raised! {
     }
     AxisFault { _ => MechanismError("axis"), }
     SplitError { _ => MechanismError("split"), }
+    NotPosed { _ => MechanismError("poses"), }
     NoSoundTeeth { _ => MechanismError("pairs"), }
     MachineError {
         MachineError::Arms { .. } => DesignError("arms"),

@@ -1,5 +1,7 @@
+use std::ops::ControlFlow;
 use std::sync::{Arc, OnceLock};
 
+use centrode_analysis::optimise::three_arm::PosedProblem;
 use centrode_analysis::with_sound_teeth;
 use centrode_geometry::Point;
 use centrode_mechanism::machine::Piecewise;
@@ -19,6 +21,7 @@ use crate::design::Class;
 use crate::error::{Answer, Raised};
 use crate::made::{Reduced, by};
 use crate::record::{self, Keywords, record};
+use crate::three_arm::ThreeArm;
 use crate::wait::wait;
 use crate::word::Word;
 
@@ -51,10 +54,7 @@ enum Given {
     },
     Poses {
         rows: Rows<3>,
-        /// Direction of the clamp less that of the arm, rad.
-        clamp: f64,
-        /// How far each pose is missed, mm and rad.
-        misses: Vec<[f64; 2]>,
+        found: Box<KeyPoses>,
     },
 }
 
@@ -152,12 +152,10 @@ pub(crate) fn reverse_poses(
         };
         let poses: Vec<KeyPose> = rows.0.iter().map(pose).collect();
         let found = KeyPoses::new(&poses)?;
-        let given = Given::Poses {
-            rows,
-            clamp: found.clamp,
-            misses: found.misses,
-        };
-        Reversed::new(given, found.chain, OnceLock::new(), (kind, bend_deg, arms))
+        let chain = found.chain.clone();
+        let found = Box::new(found);
+        let given = Given::Poses { rows, found };
+        Reversed::new(given, chain, OnceLock::new(), (kind, bend_deg, arms))
     })?
 }
 
@@ -263,7 +261,7 @@ impl Reversed {
     fn clamp_deg(&self) -> Option<f64> {
         match &self.given {
             Given::Path { .. } => None,
-            Given::Poses { clamp, .. } => Some(clamp.to_degrees()),
+            Given::Poses { found, .. } => Some(found.clamp.to_degrees()),
         }
     }
 
@@ -273,9 +271,9 @@ impl Reversed {
     fn misses(&self) -> Option<Rows<2>> {
         match &self.given {
             Given::Path { .. } => None,
-            Given::Poses { misses, .. } => {
+            Given::Poses { found, .. } => {
                 let told = |[off, turned]: &[f64; 2]| [*off, turned.to_degrees()];
-                Some(Rows(misses.iter().map(told).collect()))
+                Some(Rows(found.misses.iter().map(told).collect()))
             }
         }
     }
@@ -350,6 +348,31 @@ impl Reversed {
             )
         })??;
         Machine::object(py, composed)
+    }
+
+    /// The three-arm transplanting mechanism that takes the key poses, picks in the first and plants in the last.
+    ///
+    /// Bend and law of its gears are sought so that it reaches its goals with sound full teeth; of `split` and `bend_deg` nothing
+    /// is taken. Where none is found that reaches all, the nearest is given: ask it for its goals.
+    ///
+    /// Raises:
+    ///     MechanismError: A path was given, the clamp points back at the arm's axis, or no law brings the arm through the poses.
+    fn three_arm(&self, py: Python<'_>) -> Answer<Py<ThreeArm>> {
+        let Given::Poses { found, .. } = &self.given else {
+            let sentence =
+                "a path says nothing of the clamp: a three-arm mechanism is made from key poses";
+            return Err(Raised::no_mechanism("three_arm", sentence.into()));
+        };
+        let (poses, arms) = (found.poses.clone(), self.arms);
+        let resolved = wait(py, move || {
+            let chains = KeyPoses::mildest(&poses, PosedProblem::CHAINS)?;
+            let posed = PosedProblem::search(&chains, arms, &mut |_, _| ControlFlow::Continue(()))?;
+            Ok::<_, Raised>(
+                <ThreeArm as Class>::Machine::resolve(&posed.design)
+                    .map_err(centrode_mechanism::design::MechanismError::from)?,
+            )
+        })??;
+        ThreeArm::object(py, resolved)
     }
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {

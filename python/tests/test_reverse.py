@@ -252,3 +252,21 @@ def test_as_many_key_poses_as_no_machine_meets_are_refused_by_number():
         ct.reverse_poses(
             [(0, 0, 0), (0, 0, 180), (1000, 0, 0), (0, 1000, 90), (-1000, 0, 45), (0, -1000, 10), (500, 5, 77)]
         )
+
+
+def test_a_transplanter_takes_its_poses_and_reaches_every_goal():
+    poses = np.array([(240, 40, 5), (288, -6, 17), (240, -165, -4), (85, -272, -33), (-70, -268, -54)])
+    made = ct.reverse_poses(poses, arms=3)
+    arms = made.three_arm()
+    assert isinstance(arms, ct.ThreeArm)
+    assert all(goal.met for goal in arms.goals())
+    assert not [finding for finding in arms.check().findings if finding.severity != "note"]
+    # The tip's own course: it comes to every pose in order, and the clamp points as wanted there.
+    theta = np.linspace(-0.5, 2 * np.pi - 0.5, 200_001)
+    tip = arms.tip(theta) + made.axis
+    at = [np.argmin(np.hypot(*(tip - pose[:2]).T)) for pose in poses]
+    assert (np.diff(at) > 0).all()
+    assert np.abs(np.linalg.norm(tip[at] - poses[:, :2], axis=1)).max() < 0.01
+    assert np.abs(np.degrees(arms.clamp_angle(theta[at])) - poses[:, 2]).max() < 0.01
+    with pytest.raises(ct.MechanismError, match="key poses"):
+        ct.reverse(DRAWN, (260, 160), bend_deg=40).three_arm()

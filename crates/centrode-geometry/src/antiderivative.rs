@@ -11,7 +11,7 @@ const DEEPEST: u32 = 12;
 ///
 /// The interval is cut at the function's breaks and then halved until the Chebyshev series of the
 /// integrand on every panel has decayed to rounding; the series is integrated term by term. Cost:
-/// one binary search and one seventeen-term Clenshaw sum an evaluation.
+/// one binary search and Clenshaw sums of seventeen terms in all an evaluation.
 #[derive(Clone, Debug)]
 pub struct Antiderivative {
     /// Panel ends; one more than there are panels.
@@ -135,11 +135,15 @@ impl Antiderivative {
         let (a, b) = (self.ends[index], self.ends[index + 1]);
         let u = ((t - a) - (b - t)) / (b - a);
         let panel = &self.panels[index];
-        let (mut d, mut dd) = (0.0, 0.0);
-        for &c in panel.integral[1..].iter().rev() {
-            (d, dd) = (2.0 * u * d - dd + c, d);
+        // Even and odd terms apart, as series in T2(u): two short chains instead of a long one.
+        let twice = 4.0 * u * u - 2.0;
+        let ([mut even, mut even2], [mut odd, mut odd2]) = ([0.0; 2], [0.0; 2]);
+        for pair in panel.integral[1..].chunks_exact(2).rev() {
+            (odd, odd2) = (twice * odd + (pair[0] - odd2), odd);
+            (even, even2) = (twice * even + (pair[1] - even2), even);
         }
-        panel.before + (u * d - dd + panel.integral[0])
+        let even = 0.5 * twice * even - even2 + panel.integral[0];
+        panel.before + (u * (odd - odd2) + even)
     }
 
     /// Argument at which the integral of a positive function reaches `value`, between zero and the total.

@@ -73,6 +73,7 @@ pub use obstacle::{ComposedObstacle, ComposedObstacleSpec};
 pub use pair_figure::PAIR_FIGURES;
 pub use plates::{ComposedPlatesSpec, PinHole};
 pub use reversed::{MachineError, ReversedMachine};
+pub(crate) use reversed::{free_backlash, free_body};
 
 use self::expansion::Expansion;
 use self::gearing::Meshing;

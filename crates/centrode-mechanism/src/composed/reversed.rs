@@ -10,6 +10,7 @@ use super::{
 use crate::gear::design::{Addendum, BodySpec, GearPairDesign};
 use crate::gear::pitch::{PitchSpec, Transmission};
 use crate::gear::{CurvatureRange, GearPair, GearPairError, Member, Rolling};
+use crate::machine::preferred_size;
 use crate::reverse::{Split, SplitKind, TwoBar, leg};
 
 /// Names of the pairs of a machine: of one that occurs twice, and of two.
@@ -214,31 +215,29 @@ pub(super) fn table_pair(table: Vec<f64>, distance: f64) -> GearPairDesign {
     };
     let mut pair = GearPairDesign::new(PitchSpec::Transmission(law));
     pair.teeth.addendum = Addendum::Fitted;
-    pair.teeth.backlash = rounded(BACKLASH * distance);
-    let body = BodySpec {
-        width: rounded(WIDTH * distance),
-        bore: rounded(BORE * distance),
-        ..BodySpec::default()
-    };
+    pair.teeth.backlash = free_backlash(distance);
+    let body = free_body(distance);
     pair.driver = body.clone();
     pair.driven = body;
     pair
 }
 
-/// Tooth count before another is found.
-const FIRST_COUNT: u32 = 60;
+/// Backlash of gears of a centre distance, mm, where it is free.
+pub(crate) fn free_backlash(distance: f64) -> f64 {
+    preferred_size(BACKLASH * distance)
+}
 
-/// Two digits of a number, for sizes that are free.
-fn rounded(x: f64) -> f64 {
-    let unit = 10.0_f64.powi(x.log10().floor() as i32 - 1);
-    let digits = (x / unit).round();
-    // A power of ten times a whole number, without the rounding of a product.
-    if unit < 1.0 {
-        digits / (1.0 / unit).round()
-    } else {
-        digits * unit
+/// Body of gears of a centre distance, mm, where it is free.
+pub(crate) fn free_body(distance: f64) -> BodySpec {
+    BodySpec {
+        width: preferred_size(WIDTH * distance),
+        bore: preferred_size(BORE * distance),
+        ..BodySpec::default()
     }
 }
+
+/// Tooth count before another is found.
+const FIRST_COUNT: u32 = 60;
 
 fn design(
     chain: &TwoBar,
@@ -336,7 +335,7 @@ fn design(
         };
         design.copies.insert(named(ARMS), copies);
     }
-    let [thickness, width, pin] = PLATE.map(|share| rounded(share * leg));
+    let [thickness, width, pin] = PLATE.map(|share| preferred_size(share * leg));
     design.plates.thickness = thickness;
     design.plates.width = width;
     design.plates.pin_diameter = pin;

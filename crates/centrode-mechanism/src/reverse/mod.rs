@@ -27,7 +27,7 @@ pub use drawn::{DrawingError, DrawnPath};
 pub use error::{AxisFault, PathError};
 pub use map::{AxisMap, AxisRange, PossibleAxis};
 pub use path::WantedPath;
-pub use poses::{KeyPose, KeyPoses, PoseError};
+pub use poses::{Harmonics, KeyPose, KeyPoses, PoseError};
 pub(crate) use sharpness::leg;
 pub use split::{Split, SplitError, SplitKind};
 pub use timing::{Section, Timing, TimingError, Wanted};

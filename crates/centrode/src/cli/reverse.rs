@@ -1,3 +1,5 @@
+mod posed;
+
 use std::io::Write;
 
 use crate::analysis::{SoundTeeth, Unit, with_sound_teeth};
@@ -5,7 +7,8 @@ use crate::geometry::Point;
 use crate::mechanism::design::Design as _;
 use crate::mechanism::gear::design::Addendum;
 use crate::mechanism::reverse::{
-    AxisMap, AxisRange, DrawnPath, KeyPoses, ReversedMachine, Split, SplitKind, TwoBar, WantedPath,
+    AxisMap, AxisRange, DrawnPath, KeyPose, KeyPoses, ReversedMachine, Split, SplitKind, TwoBar,
+    WantedPath,
 };
 use crate::mechanism::three_arm::design::Direction;
 
@@ -21,6 +24,9 @@ const NAME: usize = 24;
 
 /// Makes a machine from a path, prints what was chosen and writes its design.
 pub(crate) fn run(command: &Reverse, out: &mut impl Write) -> Result<Status, Failure> {
+    if command.three_arm {
+        return posed::run(command, out);
+    }
     let source = Source::open_up_to(&command.path, WantedPath::LARGEST)?;
     if let Some(output) = &command.output {
         source.keep(output, "the path")?;
@@ -127,19 +133,10 @@ impl Found {
 
     fn by_poses(source: &Source, progress: &Progress) -> Result<Self, Failure> {
         progress.step("trying places of the arm's axis");
-        let found = KeyPoses::from_csv(source.bytes()).map_err(|error| source.refused(&error))?;
-        let clamp = (
-            "clamp".to_owned(),
-            format!("{} from the arm", Unit::Angle.tell(found.clamp)),
-        );
-        let pose = |(index, [off, turned]): (usize, &[f64; 2])| {
-            let (off, turned) = (Unit::Millimetre.tell(*off), Unit::Angle.tell(*turned));
-            let name = format!("pose {}", index + 1);
-            (name, format!("missed by {off} and {turned}"))
-        };
-        let poses = found.misses.iter().enumerate().map(pose);
+        let poses = KeyPose::from_csv(source.bytes()).map_err(|error| source.refused(&error))?;
+        let found = KeyPoses::new(&poses).map_err(|error| source.refused(&error))?;
         Ok(Self {
-            told: std::iter::once(clamp).chain(poses).collect(),
+            told: told(found.clamp, &found.misses),
             chain: found.chain,
             why: format!(
                 "the mildest found from {} starts that meet the poses in order",
@@ -148,6 +145,21 @@ impl Found {
             map: None,
         })
     }
+}
+
+/// Lines on the clamp and on how far each pose is missed.
+fn told(clamp: f64, misses: &[[f64; 2]]) -> Vec<(String, String)> {
+    let clamp = (
+        "clamp".to_owned(),
+        format!("{} from the arm", Unit::Angle.tell(clamp)),
+    );
+    let pose = |(index, [off, turned]): (usize, &[f64; 2])| {
+        let (off, turned) = (Unit::Millimetre.tell(*off), Unit::Angle.tell(*turned));
+        let name = format!("pose {}", index + 1);
+        (name, format!("missed by {off} and {turned}"))
+    };
+    let poses = misses.iter().enumerate().map(pose);
+    std::iter::once(clamp).chain(poses).collect()
 }
 
 /// Points along the path of an SVG file; none where the file is another.

@@ -197,3 +197,69 @@ fn a_drawn_path_is_taken_within_the_distance_asked_for() {
         "{told}"
     );
 }
+
+/// Key poses of the shipped design, the last with a direction of its own.
+fn transplanter(planting: &str) -> String {
+    format!("240,40,5\n288,-6,17\n240,-165,-4\n85,-272,-33\n-70,-268,{planting}\n")
+}
+
+#[test]
+fn a_transplanter_is_made_from_its_poses_and_its_parts_with_it() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let [design, parts] = ["arms.toml", "out"].map(|name| folder.path().join(name));
+    let [shown, to] = [&design, &parts].map(|path| path.to_str().expect("text"));
+    let command = ["reverse", "-", "--poses", "--three-arm", "--arms", "3"];
+    let run = fed(
+        &[&command[..], &["-o", shown, "--to", to]].concat(),
+        transplanter("-54").as_bytes(),
+    );
+    let told = text(&run.stdout);
+    assert_eq!(run.status.code(), Some(0), "{told}{}", text(&run.stderr));
+    let lines = |begin: &str| told.lines().filter(|line| line.starts_with(begin)).count();
+    assert_eq!((lines("pose "), lines("goal ")), (5, 9), "{told}");
+    assert!(!told.contains("missed\n"), "{told}");
+    assert!(parts.join("sun.step").exists() && parts.join("sheets.pdf").exists());
+    // The shipped design is this one but for its comments, name and title.
+    let own = |text: &str| {
+        let line = |line: &&str| {
+            !["#", "name", "title"]
+                .iter()
+                .any(|word| line.starts_with(word))
+        };
+        text.lines().filter(line).collect::<Vec<_>>().join("\n")
+    };
+    let shipped = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/designs/three-arm-from-poses.toml"
+    );
+    let [found, shipped] = [design.as_path(), shipped.as_ref()]
+        .map(|path| own(fs::read_to_string(path).expect("a design").trim()));
+    assert_eq!(found.trim(), shipped.trim());
+    for wrong in [
+        &["reverse", "-", "--three-arm"][..],
+        &["reverse", "-", "--poses", "--three-arm", "--bend", "40"],
+        &["reverse", "-", "--poses", "--to", to],
+    ] {
+        assert_eq!(fed(wrong, b"").status.code(), Some(2), "{wrong:?}");
+    }
+}
+
+#[test]
+fn poses_that_no_goal_allows_are_told_with_the_goal() {
+    // From 5 deg above the horizontal to 60 below it the clamp turns by 65 deg, and goal 4 allows 60.
+    let run = fed(
+        &["reverse", "-", "--poses", "--three-arm", "--arms", "3"],
+        transplanter("-60").as_bytes(),
+    );
+    let told = text(&run.stdout);
+    assert_eq!(run.status.code(), Some(1), "{}", text(&run.stderr));
+    let missed: Vec<&str> = told
+        .lines()
+        .filter(|line| line.ends_with("missed"))
+        .collect();
+    assert_eq!(missed.len(), 1, "{told}");
+    assert!(
+        missed[0].starts_with("goal 4 ") && missed[0].contains("65.0000 deg"),
+        "{told}"
+    );
+}

@@ -1,6 +1,8 @@
 //! Search for a three-arm mechanism that reaches its goals.
 
+mod judged;
 mod mesh;
+mod posed;
 
 use std::sync::{Arc, Mutex};
 
@@ -10,17 +12,15 @@ use centrode_mechanism::three_arm::design::{Objective, ThreeArmDesign};
 use centrode_mechanism::three_arm::{Parameter, Sweep, SweepError, ThreeArm};
 
 use super::{DesignProblem, Evaluation, Problem, Variable};
-use crate::three_arm::{goals, reached};
-use crate::{ArmClearance, Goal, Unit};
+use crate::three_arm::goals;
+use crate::{Goal, Unit};
+
+pub use posed::{Posed, PosedProblem};
 
 /// Decimals of the parameters found, degrees or mm, as a machinist reads them.
 const DECIMALS: u32 = 3;
 /// Inputs at which the tip's path is sampled before its extremes are refined.
 const INPUTS: usize = 120;
-/// Violation charged for each undercut or short flank.
-const FLANK: f64 = 1e-3;
-/// Violation charged for each goal skipped because a cheaper one already failed.
-const UNSEEN: f64 = 1.0;
 
 /// Three-arm mechanism as a problem: its free parameters, its goals as constraints, and the design's objective.
 ///
@@ -96,7 +96,7 @@ impl ThreeArmProblem {
         self.with_sweep(|sweep| {
             let mut figures = sweep.figures(&design).ok()?;
             let length = sweep.pitch_length();
-            follow(&mut design, length);
+            judged::follow(&mut design, length);
             figures.module = design
                 .gear_tooth_count()
                 .map(|z| length / (std::f64::consts::PI * f64::from(z)));
@@ -104,57 +104,13 @@ impl ThreeArmProblem {
             let largest = Limits::largest_module_of(&design.pair(), sweep.curvatures());
             let overload = module / largest - 1.0;
             let mut goals = goals(&figures, &design.goals);
-            goals.push(self.picking_depth(sweep.picking_depth(&design)));
+            goals.push(judged::picking_depth(&design, sweep.picking_depth(&design)));
             Some(Quick {
                 goals,
                 design,
                 overload,
             })
         })
-    }
-
-    fn picking_depth(&self, depth: f64) -> Goal {
-        let wanted = self.start.optimise.picking_depth;
-        let about = (0, "picking-depth", "depth of the picking loop");
-        Goal::new(
-            about,
-            Some(depth),
-            [Some(wanted), None],
-            Unit::Millimetre,
-            20.0,
-        )
-    }
-
-    /// Constraints besides the goals, as goals of number zero.
-    fn kept(&self, mechanism: &ThreeArm, arms: Option<&ArmClearance>) -> Vec<Goal> {
-        let spec = &self.start.optimise;
-        let least = |least: f64| [Some(least), None];
-        let clearance = |found: Option<crate::interference::Clearance>| found.map(|f| f.least);
-        vec![
-            self.picking_depth(mechanism.picking_depth()),
-            Goal::new(
-                (0, "tray-clearance", "arm's housing clear of the tray"),
-                arms.and_then(|a| clearance(a.tray)),
-                least(spec.tray_clearance),
-                Unit::Millimetre,
-                20.0,
-            ),
-            Goal::new(
-                (0, "stem-clearance", "arm clear of stems planted before"),
-                arms.and_then(|a| clearance(a.seedlings)),
-                least(0.0),
-                Unit::Millimetre,
-                20.0,
-            ),
-        ]
-    }
-
-    fn exact(&self, mechanism: &ThreeArm) -> Option<Vec<Goal>> {
-        let (mut goals, arms) = reached(mechanism);
-        // Arms of which no body can be made reach nothing.
-        arms.as_ref()?;
-        goals.extend(self.kept(mechanism, arms.as_ref()));
-        Some(goals)
     }
 
     fn objective(&self, point: &[f64], mechanism: &ThreeArm, goals: &[Goal]) -> f64 {
@@ -187,27 +143,6 @@ impl ThreeArmProblem {
     }
 }
 
-/// Gives the gears as many teeth as leave the module wanted, unless their count is held.
-fn follow(design: &mut ThreeArmDesign, length: f64) {
-    if design.optimise.hold_tooth_count || design.goals.module <= 0.0 {
-        return;
-    }
-    let most = length / (std::f64::consts::PI * design.goals.module);
-    if design.pitch.tooth_count().is_none() && (3.0..10_000.0).contains(&most) {
-        design.tooth_count = Some(most as u32);
-    }
-}
-
-/// Miss of a goal as a share of its scale; zero where it is reached.
-fn miss(goal: &Goal) -> Option<f64> {
-    goal.margin.map(|margin| (-margin / goal.scale).max(0.0))
-}
-
-/// Miss bounded below one, however great it is.
-fn bounded(miss: f64) -> f64 {
-    miss / (1.0 + miss)
-}
-
 impl Problem for ThreeArmProblem {
     fn bounds(&self) -> Vec<(f64, f64)> {
         self.variables
@@ -222,53 +157,25 @@ impl Problem for ThreeArmProblem {
     }
 
     fn evaluate(&self, point: &[f64]) -> Evaluation {
-        // Quick figures first; goals evaluated only later count as missed until then.
         let nothing = || Evaluation {
             objective: self.moved(point),
             constraints: vec![1e3],
         };
-        let unseen = |mut constraints: Vec<f64>, goals: f64| {
-            constraints.push(UNSEEN * goals);
-            Evaluation {
-                objective: self.moved(point),
-                constraints,
-            }
-        };
         let Some(quick) = self.quick(point) else {
             return nothing();
         };
-        let mut constraints: Vec<f64> = quick.goals.iter().filter_map(miss).collect();
-        let seen = constraints.len();
-        constraints.push(quick.overload.max(0.0));
-        if constraints.iter().sum::<f64>() > 0.0 {
-            // Goals evaluated only later.
-            return unseen(constraints, 7.0);
-        }
-        let Ok(mechanism) = ThreeArm::resolve(&quick.design) else {
+        let Some(judged) = judged::judge(&quick.goals, quick.overload, || {
+            ThreeArm::resolve(&quick.design).ok()
+        }) else {
             return nothing();
         };
-        let Ok(teeth) = mechanism.flank_counts() else {
-            return nothing();
+        let objective = match &judged.reached {
+            Some((mechanism, goals)) => self.objective(point, mechanism, goals),
+            None => self.moved(point),
         };
-        let unsound: u32 = teeth.iter().map(|gear| gear.unsound).sum();
-        if unsound > 0 {
-            constraints[seen] = bounded(FLANK * f64::from(unsound));
-            return unseen(constraints, 6.0);
-        }
-        let Some(goals) = self.exact(&mechanism) else {
-            return nothing();
-        };
-        constraints = goals.iter().filter_map(miss).map(bounded).collect();
-        if constraints.iter().any(|&c| c > 0.0) {
-            return unseen(constraints, 2.0);
-        }
-        let Some(meshing) = mesh::mesh(&quick.design) else {
-            return nothing();
-        };
-        constraints.extend(meshing.iter().filter_map(miss).map(bounded));
         Evaluation {
-            objective: self.objective(point, &mechanism, &goals),
-            constraints,
+            objective,
+            constraints: judged.constraints,
         }
     }
 }
@@ -294,14 +201,14 @@ impl DesignProblem for ThreeArmProblem {
 
     fn goals(&self, point: &[f64]) -> Option<Vec<Goal>> {
         let quick = self.quick(point)?;
-        let mut goals = self.exact(&ThreeArm::resolve(&quick.design).ok()?)?;
+        let mut goals = judged::exact(&ThreeArm::resolve(&quick.design).ok()?)?;
         goals.extend(mesh::mesh(&quick.design).into_iter().flatten());
         Some(goals)
     }
 
     fn guides(&self, point: &[f64]) -> Option<Vec<Goal>> {
         let quick = self.quick(point)?;
-        let mut goals = self.exact(&ThreeArm::resolve(&quick.design).ok()?)?;
+        let mut goals = judged::exact(&ThreeArm::resolve(&quick.design).ok()?)?;
         for goal in &mut goals {
             // A count of flanks has no slope; the module that every place of the curves bears has.
             if goal.name == "sound-teeth" && goal.met() == Some(false) {

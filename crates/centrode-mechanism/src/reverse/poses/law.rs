@@ -144,6 +144,22 @@ impl MildLaw {
         self.law.sense
     }
 
+    /// Directions of carrier and arm in the first pose, rad.
+    pub(super) fn start(&self) -> [f64; 2] {
+        self.law.start
+    }
+
+    /// Turns of carrier and planet from the first pose to each, in the carrier's sense, rad.
+    pub(super) fn turns(&self) -> Vec<[f64; 2]> {
+        let mut sum = [0.0; 2];
+        let before = |turn: &[f64; 2]| {
+            let before = sum;
+            sum = [sum[0] + turn[0], sum[1] + turn[1]];
+            before
+        };
+        self.law.turns.iter().map(before).collect()
+    }
+
     /// Greatest |ln| of the ratio at 360 places: it ranks laws, no more.
     pub(super) fn unevenness(&self) -> f64 {
         let at = |i: u32| ratio(&self.amplitudes, &waves(f64::from(i).to_radians()));

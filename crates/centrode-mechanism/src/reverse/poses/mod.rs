@@ -1,5 +1,6 @@
 //! Synthesis from key poses: places and directions that the arm must take in order, with the path between free.
 
+mod harmonics;
 mod law;
 mod read;
 #[cfg(test)]
@@ -11,6 +12,7 @@ use centrode_geometry::{Bounds, Point, Vector, checkpoint};
 use nalgebra::{Matrix2, SMatrix, SVector};
 use thiserror::Error;
 
+pub use self::harmonics::Harmonics;
 use self::law::{Law, MildLaw};
 use super::{AxisFault, PathError, TwoBar, WantedPath};
 use crate::digits::told;
@@ -28,6 +30,9 @@ const REACH: f64 = 2.0;
 const LONGEST: f64 = 4.0;
 /// Least length of a bar, and least difference of both, as a share of the size of the poses.
 const SHORTEST: f64 = 0.02;
+const LEAST_DIFFERENCE: f64 = 0.002;
+/// Distance of the arm's axes in the clamp's frame from which on two chains differ, as a share of the size of the poses.
+const APART: f64 = 0.02;
 /// Gauss-Newton steps to a circle.
 const STEPS: usize = 40;
 /// Places of the carrier in a turn through which the path is laid.
@@ -95,6 +100,12 @@ pub struct KeyPoses {
     pub chain: TwoBar,
     /// Direction of the clamp less that of the arm, rad.
     pub clamp: f64,
+    /// Poses as given.
+    pub poses: Vec<KeyPose>,
+    /// Directions of carrier and arm in the first pose, rad.
+    pub start: [f64; 2],
+    /// Turns of the carrier and of the planet against it from the first pose to each, in the carrier's sense, rad.
+    pub turns: Vec<[f64; 2]>,
     /// Distance of the path from each pose, mm, and how much the clamp's direction at the foot is off, rad.
     pub misses: Vec<[f64; 2]>,
     /// Number of starts of the search, for either sense of turning, that led to a chain; many lead to one.
@@ -117,6 +128,15 @@ impl KeyPoses {
     /// [`PoseError`] for too few or too many poses, ones that are no numbers, and where there is no machine: with how near the
     /// nearest comes.
     pub fn new(poses: &[KeyPose]) -> Result<Self, PoseError> {
+        let mut mildest = Self::mildest(poses, 1)?;
+        Ok(mildest.remove(0))
+    }
+
+    /// Finds at most so many different chains, those of least greatest |ln| of the ratio first: there is at least one.
+    ///
+    /// # Errors
+    /// As for [`Self::new`].
+    pub fn mildest(poses: &[KeyPose], most: usize) -> Result<Vec<Self>, PoseError> {
         let count = poses.len();
         if !(FEWEST..=MOST).contains(&count) {
             return Err(PoseError::Count { count });
@@ -144,7 +164,7 @@ impl KeyPoses {
         }
         let mut nearest = f64::INFINITY;
         let (mut circles, mut passed, mut possible) = (0, 0, 0);
-        let mut best: Option<(f64, Circle, Law)> = None;
+        let mut found: Vec<(f64, Circle, MildLaw)> = Vec::new();
         for place in 0..GRID * GRID {
             checkpoint();
             let at = |i: usize| size * REACH * ((2 * i + 1) as f64 / GRID as f64 - 1.0);
@@ -165,10 +185,7 @@ impl KeyPoses {
                     continue;
                 };
                 possible += 1;
-                let score = mild.unevenness();
-                if best.as_ref().is_none_or(|(least, ..)| score < *least) {
-                    best = Some((score, circle, law));
-                }
+                found.push((mild.unevenness(), circle, mild));
             }
         }
         if circles == 0 {
@@ -177,15 +194,29 @@ impl KeyPoses {
                 miss: nearest,
             });
         }
-        let found = best.and_then(|(_, circle, law)| Some((circle, law.mildest()?)));
-        let Some((circle, law)) = found else {
+        if found.is_empty() {
             return Err(PoseError::Order {
                 count,
                 circles,
                 passed,
             });
-        };
-        Self::of(poses, circle, &law, possible)
+        }
+        found.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let mut apart: Vec<(Circle, MildLaw)> = Vec::new();
+        for (_, circle, law) in found {
+            let is_other = |(other, of): &(Circle, MildLaw)| {
+                (other.arm - circle.arm).norm() > APART * size || of.sense() != law.sense()
+            };
+            if apart.iter().all(is_other) {
+                apart.push((circle, law));
+            }
+            if apart.len() == most.max(1) {
+                break;
+            }
+        }
+        let chains = apart.iter();
+        let chains = chains.map(|(circle, law)| Self::of(poses, *circle, law, possible));
+        chains.collect()
     }
 
     fn of(
@@ -222,8 +253,19 @@ impl KeyPoses {
             misses: misses.collect(),
             chain,
             clamp,
+            poses: poses.to_vec(),
+            start: law.start(),
+            turns: law.turns(),
             possible,
         })
+    }
+
+    /// The law of one pair twice, at a bend (rad), that brings the arm through the poses; see [`Harmonics`].
+    #[must_use]
+    pub fn one_pair(&self, bend: f64, bias: &[f64]) -> Option<Harmonics> {
+        let signed = |turns: &[f64; 2]| turns.map(|turn| self.chain.sense() * turn);
+        let turns: Vec<[f64; 2]> = self.turns.iter().map(signed).collect();
+        Harmonics::through(&turns, bend, bias)
     }
 }
 
@@ -262,7 +304,7 @@ impl Circle {
         let arm = circle.arm.norm();
         let least = SHORTEST * size;
         let is_good = |bar: f64| bar >= least && bar <= LONGEST * size;
-        let differ = (circle.carrier - arm).abs() >= least;
+        let differ = (circle.carrier - arm).abs() >= LEAST_DIFFERENCE * size;
         (is_good(circle.carrier) && is_good(arm) && differ).then_some(circle)
     }
 

@@ -1,18 +1,17 @@
-use super::{KeyPose, KeyPoses, PoseError};
+use super::{KeyPose, PoseError};
 use crate::reverse::path::rows;
 
-impl KeyPoses {
-    /// Reads key poses from a CSV file and finds the chain: x and y in mm and the clamp's direction in degrees, a pose a line, in
-    /// order.
+impl KeyPose {
+    /// Reads key poses from a CSV file: x and y in mm and the clamp's direction in degrees, a pose a line, in order.
     ///
     /// # Errors
-    /// [`PoseError`] with the line, and as [`new`](Self::new).
-    pub fn from_csv(bytes: &[u8]) -> Result<Self, PoseError> {
+    /// [`PoseError::Path`] with the line.
+    pub fn from_csv(bytes: &[u8]) -> Result<Vec<Self>, PoseError> {
         let rows = rows::<3>(bytes)?;
-        let poses = rows.iter().map(|&[x, y, direction]| KeyPose {
+        let poses = rows.iter().map(|&[x, y, direction]| Self {
             point: [x, y].into(),
             direction: direction.to_radians(),
         });
-        Self::new(&poses.collect::<Vec<_>>())
+        Ok(poses.collect())
     }
 }

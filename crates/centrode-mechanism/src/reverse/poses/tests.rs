@@ -61,6 +61,45 @@ fn poses_of_a_known_machine_are_met_again() {
 }
 
 #[test]
+fn one_pair_twice_brings_the_arm_through_the_poses_at_any_bend() {
+    let poses = at(&[0.05, 0.25, 0.45, 0.62, 0.85]);
+    let found = KeyPoses::new(&poses).expect("a machine");
+    let [carrier, arm] = found.start;
+    for (bend, bias) in [(0.7_f64, 0.0), (-0.9, 0.0), (1.4, 0.03)] {
+        let law = found.one_pair(bend, &[bias, -bias]).expect("a law");
+        // Independent of what was found: the train forwards, by bisection of the law.
+        let met = |psi: f64| {
+            let wanted = law.at(psi) - bend - std::f64::consts::PI;
+            let (mut low, mut high) = (wanted - 3.0, wanted + 3.0);
+            for _ in 0..100 {
+                let middle = 0.5 * (low + high);
+                if law.at(middle) < wanted {
+                    low = middle
+                } else {
+                    high = middle
+                }
+            }
+            low
+        };
+        for (pose, [turn, _]) in poses.iter().zip(&found.turns) {
+            let psi = found.chain.sense() * turn;
+            let turned = arm + psi - (met(psi) - met(0.0));
+            let tip = found.chain.tip(carrier + psi, turned - (carrier + psi));
+            assert!(
+                (tip - pose.point).norm() < 1e-6,
+                "{bend}: {tip} {}",
+                pose.point
+            );
+            let off = turned + found.clamp - pose.direction;
+            assert!(
+                (off - TAU * (off / TAU).round()).abs() < 1e-9,
+                "{bend}: {off}"
+            );
+        }
+    }
+}
+
+#[test]
 fn six_poses_of_no_machine_are_refused_with_how_near_the_nearest_comes() {
     let mut poses = at(&[0.0, 0.17, 0.3, 0.5, 0.7, 0.85]);
     poses[2].point.x += 40.0;
@@ -90,8 +129,8 @@ fn a_file_gives_the_poses_and_a_line_without_a_direction_is_named() {
         format!("{},{},{degrees}\n", p.x, p.y)
     });
     let text = format!("x,y,direction_deg\n{}", lines.collect::<String>());
-    assert!(KeyPoses::from_csv(text.as_bytes()).is_ok());
-    let error = KeyPoses::from_csv(b"x,y,direction_deg\n0,0,5\n1,1\n").expect_err("short");
+    assert_eq!(KeyPose::from_csv(text.as_bytes()).map(|p| p.len()), Ok(3));
+    let error = KeyPose::from_csv(b"x,y,direction_deg\n0,0,5\n1,1\n").expect_err("short");
     assert!(
         error.to_string().starts_with("line 3 has 2 values"),
         "{error}"

@@ -29,6 +29,13 @@ pub(crate) struct Reverse {
     /// between them is free
     #[arg(long, conflicts_with_all = ["axis", "crossing", "within"])]
     pub(crate) poses: bool,
+    /// Make a three-arm transplanting mechanism that takes the key poses, picks in the first, plants in the last and reaches
+    /// its goals with sound full teeth: bend and law of its gears are sought
+    #[arg(long, requires = "poses", conflicts_with_all = ["split", "bend", "steps"])]
+    pub(crate) three_arm: bool,
+    /// Folder for the files of the three-arm mechanism, as `centrode export` writes them
+    #[arg(long, requires_all = ["three_arm", "output"], value_name = "DIR")]
+    pub(crate) to: Option<PathBuf>,
     /// How two stages of gears share the motion
     #[arg(long, value_parser = PossibleValuesParser::new(SplitKind::NAMES.map(|(name, _)| name)), default_value = "powers")]
     pub(crate) split: String,

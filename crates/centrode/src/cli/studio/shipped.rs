@@ -1,7 +1,7 @@
 //! Designs that the program brings with it.
 
 /// Name and text of every shipped design, by family.
-pub(crate) const SHIPPED: [(&str, &str); 24] = [
+pub(crate) const SHIPPED: [(&str, &str); 25] = [
     (
         "circular-pair",
         include_str!("../../../designs/circular-pair.toml"),
@@ -42,6 +42,10 @@ pub(crate) const SHIPPED: [(&str, &str); 24] = [
     (
         "three-arm-all-goals",
         include_str!("../../../designs/three-arm-all-goals.toml"),
+    ),
+    (
+        "three-arm-from-poses",
+        include_str!("../../../designs/three-arm-from-poses.toml"),
     ),
     (
         "spiral-shaft-2018",

@@ -1,0 +1,99 @@
+use std::io::Write;
+use std::ops::ControlFlow;
+
+use clap::Parser as _;
+
+use crate::analysis::optimise::three_arm::PosedProblem;
+use crate::analysis::{Goal, Unit};
+use crate::mechanism::design::Design as _;
+use crate::mechanism::reverse::{KeyPose, KeyPoses, WantedPath};
+
+use super::{line, told};
+use crate::cli::Status;
+use crate::cli::args::{Arguments, Command, Reverse};
+use crate::cli::failure::Failure;
+use crate::cli::input::Source;
+use crate::cli::progress::Progress;
+use crate::cli::{export, output};
+
+/// Makes a three-arm mechanism from key poses, prints what was found, and writes its design and, where asked, its files.
+pub(crate) fn run(command: &Reverse, out: &mut impl Write) -> Result<Status, Failure> {
+    let source = Source::open_up_to(&command.path, WantedPath::LARGEST)?;
+    if let Some(output) = &command.output {
+        source.keep(output, "the poses")?;
+    }
+    let progress = Progress::new(2);
+    progress.step("trying places of the arm's axis");
+    let wanted = KeyPose::from_csv(source.bytes()).map_err(|error| source.refused(&error))?;
+    let chains =
+        KeyPoses::mildest(&wanted, PosedProblem::CHAINS).map_err(|error| source.refused(&error))?;
+    progress.step("looking for goals and sound teeth");
+    let posed = PosedProblem::search(&chains, command.arms, &mut |_, _| ControlFlow::Continue(()))
+        .map_err(|error| source.refused(&error))?;
+    drop(progress);
+    let mm = |x: f64| Unit::Millimetre.tell(x);
+    let (found, design) = (&posed.poses, &posed.design);
+    let chain = &found.chain;
+    for (name, words) in told(found.clamp, &posed.misses) {
+        line(out, &name, &words)?;
+    }
+    let axis = chain.axis();
+    line(
+        out,
+        "axis of the carrier",
+        &format!("{:.4}, {:.4} mm", axis.x, axis.y),
+    )?;
+    line(out, "carrier", &mm(chain.carrier()))?;
+    line(out, "arm", &mm(chain.arm()))?;
+    let bend = format!(
+        "{}, found in {} evaluations",
+        Unit::Angle.tell(design.bend),
+        posed.evaluations
+    );
+    line(out, "bend", &bend)?;
+    if let Some(count) = design.tooth_count {
+        line(out, "teeth", &format!("{count} full ones on every gear"))?;
+    }
+    for goal in &posed.goals {
+        let name = match goal.number {
+            0 => "besides".to_owned(),
+            number => format!("goal {number}"),
+        };
+        line(out, &name, &words(goal))?;
+    }
+    let Some(output) = &command.output else {
+        return Ok(Status::of(posed.is_reached));
+    };
+    let text = design.to_toml();
+    let text = text.map_err(|error| Failure::Files(Box::new(error)))?;
+    writeln!(out)?;
+    output::write_one(output, text.into_bytes(), out)?;
+    match &command.to {
+        Some(folder) => {
+            let words = ["centrode", "export", "--to"].map(std::ffi::OsString::from);
+            let paths = [folder.as_os_str(), output.as_os_str()].map(std::ffi::OsString::from);
+            let words = words.into_iter().chain(paths);
+            match Arguments::try_parse_from(words).map(|arguments| arguments.command) {
+                Ok(Command::Export(command)) => export::run(&command, out),
+                Ok(_) => Ok(Status::Good),
+                Err(error) => Err(Failure::Usage(error.to_string())),
+            }
+        }
+        None => Ok(Status::of(posed.is_reached)),
+    }
+}
+
+/// A goal and whether it is reached.
+fn words(goal: &Goal) -> String {
+    let value = goal.value.map(|value| goal.unit.tell(value));
+    let met = match goal.met() {
+        Some(true) => "met",
+        Some(false) => "missed",
+        None => "not looked at",
+    };
+    format!(
+        "{}{}, {met}",
+        goal.title,
+        value.map_or_else(String::new, |value| format!(": {value}"))
+    )
+}
