@@ -178,9 +178,9 @@ def arrow(sheet):
 
 
 def sectioned(sheet):
-    """The contour of section A-A about its centre, in millimetres of the part."""
-    (title,) = [e for e in sheet.query("TEXT") if e.dxf.text.startswith("A-A (")]
-    paper, part = map(float, re.fullmatch(r"A-A \(([\d.]+):([\d.]+)\)", title.dxf.text).groups())
+    """The contour of section C-C about its centre, in millimetres of the part."""
+    (title,) = [e for e in sheet.query("TEXT") if e.dxf.text.startswith("C-C (")]
+    paper, part = map(float, re.fullmatch(r"C-C \(([\d.]+):([\d.]+)\)", title.dxf.text).groups())
     above = np.array(title.get_placement()[1].vec2)
     closed = [e for e in sheet.query("LWPOLYLINE[layer=='OUTLINE']") if e.closed and e.has_arc]
     contour = min(closed, key=lambda e: np.hypot(*(np.mean(e.get_points("xy"), axis=0) - above)))
