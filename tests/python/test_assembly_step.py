@@ -126,6 +126,8 @@ def test_pieces_weigh_what_the_parts_list_says(name, density, shipped):
         rows = [row for row in csv.DictReader(lines) if row["files"] and row.get("mass_kg")]
     assembly = Assembly(folder / "assembly.step")
     weighed = {product: volume(shape) * density * 1e-9 for _, product, _, shape in assembly.pieces}
+    # Shafts and pins are in the parts list and not among the bodies of the machine.
+    rows = [row for row in rows if not row["files"].startswith(("pin", "shaft-"))]
     assert len(rows) > 3
     for row in rows:
         # All pieces of a part that is on one link are one product: two plates of a frame.

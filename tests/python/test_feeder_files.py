@@ -2,6 +2,7 @@
 
 import json
 import math
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -14,7 +15,7 @@ import pytest
 import shapely
 import trimesh
 import yourdfpy
-from reading import contours, rows
+from reading import contours, rows, texts
 from scipy.optimize import fsolve
 
 DESIGNS = Path(__file__).resolve().parents[1] / "designs"
@@ -226,3 +227,28 @@ def test_the_gears_are_drawn_with_few_arcs_on_their_contours(feeder):
         assert shapely.distance(chords, shapely.points(contour.exterior.coords)).max() < 1e-3 + 2 * 0.35e-3
     # As chords within that accuracy they would be 15132.
     assert entities < 2500
+
+
+def test_thinner_teeth_of_the_feeder_have_lower_measures_over_pins(run, tmp_path):
+    design = (DESIGNS / "feeder-2022.toml").read_text()
+    wanted = '\n[gears]\nthickness_deviations = [-0.03, -0.06]\naccuracy = "6"\nheat_treatment = "nitrided"\n'
+    file = tmp_path / "thin.toml"
+    file.write_text(design + wanted)
+    run("export", file, "--to", tmp_path, "--format", "sheet", "--part", "gear-driven", check=False)
+    words = [text for sheet in sorted(tmp_path.glob("gear-driven-sheet*.dxf")) for text in texts(sheet)]
+    assert words[words.index("Flank tolerance class, ISO 1328-1") + 2] == "6"
+    assert words[words.index("Heat treatment") + 1] == "nitrided"
+    # Rows of the table: space, angle, R, M, limits of M.
+    held = 0
+    for at in (i for i, text in enumerate(words) if re.fullmatch(r"[\d.]+ / [\d.]+", text)):
+        if not re.fullmatch(r"\d+", words[at - 4]):
+            continue
+        reach, measure = float(words[at - 2]), float(words[at - 1])
+        base, pressure = 45 * math.cos(math.radians(20)), math.radians(20)
+        # An involute's pin comes in by the deviation times cos alpha / (2 sin alpha M).
+        by = math.cos(pressure) / (2 * math.sqrt(1 - (base / reach) ** 2))
+        upper, lower = map(float, words[at].split(" / "))
+        assert upper - measure == pytest.approx(-0.03 * by, abs=5e-4)
+        assert lower - measure == pytest.approx(-0.06 * by, abs=1e-3)
+        held += 1
+    assert held > 20

@@ -8,6 +8,7 @@ from itertools import pairwise
 
 import pypdfium2
 import pytest
+import reading
 import tomllib
 from conftest import ROOT
 from OCP.Bnd import Bnd_Box
@@ -26,6 +27,7 @@ from shapely import STRtree
 from shapely.affinity import rotate
 from shapely.geometry import Point, Polygon, box
 
+TEMPLATES = ("gear-pair", "three-arm", "spiral-shaft", "moving-box", "feeder", "machine")
 DESIGNS = sorted(path.stem for path in (ROOT / "tests" / "designs").glob("*.toml"))
 # Families whose parts are plates, gears and cams alone.
 FLAT = ("feeder", "machine", "three-arm")
@@ -38,9 +40,22 @@ ENDS = re.compile(rf"^R({NUMBER}) about ({NUMBER}), ({NUMBER}) and ({NUMBER}), (
 
 
 @pytest.fixture(scope="module")
-def exported(shipped):
-    """Folder of a design's files, written once."""
-    return lambda name: shipped(name, "csv,dxf,sheet,step")
+def exported(shipped, tmp_path_factory, run):
+    """Folder of the files of a shipped design, or of the template of a family, written once."""
+    written = {}
+
+    def folder(name):
+        formats = "csv,dxf,sheet,step"
+        if name not in TEMPLATES:
+            return shipped(name, formats)
+        if name not in written:
+            written[name] = to = tmp_path_factory.mktemp(name)
+            design = to / "new.toml"
+            design.write_text(run("new", name).stdout)
+            run("export", design, "--to", to, "--format", formats, check=False)
+        return written[name]
+
+    return folder
 
 
 def parts(folder):
@@ -59,17 +74,27 @@ def family(name):
     return tomllib.loads((ROOT / "tests" / "designs" / f"{name}.toml").read_text())["family"]
 
 
-@pytest.mark.parametrize("name", DESIGNS)
-def test_every_part_with_files_has_a_drawing_a_solid_a_sheet_and_a_material(name, exported):
+@pytest.mark.parametrize("name", [*DESIGNS, *TEMPLATES])
+def test_every_made_part_has_a_drawing_a_solid_a_sheet_a_material_and_a_mass(name, exported):
     folder = exported(name)
-    listed = parts(folder)
-    assert listed
-    for row in listed:
+    with (folder / "parts.csv").open(newline="") as lines:
+        listed = list(csv.DictReader(lines))
+    made = [row for row in listed if row["supply"] == "made"]
+    assert made
+    for row in made:
         part = row["files"]
-        assert (folder / f"{part}.dxf").exists(), part
-        assert (folder / f"{part}.step").exists(), part
-        assert list(folder.glob(f"{part}-sheet*.dxf")), part
-        assert row["material"], part
+        assert (folder / f"{part}.dxf").exists(), row
+        assert (folder / f"{part}.step").exists(), row
+        assert list(folder.glob(f"{part}-sheet*.dxf")), row
+        assert row["material"], row
+        assert row["blank"], row
+        assert float(row["mass_kg"]) > 0, row
+    for row in listed:
+        if row["supply"] == "bought":
+            # Named by the number of its standard.
+            assert re.search(r"\b(ISO|DIN) \d+", row["part"]), row
+        if row["supply"] != "made":
+            assert row["files"] == "", row
 
 
 def named_files(folder):
@@ -227,9 +252,6 @@ def test_a_plate_made_from_its_sheet_alone_is_its_solid(name, exported):
         # Corners are written to a micrometre.
         assert abs(properties.Mass() - area * thickness) < 1e-3 * length * thickness, part
     assert made
-
-
-TEMPLATES = ("gear-pair", "three-arm", "spiral-shaft", "moving-box", "feeder", "machine")
 
 
 def inked(page):
@@ -417,3 +439,110 @@ def turned_radii(shape):
         if surface.GetType() == GeomAbs_Cylinder:
             yield surface.Cylinder().Radius()
         explorer.Next()
+
+
+TURNED = re.compile(r"^Turned; contour: ([\w-]+)\.dxf\.$")
+GROOVE = re.compile(rf"^groove ({NUMBER}) H13 \(")
+CHAMFER = re.compile(rf"^({NUMBER}) x 45°, both ends$")
+REST = re.compile(rf"^({NUMBER}) \(0 / -0\.[12]00\)$")
+SLOT = re.compile(rf"^({NUMBER}) N9 \(")
+
+
+def turned_steps(texts):
+    """Steps of a turned part from the left by its sheet: diameter, length, whether the keyway is in it; its chamfer."""
+    start = next(i for i, text in enumerate(texts) if text.endswith(" of these a machine."))
+    # The section across the keyway, and the title block, come after the view.
+    end = next(i for i, text in enumerate(texts) if i > start and (REST.match(text) or text == "Material"))
+    view = texts[start:end]
+    notes = [i for i, text in enumerate(view) if HOLE.match(text)]
+    chamfers = [(i, float(match[1])) for i, text in enumerate(view) if (match := CHAMFER.match(text))]
+    steps = []
+    # Notes follow each other from the right.
+    for first, last in pairwise([*notes, len(view)]):
+        lines = view[first:last]
+        step = {"diameter": float(HOLE.match(lines[0])[1]), "keyed": "with keyway" in lines}
+        widths = [float(match[1]) for line in lines if (match := GROOVE.match(line))]
+        steps.insert(0, step | ({"length": widths[0]} if widths else {}))
+    plain = [step for step in steps if "length" not in step]
+    # Below the view every length but those of grooves and of the last step, and that over all.
+    before = chamfers[0][0] if chamfers else notes[0]
+    *lengths, whole = (float(text) for text in view[before - len(plain) : before])
+    for step, length in zip(plain[:-1], lengths, strict=True):
+        step["length"] = length
+    plain[-1]["length"] = whole - sum(step.get("length", 0.0) for step in steps)
+    return steps, chamfers[0][1] if chamfers else 0.0
+
+
+def profile(steps, chamfer):
+    """Silhouette of a turned part, its axis along x."""
+    x, upper = 0.0, []
+    for step in steps:
+        upper += [(x, step["diameter"] / 2), (x + step["length"], step["diameter"] / 2)]
+        x += step["length"]
+    (x0, r0), (x1, r1) = upper[0], upper[-1]
+    upper[0:1] = [(x0, r0 - chamfer), (x0 + chamfer, r0)]
+    upper[-1:] = [(x1 - chamfer, r1), (x1, r1 - chamfer)]
+    return Polygon([*upper, *((x, -r) for x, r in reversed(upper))])
+
+
+def revolved(polygon):
+    """Volume of a silhouette turned about its axis, cone by cone."""
+    upper = [(x, r) for x, r in polygon.exterior.coords[:-1] if r > 0]
+    cones = ((b[0] - a[0]) * (a[1] ** 2 + a[1] * b[1] + b[1] ** 2) for a, b in pairwise(upper))
+    return abs(sum(cones)) * math.pi / 3
+
+
+def slot_area(radius, width, foot):
+    """Area that a keyway takes of a disc."""
+    half = width / 2
+    return half * math.sqrt(radius**2 - half**2) + radius**2 * math.asin(half / radius) - width * foot
+
+
+def walls(shape):
+    """Round faces of a solid along z: radius, lower end, upper end."""
+    for face in pieces(shape, TopAbs_FACE):
+        surface = BRepAdaptor_Surface(TopoDS.Face(face))
+        if surface.GetType() == GeomAbs_Cylinder:
+            base = surface.Cylinder().Location().Z()
+            ends = sorted((base + surface.FirstVParameter(), base + surface.LastVParameter()))
+            yield surface.Cylinder().Radius(), *ends
+
+
+@pytest.mark.parametrize("name", [*DESIGNS, *TEMPLATES])
+def test_a_turned_part_made_from_its_sheet_alone_is_its_solid(name, exported):
+    folder = exported(name)
+    for row in parts(folder):
+        part = row["files"]
+        texts = words(folder, part)
+        if not any(TURNED.match(text) for text in texts):
+            continue
+        steps, chamfer = turned_steps(texts)
+        outline = profile(steps, chamfer)
+        (drawn,) = reading.contours(folder / f"{part}.dxf")
+        assert drawn.symmetric_difference(outline).area < 2e-3 * outline.length, part
+        volume = revolved(outline)
+        keyed = [step for step in steps if step["keyed"]]
+        if keyed:
+            width = next(float(match[1]) for text in texts if (match := SLOT.match(text)))
+            rest = next(float(match[1]) for text in texts if (match := REST.match(text)))
+            foot = rest - max(step["diameter"] for step in steps) / 2
+            for step in keyed:
+                volume -= step["length"] * slot_area(step["diameter"] / 2, width, foot)
+            ends = (steps[0], steps[-1])
+            for end in (end for end in ends if end["keyed"]):
+                radius = end["diameter"] / 2
+                mean = sum(slot_area(radius - chamfer * (i + 0.5) / 100, width, foot) for i in range(100))
+                volume += chamfer * (slot_area(radius, width, foot) - mean / 100)
+        shape = solid(folder / f"{part}.step")
+        properties = GProp_GProps()
+        BRepGProp.VolumeProperties_s(shape, properties)
+        # Lengths are written to a micrometre.
+        assert abs(properties.Mass() / volume - 1) < 2e-4, (part, properties.Mass(), volume)
+        found, at = list(walls(shape)), 0.0
+        for step in steps:
+            ends = [at, at + step["length"]]
+            at = ends[1]
+            ends[0] += chamfer * (step is steps[0])
+            ends[1] -= chamfer * (step is steps[-1])
+            wanted = (step["diameter"] / 2, *ends)
+            assert any(math.dist(wall, wanted) < 5e-3 for wall in found), (part, wanted, found)

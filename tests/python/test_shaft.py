@@ -165,8 +165,7 @@ def arrow(sheet):
     """Way the arrows of the cutting plane point along the shaft: each has its letter before its tip."""
     heads = [np.mean([e.dxf.vtx0.vec2, e.dxf.vtx1.vec2, e.dxf.vtx2.vec2], axis=0) for e in sheet.query("SOLID")]
     ways = []
-    # Letters of datums are smaller.
-    for letter in sheet.query("TEXT[text=='A' & height>3]"):
+    for letter in sheet.query("TEXT[text=='C' & height>3]"):
         at = np.array(letter.get_placement()[1].vec2)
         off = min((at - head for head in heads), key=lambda off: np.hypot(*off))
         # The letters of the sheet's zones have no arrow.
@@ -178,9 +177,9 @@ def arrow(sheet):
 
 
 def sectioned(sheet):
-    """The contour of section A-A about its centre, in millimetres of the part."""
-    (title,) = [e for e in sheet.query("TEXT") if e.dxf.text.startswith("A-A (")]
-    paper, part = map(float, re.fullmatch(r"A-A \(([\d.]+):([\d.]+)\)", title.dxf.text).groups())
+    """The contour of section C-C about its centre, in millimetres of the part."""
+    (title,) = [e for e in sheet.query("TEXT") if e.dxf.text.startswith("C-C (")]
+    paper, part = map(float, re.fullmatch(r"C-C \(([\d.]+):([\d.]+)\)", title.dxf.text).groups())
     above = np.array(title.get_placement()[1].vec2)
     closed = [e for e in sheet.query("LWPOLYLINE[layer=='OUTLINE']") if e.closed and e.has_arc]
     contour = min(closed, key=lambda e: np.hypot(*(np.mean(e.get_points("xy"), axis=0) - above)))
@@ -191,7 +190,7 @@ def sectioned(sheet):
 
 
 @pytest.mark.parametrize("projection", ["first-angle", "third-angle"])
-def test_section_a_a_is_the_solid_cut_there_and_seen_along_the_arrows(machines, tmp_path, projection):
+def test_section_c_c_is_the_solid_cut_there_and_seen_along_the_arrows(machines, tmp_path, projection):
     design = ROOT / "tests" / "designs" / "spiral-shaft-2018.toml"
     centrode("export", design, "--to", tmp_path, "--format", "sheet", "--projection", projection)
     sheet = ezdxf.readfile(sorted(tmp_path.glob("shaft-sheet*.dxf"))[0]).modelspace()

@@ -89,7 +89,7 @@ def test_the_first_sheet_has_the_views_it_should(exported):
     assert counts["DIMENSION", "DIMENSION"] >= 4
     assert counts["SOLID", "DIMENSION"] >= 4
     words = {e.dxf.text for e in space.query("TEXT")}
-    assert {"A-A", "Gear data", "Module", "Scale", "Driver gear"} <= words
+    assert {"C-C", "Gear data", "Module", "Scale", "Driver gear"} <= words
     assert f"{int(values['driver_tooth_count'])}" in words
 
 

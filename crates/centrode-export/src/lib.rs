@@ -28,6 +28,7 @@ pub mod stl;
 pub mod svg;
 pub mod three_arm;
 pub mod threemf;
+mod turned;
 pub mod urdf;
 
 pub use bundle::{Bundle, BundleError, write_file};

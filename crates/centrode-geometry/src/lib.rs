@@ -7,6 +7,7 @@ mod antiderivative;
 mod arc_chains;
 mod arc_plan;
 mod arcs;
+mod bezier_fit;
 mod biarc;
 mod bounds;
 mod cancel;
@@ -39,12 +40,15 @@ mod rounded;
 #[cfg(test)]
 mod shapes;
 mod shell;
+mod shell_builder;
 mod smooth_run;
 mod solid;
 mod tolerance;
+mod turned;
 mod untangle;
 
 pub use antiderivative::Antiderivative;
+pub use bezier_fit::BezierFit;
 pub use bounds::Bounds;
 pub use cancel::{Cancel, Cancelled, Scope, checkpoint};
 pub use chebyshev::{CHEBYSHEV_TERMS, chebyshev_roots, chebyshev_series};
@@ -69,8 +73,10 @@ pub use recent::Recent;
 pub use roots::{bracketed_minimum, bracketed_minimum_below, bracketed_root};
 pub use rounded::ShortSide;
 pub use shell::{Shell, ShellCurve, ShellEdge, ShellFace, ShellSurface};
+pub use shell_builder::{ShellBuilder, ShellSide};
 pub use solid::{Solid, SolidError};
 pub use tolerance::{BadTolerance, Tolerance};
+pub use turned::{Turned, TurnedEnd, TurnedSection, TurnedSlot};
 
 /// A point of the plane, mm.
 pub type Point = nalgebra::Point2<f64>;

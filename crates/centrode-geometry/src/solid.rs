@@ -47,6 +47,14 @@ pub enum SolidError {
         /// Index of the hole.
         hole: usize,
     },
+    /// A section of a turned body is no cylinder or cone of 45°, or does not hold the slot.
+    #[error(
+        "section {section} of a turned body is no cylinder or cone of 45°, or does not hold its slot"
+    )]
+    Turned {
+        /// Index of the section.
+        section: usize,
+    },
     /// An opening does not lie in a wall of the solid.
     #[error(
         "an opening from {from} to {to} mm does not go through a wall between the outline and a hole, from {bottom} to {top} mm"

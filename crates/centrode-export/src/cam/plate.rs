@@ -1,7 +1,7 @@
 use centrode_mechanism::cam::Cam;
 
 use super::{ROWS, columns};
-use crate::plate::Plate;
+use crate::plate::{Exactness, Plate};
 use crate::sheet::Table;
 
 /// A cam as a plate, with the file of its profile; in a machine that has so many of it.
@@ -21,6 +21,7 @@ pub(crate) fn plate(cam: &Cam, [name, title]: [&str; 2], quantity: usize) -> Pla
             &format!("{name}.csv"),
             &columns(cam, ROWS),
         )],
+        exactness: Some(Exactness::Profile),
         ..Plate::of_body([name, title], outline, cam.bore(), body)
     }
 }

@@ -2,6 +2,7 @@
 
 mod curves;
 mod parts;
+mod pins;
 
 use centrode_geometry::{MassProperties, Point, Solid};
 use centrode_mechanism::composed::Composed;
@@ -26,7 +27,9 @@ const POINTS: u32 = 360;
 /// [`ExportError`] where a body is no solid.
 pub fn machine(composed: &Composed) -> Result<Machine, ExportError> {
     let made = composed.machine();
-    made.map_err(ExportError::no_solid(&composed.design().name))
+    let mut made = made.map_err(ExportError::no_solid(&composed.design().name))?;
+    pins::list(composed, &mut made);
+    Ok(made)
 }
 
 /// The files of a composed machine in the formats asked for, not yet on disk.

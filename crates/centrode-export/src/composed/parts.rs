@@ -4,7 +4,7 @@ use centrode_geometry::Outline;
 use centrode_mechanism::composed::{Composed, ComposedGear, PinHole};
 use centrode_mechanism::machine::Machine;
 
-use super::plates;
+use super::{pins, plates};
 use crate::gear_pair::{self, Label};
 use crate::plate::{Hole, Plate};
 use crate::sheet::capital;
@@ -29,6 +29,9 @@ pub(super) fn add(
         if let Some(plate) = plate(composed, machine, index, quantity(&body.name)) {
             plate.add(package, drawing)?;
         }
+    }
+    for pins in pins::all(composed, machine) {
+        pins.part.add(package, drawing, pins.bodies.len())?;
     }
     for gear in composed.gears().iter().filter(|gear| !is_copy(&gear.name)) {
         let label = Label {
@@ -78,6 +81,8 @@ fn plate(composed: &Composed, machine: &Machine, body: usize, quantity: usize) -
         density: spec.density,
         notes: vec!["x and y are the body's axes in the design.".into()],
         tables: Vec::new(),
+        exactness: None,
+        marks: Vec::new(),
     })
 }
 

@@ -7,9 +7,9 @@ use centrode_mechanism::machine::{
     self, Axis, Blank, Datum, Dimension, Fit, Form, Line, LineRole, Machine,
 };
 
-use super::gears;
+use super::shafts;
 use crate::gear_pair;
-use crate::sheet::{fit, number};
+use crate::sheet::number;
 
 /// Corners of a path.
 const POINTS: u32 = 360;
@@ -32,6 +32,8 @@ pub(super) fn tell(feeder: &Feeder, plates: &[Plate], machine: &mut Machine) {
     }
     pins(feeder, machine);
     gears(feeder, machine);
+    shafts::list(feeder, plates, machine);
+    fits(feeder, machine);
     let frame = machine.place_on(Part::Frame.name(), [0.0; 2]);
     let told = &mut machine.arrangement;
     told.seen_through.extend(frame.map(|place| place.figure));
@@ -78,40 +80,21 @@ fn list(feeder: &Feeder, plate: &Plate, machine: &mut Machine) {
         file: name.into(),
         remark: format!("z = {}", number(plate.bottom, PLACES)),
         place: machine.place_on_edge(name, &plate.outline),
+        ..machine::Part::default()
     });
 }
 
-/// The pins of the joints: of two shafts in the frame, of B, and of C.
+/// Fits of the pins of the joints and of the slider.
 fn pins(feeder: &Feeder, machine: &mut Machine) {
-    let pin = feeder.design().plates.pin_diameter;
-    let on = [Part::Frame, Part::Frame, Part::Crank, Part::Rocker];
-    let links = on.iter().filter_map(|part| machine.link_named(part.name()));
-    let links = links.collect();
-    let [_, c, _] = feeder.six_bar().joints(feeder.start());
-    let rim = [c.x - 0.5 * pin, c.y];
     let spec = &feeder.design().plates;
-    let fit = Fit::new("pins of B, C, D, F", pin, [&spec.hole_fit, &spec.pin_fit]);
-    let remark = format!("{}, of B, C, D and F", fit::shaft(&fit));
-    machine.fit(fit);
+    let classes = [&*spec.hole_fit, &spec.pin_fit];
+    machine.fit(Fit::new("pins of B, C, D, F", spec.pin_diameter, classes));
     let classes = [&*spec.slot_fit, &spec.slider_fit];
     machine.fit(Fit::of_width(
         "slider in the slot",
         spec.slot_width,
         classes,
     ));
-    machine.part(machine::Part {
-        name: "pin of a joint".into(),
-        links,
-        remark,
-        place: machine.place_on(Part::Frame.name(), rim),
-        ..machine::Part::default()
-    });
-}
-
-/// Fit of the pins of the cams in the driven gear.
-fn pressed(diameter: f64) -> Fit {
-    let classes = [gears::PIN_HOLES, gears::PINS];
-    Fit::new("pins of the cams", diameter, classes)
 }
 
 /// The intermittent gears with their cams and pins, which are not cut for this.
@@ -140,13 +123,11 @@ fn gears(feeder: &Feeder, machine: &mut Machine) {
                     .filter(|link| link.name == file)
                     .and_then(|link| Some(link.mass?.mass)),
                 links,
-                material: match file.is_empty() {
-                    true => String::new(),
-                    false => made.material.clone(),
-                },
+                material: made.material.clone(),
                 file: file.into(),
                 remark,
                 place: seen.and_then(|(figure, pitches)| machine.place_on(figure, rim(pitches))),
+                ..machine::Part::default()
             });
         };
     let (driver, driven) = (spec.driver_pitches, spec.driven_pitches);
@@ -166,13 +147,7 @@ fn gears(feeder: &Feeder, machine: &mut Machine) {
         bored(driven),
         seen,
     );
-    let stops = feeder
-        .design()
-        .gears
-        .drive()
-        .map_or(0, |drive| drive.stops());
-    let cams = if spec.entry > 0.0 && stops > 0 { 2 } else { 0 };
-    if cams > 0 {
+    if feeder.has_cams() {
         let beside = "beside the intermittent gear";
         for (name, link, file) in [
             ("entry cam", entry, "gear-entry-cam"),
@@ -180,36 +155,18 @@ fn gears(feeder: &Feeder, machine: &mut Machine) {
         ] {
             add(name, vec![link.unwrap_or(0)], file, beside.into(), None);
         }
-        let pin = pressed(spec.pin_diameter.unwrap_or(2.5 * spec.module));
-        let pins = vec![mate.unwrap_or(crank); 2 * stops as usize];
-        let remark = format!("{}, pressed into the driven gear", fit::shaft(&pin));
-        add("pin of a cam", pins, "", remark, None);
     }
-    if cams > 0 {
-        machine.fit(pressed(spec.pin_diameter.unwrap_or(2.5 * spec.module)));
-    }
-    shafts(feeder, crank, cams, machine);
 }
 
-/// Shafts of the gears, what is keyed to them and where they turn.
-fn shafts(feeder: &Feeder, crank: usize, cams: usize, machine: &mut Machine) {
+/// Fits of the shafts of the gears, and the keys on them.
+fn fits(feeder: &Feeder, machine: &mut Machine) {
     let (body, plates) = (feeder.design().gears.body(), &feeder.design().plates);
     let seat = |name, hole: &str| Fit::new(name, body.bore, [hole, &body.shaft_fit]);
-    let own = machine.link_named(GearBody::NAMES[0]).unwrap_or(0);
-    let hubs = seat("gears and crank on their shafts", &body.bore_fit);
-    for (name, link) in [
-        ("shaft of the intermittent gear, G", own),
-        ("shaft of the crank, A", crank),
-    ] {
-        machine.part(machine::Part {
-            name: name.into(),
-            links: vec![link],
-            remark: fit::shaft(&hubs),
-            ..machine::Part::default()
-        });
-    }
-    machine.fit(hubs);
+    machine.fit(seat("gears and crank on their shafts", &body.bore_fit));
     machine.fit(seat("shafts A and G in the frame", &plates.bearing_fit));
+    let crank = machine.link_named(Part::Crank.name()).unwrap_or(0);
+    let own = machine.link_named(GearBody::NAMES[0]).unwrap_or(0);
+    let cams = if feeder.has_cams() { 2 } else { 0 };
     let on_gears = [vec![own; 1 + cams], vec![crank]].concat();
     gear_pair::list_keys(machine, &body, on_gears);
     let on_crank = BodySpec {

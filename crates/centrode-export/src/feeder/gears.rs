@@ -7,8 +7,8 @@ use nalgebra::Isometry2;
 use super::pins::pins;
 use crate::csv::Column;
 use crate::drawing::{Anchor, CENTER, Color, Drawing, HOLE, LineType, PROFILE, Shape};
-use crate::gear_pair::{measured, over_pins};
-use crate::plate::{Hole, Plate};
+use crate::gear_pair::{by_thickness, measured, over_pins, tooth_runout};
+use crate::plate::{Exactness, Hole, Plate};
 use crate::sheet::{Table, broken, capital, number};
 
 const CAM: &str = "CAM";
@@ -40,10 +40,11 @@ pub(super) fn parts(feeder: &Feeder, gears: &IntermittentPair, tolerance: Tolera
             off: 0.02,
             ..Hole::from(outline)
         }));
-        match is_cam {
-            true => part.noted("Fixed beside the driver, its x axis on the driver's."),
-            false => part,
+        if is_cam {
+            part = part.noted("Fixed beside the driver, its x axis on the driver's.");
+            part.exactness = Some(Exactness::Profile);
         }
+        part
     };
     let mut all: Vec<Plate> = GearBody::all(gears, tolerance)
         .into_iter()
@@ -55,17 +56,27 @@ pub(super) fn parts(feeder: &Feeder, gears: &IntermittentPair, tolerance: Tolera
     ];
     let members = [Member::Driver, Member::Driven];
     for ((part, member), teeth) in all.iter_mut().zip(members).zip(teeth) {
-        let pins = pins(gears, member, 0.5 * feeder.design().gears.entry);
+        let spec = &feeder.design().gears;
+        let over = |thinner: f64| pins(gears, member, 0.5 * spec.entry, thinner);
+        let limits = spec.thickness_deviations;
+        let limits = limits.map(|deviations| deviations.map(|deviation| over(-deviation)));
+        let pins = over(0.0);
+        part.exactness = tooth_runout(pair, member).map(Exactness::Teeth);
         let measured = (0..)
             .zip(&pins.pins)
             .find_map(|(k, pin)| Some((k, pin.ok()?.center)));
         if let Some((space, at)) = measured {
             let angle = number(at.y.atan2(at.x).to_degrees(), 4);
             part.notes.push(format!(
-                "Timing: middle of space {space} at {angle}° from the keyway."
+                "Timing: middle of space {space}, marked, at {angle}° from the keyway."
             ));
+            let below = at.coords.norm() - 2.0 * pair.module();
+            part.marks.push(Point::from(at.coords.normalize() * below));
         }
-        part.tables = vec![data(feeder, gears, member, &teeth), over_pins(&pins, None)];
+        part.tables = vec![
+            data(feeder, gears, member, &teeth),
+            over_pins(&pins, limits.as_ref()),
+        ];
     }
     for part in &mut all {
         let file = format!("{}.csv", part.name);
@@ -91,6 +102,7 @@ fn data(feeder: &Feeder, gears: &IntermittentPair, member: Member, teeth: &str) 
         Datum::new("Play of lock", "", number(spec.lock_play, 4)),
         Datum::new("Centre distance", "a", number(gears.center_distance(), 4)),
     ];
+    data.extend(by_thickness(pair, spec.backlash));
     data.extend(measured(pair, member));
     let rows = data
         .iter()

@@ -7,6 +7,7 @@ mod gears;
 mod links;
 mod pins;
 mod plates;
+mod shafts;
 
 use crate::package::title_or_name;
 use crate::{Bundle, ExportError, Format, Options, Package};
@@ -66,6 +67,11 @@ pub fn files(
     let mut package = Package::new("a feeder", named, formats, options);
     for part in &plates {
         plates::made(feeder, part).add(&mut package, &design.drawing)?;
+    }
+    for piece in shafts::all(feeder, &plates) {
+        piece
+            .part
+            .add(&mut package, &design.drawing, piece.links.len())?;
     }
     package.drawing("assembly", |_| Ok(assembly(feeder, &plates)))?;
     add_gears(&mut package, feeder)?;

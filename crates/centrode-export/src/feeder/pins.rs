@@ -8,8 +8,14 @@ use nalgebra::Rotation2;
 const OFF: f64 = 1e-6;
 
 /// Pins in the spaces of a gear on its sheet's axes, where the finished contour has both flanks; the driver's teeth are thinner
-/// than those of the complete gear by the backlash. The driver has turned by an angle.
-pub(super) fn pins(gears: &IntermittentPair, member: Member, turned: f64) -> OverPins {
+/// than those of the complete gear by the backlash. The driver has turned by an angle, and the teeth are thinner still by a length
+/// along the pitch circle: their flanks lie behind those of the contour.
+pub(super) fn pins(
+    gears: &IntermittentPair,
+    member: Member,
+    turned: f64,
+    thinner: f64,
+) -> OverPins {
     let pair = gears.pair();
     let (finished, turned) = match member {
         Member::Driver => (gears.driver(), turned),
@@ -19,11 +25,17 @@ pub(super) fn pins(gears: &IntermittentPair, member: Member, turned: f64) -> Ove
     let corners = finished.flatten(gears.accuracy());
     let mut over = pair.gear(member).over_pins(pair.pin_diameter(member));
     let radius = 0.5 * over.diameter;
+    // Each of two flanks has half of it, square to itself.
+    let behind = 0.5 * thinner * pair.teeth().tool.pressure_angle.cos();
     for pin in &mut over.pins {
         checkpoint();
         let start = pin.as_ref().ok().map(|pin| turn * pin.center);
         if let Some(start) = start {
-            *pin = rest(&corners, start, radius).ok_or(PinFault::NoFlank);
+            let rests = rest(&corners, start, radius - behind).ok_or(PinFault::NoFlank);
+            *pin = rests.map(|pin| Pin {
+                radial: pin.center.coords.norm() + radius,
+                ..pin
+            });
         }
     }
     over

@@ -59,6 +59,8 @@ pub(super) fn made(feeder: &Feeder, plate: &Plate) -> plate::Plate {
         density: spec.density,
         notes: vec![note],
         tables: Vec::new(),
+        exactness: None,
+        marks: Vec::new(),
     }
 }
 

@@ -62,25 +62,40 @@ impl Gauge {
     }
 }
 
+/// Gear of a flank tolerance class, by the diameter of its equivalent circle; none of another system.
+fn gauges(pair: &GearPair, member: Member) -> Option<[Gauge; 2]> {
+    let (gear, module) = (pair.gear(member), pair.module());
+    let class = class(pair, member).trim().parse().ok()?;
+    let bend = CurvatureRange::of(pair.rolling(), member).greatest.1;
+    let diameters = [2.0 / bend, module * f64::from(gear.tooth_count())];
+    Some(diameters.map(|diameter| Gauge {
+        diameter,
+        module,
+        class,
+    }))
+}
+
+fn class(pair: &GearPair, member: Member) -> &str {
+    match pair.gear(member).body().accuracy.as_str() {
+        "" => USUAL,
+        written => written,
+    }
+}
+
+/// Runout of the teeth of a gear to its bore, as measured over pins, mm; none beyond the standard.
+pub(crate) fn tooth_runout(pair: &GearPair, member: Member) -> Option<f64> {
+    let [_, whole] = gauges(pair, member)?;
+    let is_told = whole.is_told(pair.gear(member).body().width);
+    is_told.then(|| whole.runout() / 1000.0)
+}
+
 /// Class and values for the equivalent circular gears: single pitch and profile by the osculating circle of the pitch curve
 /// where it bends most, total pitch and runout by the circle as long as the pitch curve.
 pub(crate) fn flank_tolerances(pair: &GearPair, member: Member) -> Vec<Datum> {
-    let (gear, module) = (pair.gear(member), pair.module());
-    let class = match gear.body().accuracy.as_str() {
-        "" => USUAL,
-        written => written,
-    };
-    let Ok(number_of_class) = class.trim().parse() else {
+    let (gear, class) = (pair.gear(member), class(pair, member));
+    let Some([local, whole]) = gauges(pair, member) else {
         return vec![Datum::new("Accuracy class", "", class)];
     };
-    let bend = CurvatureRange::of(pair.rolling(), member).greatest.1;
-    let gauge = |diameter: f64| Gauge {
-        diameter,
-        module,
-        class: number_of_class,
-    };
-    let local = gauge(2.0 / bend);
-    let whole = gauge(module * f64::from(gear.tooth_count()));
     let mut data = vec![Datum::new("Flank tolerance class, ISO 1328-1", "A", class)];
     let width = gear.body().width;
     let mut say = |gauge: Gauge, name: &str, rows: &[(&str, &str, f64)]| {

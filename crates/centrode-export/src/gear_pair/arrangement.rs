@@ -1,6 +1,6 @@
 use centrode_mechanism::gear::design::BodySpec;
 use centrode_mechanism::gear::{Gear, GearPair, Member};
-use centrode_mechanism::machine::{Blank, Callout, Datum, Fit, Machine, Part};
+use centrode_mechanism::machine::{Blank, Callout, Datum, Fit, Machine, Part, Supply};
 
 use crate::sheet::{fit, number, range};
 
@@ -87,29 +87,26 @@ pub(crate) fn list(
         file: file.into(),
         remark: format!("{} teeth", gear.tooth_count()),
         place: machine.place_on_edge(figure, gear.outline()),
+        ..Part::default()
     });
 }
 
 /// Lists the keys of a body, one for each of the links, where a standard one fits its keyway.
 pub(crate) fn list_keys(machine: &mut Machine, body: &BodySpec, links: Vec<usize>) {
     if let Some(name) = body.keyway.and_then(|keyway| keyway.key(body.width)) {
-        machine.part(Part {
-            name,
-            links,
-            remark: "bought".into(),
-            ..Part::default()
-        });
+        machine.part(Part::bought(name, links));
     }
 }
 
-/// Lists the shafts in the bores of gears, one for each of the links.
-pub(crate) fn list_shafts(machine: &mut Machine, gear: &Gear, name: &str, links: Vec<usize>) {
+/// Lists the shafts in the bores of gears, one for each of the links: they belong to the machine around the gears.
+fn list_shafts(machine: &mut Machine, gear: &Gear, name: &str, links: Vec<usize>) {
     if gear.body().bore > 0.0 && !links.is_empty() {
         let body = gear.body();
         let fit = Fit::new(name, body.bore, [&body.bore_fit, &body.shaft_fit]);
         machine.part(Part {
             name: name.into(),
             links: links.clone(),
+            supply: Supply::Given,
             remark: fit::shaft(&fit),
             ..Part::default()
         });
@@ -171,12 +168,19 @@ pub(crate) fn of_both(pair: &GearPair) -> Vec<Datum> {
             number(pair.backlash(), 4),
         ),
     ];
+    data.extend(by_thickness(pair, pair.backlash()));
+    data
+}
+
+/// Centre distance by the normal backlash of a pair, mm, and what the deviations of tooth thickness leave of it.
+pub(crate) fn by_thickness(pair: &GearPair, backlash: f64) -> Vec<Datum> {
+    let (a, mut data) = (pair.center_distance(), Vec::new());
     let (sin, cos) = pair.teeth().tool.pressure_angle.sin_cos();
     // Both gears are thinner, each by one deviation.
     let written = pair.design().teeth.thickness_deviations;
     let play = written
         .unwrap_or_default()
-        .map(|deviation| pair.backlash() - 2.0 * deviation * cos);
+        .map(|deviation| backlash - 2.0 * deviation * cos);
     // Nowhere takes a shorter distance more backlash than twice its share across a flank where the pitch curves are square to
     // the line of centres.
     let shorter = play[0] / (2.0 * sin);

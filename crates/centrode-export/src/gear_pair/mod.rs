@@ -12,9 +12,9 @@ mod sheets;
 mod solid;
 
 use crate::{Bundle, ExportError, Format, Options, Package};
-pub(crate) use accuracy::flank_tolerances;
+pub(crate) use accuracy::{flank_tolerances, tooth_runout};
 pub use arrangement::contact_data;
-pub(crate) use arrangement::{list, list_keys, list_pair, list_shafts, of_both};
+pub(crate) use arrangement::{by_thickness, list, list_keys, list_pair, of_both};
 use centrode_mechanism::gear::{GearPair, GearPairError, Member};
 pub use curves::curves;
 use drawn::Drawn;

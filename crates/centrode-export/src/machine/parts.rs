@@ -1,4 +1,4 @@
-use centrode_mechanism::machine::{Machine, Part};
+use centrode_mechanism::machine::{Machine, Part, Supply};
 
 use crate::csv::Column;
 use crate::drawing::Anchor;
@@ -12,7 +12,7 @@ pub fn parts_list(machine: &Machine) -> Table {
             (index + 1).to_string(),
             part.name.clone(),
             part.quantity().to_string(),
-            part.material.clone(),
+            material(part),
             part.mass.map(|kg| mass(kg * 1e3)).unwrap_or_default(),
             part.file.clone(),
             part.remark.clone(),
@@ -51,6 +51,14 @@ pub fn parts_list(machine: &Machine) -> Table {
     .filled()
 }
 
+/// Material of a part, or where it comes from.
+fn material(part: &Part) -> String {
+    match part.supply {
+        Supply::Made => part.material.clone(),
+        supply => supply.name().into(),
+    }
+}
+
 /// The parts list as columns of a comma-separated table.
 pub(super) fn columns(machine: &Machine) -> Vec<Column> {
     let words = |heading: &str, of: &dyn Fn(&Part) -> String| {
@@ -59,12 +67,13 @@ pub(super) fn columns(machine: &Machine) -> Vec<Column> {
         Column::words(heading, machine.parts.iter().map(cell))
     };
     let links = |part: &Part| {
-        let mut names: Vec<&str> = part
-            .links
-            .iter()
-            .map(|&link| machine.links[link].name.as_str())
-            .collect();
-        names.dedup();
+        let mut names: Vec<&str> = Vec::new();
+        for &link in &part.links {
+            let name = machine.links[link].name.as_str();
+            if !names.contains(&name) {
+                names.push(name);
+            }
+        }
         names.join(" ")
     };
     vec![
@@ -74,6 +83,7 @@ pub(super) fn columns(machine: &Machine) -> Vec<Column> {
         ),
         words("part", &|part| part.name.clone()),
         words("quantity", &|part| part.quantity().to_string()),
+        words("supply", &|part| part.supply.name().into()),
         words("material", &|part| part.material.clone()),
         words("blank", &|part| {
             part.blank

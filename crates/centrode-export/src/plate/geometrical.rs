@@ -2,7 +2,7 @@
 
 use centrode_geometry::Point;
 
-use super::{Hole, Plate};
+use super::{Exactness, Hole, Plate};
 use crate::sheet::geometrical::Frame;
 
 impl Plate {
@@ -46,10 +46,30 @@ impl Plate {
         if !self.holes[first].is_seat {
             return None;
         }
-        let corners = self.outline.segments().iter().map(|side| side.start());
-        let reach = corners.map(|p| (p - origin).norm()).fold(0.0, f64::max);
         let [one, _] = self.letters();
-        Frame::runout(2.0 * reach, &one.to_string())
+        Frame::runout(2.0 * self.reach(origin), &one.to_string())
+    }
+
+    /// Frame of the contour to the datum of the bore, and words behind it.
+    pub(super) fn contour_frame(&self) -> Option<(Frame, &'static str)> {
+        let exactness = self.exactness?;
+        let (first, origin) = self.first_datum()?;
+        if !self.holes[first].is_seat {
+            return None;
+        }
+        let [one, _] = self.letters().map(String::from);
+        match exactness {
+            Exactness::Profile => Some((Frame::profile(self.reach(origin), &one)?, "")),
+            Exactness::Teeth(width) => {
+                Some((Frame::runout_within(width, &one), "teeth, over pins"))
+            }
+        }
+    }
+
+    /// Distance of the farthest corner of the contour, mm.
+    fn reach(&self, from: Point) -> f64 {
+        let corners = self.outline.segments().iter().map(|side| side.start());
+        corners.map(|p| (p - from).norm()).fold(0.0, f64::max)
     }
 
     fn first_datum(&self) -> Option<(usize, Point)> {

@@ -4,7 +4,9 @@ mod geometrical;
 mod hole;
 mod sheet;
 
-use centrode_geometry::{MassProperties, Opening, Outline, Solid, SolidError, Tolerance, Vector};
+use centrode_geometry::{
+    MassProperties, Opening, Outline, Point, Solid, SolidError, Tolerance, Vector,
+};
 use centrode_mechanism::design::DrawingSpec;
 use centrode_mechanism::gear::design::BodySpec;
 
@@ -37,6 +39,19 @@ pub(crate) struct Plate {
     pub(crate) notes: Vec<String>,
     /// Tables of its sheet.
     pub(crate) tables: Vec<Table>,
+    /// How exact its contour is to the datum of its bore.
+    pub(crate) exactness: Option<Exactness>,
+    /// Timing marks on its face.
+    pub(crate) marks: Vec<Point>,
+}
+
+/// Exactness of a contour to the bore.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Exactness {
+    /// Its profile within a grade of its reach.
+    Profile,
+    /// The runout of its teeth over pins, mm.
+    Teeth(f64),
 }
 
 impl Plate {
@@ -62,6 +77,8 @@ impl Plate {
             density: body.density,
             notes: Vec::new(),
             tables: Vec::new(),
+            exactness: None,
+            marks: Vec::new(),
         }
     }
 

@@ -4,9 +4,9 @@ use centrode_mechanism::design::{DrawingSpec, Projection, SheetSize};
 use super::{Hole, HoleKind, Plate};
 use crate::SheetOptions;
 use crate::drawing::{Anchor, Shape};
-use crate::sheet::geometrical::{Characteristic, Frame, in_words};
+use crate::sheet::geometrical::{Characteristic, NoteLine};
 use crate::sheet::{
-    Draft, Pen, Piece, Scale, Sheet, SheetError, Table, TitleBlock, compose, fixed, number,
+    Draft, Pen, Piece, Scale, Sheet, SheetError, Table, TitleBlock, compose, fixed, number, steady,
     view_letters,
 };
 
@@ -16,6 +16,8 @@ const CALLED_OUT: usize = 8;
 const SIDES: usize = 40;
 /// Bulge of a half circle beyond one by which an arc is no longer: rounding.
 const ROUNDING: f64 = 1e-9;
+/// Radius of a timing mark on a sheet, mm.
+const MARK: f64 = 0.6;
 /// Places of lengths.
 const PLACES: usize = 3;
 
@@ -122,7 +124,24 @@ impl Plate {
         if self.holes.len() > CALLED_OUT {
             self.letter(&mut draft, k);
         } else {
-            draft.callouts(around, [f64::NEG_INFINITY; 2], &self.callouts(k));
+            draft.call_out(around, [f64::NEG_INFINITY; 2], &self.callouts(k));
+        }
+        for mark in &self.marks {
+            let center = *mark * k;
+            draft.draw(
+                Pen::Outline,
+                Shape::Circle {
+                    center,
+                    radius: MARK,
+                },
+            );
+        }
+        if let Some((frame, words)) = self.contour_frame() {
+            let corners = self.outline.segments().iter().map(|side| side.start());
+            if let Some(top) = corners.max_by(|a, b| steady(a.y).total_cmp(&steady(b.y))) {
+                let at = top * k + Vector::new(5.0, 9.0);
+                draft.pointed_frame(top * k, at, &frame, words);
+            }
         }
         self.edge(&mut draft, k, projection);
         draft
@@ -189,8 +208,8 @@ impl Plate {
     }
 
     /// Holes by their size and place.
-    fn callouts(&self, k: f64) -> Vec<(Point, Vec<String>)> {
-        let geometrical = self.geometrical();
+    fn callouts(&self, k: f64) -> Vec<(Point, Vec<NoteLine>)> {
+        let frames = self.frames();
         let holes = self.holes.iter().enumerate();
         let Bounds { min, max } = self.outline.bounds();
         let middle = 0.5 * (min.x + max.x);
@@ -209,23 +228,17 @@ impl Plate {
             let side = Vector::new(outwards * 0.8, 0.6) * radius;
             let lines = [hole.size()].into_iter().chain(hole.place());
             let lines = lines.chain(hole.notes.iter().cloned());
-            let lines = lines.chain(geometrical[index].iter().cloned());
             let mut words: Vec<String> = lines.filter(|line| !line.is_empty()).collect();
             let label = self.label(index);
-            match words.first_mut() {
-                Some(first) if !label.is_empty() => *first = format!("{label}: {first}"),
-                Some(_) => {}
-                None => return None,
+            if let Some(first) = words.first_mut().filter(|_| !label.is_empty()) {
+                *first = format!("{label}: {first}");
             }
-            Some(((center + side) * k, words))
+            let frames = frames[index].iter().cloned().map(NoteLine::from);
+            let words = words.into_iter().map(NoteLine::from);
+            let lines: Vec<NoteLine> = words.chain(frames).collect();
+            (!lines.is_empty()).then_some(((center + side) * k, lines))
         };
         holes.filter_map(note).collect()
-    }
-
-    /// Lines of the frames of each hole.
-    fn geometrical(&self) -> Vec<Vec<String>> {
-        let lines = |frames: &Vec<Frame>| frames.iter().map(Frame::line).collect();
-        self.frames().iter().map(lines).collect()
     }
 
     /// Places and sizes of many holes.
@@ -233,13 +246,12 @@ impl Plate {
         if self.holes.len() <= CALLED_OUT {
             return None;
         }
-        let geometrical = self.geometrical();
+        let frames = self.frames();
         let holes = self.holes.iter().enumerate();
         let row = |(index, hole): (usize, &Hole)| {
             let mut cells = vec![self.label(index), hole.size()];
             let lines = hole.place().into_iter().chain(hole.notes.iter().cloned());
-            let lines = lines.chain(geometrical[index].iter().cloned());
-            let words = lines.map(|line| in_words(&line).to_owned());
+            let words = lines.chain(frames[index].iter().map(ToString::to_string));
             cells.push(words.collect::<Vec<_>>().join(", "));
             cells
         };

@@ -1,7 +1,9 @@
 use std::f64::consts::TAU;
 
 use centrode_mechanism::gear::Member;
-use centrode_mechanism::machine::{Axis, Blank, Datum, Dimension, Fit, Machine as Linked, Part};
+use centrode_mechanism::machine::{
+    Axis, Blank, Datum, Dimension, Fit, Machine as Linked, Part, Supply,
+};
 use centrode_mechanism::shaft::ShaftSolid;
 
 use super::figures;
@@ -96,18 +98,15 @@ fn list(parts: &Machine<'_>, machine: &mut Linked) -> Result<(), ExportError> {
         file: "slider".into(),
         remark: format!("{} long", number(slider.length, 3)),
         place: machine.place_on_edge("slider", &slider.outline(shaft.groove().width())),
+        ..Part::default()
     });
     let classes = [&*slider.hole_fit, &slider.pin_fit];
     let pin = Fit::new("slider on its pin", slider.pin_diameter, classes);
-    machine.part(Part {
-        name: "Pin of the slider".into(),
-        links: vec![carriage],
-        remark: fit::shaft(&pin),
-        ..Part::default()
-    });
+    super::pin(shaft).list(machine, &[carriage], fit::shaft(&pin), None);
     machine.fit(pin);
     machine.part(Part {
         name: "Box with its rail".into(),
+        supply: Supply::Given,
         links: vec![carriage],
         mass: weight(machine, carriage),
         remark: "all that is moved but the slider".into(),

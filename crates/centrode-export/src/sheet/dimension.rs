@@ -1,6 +1,6 @@
 //! Dimensions and notes with leaders, ISO 129-1.
 
-use super::{Draft, Pen, draft::ARROW, geometrical, lettering, steady};
+use super::{Draft, Pen, draft::ARROW, geometrical::NoteLine, lettering, steady};
 use crate::drawing::{Anchor, Dimension, Object, Shape};
 use centrode_geometry::{Arc, Bounds, Point, Vector};
 
@@ -94,11 +94,17 @@ impl Draft {
     /// Draws a note with an arrow: a line from `tip` to `elbow`, then level under the words; a second line of
     /// words is put below.
     pub fn leader(&mut self, tip: Point, elbow: Point, words: &[String]) {
+        let lines: Vec<NoteLine> = words.iter().cloned().map(NoteLine::from).collect();
+        self.note(tip, elbow, &lines);
+    }
+
+    /// Draws a note with an arrow, some of its lines frames.
+    pub(crate) fn note(&mut self, tip: Point, elbow: Point, words: &[NoteLine]) {
         self.arrow(tip, tip - elbow);
         self.line(Pen::Dimension, tip, elbow);
         let width = words
             .iter()
-            .map(|w| geometrical::width(w, self.letters))
+            .map(|line| line.width(self.letters))
             .fold(0.0, f64::max);
         let side = if elbow.x >= tip.x { 1.0 } else { -1.0 };
         let end = elbow + Vector::new(side * (width + 2.0), 0.0);
@@ -118,9 +124,23 @@ impl Draft {
     /// Draws notes in two columns left and right of a view, each with a leader to its point, in the order of
     /// the points so that leaders do not cross. `band` of heights is left free, and leaders run clear of words there are.
     pub fn callouts(&mut self, around: Bounds, band: [f64; 2], notes: &[(Point, Vec<String>)]) {
+        let lines = |(tip, words): &(Point, Vec<String>)| {
+            let lines = words.iter().cloned().map(NoteLine::from);
+            (*tip, lines.collect())
+        };
+        self.call_out(around, band, &notes.iter().map(lines).collect::<Vec<_>>());
+    }
+
+    /// Draws notes left and right of a view, some of their lines frames.
+    pub(crate) fn call_out(
+        &mut self,
+        around: Bounds,
+        band: [f64; 2],
+        notes: &[(Point, Vec<NoteLine>)],
+    ) {
         let middle = steady(0.5 * (around.min.x + around.max.x));
         for right in [false, true] {
-            let mut column: Vec<&(Point, Vec<String>)> = notes
+            let mut column: Vec<&(Point, Vec<NoteLine>)> = notes
                 .iter()
                 .filter(|(p, _)| (steady(p.x) >= middle) == right)
                 .collect();
@@ -138,7 +158,7 @@ impl Draft {
                 let lowest = floor + below(words, self.letters);
                 let y = tip.y.max(lowest);
                 let y = self.clear(*tip, Point::new(x, y), |y| y >= lowest);
-                self.leader(*tip, Point::new(x, y), words);
+                self.note(*tip, Point::new(x, y), words);
                 floor = y + above(self.letters);
             }
             let mut ceiling = band[0];
@@ -146,7 +166,7 @@ impl Draft {
                 let highest = ceiling - above(self.letters);
                 let y = tip.y.min(highest);
                 let y = self.clear(*tip, Point::new(x, y), |y| y <= highest);
-                self.leader(*tip, Point::new(x, y), words);
+                self.note(*tip, Point::new(x, y), words);
                 ceiling = y - below(words, self.letters);
             }
         }
@@ -228,7 +248,7 @@ fn above(letters: f64) -> f64 {
 }
 
 /// Room below the line of a note, mm.
-fn below(words: &[String], letters: f64) -> f64 {
+fn below(words: &[NoteLine], letters: f64) -> f64 {
     1.0 + (letters + 2.0) * (words.len() as f64 - 1.0)
 }
 

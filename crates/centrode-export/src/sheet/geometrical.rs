@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use centrode_geometry::{Bounds, Outline, Point, Vector};
+use centrode_geometry::{Arc, Bounds, Outline, Point, Vector};
 use centrode_mechanism::machine::limits_of_size;
 
 use super::{Draft, Pen, draft::ARROW, lettering, number};
@@ -20,6 +20,8 @@ const HALF: f64 = 2.15;
 pub(crate) enum Characteristic {
     /// Place of an axis; the zone is a cylinder.
     Position,
+    /// Form and place of a profile, the zone equally on both sides of it.
+    Profile,
     /// Circular runout, axial on a face and radial on a cylinder.
     Runout,
     /// A feature that others refer to, with its letter.
@@ -27,18 +29,58 @@ pub(crate) enum Characteristic {
 }
 
 impl Characteristic {
-    const ALL: [Self; 3] = [Self::Position, Self::Runout, Self::Datum];
-
     fn name(self) -> &'static str {
         match self {
             Self::Position => "position",
+            Self::Profile => "profile",
             Self::Runout => "runout",
             Self::Datum => "datum",
         }
     }
 }
 
-/// A line beside a feature that is drawn as a frame.
+/// A line of a note beside a feature.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum NoteLine {
+    /// Words.
+    Words(String),
+    /// A geometrical tolerance or a datum.
+    Frame(Frame),
+}
+
+impl NoteLine {
+    /// Width on a sheet, mm, with letters of a height.
+    pub(super) fn width(&self, letters: f64) -> f64 {
+        match self {
+            Self::Words(words) => lettering::width(words, letters),
+            Self::Frame(frame) => frame.widths().iter().sum(),
+        }
+    }
+}
+
+impl From<String> for NoteLine {
+    fn from(words: String) -> Self {
+        Self::Words(words)
+    }
+}
+
+impl From<Frame> for NoteLine {
+    fn from(frame: Frame) -> Self {
+        Self::Frame(frame)
+    }
+}
+
+impl fmt::Display for NoteLine {
+    /// The words; those of a frame say what it shows.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Words(words) => f.write_str(words),
+            Self::Frame(frame) => frame.fmt(f),
+        }
+    }
+}
+
+/// Geometrical tolerance of a feature, or its datum letter.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Frame {
     pub(crate) characteristic: Characteristic,
@@ -68,8 +110,19 @@ impl Frame {
 
     /// Runout of a feature of a diameter: within the seventh grade of that. None beyond the grades of ISO 286-1.
     pub(crate) fn runout(diameter: f64, datums: &str) -> Option<Self> {
-        let value = number(grade(diameter, "H7")?, 3);
-        Some(Self::new(Characteristic::Runout, value, datums))
+        Some(Self::runout_within(grade(diameter, "H7")?, datums))
+    }
+
+    /// Runout within a width, mm.
+    pub(crate) fn runout_within(width: f64, datums: &str) -> Self {
+        Self::new(Characteristic::Runout, number(width, 4), datums)
+    }
+
+    /// Profile of a contour that reaches so far from its datum, mm: within the eighth grade of that. None beyond the grades of
+    /// ISO 286-1.
+    pub(crate) fn profile(reach: f64, datums: &str) -> Option<Self> {
+        let value = number(grade(reach, "H8")?, 3);
+        Some(Self::new(Characteristic::Profile, value, datums))
     }
 
     fn new(characteristic: Characteristic, value: String, datums: &str) -> Self {
@@ -80,33 +133,12 @@ impl Frame {
         }
     }
 
-    /// The frame that a line of words stands for, if it does.
-    fn read(line: &str) -> Option<Self> {
-        let mut words = line.strip_prefix('|')?.split(' ');
-        let name = words.next()?;
-        let mut all = Characteristic::ALL.into_iter();
-        Some(Self {
-            characteristic: all.find(|known| known.name() == name)?,
-            cells: words.map(String::from).collect(),
-        })
-    }
-
-    /// Line of words beside a feature that is drawn as this frame.
-    pub(crate) fn line(&self) -> String {
-        format!("|{self}")
-    }
-
     fn widths(&self) -> Vec<f64> {
         let wide = |cell: &String| lettering::width(cell, LETTERS) + 2.0 * PAD;
         let cells = self.cells.iter().map(wide).map(|w| w.max(2.0 * HALF));
         // The triangle of a datum stands where the symbol of a tolerance does.
         std::iter::once(2.0 * HALF).chain(cells).collect()
     }
-}
-
-/// Words of a line; a frame's say what it shows.
-pub(crate) fn in_words(line: &str) -> &str {
-    line.strip_prefix('|').unwrap_or(line)
 }
 
 impl fmt::Display for Frame {
@@ -120,20 +152,12 @@ fn grade(size: f64, class: &str) -> Option<f64> {
     limits_of_size(size, class).map(|[low, high]| high - low)
 }
 
-/// Width of a line beside a feature, mm.
-pub(super) fn width(line: &str, letters: f64) -> f64 {
-    match Frame::read(line) {
-        Some(frame) => frame.widths().iter().sum(),
-        None => lettering::width(line, letters),
-    }
-}
-
 impl Draft {
-    /// Writes a line beside a feature, from the left end of its baseline, or draws the frame that it stands for.
-    pub(super) fn line_of_note(&mut self, at: Point, line: &str) {
-        match Frame::read(line) {
-            Some(frame) => self.frame(at + Vector::new(0.0, 0.5 * self.letters), &frame),
-            None => self.text(at, self.letters, line, Anchor::Left),
+    /// Writes a line of a note from the left end of its baseline, or draws its frame.
+    pub(super) fn line_of_note(&mut self, at: Point, line: &NoteLine) {
+        match line {
+            NoteLine::Frame(frame) => self.frame(at + Vector::new(0.0, 0.5 * self.letters), frame),
+            NoteLine::Words(words) => self.text(at, self.letters, words, Anchor::Left),
         }
     }
 
@@ -180,6 +204,16 @@ impl Draft {
                 self.line(Pen::Dimension, p(-1.5, 0.0), p(1.5, 0.0));
                 self.line(Pen::Dimension, p(0.0, -1.5), p(0.0, 1.5));
             }
+            Characteristic::Profile => {
+                // Half a circle on its diameter.
+                let half = Arc {
+                    start: p(1.5, -0.7),
+                    end: p(-1.5, -0.7),
+                    bulge: 1.0,
+                };
+                self.draw(Pen::Dimension, Shape::Arc(half));
+                self.line(Pen::Dimension, half.start, half.end);
+            }
             Characteristic::Runout => {
                 self.line(Pen::Dimension, p(-1.4, -1.4), p(1.4, 1.4));
                 let head = Vector::new(1.0, 1.0).normalize();
@@ -202,7 +236,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn values_are_grades_of_iso_286_and_lines_are_read_back() {
+    fn values_are_grades_of_iso_286_and_frames_have_words() {
         // IT8 of 50 to 80 mm is 46 um, IT7 of 80 to 120 mm 35 um.
         let position = Frame::position(60.0, 0.0, "A B").expect("a grade");
         assert_eq!(position.to_string(), "position Ø0.046 A B");
@@ -210,12 +244,15 @@ mod tests {
         assert_eq!(off.to_string(), "position Ø0.04 A");
         let runout = Frame::runout(100.0, "A").expect("a grade");
         assert_eq!(runout.to_string(), "runout 0.035 A");
-        for frame in [position, runout, Frame::datum('A')] {
-            assert_eq!(Frame::read(&frame.line()), Some(frame));
-        }
-        assert_eq!(Frame::read("runout 0.035 A"), None);
+        // IT8 of 30 to 50 mm is 39 um.
+        let profile = Frame::profile(40.0, "A").expect("a grade");
+        assert_eq!(profile.to_string(), "profile 0.039 A");
+        assert_eq!(
+            Frame::runout_within(0.0465, "A").to_string(),
+            "runout 0.0465 A"
+        );
         assert_eq!(Frame::runout(501.0, "A"), None);
-        assert_eq!(in_words("|datum A"), "datum A");
+        assert_eq!(NoteLine::from(Frame::datum('A')).to_string(), "datum A");
     }
 
     #[test]
@@ -223,13 +260,15 @@ mod tests {
         for frame in [
             Frame::runout(30.0, "A"),
             Frame::position(30.0, 0.0, "A B"),
+            Frame::profile(30.0, "A"),
             Some(Frame::datum('B')),
         ] {
             let frame = frame.expect("a grade");
             let mut draft = Draft::default();
             draft.frame(Point::new(5.0, 0.0), &frame);
             let bounds = draft.bounds();
-            assert!((bounds.max.x - 5.0 - width(&frame.line(), 3.5)).abs() < 1e-9);
+            let wide = NoteLine::from(frame).width(3.5);
+            assert!((bounds.max.x - 5.0 - wide).abs() < 1e-9);
             assert!(bounds.max.y < HALF + 1e-9 && bounds.min.y > -HALF - 1e-9);
         }
     }

@@ -3,10 +3,10 @@ use centrode_mechanism::gear::Member;
 use centrode_mechanism::machine::{self, Axis, Blank, Callout, Datum, Dimension};
 use centrode_mechanism::three_arm::ThreeArm;
 
-use super::Part;
 use super::machine::Machine;
+use super::{Part, shafts};
 use crate::gear_pair;
-use crate::sheet::{fit, number};
+use crate::sheet::number;
 
 /// Lists the parts and tells the arrangement: the mechanism as its first arm picks.
 pub(super) fn tell(parts: &Machine<'_>, machine: &mut machine::Machine) {
@@ -19,7 +19,7 @@ pub(super) fn tell(parts: &Machine<'_>, machine: &mut machine::Machine) {
     for fit in parts.fits() {
         machine.fit(fit);
     }
-    bought(parts, machine);
+    shafts::list(parts, machine);
     let carrier = machine.place_on("carrier", [0.0; 2]);
     let told = &mut machine.arrangement;
     told.seen_through.extend(carrier.map(|place| place.figure));
@@ -31,7 +31,7 @@ pub(super) fn tell(parts: &Machine<'_>, machine: &mut machine::Machine) {
         "Shown as arm I picks; arms II and III follow it.",
         "Gears seen through the front plate of the carrier.",
         "Dash-dotted: pitch curves, path of the tips.",
-        "Springs, bearings, screws: bought, not listed.",
+        "Springs and screws: bought, not listed.",
     ]
     .map(String::from)
     .into();
@@ -74,7 +74,7 @@ fn surroundings(mechanism: &ThreeArm, machine: &mut machine::Machine) {
 }
 
 /// Links that carry the pieces of a part.
-fn links(part: Part, arms: u32, machine: &machine::Machine) -> Vec<usize> {
+pub(super) fn links(part: Part, arms: u32, machine: &machine::Machine) -> Vec<usize> {
     let chains = |name: &str, each: usize| {
         let names = (0..arms).flat_map(|k| std::iter::repeat_n(format!("{name}_{k}"), each));
         names.filter_map(|name| machine.link_named(&name)).collect()
@@ -144,46 +144,8 @@ fn list(parts: &Machine<'_>, part: Part, machine: &mut machine::Machine) {
         file: part.name().into(),
         remark: format!("{} thick", number(plate.thickness, 3)),
         place,
+        ..machine::Part::default()
     });
-}
-
-/// Lists shafts and pins.
-fn bought(parts: &Machine<'_>, machine: &mut machine::Machine) {
-    let spec = parts.pusher.fork_spec();
-    let arms = parts.mechanism.arms();
-    let shafts = [
-        (Part::Sun, "Shaft of the carrier"),
-        (Part::Intermediate, "Shaft of an intermediate gear"),
-        (Part::Planet, "Shaft of a planet gear"),
-    ];
-    for (part, name) in shafts {
-        if let Some((pair, member)) = parts.gear(part) {
-            let links = links(part, arms, machine);
-            gear_pair::list_shafts(machine, pair.gear(member), name, links);
-        }
-    }
-    let pins = [
-        ("Pin of the fork", Part::Housing, spec.pivot_bore, ""),
-        ("Pin of the roller", Part::Fork, spec.roller_bore, ""),
-        // As its hole in the rod is.
-        (
-            "Pin of the push rod",
-            Part::PushRod,
-            0.5 * spec.slot_width,
-            ", twice as wide in the slot",
-        ),
-    ];
-    for (name, on, diameter, more) in pins {
-        let links = links(on, arms, machine);
-        let fit = machine.fits.iter().find(|fit| fit.size == diameter);
-        let size = fit.map_or_else(|| format!("Ø{}", number(diameter, 3)), fit::shaft);
-        machine.part(machine::Part {
-            name: name.into(),
-            links,
-            remark: format!("{size}{more}"),
-            ..machine::Part::default()
-        });
-    }
 }
 
 fn data(parts: &Machine<'_>) -> Vec<Datum> {

@@ -11,20 +11,20 @@ use crate::{ExportError, cam};
 /// Material of carrier and housings, with its density in kg/m^3.
 const LIGHT: (&str, f64) = ("aluminium alloy", 2700.0);
 /// Material of what carries load, with its density in kg/m^3.
-const STEEL: (&str, f64) = ("steel", 7850.0);
+pub(super) const STEEL: (&str, f64) = ("steel", 7850.0);
 
 /// Tolerance class, ISO 286, of the holes in which the shafts of the gears turn, which are made to fit the gears.
 const BEARING: &str = "F7";
 /// Classes of what turns on a pin, hole and shaft.
-const RUNNING: [&str; 2] = ["H7", "f7"];
+pub(super) const RUNNING: [&str; 2] = ["H7", "f7"];
 /// Of pins that are pressed in, ISO 8734.
-const PRESSED: [&str; 2] = ["H7", "m6"];
+pub(super) const PRESSED: [&str; 2] = ["H7", "m6"];
 /// Of the roller on its pressed pin.
 const ROLLING: [&str; 2] = ["E9", "m6"];
 /// Of openings that only leave room.
 const PASSING: [&str; 2] = ["H11", "h11"];
 /// Of what slides in a slot or a square bore.
-const SLIDING: [&str; 2] = ["H9", "e9"];
+pub(super) const SLIDING: [&str; 2] = ["H9", "e9"];
 
 /// A mechanism with every part resolved.
 #[derive(Clone, Debug)]
@@ -124,6 +124,8 @@ impl<'a> Machine<'a> {
             density,
             notes: Vec::new(),
             tables: Vec::new(),
+            exactness: None,
+            marks: Vec::new(),
         }
     }
 
@@ -132,6 +134,16 @@ impl<'a> Machine<'a> {
         let spec = self.pusher.fork_spec();
         let body = self.pairs[0].driver().body();
         let rod = self.mechanism.arm_sizes().rod_bore();
+        let seats = [
+            (Part::Sun, "shaft of the carrier in the sun"),
+            (Part::Intermediate, "shafts of intermediate gears"),
+            (Part::Planet, "shafts of planet gears"),
+        ];
+        let seats = seats.into_iter().filter_map(|(part, name)| {
+            let (pair, member) = self.gear(part)?;
+            let body = pair.gear(member).body();
+            Some(Fit::new(name, body.bore, [&body.bore_fit, &body.shaft_fit]))
+        });
         let all = [
             Fit::new(
                 "shafts in the carrier",
@@ -145,7 +157,8 @@ impl<'a> Machine<'a> {
             Fit::new("pin in the push rod", 0.5 * spec.slot_width, PRESSED),
             Fit::of_width("push rod in the housing", rod, SLIDING),
         ];
-        all.into_iter().filter(|fit| fit.size > 0.0).collect()
+        let all = all.into_iter().chain(seats);
+        all.filter(|fit| fit.size > 0.0).collect()
     }
 
     /// A part that is a plate, in its own frame, its holes with their classes.

@@ -10,6 +10,7 @@ mod links;
 mod machine;
 mod part;
 mod pushed;
+mod shafts;
 mod surroundings;
 
 use centrode_mechanism::arm::ArmError;
@@ -80,6 +81,10 @@ pub fn files(
         } else if let Some(plate) = machine.plate_of(part) {
             plate.add(&mut package, &design.drawing)?;
         }
+    }
+    for piece in shafts::all(&machine) {
+        let quantity = piece.quantity(mechanism.arms());
+        piece.part.add(&mut package, &design.drawing, quantity)?;
     }
     let cam = machine.pusher.cam();
     package.points(Part::Cam.name(), "cam", || cam::columns(cam, cam::ROWS))?;

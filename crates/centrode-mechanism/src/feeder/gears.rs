@@ -5,9 +5,10 @@ use serde::{Deserialize, Serialize};
 
 use crate::degrees;
 use crate::gear::design::rule::{count_in_range, in_range, not_negative, positive};
-use crate::gear::design::{BodySpec, GearPairDesign, Keyway, SpecError};
+use crate::gear::design::{BodySpec, GearPairDesign, Keyway, SpecError, TeethSpec};
 use crate::gear::pitch::{Circle, PitchSpec};
 use crate::gear::{IntermittentDrive, IntermittentError, IntermittentPairSpec, Pins};
+use crate::machine::preferred_size;
 
 /// The intermittent gear and its mate as written.
 ///
@@ -36,7 +37,8 @@ pub struct GearsSpec {
     /// Radius of the locking arc, mm; left out, the driver's pitch radius.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub lock_radius: Option<f64>,
-    /// Diameter of the pins that run on the entry cam, mm; left out, two and a half modules.
+    /// Diameter of the pins that run on the cams, mm; left out, the preferred size (ISO 497, R''20) nearest to two and a half
+    /// modules.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pin_diameter: Option<f64>,
     /// Diameter of the circle through the pins' centres, mm; left out, three quarters of the driven pitch circle's.
@@ -55,6 +57,20 @@ pub struct GearsSpec {
     #[schemars(extend("x-detail" = true))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub keyway: Option<Keyway>,
+    /// Heat treatment of gears and cams, for the drawing; left empty, none.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    #[schemars(extend("x-detail" = true))]
+    pub heat_treatment: String,
+    /// Accuracy class of the teeth, for the drawing: a flank tolerance class of ISO 1328-1, or one of another system in words;
+    /// left empty, 8.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    #[schemars(extend("x-detail" = true))]
+    pub accuracy: String,
+    /// Upper and lower deviation of the tooth thickness from the nominal one along the pitch circle, mm, both at most zero: for
+    /// the drawing, which has limits of the measures over pins by them.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-detail" = true))]
+    pub thickness_deviations: Option<[f64; 2]>,
 }
 
 impl Default for GearsSpec {
@@ -74,6 +90,9 @@ impl Default for GearsSpec {
             width: 15.0,
             bore: 16.0,
             keyway: None,
+            heat_treatment: String::new(),
+            accuracy: String::new(),
+            thickness_deviations: None,
         }
     }
 }
@@ -100,6 +119,11 @@ impl GearsSpec {
             }
         }
         self.body().validate()?;
+        let teeth = TeethSpec {
+            thickness_deviations: self.thickness_deviations,
+            ..TeethSpec::default()
+        };
+        teeth.validate()?;
         not_negative("backlash", self.backlash)?;
         not_negative("lock_play", self.lock_play)?;
         in_range(
@@ -117,8 +141,17 @@ impl GearsSpec {
             width: self.width,
             bore: self.bore,
             keyway: self.keyway.or_else(|| Keyway::of_bore(self.bore)),
+            heat_treatment: self.heat_treatment.clone(),
+            accuracy: self.accuracy.clone(),
             ..BodySpec::default()
         }
+    }
+
+    /// Diameter of the pins that run on the cams, mm.
+    #[must_use]
+    pub fn cam_pin(&self) -> f64 {
+        let usual = || preferred_size(2.5 * self.module);
+        self.pin_diameter.unwrap_or_else(usual)
     }
 
     /// Distance between the two shafts, mm.
@@ -139,12 +172,13 @@ impl GearsSpec {
         }));
         pair.mean_ratio = [driven / divisor, driver / divisor];
         [pair.driver, pair.driven] = [self.body(), self.body()];
+        pair.teeth.thickness_deviations = self.thickness_deviations;
         IntermittentPairSpec {
             lock_radius: self.lock_radius,
             lock_play: self.lock_play,
             backlash: self.backlash,
             pins: Pins {
-                diameter: self.pin_diameter,
+                diameter: Some(self.cam_pin()),
                 circle: self.pin_circle,
                 angle: self.pin_angle,
             },

@@ -70,6 +70,23 @@ impl GearBody {
 }
 
 impl Feeder {
+    /// Heights of the lower faces of the gears, of the entry cam and of the exit cam, mm, with cams or without.
+    #[must_use]
+    pub fn gear_levels(&self, cams: bool) -> [f64; 3] {
+        let (spec, plates) = (&self.design().gears, &self.design().plates);
+        let next = spec.width + plates.gap;
+        let behind = -(plates.thickness + plates.gap) - next;
+        let middle = if cams { behind - next } else { behind };
+        [middle, middle - next, behind]
+    }
+
+    /// Whether cams bring the driven gear to speed and to rest.
+    #[must_use]
+    pub fn has_cams(&self) -> bool {
+        let spec = &self.design().gears;
+        spec.entry > 0.0 && spec.drive().is_ok_and(|drive| drive.stops() > 0)
+    }
+
     /// Adds the gears to the machine of [`Feeder::links`] as links with bodies, behind the rear frame plate: from there the exit
     /// cam, the gears, the entry cam. Gears that cannot be cut are left out: the six-bar moves without them.
     ///
@@ -80,15 +97,9 @@ impl Feeder {
             return Ok(());
         };
         let (frame, crank) = (Part::Frame.link(), Part::Crank.link());
-        let (spec, plates) = (&self.design().gears, &self.design().plates);
-        let next = spec.width + plates.gap;
-        let behind = -(plates.thickness + plates.gap) - next;
+        let spec = &self.design().gears;
         let bodies = GearBody::all(&gears, tolerance);
-        let middle = if bodies.len() > 2 {
-            behind - next
-        } else {
-            behind
-        };
+        let [middle, entry, exit] = self.gear_levels(bodies.len() > 2);
         let density = spec.body().density;
         let mut driver = frame;
         for body in &bodies {
@@ -107,8 +118,8 @@ impl Feeder {
                     (joint.at([-spec.center_distance(), 0.0, 0.0]), middle)
                 }
                 DRIVEN => (Joint::fixed(crank, link), middle),
-                name if name == CAMS[0] => (Joint::fixed(driver, link), middle - next),
-                _ => (Joint::fixed(driver, link), behind),
+                name if name == CAMS[0] => (Joint::fixed(driver, link), entry),
+                _ => (Joint::fixed(driver, link), exit),
             };
             let joint = machine.joint(joint);
             if link == driver {

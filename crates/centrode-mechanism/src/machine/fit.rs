@@ -13,7 +13,7 @@ type Row = [f64; 13];
 
 /// Standard tolerances by grade.
 #[rustfmt::skip]
-const GRADES: [(&str, Row); 7] = [
+const GRADES: [(&str, Row); 9] = [
     ("5", [4.0, 5.0, 6.0, 8.0, 9.0, 11.0, 13.0, 15.0, 18.0, 20.0, 23.0, 25.0, 27.0]),
     ("6", [6.0, 8.0, 9.0, 11.0, 13.0, 16.0, 19.0, 22.0, 25.0, 29.0, 32.0, 36.0, 40.0]),
     ("7", [10.0, 12.0, 15.0, 18.0, 21.0, 25.0, 30.0, 35.0, 40.0, 46.0, 52.0, 57.0, 63.0]),
@@ -21,6 +21,8 @@ const GRADES: [(&str, Row); 7] = [
     ("9", [25.0, 30.0, 36.0, 43.0, 52.0, 62.0, 74.0, 87.0, 100.0, 115.0, 130.0, 140.0, 155.0]),
     ("10", [40.0, 48.0, 58.0, 70.0, 84.0, 100.0, 120.0, 140.0, 160.0, 185.0, 210.0, 230.0, 250.0]),
     ("11", [60.0, 75.0, 90.0, 110.0, 130.0, 160.0, 190.0, 220.0, 250.0, 290.0, 320.0, 360.0, 400.0]),
+    ("12", [100.0, 120.0, 150.0, 180.0, 210.0, 250.0, 300.0, 350.0, 400.0, 460.0, 520.0, 570.0, 630.0]),
+    ("13", [140.0, 180.0, 220.0, 270.0, 330.0, 390.0, 460.0, 540.0, 630.0, 720.0, 810.0, 890.0, 970.0]),
 ];
 
 /// Distances of the nearer limit from the nominal size by letter: of shafts below it from d to h, above it from k to p.
@@ -39,8 +41,8 @@ const DEVIATIONS: [(&str, Row); 9] = [
 
 /// Lower and upper deviation of a size in a tolerance class, mm.
 ///
-/// Holes have capital letters: D to H and JS in grades 5 to 11, N and P in grade 9, as keyways have them. Shafts have small
-/// ones: d to h and js in grades 5 to 11, k in grades 5 to 7, m to p in grades 5 to 9. `None` for other classes, and for sizes
+/// Holes have capital letters: D to H and JS in grades 5 to 13, N and P in grade 9, as keyways have them. Shafts have small
+/// ones: d to h and js in grades 5 to 13, k in grades 5 to 7, m to p in grades 5 to 9. `None` for other classes, and for sizes
 /// that are not between 0 and 500 mm.
 ///
 /// Source: ISO 286-1:2010, tables of standard tolerance grades and fundamental deviations.
@@ -188,6 +190,8 @@ mod tests {
             (100.0, "p6", [37.0, 59.0]),
             (30.0, "js6", [-6.5, 6.5]),
             (450.0, "h11", [-400.0, 0.0]),
+            (23.9, "h12", [-210.0, 0.0]),
+            (1.1, "H13", [0.0, 140.0]),
         ] {
             assert_eq!(found(size, class), Some(limits), "{size} {class}");
         }

@@ -16,6 +16,7 @@ mod part;
 mod plain;
 mod pose;
 mod sound;
+mod standard;
 
 use std::fmt;
 use std::sync::Arc;
@@ -35,8 +36,9 @@ pub use jet::{FrameJet, PointJet};
 pub use joint::{Joint, JointKind};
 pub use law::{Constant, Linear, Piecewise};
 pub use load::{Axes, Load, STANDARD_GRAVITY};
-pub use part::Part;
+pub use part::{Part, Supply};
 pub use sound::{MachineError, loose_link};
+pub use standard::{Circlip, dowel};
 
 /// Rigid links, and how each of them moves with the one input.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, Serialize)]

@@ -19,6 +19,9 @@ pub struct Part {
     pub blank: Option<Blank>,
     /// Mass of one piece, kg; none where it is not known.
     pub mass: Option<f64>,
+    /// Where it comes from.
+    #[serde(default, skip_serializing_if = "Supply::is_made")]
+    pub supply: Supply,
     /// Name that its drawings, sheets and solids begin with; empty for a part without files.
     pub file: String,
     /// Remark.
@@ -27,7 +30,47 @@ pub struct Part {
     pub place: Option<Place>,
 }
 
+/// Where a part comes from.
+#[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Supply {
+    /// Made from its sheet.
+    #[default]
+    Made,
+    /// Bought by its name.
+    Bought,
+    /// Part of the machine around: the design says what touches it, and no more.
+    Given,
+}
+
+impl Supply {
+    /// Word for it.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Made => "made",
+            Self::Bought => "bought",
+            Self::Given => "given",
+        }
+    }
+
+    fn is_made(&self) -> bool {
+        *self == Self::Made
+    }
+}
+
 impl Part {
+    /// A part that is bought by its name, with its pieces.
+    #[must_use]
+    pub fn bought(name: String, links: Vec<usize>) -> Self {
+        Self {
+            name,
+            links,
+            supply: Supply::Bought,
+            ..Self::default()
+        }
+    }
+
     /// Number of pieces in a machine.
     #[must_use]
     pub fn quantity(&self) -> usize {
@@ -36,8 +79,15 @@ impl Part {
 }
 
 impl Machine {
-    /// Adds a part with its pieces.
+    /// Adds a part with its pieces; of a bought one, more pieces to that of its name.
     pub fn part(&mut self, part: Part) -> usize {
+        let alike = |known: &Part| {
+            known.supply == Supply::Bought && part.supply == known.supply && known.name == part.name
+        };
+        if let Some(index) = self.parts.iter().position(alike) {
+            self.parts[index].links.extend(part.links);
+            return index;
+        }
         self.parts.push(part);
         self.parts.len() - 1
     }

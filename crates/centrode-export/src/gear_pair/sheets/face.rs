@@ -1,9 +1,14 @@
 //! The face of a gear, and the section through its axis.
 
 use super::part::{Extremes, Part, degrees};
+use crate::gear_pair::accuracy::tooth_runout;
 use crate::{
     drawing::{Anchor, Shape},
-    sheet::{Draft, Pen, Scale, fit, geometrical::Frame, lettering, number},
+    sheet::{
+        Draft, Pen, Scale, fit,
+        geometrical::{Frame, NoteLine},
+        lettering, number,
+    },
 };
 use centrode_geometry::{Bounds, Outline, Point, Vector};
 use centrode_mechanism::design::Projection;
@@ -13,10 +18,12 @@ use nalgebra::Isometry2;
 const RING: f64 = 3.4;
 /// Height of the numbers of the spaces, mm.
 const NUMBERS: f64 = 2.5;
+/// Radius of a timing mark on a sheet, mm.
+const MARK: f64 = 0.6;
 /// Room between a view and the next, mm.
 const APART: f64 = 16.0;
 
-/// Face view and section A-A, aligned on the axis.
+/// Face view and section C-C, aligned on the axis.
 pub(super) fn views(part: &Part<'_>, scale: Scale, letters: f64, projection: Projection) -> Draft {
     let mut draft = face(part, scale, letters);
     let whole = draft.bounds();
@@ -53,7 +60,15 @@ fn face(part: &Part<'_>, scale: Scale, letters: f64) -> Draft {
         min: p(min.x, min.y) - margin,
         max: p(max.x, max.y) + margin,
     };
-    draft.callouts(around, [-9.0, 3.0], &notes(part, k));
+    let mark = part.middle(0, 0.0);
+    draft.draw(
+        Pen::Outline,
+        Shape::Circle {
+            center: (mark.point - mark.normal * (2.0 * part.pair.module())) * k,
+            radius: MARK,
+        },
+    );
+    draft.call_out(around, [-9.0, 3.0], &notes(part, k));
     numbers(part, k, &mut draft);
     draft
 }
@@ -67,15 +82,15 @@ fn cutting_plane(draft: &mut Draft, left: Point, right: Point) {
         draft.line(Pen::Dimension, tip + Vector::new(0.0, 7.0), tip);
         draft.arrow(tip, -Vector::y());
         let letter = tip + Vector::new(-3.2 * out, 1.2);
-        draft.text(letter, 3.5, "A", Anchor::Middle);
+        draft.text(letter, 3.5, "C", Anchor::Middle);
     }
 }
 
-fn notes(part: &Part<'_>, k: f64) -> Vec<(Point, Vec<String>)> {
+fn notes(part: &Part<'_>, k: f64) -> Vec<(Point, Vec<NoteLine>)> {
     let mut notes = Vec::new();
     let radius = |p: Point, what: &str| {
         let size = format!("R{:.3} at {:.2}°", p.coords.norm(), degrees(p));
-        (p * k, vec![size, what.to_owned()])
+        (p * k, vec![size.into(), what.to_owned().into()])
     };
     for (kind, extremes) in [("tip", part.tips()), ("root", part.roots())] {
         let Some(Extremes { greatest, least }) = extremes else {
@@ -83,7 +98,10 @@ fn notes(part: &Part<'_>, k: f64) -> Vec<(Point, Vec<String>)> {
         };
         if greatest.coords.norm() - least.coords.norm() < 5e-4 {
             let size = format!("Ø{:.3}", 2.0 * greatest.coords.norm());
-            notes.push((greatest * k, vec![size, format!("{kind} circle")]));
+            notes.push((
+                greatest * k,
+                vec![size.into(), format!("{kind} circle").into()],
+            ));
         } else {
             notes.push(radius(greatest, &format!("largest {kind} radius")));
             notes.push(radius(least, &format!("least {kind} radius")));
@@ -91,24 +109,32 @@ fn notes(part: &Part<'_>, k: f64) -> Vec<(Point, Vec<String>)> {
     }
     let body = part.gear.body();
     if body.bore > 0.0 {
-        let datum = Frame::datum('A').line();
         let at = Vector::new(-0.6, 0.8) * (0.5 * body.bore * k);
         let words = if body.keyway.is_some() {
-            vec!["detail B".to_owned()]
+            vec!["detail D".to_owned().into()]
         } else {
-            vec![fit::bore(body.bore, &body.bore_fit), datum]
+            let size = fit::bore(body.bore, &body.bore_fit);
+            vec![size.into(), Frame::datum('A').into()]
         };
         notes.push((Point::from(at), words));
     }
     let start = part.frame(0.0).point;
     let mate = format!("mate's axis at {:.3}", part.pair.center_distance());
-    let mut words = vec![format!("φ = 0, R{:.3}", start.coords.norm()), mate];
+    let mut words: Vec<NoteLine> = vec![
+        format!("φ = 0, R{:.3}", start.coords.norm()).into(),
+        mate.into(),
+    ];
     let tooth = part.middle(0, 0.0);
-    let name = format!("tooth 0 at {:.3}°", degrees(tooth.point));
+    let name = format!("tooth 0, marked, at {:.3}°", degrees(tooth.point));
     if (tooth.point - start).norm() * k < 4.0 {
-        words.insert(1, name);
+        words.insert(1, name.into());
     } else {
-        notes.push((tooth.point * k, vec![name]));
+        notes.push((tooth.point * k, vec![name.into()]));
+    }
+    let runout = tooth_runout(part.pair, part.member).filter(|_| body.bore > 0.0);
+    if let Some(width) = runout {
+        words.push(Frame::runout_within(width, "A").into());
+        words.push("teeth, over pins".to_owned().into());
     }
     notes.push((start * k, words));
     notes
@@ -222,7 +248,7 @@ fn section(part: &Part<'_>, scale: Scale) -> Draft {
         draft.pointed_frame(tip, tip + Vector::new(4.0, -9.0), &frame, "both faces");
     }
     let title = p(0.0, width + 7.0);
-    draft.text(title, 5.0, "A-A", Anchor::Middle);
+    draft.text(title, 5.0, "C-C", Anchor::Middle);
     draft
 }
 
@@ -255,10 +281,10 @@ pub(super) fn bore(part: &Part<'_>) -> Option<Draft> {
     draft.dimension([p(top, -wide), p(top, wide)], Vector::y(), beside, &width);
     let tip = p(-0.5 * half, 0.75_f64.sqrt() * half);
     let elbow = p(-0.75 * reach, reach + 3.0);
-    let datum = Frame::datum('A').line();
-    draft.leader(tip, elbow, &[fit::bore(body.bore, &body.bore_fit), datum]);
+    let size = fit::bore(body.bore, &body.bore_fit);
+    draft.note(tip, elbow, &[size.into(), Frame::datum('A').into()]);
     let bounds = draft.bounds();
     let title = p(0.0, bounds.max.y + 5.0);
-    draft.text(title, 5.0, &format!("B ({scale})"), Anchor::Middle);
+    draft.text(title, 5.0, &format!("D ({scale})"), Anchor::Middle);
     Some(draft)
 }

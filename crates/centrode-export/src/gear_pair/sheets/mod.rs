@@ -150,7 +150,7 @@ fn gear(
     let data = tables::data(part, &options.found);
     let details: Vec<Draft> = tooth::extremes(part)
         .into_iter()
-        .zip(['C', 'D'])
+        .zip(['E', 'F'])
         .map(|((tooth, place), letter)| tooth::detail(part, letter, tooth, place))
         .collect();
     let bore = face::bore(part);

@@ -8,6 +8,7 @@ mod tables;
 pub(super) use tables::data;
 
 use super::slider_solid;
+use crate::turned::centre;
 use crate::{
     ExportError, Options,
     drawing::{Anchor, Shape},
@@ -17,6 +18,9 @@ use crate::{
 use centrode_geometry::Point;
 use centrode_mechanism::design::SheetSize;
 use centrode_mechanism::shaft::{ShaftSolid, SpiralShaft};
+
+/// Letter of the section across the journal; datums have the first ones.
+const SECTION: char = 'C';
 
 /// The sheets of a spiral shaft: side view and development with dimensions, sections, data and the file of the lead table.
 ///
@@ -92,27 +96,6 @@ fn notes(shaft: &SpiralShaft) -> Vec<String> {
         lines.push("Keyway at θ = 0.".to_owned());
     }
     lines
-}
-
-/// Centre hole of a turned part, of form A: the widest that takes no more than a third of the end's diameter.
-fn centre(diameter: f64) -> Option<String> {
-    // Diameters of the pilot hole and of the countersink, mm; ISO 866.
-    const SIZES: [(f64, f64); 11] = [
-        (1.0, 2.12),
-        (1.25, 2.65),
-        (1.6, 3.35),
-        (2.0, 4.25),
-        (2.5, 5.3),
-        (3.15, 6.7),
-        (4.0, 8.5),
-        (5.0, 10.6),
-        (6.3, 13.2),
-        (8.0, 17.0),
-        (10.0, 21.2),
-    ];
-    let mut fitting = SIZES.iter().rev();
-    let (pilot, wide) = fitting.find(|(_, wide)| 3.0 * wide <= diameter)?;
-    Some(format!("ISO 6411-A{pilot}/{wide}"))
 }
 
 /// A shape of a drawing at a scale, with every point put where `place` says; `None` for words and heads.

@@ -1,92 +1,33 @@
 //! Sections of the shaft: its journal with the keyway, and the groove.
 
-use crate::sheet::{fit, geometrical::Frame, number};
+use super::SECTION;
+use crate::sheet::geometrical::{Frame, NoteLine};
+use crate::sheet::{fit, number};
+use crate::turned::across;
 use crate::{
     drawing::{Anchor, Shape},
     sheet::{Draft, Pen, Scale},
 };
 use centrode_geometry::{Arc, Outline, Point, Segment, Tolerance, Vector};
-use centrode_mechanism::gear::design::Keyway;
 use centrode_mechanism::shaft::SpiralShaft;
 use std::f64::consts::PI;
 
 /// Longest side of a section on paper, mm.
 const ROOM: f64 = 45.0;
 
-/// Section A-A across the near journal, seen towards the near end: what faces the viewer of the side view lies to
-/// the left.
+/// Section across the near journal, seen towards the near end: what faces the viewer of the side view lies to the left.
 pub(super) fn journal(shaft: &SpiralShaft, tolerance: Tolerance) -> Draft {
     let body = shaft.body();
-    let scale = Scale::largest(body.journal_diameter, ROOM);
-    let k = scale.factor();
-    let radius = 0.5 * k * body.journal_diameter;
-    let mut draft = Draft::default().at_scale(k);
-    let p = Point::new;
-    let whole = Outline::circle(Point::origin(), radius);
-    let contour = match body.keyway {
-        None => whole,
-        Some(key) => slotted(radius, key, k).unwrap_or(whole),
-    };
-    draft.hatch(std::slice::from_ref(&contour), tolerance);
-    draft.draw(Pen::Outline, Shape::Contour(contour));
-    let reach = radius + 3.0;
-    draft.line(Pen::Axis, p(-reach, 0.0), p(reach, 0.0));
-    draft.line(Pen::Axis, p(0.0, -reach), p(0.0, reach));
-    if let Some(key) = body.keyway {
-        let (half, foot) = (0.5 * k * key.width, radius - k * key.depth);
-        let below = p(0.0, -reach - 6.0);
-        let rest = fit::shaft_depth(body.journal_diameter, key);
-        draft.dimension([p(-foot, -half), p(radius, 0.0)], Vector::x(), below, &rest);
-        let edge = (radius * radius - half * half).max(0.0).sqrt();
-        let beside = p(-reach - 5.0, 0.0);
-        let width = fit::keyway(key.width, &body.keyway_fit);
-        draft.dimension(
-            [p(-edge, -half), p(-edge, half)],
-            Vector::y(),
-            beside,
-            &width,
-        );
-    }
-    let tip = p(0.6 * radius, 0.8 * radius);
-    let elbow = p(0.8 * reach, reach + 3.0);
-    draft.leader(
-        tip,
-        elbow,
-        &[
-            fit::bore(body.journal_diameter, &body.journal_fit),
-            Frame::datum('A').line(),
-            "both journals".to_owned(),
-        ],
-    );
-    title(&mut draft, &format!("A-A ({scale})"));
-    draft
-}
-
-/// A circle with a slot on the x axis, open to the left; `None` where the slot is wider than the circle.
-fn slotted(radius: f64, key: Keyway, k: f64) -> Option<Outline> {
-    let (half, foot) = (0.5 * k * key.width, radius - k * key.depth);
-    let edge = (half / radius).asin();
-    let p = Point::new;
-    let x = radius * edge.cos();
-    let segments = vec![
-        Segment::Arc(Arc {
-            start: p(-x, -half),
-            end: p(radius, 0.0),
-            bulge: (0.25 * (PI - edge)).tan(),
-        }),
-        Segment::Arc(Arc {
-            start: p(radius, 0.0),
-            end: p(-x, half),
-            bulge: (0.25 * (PI - edge)).tan(),
-        }),
-        Segment::Line(p(-x, half), p(-foot, half)),
-        Segment::Line(p(-foot, half), p(-foot, -half)),
-        Segment::Line(p(-foot, -half), p(-x, -half)),
+    let words = [
+        NoteLine::from(fit::bore(body.journal_diameter, &body.journal_fit)),
+        Frame::datum('A').into(),
+        "both journals".to_owned().into(),
     ];
-    Outline::new(segments).ok()
+    let key = (body.keyway, &*body.keyway_fit);
+    across(body.journal_diameter, key, SECTION, &words, tolerance)
 }
 
-/// Section B across the groove, enlarged.
+/// Section across the groove, enlarged.
 pub(super) fn groove(shaft: &SpiralShaft, tolerance: Tolerance) -> Draft {
     let (groove, fillet) = (shaft.groove(), shaft.body().fillet);
     let scale = Scale::largest(2.0 * groove.width(), 1.4 * ROOM);

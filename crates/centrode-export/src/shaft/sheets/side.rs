@@ -1,12 +1,13 @@
 //! The shaft from the side, and its surface unrolled below.
 
-use super::scaled;
+use super::{SECTION, scaled};
 use crate::sheet::{fit, geometrical::Frame, number};
 use crate::{
     ExportError,
     drawing::{Anchor, Drawing},
     shaft::{developed, side_view},
     sheet::{Draft, Pen, Scale},
+    turned::{centre, centre_mark, cutting_plane},
 };
 use centrode_geometry::{Point, Tolerance, Vector};
 use centrode_mechanism::shaft::{ShaftSolid, SpiralShaft};
@@ -111,11 +112,17 @@ impl<'a> Views<'a> {
                 &mut draft,
                 k * (start + 0.5 * body.keyway_length),
                 k * j + 2.0,
+                SECTION,
             );
         }
         if let Some(frame) = Frame::runout(2.0 * r, "A") {
             let tip = p(0.5 * (low + high), r);
             draft.pointed_frame(tip, tip + Vector::new(5.0, 16.0), &frame, "");
+        }
+        if centre(body.journal_diameter).is_some() {
+            for (x, way) in [(start, -1.0), (end, 1.0)] {
+                centre_mark(&mut draft, p(x, 0.0), way);
+            }
         }
         if c > 0.0 {
             let tip = p(high + 0.5 * c, r - 0.5 * c);
@@ -167,19 +174,5 @@ impl<'a> Views<'a> {
         let title = Point::new(0.5 * k * (low + high), 6.0 + letters);
         draft.text(title, 5.0, "Development", Anchor::Middle);
         draft
-    }
-}
-
-/// The ends of the plane of section A-A across the journal, seen towards the near end.
-fn cutting_plane(draft: &mut Draft, x: f64, height: f64) {
-    for side in [-1.0, 1.0] {
-        let inner = Point::new(x, side * height);
-        let outer = Point::new(x, side * (height + 6.0));
-        draft.line(Pen::Outline, inner, outer);
-        let tip = outer - Vector::new(7.0, 0.0);
-        draft.line(Pen::Dimension, outer, tip);
-        draft.arrow(tip, -Vector::x());
-        let letter = tip + Vector::new(-3.2, -1.75);
-        draft.text(letter, 3.5, "A", Anchor::Middle);
     }
 }

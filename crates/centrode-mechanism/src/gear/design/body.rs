@@ -130,6 +130,17 @@ impl Keyway {
     /// keys of its widths; for others, a square key with room above it.
     #[must_use]
     pub fn of_hub(self) -> Self {
+        self.mate()
+    }
+
+    /// The keyway of a shaft whose parallel key lies in this one of a hub, by the same sizes.
+    #[must_use]
+    pub fn of_shaft(self) -> Self {
+        self.mate()
+    }
+
+    /// The keyway on the other side of the key: what both leave of its height is room above it.
+    fn mate(self) -> Self {
         let Self { width, depth } = self;
         let standard = KEYS.into_iter().find(|(b, ..)| *b == width);
         let (_, height, room) = standard.unwrap_or((width, width, 0.06 * width));

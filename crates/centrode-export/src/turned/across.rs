@@ -1,0 +1,104 @@
+//! Section across a shaft, and the plane that it is cut in.
+
+use std::f64::consts::PI;
+
+use centrode_geometry::{Arc, Outline, Point, Segment, Tolerance, Vector};
+use centrode_mechanism::gear::design::Keyway;
+
+use crate::drawing::{Anchor, Shape};
+use crate::sheet::geometrical::NoteLine;
+use crate::sheet::{Draft, Pen, Scale, fit};
+
+/// Longest side of a section on paper, mm.
+const ROOM: f64 = 45.0;
+
+/// Section across a shaft of a diameter with its keyway, which lies to the left: what faces the viewer of the side view does when
+/// it is seen towards the left end.
+pub(crate) fn across(
+    diameter: f64,
+    (keyway, class): (Option<Keyway>, &str),
+    letter: char,
+    words: &[NoteLine],
+    tolerance: Tolerance,
+) -> Draft {
+    let scale = Scale::largest(diameter, ROOM);
+    let k = scale.factor();
+    let radius = 0.5 * k * diameter;
+    let mut draft = Draft::default().at_scale(k);
+    let p = Point::new;
+    let whole = Outline::circle(Point::origin(), radius);
+    let contour = match keyway {
+        None => whole,
+        Some(key) => slotted(radius, key, k).unwrap_or(whole),
+    };
+    draft.hatch(std::slice::from_ref(&contour), tolerance);
+    draft.draw(Pen::Outline, Shape::Contour(contour));
+    let reach = radius + 3.0;
+    draft.line(Pen::Axis, p(-reach, 0.0), p(reach, 0.0));
+    draft.line(Pen::Axis, p(0.0, -reach), p(0.0, reach));
+    if let Some(key) = keyway {
+        let (half, foot) = (0.5 * k * key.width, radius - k * key.depth);
+        let below = p(0.0, -reach - 6.0);
+        let rest = fit::shaft_depth(diameter, key);
+        draft.dimension([p(-foot, -half), p(radius, 0.0)], Vector::x(), below, &rest);
+        let edge = (radius * radius - half * half).max(0.0).sqrt();
+        let beside = p(-reach - 5.0, 0.0);
+        let width = fit::keyway(key.width, class);
+        draft.dimension(
+            [p(-edge, -half), p(-edge, half)],
+            Vector::y(),
+            beside,
+            &width,
+        );
+    }
+    let tip = p(0.6 * radius, 0.8 * radius);
+    let elbow = p(0.8 * reach, reach + 3.0);
+    draft.note(tip, elbow, words);
+    let bounds = draft.bounds();
+    let at = p(0.5 * (bounds.min.x + bounds.max.x), bounds.max.y + 5.0);
+    draft.text(
+        at,
+        5.0,
+        &format!("{letter}-{letter} ({scale})"),
+        Anchor::Middle,
+    );
+    draft
+}
+
+/// A circle with a slot on the x axis, open to the left; `None` where the slot is wider than the circle.
+fn slotted(radius: f64, key: Keyway, k: f64) -> Option<Outline> {
+    let (half, foot) = (0.5 * k * key.width, radius - k * key.depth);
+    let edge = (half / radius).asin();
+    let p = Point::new;
+    let x = radius * edge.cos();
+    let segments = vec![
+        Segment::Arc(Arc {
+            start: p(-x, -half),
+            end: p(radius, 0.0),
+            bulge: (0.25 * (PI - edge)).tan(),
+        }),
+        Segment::Arc(Arc {
+            start: p(radius, 0.0),
+            end: p(-x, half),
+            bulge: (0.25 * (PI - edge)).tan(),
+        }),
+        Segment::Line(p(-x, half), p(-foot, half)),
+        Segment::Line(p(-foot, half), p(-foot, -half)),
+        Segment::Line(p(-foot, -half), p(-x, -half)),
+    ];
+    Outline::new(segments).ok()
+}
+
+/// The ends of the plane of a section across a shaft, seen towards the left end.
+pub(crate) fn cutting_plane(draft: &mut Draft, x: f64, height: f64, letter: char) {
+    for side in [-1.0, 1.0] {
+        let inner = Point::new(x, side * height);
+        let outer = Point::new(x, side * (height + 6.0));
+        draft.line(Pen::Outline, inner, outer);
+        let tip = outer - Vector::new(7.0, 0.0);
+        draft.line(Pen::Dimension, outer, tip);
+        draft.arrow(tip, -Vector::x());
+        let at = tip + Vector::new(-3.2, -1.75);
+        draft.text(at, 3.5, &letter.to_string(), Anchor::Middle);
+    }
+}

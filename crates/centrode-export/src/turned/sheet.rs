@@ -1,0 +1,250 @@
+use centrode_geometry::{Point, Tolerance, Vector};
+use centrode_mechanism::design::{DrawingSpec, SheetSize};
+
+use super::{Turned, across, centre, cutting_plane};
+use crate::SheetOptions;
+use crate::drawing::Shape;
+use crate::sheet::geometrical::{Frame, NoteLine};
+use crate::sheet::{
+    Corner, Draft, Pen, Piece, Scale, Sheet, SheetError, TitleBlock, compose, fit, mass, number,
+    steady, view_letters,
+};
+
+/// Letter of the section; datums have the first two.
+const SECTION: char = 'C';
+/// Tolerance class of a keyway in a shaft, ISO 286.
+pub(crate) const KEYWAY: &str = "N9";
+/// Tolerance class of the width of a ring's groove, ISO 286.
+const GROOVE: &str = "H13";
+/// Places of lengths.
+const PLACES: usize = 3;
+/// Diameters of its own from which on a part is turned between centres.
+const SLENDER: f64 = 3.0;
+/// Distance of dimension lines, mm, beyond the height of their letters.
+const ROW: f64 = 4.5;
+
+impl Turned {
+    /// The drawing sheets: the part from the side, a section across its keyway.
+    pub(super) fn sheets(
+        &self,
+        (spec, supplement): (&DrawingSpec, &str),
+        quantity: usize,
+        options: &SheetOptions,
+        tolerance: Tolerance,
+    ) -> Result<Vec<Sheet>, SheetError> {
+        let mut block = TitleBlock::new(spec, &self.name, options);
+        block.title.clone_from(&self.title);
+        block.supplement = supplement.into();
+        block.document = "Part drawing".into();
+        block.material.clone_from(&self.material);
+        block.mass = self.mass().map(|kg| mass(kg * 1e3)).unwrap_or_default();
+        let mut lines = vec![format!("{quantity} of these a machine.")];
+        lines.push(format!("Turned; contour: {}.dxf.", self.name));
+        if let Some(centre) = self.centre() {
+            lines.push(format!("Centre holes at both ends: {centre}."));
+        }
+        lines.extend(self.notes.iter().cloned());
+        let keyed = self
+            .steps
+            .iter()
+            .find(|step| step.is_keyed && step.ring.is_none());
+        let section = keyed.map(|step| {
+            let words = [NoteLine::from(fit::bore(step.diameter, &step.class))];
+            across(
+                step.diameter,
+                (self.keyway, KEYWAY),
+                SECTION,
+                &words,
+                tolerance,
+            )
+        });
+        let pieces = |scale: Scale, size: SheetSize| {
+            let mut pieces = vec![
+                Piece::notes(&lines),
+                Piece::view("side view", self.side(scale, size)),
+            ];
+            let section = section.iter().cloned();
+            pieces.extend(section.map(|draft| Piece::detail("section", draft, Corner::LowerLeft)));
+            pieces
+        };
+        compose(
+            options.size.or(spec.sheet),
+            &block,
+            self.length(),
+            &pieces,
+            &[],
+        )
+    }
+
+    /// Centre holes of a long part.
+    fn centre(&self) -> Option<String> {
+        let end = self.diameter() - 2.0 * self.chamfer;
+        let is_long = self.length() > SLENDER * self.diameter();
+        centre(end).filter(|_| is_long)
+    }
+
+    /// The part from the side, its keyway towards the viewer.
+    fn side(&self, scale: Scale, size: SheetSize) -> Draft {
+        let k = scale.factor();
+        let mut draft = Draft::lettered(view_letters(size)).at_scale(k);
+        let p = |x: f64, y: f64| Point::new(k * x, k * y);
+        draft.draw(Pen::Outline, Shape::Contour(self.silhouette().scaled(k)));
+        for corner in self.half().windows(2) {
+            // An edge round the part wherever its contour bends.
+            let [from, to] = [corner[0], corner[1]];
+            for at in [from, to] {
+                let is_end = at.x == 0.0 || at.x == self.length();
+                if !is_end && from.y != to.y {
+                    draft.line(Pen::Outline, p(at.x, -at.y), p(at.x, at.y));
+                }
+            }
+        }
+        let whole = self.length();
+        draft.line(
+            Pen::Axis,
+            Point::new(-4.0, 0.0),
+            Point::new(k * whole + 4.0, 0.0),
+        );
+        self.keyways(&mut draft, k);
+        self.lengths(&mut draft, k);
+        self.diameters(&mut draft, k);
+        if self.centre().is_some() {
+            for (end, way) in [(0.0, -1.0), (whole, 1.0)] {
+                centre_mark(&mut draft, p(end, 0.0), way);
+            }
+        }
+        draft
+    }
+
+    /// Ends of the steps from the lower one on.
+    fn ends(&self) -> Vec<[f64; 2]> {
+        let mut at = 0.0;
+        let steps = self.steps.iter().map(|step| {
+            let from = at;
+            at += step.length;
+            [from, at]
+        });
+        steps.collect()
+    }
+
+    /// Stretches with the keyway, steps and grooves that it runs through together.
+    fn keyed(&self) -> Vec<[f64; 2]> {
+        let mut found: Vec<[f64; 2]> = Vec::new();
+        for (step, [from, to]) in self.steps.iter().zip(self.ends()) {
+            if !step.is_keyed {
+                continue;
+            }
+            match found.last_mut().filter(|last| last[1] == from) {
+                Some(last) => last[1] = to,
+                None => found.push([from, to]),
+            }
+        }
+        found
+    }
+
+    fn keyways(&self, draft: &mut Draft, k: f64) {
+        let Some(key) = self.keyway else {
+            return;
+        };
+        let half = 0.5 * key.width * k;
+        for (index, [from, to]) in self.keyed().into_iter().enumerate() {
+            for y in [-half, half] {
+                draft.line(Pen::Outline, Point::new(k * from, y), Point::new(k * to, y));
+            }
+            for x in [from, to] {
+                draft.line(
+                    Pen::Outline,
+                    Point::new(k * x, -half),
+                    Point::new(k * x, half),
+                );
+            }
+            if index == 0 {
+                let height = 0.5 * k * self.diameter() + 2.0;
+                cutting_plane(draft, 0.5 * k * (from + to), height, SECTION);
+            }
+        }
+    }
+
+    /// Lengths below the view: of every step but grooves and the last, and over all.
+    fn lengths(&self, draft: &mut Draft, k: f64) {
+        let radius = 0.5 * k * self.diameter();
+        let row = draft.lettering() + ROW;
+        let keyed = if self.keyway.is_some() { 9.0 } else { 0.0 };
+        let p = |x: f64| Point::new(k * x, -radius);
+        let last = self.steps.len() - 1;
+        let mut lower = radius + keyed;
+        // Extension lines of the dimensions below run through the words of those above.
+        let crossing: Vec<f64> = self.ends().into_iter().flatten().map(|x| k * x).collect();
+        let steps = self.steps.iter().zip(self.ends()).enumerate();
+        let dimensioned = steps.filter(|(index, (step, _))| step.ring.is_none() && *index < last);
+        let all = dimensioned.map(|(_, (_, ends))| ends);
+        for [from, to] in all.chain([[0.0, self.length()]]) {
+            lower += row;
+            let words = number(to - from, PLACES);
+            let at = Point::new(0.0, -lower);
+            draft.dimension_clear_of([p(from), p(to)], Vector::x(), at, &words, &crossing);
+        }
+    }
+
+    /// The longest step with a class, to which all others run out; none of a part of one step.
+    fn datum(&self) -> Option<usize> {
+        let steps = self.steps.iter().enumerate();
+        let fitted = steps.filter(|(_, step)| step.ring.is_none() && !step.class.is_empty());
+        let longest = fitted.max_by(|(_, a), (_, b)| steady(a.length).total_cmp(&steady(b.length)));
+        longest
+            .map(|(index, _)| index)
+            .filter(|_| self.steps.len() > 1)
+    }
+
+    /// Diameters above the view, from left to right from above downwards, and the chamfers.
+    fn diameters(&self, draft: &mut Draft, k: f64) {
+        let datum = self.datum();
+        let notes = self.steps.iter().zip(self.ends()).enumerate();
+        let mut notes: Vec<(Point, Vec<NoteLine>)> = notes
+            .map(|(index, (step, [from, to]))| {
+                let tip = Point::new(0.5 * k * (from + to), 0.5 * k * step.diameter);
+                let size = fit::bore(step.diameter, &step.class);
+                let mut lines = vec![NoteLine::from(size)];
+                if let Some(ring) = step.ring {
+                    let width = fit::keyway(ring.width, GROOVE);
+                    lines.push(format!("groove {width}").into());
+                    lines.push(format!("for {}", ring.name()).into());
+                }
+                if step.is_keyed {
+                    lines.push("with keyway".to_owned().into());
+                }
+                if Some(index) == datum {
+                    lines.push(Frame::datum('A').into());
+                } else if datum.is_some() && step.ring.is_none() && !step.class.is_empty() {
+                    lines.extend(Frame::runout(step.diameter, "A").map(NoteLine::from));
+                }
+                (tip, lines)
+            })
+            .collect();
+        if self.chamfer > 0.0 {
+            let end = k * (self.length() - 0.5 * self.chamfer);
+            let last = &self.steps[self.steps.len() - 1];
+            let radius = 0.5 * k * (last.diameter - self.chamfer);
+            let words = format!("{} x 45°, both ends", number(self.chamfer, PLACES));
+            notes.push((Point::new(end, radius), vec![words.into()]));
+        }
+        let row = draft.lettering() + 2.0;
+        let keyed = if self.keyway.is_some() { 9.0 } else { 0.0 };
+        let mut height = 0.5 * k * self.diameter() + keyed + 6.0;
+        // A leader from farther left rises beside no words.
+        for (tip, lines) in notes.iter().rev() {
+            height += row * (lines.len() as f64 - 1.0).max(0.0);
+            let elbow = Point::new(tip.x + 4.0, height);
+            draft.note(*tip, elbow, lines);
+            height += row + 2.0;
+        }
+    }
+}
+
+/// Symbol of a centre hole that stays on the part, ISO 6411.
+pub(crate) fn centre_mark(draft: &mut Draft, end: Point, way: f64) {
+    for side in [-1.0, 1.0] {
+        let leg = Vector::new(way * 3.5, side * 2.0);
+        draft.line(Pen::Outline, end, end + leg);
+    }
+}

@@ -1,0 +1,128 @@
+use std::f64::consts::FRAC_PI_2;
+
+use super::{Turned, TurnedSection};
+use crate::solid::triangulate;
+use crate::{Mesh, Point, ShellCurve, ShellFace, ShellSurface, SolidError, Tolerance};
+
+/// Fewest and most chords of a quarter of a turn.
+const CHORDS: [f64; 2] = [3.0, 2048.0];
+/// Most parts of a slotted cone, whose slot's edges are straight in each.
+const PARTS: f64 = 256.0;
+
+/// Mesh of a body, by the edges and faces of its shell: arcs in chords, all of one number.
+pub(super) fn mesh(body: &Turned, tolerance: Tolerance) -> Result<Mesh, SolidError> {
+    let body = body.with_straight_edges(tolerance);
+    let widest = body.sections.iter().flat_map(|section| section.radii);
+    let widest = widest.fold(0.0, f64::max);
+    // A chord's rise is the radius less its distance from the axis.
+    let half = (1.0 - (tolerance.mm() / widest).min(1.0)).acos();
+    let chords = (0.5 * FRAC_PI_2 / half).ceil().clamp(CHORDS[0], CHORDS[1]) as u32;
+    let shell = body.shell();
+    let mut mesh = Mesh {
+        vertices: shell.vertices.clone(),
+        faces: Vec::new(),
+    };
+    // Vertices along every edge, from its first end to its second.
+    let edges: Vec<Vec<u32>> = shell
+        .edges
+        .iter()
+        .map(|edge| {
+            let ends = edge.ends.map(|end| end as u32);
+            let ShellCurve::Circle { radius } = edge.curve else {
+                return ends.to_vec();
+            };
+            let [from, to] = edge.ends.map(|end| shell.vertices[end]);
+            let start = from[1].atan2(from[0]);
+            let sweep = (to[1].atan2(to[0]) - start).rem_euclid(std::f64::consts::TAU);
+            let between = (1..chords).map(|i| {
+                let angle = start + sweep * f64::from(i) / f64::from(chords);
+                mesh.vertices
+                    .push([radius * angle.cos(), radius * angle.sin(), from[2]]);
+                mesh.vertices.len() as u32 - 1
+            });
+            let mut along = vec![ends[0]];
+            along.extend(between);
+            along.push(ends[1]);
+            along
+        })
+        .collect();
+    let walked = |&(edge, forward): &(usize, bool)| -> Vec<u32> {
+        let along = &edges[edge];
+        match forward {
+            true => along.clone(),
+            false => along.iter().rev().copied().collect(),
+        }
+    };
+    for ShellFace { surface, bounds } in &shell.faces {
+        let ShellSurface::Plane { normal, .. } = surface else {
+            // Bottom, right, top and left of a round face.
+            let (bottom, mut top) = (walked(&bounds[0][0]), walked(&bounds[0][2]));
+            top.reverse();
+            for (low, high) in bottom.windows(2).zip(top.windows(2)) {
+                mesh.faces.push([low[0], low[1], high[1]]);
+                mesh.faces.push([low[0], high[1], high[0]]);
+            }
+            continue;
+        };
+        let rings: Vec<Vec<u32>> = bounds
+            .iter()
+            .map(|bound| {
+                let sides = bound.iter().map(walked);
+                sides
+                    .flat_map(|mut side| {
+                        side.pop();
+                        side
+                    })
+                    .collect()
+            })
+            .collect();
+        let flat = |vertex: &u32| projected(mesh.vertices[*vertex as usize], *normal);
+        let contours: Vec<Vec<Point>> = rings
+            .iter()
+            .map(|ring| ring.iter().map(flat).collect())
+            .collect();
+        let all: Vec<u32> = rings.into_iter().flatten().collect();
+        let triangles = triangulate(&contours, tolerance)?;
+        let faces = triangles.iter().map(|face| face.map(|i| all[i as usize]));
+        mesh.faces.extend(faces);
+    }
+    Ok(mesh)
+}
+
+/// A point of a plane along an axis, as seen against its normal.
+fn projected([x, y, z]: [f64; 3], normal: [f64; 3]) -> Point {
+    match normal {
+        [a, _, _] if a != 0.0 => Point::new(a * y, z),
+        [_, b, _] if b != 0.0 => Point::new(-b * x, z),
+        [_, _, c] => Point::new(c * x, y),
+    }
+}
+
+impl Turned {
+    /// The body with its slotted cones in parts, in which the slot's edges are straight within a tolerance.
+    fn with_straight_edges(&self, tolerance: Tolerance) -> Self {
+        let parts = |section: &TurnedSection| -> Vec<TurnedSection> {
+            let [low, high] = section.radii;
+            let Some(slot) = self.slot.filter(|_| section.slotted && low != high) else {
+                return vec![*section];
+            };
+            // Greatest second derivative of the edge's distance along x by the radius.
+            let edge = self.edge(section.least()).unwrap_or(slot.foot);
+            let bend = 0.25 * slot.width * slot.width / edge.powi(3);
+            let chord = (bend * section.length.powi(2) / (8.0 * tolerance.mm())).sqrt();
+            let count = chord.ceil().clamp(1.0, PARTS);
+            let at = |i: f64| low + (high - low) * i / count;
+            (0..count as u32)
+                .map(|i| TurnedSection {
+                    length: section.length / count,
+                    radii: [at(f64::from(i)), at(f64::from(i) + 1.0)],
+                    slotted: true,
+                })
+                .collect()
+        };
+        Self {
+            sections: self.sections.iter().flat_map(parts).collect(),
+            ..self.clone()
+        }
+    }
+}

@@ -1,0 +1,137 @@
+//! Parts that are bought by the number of a standard.
+
+/// Diameters of parallel pins of hardened steel, mm; ISO 8734:1997.
+const DOWELS: [f64; 14] = [
+    1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0, 12.0, 16.0, 20.0, 25.0,
+];
+/// Lengths of parallel pins, mm; ISO 8734:1997.
+const LENGTHS: [f64; 30] = [
+    3.0, 4.0, 5.0, 6.0, 8.0, 10.0, 12.0, 14.0, 16.0, 18.0, 20.0, 22.0, 24.0, 26.0, 28.0, 30.0,
+    32.0, 35.0, 40.0, 45.0, 50.0, 55.0, 60.0, 65.0, 70.0, 75.0, 80.0, 85.0, 90.0, 100.0,
+];
+
+/// Designation of the longest parallel pin of hardened steel, tolerance class m6, of a diameter that is no longer than a room,
+/// mm; `None` where there is no such pin.
+#[must_use]
+pub fn dowel(diameter: f64, room: f64) -> Option<String> {
+    let known = DOWELS.contains(&diameter);
+    let mut fitting = LENGTHS.into_iter().rev();
+    // A length of whole layers differs from it by rounding.
+    let length = fitting.find(|&length| length <= room * (1.0 + 1e-9))?;
+    known.then(|| format!("Pin ISO 8734 - {diameter} x {length} - A"))
+}
+
+/// Retaining ring of a shaft, in a groove.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Circlip {
+    /// Diameter of the shaft, mm.
+    pub shaft: f64,
+    /// Thickness of the ring, mm.
+    pub thickness: f64,
+    /// Diameter of the groove, mm.
+    pub groove: f64,
+    /// Width of the groove, mm.
+    pub width: f64,
+    /// Least length of the shaft beyond the groove, mm.
+    pub land: f64,
+}
+
+/// Shaft, thickness, groove, width, land, mm; DIN 471, normal rings.
+#[rustfmt::skip]
+const CIRCLIPS: [[f64; 5]; 28] = [
+    [3.0, 0.4, 2.8, 0.5, 0.3],
+    [4.0, 0.4, 3.8, 0.5, 0.3],
+    [5.0, 0.6, 4.8, 0.7, 0.3],
+    [6.0, 0.7, 5.7, 0.8, 0.5],
+    [7.0, 0.8, 6.7, 0.9, 0.5],
+    [8.0, 0.8, 7.6, 0.9, 0.6],
+    [9.0, 1.0, 8.6, 1.1, 0.6],
+    [10.0, 1.0, 9.6, 1.1, 0.6],
+    [11.0, 1.0, 10.5, 1.1, 0.8],
+    [12.0, 1.0, 11.5, 1.1, 0.8],
+    [13.0, 1.0, 12.4, 1.1, 0.9],
+    [14.0, 1.0, 13.4, 1.1, 0.9],
+    [15.0, 1.0, 14.3, 1.1, 1.1],
+    [16.0, 1.0, 15.2, 1.1, 1.2],
+    [17.0, 1.0, 16.2, 1.1, 1.2],
+    [18.0, 1.2, 17.0, 1.3, 1.5],
+    [19.0, 1.2, 18.0, 1.3, 1.5],
+    [20.0, 1.2, 19.0, 1.3, 1.5],
+    [22.0, 1.2, 21.0, 1.3, 1.5],
+    [24.0, 1.2, 22.9, 1.3, 1.7],
+    [25.0, 1.2, 23.9, 1.3, 1.7],
+    [26.0, 1.2, 24.9, 1.3, 1.7],
+    [28.0, 1.5, 26.6, 1.6, 2.1],
+    [30.0, 1.5, 28.6, 1.6, 2.1],
+    [32.0, 1.5, 30.3, 1.6, 2.6],
+    [35.0, 1.5, 33.0, 1.6, 3.0],
+    [40.0, 1.75, 37.5, 1.85, 3.8],
+    [50.0, 2.0, 47.0, 2.15, 4.5],
+];
+
+impl Circlip {
+    /// The ring of a shaft of a diameter, mm; `None` where there is no such ring.
+    #[must_use]
+    pub fn of_shaft(diameter: f64) -> Option<Self> {
+        let row = CIRCLIPS.into_iter().find(|row| row[0] == diameter)?;
+        let [shaft, thickness, groove, width, land] = row;
+        Some(Self {
+            shaft,
+            thickness,
+            groove,
+            width,
+            land,
+        })
+    }
+
+    /// Designation: "Circlip DIN 471 - 10 x 1".
+    #[must_use]
+    pub fn name(self) -> String {
+        format!("Circlip DIN 471 - {} x {}", self.shaft, self.thickness)
+    }
+
+    /// Tolerance class of the groove's diameter, ISO 286.
+    #[must_use]
+    pub fn class(self) -> &'static str {
+        match self.shaft {
+            d if d <= 10.0 => "h10",
+            d if d <= 21.0 => "h11",
+            _ => "h12",
+        }
+    }
+
+    /// Length of a shaft that the groove with the land beyond it takes, mm.
+    #[must_use]
+    pub fn room(self) -> f64 {
+        self.width + self.land
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn designations_are_those_of_the_standards() {
+        let name = |diameter, room| dowel(diameter, room).unwrap_or_default();
+        assert_eq!(name(8.0, 32.0), "Pin ISO 8734 - 8 x 32 - A");
+        assert_eq!(name(8.0, 31.9), "Pin ISO 8734 - 8 x 30 - A");
+        assert_eq!(name(7.5, 32.0), "");
+        assert_eq!(name(2.0, 2.0), "");
+        let ring = Circlip::of_shaft(10.0).expect("a ring");
+        assert_eq!(ring.name(), "Circlip DIN 471 - 10 x 1");
+        assert_eq!((ring.groove, ring.class()), (9.6, "h10"));
+        assert_eq!(Circlip::of_shaft(10.5), None);
+    }
+
+    #[test]
+    fn a_ring_lies_in_its_groove_and_the_groove_in_the_shaft() {
+        for [shaft, thickness, groove, width, land] in CIRCLIPS {
+            assert!(groove < shaft && groove > 0.9 * shaft, "{shaft}");
+            assert!(thickness < width && width < thickness + 0.2, "{shaft}");
+            // DIN 471 asks for a land of three times the groove's depth, rounded.
+            let depth = 0.5 * (shaft - groove);
+            assert!((land - 3.0 * depth).abs() < 0.16, "{shaft}");
+        }
+    }
+}
