@@ -302,8 +302,7 @@ export class Form {
     if (value === null || field.optional && field.value === null) list.unshift(element("option", { value: "" }, "auto"));
     select.replaceChildren(...list);
     select.value = value ?? "";
-    // Another family is another design: centrode new makes one.
-    select.disabled = this.fixed || field.key === "family" && field.choices.some(({ word }) => word === value);
+    select.disabled = this.fixed;
     select.dataset.value = select.value;
   }
 
