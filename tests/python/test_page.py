@@ -7,7 +7,7 @@ import zipfile
 import pytest
 from axe_playwright_python.sync_playwright import Axe
 from conftest import centrode
-from page import ARMS, BOX, FEEDER, POINTS, SHAFT, SHIPPED, drag, drawing, field, figures, opened, settled, shown
+from page import ARMS, BOX, FEEDER, INDEX, POINTS, SHAFT, SHIPPED, drag, drawing, field, figures, opened, settled, shown
 from playwright.sync_api import expect
 from studio import studio
 
@@ -301,7 +301,7 @@ def test_a_file_changed_on_disk_is_noticed_and_lost_work_offered(points):
 
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])
-@pytest.mark.parametrize("design", [POINTS, ARMS, FEEDER, BOX], ids=lambda path: path.stem)
+@pytest.mark.parametrize("design", [POINTS, ARMS, FEEDER, BOX, INDEX], ids=lambda path: path.stem)
 def test_nothing_stands_in_the_way_of_anybody(browser, tmp_path, design, scheme):
     with opened(browser, tmp_path, design, color_scheme=scheme) as (page, _):
         found = Axe().run(page).response["violations"]
