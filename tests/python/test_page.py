@@ -230,7 +230,8 @@ def test_a_text_that_is_no_design_stays_in_its_dialog(points):
 def test_the_export_is_a_zip(points, tmp_path):
     page, _ = points
     page.locator("#export").click()
-    for box in page.locator("fieldset input").all():
+    expect(page.locator("#export-tolerance")).to_be_visible()
+    for box in page.locator("fieldset").first.locator("input").all():
         box.set_checked(box.get_attribute("value") in ("svg", "csv", "json"))
     with page.expect_download() as download:
         page.get_by_role("button", name="Export zip").click()

@@ -127,7 +127,8 @@ def test_the_export_takes_sheet_and_projection_of_its_own(browser, tmp_path):
 
     with opened(browser, tmp_path, CIRCLE) as (page, copy):
         page.locator("#export").click()
-        for box in page.locator("fieldset input").all():
+        expect(page.locator("#export-tolerance")).to_be_visible()
+        for box in page.locator("fieldset").first.locator("input").all():
             box.set_checked(box.get_attribute("value") == "pdf")
         page.locator("#export-sheet").select_option("A2")
         page.locator("#export-projection").select_option("third-angle")
