@@ -1,8 +1,11 @@
-"""Edits on the design page in Chromium: milliseconds from the changed number to the redrawn picture, and to its goals.
+"""Edits on the design page in Chromium: milliseconds from the changed number to picture, goals and checks.
 
     python benches/browser/edits.py [design.toml ...] [--edits 50]
+    python benches/browser/edits.py --steady 2000 [design.toml ...]
 
-Needs the program (cargo build --profile dist -p centrode, or CENTRODE_BIN), Chromium and playwright.
+Without designs, every shipped one. Needs the program (cargo build --profile dist -p centrode, or CENTRODE_BIN),
+Chromium and playwright. `--steady` makes so many edits, as fast as they are answered, and prints memory along the way
+and what page and program do at rest.
 """
 
 import argparse
@@ -11,6 +14,8 @@ import shutil
 import statistics
 import subprocess
 import tempfile
+import time
+from contextlib import contextmanager
 from pathlib import Path
 
 from playwright.sync_api import sync_playwright
@@ -24,8 +29,17 @@ FIELDS = {
     "feeder": "linkage.coupler",
     "spiral-shaft": "groove.width",
     "moving-box": "shaft.groove.width",
+    "composed-box": "bodies.box.law.traverse.lead",
+    "composed-feeder": "dyads.four-bar.lengths",
+    "composed-three-arm": "bodies.arm.turned_deg",
+    "index-table": "cams.still.base_radius",
+    "jansen-leg": "dyads.knee.lengths",
+    "peaucellier-cell": "dyads.lower.lengths",
+    "press": "dyads.ram.lengths",
+    "two-arm": "bodies.arm-1.turned_deg",
+    "two-stage": "bodies.arm.turned_deg",
 }
-"""A number that moves the whole picture, by family."""
+"""A number that moves the whole picture, by family, of family machine by design."""
 
 WATCH = """() => {
   // Every drawing of the stage, and every answer of the program, as they happen.
@@ -41,83 +55,151 @@ WATCH = """() => {
 }"""
 """Told to the page before the first edit."""
 
-EDIT = """(key) => new Promise((done) => {
+EDIT = """([key, way]) => new Promise((done) => {
   const field = document.getElementById(`field-${key}`);
   window.answered = undefined;
-  const goals = document.getElementById("goals");
+  const [goals, verdict] = ["goals", "verdict"].map((id) => document.getElementById(id));
   const start = performance.now();
+  const busy = (place) => place.getAttribute("aria-busy") === "true";
   window.drawn = () => {
     // Drawn by the new answer, not by anything else that moves.
     if (window.answered === undefined) return;
     window.drawn = undefined;
     // The frame in which it is painted has passed once a task queued in it runs.
     requestAnimationFrame(() => setTimeout(() => {
-      const picture = performance.now() - start;
+      const times = { answer: window.answered - start, picture: performance.now() - start, goals: null };
       const told = () => {
-        if (goals.getAttribute("aria-busy") === "true") return;
+        if (goals.childElementCount && !busy(goals)) times.goals ??= performance.now() - start;
+        if (busy(verdict) || verdict.classList.contains("stale")) return;
         watch.disconnect();
-        const last = goals.childElementCount ? performance.now() - start : null;
-        done({ answer: window.answered - start, picture, goals: last });
+        done({ ...times, checks: performance.now() - start });
       };
       const watch = new MutationObserver(told);
-      watch.observe(goals, { attributes: true });
+      for (const place of [goals, verdict]) watch.observe(place, { attributes: true });
       told();
     }));
   };
   field.focus();
-  field.dispatchEvent(new KeyboardEvent("keydown", { key: "ArrowUp", bubbles: true, cancelable: true }));
+  field.dispatchEvent(new KeyboardEvent("keydown", { key: way, bubbles: true, cancelable: true }));
 })"""
 """One step of a number by its arrow key."""
 
 
-def family(design):
-    """The word after family in a design file."""
+def key_of(design):
+    """The number that is changed in a design."""
     line = next(line for line in design.read_text().splitlines() if line.startswith("family"))
-    return line.split('"')[1]
+    return FIELDS.get(design.stem) or FIELDS[line.split('"')[1]]
 
 
-def measured(browser, design, edits):
-    """Milliseconds of each edit until the answer has come, the picture is painted, and its goals are there."""
+@contextmanager
+def opened(browser, design):
+    """The page of a copy of a design once its checks are heard, its program, and the milliseconds that took."""
     with tempfile.TemporaryDirectory() as folder:
         copy = shutil.copy(design, folder)
+        start = time.monotonic()
         command = [BINARY, "studio", copy]
         server = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
         try:
             page = browser.new_page(viewport={"width": 1440, "height": 900})
-            page.goto(server.stdout.readline().strip())
+            url = server.stdout.readline().strip()
+            page.context.add_cookies([{"name": "centrode-tour", "value": "seen", "url": url}])
+            page.goto(url)
             page.locator("#findings h2").wait_for()
-            page.locator("#verdict:not(.stale)").wait_for()
+            page.locator("#verdict:not(.stale, [aria-busy=true])").wait_for()
+            first = 1e3 * (time.monotonic() - start)
             page.evaluate(WATCH)
-            times = []
-            for _ in range(edits):
-                times.append(page.evaluate(EDIT, FIELDS[family(design)]))
-                # The checks follow the picture; the next edit waits for them as a hand does.
-                page.wait_for_timeout(300)
+            yield page, server, first
             page.close()
         finally:
             server.terminate()
             server.wait()
-    return times
+
+
+def edited(page, key, number):
+    """Milliseconds of one edit: a step up, or the next time down."""
+    return page.evaluate(EDIT, [key, "ArrowDown" if number % 2 else "ArrowUp"])
+
+
+def measure(browser, design, edits):
+    """Prints a line of medians."""
+    with opened(browser, design) as (page, _, first):
+        times = []
+        # The first of all settles the browser: it is not counted.
+        for number in range(edits + 1):
+            times.append(edited(page, key_of(design), number))
+            page.wait_for_timeout(100)
+    of = {name: [time[name] for time in times[1:] if time[name] is not None] for name in times[0]}
+    pictures = of["picture"]
+    figures = [of["answer"], pictures, [statistics.quantiles(pictures, n=20)[-1]], of["goals"], of["checks"], [first]]
+    words = [f"{statistics.median(figure):8.0f}" if figure else f"{'-':>8}" for figure in figures]
+    print(f"{design.stem:28} " + " ".join(words), flush=True)
+
+
+def resident(process):
+    """Memory of a process, MB."""
+    lines = Path(f"/proc/{process.pid}/status").read_text().splitlines()
+    return int(next(line for line in lines if line.startswith("VmRSS")).split()[1]) / 1024
+
+
+def processor(process):
+    """Processor seconds a process has taken so far."""
+    user, system = Path(f"/proc/{process.pid}/stat").read_text().rpartition(")")[2].split()[11:13]
+    return (int(user) + int(system)) / os.sysconf("SC_CLK_TCK")
+
+
+def counted(session):
+    """Megabytes of the page's objects, and the number of its nodes, after a collection."""
+    session.send("HeapProfiler.collectGarbage")
+    heap = session.send("Runtime.getHeapUsage")["usedSize"] / 2**20
+    return heap, session.send("Memory.getDOMCounters")["nodes"]
+
+
+def busy(session):
+    """Seconds in which the page has done anything so far."""
+    metrics = session.send("Performance.getMetrics")["metrics"]
+    return next(metric["value"] for metric in metrics if metric["name"] == "TaskDuration")
+
+
+def steady(browser, design, edits):
+    """Prints memory along many edits, and what is done in ten seconds of rest."""
+    with opened(browser, design) as (page, server, _):
+        session = page.context.new_cdp_session(page)
+        session.send("Performance.enable")
+        print(f"{design.stem}: {'edits':>8} {'page MB':>8} {'nodes':>8} {'program MB':>10}", flush=True)
+        for number in range(edits + 1):
+            if number % max(1, edits // 10) == 0:
+                heap, nodes = counted(session)
+                print(
+                    f"{'':{len(design.stem) + 1}} {number:8} {heap:8.1f} {nodes:8} {resident(server):10.1f}", flush=True
+                )
+            if number < edits:
+                edited(page, key_of(design), number)
+        page.wait_for_timeout(2000)
+        before = processor(server), busy(session)
+        page.wait_for_timeout(10_000)
+        took = processor(server) - before[0], busy(session) - before[1]
+        print(f"in 10 s of rest: program {took[0]:.2f} s of processor, page {took[1]:.3f} s", flush=True)
 
 
 def main():
     """Prints a line for each design."""
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
-    parser.add_argument("designs", nargs="*", type=Path, default=[ROOT / "tests/designs/three-arm-2021.toml"])
+    parser.add_argument("designs", nargs="*", type=Path, help="design files (every shipped one)")
     parser.add_argument("--edits", type=int, default=50, help="edits of each design (50)")
+    parser.add_argument("--steady", type=int, metavar="N", help="memory over so many edits instead of times")
     options = parser.parse_args()
+    designs = options.designs or sorted((ROOT / "tests" / "designs").glob("*.toml"))
     chromium = next(filter(None, map(shutil.which, ["chromium-headless-shell", "chromium", "google-chrome"])), None)
-    print(f"{'ms from edit to':28} {'answer':>8} {'picture':>8} {'95 %':>8} {'worst':>8} {'goals':>8}")
+    if not options.steady:
+        heads = ["answer", "picture", "95 %", "goals", "checks", "first"]
+        print(f"{'ms from edit to':28} " + " ".join(f"{head:>8}" for head in heads))
     with sync_playwright() as playwright:
         browser = playwright.chromium.launch(executable_path=chromium, args=FLAGS)
-        for design in options.designs:
-            times = measured(browser, design, options.edits)
-            answers, pictures = ([time[name] for time in times] for name in ("answer", "picture"))
-            late = statistics.quantiles(pictures, n=20)[-1]
-            figures = [statistics.median(answers), statistics.median(pictures), late, max(pictures)]
-            goals = [time["goals"] for time in times if time["goals"] is not None]
-            figures += [statistics.median(goals)] if goals else []
-            print(f"{design.stem:28} " + " ".join(f"{figure:8.1f}" for figure in figures), flush=True)
+        for design in designs:
+            if options.steady:
+                steady(browser, design, options.steady)
+            else:
+                measure(browser, design, options.edits)
         browser.close()
 
 

@@ -25,6 +25,7 @@ ARMS = ROOT / "tests" / "designs" / "three-arm-2021.toml"
 FEEDER = ROOT / "tests" / "designs" / "feeder-widened.toml"
 SHAFT = ROOT / "tests" / "designs" / "spiral-shaft-2018.toml"
 BOX = ROOT / "tests" / "designs" / "moving-box-2018.toml"
+INDEX = ROOT / "tests" / "designs" / "index-table.toml"
 CIRCLE = ROOT / "tests" / "designs" / "circular-pair.toml"
 
 

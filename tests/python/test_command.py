@@ -140,3 +140,20 @@ def test_ctrl_c_ends_a_slow_command_at_once(tmp_path, words):
     assert process.wait(timeout=10) == -signal.SIGINT
     assert time.monotonic() - asked < 0.1
     assert [path.name for path in tmp_path.iterdir()] == ["slow.toml"]
+
+
+def test_a_detail_of_a_body_that_cannot_be_made_is_a_finding(run, tmp_path):
+    """As on the page: the motion is checked all the same, and is that of the sound design."""
+    design = ROOT / "tests" / "designs" / "circular-pair.toml"
+    bad = tmp_path / "bad.toml"
+    bad.write_text(design.read_text().replace("bore = 14", "bore = 100", 1))
+    done = run("check", bad, "--json", check=False)
+    assert done.returncode == 1
+    report, sound = json.loads(done.stdout), json.loads(run("check", design, "--json").stdout)
+    assert report["values"] == sound["values"]
+    assert [finding["rule"] for finding in report["findings"]] == ["detail"]
+    assert "driver.bore" in report["findings"][0]["message"]
+    for option in ["--figures", "--remedy"]:
+        assert run("check", bad, option, check=False).returncode == 2
+    # Files cannot be without it.
+    assert run("export", bad, "--to", tmp_path / "out", check=False).returncode == 2

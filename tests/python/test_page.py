@@ -7,7 +7,7 @@ import zipfile
 import pytest
 from axe_playwright_python.sync_playwright import Axe
 from conftest import centrode
-from page import ARMS, BOX, FEEDER, POINTS, SHAFT, SHIPPED, drag, drawing, field, figures, opened, settled, shown
+from page import ARMS, BOX, FEEDER, INDEX, POINTS, SHAFT, SHIPPED, drag, drawing, field, figures, opened, settled, shown
 from playwright.sync_api import expect
 from studio import studio
 
@@ -230,7 +230,8 @@ def test_a_text_that_is_no_design_stays_in_its_dialog(points):
 def test_the_export_is_a_zip(points, tmp_path):
     page, _ = points
     page.locator("#export").click()
-    for box in page.locator("fieldset input").all():
+    expect(page.locator("#export-tolerance")).to_be_visible()
+    for box in page.locator("fieldset").first.locator("input").all():
         box.set_checked(box.get_attribute("value") in ("svg", "csv", "json"))
     with page.expect_download() as download:
         page.get_by_role("button", name="Export zip").click()
@@ -301,7 +302,7 @@ def test_a_file_changed_on_disk_is_noticed_and_lost_work_offered(points):
 
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])
-@pytest.mark.parametrize("design", [POINTS, ARMS, FEEDER, BOX], ids=lambda path: path.stem)
+@pytest.mark.parametrize("design", [POINTS, ARMS, FEEDER, BOX, INDEX], ids=lambda path: path.stem)
 def test_nothing_stands_in_the_way_of_anybody(browser, tmp_path, design, scheme):
     with opened(browser, tmp_path, design, color_scheme=scheme) as (page, _):
         found = Axe().run(page).response["violations"]

@@ -230,12 +230,14 @@ def test_an_answer_asked_for_twice_is_drawn_once(browser, tmp_path):
 def test_the_enter_key_exports(points):
     page, _ = points
     page.locator("#export").click()
-    for box in page.locator("fieldset input").all():
+    expect(page.locator("#export-tolerance")).to_be_visible()
+    for box in page.locator("fieldset").first.locator("input").all():
         box.set_checked(box.get_attribute("value") == "csv")
     with page.expect_download():
         page.locator("#export-tolerance").press("Enter")
     page.locator("#export").click()
-    for box in page.locator("fieldset input").all():
+    expect(page.locator("#export-tolerance")).to_be_visible()
+    for box in page.locator("fieldset").first.locator("input").all():
         box.uncheck()
     page.locator("#export-tolerance").press("Enter")
     expect(page.locator("#notices")).to_contain_text("nothing to export")

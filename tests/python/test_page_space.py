@@ -146,6 +146,41 @@ def test_the_view_is_worked_by_keys_and_mouse(drawer, tmp_path):
         expect(page.locator("#space")).to_be_focused()
 
 
+def fingers(session, kind, places):
+    """What a screen tells of fingers at places of the page."""
+    points = [{"x": x, "y": y, "id": number} for number, (x, y) in enumerate(places)]
+    session.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": points})
+
+
+def test_the_view_is_worked_by_fingers(drawer, tmp_path):
+    with opened(drawer, tmp_path, CIRCLE, size=(390, 844), has_touch=True, is_mobile=True) as (page, _):
+        space(page)
+        session = page.context.new_cdp_session(page)
+        box = page.locator(".space-scene").bounding_box()
+        x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+
+        def moved(first, last):
+            start, scrolled = frame(page), page.evaluate("scrollY")
+            fingers(session, "touchStart", first)
+            for step in range(1, 5):
+                share = step / 4
+                between = [
+                    (a + share * (c - a), b + share * (d - b)) for (a, b), (c, d) in zip(first, last, strict=True)
+                ]
+                fingers(session, "touchMove", between)
+            fingers(session, "touchEnd", [])
+            assert frame(page) != start
+            # The page itself stays where it is.
+            assert page.evaluate("scrollY") == scrolled
+
+        start = frame(page)
+        moved([(x, y)], [(x + 60, y + 20)])
+        moved([(x - 30, y), (x + 30, y)], [(x - 80, y), (x + 80, y)])
+        moved([(x - 30, y), (x + 30, y)], [(x - 30, y + 60), (x + 30, y + 60)])
+        page.locator(".space-scene").press("0")
+        assert frame(page) == start
+
+
 def test_a_change_brings_its_own_meshes(drawer, tmp_path):
     with opened(drawer, tmp_path, CIRCLE) as (page, _):
         first = read(space(page))[2]

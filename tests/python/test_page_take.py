@@ -127,7 +127,8 @@ def test_the_export_takes_sheet_and_projection_of_its_own(browser, tmp_path):
 
     with opened(browser, tmp_path, CIRCLE) as (page, copy):
         page.locator("#export").click()
-        for box in page.locator("fieldset input").all():
+        expect(page.locator("#export-tolerance")).to_be_visible()
+        for box in page.locator("fieldset").first.locator("input").all():
             box.set_checked(box.get_attribute("value") == "pdf")
         page.locator("#export-sheet").select_option("A2")
         page.locator("#export-projection").select_option("third-angle")
@@ -214,3 +215,43 @@ def test_poses_and_distances_lie_over_the_picture(browser, tmp_path):
         more, fewer = page.evaluate(strokes), page.evaluate(strokes)
         # Both gears at twelve places.
         assert more - fewer >= 24
+
+
+def test_parts_are_chosen_as_on_the_command_line(browser, tmp_path):
+    with opened(browser, tmp_path, CIRCLE) as (page, copy):
+        page.get_by_role("button", name="Export…").click()
+        page.locator("#dialog summary", has_text="Parts").click()
+        expect(page.locator("[id^=export-part-]")).to_have_count(3)
+        assert not Axe().run(page).response["violations"]
+        page.get_by_role("button", name="None").click()
+        page.get_by_role("button", name="Export zip").click()
+        expect(page.locator(".notice")).to_contain_text("no part is chosen")
+        page.get_by_role("button", name="Export…").click()
+        page.locator("#dialog summary", has_text="Parts").click()
+        page.get_by_role("button", name="None").click()
+        page.locator("#export-part-driven").check()
+        for kind in ["urdf", "mjcf", "3mf", "pdf", "stl"]:
+            page.locator(f'#dialog input[value="{kind}"]').uncheck()
+        with page.expect_download(timeout=60_000) as download:
+            page.get_by_role("button", name="Export zip").click()
+        with zipfile.ZipFile(download.value.path()) as files:
+            taken = {name: files.read(name) for name in files.namelist()}
+        out = tmp_path / "out"
+        kinds = "dxf,svg,sheet,step,csv,json"
+        centrode("export", copy, "--to", out, "--part", "driven", "--format", kinds)
+        written = {str(path.relative_to(out)): path.read_bytes() for path in out.rglob("*") if path.is_file()}
+        assert "driven.dxf" in taken
+        assert "driver.dxf" not in taken
+        assert taken == written
+
+
+def test_parts_of_a_machine_are_those_that_its_design_names(browser, tmp_path):
+    design = CIRCLE.with_name("two-arm.toml")
+    with opened(browser, tmp_path, design) as (page, copy):
+        page.get_by_role("button", name="Export…").click()
+        boxes = page.locator("[id^=export-part-]")
+        expect(boxes.first).to_be_attached()
+        names = boxes.evaluate_all("boxes => boxes.map(box => box.value)")
+        unknown = centrode("export", copy, "--to", tmp_path / "none", "--part", "nothing", check=False)
+        assert names
+        assert all(name in unknown.stderr for name in names)

@@ -53,9 +53,6 @@ impl PartialEq for Span {
 
 impl Eq for Span {}
 
-/// Number of intervals with which the search starts.
-const FIRST_SPANS: u32 = 16;
-
 /// Least distance of two boundaries while the input runs, to within `tolerance`, searched only below `beat`.
 pub(super) fn approach(
     [a, b]: [&Moving<'_>; 2],
@@ -63,20 +60,12 @@ pub(super) fn approach(
     beat: f64,
     tolerance: f64,
 ) -> Result<Approach, InterferenceError> {
-    let step = (to - from) / f64::from(FIRST_SPANS);
-    let root: Rc<[[u32; 2]]> = Rc::new([[0, 0]]);
-    let mut open: BinaryHeap<Span> = (0..FIRST_SPANS)
-        .map(|i| Span {
-            from: from + step * f64::from(i),
-            to: if i + 1 == FIRST_SPANS {
-                to
-            } else {
-                from + step * f64::from(i + 1)
-            },
-            bound: f64::NEG_INFINITY,
-            pairs: root.clone(),
-        })
-        .collect();
+    let mut open = BinaryHeap::from([Span {
+        from,
+        to,
+        bound: f64::NEG_INFINITY,
+        pairs: Rc::new([[0, 0]]),
+    }]);
     let mut found = Approach {
         least: beat,
         input: None,

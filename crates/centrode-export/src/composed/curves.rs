@@ -7,7 +7,7 @@ use crate::page::Curve;
 
 /// Samples of one turn of the input, and the most of all turns.
 const SAMPLES: u32 = 720;
-const MOST: u32 = 7200;
+const MOST: u32 = 2880;
 
 /// Angle of every body along the cycle, place and speed of those that slide, pressure angle of every cam, and the least
 /// transmission angle of all dyads, where there are any.

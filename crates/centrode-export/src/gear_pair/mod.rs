@@ -2,6 +2,7 @@
 
 mod accuracy;
 mod arrangement;
+mod contacts;
 mod curves;
 mod drawn;
 mod links;
@@ -16,6 +17,7 @@ pub(crate) use accuracy::{flank_tolerances, tooth_runout};
 pub use arrangement::contact_data;
 pub(crate) use arrangement::{by_thickness, list, list_keys, list_pair, of_both};
 use centrode_mechanism::gear::{GearPair, GearPairError, Member};
+pub use contacts::contacts;
 pub use curves::curves;
 use drawn::Drawn;
 pub use links::{drawn, machine};

@@ -84,6 +84,7 @@ pub fn picture(machine: &Machine, tolerance: Tolerance) -> Picture {
                 at: mark.at,
             })
             .collect(),
+        contacts: None,
         extent: course.extent(machine, &rims),
     }
 }

@@ -8,7 +8,10 @@ const MOST: usize = 64;
 pub(super) fn rim(sketch: &Sketch) -> Vec<Point> {
     let mut points: Vec<Point> = Vec::new();
     for line in &sketch.lines {
-        if !matches!(line.role, LineRole::Body | LineRole::Bar | LineRole::Clamp) {
+        if !matches!(
+            line.role,
+            LineRole::Body | LineRole::Bar | LineRole::Clamp | LineRole::Pitch
+        ) {
             continue;
         }
         match &line.path {

@@ -60,7 +60,7 @@ const STYLES: [Asset; 4] = assets!(
 );
 
 /// The scripts; `main.js` is the one to start.
-const SCRIPTS: [Asset; 39] = assets!(
+const SCRIPTS: [Asset; 40] = assets!(
     "text/javascript; charset=utf-8":
     "uplot.js",
     "axes.js",
@@ -81,6 +81,7 @@ const SCRIPTS: [Asset; 39] = assets!(
     "layout.js",
     "link.js",
     "main.js",
+    "mesh.js",
     "motion.js",
     "numbers.js",
     "painter.js",

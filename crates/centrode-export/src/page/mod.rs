@@ -29,6 +29,8 @@ pub struct Picture {
     pub handles: Vec<Handle>,
     /// Places worth a name.
     pub marks: Vec<Mark>,
+    /// Places at which gears touch.
+    pub contacts: Option<Contacts>,
     /// Least x, least y, greatest x, greatest y of everything over the whole cycle, mm.
     pub extent: [f64; 4],
 }
@@ -51,6 +53,33 @@ pub struct Mark {
     pub link: usize,
     /// x and y in the link's frame, mm.
     pub at: [f64; 2],
+}
+
+/// Places at which the flanks of two gears touch, in the axes of the picture.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Contacts {
+    /// The pitch point: the line of action passes through it.
+    pub pitch_point: Track,
+    /// Paths of contact, one for each time that two flanks meet in a cycle.
+    pub paths: Vec<Track>,
+}
+
+/// Place that moves with the input.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Track {
+    /// Inputs, rad, ascending; there is no such place before the first and after the last.
+    pub input: Vec<f64>,
+    /// x and y, mm, at every input.
+    pub at: Vec<[f64; 2]>,
+}
+
+impl Track {
+    /// A track of inputs and places.
+    #[must_use]
+    pub fn of(samples: impl IntoIterator<Item = (f64, [f64; 2])>) -> Self {
+        let (input, at) = samples.into_iter().unzip();
+        Self { input, at }
+    }
 }
 
 /// Where every link stands along one cycle of the input.

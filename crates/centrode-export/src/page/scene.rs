@@ -1,6 +1,6 @@
 use serde::{Serialize, Serializer};
 
-use super::{Handle, Mark, Motion, Path, Picture};
+use super::{Contacts, Handle, Mark, Motion, Path, Picture};
 
 /// A picture as it is written: links by the number of their shape.
 #[derive(Serialize)]
@@ -10,6 +10,8 @@ struct Scene<'a> {
     motion: &'a Motion,
     handles: &'a [Handle],
     marks: &'a [Mark],
+    #[serde(skip_serializing_if = "Option::is_none")]
+    contacts: Option<&'a Contacts>,
     extent: [f64; 4],
 }
 
@@ -36,6 +38,7 @@ impl Serialize for Picture {
             motion,
             handles,
             marks,
+            contacts,
             extent,
             ..
         } = self;
@@ -45,6 +48,7 @@ impl Serialize for Picture {
             motion,
             handles,
             marks,
+            contacts: contacts.as_ref(),
             extent: *extent,
         };
         scene.serialize(serializer)

@@ -1,7 +1,7 @@
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
-use centrode_geometry::{Outline, Point, Recent, Solid, SolidError, Vector};
+use centrode_geometry::{Outline, Point, Solid, SolidError, Vector};
 use nalgebra::Isometry2;
 
 use super::mesh::{Angle, Mesh, MeshedBody};
@@ -11,7 +11,7 @@ use super::{
     Composed, ComposedBodySpec, ComposedDesign, ComposedError, ComposedMeshSpec, GearRole, Mount,
 };
 use crate::gear::design::GearPairDesign;
-use crate::gear::{Gear, GearPair, GearPairError, Member, Role};
+use crate::gear::{Gear, GearPair, Member, Role};
 use crate::machine::{Line, LineRole, Surface};
 
 /// Samples of a turn of the input at which a loop of meshes is checked.
@@ -143,16 +143,13 @@ pub(super) fn gears_of(
     design: &ComposedDesign,
     points: &super::points::BodyPoints,
 ) -> Result<Vec<ComposedGear>, ComposedError> {
-    static MADE: Recent<GearPairDesign, Result<Arc<GearPair>, GearPairError>> = Recent::new();
     let mut pairs = std::collections::BTreeMap::new();
     for (name, pair) in &design.pairs {
         let named = GearPairDesign {
             name: name.clone(),
             ..pair.clone()
         };
-        // Teeth take long; those of a design in which other things change are cut once.
-        let made = MADE.get(&named, || GearPair::resolve(&named).map(Arc::new));
-        let made = made.map_err(|error| ComposedError::Pair {
+        let made = GearPair::kept(&named).map_err(|error| ComposedError::Pair {
             key: format!("pairs.{name}.{}", error.key_in(&named)),
             error: Box::new(error),
         })?;

@@ -1,8 +1,8 @@
 use std::sync::Arc;
 
-use centrode_geometry::{Outline, Solid, SolidError, Tolerance};
+use centrode_geometry::{Outline, Recent, Solid, SolidError, Tolerance};
 
-use super::{Feeder, Part};
+use super::{Feeder, GearsSpec, Part};
 use crate::gear::IntermittentPair;
 use crate::machine::{Form, Joint, Linear, Link, Machine, Quantity, Shape};
 
@@ -87,22 +87,32 @@ impl Feeder {
         spec.entry > 0.0 && spec.drive().is_ok_and(|drive| drive.stops() > 0)
     }
 
+    /// Bodies of the gears in the machine; none where they cannot be cut.
+    ///
+    /// Laying arcs takes long; those of a design in which other things change are laid once.
+    fn gear_bodies(&self) -> Option<Arc<Vec<GearBody>>> {
+        static LAID: Recent<GearsSpec, Arc<Vec<GearBody>>> = Recent::new();
+        let (gears, tolerance) = (self.gears().ok()?, Tolerance::new(FINE).ok()?);
+        Some(LAID.get(&self.design().gears, || {
+            Arc::new(GearBody::all(&gears, tolerance))
+        }))
+    }
+
     /// Adds the gears to the machine of [`Feeder::links`] as links with bodies, behind the rear frame plate: from there the exit
     /// cam, the gears, the entry cam. Gears that cannot be cut are left out: the six-bar moves without them.
     ///
     /// # Errors
     /// [`SolidError`] where a gear encloses no volume.
     pub fn mount_gears(&self, machine: &mut Machine) -> Result<(), SolidError> {
-        let (Ok(gears), Ok(tolerance)) = (self.gears(), Tolerance::new(FINE)) else {
+        let Some(bodies) = self.gear_bodies() else {
             return Ok(());
         };
         let (frame, crank) = (Part::Frame.link(), Part::Crank.link());
         let spec = &self.design().gears;
-        let bodies = GearBody::all(&gears, tolerance);
         let [middle, entry, exit] = self.gear_levels(bodies.len() > 2);
         let density = spec.body().density;
         let mut driver = frame;
-        for body in &bodies {
+        for body in bodies.iter() {
             let link = machine.link(Link {
                 name: body.name.into(),
                 ..Link::default()

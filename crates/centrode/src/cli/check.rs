@@ -6,6 +6,7 @@ use crate::mechanism::design::{Design, DesignError};
 
 use crate::cli::Status;
 use crate::cli::args::Check;
+use crate::cli::detail::Made;
 use crate::cli::failure::Failure;
 use crate::cli::input::Source;
 use crate::cli::progress::Progress;
@@ -14,10 +15,19 @@ use crate::cli::report;
 /// Resolves a design and prints its report.
 pub(crate) fn run(command: &Check, out: &mut impl Write) -> Result<Status, Failure> {
     let source = Source::open(&command.design)?;
-    let design = source.design()?;
+    let text = source.text()?;
     let progress = Progress::new(2);
     progress.step("resolving the design");
-    let mechanism = design.mechanism().map_err(|error| source.blame(error))?;
+    let Made {
+        mechanism,
+        mut left_out,
+    } = Made::of(&text).map_err(|error| source.blame(error))?;
+    // Figures and remedies are of the design as written.
+    if (command.figures || command.remedy)
+        && let Some(left_out) = left_out.take()
+    {
+        return Err(source.blame(left_out.error));
+    }
     if command.figures {
         drop(progress);
         let tables = mechanism.figures();
@@ -45,7 +55,10 @@ pub(crate) fn run(command: &Check, out: &mut impl Write) -> Result<Status, Failu
         return remedies(command, mechanism.as_ref(), &found, out);
     }
     progress.step("checking");
-    let report = mechanism.check();
+    let mut report = mechanism.check();
+    if let Some(left_out) = left_out {
+        left_out.report(&mut report);
+    }
     drop(progress);
     if command.json {
         out.write_all(report::json(&report)?.as_bytes())?;

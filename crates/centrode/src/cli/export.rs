@@ -1,12 +1,12 @@
 use std::io::Write;
 
 use crate::analysis::Report;
-use crate::export::{Bundle, Format, Options, SheetOptions, dxf};
+use crate::export::{Bundle, ExportError, Format, Options, SheetOptions, dxf};
 use crate::family::{Family, Mechanism, PartName};
 use crate::mechanism::design::{Projection, SheetSize};
 
 use crate::cli::Status;
-use crate::cli::args::{Dxf, Export, File, Method, Size};
+use crate::cli::args::{Dxf, Export, File, Method, Size, TOLERANCE, tolerance};
 use crate::cli::failure::Failure;
 use crate::cli::input::Source;
 use crate::cli::output;
@@ -44,6 +44,26 @@ pub(crate) fn zip(text: &str, command: &Export) -> Result<Vec<u8>, Failure> {
     let mechanism = design.mechanism().map_err(|error| source.blame(error))?;
     let found = mechanism.check();
     Ok(bundle(design.family(), mechanism.as_ref(), &found, command)?.zip()?)
+}
+
+/// Parts of a design whose files can be asked for alone: the name of each, and what it is.
+pub(crate) fn parts(mechanism: &dyn Mechanism, family: &Family) -> Vec<[String; 2]> {
+    let Ok(tolerance) = tolerance(TOLERANCE) else {
+        return Vec::new();
+    };
+    let mut options = Options::new(tolerance);
+    // Asked for a part of no name, the exporter makes nothing and tells those that it knows.
+    options.parts = Some(vec![String::new()]);
+    let Err(ExportError::UnknownPart { known, .. }) = mechanism.files(&Format::ALL, &options)
+    else {
+        return Vec::new();
+    };
+    let about = |name: &str| {
+        let part = family.parts.iter().find(|part| part.name == name);
+        part.map_or_else(String::new, |part| part.about.to_owned())
+    };
+    let words = |name: String| [name.clone(), about(&name)];
+    known.into_iter().map(words).collect()
 }
 
 /// The files of a mechanism and its report.

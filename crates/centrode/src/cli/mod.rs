@@ -6,6 +6,7 @@
 mod args;
 mod check;
 mod completions;
+mod detail;
 mod drive;
 mod export;
 mod failure;

@@ -1,8 +1,10 @@
 //! Check of the gears of a three-arm mechanism: every mesh, and the gears that must not touch.
 
 use std::f64::consts::TAU;
+use std::sync::Arc;
 
-use centrode_geometry::{Tolerance, Vector, checkpoint};
+use centrode_geometry::{Recent, Tolerance, Vector, checkpoint};
+use centrode_mechanism::gear::design::GearPairDesign;
 use centrode_mechanism::gear::{GearPair, GearPairError, Member};
 use centrode_mechanism::three_arm::{Link, ThreeArm};
 
@@ -26,10 +28,14 @@ pub struct TrainTeeth {
     pub pair: GearPair,
     /// Contact of their flanks, by the sun's polar angle.
     pub contact: Contact,
+    /// Check of the pair by itself.
+    checked: Report,
 }
 
 impl TrainTeeth {
     /// Cuts the teeth and runs them together; none where the design has no tooth count.
+    ///
+    /// It takes long; teeth of a design in which other things change are run together once.
     ///
     /// # Errors
     /// [`GearPairError`] where no teeth can be laid out or cut.
@@ -37,9 +43,22 @@ impl TrainTeeth {
         if mechanism.design().gear_tooth_count().is_none() {
             return Ok(None);
         }
+        static RUN: Recent<GearPairDesign, Arc<TrainTeeth>> = Recent::new();
         let pair = mechanism.pair()?;
+        let design = pair.design().clone();
+        let run = RUN.get(&design, || Arc::new(Self::run(pair)));
+        Ok(Some(Self::clone(&run)))
+    }
+
+    /// Runs cut teeth together.
+    fn run(pair: GearPair) -> Self {
         let contact = Contact::of(&pair);
-        Ok(Some(Self { pair, contact }))
+        let checked = check_contact(&pair, &contact);
+        Self {
+            pair,
+            contact,
+            checked,
+        }
     }
 }
 
@@ -55,7 +74,7 @@ pub fn carrier_turn(mechanism: &ThreeArm, sun: f64) -> f64 {
 /// All meshes of all chains are poses of the one pair of sun and intermediate gear, as proven here from
 /// the links' poses alone; its contact analysis over a whole cycle is then that of every mesh.
 pub(crate) fn check_gear_train(mechanism: &ThreeArm, teeth: &TrainTeeth, report: &mut Report) {
-    let TrainTeeth { pair, contact } = teeth;
+    let TrainTeeth { pair, checked, .. } = teeth;
     let (off, input) = phase_error(mechanism, pair);
     report.values.insert("mesh_phase_error_max", off);
     if off > PHASE {
@@ -73,7 +92,6 @@ pub(crate) fn check_gear_train(mechanism: &ThreeArm, teeth: &TrainTeeth, report:
             },
         });
     }
-    let of_pair = check_contact(pair, contact);
     for name in [
         "transmission_error_max",
         "penetration_max",
@@ -83,12 +101,12 @@ pub(crate) fn check_gear_train(mechanism: &ThreeArm, teeth: &TrainTeeth, report:
         "backlash_min",
         "backlash_max",
     ] {
-        if let Some(figure) = of_pair.values.get(name) {
+        if let Some(figure) = checked.values.get(name) {
             report.values.insert(name, *figure);
         }
     }
     let of_mesh = ["interference", "disengaged", "contact-lost"];
-    let found = of_pair.findings.into_iter();
+    let found = checked.findings.iter().cloned();
     report
         .findings
         .extend(

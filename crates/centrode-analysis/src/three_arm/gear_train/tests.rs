@@ -64,8 +64,7 @@ fn a_mesh_half_a_pitch_off_is_seen() {
 
 fn toothed(change: impl Fn(&mut ThreeArmDesign)) -> (ThreeArm, TrainTeeth) {
     let (mechanism, pair) = gentle(change);
-    let contact = Contact::of(&pair);
-    (mechanism, TrainTeeth { pair, contact })
+    (mechanism, TrainTeeth::run(pair))
 }
 
 /// A fault at a polar angle of the sun is reported at the carrier turn at which it is met there.
@@ -75,6 +74,7 @@ fn a_finding_of_the_teeth_is_told_at_the_carriers_turn() {
         let (mechanism, mut teeth) = toothed(|d| d.direction = direction);
         let at = teeth.contact.input.len() / 5;
         teeth.contact.penetration[at] = 0.5;
+        teeth.checked = check_contact(&teeth.pair, &teeth.contact);
         let mut report = Report::default();
         check_gear_train(&mechanism, &teeth, &mut report);
         let found = report.findings.iter().find(|f| f.rule == "interference");

@@ -27,13 +27,19 @@ export function ask(title, content, buttons, sound) {
   });
 }
 
-/** What to export, of kinds given as word and description, with choices of the drawing's keys; resolves to the options, or to null. */
-export async function files(formats, sheets) {
+/** What to export, of kinds and parts given as word and description, with choices of the drawing's keys; resolves to the options, or to null. */
+export async function files(formats, parts, sheets) {
   const boxes = formats.map(([name]) => {
     const box = element("input", { type: "checkbox", value: name });
     box.checked = true;
     return box;
   });
+  const named = parts.map(([name]) => {
+    const box = element("input", { type: "checkbox", value: name, id: `export-part-${name}` });
+    box.checked = true;
+    return box;
+  });
+  const tick = (words, on) => element("button", { type: "button", onclick: () => named.forEach((box) => Object.assign(box, { checked: on })) }, words);
   const tolerance = element("input", { type: "text", inputmode: "decimal", class: "number", value: "0.001", id: "export-tolerance" });
   const dxf = element("select", { id: "export-dxf" },
     ...[["r2010", "R2010, lines and arcs"], ["r12", "R12, for old controllers"], ["spline", "R2010, splines"]]
@@ -47,6 +53,11 @@ export async function files(formats, sheets) {
   const answer = await ask("Export", [
     element("fieldset", {}, element("legend", {}, "Files"),
       ...boxes.map((box, i) => element("label", {}, box, ` ${box.value.toUpperCase()} `, element("span", { class: "quiet" }, formats[i][1])))),
+    ...(parts.length > 1 ? [element("details", {}, element("summary", {}, "Parts"),
+      element("fieldset", { "aria-label": "Parts" },
+        ...named.map((box, i) => element("label", {}, box, ` ${box.value} `, element("span", { class: "quiet" }, parts[i][1])))),
+      element("p", { class: "option" }, tick("All", true), tick("None", false),
+        element("span", { class: "quiet" }, "Models and motion are of the whole machine.")))] : []),
     element("p", { class: "option" }, element("label", { for: "export-tolerance" }, "Tolerance"), tolerance, element("span", {}, "mm")),
     element("p", { class: "option" }, element("label", { for: "export-dxf" }, "DXF"), dxf),
     ...keys.map(({ words, select }) => element("p", { class: "option" }, element("label", { for: select.id }, words), select)),
@@ -54,7 +65,9 @@ export async function files(formats, sheets) {
   if (answer !== "export") return null;
   const chosen = boxes.filter((box) => box.checked).map((box) => box.value);
   const edits = keys.filter(({ value, select }) => select.value !== value).map(({ key, select }) => ({ key, value: select.value }));
-  return { options: { formats: chosen, tolerance: tolerance.value, dxf: dxf.value }, edits };
+  const some = named.filter((box) => box.checked).map((box) => box.value);
+  // All of them are what is written without a choice.
+  return { options: { formats: chosen, parts: some.length === named.length ? [] : some, none: named.length > 0 && some.length === 0, tolerance: tolerance.value, dxf: dxf.value }, edits };
 }
 
 /** A line below the bar; `key` names it, so that the next of its kind takes its place. */

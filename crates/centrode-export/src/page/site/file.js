@@ -135,11 +135,18 @@ export class DesignFile {
     await this.page.settled();
     const drawing = tables.find(({ key }) => key === "drawing")?.fields ?? [];
     const sheets = drawing.filter(({ choices }) => choices?.length).map(({ key, value, choices }) => ({ key, value, choices, words: words(key) }));
-    const asked = await dialogs.files(this.formats, sheets);
+    let parts = [];
+    try {
+      ({ parts } = await server.choices(this.history.text));
+    } catch (error) {
+      this.page.complain("export", error);
+      return;
+    }
+    const asked = await dialogs.files(this.formats, parts, sheets);
     if (!asked) return;
-    const { options, edits } = asked;
-    if (options.formats.length === 0) {
-      dialogs.notice("export", "nothing to export: no kind of file is chosen", [], "warning");
+    const { options: { none, ...options }, edits } = asked;
+    if (options.formats.length === 0 || none) {
+      dialogs.notice("export", `nothing to export: no ${none ? "part" : "kind of file"} is chosen`, [], "warning");
       return;
     }
     dialogs.withdraw("export");

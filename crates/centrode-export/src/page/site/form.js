@@ -3,7 +3,7 @@
 import { byId, element, fault, symbol, words } from "./elements.js";
 import { Find } from "./find.js";
 import * as hints from "./hints.js";
-import { brief, stepOf, stepped, tidy, typed, worked } from "./numbers.js";
+import { brief, decimal, stepOf, stepped, tidy, typed, worked } from "./numbers.js";
 import { Points, pointsOf } from "./points.js";
 
 const SLOW = 4;
@@ -193,7 +193,7 @@ export class Form {
   /** An input for one number: typed, or moved by the arrow keys. */
   number(field, key, attributes) {
     const box = element("input", { ...attributes, type: "text", inputmode: "decimal", class: "number", role: "spinbutton", spellcheck: "false", autocomplete: "off",
-      "aria-valuemin": field.least, "aria-valuemax": field.greatest });
+      "aria-valuemin": field.least === undefined ? undefined : decimal(field.least), "aria-valuemax": field.greatest === undefined ? undefined : decimal(field.greatest) });
     const give = (value) => this.edit([{ key, value }], true);
     // Of one size while the keys are at it: as many steps down as up lead back.
     let step = 1;
@@ -287,7 +287,7 @@ export class Form {
         // What is being typed is not touched, nor what is on its way; a number changed elsewhere is not being typed.
         const idle = input.value === (input.dataset.value ?? "");
         input.dataset.value = text;
-        if (typeof value === "number") input.setAttribute("aria-valuenow", text);
+        if (typeof value === "number") input.setAttribute("aria-valuenow", decimal(value));
         else input.removeAttribute("aria-valuenow");
         if (document.activeElement !== input || idle || typed(input.value) === value) input.value = text;
       }
@@ -302,8 +302,7 @@ export class Form {
     if (value === null || field.optional && field.value === null) list.unshift(element("option", { value: "" }, "auto"));
     select.replaceChildren(...list);
     select.value = value ?? "";
-    // Another family is another design: centrode new makes one.
-    select.disabled = this.fixed || field.key === "family" && field.choices.some(({ word }) => word === value);
+    select.disabled = this.fixed;
     select.dataset.value = select.value;
   }
 

@@ -40,6 +40,10 @@ const space = embedded ? null : new Space(stage, () => ({ text: state.snapshot?.
 
 let file = null;
 let search = null;
+/** Family of the design that is shown. */
+let family;
+/** Says why there is no search, or with no reason that there is one. */
+let searchable;
 
 connect({ form, file: () => file, show, judge, complain });
 
@@ -92,6 +96,22 @@ function panels() {
   judge();
   transport.show(snapshot.curves);
   buttons();
+  if (!embedded) note(snapshot);
+}
+
+/** Takes note of the family; of some families no design is searched. */
+async function note({ tables, text }) {
+  const now = tables.flatMap(({ fields }) => fields).find(({ key }) => key === "family")?.value;
+  if (!now || now === family) return;
+  const first = family === undefined;
+  family = now;
+  if (first) return;
+  try {
+    const { unsearched } = await server.choices(text);
+    if (family === now) searchable(unsearched);
+  } catch (error) {
+    complain("server", error);
+  }
 }
 
 /** Goals, findings and figures. */
@@ -241,7 +261,9 @@ async function start() {
   }
   const { file: name, text, recovered, formats, methods, unsearched, started } = await server.design();
   byId("start").hidden = !started;
-  if (unsearched) Object.assign(byId("optimise"), { disabled: true, title: unsearched });
+  const usual = byId("optimise").title;
+  searchable = (reason) => Object.assign(byId("optimise"), { disabled: Boolean(reason), title: reason ?? usual });
+  searchable(unsearched);
   state.history = new History(text);
   file = new DesignFile(name, formats, state.history, { settled, replace, complain, saved: buttons });
   search = new Search(methods, {

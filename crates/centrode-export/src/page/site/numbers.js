@@ -106,3 +106,9 @@ export function worked(text, unit) {
   if (typeof plain === "number" || plain === "") return plain;
   return new Sum(plain.replaceAll("−", "-").replaceAll("×", "*").replaceAll("·", "*"), UNITS[unit] ?? {}).value ?? plain;
 }
+
+/** A number as assistive techniques read it: without an exponent. */
+export function decimal(value) {
+  const text = String(value);
+  return text.includes("e-") ? value.toFixed(20).replace(/0+$/, "") : text;
+}

@@ -61,6 +61,7 @@ export const save = (text, base, over) => json(ask("save", "POST", { text, base,
 export const keep = (text) => json(ask("keep", "POST", { text }, undefined, text.length < 20_000));
 export const forget = (file) => json(ask("keep", "DELETE", { file }));
 export const reread = () => json(ask("reread", "POST", {}));
+export const choices = (text) => json(ask("choices", "POST", { text }));
 export const fault = (text) => json(ask("fault", "POST", { text }));
 export const search = (options, signal) => json(ask("search", "POST", options, signal));
 export const searched = () => json(ask("search", "GET"));

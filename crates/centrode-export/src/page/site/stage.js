@@ -1,6 +1,7 @@
 // The drawing: links to scale where the motion has them, with zoom and pan.
 
 import { byId } from "./elements.js";
+import { MeshView } from "./mesh.js";
 import * as overlays from "./overlays.js";
 import { Painter, Scene } from "./painter.js";
 
@@ -19,6 +20,7 @@ export class Stage extends Painter {
     this.held = false;
     /** Picture from before a drag, which is drawn below it. */
     this.before = null;
+    this.mesh = new MeshView(this);
     this.resize();
     new ResizeObserver(() => this.resize()).observe(this.box);
     this.listen();
@@ -29,6 +31,7 @@ export class Stage extends Painter {
     this.scene = picture ? new Scene(picture) : null;
     const pitch = this.scene?.links.some((link) => link.lines.some(({ role }) => role === "pitch"));
     byId("show-pitch").parentElement.hidden = !pitch;
+    this.mesh.show(this.scene);
     if (this.fitted && !this.held) this.frame();
   }
 
@@ -61,6 +64,7 @@ export class Stage extends Painter {
   }
 
   fit() {
+    this.mesh.press(false);
     this.fitted = true;
     this.frame();
     this.draw();
@@ -78,6 +82,7 @@ export class Stage extends Painter {
   }
 
   pan(dx, dy) {
+    this.mesh.following = false;
     this.view.x -= dx / this.view.scale;
     this.view.y += dy / this.view.scale;
     this.fitted = false;
@@ -87,6 +92,7 @@ export class Stage extends Painter {
   draw() {
     this.clear();
     if (!this.scene) return;
+    this.mesh.follow(this.input);
     this.context.globalAlpha = this.stale ? 0.45 : 1;
     const poses = this.parts(this.input);
     for (const [scene, tint] of [[this.before, "muted"], [this.pinned, "pinned"]]) {
@@ -98,6 +104,7 @@ export class Stage extends Painter {
     this.axes(poses);
     this.marks(poses);
     if (byId("show-distances").checked) overlays.distances(this, poses);
+    this.mesh.draw(this.input);
     this.context.globalAlpha = 1;
     this.measure();
     this.moved?.(poses);

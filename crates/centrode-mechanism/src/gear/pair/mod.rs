@@ -2,8 +2,9 @@ mod error;
 mod gear;
 
 use std::f64::consts::{PI, TAU};
+use std::sync::Arc;
 
-use centrode_geometry::Tolerance;
+use centrode_geometry::{Recent, Tolerance};
 
 use crate::design::DrawingSpec;
 
@@ -41,6 +42,14 @@ pub struct GearPair {
 }
 
 impl GearPair {
+    /// Pair of a design, as [`GearPair::resolve`] makes it.
+    ///
+    /// Teeth take long; those of a machine in which other things change are cut once.
+    pub(crate) fn kept(design: &GearPairDesign) -> Result<Arc<Self>, GearPairError> {
+        static CUT: Recent<GearPairDesign, Result<Arc<GearPair>, GearPairError>> = Recent::new();
+        CUT.get(design, || Self::resolve(design).map(Arc::new))
+    }
+
     /// Rolls the pitch curves, lays out the teeth and cuts both gears.
     ///
     /// # Errors

@@ -21,10 +21,10 @@ pub(crate) struct Table {
     optional: bool,
     /// Whether the table is in the file and may be taken out of it.
     #[serde(skip)]
-    pub(super) may_go: bool,
+    pub(crate) may_go: bool,
     /// Whether it says what bodies look like, and moves nothing.
     #[serde(skip)]
-    pub(super) detail: bool,
+    pub(crate) detail: bool,
     pub(crate) fields: Vec<Field>,
 }
 
@@ -50,7 +50,7 @@ pub(crate) struct Field {
     optional: bool,
     /// Whether it says what bodies look like, and moves nothing.
     #[serde(skip)]
-    pub(super) detail: bool,
+    pub(crate) detail: bool,
     #[serde(skip_serializing_if = "Option::is_none")]
     least: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -119,7 +119,7 @@ impl Switch<'_> {
 }
 
 /// A value of a new key, tables among them.
-fn fresh(value: &Json) -> Option<Value> {
+pub(super) fn fresh(value: &Json) -> Option<Value> {
     let Json::Object(table) = value else {
         return written(value);
     };
@@ -157,14 +157,15 @@ fn sound(mut document: DocumentMut, table: &str, sacrifice: usize) -> Option<Doc
     None
 }
 
-fn mechanism(text: &str) -> Result<(), DesignError> {
+/// Error of a design that is no mechanism.
+pub(super) fn mechanism(text: &str) -> Result<(), DesignError> {
     FAMILIES
         .read(text.as_bytes())
         .and_then(|file| file.mechanism().map(drop))
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use std::fs;
     use std::path::Path;
 
@@ -172,7 +173,7 @@ mod tests {
     use super::*;
 
     /// Every shipped design and template, by name.
-    fn designs() -> Vec<(String, String)> {
+    pub(in super::super) fn designs() -> Vec<(String, String)> {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/designs");
         let files = fs::read_dir(folder).expect("there");
         let shipped = files.map(|file| {

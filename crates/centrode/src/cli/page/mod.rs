@@ -1,7 +1,7 @@
 //! Snapshot of a design for the page: its numbers, picture, curves, figures and findings, as one JSON value.
 
-mod detail;
 mod edit;
+mod family;
 mod field;
 mod kind;
 mod schema;
@@ -9,4 +9,5 @@ mod snapshot;
 mod start;
 
 pub(crate) use edit::{Edit, edited};
+pub(crate) use field::{Table, tables};
 pub(crate) use snapshot::{Fault, Snapshot, Subject, drawn};

@@ -1,13 +1,14 @@
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
-use crate::analysis::{Finding, Place, Report, Severity, Unit};
+use crate::analysis::Report;
 use crate::export::page::{Curve, Picture};
 use crate::family::{FAMILIES, Limit, Mechanism};
+use crate::geometry::Cancel;
 use crate::mechanism::design::DesignError;
 use serde::Serialize;
 
-use super::detail::without_details;
 use super::field::{Table, tables};
+use crate::cli::detail::{LeftOut, Made};
 use crate::cli::report;
 
 /// Snapshot of one design state for the page.
@@ -25,6 +26,8 @@ pub(crate) struct Snapshot {
     error: Option<Fault>,
     /// Error of a detail of a body: picture, curves and checks are those of the design without it.
     detail: Option<Fault>,
+    #[serde(skip)]
+    left_out: Option<Arc<LeftOut>>,
     picture: Option<Picture>,
     /// Whether the picture lacks details that take longer to make.
     coarse: bool,
@@ -76,22 +79,6 @@ impl From<&DesignError> for Fault {
     }
 }
 
-impl Fault {
-    /// The finding of a detail that cannot be.
-    fn finding(&self) -> Finding {
-        Finding {
-            rule: "detail",
-            severity: Severity::Error,
-            message: self.message.clone(),
-            measured: None,
-            required: None,
-            unit: Unit::Number,
-            remedy: None,
-            place: Place::default(),
-        }
-    }
-}
-
 impl Verdict {
     fn of(mechanism: &dyn Mechanism, found: &Report) -> Self {
         Self {
@@ -124,10 +111,28 @@ pub(super) fn resolved(text: &str) -> Result<Arc<dyn Mechanism>, DesignError> {
     FAMILIES.read(text.as_bytes())?.mechanism()
 }
 
+/// Results of two jobs that run side by side, under the token of the calling thread.
+fn together<A, B: Send>(one: impl FnOnce() -> A, other: impl FnOnce() -> B + Send) -> (A, B) {
+    let cancel = Cancel::current();
+    std::thread::scope(|scope| {
+        let other = scope.spawn(move || {
+            let _scope = cancel.enter();
+            other()
+        });
+        let one = one();
+        match other.join() {
+            Ok(other) => (one, other),
+            Err(unwound) => std::panic::resume_unwind(unwound),
+        }
+    })
+}
+
 /// Design that has become a mechanism.
 pub(crate) struct Subject {
     snapshot: Snapshot,
     mechanism: Arc<dyn Mechanism>,
+    /// Picture in detail, once it has been asked for.
+    detailed: OnceLock<Option<Picture>>,
 }
 
 impl Snapshot {
@@ -193,31 +198,32 @@ impl Subject {
     /// Resolves and draws a design that is worked on: a detail of a body that cannot be is a finding, and the rest is drawn without it.
     pub(crate) fn without_faulty_details(text: String) -> Result<Self, Box<Snapshot>> {
         let mut snapshot = Snapshot::of_text(text);
-        let error = match resolved(&snapshot.text) {
-            Ok(mechanism) => return Ok(Self::new(snapshot, mechanism)),
-            Err(error) => error,
-        };
-        let Some((mechanism, left_out)) = without_details(&snapshot.text, &error) else {
-            return Err(Box::new(snapshot.with_error(&error)));
-        };
-        let mut fault = Fault::from(&error);
-        let left_out = left_out.join(", ");
-        fault.message = format!("{}; what is shown is without {left_out}", fault.message);
-        snapshot.detail = Some(fault);
-        Ok(Self::new(snapshot, mechanism))
+        match Made::of(&snapshot.text) {
+            Ok(made) => {
+                snapshot.detail = made.left_out.as_ref().map(|left_out| Fault {
+                    message: left_out.message(),
+                    ..Fault::from(&left_out.error)
+                });
+                snapshot.left_out = made.left_out.map(Arc::new);
+                Ok(Self::new(snapshot, made.mechanism))
+            }
+            Err(error) => Err(Box::new(snapshot.with_error(&error))),
+        }
     }
 
     fn new(mut snapshot: Snapshot, mechanism: Arc<dyn Mechanism>) -> Self {
         snapshot.name = mechanism.design().name().into();
         snapshot.title = mechanism.design().title().into();
         snapshot.definition = mechanism.definition();
-        snapshot.picture = Some(mechanism.picture());
+        let (picture, curves) = together(|| mechanism.picture(), || mechanism.curves());
+        snapshot.picture = Some(picture);
         snapshot.coarse = mechanism.is_coarse();
-        snapshot.curves = mechanism.curves();
+        snapshot.curves = curves;
         snapshot.speed = mechanism.input_speed();
         Self {
             snapshot,
             mechanism,
+            detailed: OnceLock::new(),
         }
     }
 
@@ -235,8 +241,9 @@ impl Subject {
     pub(crate) fn detailed(&self) -> Snapshot {
         let mut snapshot = self.snapshot.clone();
         snapshot.coarse = false;
-        if let Some(picture) = self.mechanism.detailed() {
-            snapshot.picture = Some(picture);
+        let detailed = self.detailed.get_or_init(|| self.mechanism.detailed());
+        if let Some(picture) = detailed {
+            snapshot.picture = Some(picture.clone());
         }
         snapshot
     }
@@ -250,8 +257,8 @@ impl Subject {
     pub(crate) fn checked(&self) -> Snapshot {
         let mut snapshot = self.detailed();
         let (mut found, curves) = self.mechanism.check_with_curves();
-        if let Some(fault) = &snapshot.detail {
-            found.findings.insert(0, fault.finding());
+        if let Some(left_out) = &snapshot.left_out {
+            left_out.report(&mut found);
         }
         snapshot.curves.extend(curves);
         snapshot.verdict = Some(Verdict::of(&*self.mechanism, &found));

@@ -49,6 +49,7 @@ pub(crate) fn design_page(state: Arc<StudioState>) -> Router {
         .route("/keep", post(keep).delete(forget))
         .route("/reread", post(reread))
         .route("/export", post(bundle))
+        .route("/choices", post(choices))
         .route("/meshes", post(meshes::answer))
         .route("/search", get(searched).post(searching).delete(unsearched))
         .route("/response", post(respond));
@@ -318,6 +319,9 @@ struct Files {
     formats: Vec<String>,
     tolerance: String,
     dxf: String,
+    /// Names of parts; none for all.
+    #[serde(default)]
+    parts: Vec<String>,
 }
 
 impl Files {
@@ -333,6 +337,12 @@ impl Files {
         if !self.formats.is_empty() {
             words.push(&formats);
         }
+        let parts: Vec<String> = self
+            .parts
+            .iter()
+            .map(|part| format!("--part={part}"))
+            .collect();
+        words.extend(parts.iter().map(String::as_str));
         match Arguments::try_parse_from(words).map(|arguments| arguments.command) {
             Ok(Command::Export(command)) => Ok(command),
             Ok(_) => Err("not an export".into()),
@@ -343,6 +353,21 @@ impl Files {
             }
         }
     }
+}
+
+/// Choices that depend on the design: parts that can be exported alone, and why there is no search.
+async fn choices(Json(ask): Json<Text>) -> Result<Response, Refused> {
+    let found = computed(move || {
+        let parts = FAMILIES.read(ask.text.as_bytes()).and_then(|file| {
+            let mechanism = file.mechanism()?;
+            Ok(export::parts(mechanism.as_ref(), file.family()))
+        });
+        json!({
+            "parts": parts.unwrap_or_default(),
+            "unsearched": unsearchable(&ask.text),
+        })
+    });
+    Ok(Json(found.await?).into_response())
 }
 
 async fn bundle(Json(ask): Json<Files>) -> Result<Response, Refused> {

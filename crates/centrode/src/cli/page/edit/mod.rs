@@ -2,6 +2,7 @@ use serde::Deserialize;
 use serde_json::Value as Json;
 use toml_edit::{Array, DocumentMut, InlineTable, Item, Table, Value};
 
+use super::family::turned;
 use super::field::{list, required};
 use super::kind::switched;
 
@@ -28,7 +29,7 @@ impl Edit {
     }
 
     /// Takes a key or a table out.
-    pub(super) fn removal(key: &str) -> Self {
+    pub(crate) fn removal(key: &str) -> Self {
         Self {
             key: key.into(),
             value: Json::Null,
@@ -88,7 +89,7 @@ impl Step {
 
 /// Text with the edits made; comments, order and all other values stay as they are.
 ///
-/// A new `kind` changes its table so that the design stays a mechanism; a table that is new gets its required keys,
+/// A new `kind` changes its table, and a new `family` the whole design, so that it stays a mechanism; a table that is new gets its required keys,
 /// with the values that hold while the table is left out.
 pub(crate) fn edited(text: &str, edits: &[Edit]) -> Result<String, EditError> {
     let mut document: DocumentMut = text.parse()?;
@@ -101,8 +102,12 @@ pub(crate) fn edited(text: &str, edits: &[Edit]) -> Result<String, EditError> {
         if !edit.value.is_null() {
             complete(&mut document, &steps);
         }
-        if let (Some("kind"), Json::String(word)) = (last.name(), &edit.value)
-            && let Some(made) = switched(&document, &steps, word)
+        if let (Some(name), Json::String(word)) = (last.name(), &edit.value)
+            && let Some(made) = match name {
+                "kind" => switched(&document, &steps, word),
+                "family" if steps.is_empty() => turned(&document, word),
+                _ => None,
+            }
         {
             document = made;
             continue;
@@ -224,7 +229,7 @@ fn take_out(parent: &mut Item, last: &Step) -> Option<()> {
     Some(())
 }
 
-fn set(parent: &mut Item, last: &Step, value: Value) -> Option<()> {
+pub(super) fn set(parent: &mut Item, last: &Step, value: Value) -> Option<()> {
     let there = match last {
         Step::Index(index) => parent.get_mut(*index)?,
         Step::Name(name) => {

@@ -1,22 +1,86 @@
+//! Details of bodies that cannot be made: the motion goes on without them.
+
 use std::sync::Arc;
 
-use crate::family::Mechanism;
+use super::page::{Edit, Table, edited, tables};
+use crate::analysis::{Finding, Place, Report, Severity, Unit};
+use crate::family::{FAMILIES, Mechanism};
 use crate::mechanism::design::DesignError;
-
-use super::edit::{Edit, edited};
-use super::field::{Table, tables};
-use super::snapshot::resolved;
 
 /// Greatest number of details that are left out of one design.
 const MOST: usize = 6;
 
-/// Mechanism of a design without the details of its bodies that are at fault, and the keys left out.
+/// Mechanism of a design, without the details of its bodies that cannot be made.
 ///
-/// A detail moves nothing: the motion is that of the design as written. `None` where the fault is in anything else.
-pub(super) fn without_details(
-    text: &str,
-    error: &DesignError,
-) -> Option<(Arc<dyn Mechanism>, Vec<String>)> {
+/// A detail moves nothing: the motion is that of the design as written.
+pub(super) struct Made {
+    pub(super) mechanism: Arc<dyn Mechanism>,
+    pub(super) left_out: Option<LeftOut>,
+}
+
+/// Details that are left out of a design.
+#[derive(Debug)]
+pub(super) struct LeftOut {
+    /// Reason why the first of them cannot be made.
+    pub(super) error: DesignError,
+    keys: Vec<String>,
+}
+
+impl Made {
+    /// Resolves the text of a design file.
+    ///
+    /// # Errors
+    /// [`DesignError`] of anything but a detail.
+    pub(super) fn of(text: &str) -> Result<Self, DesignError> {
+        let error = match resolved(text) {
+            Ok(mechanism) => {
+                return Ok(Self {
+                    mechanism,
+                    left_out: None,
+                });
+            }
+            Err(error) => error,
+        };
+        match without_details(text, &error) {
+            Some((mechanism, keys)) => Ok(Self {
+                mechanism,
+                left_out: Some(LeftOut { error, keys }),
+            }),
+            None => Err(error),
+        }
+    }
+}
+
+impl LeftOut {
+    /// Reason and consequence in words.
+    pub(super) fn message(&self) -> String {
+        let keys = self.keys.join(", ");
+        format!("{}; what is shown is without {keys}", self.error.message())
+    }
+
+    /// Adds the finding of the details to a report, before all others.
+    pub(super) fn report(&self, report: &mut Report) {
+        let finding = Finding {
+            rule: "detail",
+            severity: Severity::Error,
+            message: self.message(),
+            measured: None,
+            required: None,
+            unit: Unit::Number,
+            remedy: None,
+            place: Place::default(),
+        };
+        report.findings.insert(0, finding);
+    }
+}
+
+/// Mechanism of a design file.
+fn resolved(text: &str) -> Result<Arc<dyn Mechanism>, DesignError> {
+    FAMILIES.read(text.as_bytes())?.mechanism()
+}
+
+/// Mechanism of a design without the details that are at fault, and the keys left out; `None` where the fault is in anything else.
+fn without_details(text: &str, error: &DesignError) -> Option<(Arc<dyn Mechanism>, Vec<String>)> {
     let mut text = text.to_owned();
     let mut left_out = Vec::new();
     let mut blamed = error.key.clone();

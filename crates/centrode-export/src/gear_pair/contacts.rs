@@ -1,0 +1,140 @@
+use centrode_geometry::Point;
+use centrode_mechanism::gear::{GearPair, Member, ToothSide};
+
+use crate::page::{Contacts, Track, short};
+
+/// Samples of the path of one contact.
+const SAMPLES: u32 = 8;
+/// Samples of the pitch point in one turn of the driver.
+const PITCH_SAMPLES: u32 = 120;
+/// Places are rounded by this share of the module, inputs by the same number of radians.
+const ROUNDING: f64 = 1e-4;
+
+/// Places at which the flanks touch while the driver drives, along one cycle, in the axes of the frame.
+///
+/// By the law of gearing a flank touches its mate where its normal passes through the pitch point; as long as both flanks are
+/// there. The driver turns clockwise: it drives by its leading flanks.
+#[must_use]
+pub fn contacts(pair: &GearPair) -> Contacts {
+    let (rolling, tool) = (pair.rolling(), &pair.teeth().tool);
+    let length = ROUNDING * pair.module();
+    let rounded = |input: f64, at: Point| {
+        (
+            short(input, ROUNDING),
+            [short(at.x, length), short(at.y, length)],
+        )
+    };
+    let steps = PITCH_SAMPLES * pair.mean_ratio().0;
+    let pitch_points = (0..=steps).map(|i| {
+        let phi = pair.cycle() * f64::from(i) / f64::from(steps);
+        rounded(phi, Point::new(rolling.radius(phi), 0.0))
+    });
+    let lengths = [Member::Driver, Member::Driven].map(|member| rolling.pitch_length(member));
+    let teeth = [pair.driver().teeth(), pair.driven().teeth()];
+    let (sin, cos) = tool.pressure_angle.sin_cos();
+    // The driven flank about the same place of the pitch curves, as the gears roll on.
+    let mate = |crossing: f64| {
+        let along = crossing.rem_euclid(lengths[1]);
+        let off = |side: &ToothSide| {
+            let apart = (side.crossing - along).rem_euclid(lengths[1]);
+            apart.min(lengths[1] - apart)
+        };
+        let sides = teeth[1].iter().map(|tooth| tooth.trailing);
+        let nearest = sides.min_by(|a, b| off(a).total_cmp(&off(b)))?;
+        let shift = along - nearest.crossing;
+        let (low, high) = nearest.active?;
+        let turns = (shift / lengths[1]).round() * lengths[1] + crossing - along;
+        Some([low + turns, high + turns])
+    };
+    let turns = (0..pair.mean_ratio().0).map(f64::from);
+    let flanks = turns.flat_map(|turn| teeth[0].iter().map(move |tooth| (turn, tooth.leading)));
+    let path = |(turn, side): (f64, ToothSide)| {
+        let (low, high) = side.active?;
+        let start = turn * lengths[0];
+        let [least, greatest] = mate(side.crossing + start)?;
+        let (low, high) = (low.max(least - start), high.min(greatest - start));
+        if low >= high {
+            return None;
+        }
+        let samples = (0..=SAMPLES).map(|i| {
+            let arc = low + (high - low) * f64::from(i) / f64::from(SAMPLES);
+            let t = rolling.parameter(arc);
+            let frame = rolling.frame(Member::Driver, t);
+            let line = frame.tangent * cos - frame.normal * sin;
+            let point = frame.point + line * ((side.crossing - arc) * cos);
+            let phi = rolling.angle(t);
+            let turned = nalgebra::Rotation2::new(-phi) * point;
+            rounded(phi + turn * std::f64::consts::TAU, turned)
+        });
+        Some(Track::of(samples))
+    };
+    Contacts {
+        pitch_point: Track::of(pitch_points),
+        paths: flanks.filter_map(path).collect(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use centrode_mechanism::gear::design::GearPairDesign;
+    use centrode_mechanism::gear::pitch::{Circle, PitchSpec};
+    use std::f64::consts::{PI, TAU};
+
+    #[test]
+    fn contacts_of_circular_gears_lie_on_the_line_of_action_and_last_as_long_as_the_textbook_says()
+    {
+        let (module, teeth): (f64, u32) = (2.0, 24);
+        let circle = Circle {
+            module: Some(module),
+            tooth_count: Some(teeth),
+            ..Circle::default()
+        };
+        let pair =
+            GearPair::resolve(&GearPairDesign::new(PitchSpec::Circle(circle))).expect("a pair");
+        let found = contacts(&pair);
+        let alpha = pair.teeth().tool.pressure_angle;
+        let radius = 0.5 * module * f64::from(teeth);
+        let pitch = Point::new(radius, 0.0);
+        assert!(
+            found
+                .pitch_point
+                .at
+                .iter()
+                .all(|&at| (Point::from(at) - pitch).norm() < 1e-3)
+        );
+        assert_eq!(found.paths.len(), teeth as usize);
+        // Involutes touch on a line through the pitch point, between the tip circles.
+        let tip = radius + module;
+        let half = (tip.powi(2) - (radius * alpha.cos()).powi(2)).sqrt() - radius * alpha.sin();
+        for path in &found.paths {
+            for (&input, &at) in path.input.iter().zip(&path.at) {
+                let away = Point::from(at) - pitch;
+                let off = away.x.abs() * alpha.cos() - away.y.abs() * alpha.sin();
+                assert!(off.abs() < 1e-3, "{input}: {away}");
+            }
+            let [first, last] = [path.at[0], path.at[SAMPLES as usize]].map(Point::from);
+            let length = (last - first).norm();
+            assert!(
+                (length - 2.0 * half).abs() < 0.02 * module,
+                "{length} is not {}",
+                2.0 * half
+            );
+            // One after the other at every base pitch.
+            let turn = path.input[SAMPLES as usize] - path.input[0];
+            assert!((turn - length / (radius * alpha.cos())).abs() < 3e-4);
+        }
+        let ratio = 2.0 * half / (PI * module * alpha.cos());
+        let inputs = (0..720).map(|i| TAU * f64::from(i) / 720.0);
+        let touching = |phi: f64| {
+            let within = |path: &&Track| {
+                [-TAU, 0.0, TAU].iter().any(|turn| {
+                    path.input[0] <= phi + turn && phi + turn <= path.input[SAMPLES as usize]
+                })
+            };
+            found.paths.iter().filter(within).count()
+        };
+        let mean = inputs.map(touching).sum::<usize>() as f64 / 720.0;
+        assert!((mean - ratio).abs() < 0.02, "{mean} is not {ratio}");
+    }
+}
