@@ -6,6 +6,7 @@ use std::sync::{Arc, OnceLock};
 use centrode_analysis::optimise::three_arm::PosedProblem;
 use centrode_analysis::with_sound_teeth;
 use centrode_geometry::Point;
+use centrode_mechanism::design::Design as _;
 use centrode_mechanism::machine::Piecewise;
 use centrode_mechanism::reverse::{
     AxisMap, AxisRange, DrawnPath, KeyPose, KeyPoses, ReversedMachine, Split, SplitKind, TwoBar,
@@ -18,11 +19,10 @@ use pyo3::types::PyTuple;
 use crate::array::{Course, Rows, Values};
 use crate::composed::Machine;
 use crate::count::Count;
-use crate::design::Class;
+use crate::design::{Class, object, read};
 use crate::error::{Answer, Raised};
 use crate::made::{Reduced, by};
 use crate::record::{self, Keywords};
-use crate::three_arm::ThreeArm;
 use crate::wait::wait;
 use crate::word::Word;
 
@@ -360,22 +360,19 @@ impl Reversed {
     ///
     /// Raises:
     ///     MechanismError: A path was given, the clamp points back at the arm's axis, or no law brings the arm through the poses.
-    fn three_arm(&self, py: Python<'_>) -> Answer<Py<ThreeArm>> {
+    fn three_arm<'py>(&self, py: Python<'py>) -> Answer<Bound<'py, PyAny>> {
         let Given::Poses { found, .. } = &self.given else {
             let sentence =
                 "a path says nothing of the clamp: a three-arm mechanism is made from key poses";
             return Err(Raised::no_mechanism("three_arm", sentence.into()));
         };
         let (poses, arms) = (found.poses.clone(), self.arms);
-        let resolved = wait(py, move || {
+        let text = wait(py, move || {
             let chains = KeyPoses::mildest(&poses, PosedProblem::CHAINS)?;
-            let posed = PosedProblem::search(&chains, arms, &mut |_, _| ControlFlow::Continue(()))?;
-            Ok::<_, Raised>(
-                <ThreeArm as Class>::Machine::resolve(&posed.design)
-                    .map_err(centrode_mechanism::design::MechanismError::from)?,
-            )
+            let found = PosedProblem::search(&chains, arms, &mut |_, _| ControlFlow::Continue(()))?;
+            Ok::<_, Raised>(found.design.to_toml()?)
         })??;
-        ThreeArm::object(py, resolved)
+        object(py, &read(py, text.as_bytes())?)
     }
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {

@@ -70,6 +70,7 @@ pub fn check_arms(mechanism: &ThreeArm) -> Report {
         report.values.extend(names.into_iter().zip(figures));
     }
     crowded(arms.as_ref(), &mut report);
+    gearbox_in_tray(mechanism, &mut report);
     report.tables.push(working_points(mechanism));
     unmet(mechanism, arms.as_ref(), &mut report);
     unchecked(mechanism, &mut report);
@@ -205,6 +206,27 @@ fn crowded(arms: Option<&ArmClearance>, report: &mut Report) {
         place: Place {
             part: Some("tray".into()),
             input: Some(found.input),
+            ..Place::default()
+        },
+    });
+}
+
+/// Reports a gearbox that reaches into the tray.
+fn gearbox_in_tray(mechanism: &ThreeArm, report: &mut Report) {
+    let clearance = mechanism.gearbox_tray_clearance();
+    if clearance >= 0.0 {
+        return;
+    }
+    report.findings.push(Finding {
+        rule: "gearbox-tray",
+        severity: Severity::Warning,
+        message: "the gearbox reaches behind the tray's surface".into(),
+        measured: Some(clearance),
+        required: Some(0.0),
+        unit: Unit::Millimetre,
+        remedy: Some("a smaller bend_deg either way, or a tray farther away".into()),
+        place: Place {
+            part: Some("tray".into()),
             ..Place::default()
         },
     });

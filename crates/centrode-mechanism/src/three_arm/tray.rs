@@ -30,6 +30,20 @@ impl TrayBody {
 }
 
 impl ThreeArm {
+    /// Distance of the tray's surface from the carrier's axis, mm.
+    fn tray_distance(&self) -> f64 {
+        let tip = self.tip(self.picking(0), 0).position;
+        let spec = &self.design().tray;
+        spec.distance
+            .unwrap_or(tip.coords.dot(&self.tray_direction()))
+    }
+
+    /// Distance of the circle that the gearbox sweeps from the tray's surface, mm; negative where it reaches behind it.
+    #[must_use]
+    pub fn gearbox_tray_clearance(&self) -> f64 {
+        self.tray_distance() - self.gearbox_radius()
+    }
+
     /// Tray in the pose in which the arms meet it: as many rows as it has, the hole that is picked from in the middle.
     ///
     /// The stems of unpicked rows are square to its surface; those beside the picked one, in its row, do not count.
@@ -39,7 +53,7 @@ impl ThreeArm {
         let inward = self.tray_direction();
         let tip = self.tip(self.picking(0), 0).position;
         let reach = tip.coords.dot(&inward);
-        let origin = tip + inward * (spec.distance.unwrap_or(reach) - reach);
+        let origin = tip + inward * (self.tray_distance() - reach);
         let half = 0.5 * f64::from(spec.rows) * spec.hole_spacing;
         let box_of = |[left, low]: [f64; 2], [right, high]: [f64; 2]| {
             let corners = [[left, low], [right, low], [right, high], [left, high]];

@@ -80,6 +80,17 @@ pub(super) fn picking_depth(design: &ThreeArmDesign, depth: f64) -> Goal {
     )
 }
 
+/// Clearance of the gearbox from the tray, as a goal of number zero.
+pub(super) fn gearbox_tray(mechanism: &ThreeArm) -> Goal {
+    Goal::new(
+        (0, "gearbox-tray", "gearbox clear of the tray"),
+        Some(mechanism.gearbox_tray_clearance()),
+        [Some(0.0), None],
+        Unit::Millimetre,
+        20.0,
+    )
+}
+
 /// Constraints besides the goals, as goals of number zero.
 fn kept(mechanism: &ThreeArm, arms: Option<&ArmClearance>) -> Vec<Goal> {
     let design = mechanism.design();
@@ -87,6 +98,7 @@ fn kept(mechanism: &ThreeArm, arms: Option<&ArmClearance>) -> Vec<Goal> {
     let clearance = |found: Option<crate::interference::Clearance>| found.map(|f| f.least);
     vec![
         picking_depth(design, mechanism.picking_depth()),
+        gearbox_tray(mechanism),
         Goal::new(
             (0, "tray-clearance", "arm's housing clear of the tray"),
             arms.and_then(|a| clearance(a.tray)),

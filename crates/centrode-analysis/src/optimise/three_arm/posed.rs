@@ -11,9 +11,10 @@ use crate::Goal;
 use crate::optimise::{Evaluation, Method, Problem, Settings, minimise};
 use crate::three_arm::goals;
 
-/// Bends tried with the mildest law, degrees, and how far the search may go from the best of them.
+/// Bends tried with the mildest law, in steps, and the step, degrees; how far the search may go from the best of them, steps.
 const BENDS: std::ops::RangeInclusive<i32> = -8..=8;
 const STEP: f64 = 12.0;
+const ROOM: f64 = 2.0;
 /// Decimals of the bend, degrees.
 const DECIMALS: f64 = 1e3;
 /// Orders of the law that the search may bias, and by how much of 1/k^2, rad.
@@ -79,7 +80,10 @@ impl<'a> PosedProblem<'a> {
         let mut evaluations = 0;
         let mut best: Option<(f64, Self)> = None;
         let mut fault = None;
-        let bends = || BENDS.map(|step| (STEP * f64::from(step)).to_radians());
+        // Small ones first: they leave the smaller gearbox.
+        let mut bends: Vec<f64> = BENDS.map(|step| STEP * f64::from(step)).collect();
+        bends.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
+        let bends = || bends.iter().map(|bend| bend.to_radians());
         for (poses, bend) in chains
             .iter()
             .flat_map(|poses| bends().map(move |bend| (poses, bend)))
@@ -186,6 +190,7 @@ fn quick(design: &mut ThreeArmDesign) -> Option<(Vec<Goal>, f64)> {
     let largest = Limits::largest_module_of(&design.pair(), curvatures(rolling));
     let mut goals = goals(&figures, &design.goals);
     goals.push(judged::picking_depth(design, mechanism.picking_depth()));
+    goals.push(judged::gearbox_tray(&mechanism));
     Some((goals, module / largest - 1.0))
 }
 
@@ -201,7 +206,7 @@ fn curvatures(rolling: &Rolling) -> [f64; 2] {
 
 impl Problem for PosedProblem<'_> {
     fn bounds(&self) -> Vec<(f64, f64)> {
-        let room = STEP.to_radians();
+        let room = (ROOM * STEP).to_radians();
         let mut bounds = vec![(self.bend - room, self.bend + room)];
         for order in 1..=ORDERS {
             let greatest = GREATEST / (order * order) as f64;
