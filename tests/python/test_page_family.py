@@ -23,6 +23,11 @@ def test_a_pair_becomes_a_design_of_every_family_and_comes_back(browser, tmp_pat
         expect(field(page, "name")).to_have_value("circular-pair")
         expect(page.locator("#findings .error", has_text="missing")).to_have_count(0)
         expect(page.locator("#form [aria-invalid=true]")).to_have_count(0)
+        # Figures of a check come when it is done.
+        for _ in range(100):
+            if figures(page) != before:
+                break
+            page.wait_for_timeout(100)
         assert figures(page) != before
         page.keyboard.press("Control+s")
         expect(page.locator("#save")).to_be_disabled()

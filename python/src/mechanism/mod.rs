@@ -181,7 +181,7 @@ impl Mechanism {
     /// >>> import centrode as ct
     /// >>> forces = ct.Feeder.from_toml(ct.template("feeder")).forces([0.0, 1.0], speed=0)
     /// >>> forces.drives["crank_joint"].round(1)
-    /// array([92.6, 88.3])
+    /// array([92.9, 88.5])
     /// >>> forces.joints["coupler_joint"].shape
     /// (2, 2)
     #[pyo3(signature = (phi, *, speed=None))]
@@ -322,7 +322,7 @@ impl Mechanism {
     /// >>> list(arms.files(formats=["dxf"], parts=["sun", "cam"]))
     /// ['sun.dxf', 'cam.dxf']
     /// >>> sorted(ct.SpiralShaft(amplitude=1.28).files(formats=["stl"], tolerance=0.1))
-    /// ['shaft.stl', 'slider.stl']
+    /// ['pin.stl', 'shaft.stl', 'slider.stl']
     /// >>> sorted(ct.Feeder.from_toml(ct.template("feeder")).files(formats=["stl"]))[:2]
     /// ['coupler.stl', 'crank.stl']
     #[pyo3(signature = (*, formats=None, parts=None, tolerance=1e-3, dxf_version="R2010", dxf_curves="arcs"))]

@@ -36,14 +36,14 @@ pub(super) fn judge(
     let seen = constraints.len();
     constraints.push(overload.max(0.0));
     if constraints.iter().sum::<f64>() > 0.0 {
-        return unseen(constraints, 7.0);
+        return unseen(constraints, 8.0);
     }
     let mechanism = resolve()?;
     let teeth = mechanism.flank_counts().ok()?;
     let unsound: u32 = teeth.iter().map(|gear| gear.unsound).sum();
     if unsound > 0 {
         constraints[seen] = bounded(FLANK * f64::from(unsound));
-        return unseen(constraints, 6.0);
+        return unseen(constraints, 7.0);
     }
     let goals = exact(&mechanism)?;
     constraints = goals.iter().filter_map(miss).map(bounded).collect();
