@@ -224,7 +224,7 @@ fn gearbox_in_tray(mechanism: &ThreeArm, report: &mut Report) {
         measured: Some(clearance),
         required: Some(0.0),
         unit: Unit::Millimetre,
-        remedy: Some("a smaller bend_deg either way, or a tray farther away".into()),
+        remedy: Some("a smaller bend_deg either way, or a tray farther away"),
         place: Place {
             part: Some("tray".into()),
             ..Place::default()

@@ -126,17 +126,9 @@ export class Search {
   }
 
   /** Another design has come: the search for the old one is over, wherever it is. */
-  async abandon() {
-    const running = this.last?.running;
+  abandon() {
     this.leave();
-    try {
-      await server.stopSearch();
-      // The program keeps the best of a search that was running until it is told once more.
-      while (running && !this.showing && (await server.searched())?.running) await new Promise((resume) => setTimeout(resume, EVERY));
-      if (running && !this.showing) await server.stopSearch();
-    } catch (error) {
-      this.design.complain("search", error);
-    }
+    server.forgetSearch().catch((error) => this.design.complain("search", error));
   }
 
   /** Nothing of the search stays in sight. */

@@ -65,6 +65,7 @@ export const choices = (text) => json(ask("choices", "POST", { text }));
 export const fault = (text) => json(ask("fault", "POST", { text }));
 export const search = (options, signal) => json(ask("search", "POST", options, signal));
 export const searched = () => json(ask("search", "GET"));
+export const forgetSearch = () => json(ask("search/all", "DELETE"));
 export const stopSearch = () => json(ask("search", "DELETE"));
 export const response = (options, signal) => json(ask("response", "POST", options, signal));
 export const files = async (options, signal) => (await ask("export", "POST", options, signal)).blob();

@@ -9,7 +9,7 @@ use axum::body::Bytes;
 use axum::extract::{Path, State};
 use axum::http::{StatusCode, header};
 use axum::response::{Html, IntoResponse, Response};
-use axum::routing::{get, post};
+use axum::routing::{delete, get, post};
 use axum::{Json, Router};
 use clap::{Parser as _, ValueEnum as _};
 use serde::Deserialize;
@@ -52,6 +52,7 @@ pub(crate) fn design_page(state: Arc<StudioState>) -> Router {
         .route("/choices", post(choices))
         .route("/meshes", post(meshes::answer))
         .route("/search", get(searched).post(searching).delete(unsearched))
+        .route("/search/all", delete(forgotten))
         .route("/response", post(respond));
     limited(page).with_state(state)
 }
@@ -301,6 +302,12 @@ async fn searched(State(state): Shared) -> Response {
 
 async fn unsearched(State(state): Shared) -> Response {
     state.searching.dismiss();
+    Json(json!({})).into_response()
+}
+
+/// Forgets the search of a design that is no longer shown.
+async fn forgotten(State(state): Shared) -> Response {
+    state.searching.forget();
     Json(json!({})).into_response()
 }
 

@@ -151,6 +151,12 @@ impl Searching {
         }
     }
 
+    /// Stops and forgets at once, best and all.
+    pub(crate) fn forget(&self) {
+        self.stop();
+        *self.run() = None;
+    }
+
     fn stop(&self) {
         if let Some(run) = self.run().as_ref() {
             run.stop.store(true, Ordering::Relaxed);
