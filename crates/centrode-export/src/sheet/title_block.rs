@@ -75,6 +75,21 @@ impl TitleBlock {
         }
     }
 
+    /// Fields of a part drawing, of a part by name and title, with the machine's title below.
+    pub(crate) fn of_part(
+        spec: &DrawingSpec,
+        [name, title]: [&str; 2],
+        supplement: &str,
+        options: &SheetOptions,
+    ) -> Self {
+        Self {
+            title: title.to_owned(),
+            supplement: supplement.to_owned(),
+            document: "Part drawing".into(),
+            ..Self::new(spec, name, options)
+        }
+    }
+
     /// Draft of the block, its lower left corner in the origin, on the sheet `page` of `pages`.
     pub(super) fn draft(&self, size: &str, page: usize, pages: usize) -> Draft {
         let mut draft = Draft::default();

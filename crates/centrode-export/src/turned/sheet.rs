@@ -32,10 +32,8 @@ impl Turned {
         options: &SheetOptions,
         tolerance: Tolerance,
     ) -> Result<Vec<Sheet>, SheetError> {
-        let mut block = TitleBlock::new(spec, &self.name, options);
-        block.title.clone_from(&self.title);
-        block.supplement = supplement.into();
-        block.document = "Part drawing".into();
+        let words = [&*self.name, &*self.title];
+        let mut block = TitleBlock::of_part(spec, words, supplement, options);
         block.material.clone_from(&self.material);
         block.mass = self.mass().map(|kg| mass(kg * 1e3)).unwrap_or_default();
         let mut lines = vec![format!("{quantity} of these a machine.")];

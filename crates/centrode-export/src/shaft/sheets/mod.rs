@@ -72,12 +72,8 @@ pub fn slider_sheets(shaft: &SpiralShaft, options: &Options) -> Result<Vec<Sheet
 }
 
 fn block(shaft: &SpiralShaft, part: &str, title: &str, options: &Options) -> TitleBlock {
-    TitleBlock {
-        title: title.to_owned(),
-        supplement: title_or_name(shaft.title(), shaft.name()).to_owned(),
-        document: "Part drawing".into(),
-        ..TitleBlock::new(shaft.drawing(), part, &options.sheet)
-    }
+    let supplement = title_or_name(shaft.title(), shaft.name());
+    TitleBlock::of_part(shaft.drawing(), [part, title], supplement, &options.sheet)
 }
 
 fn notes(shaft: &SpiralShaft) -> Vec<String> {
