@@ -11,11 +11,11 @@ class ToothSide:
     """Arc length where the flank crosses the pitch curve."""
     tip_height: float
     """Height of the tip corner above the pitch curve."""
-    shortened: float
+    tip_shortening: float
     """How much lower the tip corner is than asked for: pitch curve or tool allow no more flank."""
     form_depth: float
     """Depth below the pitch curve that the tool's straight flank reaches."""
-    needed: float
+    active_depth: float
     """Arc length of roll below the crossing down to which the flank is needed."""
     undercut: float
     """Length of needed flank lost to undercut, in arc length of roll; zero for a sound tooth."""
@@ -39,5 +39,5 @@ class Tooth:
     """Side with the flank reached last."""
     tip_width: float
     """Width of the top land, mm; zero for a pointed or missing tooth."""
-    severed: bool
+    cut_through: bool
     """True when undercut from both sides has cut the tooth off."""

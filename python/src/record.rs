@@ -299,7 +299,7 @@ pub(crate) fn over_pins<'py>(py: Python<'py>, over: &OverPins) -> PyResult<Bound
 /// The teeth of a gear, in order.
 pub(crate) fn teeth<'py>(py: Python<'py>, teeth: &[Tooth]) -> PyResult<Bound<'py, PyTuple>> {
     let one = |(number, tooth): (usize, &Tooth)| {
-        record!(py, "centrode._tooth" "Tooth", tooth => [tip_width, severed]
+        record!(py, "centrode._tooth" "Tooth", tooth => [tip_width, cut_through]
             number: number,
             leading: side(py, &tooth.leading)?,
             trailing: side(py, &tooth.trailing)?,
@@ -311,7 +311,7 @@ pub(crate) fn teeth<'py>(py: Python<'py>, teeth: &[Tooth]) -> PyResult<Bound<'py
 fn side<'py>(py: Python<'py>, side: &ToothSide) -> PyResult<Bound<'py, PyAny>> {
     record!(
         py, "centrode._tooth" "ToothSide",
-        side => [crossing, tip_height, shortened, form_depth, needed, undercut, active, fillet_radius]
+        side => [crossing, tip_height, tip_shortening, form_depth, active_depth, undercut, active, fillet_radius]
     )
 }
 

@@ -56,7 +56,7 @@ def test_samples_carry_normal_curvature_role_and_tooth():
 def test_teeth_are_records(pair):
     teeth = pair.driver.teeth
     assert [tooth.number for tooth in teeth] == list(range(23))
-    assert all(not tooth.severed and tooth.leading.undercut == 0 for tooth in teeth)
+    assert all(not tooth.cut_through and tooth.leading.undercut == 0 for tooth in teeth)
     first = teeth[0].leading
     assert first.tip_height == pytest.approx(2.25)
     assert first.crossing == pytest.approx(-math.pi * 2.25 / 4, rel=1e-12)

@@ -70,8 +70,9 @@ pub struct Contact {
 
 /// Whether every tooth of both gears is as the tool would make it.
 fn is_whole(pair: &GearPair) -> bool {
-    let sound = |side: &ToothSide| side.undercut == 0.0 && side.shortened == 0.0;
-    let whole = |tooth: &Tooth| !tooth.severed && sound(&tooth.leading) && sound(&tooth.trailing);
+    let sound = |side: &ToothSide| side.undercut == 0.0 && side.tip_shortening == 0.0;
+    let whole =
+        |tooth: &Tooth| !tooth.cut_through && sound(&tooth.leading) && sound(&tooth.trailing);
     let mut teeth = pair.driver().teeth().iter().chain(pair.driven().teeth());
     teeth.all(whole)
 }

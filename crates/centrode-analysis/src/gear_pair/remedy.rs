@@ -3,7 +3,7 @@ use centrode_mechanism::gear::design::Addendum;
 /// Remedy against a finding about the teeth, of a pair whose addenda are fitted already or not.
 pub(super) fn remedy_of_teeth(rule: &str, addendum: Addendum) -> Option<&'static str> {
     match (rule, addendum) {
-        ("severed" | "undercut" | "short-tooth", Addendum::Fitted) => {
+        ("cut-through" | "undercut" | "short-tooth", Addendum::Fitted) => {
             Some("more teeth of a smaller module, or a pitch curve of gentler curvature")
         }
         _ => remedy(rule),
@@ -13,7 +13,7 @@ pub(super) fn remedy_of_teeth(rule: &str, addendum: Addendum) -> Option<&'static
 /// Usual remedy against a finding of a rule.
 pub(crate) fn remedy(rule: &str) -> Option<&'static str> {
     Some(match rule {
-        "severed" | "undercut" | "short-tooth" => {
+        "cut-through" | "undercut" | "short-tooth" => {
             "more teeth of a smaller module, or teeth.addendum = \"fitted\""
         }
         "pointed" | "thin-tip" => {

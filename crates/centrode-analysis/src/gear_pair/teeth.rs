@@ -11,7 +11,12 @@ fn flanks(
     at_tip: bool,
 ) -> Vec<FlankPlace> {
     let mut places = Vec::new();
-    for (number, tooth) in gear.teeth().iter().enumerate().filter(|(_, t)| !t.severed) {
+    for (number, tooth) in gear
+        .teeth()
+        .iter()
+        .enumerate()
+        .filter(|(_, t)| !t.cut_through)
+    {
         for (side, word, made) in [
             (Side::Leading, "leading", tooth.leading),
             (Side::Trailing, "trailing", tooth.trailing),
@@ -73,18 +78,18 @@ pub(super) fn teeth(pair: &GearPair, gear: &Gear, limits: &Limits, report: &mut 
                 teeth,
                 flanks: match rule {
                     "undercut" => flanks(pair, gear, &|side| side.undercut > 0.0, false),
-                    "short-tooth" => flanks(pair, gear, &|side| side.shortened > small, true),
+                    "short-tooth" => flanks(pair, gear, &|side| side.tip_shortening > small, true),
                     _ => Vec::new(),
                 },
                 input: None,
             },
         });
     };
-    let severed = collect(&|t| t.severed.then_some(1.0));
+    let cut_through = collect(&|t| t.cut_through.then_some(1.0));
     add(
-        "severed",
+        "cut-through",
         Severity::Error,
-        severed,
+        cut_through,
         None,
         Unit::Count,
         &|who, _| {
@@ -96,7 +101,7 @@ pub(super) fn teeth(pair: &GearPair, gear: &Gear, limits: &Limits, report: &mut 
     );
     let undercut = collect(&|t| {
         let worst = sides(t).iter().map(|s| s.undercut).fold(0.0, f64::max);
-        (worst > 0.0 && !t.severed).then_some(worst)
+        (worst > 0.0 && !t.cut_through).then_some(worst)
     });
     add(
         "undercut",
@@ -112,8 +117,11 @@ pub(super) fn teeth(pair: &GearPair, gear: &Gear, limits: &Limits, report: &mut 
         },
     );
     let short = collect(&|t| {
-        let worst = sides(t).iter().map(|s| s.shortened).fold(0.0, f64::max);
-        (worst > small && !t.severed).then_some(worst)
+        let worst = sides(t)
+            .iter()
+            .map(|s| s.tip_shortening)
+            .fold(0.0, f64::max);
+        (worst > small && !t.cut_through).then_some(worst)
     });
     add(
         "short-tooth",
@@ -127,7 +135,7 @@ pub(super) fn teeth(pair: &GearPair, gear: &Gear, limits: &Limits, report: &mut 
             )
         },
     );
-    let pointed = collect(&|t| (t.tip_width <= small && !t.severed).then_some(0.0));
+    let pointed = collect(&|t| (t.tip_width <= small && !t.cut_through).then_some(0.0));
     add(
         "pointed",
         Severity::Warning,
@@ -149,8 +157,9 @@ pub(super) fn teeth(pair: &GearPair, gear: &Gear, limits: &Limits, report: &mut 
             format!("{who} are thinner at the tip than {least:.4} mm, by up to {worst:.4} mm")
         },
     );
-    let dead =
-        collect(&|t| (!t.severed && sides(t).iter().any(|s| s.active.is_none())).then_some(1.0));
+    let dead = collect(&|t| {
+        (!t.cut_through && sides(t).iter().any(|s| s.active.is_none())).then_some(1.0)
+    });
     add(
         "no-flank",
         Severity::Warning,
@@ -159,7 +168,7 @@ pub(super) fn teeth(pair: &GearPair, gear: &Gear, limits: &Limits, report: &mut 
         Unit::Count,
         &|who, _| format!("{who} have a side without any working flank"),
     );
-    let present = gear.teeth().iter().filter(|t| !t.severed);
+    let present = gear.teeth().iter().filter(|t| !t.cut_through);
     let width = present
         .clone()
         .map(|t| t.tip_width)

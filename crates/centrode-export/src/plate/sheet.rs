@@ -323,15 +323,15 @@ impl Plate {
     }
 }
 
-/// Radius of an arc of a contour, hollow where it bends into it.
+/// Radius of an arc of a contour, concave where it bends into it.
 fn rounding(arc: &Arc, counter_clockwise: bool) -> String {
     let bulges = (arc.bulge > 0.0) == counter_clockwise;
-    let [hollow, long] = [
-        (!bulges, ", hollow"),
+    let [concave, long] = [
+        (!bulges, ", concave"),
         (arc.bulge.abs() > 1.0 + ROUNDING, ", over 180°"),
     ]
     .map(|(is, words)| if is { words } else { "" });
-    format!("{}{hollow}{long}", number(arc.radius(), PLACES))
+    format!("{}{concave}{long}", number(arc.radius(), PLACES))
 }
 
 /// A place, mm, as exactly as any is written.

@@ -27,8 +27,8 @@ impl<'a> Machine<'a> {
     /// A shaft turned evenly.
     pub(super) fn of_shaft(shaft: &'a SpiralShaft) -> Self {
         Self {
-            name: shaft.name(),
-            title: shaft.title(),
+            name: &shaft.design().name,
+            title: &shaft.design().title,
             shaft,
             gears: None,
             schedule: shaft.schedule(),

@@ -141,7 +141,7 @@ impl Fitting<'_> {
                 } else {
                     shared
                 };
-                flank.needed = tip.0;
+                flank.active_depth = tip.0;
             };
             settle(&mut teeth[k].trailing, before);
             settle(&mut teeth[(k + 1) % count].leading, after);

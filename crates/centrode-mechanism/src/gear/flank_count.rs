@@ -148,7 +148,7 @@ mod tests {
                     .iter()
                     .flat_map(|t| [t.leading, t.trailing]);
                 let undercut = sides.clone().filter(|s| s.undercut > 0.0).count();
-                let short = sides.filter(|s| s.shortened > 0.0).count();
+                let short = sides.filter(|s| s.tip_shortening > 0.0).count();
                 assert_eq!(
                     (sound.undercut, sound.short),
                     (undercut as u32, short as u32)

@@ -155,7 +155,7 @@ pub(crate) fn layout(
             crossing: crossing(member, k, side),
             top: Top::Height(tool.addendum + shift(member)),
             corner,
-            needed: corner.end,
+            active_depth: corner.end,
         };
         Ok((0..count(member))
             .map(|k| ToothPlan {

@@ -53,18 +53,6 @@ impl SpiralShaft {
         &self.design
     }
 
-    /// Name, as written in the design.
-    #[must_use]
-    pub fn name(&self) -> &str {
-        &self.design.name
-    }
-
-    /// Title, as written in the design.
-    #[must_use]
-    pub fn title(&self) -> &str {
-        &self.design.title
-    }
-
     /// Law with its amplitude.
     #[must_use]
     pub fn speed_law(&self) -> &SpeedLaw {

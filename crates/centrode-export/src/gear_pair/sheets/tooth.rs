@@ -16,7 +16,7 @@ pub(super) fn extremes(part: &Part<'_>) -> Vec<(u32, &'static str)> {
     let teeth = part.gear.teeth();
     let sound: Vec<(u32, f64)> = (0_u32..)
         .zip(teeth)
-        .filter(|(_, tooth)| !tooth.severed)
+        .filter(|(_, tooth)| !tooth.cut_through)
         .map(|(k, _)| (k, part.middle(k, 0.0).curvature))
         .collect();
     let by = |a: &&(u32, f64), b: &&(u32, f64)| a.1.total_cmp(&b.1);

@@ -72,7 +72,7 @@ pub fn slider_sheets(shaft: &SpiralShaft, options: &Options) -> Result<Vec<Sheet
 }
 
 fn block(shaft: &SpiralShaft, part: &str, title: &str, options: &Options) -> TitleBlock {
-    let supplement = title_or_name(shaft.title(), shaft.name());
+    let supplement = title_or_name(&shaft.design().title, &shaft.design().name);
     TitleBlock::of_part(shaft.drawing(), [part, title], supplement, &options.sheet)
 }
 

@@ -55,15 +55,16 @@ impl Cutter<'_> {
                     }
                 }
                 Role::Tip => {
-                    tooth.severed = false;
+                    tooth.cut_through = false;
                     tooth.tip_width += poly.chords(8);
                 }
                 Role::Root => {}
             }
         }
         for tooth in &mut teeth {
-            tooth.severed =
-                tooth.severed && tooth.leading.active.is_none() && tooth.trailing.active.is_none();
+            tooth.cut_through = tooth.cut_through
+                && tooth.leading.active.is_none()
+                && tooth.trailing.active.is_none();
             for (side, sign) in [(&mut tooth.leading, -1.0), (&mut tooth.trailing, 1.0)] {
                 let left = side.active.map_or(0.0, |(low, high)| {
                     if sign > 0.0 {
@@ -72,9 +73,13 @@ impl Cutter<'_> {
                         side.crossing - low
                     }
                 });
-                let lost = side.needed - left;
+                let lost = side.active_depth - left;
                 // A loss within the rounding of a crossing is not undercut.
-                side.undercut = if lost > 1e-7 * side.needed { lost } else { 0.0 };
+                side.undercut = if lost > 1e-7 * side.active_depth {
+                    lost
+                } else {
+                    0.0
+                };
             }
         }
         let mut segments: Vec<Segment> = polys.into_iter().map(Segment::Poly).collect();

@@ -51,7 +51,7 @@ struct Ends {
     /// Foot of the normal through the tip corner.
     foot: f64,
     height: f64,
-    shortened: f64,
+    tip_shortening: f64,
 }
 
 pub(crate) struct Cutter<'a> {
@@ -140,7 +140,7 @@ impl Cutter<'_> {
                     tip,
                     foot,
                     height,
-                    shortened: 0.0,
+                    tip_shortening: 0.0,
                 };
             }
         };
@@ -154,7 +154,7 @@ impl Cutter<'_> {
                 tip,
                 foot,
                 height: wanted,
-                shortened: 0.0,
+                tip_shortening: 0.0,
             };
         }
         // As far up as the flank goes: to its singular point or the tool's own limit.
@@ -172,7 +172,7 @@ impl Cutter<'_> {
             tip,
             foot,
             height,
-            shortened: (wanted - height).max(0.0),
+            tip_shortening: (wanted - height).max(0.0),
         }
     }
 
@@ -276,9 +276,9 @@ impl Cutter<'_> {
         let side = |flank: &Flank<'_>, plan: &FlankPlan, ends: &Ends| ToothSide {
             crossing: plan.crossing,
             tip_height: ends.height,
-            shortened: ends.shortened,
+            tip_shortening: ends.tip_shortening,
             form_depth: -flank.height(plan.crossing + flank.side.sign() * plan.corner.end),
-            needed: plan.needed,
+            active_depth: plan.active_depth,
             undercut: 0.0,
             active: None,
             fillet_radius: f64::INFINITY,
@@ -287,7 +287,7 @@ impl Cutter<'_> {
             leading: side(&leading, &plan.leading, &lead),
             trailing: side(&trailing, &plan.trailing, &trail),
             tip_width: 0.0,
-            severed: true,
+            cut_through: true,
         }
     }
 

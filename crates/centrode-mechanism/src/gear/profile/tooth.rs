@@ -34,7 +34,7 @@ pub(crate) struct FlankPlan {
     pub(crate) top: Top,
     pub(crate) corner: Corner,
     /// Active depth: arc length of roll below the crossing down to which the mate needs the flank.
-    pub(crate) needed: f64,
+    pub(crate) active_depth: f64,
 }
 
 /// End of a flank at the tip.
@@ -62,12 +62,12 @@ pub struct ToothSide {
     pub tip_height: f64,
     /// Tip shortening, mm: by how much the tip corner is lower than asked for, since the pitch curve or the tool
     /// allows no more flank.
-    pub shortened: f64,
+    pub tip_shortening: f64,
     /// Form depth: depth below the pitch curve, at the tool's pose, that the tool's straight flank reaches, mm.
     pub form_depth: f64,
     /// Active depth: arc length of roll below the crossing down to which the flank is needed, mm, as far as the tool
     /// reaches, or the mate where addenda are fitted.
-    pub needed: f64,
+    pub active_depth: f64,
     /// Length of active flank lost to undercut, in arc length of roll, mm; zero for a tooth without undercut.
     pub undercut: f64,
     /// Arc lengths of roll between which flank remains; `None` where nothing does.
@@ -86,5 +86,5 @@ pub struct Tooth {
     /// Width of the top land, mm; zero for a pointed or missing tooth.
     pub tip_width: f64,
     /// Whether undercut from both sides has cut the tooth off.
-    pub severed: bool,
+    pub cut_through: bool,
 }

@@ -131,7 +131,7 @@ fn one(finding: &Finding, out: &mut impl Write) -> Result<()> {
 /// Keys of the design on which a finding depends most.
 fn causes(rule: &str) -> &'static [&'static str] {
     match rule {
-        "severed" | "undercut" | "short-tooth" => &[
+        "cut-through" | "undercut" | "short-tooth" => &[
             "pitch.module",
             "tooth_count",
             "pitch.tooth_count",
