@@ -62,7 +62,7 @@ pub fn developed(shaft: &SpiralShaft, tolerance: Tolerance) -> Result<Drawing, S
     let words = [
         format!(
             "developed groove of {}: R {} mm, lead {} mm",
-            &shaft.design().name,
+            shaft.design().name,
             groove.radius(),
             shaft.law().lead()
         ),
@@ -187,7 +187,7 @@ pub fn side_view(shaft: &SpiralShaft, tolerance: Tolerance) -> Result<Drawing, S
     let words = [
         format!(
             "{}: diameter {} mm, journals {} mm, length {:.3} mm, {}",
-            &shaft.design().name,
+            shaft.design().name,
             2.0 * r,
             body.journal_diameter,
             end - start,
