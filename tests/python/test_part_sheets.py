@@ -155,7 +155,7 @@ def polygon(corners):
             continue
         radius, *notes = rounding.split(", ")
         cx, cy = center
-        sense = math.copysign(1.0, turns) * (-1 if "hollow" in notes else 1)
+        sense = math.copysign(1.0, turns) * (-1 if "concave" in notes else 1)
         first, last = (math.atan2(y - cy, x - cx) for x, y in ((x0, y0), (x1, y1)))
         sweep = (sense * (last - first)) % math.tau
         assert (sweep > math.pi + 1e-3) <= ("over 180°" in notes)

@@ -131,15 +131,12 @@ fn all(
     package.drawing("shaft", |_| Ok(side_view(shaft, tolerance)?))?;
     package.drawing("slider", |_| Ok(slider(shaft)))?;
     // The title block has the shaft's own title, and so have the pages.
-    package.within(
-        "",
-        [&shaft.design().name, &shaft.design().title],
-        |package| {
-            package.sheets("shaft", || shaft_sheets(shaft, options))?;
-            package.sheets("slider", || slider_sheets(shaft, options))?;
-            pin(shaft).add(package, shaft.drawing(), 1)
-        },
-    )?;
+    let design = shaft.design();
+    package.within("", [&design.name, &design.title], |package| {
+        package.sheets("shaft", || shaft_sheets(shaft, options))?;
+        package.sheets("slider", || slider_sheets(shaft, options))?;
+        pin(shaft).add(package, shaft.drawing(), 1)
+    })?;
     package.shell("shaft", || Ok(shaft.shell()?))?;
     let title = package.titled("shaft");
     package.mesh("shaft", &title, |tolerance| Ok(shaft.mesh(tolerance)?))?;

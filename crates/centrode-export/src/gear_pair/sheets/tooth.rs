@@ -26,14 +26,14 @@ pub(super) fn extremes(part: &Part<'_>) -> Vec<(u32, &'static str)> {
     if most.1 - least.1 < 1e-9 / part.pair.module() {
         return vec![(0, "every tooth alike")];
     }
-    let hollow = if least.1 < 0.0 {
+    let gentlest = if least.1 < 0.0 {
         "where the pitch curve is most concave"
     } else {
         "where the pitch curve bends least"
     };
     vec![
         (most.0, "where the pitch curve bends most"),
-        (least.0, hollow),
+        (least.0, gentlest),
     ]
 }
 
