@@ -188,7 +188,7 @@ impl<'a> Body<'a> {
         }
     }
 
-    fn new(parts: Vec<Part<'a>>, grown: f64) -> Self {
+    pub(super) fn new(parts: Vec<Part<'a>>, grown: f64) -> Self {
         let reach = parts
             .iter()
             .map(|p| p.center.coords.norm() + p.radius)
@@ -205,7 +205,7 @@ impl<'a> Body<'a> {
             ),
             core: parts
                 .iter()
-                .map(clear_of_axis)
+                .map(|part| part.clear_of(&Point::origin()))
                 .fold(f64::INFINITY, f64::min),
             sectors: sectors(&parts, grown),
             parts,
@@ -261,11 +261,14 @@ impl<'a> Body<'a> {
     }
 }
 
-/// Bound of a part's distance from the axis.
-fn clear_of_axis(part: &Part<'_>) -> f64 {
-    let chord = part.ends[1] - part.ends[0];
-    let along = (-part.ends[0].coords.dot(&chord) / chord.norm_squared()).clamp(0.0, 1.0);
-    (part.ends[0].coords + chord * along).norm() - part.span.sagitta
+impl Part<'_> {
+    /// Bound of its distance from a point.
+    pub(super) fn clear_of(&self, point: &Point) -> f64 {
+        let [start, end] = self.ends;
+        let (chord, from) = (end - start, point - start);
+        let along = (from.dot(&chord) / chord.norm_squared()).clamp(0.0, 1.0);
+        (from - chord * along).norm() - self.span.sagitta
+    }
 }
 
 /// Sector of a direction, by its share of the perimeter of a square.

@@ -1,25 +1,32 @@
 //! Driver angles at which a contact reaches the end of a flank.
 
 use centrode_geometry::{Point, Vector};
-use centrode_mechanism::gear::{GearPair, Member, Role};
+use centrode_mechanism::gear::{Member, Role};
 
 use super::{
     body::{Body, Part},
     meshing::Meshing,
     touch::Pose,
+    tree::Run,
     walk::Walk,
 };
 
 /// Steps a pitch at which a contact's edge is bracketed.
 const STEPS: u32 = 8;
 
-/// Driver angle at which the normal of a flank at its edge passes through the pitch point: there the contact, by the law of
-/// gearing, comes to the edge or leaves it.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// Depth, modules, to which flanks are taken to touch that are told by their chords.
+const TOUCHING: f64 = 1e-3;
+
+/// Passage of the pitch point through the normal of a flank at its edge: there the contact, by the law of gearing, comes to the
+/// edge or leaves it.
+#[derive(Clone, Copy, Debug)]
 pub(super) struct EdgeContact {
-    pub(super) input: f64,
-    /// Sliding speed there per speed of the driver, mm/rad.
-    pub(super) sliding: f64,
+    member: Member,
+    edge: Edge,
+    /// Step of the walk after which it is.
+    step: usize,
+    /// Bound of the sliding speed there per speed of the driver, mm/rad.
+    pub(super) fastest: f64,
 }
 
 /// End of a flank: its point and the flank's outward normal there, in the axes of its gear.
@@ -27,6 +34,13 @@ pub(super) struct EdgeContact {
 struct Edge {
     point: Point,
     normal: Vector,
+}
+
+impl Edge {
+    /// Distance of a point from the normal.
+    fn aside(&self, point: Vector) -> f64 {
+        self.normal.perp(&(point - self.point.coords))
+    }
 }
 
 /// Ends of flanks that push the driven gear on: at the tip, and where the fillet begins.
@@ -56,9 +70,8 @@ fn edges(body: &Body<'_>) -> Vec<Edge> {
     found
 }
 
-/// The pitch point in the axes of one gear, in the pose of an input.
-fn pitch_point(pair: &GearPair, member: Member, input: f64, pose: &Pose) -> Vector {
-    let ratio = pair.ratio(input);
+/// The pitch point in the axes of one gear, where the ratio has this value.
+fn pitch_point(member: Member, ratio: f64, pose: &Pose) -> Vector {
     let from_driver = pose.axis.coords * (ratio / (1.0 + ratio));
     match member {
         Member::Driver => from_driver,
@@ -67,46 +80,81 @@ fn pitch_point(pair: &GearPair, member: Member, input: f64, pose: &Pose) -> Vect
 }
 
 impl Meshing<'_> {
-    /// Contacts at edges of flanks of both gears that drive, over one cycle, those that slide fastest first.
-    pub(super) fn edge_contacts(&self) -> Vec<EdgeContact> {
-        let pair = self.pair;
-        let walk = Walk::new(pair, STEPS);
+    /// Steps along a cycle between which contacts at edges are sought.
+    pub(super) fn edge_walk(&self) -> Walk {
+        Walk::new(self.pair, STEPS)
+    }
+
+    /// Contacts at edges of flanks of both gears that drive, over one cycle, those that may slide fastest first.
+    pub(super) fn edge_contacts(&self, walk: &Walk) -> Vec<EdgeContact> {
         let mut found = Vec::new();
+        let ratios: Vec<f64> = walk.inputs.iter().map(|&phi| self.pair.ratio(phi)).collect();
         for (member, body) in [Member::Driver, Member::Driven]
             .into_iter()
             .zip([&self.driver, &self.driven])
         {
-            let at = |phi: f64, pose: &Pose| pitch_point(pair, member, phi, pose);
-            let steps = walk.inputs.iter().zip(&walk.poses);
-            let points: Vec<Vector> = steps.map(|(&phi, pose)| at(phi, pose)).collect();
+            let steps = ratios.iter().zip(&walk.poses);
+            let points = steps.map(|(&ratio, pose)| pitch_point(member, ratio, pose));
+            let points: Vec<Vector> = points.collect();
             for edge in edges(body) {
-                let aside = |p: Vector| edge.normal.perp(&(p - edge.point.coords));
+                let touched = self.touched(&edge, member);
                 for steps in walk.passages(member, edge.point) {
-                    let roots = walk.roots(
-                        steps,
-                        |k| aside(points[k]),
-                        |phi| aside(at(phi, &Pose::at_law(pair, phi))),
-                    );
-                    let within = roots.filter(|phi| (0.0..pair.cycle()).contains(phi));
-                    found.extend(within.map(|phi| self.edge_contact(&edge, member, phi)));
+                    found.extend(steps.filter_map(|step| {
+                        let both = [step, step + 1];
+                        let [f, g] = both.map(|k| edge.aside(points[k]));
+                        let speeds = both.map(|k| (points[k] - touched).norm() * (1.0 + ratios[k]));
+                        // Steady between the steps.
+                        let [low, high] = [speeds[0].min(speeds[1]), speeds[0].max(speeds[1])];
+                        ((f > 0.0) != (g > 0.0)).then_some(EdgeContact {
+                            member,
+                            edge,
+                            step,
+                            fastest: high + (high - low),
+                        })
+                    }));
                 }
             }
         }
-        found.sort_by(|a, b| b.sliding.total_cmp(&a.sliding));
+        found.sort_by(|a, b| b.fastest.total_cmp(&a.fastest));
         found
     }
 
-    fn edge_contact(&self, edge: &Edge, member: Member, phi: f64) -> EdgeContact {
-        // On the driver: flanks at the law's angle are half the backlash apart.
-        let touched = match member {
-            Member::Driver => edge.point,
-            Member::Driven => edge.point + edge.normal * (0.5 * self.pair.backlash()),
-        };
+    /// Driver angle of a contact at an edge, and the sliding speed there per speed of the driver, mm/rad; nothing outside of the
+    /// cycle.
+    pub(super) fn edge_contact(&self, contact: &EdgeContact, walk: &Walk) -> Option<(f64, f64)> {
+        let EdgeContact { member, edge, step, .. } = contact;
+        let point = |phi: f64, pose: &Pose| pitch_point(*member, self.pair.ratio(phi), pose);
+        let at_step = |k: usize| edge.aside(point(walk.inputs[k], &walk.poses[k]));
+        let at = |phi: f64| edge.aside(point(phi, &Pose::at_law(self.pair, phi)));
+        let phi = walk.roots(*step..step + 1, at_step, at).next()?;
         let pose = Pose::at_law(self.pair, phi);
-        let away = pitch_point(self.pair, member, phi, &pose) - touched.coords;
-        EdgeContact {
-            input: phi,
-            sliding: away.norm() * (1.0 + self.pair.ratio(phi)),
+        let away = point(phi, &pose) - self.touched(edge, *member);
+        let sliding = away.norm() * (1.0 + self.pair.ratio(phi));
+        (0.0..self.pair.cycle()).contains(&phi).then_some((phi, sliding))
+    }
+
+    /// Whether the mate has a flank where an edge would touch it.
+    pub(super) fn has_mate(&self, contact: &EdgeContact, phi: f64) -> bool {
+        let pose = Pose::at_law(self.pair, phi);
+        let edge = &contact.edge;
+        let half = Point::from(edge.point.coords + edge.normal * (0.5 * self.pair.backlash()));
+        let (mate, point) = match contact.member {
+            Member::Driver => (&self.driven, pose.back(&half)),
+            Member::Driven => (&self.driver, pose.place(&half)),
+        };
+        let near = TOUCHING * self.module;
+        let may = |run: &Run| (run.center - point).norm_squared() < (run.radius + near).powi(2);
+        mate.tree.any(&may, &mut |part| {
+            let part = &mate.parts[part];
+            part.role == Role::Flank && part.clear_of(&point) < near
+        })
+    }
+
+    /// Point at which an edge touches, on the driver: flanks at the law's angle are half the backlash apart.
+    fn touched(&self, edge: &Edge, member: Member) -> Vector {
+        match member {
+            Member::Driver => edge.point.coords,
+            Member::Driven => edge.point.coords + edge.normal * (0.5 * self.pair.backlash()),
         }
     }
 }

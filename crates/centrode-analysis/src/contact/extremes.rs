@@ -226,14 +226,25 @@ impl<'a> Search<'a> {
         let contact = self.contact;
         let mut best = highest(&contact.input, &contact.sliding);
         let pair = self.pair;
+        let carries = contact.carries();
         let meshing = self.meshing();
-        let edges = meshing.edge_contacts();
+        let walk = meshing.edge_walk();
+        let edges = meshing.edge_contacts(&walk);
         let beside = BESIDE * pair.cycle() / f64::from(pair.driver().tooth_count());
         for edge in edges {
-            if edge.sliding <= best.value * (1.0 + SAME) {
+            let known = best.value * (1.0 + SAME);
+            if edge.fastest <= known {
                 break;
             }
-            for phi in [edge.input - beside, edge.input + beside] {
+            let meshing = self.meshing();
+            let Some((phi, speed)) = meshing.edge_contact(&edge, &walk) else {
+                continue;
+            };
+            // Gears off their law may touch anywhere.
+            if speed <= known || (carries && !meshing.has_mate(&edge, phi)) {
+                continue;
+            }
+            for phi in [phi - beside, phi + beside] {
                 let value = self.value(&sliding, phi);
                 if value > best.value {
                     let input = phi.rem_euclid(pair.cycle());

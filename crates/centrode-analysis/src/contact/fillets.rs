@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use centrode_geometry::{Extreme, Point, bracketed_minimum_below};
+use centrode_geometry::{Extreme, Point, SegmentJet, Vector, bracketed_minimum_below};
 use centrode_mechanism::gear::{Member, Role};
 
 use super::{
@@ -19,25 +19,48 @@ const STEPS: u32 = 16;
 const BEYOND: f64 = 4.0;
 
 /// Least such distance, modules.
-const LEAST: f64 = 0.05;
+const LEAST: f64 = 0.02;
 
-/// Way of an edge along a fillet in a step, modules, at most.
-const STEP: f64 = 0.25;
+/// Multiple of the way of an edge in a step beyond which it meets nothing in the next.
+const WAY: f64 = 1.5;
 
 /// Share of the greatest distance looked at by which no place is told from another.
 const ROUNDING: f64 = 1e-12;
 
-/// An edge of one gear on its way along a fillet of the other.
+/// Share of the rise beside a least distance by which a kink may reach below it; a parabola reaches a quarter of that.
+const KINK: f64 = 0.5;
+
+/// Fillets of a body.
+struct Fillets<'a> {
+    /// First part of the fillet of each part of the body.
+    first: Vec<Option<usize>>,
+    /// The parts of fillets alone.
+    alone: Body<'a>,
+    /// Which parts of the body those are.
+    parts: Vec<usize>,
+}
+
+/// An edge of one gear on its way along the fillets of the other.
 struct Approach<'a> {
     meshing: &'a Meshing<'a>,
     walk: &'a Walk,
-    /// First part of the fillet of each part of the mate.
-    fillets: &'a [Option<usize>],
+    fillets: &'a Fillets<'a>,
     /// Distance beyond which nothing is looked at, mm.
     within: f64,
     /// The gear with the edge.
     member: Member,
     corner: &'a Corner,
+}
+
+/// A least distance bracketed between steps.
+enum Chance {
+    /// The edge passes the normal at a fillet's end, a part's start or end, after this step.
+    End { part: usize, u: f64, step: usize },
+    /// The fillet, by its first part, faces the edge at three inputs, nearest at the middle one.
+    Between {
+        fillet: usize,
+        gaps: [(f64, f64); 3],
+    },
 }
 
 /// Where an edge is near a fillet at a step: the fillet by its first part, and how far off it is, if it faces the edge.
@@ -47,24 +70,32 @@ struct Step {
     gap: Option<f64>,
 }
 
-/// First part of the fillet of each part of a body; nothing where it is none.
-fn fillets(body: &Body<'_>) -> Vec<Option<usize>> {
-    let count = body.parts.len();
-    let is_fillet = |i: usize| body.parts[i % count].role == Role::Fillet;
-    // From a part on that begins one, so that none is cut in two by the contour's start.
-    let begin = (0..count).find(|&i| is_fillet(i + 1) && !is_fillet(i));
-    let mut first = vec![None; count];
-    let mut current = None;
-    for i in (0..count).map(|k| (begin.unwrap_or(0) + 1 + k) % count) {
-        current = is_fillet(i).then(|| current.unwrap_or(i));
-        first[i] = current;
+impl<'a> Fillets<'a> {
+    /// Those of a body; what is within `near` of them is told at once.
+    fn of(body: &Body<'a>, near: f64) -> Self {
+        let count = body.parts.len();
+        let is_fillet = |i: usize| body.parts[i % count].role == Role::Fillet;
+        // From a part on that begins one, so that none is cut in two by the contour's start.
+        let begin = (0..count).find(|&i| is_fillet(i + 1) && !is_fillet(i));
+        let mut first = vec![None; count];
+        let mut current = None;
+        for i in (0..count).map(|k| (begin.unwrap_or(0) + 1 + k) % count) {
+            current = is_fillet(i).then(|| current.unwrap_or(i));
+            first[i] = current;
+        }
+        let parts: Vec<usize> = (0..count).filter(|&i| first[i].is_some()).collect();
+        let alone = Body::new(parts.iter().map(|&i| body.parts[i]).collect(), near);
+        Self {
+            first,
+            alone,
+            parts,
+        }
     }
-    first
 }
 
 impl Meshing<'_> {
     /// Least clearance of an edge from a fillet over the cycle with the gears at their law, where one of `known` mm is known;
-    /// nothing where none is near.
+    /// nothing where no edge comes so near.
     ///
     /// An edge is nearest where its way runs along the fillet, or where the fillet that faces it ends. The latter is the root of
     /// the edge's distance, along the tangent, from that end.
@@ -72,32 +103,55 @@ impl Meshing<'_> {
         let within = (BEYOND * known).max(LEAST * self.module).min(self.near);
         let walk = Walk::new(self.pair, STEPS);
         let gears = [
-            (Member::Driver, &self.driver, &self.driven),
-            (Member::Driven, &self.driven, &self.driver),
+            (Member::Driver, &self.driver, Fillets::of(&self.driven, self.near)),
+            (Member::Driven, &self.driven, Fillets::of(&self.driver, self.near)),
         ];
-        let mut best: Option<Extreme> = None;
-        for (member, own, mate) in gears {
-            let fillets = fillets(mate);
-            for corner in own.parts.iter().filter_map(|part| part.corner.as_ref()) {
-                let approach = Approach {
-                    meshing: self,
-                    walk: &walk,
-                    fillets: &fillets,
-                    within,
-                    member,
-                    corner,
-                };
-                for steps in walk.passages(member, corner.point) {
-                    let steps = approach.steps(steps);
-                    for steps in steps.chunk_by(|a, b| a.fillet == b.fillet) {
-                        approach.at_ends(steps, &mut best);
-                        approach.between_ends(steps, &mut best);
-                    }
+        let approaches = gears.iter().flat_map(|(member, own, fillets)| {
+            let corners = own.parts.iter().filter_map(|part| part.corner.as_ref());
+            let walk = &walk;
+            corners.map(move |corner| Approach {
+                meshing: self,
+                walk,
+                fillets,
+                within,
+                member: *member,
+                corner,
+            })
+        });
+        let approaches: Vec<Approach<'_>> = approaches.collect();
+        let mut chances = Vec::new();
+        for approach in &approaches {
+            for steps in walk.passages(approach.member, approach.corner.point) {
+                let steps = approach.steps(steps);
+                for steps in steps.chunk_by(|a, b| a.fillet == b.fillet) {
+                    let found = approach.ends(steps).chain(approach.between_ends(steps));
+                    chances.extend(found.map(|(least, chance)| (least, approach, chance)));
                 }
+            }
+        }
+        // What may come nearest goes first: it leaves the others nothing to reach.
+        chances.sort_by(|p, q| p.0.total_cmp(&q.0));
+        let mut best: Option<Extreme> = None;
+        let rounding = within * ROUNDING;
+        for (least, approach, chance) in chances {
+            let reached = best.map_or(known + rounding, |b| b.value);
+            if least >= reached {
+                break;
+            }
+            if let Some((phi, value)) = approach.nearest(&chance, reached)
+                && best.is_none_or(|b| value < b.value)
+            {
+                let input = phi.rem_euclid(self.pair.cycle());
+                best = Some(Extreme { input, value });
             }
         }
         best
     }
+}
+
+/// Outward normal of a contour.
+fn outward(jet: &SegmentJet) -> Vector {
+    Vector::new(jet.first.y, -jet.first.x).normalize()
 }
 
 impl Approach<'_> {
@@ -133,9 +187,9 @@ impl Approach<'_> {
 
     /// Parts of a fillet, in the contour's order.
     fn parts(&self, fillet: usize) -> impl Iterator<Item = usize> {
-        let count = self.fillets.len();
-        let parts = (0..count).map(move |k| (fillet + k) % count);
-        parts.take_while(move |&i| self.fillets[i] == Some(fillet))
+        let first = &self.fillets.first;
+        let parts = (0..first.len()).map(move |k| (fillet + k) % first.len());
+        parts.take_while(move |&i| first[i] == Some(fillet))
     }
 
     /// Least distance from the parts of a fillet that face the edge.
@@ -144,25 +198,46 @@ impl Approach<'_> {
         gaps.reduce(f64::min)
     }
 
-    /// Steps at which a fillet is near, fillet by fillet.
-    fn steps(&self, all: Range<usize>) -> Vec<Step> {
-        let (mate, near) = (self.mate(), self.within + STEP * self.meshing.module);
-        let mut found: Vec<Step> = Vec::new();
-        for step in all {
-            let pose = &self.walk.poses[step];
+    /// Distance from a fillet that goes on straight beyond its ends, of at most what is looked at: so it is smooth where the
+    /// edge leaves the fillet.
+    fn smooth_gap(&self, fillet: usize, gap: Option<f64>, pose: &Pose) -> f64 {
+        let beyond = || {
             let point = self.point(pose);
-            if !mate.is_near(&point.coords, near) {
+            let last = self.parts(fillet).last().unwrap_or(fillet);
+            let mut ends = [(fillet, -1.0), (last, 1.0)].into_iter();
+            ends.find_map(|(part, u)| {
+                let jet = self.end(part, u);
+                let off = point - jet.point;
+                (u * off.dot(&jet.first) > 0.0).then(|| off.dot(&outward(&jet)))
+            })
+        };
+        gap.or_else(beyond).unwrap_or(self.within).min(self.within)
+    }
+
+    /// Steps at which a fillet is near or is met in the next, fillet by fillet.
+    fn steps(&self, all: Range<usize>) -> Vec<Step> {
+        let (mate, alone) = (self.mate(), &self.fillets.alone);
+        let mut found: Vec<Step> = Vec::new();
+        let mut ways = [0.0; 2];
+        let mut next = self.point(&self.walk.poses[all.start]);
+        for step in all {
+            let (pose, point) = (&self.walk.poses[step], next);
+            next = self.point(&self.walk.poses[step + 1]);
+            ways = [ways[1], (next - point).norm()];
+            let near = self.within + WAY * ways[0].max(ways[1]);
+            if !alone.is_near(&point.coords, near) {
                 continue;
             }
             let start = found.len();
-            mate.tree.each(
-                &|run| (run.center - point).norm() < run.radius + near,
-                |i| {
-                    let Some(fillet) = self.fillets[i] else {
+            alone.tree.each(
+                &|run| (run.center - point).norm_squared() < (run.radius + near).powi(2),
+                |k| {
+                    let i = self.fillets.parts[k];
+                    let Some(fillet) = self.fillets.first[i] else {
                         return;
                     };
                     let part = &mate.parts[i];
-                    let is_close = (part.center - point).norm() < part.radius + self.within;
+                    let is_close = part.clear_of(&point) < self.within;
                     let gap = is_close.then(|| self.gap(i, pose)).flatten();
                     match found[start..].iter_mut().find(|s| s.fillet == fillet) {
                         Some(known) => {
@@ -177,63 +252,81 @@ impl Approach<'_> {
         found
     }
 
-    /// Distances where the edge passes the normals at the ends of a fillet.
-    fn at_ends(&self, steps: &[Step], best: &mut Option<Extreme>) {
-        let (first, walk) = (steps[0].fillet, self.walk);
+    /// An end of a fillet.
+    fn end(&self, part: usize, u: f64) -> SegmentJet {
+        self.mate().parts[part].segment.at(u)
+    }
+
+    /// Steps between which the edge passes the normals at the ends of a fillet, and the least distance there.
+    fn ends(&self, steps: &[Step]) -> impl Iterator<Item = (f64, Chance)> {
+        let first = steps[0].fillet;
         let last = self.parts(first).last().unwrap_or(first);
         let from = steps[0].step.saturating_sub(1);
-        let to = (steps[steps.len() - 1].step + 1).min(walk.inputs.len() - 1);
-        for (part, u) in [(first, -1.0), (last, 1.0)] {
-            let jet = self.mate().parts[part].segment.at(u);
-            let along = |pose: &Pose| (self.point(pose) - jet.point).dot(&jet.first);
-            let at_step = |k: usize| along(&walk.poses[k]);
-            for phi in walk.roots(from..to, at_step, |phi| along(&self.pose(phi))) {
-                if let Some(value) = self.gap(part, &self.pose(phi)) {
-                    self.keep(best, phi, value);
+        let to = (steps[steps.len() - 1].step + 1).min(self.walk.inputs.len() - 1);
+        let ends = [(first, -1.0), (last, 1.0)].into_iter();
+        ends.flat_map(move |(part, u)| {
+            let jet = self.end(part, u);
+            let normal = outward(&jet);
+            let off = move |step: usize| self.point(&self.walk.poses[step]) - jet.point;
+            (from..to).filter_map(move |step| {
+                let [p, q] = [step, step + 1].map(off);
+                let sides = [p.dot(&jet.first), q.dot(&jet.first)];
+                if (sides[0] > 0.0) == (sides[1] > 0.0) {
+                    return None;
                 }
-            }
-        }
+                // The way between the steps is a chord, but for an eighth of how much it bends.
+                let before = off(step.saturating_sub(1));
+                let bend = (before - 2.0 * p + q).norm();
+                let between = p + (q - p) * (sides[0] / (sides[0] - sides[1]));
+                let least = between.dot(&normal) - bend;
+                Some((least, Chance::End { part, u, step }))
+            })
+        })
     }
 
-    /// Least distances where the fillet faces the edge on and on.
-    fn between_ends(&self, steps: &[Step], best: &mut Option<Extreme>) {
-        let rounding = self.within * ROUNDING;
-        // Beyond what is looked at there is nothing nearer.
+    /// Steps at which the fillet faces the edge and is nearer than at those beside, and the least distance there.
+    fn between_ends(&self, steps: &[Step]) -> impl Iterator<Item = (f64, Chance)> {
         let gap_at = |step: usize| {
             let known = steps.iter().find(|s| s.step == step);
-            known.and_then(|s| s.gap).unwrap_or(self.within)
+            let gap = known.and_then(|s| s.gap);
+            self.smooth_gap(steps[0].fillet, gap, &self.walk.poses[step])
         };
-        for here in steps {
-            let (Some(value), step) = (here.gap, here.step) else {
-                continue;
-            };
+        steps.iter().filter_map(move |here| {
+            let (value, step) = (here.gap?, here.step);
             if step == 0 || step + 1 == self.walk.inputs.len() {
-                continue;
+                return None;
             }
             let [f, g] = [gap_at(step - 1), gap_at(step + 1)];
-            let above = f + g - 2.0 * value;
-            let known = best.map_or(f64::INFINITY, |b| b.value);
-            if value > f.min(g) || value - above >= known {
-                continue;
-            }
             let at = |step: usize, gap: f64| (self.walk.inputs[step], gap);
-            let (phi, value) = bracketed_minimum_below(
-                |phi| {
-                    let gap = self.fillet_gap(here.fillet, &self.pose(phi));
-                    gap.unwrap_or(self.within)
-                },
-                [at(step - 1, f), at(step, value), at(step + 1, g)],
-                known,
-                rounding,
-            );
-            self.keep(best, phi, value);
-        }
+            let gaps = [at(step - 1, f), at(step, value), at(step + 1, g)];
+            let fillet = here.fillet;
+            let least = value - KINK * (f + g - 2.0 * value);
+            (value <= f.min(g)).then_some((least, Chance::Between { fillet, gaps }))
+        })
     }
 
-    fn keep(&self, best: &mut Option<Extreme>, phi: f64, value: f64) {
-        if best.is_none_or(|b| value < b.value) {
-            let input = phi.rem_euclid(self.meshing.pair.cycle());
-            *best = Some(Extreme { input, value });
+    /// Input and distance where the edge is nearest, as far as that is less than `known`.
+    fn nearest(&self, chance: &Chance, known: f64) -> Option<(f64, f64)> {
+        match *chance {
+            Chance::End { part, u, step } => {
+                let jet = self.end(part, u);
+                let along = |pose: &Pose| (self.point(pose) - jet.point).dot(&jet.first);
+                let at_step = |k: usize| along(&self.walk.poses[k]);
+                let at = |phi: f64| along(&self.pose(phi));
+                let phi = self.walk.roots(step..step + 1, at_step, at).next()?;
+                Some((phi, self.gap(part, &self.pose(phi))?))
+            }
+            Chance::Between { fillet, gaps } => {
+                let gap = |phi: f64| {
+                    let pose = self.pose(phi);
+                    self.smooth_gap(fillet, self.fillet_gap(fillet, &pose), &pose)
+                };
+                let rounding = self.within * ROUNDING;
+                let (phi, value) = bracketed_minimum_below(gap, gaps, known, rounding);
+                // Where the fillet ends before, the edge is nearest at its end.
+                let faces = self.fillet_gap(fillet, &self.pose(phi)).is_some();
+                faces.then_some((phi, value))
+            }
         }
     }
 }
