@@ -54,6 +54,11 @@ impl Cone {
             || self.direction.dot(&other.direction) <= self.sin * other.sin - self.cos * other.cos
     }
 
+    /// Sine of the half-angle.
+    pub(super) fn sin(&self) -> f64 {
+        self.sin
+    }
+
     /// Greatest ratio of a length along a direction of the cone to that along the middle.
     pub(super) fn slant(&self) -> f64 {
         1.0 / self.cos.max(0.4)

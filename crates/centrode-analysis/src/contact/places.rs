@@ -104,6 +104,7 @@ impl Meshing<'_> {
             let kind = kind(a.role, b.role);
             if normals.opposes(&b.normals)
                 && in_range(stretch, &self.stretches[j], &b.normals, limit(kind), module)
+                && beside(stretch, &self.stretches[j], &b.normals, limit(kind), module)
                 && self.driver.curvature(i).1 + self.driven.curvature(j).1 > 0.0
             {
                 let known = self.memory.iter().find(|m| (m.0, m.1) == (i, j));
@@ -113,12 +114,14 @@ impl Meshing<'_> {
                     .or_else(|| touch::parts(a, b, pose, stretch.facing(&self.stretches[j])));
                 keep(touch, kind, (i, j), None);
             }
-            let near_corner = |corner: &Corner, other: &Part<'_>, apart: Vector| {
-                let reach = other.radius + limit(corner_kind(corner.on_flank, other.role));
-                apart.norm_squared() <= reach * reach
+            let near_corner = |corner: &Corner, other: &Part<'_>, mate: &Stretch, point: Vector| {
+                let limit = limit(corner_kind(corner.on_flank, other.role));
+                let reach = other.radius + limit;
+                (point - mate.center).norm_squared() <= reach * reach
+                    && mate.may_face(&point, limit.max(0.5 * module))
             };
             if let Some(corner) = &a.corner
-                && near_corner(corner, b, stretch.point[0] - b.center.coords)
+                && near_corner(corner, b, &self.stretches[j], stretch.point[0])
             {
                 let normal = pose.turn_back(&corner.normals.direction);
                 if corner.normals.turned(normal).opposes(&b.normals) {
@@ -132,7 +135,7 @@ impl Meshing<'_> {
                 }
             }
             if let Some(corner) = &b.corner
-                && near_corner(corner, a, corner.point.coords - stretch.center)
+                && near_corner(corner, a, stretch, corner.point.coords)
                 && corner.normals.opposes(normals)
             {
                 let touch = touch::driven_corner(a, corner, pose);
@@ -182,6 +185,15 @@ fn in_range(a: &Stretch, b: &Stretch, normals: &Cone, near: f64, module: f64) ->
     let lowest = |s: &Stretch| -s.farthest(&-normal);
     lowest(a) - b.farthest(&normal) < slant * near
         && a.farthest(&normal) - lowest(b) > -slant * 0.5 * module
+}
+
+/// Whether points of two parts, or a little beyond their ends, can be beside each other along the driven part's middle tangent,
+/// as those are that face each other nearer than `near` or penetrate no deeper than half a module.
+fn beside(a: &Stretch, b: &Stretch, normals: &Cone, near: f64, module: f64) -> bool {
+    let normal = normals.direction;
+    let along = Vector::new(-normal.y, normal.x);
+    let off = normals.sin() * near.max(0.5 * module) + touch::JOINT * (a.radius + b.radius);
+    a.farthest(&along) + b.farthest(&-along) > -off && a.farthest(&-along) + b.farthest(&along) > -off
 }
 
 fn kind(a: Role, b: Role) -> Kind {

@@ -8,6 +8,9 @@ use super::{
     touch::Pose,
 };
 
+/// Rounding of a place along a stretch, as a share of its length.
+const ROUNDING: f64 = 1e-9;
+
 /// Newton step of the parameter at which iteration stops.
 pub(super) const SETTLED: f64 = 1e-8;
 
@@ -83,6 +86,17 @@ impl Stretch {
         let x = (mate_bend * apart - slope) / (bend + mate_bend);
         let start = |x: f64| if x.is_nan() { 0.0 } else { x.clamp(-0.9, 0.9) };
         (start(2.0 * x / size), start(2.0 * (apart - x) / other))
+    }
+
+    /// Whether a normal may lead from the stretch to a point no farther off than this.
+    pub(super) fn may_face(&self, point: &Vector, within: f64) -> bool {
+        let chord = self.point[1] - self.point[0];
+        let size = chord.norm();
+        let along = (point - self.point[0]).dot(&chord) / size;
+        // Where a tangent may be square to the chord, points beyond its ends may be faced, too.
+        let (_, sin) = self.span.lean;
+        let off = sin * within + ROUNDING * size;
+        !self.span.slopes.1.is_finite() || (-off <= along && along <= size + off) || along.is_nan()
     }
 
     /// Upper bound of the stretch's extent in a direction.

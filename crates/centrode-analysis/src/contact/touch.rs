@@ -101,7 +101,7 @@ impl Touch {
 const SETTLED: f64 = 3e-7;
 
 /// Distance beyond an end, as a parameter, within which a point belongs to the neighbour as well.
-const JOINT: f64 = 1e-3;
+pub(super) const JOINT: f64 = 1e-3;
 
 /// Rounding of a parameter at an end, where neighbouring parts must not both miss a point.
 const ON_PART: f64 = 1e-10;
