@@ -88,7 +88,11 @@ impl Meshing<'_> {
     /// Contacts at edges of flanks of both gears that drive, over one cycle, those that may slide fastest first.
     pub(super) fn edge_contacts(&self, walk: &Walk) -> Vec<EdgeContact> {
         let mut found = Vec::new();
-        let ratios: Vec<f64> = walk.inputs.iter().map(|&phi| self.pair.ratio(phi)).collect();
+        let ratios: Vec<f64> = walk
+            .inputs
+            .iter()
+            .map(|&phi| self.pair.ratio(phi))
+            .collect();
         for (member, body) in [Member::Driver, Member::Driven]
             .into_iter()
             .zip([&self.driver, &self.driven])
@@ -122,7 +126,9 @@ impl Meshing<'_> {
     /// Driver angle of a contact at an edge, and the sliding speed there per speed of the driver, mm/rad; nothing outside of the
     /// cycle.
     pub(super) fn edge_contact(&self, contact: &EdgeContact, walk: &Walk) -> Option<(f64, f64)> {
-        let EdgeContact { member, edge, step, .. } = contact;
+        let EdgeContact {
+            member, edge, step, ..
+        } = contact;
         let point = |phi: f64, pose: &Pose| pitch_point(*member, self.pair.ratio(phi), pose);
         let at_step = |k: usize| edge.aside(point(walk.inputs[k], &walk.poses[k]));
         let at = |phi: f64| edge.aside(point(phi, &Pose::at_law(self.pair, phi)));
@@ -130,7 +136,9 @@ impl Meshing<'_> {
         let pose = Pose::at_law(self.pair, phi);
         let away = point(phi, &pose) - self.touched(edge, *member);
         let sliding = away.norm() * (1.0 + self.pair.ratio(phi));
-        (0.0..self.pair.cycle()).contains(&phi).then_some((phi, sliding))
+        (0.0..self.pair.cycle())
+            .contains(&phi)
+            .then_some((phi, sliding))
     }
 
     /// Whether the mate has a flank where an edge would touch it.

@@ -103,8 +103,16 @@ impl Meshing<'_> {
         let within = (BEYOND * known).max(LEAST * self.module).min(self.near);
         let walk = Walk::new(self.pair, STEPS);
         let gears = [
-            (Member::Driver, &self.driver, Fillets::of(&self.driven, self.near)),
-            (Member::Driven, &self.driven, Fillets::of(&self.driver, self.near)),
+            (
+                Member::Driver,
+                &self.driver,
+                Fillets::of(&self.driven, self.near),
+            ),
+            (
+                Member::Driven,
+                &self.driven,
+                Fillets::of(&self.driver, self.near),
+            ),
         ];
         let approaches = gears.iter().flat_map(|(member, own, fillets)| {
             let corners = own.parts.iter().filter_map(|part| part.corner.as_ref());

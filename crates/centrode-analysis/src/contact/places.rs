@@ -193,7 +193,8 @@ fn beside(a: &Stretch, b: &Stretch, normals: &Cone, near: f64, module: f64) -> b
     let normal = normals.direction;
     let along = Vector::new(-normal.y, normal.x);
     let off = normals.sin() * near.max(0.5 * module) + touch::JOINT * (a.radius + b.radius);
-    a.farthest(&along) + b.farthest(&-along) > -off && a.farthest(&-along) + b.farthest(&along) > -off
+    a.farthest(&along) + b.farthest(&-along) > -off
+        && a.farthest(&-along) + b.farthest(&along) > -off
 }
 
 fn kind(a: Role, b: Role) -> Kind {

@@ -10,6 +10,7 @@ pub mod composed;
 mod design;
 mod design_search;
 mod differential_evolution;
+mod eased;
 pub mod feeder;
 mod genetic;
 mod guided;
@@ -23,6 +24,7 @@ pub mod three_arm;
 
 pub use design::{DesignProblem, NotSearched, Variable};
 pub use design_search::{DesignSearch, Strategy};
+pub use eased::{EasedPath, Easing, EasingError};
 pub use guided::{GuidedSearch, GuidedStep};
 pub use problem::{Candidate, Evaluation, Problem};
 pub(crate) use random::Random;

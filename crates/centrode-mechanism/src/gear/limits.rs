@@ -199,6 +199,14 @@ impl Limits {
     pub fn largest_module_of(design: &GearPairDesign, curvatures: [f64; 2]) -> f64 {
         largest_module(&parameters(design, 1.0).tool, 1.0, curvatures)
     }
+
+    /// Largest module of full teeth, mm, that are sound wherever they fall, on pitch curves whose curvatures are at most those
+    /// given (convex, concave, 1/mm): the tool's rounding cuts into flanks of concave gears, too.
+    #[must_use]
+    pub fn largest_full_module_of(design: &GearPairDesign, curvatures: [f64; 2]) -> f64 {
+        let tool = parameters(design, 1.0).tool;
+        largest_module(&tool, 1.0, curvatures).min(fillet_module(&tool, 1.0, curvatures[1]))
+    }
 }
 
 fn largest_module(tool: &Tool, module: f64, [convex, concave]: [f64; 2]) -> f64 {

@@ -103,6 +103,14 @@ pub enum PathError {
         /// Line, from one.
         line: usize,
     },
+    /// A tolerance that is none.
+    #[error("line {line}: the tolerance of a point is zero or more, in mm, not {value}")]
+    Tolerance {
+        /// Line, from one.
+        line: usize,
+        /// Value given.
+        value: f64,
+    },
     /// A line that holds no point.
     #[error(
         "line {line}: {found:?} is no number; a line holds x and y in mm, separated by a comma"

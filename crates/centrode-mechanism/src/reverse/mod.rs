@@ -7,6 +7,7 @@
 //! And of the law of a crank from what is wanted of the output of the machine it drives: [`Timing`].
 
 mod chain;
+mod csv;
 mod curvature;
 mod distance;
 mod drawn;
@@ -23,6 +24,7 @@ pub use crate::composed::{
     GearDrive, GearDriveError, GearDriveSpec, MachineError, ReversedMachine,
 };
 pub use chain::{ChainJet, TwoBar};
+pub use csv::WantedPoints;
 pub use drawn::{DrawingError, DrawnPath};
 pub use error::{AxisFault, PathError};
 pub use map::{AxisMap, AxisRange, PossibleAxis};

@@ -5,7 +5,7 @@ use centrode_geometry::{
     Bounds, Curve, Jet, Outline, Point, SampledPiece, Segment, Vector, pieces,
 };
 
-use super::PathError;
+use super::{PathError, WantedPoints};
 use crate::gear::pitch::closed_spline;
 
 /// Fewest points of a closed curve.
@@ -62,6 +62,19 @@ impl WantedPath {
     /// from the origin, and an open path: one whose last
     /// point is more than four times as far from the first as any two other neighbours are from each other.
     pub fn through(points: &[Point]) -> Result<Self, PathError> {
+        Self::of_degree(points, 3)
+    }
+
+    /// Closed curve as of [`through`](Self::through), of degree five: the curvatures of the pitch curves made from it have no
+    /// jumps.
+    ///
+    /// # Errors
+    /// As [`through`](Self::through).
+    pub fn smoothly_through(points: &[Point]) -> Result<Self, PathError> {
+        Self::of_degree(points, 5)
+    }
+
+    fn of_degree(points: &[Point], degree: usize) -> Result<Self, PathError> {
         for (i, p) in points.iter().enumerate() {
             let (number, x, y) = (i + 1, p.x, p.y);
             if !(x.is_finite() && y.is_finite()) {
@@ -80,8 +93,8 @@ impl WantedPath {
         let closed = points.len() > 1 && points.first() == points.last();
         let points = &points[..points.len() - usize::from(closed)];
         let count = points.len();
-        if count < FEWEST {
-            let least = FEWEST;
+        let least = FEWEST.max(degree + 1);
+        if count < least {
             return Err(PathError::TooFew { count, least });
         }
         if count > MOST {
@@ -112,7 +125,7 @@ impl WantedPath {
             return Err(PathError::Open { gap, step });
         }
         let list = points.iter().map(|p| [p.x, p.y]).collect();
-        Ok(Self::of(Arc::new(closed_spline(list, 3))))
+        Ok(Self::of(Arc::new(closed_spline(list, degree))))
     }
 
     /// Path along a curve, which need not go round anything.
@@ -159,9 +172,7 @@ impl WantedPath {
     /// # Errors
     /// [`PathError`] with the line, and as [`through`](Self::through).
     pub fn from_csv(bytes: &[u8]) -> Result<Self, PathError> {
-        let points = rows(bytes)?;
-        let points: Vec<Point> = points.into_iter().map(|row: [f64; 2]| row.into()).collect();
-        Self::through(&points)
+        Self::through(&WantedPoints::from_csv(bytes)?.points)
     }
 
     /// The curve.
@@ -313,64 +324,4 @@ pub(super) fn text(bytes: &[u8]) -> Result<&str, PathError> {
         PathError::NotText { line }
     })?;
     Ok(text.trim_start_matches('\u{feff}'))
-}
-
-/// Numbers at the head of every line of a CSV file, as [`WantedPath::from_csv`] reads it.
-pub(super) fn rows<const N: usize>(bytes: &[u8]) -> Result<Vec<[f64; N]>, PathError> {
-    let text = text(bytes)?;
-    let mut found = Vec::new();
-    let mut lines = 0;
-    // Old programs end a line by a carriage return alone.
-    let end = if text.contains('\n') { '\n' } else { '\r' };
-    for (i, line) in text.split(end).enumerate() {
-        let written = line.trim();
-        if written.is_empty() || written.starts_with('#') {
-            continue;
-        }
-        lines += 1;
-        match row(written, i + 1) {
-            Ok(row) => found.push(row),
-            // Headings.
-            Err(PathError::NotNumber { .. }) if lines == 1 => {}
-            Err(error) => return Err(error),
-        }
-    }
-    Ok(found)
-}
-
-/// Reads a line of a file.
-fn row<const N: usize>(line: &str, number: usize) -> Result<[f64; N], PathError> {
-    // Spreadsheets that write a decimal comma separate by semicolons or tabs.
-    let (separators, decimal): (&[char], _) = match line.contains([';', '\t']) {
-        true => (&[';', '\t'], ','),
-        false => (&[','], '.'),
-    };
-    let words: Vec<&str> = line.split(separators).map(str::trim).collect();
-    if words.len() < N {
-        return match words[0].parse::<f64>() {
-            Ok(_) => Err(PathError::Columns {
-                line: number,
-                count: words.len(),
-                wanted: if N == 2 {
-                    "x and y in mm"
-                } else {
-                    "x and y in mm and the direction in degrees"
-                },
-            }),
-            Err(_) => Err(not_number(words[0], number)),
-        };
-    }
-    let mut row = [0.0; N];
-    for (value, word) in row.iter_mut().zip(&words) {
-        let read = word.replace(decimal, ".").parse::<f64>();
-        *value = read.map_err(|_| not_number(word, number))?;
-    }
-    Ok(row)
-}
-
-fn not_number(word: &str, line: usize) -> PathError {
-    PathError::NotNumber {
-        line,
-        found: word.chars().take(40).collect(),
-    }
 }

@@ -16,7 +16,20 @@ impl TwoBar {
     /// path's parameter there: exact to the float limit.
     #[must_use]
     pub fn sharpness(&self) -> Extreme {
-        self.sharpness_on(usize::MAX)
+        self.greatest_bend(usize::MAX, |[a, b, c, d]| a.max(b).max(c.max(d)))
+    }
+
+    /// Greatest convex and greatest concave curvature of the four pitch curves of the split by powers, 1/mm: they bound the
+    /// module of full teeth. `bend` is the angle from the carrier's first leg to its second, rad.
+    #[must_use]
+    pub fn curvatures(&self, bend: f64) -> [f64; 2] {
+        let leg = leg(self.carrier(), bend);
+        let greatest = |sign: f64| {
+            let most =
+                |curvatures: [f64; 4]| curvatures.iter().fold(0.0_f64, |s, c| s.max(sign * c));
+            self.greatest_bend(usize::MAX, most).value / leg
+        };
+        [greatest(1.0), greatest(-1.0)]
     }
 
     /// Least radius of curvature of the four pitch curves of the split by powers where they are convex, mm; `bend` is the angle
@@ -28,18 +41,16 @@ impl TwoBar {
 
     /// The sharpness on as many pieces of the path as a map looks at.
     pub(super) fn sharpness_sampled(&self) -> Extreme {
-        self.sharpness_on(MOST_PIECES)
+        self.greatest_bend(MOST_PIECES, |[a, b, c, d]| a.max(b).max(c.max(d)))
     }
 
-    fn sharpness_on(&self, most: usize) -> Extreme {
+    /// Greatest value of a measure of the four curvatures, times the centre distance.
+    fn greatest_bend(&self, most: usize, of: impl Fn([f64; 4]) -> f64) -> Extreme {
         let looks = Looks::of(self.path(), most);
         let jets = looks.samples.iter();
         let speeds: Vec<[Series; 2]> = jets.map(|s| self.speed_series(s.at, &s.jet)).collect();
         let scale = self.scale(&looks.samples, &speeds);
-        let sharpest = |speeds: [Series; 2]| {
-            let [a, b, c, d] = by_powers(scale, speeds);
-            a.max(b).max(c.max(d))
-        };
+        let sharpest = |speeds: [Series; 2]| of(by_powers(scale, speeds));
         let samples: Vec<f64> = speeds.iter().map(|speeds| sharpest(*speeds)).collect();
         let at = |t: f64| sharpest(self.speed_series(t, &self.path().at(t)));
         greatest_sampled(&samples, at, rounding, &looks.pieces)

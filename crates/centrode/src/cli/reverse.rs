@@ -1,15 +1,12 @@
+mod found;
 mod posed;
 
 use std::io::Write;
 
 use crate::analysis::{SoundTeeth, Unit, with_sound_teeth};
-use crate::geometry::Point;
 use crate::mechanism::design::Design as _;
 use crate::mechanism::gear::design::Addendum;
-use crate::mechanism::reverse::{
-    AxisMap, AxisRange, DrawnPath, KeyPose, KeyPoses, ReversedMachine, Split, SplitKind, TwoBar,
-    WantedPath,
-};
+use crate::mechanism::reverse::{AxisMap, ReversedMachine, Split, SplitKind, TwoBar, WantedPath};
 use crate::mechanism::three_arm::design::Direction;
 
 use crate::cli::Status;
@@ -18,6 +15,8 @@ use crate::cli::failure::Failure;
 use crate::cli::input::Source;
 use crate::cli::output;
 use crate::cli::progress::Progress;
+
+use found::{Found, told};
 
 /// Width of the names of figures.
 const NAME: usize = 24;
@@ -63,134 +62,17 @@ pub(crate) fn run(command: &Reverse, out: &mut impl Write) -> Result<Status, Fai
     }
     others(chain, kind, bend, out)?;
     let (Some(output), Some(toothed)) = (&command.output, toothed) else {
-        return Ok(Status::Good);
+        return Ok(Status::of(found.is_reached));
     };
     // What was found is told even where there are no teeth.
     out.flush()?;
-    let (design, found) = toothed.map_err(|error| Failure::Files(Box::new(error)))?;
-    teeth(&found, out)?;
+    let (design, sound) = toothed.map_err(|error| Failure::Files(Box::new(error)))?;
+    teeth(&sound, out)?;
     let text = design.to_toml();
     let text = text.map_err(|error| Failure::Files(Box::new(error)))?;
     writeln!(out)?;
     output::write_one(output, text.into_bytes(), out)?;
-    Ok(Status::Good)
-}
-
-/// Carrier and arm that were found.
-struct Found {
-    chain: TwoBar,
-    /// Why this axis.
-    why: String,
-    /// Axes tried for a path.
-    map: Option<AxisMap>,
-    /// Further lines to tell: names and words.
-    told: Vec<(String, String)>,
-}
-
-impl Found {
-    fn by_path(command: &Reverse, source: &Source, progress: &Progress) -> Result<Self, Failure> {
-        let drawn = drawn(source, command.within)?;
-        let path = match &drawn {
-            Some(drawn) => WantedPath::through(&drawn.points),
-            None => WantedPath::from_csv(source.bytes()),
-        };
-        let path = path.map_err(|error| source.refused(&error))?;
-        if !command.crossing {
-            path.check_simple().map_err(|error| {
-                let name = source.name();
-                Failure::Usage(format!(
-                    "{name}: {error} With --crossing such a path is taken."
-                ))
-            })?;
-        }
-        progress.step("trying axes");
-        let map = AxisMap::new(&path, AxisRange::about(&path));
-        let (chain, why) = match command.axis {
-            Some([x, y]) => {
-                let chain = TwoBar::new(&path, Point::new(x, y), None);
-                let chain =
-                    chain.map_err(|fault| Failure::Usage(format!("--axis {x},{y}: {fault}")))?;
-                (chain, "as asked")
-            }
-            None => {
-                let chain = map.mildest(&path).ok_or_else(|| none_possible(&map))?;
-                (chain, "the mildest found")
-            }
-        };
-        let of_drawing = drawn.map(|drawn| {
-            let off = Unit::Millimetre.tell(drawn.deviation.value);
-            let points = drawn.points.len();
-            let words = format!("through {points} points, within {off} of the drawing");
-            ("path".to_owned(), words)
-        });
-        Ok(Self {
-            chain,
-            why: why.into(),
-            map: Some(map),
-            told: of_drawing.into_iter().collect(),
-        })
-    }
-
-    fn by_poses(source: &Source, progress: &Progress) -> Result<Self, Failure> {
-        progress.step("trying places of the arm's axis");
-        let poses = KeyPose::from_csv(source.bytes()).map_err(|error| source.refused(&error))?;
-        let found = KeyPoses::new(&poses).map_err(|error| source.refused(&error))?;
-        Ok(Self {
-            told: told(found.clamp, &found.misses),
-            chain: found.chain,
-            why: format!(
-                "the mildest found from {} starts that meet the poses in order",
-                found.possible
-            ),
-            map: None,
-        })
-    }
-}
-
-/// Lines on the clamp and on how far each pose is missed.
-fn told(clamp: f64, misses: &[[f64; 2]]) -> Vec<(String, String)> {
-    let clamp = (
-        "clamp".to_owned(),
-        format!("{} from the arm", Unit::Angle.tell(clamp)),
-    );
-    let pose = |(index, [off, turned]): (usize, &[f64; 2])| {
-        let (off, turned) = (Unit::Millimetre.tell(*off), Unit::Angle.tell(*turned));
-        let name = format!("pose {}", index + 1);
-        (name, format!("missed by {off} and {turned}"))
-    };
-    let poses = misses.iter().enumerate().map(pose);
-    std::iter::once(clamp).chain(poses).collect()
-}
-
-/// Points along the path of an SVG file; none where the file is another.
-fn drawn(source: &Source, within: f64) -> Result<Option<DrawnPath>, Failure> {
-    let bytes = source.bytes();
-    let text = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
-    if !text.trim_ascii_start().starts_with(b"<") {
-        return Ok(None);
-    }
-    let drawn = DrawnPath::from_svg(bytes, within);
-    drawn.map(Some).map_err(|error| source.refused(&error))
-}
-
-fn none_possible(map: &AxisMap) -> Failure {
-    let faults = map.found().iter().filter_map(|found| found.as_ref().err());
-    let mut counts: Vec<(&str, usize)> = Vec::new();
-    for fault in faults {
-        match counts.iter_mut().find(|(name, _)| *name == fault.name()) {
-            Some((_, count)) => *count += 1,
-            None => counts.push((fault.name(), 1)),
-        }
-    }
-    let words: Vec<String> = counts
-        .iter()
-        .map(|(name, count)| format!("{name} {count}"))
-        .collect();
-    let all = map.found().len();
-    Failure::Usage(format!(
-        "no machine of this kind has a tip that runs along the path: of {all} axes tried on and about it none is possible ({})",
-        words.join(", ")
-    ))
+    Ok(Status::of(found.is_reached))
 }
 
 pub(crate) fn line(out: &mut impl Write, name: &str, words: &str) -> std::io::Result<()> {

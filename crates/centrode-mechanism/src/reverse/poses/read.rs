@@ -1,5 +1,5 @@
 use super::{KeyPose, PoseError};
-use crate::reverse::path::rows;
+use crate::reverse::csv::rows;
 
 impl KeyPose {
     /// Reads key poses from a CSV file: x and y in mm and the clamp's direction in degrees, a pose a line, in order.

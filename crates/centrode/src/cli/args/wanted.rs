@@ -25,6 +25,23 @@ pub(crate) struct Reverse {
     /// Axis of the carrier, mm; left out, the mildest: that of the least change of the gears' ratio
     #[arg(long, value_parser = place, allow_hyphen_values = true, value_name = "X,Y")]
     pub(crate) axis: Option<[f64; 2]>,
+    /// Let the path pass within so far of its points, and ease it there until its gears are as blunt as can be; a column headed
+    /// `tolerance` in the file gives each point its own
+    #[arg(
+        long,
+        allow_negative_numbers = true,
+        value_name = "MM",
+        conflicts_with = "poses"
+    )]
+    pub(crate) band: Option<f64>,
+    /// Ease the path no more than full teeth of this module need
+    #[arg(
+        long,
+        allow_negative_numbers = true,
+        value_name = "MM",
+        conflicts_with = "poses"
+    )]
+    pub(crate) module: Option<f64>,
     /// The file holds 3 to 7 key poses, x and y in mm and the clamp's direction in degrees, that the arm meets in order; the path
     /// between them is free
     #[arg(long, conflicts_with_all = ["axis", "crossing", "within"])]

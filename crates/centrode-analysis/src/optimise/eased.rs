@@ -1,0 +1,441 @@
+use std::f64::consts::TAU;
+use std::ops::ControlFlow;
+
+use centrode_geometry::{Point, Vector};
+use centrode_mechanism::gear::Limits;
+use centrode_mechanism::gear::design::GearPairDesign;
+use centrode_mechanism::gear::pitch::{Circle, PitchSpec};
+use centrode_mechanism::reverse::{AxisFault, AxisMap, AxisRange, PathError, TwoBar, WantedPath};
+
+use super::{Ended, Evaluation, Method, Problem, Settings, minimise};
+
+/// Most points that are moved each on its own; of more, the moves are a sum of harmonics.
+const SINGLE: usize = 24;
+/// Such harmonics.
+const HARMONICS: usize = 12;
+/// Greatest amplitude of a harmonic: a share of the band, before it is bent to stay within one.
+const GREATEST: f64 = 2.0;
+/// Room of the axis about the one that the search starts from, as a share of the path's size.
+const ROOM: f64 = 0.2;
+/// Evaluations of each of both searches.
+const EVALUATIONS: u64 = 6000;
+/// Violation of a point of which there is no machine.
+const NONE: f64 = 1e3;
+
+/// Search for the path near a wanted one whose gears are the bluntest: every point may move within its band along the path's
+/// normal, and the axis, where it is free, about the best known.
+///
+/// What is sought is the largest module with which full teeth are surely sound on the four pitch curves of the split by powers, by
+/// their greatest curvatures, [`TwoBar::curvatures`]. The eased path is of degree five: its pitch curves' curvatures do not jump.
+#[derive(Clone, Debug)]
+pub struct Easing {
+    points: Vec<Point>,
+    normals: Vec<Vector>,
+    bands: Vec<f64>,
+    /// Axis, and how far it may move.
+    axis: (Point, f64),
+    bend: f64,
+    /// Module wanted, mm: then the moves are sought that reach it and are the least shares of their bands.
+    wanted: Option<f64>,
+    start: Vec<f64>,
+}
+
+/// A path eased within its bands, and its machine.
+#[derive(Clone, Debug)]
+pub struct EasedPath {
+    /// Points of the path.
+    pub points: Vec<Point>,
+    /// Distance of each from where it was wanted, mm.
+    pub moved: Vec<f64>,
+    /// Carrier and arm.
+    pub chain: TwoBar,
+    /// Module up to which full teeth are surely sound, mm: on the pitch curves of the wanted path, where the axis found makes a
+    /// machine for it, and on those of the eased one.
+    pub module: (Option<f64>, f64),
+    /// Evaluations of the search.
+    pub evaluations: u64,
+}
+
+/// Reason why a path is not eased.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum EasingError {
+    /// The points make no path.
+    #[error(transparent)]
+    Path(#[from] PathError),
+    /// A band that is none.
+    #[error("the band of point {number} is zero or more, in mm, not {band}")]
+    Band {
+        /// Number of the point, from one.
+        number: usize,
+        /// Band given, mm.
+        band: f64,
+    },
+    /// Another number of bands than of points.
+    #[error("there are {bands} bands for {points} points: give one for each, or one for all")]
+    Bands {
+        /// Bands given.
+        bands: usize,
+        /// Points.
+        points: usize,
+    },
+    /// A module that is none.
+    #[error("the module wanted is greater than zero, in mm, not {module}")]
+    Module {
+        /// Module given, mm.
+        module: f64,
+    },
+    /// The axis given makes no machine for the wanted path.
+    #[error(transparent)]
+    Axis(#[from] AxisFault),
+    /// No axis tried makes a machine for the wanted path.
+    #[error(
+        "no machine of this kind has a tip that runs along the path: of {tried} axes tried on and about it none is possible"
+    )]
+    NoAxis {
+        /// Axes tried.
+        tried: usize,
+    },
+}
+
+impl Easing {
+    /// The search for a path through points each within its band, mm. `bend` is the angle from the carrier's first leg to its
+    /// second, rad. Without an axis the search starts from the one of a grid about the path whose gears are the bluntest.
+    ///
+    /// # Errors
+    /// [`EasingError`]: the points make no path, a band is none, or no axis makes a machine for the wanted path.
+    pub fn new(
+        points: &[Point],
+        bands: &[f64],
+        axis: Option<Point>,
+        bend: f64,
+    ) -> Result<Self, EasingError> {
+        let path = WantedPath::through(points)?;
+        let is_closed = points.len() > 1 && points.first() == points.last();
+        let points = &points[..points.len() - usize::from(is_closed)];
+        let bands = match bands {
+            [one] => vec![*one; points.len()],
+            more if more.len() == points.len() + usize::from(is_closed) => {
+                more[..points.len()].to_vec()
+            }
+            more => {
+                return Err(EasingError::Bands {
+                    bands: more.len(),
+                    points: points.len(),
+                });
+            }
+        };
+        let is_band = |band: &f64| *band >= 0.0 && band.is_finite();
+        if let Some(i) = bands.iter().position(|band| !is_band(band)) {
+            let (number, band) = (i + 1, bands[i]);
+            return Err(EasingError::Band { number, band });
+        }
+        let axis = match axis {
+            Some(axis) => (TwoBar::new(&path, axis, None)?.axis(), 0.0),
+            None => {
+                let bounds = path.bounds();
+                (bluntest(&path, bend)?, ROOM * bounds.diagonal())
+            }
+        };
+        let step = path.period() / points.len() as f64;
+        let normal = |i: usize| {
+            let along = path.at(step * i as f64).first.normalize();
+            Vector::new(along.y, -along.x)
+        };
+        let mut easing = Self {
+            normals: (0..points.len()).map(normal).collect(),
+            points: points.to_vec(),
+            bands,
+            axis,
+            bend,
+            wanted: None,
+            start: Vec::new(),
+        };
+        easing.start = vec![0.0; easing.bounds().len()];
+        Ok(easing)
+    }
+
+    /// Searches for the bluntest gears, or, where a module is wanted, mm, for the least shares of the bands with which it is
+    /// reached. Where it is out of reach the bluntest are given. `observe` hears of evaluations.
+    ///
+    /// # Errors
+    /// [`EasingError::Module`], and [`EasingError::Axis`] where no path of degree five within the bands has a machine.
+    pub fn search(
+        &self,
+        wanted: Option<f64>,
+        observe: &mut dyn FnMut(u64) -> ControlFlow<()>,
+    ) -> Result<EasedPath, EasingError> {
+        if let Some(module) = wanted.filter(|module| !(*module > 0.0 && module.is_finite())) {
+            return Err(EasingError::Module { module });
+        }
+        let mut found = self.clone();
+        let mut evaluations = 0;
+        let settings = |target: Option<f64>| Settings {
+            method: Method::CmaEs,
+            evaluations: EVALUATIONS,
+            target,
+            ..Settings::default()
+        };
+        let mut best = |problem: &Self, target: Option<f64>| {
+            let start = evaluations;
+            let searched = minimise(problem, settings(target), &mut |progress| {
+                observe(start + progress.evaluations)
+            });
+            let (search, ended) = searched.ok()?;
+            evaluations += search.evaluations();
+            let best = search.best();
+            (best.evaluation.feasible()).then_some((best.point, ended))
+        };
+        if let Some((point, _)) = best(&found, wanted.map(|module| -module)) {
+            found.start = point;
+        }
+        let is_reached = |easing: &Self| {
+            let module = easing.module(&easing.start);
+            wanted.is_some_and(|wanted| module.is_some_and(|module| module >= wanted))
+        };
+        if is_reached(&found) {
+            found.wanted = wanted;
+            if let Some((point, ended)) = best(&found, None)
+                && ended != Ended::Stopped
+            {
+                found.start = point;
+            }
+        }
+        let points = found.eased(&found.start);
+        let moved = points.iter().zip(&self.points);
+        let axis = found.axis_at(&found.start);
+        let eased = TwoBar::new(&WantedPath::smoothly_through(&points)?, axis, None)?;
+        let before = WantedPath::through(&self.points)?;
+        let before = TwoBar::new(&before, axis, None).ok();
+        Ok(EasedPath {
+            moved: moved.map(|(p, q)| (p - q).norm()).collect(),
+            module: (before.map(|chain| self.borne(&chain)), self.borne(&eased)),
+            chain: eased,
+            points,
+            evaluations,
+        })
+    }
+
+    /// Variables that move points.
+    fn moves(&self) -> usize {
+        match self.points.len() {
+            few @ ..=SINGLE => few,
+            _ => 1 + 2 * HARMONICS,
+        }
+    }
+
+    /// Share of its band by which each point moves outwards.
+    fn shares(&self, variables: &[f64]) -> Vec<f64> {
+        let count = self.points.len();
+        if count <= SINGLE {
+            return variables[..count].to_vec();
+        }
+        let (mean, waves) = variables[..self.moves()].split_at(1);
+        let share = |i: usize| {
+            let angle = TAU * i as f64 / count as f64;
+            let waves = waves.chunks(2).enumerate().map(|(k, wave)| {
+                let (sin, cos) = (angle * (k + 1) as f64).sin_cos();
+                wave[0] * cos + wave[1] * sin
+            });
+            let sum = mean[0] + waves.sum::<f64>();
+            sum / (1.0 + sum * sum).sqrt()
+        };
+        (0..count).map(share).collect()
+    }
+
+    fn eased(&self, variables: &[f64]) -> Vec<Point> {
+        let shares = self.shares(variables);
+        let bands = shares.iter().zip(&self.bands);
+        let moves = bands.zip(&self.normals);
+        let moved = |(p, ((share, band), normal)): (&Point, ((&f64, &f64), &Vector))| {
+            p + normal * (share * band)
+        };
+        self.points.iter().zip(moves).map(moved).collect()
+    }
+
+    fn axis_at(&self, variables: &[f64]) -> Point {
+        let (axis, room) = self.axis;
+        match &variables[self.moves()..] {
+            [x, y] => axis + Vector::new(*x, *y) * room,
+            _ => axis,
+        }
+    }
+
+    fn module(&self, variables: &[f64]) -> Option<f64> {
+        let path = WantedPath::smoothly_through(&self.eased(variables)).ok()?;
+        let chain = TwoBar::new(&path, self.axis_at(variables), None).ok()?;
+        Some(self.borne(&chain))
+    }
+
+    /// Module up to which full teeth are surely sound, cut by the usual rack.
+    fn borne(&self, chain: &TwoBar) -> f64 {
+        let pair = GearPairDesign::new(PitchSpec::Circle(Circle::default()));
+        Limits::largest_full_module_of(&pair, chain.curvatures(self.bend))
+    }
+}
+
+impl Problem for Easing {
+    fn bounds(&self) -> Vec<(f64, f64)> {
+        let (count, moves) = (self.points.len(), self.moves());
+        let mut bounds = match count {
+            ..=SINGLE => vec![(-1.0, 1.0); moves],
+            _ => {
+                let wave = |k: usize| GREATEST / (1.0 + k.div_ceil(2) as f64);
+                (0..moves).map(|k| (-wave(k), wave(k))).collect()
+            }
+        };
+        if self.axis.1 > 0.0 {
+            bounds.extend([(-1.0, 1.0); 2]);
+        }
+        bounds
+    }
+
+    fn start(&self) -> Option<Vec<f64>> {
+        Some(self.start.clone())
+    }
+
+    fn evaluate(&self, point: &[f64]) -> Evaluation {
+        let Some(module) = self.module(point) else {
+            return Evaluation {
+                objective: 0.0,
+                constraints: vec![NONE],
+            };
+        };
+        match self.wanted {
+            None => Evaluation {
+                objective: -module,
+                constraints: Vec::new(),
+            },
+            Some(wanted) => {
+                let shares = self.shares(point);
+                let moved = shares
+                    .iter()
+                    .zip(&self.bands)
+                    .filter(|(_, band)| **band > 0.0);
+                Evaluation {
+                    objective: moved.fold(0.0, |most, (share, _)| share.abs().max(most)),
+                    constraints: vec![wanted / module - 1.0],
+                }
+            }
+        }
+    }
+}
+
+/// The axis of a grid about a path whose gears are the bluntest.
+fn bluntest(path: &WantedPath, bend: f64) -> Result<Point, EasingError> {
+    let range = AxisRange::about(path);
+    let map = AxisMap::new(path, range);
+    let columns = map.range().count[0] as usize;
+    let possible = map.found().iter().enumerate();
+    let possible = possible.filter_map(|(n, found)| Some((n, found.as_ref().ok()?)));
+    let best = possible.max_by(|a, b| {
+        let [a, b] = [a, b].map(|(_, axis)| axis.least_radius(bend));
+        a.total_cmp(&b)
+    });
+    let (n, _) = best.ok_or(EasingError::NoAxis {
+        tried: map.found().len(),
+    })?;
+    let (i, j) = ((n % columns) as u32, (n / columns) as u32);
+    Ok(map.range().axis(i, j))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const DRAWN: [[f64; 2]; 13] = [
+        [0.0, 0.0],
+        [60.0, 70.0],
+        [150.0, 150.0],
+        [230.0, 215.0],
+        [262.0, 262.0],
+        [235.0, 300.0],
+        [170.0, 330.0],
+        [100.0, 330.0],
+        [40.0, 300.0],
+        [-5.0, 250.0],
+        [-30.0, 190.0],
+        [-38.0, 130.0],
+        [-30.0, 60.0],
+    ];
+
+    fn easing(band: f64, axis: [f64; 2]) -> Easing {
+        let points: Vec<Point> = DRAWN.iter().map(|&p| p.into()).collect();
+        let bend = 40.0_f64.to_radians();
+        Easing::new(&points, &[band], Some(axis.into()), bend).expect("a machine")
+    }
+
+    fn search(easing: &Easing, wanted: Option<f64>) -> EasedPath {
+        let found = easing.search(wanted, &mut |_| ControlFlow::Continue(()));
+        found.expect("a path")
+    }
+
+    #[test]
+    fn within_a_band_gears_grow_blunter_and_no_point_leaves_it() {
+        let easing = easing(5.0, [260.0, 160.0]);
+        let found = search(&easing, None);
+        let (before, after) = found.module;
+        let before = before.expect("the wanted path has a machine");
+        assert!(after > 1.5 * before, "{before} {after}");
+        assert!(found.moved.iter().all(|&moved| moved <= 5.0 + 1e-12));
+        // The eased path passes its own points.
+        let path = found.chain.path();
+        for (i, point) in found.points.iter().enumerate() {
+            assert!((path.at(i as f64).point - point).norm() < 1e-9);
+        }
+        let axis = found.chain.axis();
+        assert!((axis.x, axis.y) == (260.0, 160.0));
+    }
+
+    #[test]
+    fn a_module_wanted_is_reached_with_less_than_the_whole_band() {
+        let easing = easing(5.0, [260.0, 160.0]);
+        let all = search(&easing, None);
+        let (Some(before), after) = all.module else {
+            panic!("the wanted path has a machine");
+        };
+        let wanted = 0.5 * (before + after);
+        let some = search(&easing, Some(wanted));
+        let most = |path: &EasedPath| path.moved.iter().fold(0.0_f64, |most, m| most.max(*m));
+        assert!(some.module.1 >= wanted);
+        assert!(
+            most(&some) < 0.8 * most(&all),
+            "{} {}",
+            most(&some),
+            most(&all)
+        );
+        let beyond = search(&easing, Some(100.0 * after));
+        assert!((beyond.module.1 / after - 1.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn many_points_move_along_harmonics() {
+        let points: Vec<Point> = (0..200)
+            .map(|i| {
+                let t = TAU * f64::from(i) / 200.0;
+                Point::new(t.cos() * (300.0 + 100.0 * t.cos()), 200.0 * t.sin())
+            })
+            .collect();
+        let easing = Easing::new(&points, &[3.0], None, 1.0).expect("a machine");
+        let found = search(&easing, None);
+        assert!(found.module.0.is_none_or(|before| found.module.1 > before));
+        assert!(found.moved.iter().all(|&moved| moved < 3.0));
+        assert!(found.moved.iter().any(|&moved| moved > 0.5));
+    }
+
+    #[test]
+    fn what_is_no_band_is_told() {
+        let points: Vec<Point> = DRAWN.iter().map(|&p| p.into()).collect();
+        let fault = |bands: &[f64]| Easing::new(&points, bands, None, 1.0).expect_err("no bands");
+        let told = "the band of point 1 is zero or more, in mm, not -1";
+        assert_eq!(fault(&[-1.0]).to_string(), told);
+        let told = "there are 2 bands for 13 points: give one for each, or one for all";
+        assert_eq!(fault(&[1.0, 2.0]).to_string(), told);
+        let mut bands = [1.0; 13];
+        bands[4] = f64::NAN;
+        assert!(fault(&bands).to_string().contains("point 5"));
+        let none = easing(5.0, [260.0, 160.0]);
+        let none = none.search(Some(0.0), &mut |_| ControlFlow::Continue(()));
+        assert!(none.is_err());
+    }
+}

@@ -1,0 +1,139 @@
+//! Points and poses read from CSV files.
+
+use centrode_geometry::Point;
+
+use super::PathError;
+use super::path::text;
+
+/// Heading of the column of tolerances.
+const TOLERANCE: [&str; 2] = ["tolerance", "tolerance_mm"];
+
+/// Points that a path is wanted to pass.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WantedPoints {
+    /// The points in order, mm.
+    pub points: Vec<Point>,
+    /// Distance within which the path may pass each point, mm; none where the file has no such column.
+    pub tolerances: Option<Vec<f64>>,
+}
+
+impl WantedPoints {
+    /// Reads points as [`WantedPath::from_csv`](super::WantedPath::from_csv) does, and the column headed `tolerance`, if there is one.
+    ///
+    /// # Errors
+    /// [`PathError`] with the line; a tolerance is zero or more.
+    pub fn from_csv(bytes: &[u8]) -> Result<Self, PathError> {
+        let table = Table::read(bytes)?;
+        let points = table.rows()?.into_iter().map(|row: [f64; 2]| row.into());
+        let headings = table.headings.iter();
+        let is_tolerance = |word: &&str| TOLERANCE.contains(&word.to_lowercase().as_str());
+        let column = headings.clone().position(|word| is_tolerance(&word));
+        let tolerances = column.map(|column| table.column(column)).transpose()?;
+        Ok(Self {
+            points: points.collect(),
+            tolerances,
+        })
+    }
+}
+
+/// Numbers at the head of every line of a CSV file, as [`WantedPath::from_csv`](super::WantedPath::from_csv) reads it.
+pub(super) fn rows<const N: usize>(bytes: &[u8]) -> Result<Vec<[f64; N]>, PathError> {
+    Table::read(bytes)?.rows()
+}
+
+/// Lines of a CSV file, in words.
+struct Table<'a> {
+    headings: Vec<&'a str>,
+    lines: Vec<Line<'a>>,
+}
+
+/// A line that is no remark.
+struct Line<'a> {
+    number: usize,
+    words: Vec<&'a str>,
+    decimal: char,
+}
+
+impl<'a> Table<'a> {
+    fn read(bytes: &'a [u8]) -> Result<Self, PathError> {
+        let text = text(bytes)?;
+        // Old programs end a line by a carriage return alone.
+        let end = if text.contains('\n') { '\n' } else { '\r' };
+        let lines = text.split(end).enumerate();
+        let lines = lines.map(|(i, line)| (i + 1, line.trim()));
+        let written = lines.filter(|(_, line)| !line.is_empty() && !line.starts_with('#'));
+        let mut lines: Vec<Line<'_>> = written.map(|(i, line)| Line::new(i, line)).collect();
+        let is_heading =
+            |line: &Line<'_>| (0..2.min(line.words.len())).any(|k| line.number_at(k).is_err());
+        let headings = match lines.first() {
+            Some(first) if is_heading(first) => lines.remove(0).words,
+            _ => Vec::new(),
+        };
+        Ok(Self { headings, lines })
+    }
+
+    /// The first numbers of every line.
+    fn rows<const N: usize>(&self) -> Result<Vec<[f64; N]>, PathError> {
+        self.lines.iter().map(Line::row).collect()
+    }
+
+    /// Tolerances of every line.
+    fn column(&self, column: usize) -> Result<Vec<f64>, PathError> {
+        let lines = self.lines.iter();
+        let tolerance = |line: &Line<'_>| {
+            let value = line.number_at(column)?;
+            match value >= 0.0 && value.is_finite() {
+                true => Ok(value),
+                false => Err(PathError::Tolerance {
+                    line: line.number,
+                    value,
+                }),
+            }
+        };
+        lines.map(tolerance).collect()
+    }
+}
+
+impl<'a> Line<'a> {
+    fn new(number: usize, line: &'a str) -> Self {
+        // Spreadsheets that write a decimal comma separate by semicolons or tabs.
+        let (separators, decimal): (&[char], _) = match line.contains([';', '\t']) {
+            true => (&[';', '\t'], ','),
+            false => (&[','], '.'),
+        };
+        Self {
+            number,
+            words: line.split(separators).map(str::trim).collect(),
+            decimal,
+        }
+    }
+
+    fn number_at(&self, column: usize) -> Result<f64, PathError> {
+        let word = self.words.get(column).copied().unwrap_or_default();
+        let read = word.replace(self.decimal, ".").parse::<f64>();
+        read.map_err(|_| PathError::NotNumber {
+            line: self.number,
+            found: word.chars().take(40).collect(),
+        })
+    }
+
+    fn row<const N: usize>(&self) -> Result<[f64; N], PathError> {
+        let mut row = [0.0; N];
+        if self.words.len() < N {
+            self.number_at(0)?;
+            return Err(PathError::Columns {
+                line: self.number,
+                count: self.words.len(),
+                wanted: if N == 2 {
+                    "x and y in mm"
+                } else {
+                    "x and y in mm and the direction in degrees"
+                },
+            });
+        }
+        for (column, value) in row.iter_mut().enumerate() {
+            *value = self.number_at(column)?;
+        }
+        Ok(row)
+    }
+}
