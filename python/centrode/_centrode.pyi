@@ -1081,6 +1081,10 @@ class Reversed:
     @property
     def split(self) -> str: ...
     @property
+    def eased(self) -> NDArray[float64] | None: ...
+    @property
+    def full_module(self) -> float | None: ...
+    @property
     def tip_error(self) -> float: ...
     @property
     def clamp_deg(self) -> float | None: ...
@@ -1112,6 +1116,8 @@ def reverse(
     split: Literal["powers", "mildest", "one-pair"] = "powers",
     bend_deg: _Real = 60.0,
     arms: _Count = 1,
+    band: _Real | ArrayLike | None = None,
+    module: _Real | None = None,
 ) -> Reversed: ...
 
 @final

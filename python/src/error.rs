@@ -3,7 +3,7 @@ use std::error::Error;
 use centrode_analysis::forces::ForcesError;
 use centrode_analysis::interference::LinkClearanceError;
 use centrode_analysis::optimise::feeder::NotWidened;
-use centrode_analysis::optimise::{NotSearched, SearchError};
+use centrode_analysis::optimise::{EasingError, NotSearched, SearchError};
 use centrode_analysis::{ArmClearanceError, FeederForcesError, NoSoundTeeth, ProofError};
 use centrode_export::{BundleError, ExportError};
 use centrode_geometry::{BadTolerance, SolidError, Tolerance};
@@ -81,6 +81,12 @@ raised! {
     NotWidened { _ => MechanismError("optimise"), }
     SearchError { _ => MechanismError("optimise"), }
     PathError { _ => DesignError("path"), }
+    EasingError {
+        EasingError::Path(_) => DesignError("path"),
+        EasingError::Axis(_) | EasingError::NoAxis { .. } => MechanismError("axis"),
+        EasingError::Module { .. } => DesignError("module"),
+        _ => DesignError("band"),
+    }
     PoseError {
         PoseError::Path(_) | PoseError::Count { .. } | PoseError::OnePlace => DesignError("poses"),
         _ => MechanismError("poses"),

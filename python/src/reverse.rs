@@ -1,3 +1,5 @@
+mod eased;
+mod given;
 mod tables;
 
 use std::ops::ControlFlow;
@@ -5,20 +7,17 @@ use std::sync::{Arc, OnceLock};
 
 use centrode_analysis::optimise::three_arm::PosedProblem;
 use centrode_analysis::with_sound_teeth;
-use centrode_geometry::Point;
 use centrode_mechanism::design::Design as _;
 use centrode_mechanism::machine::Piecewise;
 use centrode_mechanism::reverse::{
-    AxisMap, AxisRange, DrawnPath, KeyPose, KeyPoses, ReversedMachine, Split, SplitKind, TwoBar,
-    WantedPath,
+    AxisMap, AxisRange, KeyPoses, ReversedMachine, Split, SplitKind, TwoBar, WantedPath,
 };
 use centrode_mechanism::transmission::Transmission as _;
-use pyo3::prelude::{Bound, Py, PyAny, PyResult, Python, pyclass, pyfunction, pymethods};
+use pyo3::prelude::{Bound, Py, PyAny, PyResult, Python, pyclass, pymethods};
 use pyo3::types::PyTuple;
 
 use crate::array::{Course, Rows, Values};
 use crate::composed::Machine;
-use crate::count::Count;
 use crate::design::{Class, object, read};
 use crate::error::{Answer, Raised};
 use crate::made::{Reduced, by};
@@ -26,7 +25,12 @@ use crate::record::{self, Keywords};
 use crate::wait::wait;
 use crate::word::Word;
 
+use eased::Eased;
+use given::Given;
 use tables::{axis_map, split_figures};
+
+pub(crate) use eased::_drawn_path;
+pub(crate) use given::{reverse, reverse_poses};
 
 /// Bytes read of a path's file: one more than it may have.
 pub(crate) const LARGEST: usize = WantedPath::LARGEST + 1;
@@ -48,121 +52,14 @@ pub(crate) struct Reversed {
     axes: OnceLock<AxisMap>,
 }
 
-/// Path or key poses from which a machine is made.
-#[derive(Debug)]
-enum Given {
-    Path {
-        points: Vec<Point>,
-        axis: Option<(f64, f64)>,
-    },
-    Poses {
-        rows: Rows<3>,
-        found: Box<KeyPoses>,
-    },
-}
-
-/// Makes a machine from the path wanted of its tip.
-///
-/// Args:
-///     path: Points in the order in which the tip passes them, mm, an array (N, 2): a closed periodic cubic spline runs
-///         through them.
-///     axis: Axis of the carrier, mm; left out, the mildest: that of the least change of the gears' ratio.
-///     split: "powers", two different pairs, "mildest", two whose sharpest pitch curve is as blunt as can be, or "one-pair", one
-///         pair twice.
-///     bend_deg: Angle from the carrier's first leg, to the intermediate gear, to its second, degrees.
-///     arms: Number of arms.
-///
-/// Raises:
-///     DesignError: The points make no path, or a value breaks a rule of its own.
-///     MechanismError: No machine with this axis, or with this split and bend, follows the path.
-///
-/// >>> import centrode as ct
-/// >>> path = [(0, 0), (60, 70), (150, 150), (230, 215), (262, 262), (235, 300), (170, 330),
-/// ...         (100, 330), (40, 300), (-5, 250), (-30, 190), (-38, 130), (-30, 60)]
-/// >>> arms = ct.reverse(path, (260, 160), bend_deg=40)
-/// >>> round(arms.carrier, 3), round(arms.arm, 3), arms.tip_error < 1e-4
-/// (125.612, 186.594, True)
-#[pyfunction]
-#[pyo3(
-    signature = (path, axis=None, *, split="powers", bend_deg=60.0, arms=Count::Fits(1)),
-    text_signature = "(path, axis=None, *, split='powers', bend_deg=60.0, arms=1)"
-)]
-pub(crate) fn reverse(
-    py: Python<'_>,
-    path: Values,
-    axis: Option<(f64, f64)>,
-    split: &str,
-    bend_deg: f64,
-    arms: Count,
-) -> Answer<Reversed> {
-    let kind: SplitKind = Word::of("split", split)?;
-    let arms = arms.within("arms", 1, 12)?;
-    let points = path.points("path")?;
-    wait(py, move || {
-        let path = WantedPath::through(&points)?;
-        let mut axes = OnceLock::new();
-        let chain = match axis {
-            Some((x, y)) => TwoBar::new(&path, Point::new(x, y), None)?,
-            None => {
-                let map = AxisMap::new(&path, AxisRange::about(&path));
-                let chain = map.mildest(&path).ok_or_else(|| no_axis(&map))?;
-                axes = OnceLock::from(map);
-                chain
-            }
-        };
-        let given = Given::Path { points, axis };
-        Reversed::new(given, chain, axes, (kind, bend_deg, arms))
-    })?
-}
-
-/// Makes a machine whose arm takes key poses in order, the path between them free.
-///
-/// Args:
-///     poses: Three to seven places of the tip, mm, and directions of the clamp there, degrees, an array (N, 3).
-///     split: "powers", two different pairs, "mildest", two whose sharpest pitch curve is as blunt as can be, or "one-pair", one
-///         pair twice.
-///     bend_deg: Angle from the carrier's first leg, to the intermediate gear, to its second, degrees.
-///     arms: Number of arms.
-///
-/// Raises:
-///     DesignError: The poses are no three to seven different ones, or a value breaks a rule of its own.
-///     MechanismError: No carrier and arm meet the poses in order; the sentence tells how near the nearest comes.
-///
-/// >>> import centrode as ct
-/// >>> poses = [(249.08, 50.03, 31.93), (167.32, 64.88, 20.89), (104.40, 34.05, 42.55), (175.51, 14.69, 53.59)]
-/// >>> arms = ct.reverse_poses(poses, bend_deg=40)
-/// >>> arms.misses.shape, bool((arms.misses < 0.1).all())
-/// ((4, 2), True)
-#[pyfunction]
-#[pyo3(
-    signature = (poses, *, split="powers", bend_deg=60.0, arms=Count::Fits(1)),
-    text_signature = "(poses, *, split='powers', bend_deg=60.0, arms=1)"
-)]
-pub(crate) fn reverse_poses(
-    py: Python<'_>,
-    poses: Values,
-    split: &str,
-    bend_deg: f64,
-    arms: Count,
-) -> Answer<Reversed> {
-    let kind: SplitKind = Word::of("split", split)?;
-    let arms = arms.within("arms", 1, 12)?;
-    let rows: Rows<3> = Rows(poses.rows("poses")?);
-    wait(py, move || {
-        let pose = |&[x, y, direction]: &[f64; 3]| KeyPose {
-            point: Point::new(x, y),
-            direction: direction.to_radians(),
-        };
-        let poses: Vec<KeyPose> = rows.0.iter().map(pose).collect();
-        let found = KeyPoses::new(&poses)?;
-        let chain = found.chain.clone();
-        let found = Box::new(found);
-        let given = Given::Poses { rows, found };
-        Reversed::new(given, chain, OnceLock::new(), (kind, bend_deg, arms))
-    })?
-}
-
 impl Reversed {
+    fn eased_path(&self) -> Option<&Eased> {
+        match &self.given {
+            Given::Path { eased, .. } => eased.as_ref(),
+            Given::Poses { .. } => None,
+        }
+    }
+
     fn new(
         given: Given,
         chain: TwoBar,
@@ -185,21 +82,6 @@ impl Reversed {
             axes,
         })
     }
-}
-
-/// Points along the path of an SVG file's bytes.
-#[pyfunction]
-pub(crate) fn _drawn_path(py: Python<'_>, contents: Vec<u8>, within: f64) -> Answer<Rows<2>> {
-    let drawn = wait(py, move || DrawnPath::from_svg(&contents, within))??;
-    Ok(Rows::of(&drawn.points))
-}
-
-fn no_axis(map: &AxisMap) -> Raised {
-    let sentence = format!(
-        "no machine of this kind has a tip that runs along the path: of {} axes tried on and about it none is possible",
-        map.found().len()
-    );
-    Raised::no_mechanism("axis", sentence)
 }
 
 #[pymethods]
@@ -251,6 +133,19 @@ impl Reversed {
     #[getter]
     fn split(&self) -> &'static str {
         self.split.kind().name()
+    }
+
+    /// Points of the path that was eased, mm, an array (N, 2), where `band` was given: a closed spline of degree five runs through
+    /// them.
+    #[getter]
+    fn eased(&self) -> Option<Rows<2>> {
+        Some(Rows::of(&self.eased_path()?.points))
+    }
+
+    /// Module up to which full teeth are surely sound on the eased path, mm, where `band` was given.
+    #[getter]
+    fn full_module(&self) -> Option<f64> {
+        Some(self.eased_path()?.module)
     }
 
     /// Greatest distance of the tip from the path, mm, with the laws of the gears as the design holds them.
@@ -378,9 +273,17 @@ impl Reversed {
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
         let keywords = Keywords::new(py);
         let (name, keywords) = match &self.given {
-            Given::Path { points, axis } => {
+            Given::Path {
+                points,
+                axis,
+                eased,
+            } => {
                 let keywords = keywords.with("path", Rows::of(points))?;
-                ("reverse", keywords.with("axis", *axis)?)
+                let keywords = keywords.with("axis", *axis)?;
+                let asked = eased.as_ref().map(|eased| eased.bands.clone());
+                let keywords = keywords.with("band", asked)?;
+                let module = eased.as_ref().and_then(|eased| eased.wanted);
+                ("reverse", keywords.with("module", module)?)
             }
             Given::Poses { rows, .. } => ("reverse_poses", keywords.with("poses", rows.clone())?),
         };

@@ -1,5 +1,8 @@
 """A machine made from a path: bars by closed forms, the machine held against the path itself."""
 
+import pickle
+import subprocess
+import sys
 import threading
 import time
 
@@ -270,3 +273,68 @@ def test_a_transplanter_takes_its_poses_and_reaches_every_goal():
     assert np.abs(np.degrees(arms.clamp_angle(theta[at])) - poses[:, 2]).max() < 0.01
     with pytest.raises(ct.MechanismError, match="key poses"):
         ct.reverse(DRAWN, (260, 160), bend_deg=40).three_arm()
+
+
+def distance_to_spline(points, closed):
+    """Distances of points from a closed spline of degree five through others, by SciPy."""
+    from scipy.interpolate import make_interp_spline
+
+    count = len(closed)
+    curve = make_interp_spline(np.arange(count + 1), np.vstack([closed, closed[:1]]), k=5, bc_type="periodic")
+    coarse = np.linspace(0, count, 4001)
+    places = curve(coarse)
+
+    def distance(point):
+        near = coarse[np.hypot(*(places - point).T).argmin()]
+        beside = near + np.linspace(-1, 1, 2001) * count / 4000
+        return np.hypot(*(curve(beside % count) - point).T).min()
+
+    return np.array([distance(point) for point in points])
+
+
+def test_an_eased_path_stays_in_its_bands_and_bears_full_teeth():
+    made = ct.reverse(DRAWN, (260, 160), bend_deg=40, band=5)
+    assert (np.hypot(*(made.eased - DRAWN).T) <= 5 + 1e-9).all()
+    assert (distance_to_spline(DRAWN, made.eased) <= 5 + 1e-9).all()
+    assert made.full_module > 2
+    machine = made.machine()
+    assert machine.check().ok
+    # The tip of the machine runs along the eased path, which SciPy draws.
+    tip = machine.point("arm.tip", np.linspace(0, 2 * np.pi, 200, endpoint=False))
+    assert distance_to_spline(tip, made.eased).max() < 1e-4
+
+
+def test_each_point_may_have_its_own_band_and_the_same_answer_comes_from_a_copy():
+    bands = np.full(len(DRAWN), 6.0)
+    bands[[0, 4]] = 0
+    made = ct.reverse(DRAWN, (260, 160), bend_deg=40, band=bands, module=0.5)
+    assert made.full_module >= 0.5
+    assert np.array_equal(made.eased[[0, 4]], DRAWN[[0, 4]])
+    moved = np.hypot(*(made.eased - DRAWN).T)
+    assert 0 < moved.max() < 6
+    copy = pickle.loads(pickle.dumps(made))
+    assert np.array_equal(copy.eased, made.eased)
+    assert copy.full_module == made.full_module
+
+
+@pytest.mark.parametrize(
+    ("keywords", "word"),
+    [
+        ({"band": -1}, "band of point 1"),
+        ({"band": [1, 2]}, "2 bands for 13 points"),
+        ({"band": 1, "module": 0}, "module wanted is greater than zero"),
+        ({"module": 1}, "by how much with band"),
+    ],
+)
+def test_what_is_no_band_is_refused(keywords, word):
+    with pytest.raises(ct.DesignError, match=word):
+        ct.reverse(DRAWN, (260, 160), **keywords)
+
+
+def test_a_machine_of_an_eased_path_follows_it_through_tooth_contact_alone(tmp_path):
+    """The tip of the machine in MuJoCo, its gears driven by their teeth, is off the path by no more than their play."""
+    machine = ct.reverse(DRAWN, (260, 160), bend_deg=40, band=5).machine()
+    machine.export(tmp_path, formats=["mjcf"])
+    command = [sys.executable, str(tmp_path / "play_mujoco.py"), "--check", "--contact", "--speed", "2"]
+    played = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert played.returncode == 0, played.stdout + played.stderr

@@ -252,3 +252,111 @@ fn poses_that_no_goal_allows_are_told_with_the_goal() {
         "{told}"
     );
 }
+
+#[test]
+fn a_path_is_eased_within_a_band_until_full_teeth_are_large() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let to = folder.path().join("eased.toml");
+    let to = to.to_str().expect("a name");
+    let asked = [
+        "reverse", "-", "--axis", "260,160", "--bend", "40", "--band", "5", "-o", to,
+    ];
+    let run = fed(&asked, DRAWN.as_bytes());
+    let told = text(&run.stdout);
+    assert_eq!(run.status.code(), Some(0), "{}", text(&run.stderr));
+    let figure = |name: &str, before: &str| -> f64 {
+        let line = told
+            .lines()
+            .find(|line| line.starts_with(name))
+            .expect("a line");
+        let after = line.split(before).nth(1).expect("a figure");
+        after
+            .split(' ')
+            .next()
+            .and_then(|x| x.parse().ok())
+            .expect("a number")
+    };
+    assert!(figure("path eased", "by ") <= 5.0, "{told}");
+    assert!(
+        figure("full teeth", "module ") > 2.0 && figure("full teeth", "mm, ") < 0.2,
+        "{told}"
+    );
+    for pair in ["first", "second"] {
+        let name = format!("teeth of {pair}-stage");
+        assert!(told.contains(" full teeth, module 2."), "{told}");
+        assert!(figure(&name, "module ") > 2.0, "{told}");
+    }
+    let checked = centrode(&["check", to]);
+    assert_eq!(checked.status.code(), Some(0), "{}", text(&checked.stdout));
+}
+
+#[test]
+fn a_column_of_tolerances_bounds_each_point_and_a_module_is_asked_for() {
+    let lines = DRAWN.lines().enumerate();
+    let with = lines.map(|(i, line)| match i {
+        0 => format!("{line},tolerance\n"),
+        // The ends of the stroke stay.
+        1 | 5 => format!("{line},0\n"),
+        _ => format!("{line},6\n"),
+    });
+    let csv: String = with.collect();
+    let axis = ["reverse", "-", "--axis", "260,160", "--bend", "40"];
+    let asked = [&axis[..], &["--module", "0.5"]].concat();
+    let run = fed(&asked, csv.as_bytes());
+    let told = text(&run.stdout);
+    assert_eq!(run.status.code(), Some(0), "{}", text(&run.stderr));
+    assert!(
+        told.contains("surely sound up to module 0.5000 mm, 0.1127 mm before"),
+        "{told}"
+    );
+    // What is out of reach is told, and the exit status is that of a finding.
+    let asked = [&axis[..], &["--module", "20"]].concat();
+    let run = fed(&asked, csv.as_bytes());
+    assert_eq!(run.status.code(), Some(1), "{}", text(&run.stderr));
+    let told = text(&run.stdout);
+    assert!(told.contains(", not 20.0000 mm: give more room"), "{told}");
+}
+
+#[test]
+fn bands_and_modules_that_are_none_are_refused() {
+    let axis = ["reverse", "-", "--axis", "260,160"];
+    let negative = DRAWN
+        .replace("x,y", "x,y,tolerance")
+        .replace("0,0\n", "0,0,-2\n");
+    for (more, csv, words) in [
+        (
+            &["--band", "-1"][..],
+            DRAWN,
+            "the band of point 1 is zero or more, in mm, not -1",
+        ),
+        (
+            &["--band", "nan"],
+            DRAWN,
+            "the band of point 1 is zero or more",
+        ),
+        (
+            &["--band", "5", "--module", "0"],
+            DRAWN,
+            "--module is greater than zero, in mm, not 0",
+        ),
+        (
+            &["--module", "1"],
+            DRAWN,
+            "say by how much with --band, or by a column headed tolerance",
+        ),
+        (
+            &["--module", "1"],
+            &negative,
+            "line 2: the tolerance of a point is zero or more, in mm, not -2",
+        ),
+        (&["--band", "1", "--poses"], DRAWN, "cannot be used with"),
+    ] {
+        let run = fed(&[&axis[..], more].concat(), csv.as_bytes());
+        assert_eq!(run.status.code(), Some(2), "{more:?}");
+        assert!(
+            text(&run.stderr).contains(words),
+            "{more:?}: {}",
+            text(&run.stderr)
+        );
+    }
+}

@@ -1,0 +1,151 @@
+use std::sync::OnceLock;
+
+use centrode_geometry::Point;
+use centrode_mechanism::reverse::{
+    AxisMap, AxisRange, KeyPose, KeyPoses, SplitKind, TwoBar, WantedPath,
+};
+use pyo3::prelude::{Python, pyfunction};
+
+use super::Reversed;
+use super::eased::{self, Eased};
+use super::tables::no_axis;
+use crate::array::{Rows, Values};
+use crate::count::Count;
+use crate::error::Answer;
+use crate::wait::wait;
+use crate::word::Word;
+
+/// Path or key poses from which a machine is made.
+#[derive(Debug)]
+pub(super) enum Given {
+    Path {
+        points: Vec<Point>,
+        axis: Option<(f64, f64)>,
+        eased: Option<Eased>,
+    },
+    Poses {
+        rows: Rows<3>,
+        found: Box<KeyPoses>,
+    },
+}
+
+/// Makes a machine from the path wanted of its tip.
+///
+/// Args:
+///     path: Points in the order in which the tip passes them, mm, an array (N, 2): a closed periodic cubic spline runs
+///         through them.
+///     axis: Axis of the carrier, mm; left out, the mildest: that of the least change of the gears' ratio.
+///     split: "powers", two different pairs, "mildest", two whose sharpest pitch curve is as blunt as can be, or "one-pair", one
+///         pair twice.
+///     bend_deg: Angle from the carrier's first leg, to the intermediate gear, to its second, degrees.
+///     arms: Number of arms.
+///     band: Distance within which the path may pass its points, mm, one for all or an array (N,): it is eased there until its
+///         gears bear full teeth as large as can be. Without an axis the search begins with the one of the bluntest gears.
+///     module: Module of full teeth, mm, for which it is eased, and no more.
+///
+/// Raises:
+///     DesignError: The points make no path, or a value breaks a rule of its own.
+///     MechanismError: No machine with this axis, or with this split and bend, follows the path.
+///
+/// >>> import centrode as ct
+/// >>> path = [(0, 0), (60, 70), (150, 150), (230, 215), (262, 262), (235, 300), (170, 330),
+/// ...         (100, 330), (40, 300), (-5, 250), (-30, 190), (-38, 130), (-30, 60)]
+/// >>> arms = ct.reverse(path, (260, 160), bend_deg=40)
+/// >>> round(arms.carrier, 3), round(arms.arm, 3), arms.tip_error < 1e-4
+/// (125.612, 186.594, True)
+#[pyfunction]
+#[pyo3(
+    signature = (path, axis=None, *, split="powers", bend_deg=60.0, arms=Count::Fits(1), band=None, module=None),
+    text_signature = "(path, axis=None, *, split='powers', bend_deg=60.0, arms=1, band=None, module=None)"
+)]
+#[expect(clippy::too_many_arguments, reason = "keywords")]
+pub(crate) fn reverse(
+    py: Python<'_>,
+    path: Values,
+    axis: Option<(f64, f64)>,
+    split: &str,
+    bend_deg: f64,
+    arms: Count,
+    band: Option<Values>,
+    module: Option<f64>,
+) -> Answer<Reversed> {
+    let kind: SplitKind = Word::of("split", split)?;
+    let arms = arms.within("arms", 1, 12)?;
+    let points = path.points("path")?;
+    let easing = eased::asked(band, module)?;
+    wait(py, move || {
+        if let Some((bands, module)) = easing {
+            let (chain, eased) = Eased::search(&points, (bands, module), axis, bend_deg)?;
+            let given = Given::Path {
+                points,
+                axis,
+                eased: Some(eased),
+            };
+            return Reversed::new(given, chain, OnceLock::new(), (kind, bend_deg, arms));
+        }
+        let path = WantedPath::through(&points)?;
+        let mut axes = OnceLock::new();
+        let chain = match axis {
+            Some((x, y)) => TwoBar::new(&path, Point::new(x, y), None)?,
+            None => {
+                let map = AxisMap::new(&path, AxisRange::about(&path));
+                let chain = map.mildest(&path).ok_or_else(|| no_axis(&map))?;
+                axes = OnceLock::from(map);
+                chain
+            }
+        };
+        let given = Given::Path {
+            points,
+            axis,
+            eased: None,
+        };
+        Reversed::new(given, chain, axes, (kind, bend_deg, arms))
+    })?
+}
+
+/// Makes a machine whose arm takes key poses in order, the path between them free.
+///
+/// Args:
+///     poses: Three to seven places of the tip, mm, and directions of the clamp there, degrees, an array (N, 3).
+///     split: "powers", two different pairs, "mildest", two whose sharpest pitch curve is as blunt as can be, or "one-pair", one
+///         pair twice.
+///     bend_deg: Angle from the carrier's first leg, to the intermediate gear, to its second, degrees.
+///     arms: Number of arms.
+///
+/// Raises:
+///     DesignError: The poses are no three to seven different ones, or a value breaks a rule of its own.
+///     MechanismError: No carrier and arm meet the poses in order; the sentence tells how near the nearest comes.
+///
+/// >>> import centrode as ct
+/// >>> poses = [(249.08, 50.03, 31.93), (167.32, 64.88, 20.89), (104.40, 34.05, 42.55), (175.51, 14.69, 53.59)]
+/// >>> arms = ct.reverse_poses(poses, bend_deg=40)
+/// >>> arms.misses.shape, bool((arms.misses < 0.1).all())
+/// ((4, 2), True)
+#[pyfunction]
+#[pyo3(
+    signature = (poses, *, split="powers", bend_deg=60.0, arms=Count::Fits(1)),
+    text_signature = "(poses, *, split='powers', bend_deg=60.0, arms=1)"
+)]
+pub(crate) fn reverse_poses(
+    py: Python<'_>,
+    poses: Values,
+    split: &str,
+    bend_deg: f64,
+    arms: Count,
+) -> Answer<Reversed> {
+    let kind: SplitKind = Word::of("split", split)?;
+    let arms = arms.within("arms", 1, 12)?;
+    let rows: Rows<3> = Rows(poses.rows("poses")?);
+    wait(py, move || {
+        let pose = |&[x, y, direction]: &[f64; 3]| KeyPose {
+            point: Point::new(x, y),
+            direction: direction.to_radians(),
+        };
+        let poses: Vec<KeyPose> = rows.0.iter().map(pose).collect();
+        let found = KeyPoses::new(&poses)?;
+        let chain = found.chain.clone();
+        let found = Box::new(found);
+        let given = Given::Poses { rows, found };
+        Reversed::new(given, chain, OnceLock::new(), (kind, bend_deg, arms))
+    })?
+}
