@@ -4,6 +4,7 @@
 //! and nothing else. Loops are closed when it is made: the joints' laws already hold them, and the closures stay known.
 
 mod arrangement;
+mod bar;
 mod blank;
 mod contact;
 mod figure;
@@ -17,6 +18,7 @@ mod plain;
 mod pose;
 mod sound;
 mod standard;
+mod turned;
 
 use std::fmt;
 use std::sync::Arc;
@@ -28,6 +30,7 @@ use serde::{Deserialize, Serialize};
 use crate::transmission::Transmission;
 
 pub use arrangement::{Arrangement, Axis, Callout, Datum, Dimension, Place};
+pub(crate) use bar::Bar;
 pub use blank::Blank;
 pub use contact::{Closure, Contact, ContactLine, GearMesh, Guide, GuideForce, PitchCurves};
 pub use figure::{Figure, Line, LinePath, LineRole, Mark, Seat, Sketch};
@@ -38,7 +41,8 @@ pub use law::{Constant, Linear, Piecewise};
 pub use load::{Axes, Load, STANDARD_GRAVITY};
 pub use part::{Part, Supply};
 pub use sound::{MachineError, loose_link};
-pub use standard::{Circlip, dowel};
+pub use standard::{Circlip, Dowel};
+pub use turned::{TurnedPart, TurnedPiece, TurnedPieces, TurnedStep};
 
 /// Rigid links, and how each of them moves with the one input.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, Serialize)]

@@ -1,7 +1,5 @@
-use centrode_mechanism::gear::design::Keyway;
-use centrode_mechanism::machine::{Circlip, preferred_size};
-
-use super::{Step, Turned};
+use super::{Circlip, TurnedPart, TurnedStep, preferred_size};
+use crate::gear::design::Keyway;
 
 /// Share of a diameter that a chamfer at an end takes at most.
 const CHAMFER: f64 = 1.0 / 16.0;
@@ -70,8 +68,13 @@ impl Bar {
         self
     }
 
+    /// Height of its lower end, mm.
+    pub(crate) fn bottom(&self) -> f64 {
+        self.span[0]
+    }
+
     /// Cylinders one after another from the lower end.
-    fn steps(&self) -> Vec<Step> {
+    fn steps(&self) -> Vec<TurnedStep> {
         let ring = Circlip::of_shaft(self.diameter);
         let grooves: Vec<[f64; 2]> = self
             .grooves
@@ -94,12 +97,12 @@ impl Bar {
         let step = |pair: &[f64]| {
             let middle = 0.5 * (pair[0] + pair[1]);
             let within = |spans: &[[f64; 2]]| spans.iter().any(|s| s[0] < middle && middle < s[1]);
-            let plain = Step {
+            let plain = TurnedStep {
                 is_keyed: within(&self.keyed),
-                ..Step::plain(self.diameter, pair[1] - pair[0], &self.class)
+                ..TurnedStep::plain(self.diameter, pair[1] - pair[0], &self.class)
             };
             match ring.filter(|_| within(&grooves)) {
-                Some(ring) => Step {
+                Some(ring) => TurnedStep {
                     diameter: ring.groove,
                     class: ring.class().into(),
                     ring: Some(ring),
@@ -116,12 +119,12 @@ impl Bar {
         &self,
         [name, title]: [&str; 2],
         (material, density): (&str, f64),
-    ) -> Turned {
+    ) -> TurnedPart {
         let steps = self.steps();
         let lands = [steps.first(), steps.last()].into_iter().flatten();
         let shortest = lands.map(|step| step.length).fold(f64::INFINITY, f64::min);
         let chamfer = (CHAMFER * self.diameter).min(0.5 * shortest);
-        Turned {
+        TurnedPart {
             name: name.into(),
             title: title.into(),
             steps,
@@ -132,25 +135,4 @@ impl Bar {
             notes: Vec::new(),
         }
     }
-}
-
-/// Centre hole of a turned part, of form A: the widest that takes no more than a third of the end's diameter.
-pub(crate) fn centre(diameter: f64) -> Option<String> {
-    // Diameters of the pilot hole and of the countersink, mm; ISO 866.
-    const SIZES: [(f64, f64); 11] = [
-        (1.0, 2.12),
-        (1.25, 2.65),
-        (1.6, 3.35),
-        (2.0, 4.25),
-        (2.5, 5.3),
-        (3.15, 6.7),
-        (4.0, 8.5),
-        (5.0, 10.6),
-        (6.3, 13.2),
-        (8.0, 17.0),
-        (10.0, 21.2),
-    ];
-    let mut fitting = SIZES.iter().rev();
-    let (pilot, wide) = fitting.find(|(_, wide)| 3.0 * wide <= diameter)?;
-    Some(format!("ISO 6411-A{pilot}/{wide}"))
 }
