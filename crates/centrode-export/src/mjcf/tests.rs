@@ -1,5 +1,5 @@
 use super::*;
-use crate::model::Mimic;
+use crate::model::{Mimic, Seen};
 use centrode_geometry::{Mesh, Point};
 use nalgebra::{Matrix3, Point3};
 
@@ -12,7 +12,7 @@ fn sample() -> Model {
             center: Point3::new(1.0, 2.0, 5.0),
             inertia: Matrix3::new(10.0, 1.0, 0.0, 1.0, 12.0, 0.0, 0.0, 0.0, 20.0),
         }),
-        mesh: Some(format!("{name}.stl")),
+        meshes: vec![Seen::upright(format!("{name}.stl"))],
         collision: vec![Convex {
             name: format!("{name}_tooth_0"),
             mesh: Mesh::prism(&corners.map(|[x, y]| Point::new(x, y)), -4.0, 0.0),
@@ -35,7 +35,7 @@ fn sample() -> Model {
             Link {
                 name: "base".into(),
                 mass: None,
-                mesh: None,
+                meshes: Vec::new(),
                 collision: Vec::new(),
             },
             body("driver"),

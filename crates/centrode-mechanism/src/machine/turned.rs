@@ -2,7 +2,7 @@ use centrode_geometry::{SolidError, Turned, TurnedSection, TurnedSlot};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Blank, Circlip, Fit, Machine, Part};
+use super::{Blank, Circlip, Fit, Form, Machine, Mounted, Part, Shape};
 use crate::gear::design::Keyway;
 
 /// A shaft or pin: a part turned from round bar about its axis z, its lower end at z = 0, with a keyway where it has one.
@@ -72,7 +72,7 @@ pub struct TurnedPiece {
     pub link: String,
     /// Its lower end in the link's frame, mm.
     pub at: [f64; 3],
-    /// Angles of turns about x, then y, then z of the link, which bring its frame from the link's to its own, rad.
+    /// Its turn there as roll, pitch and yaw: about the link's x, then y, then z axis, rad.
     pub turn: [f64; 3],
 }
 
@@ -176,12 +176,13 @@ impl TurnedPiece {
 }
 
 impl Machine {
-    /// Lists a turned part with its pieces, under a remark, and the rings and keys that are bought for it; its number points to
-    /// its rim.
+    /// Mounts the pieces of a turned part on their links and lists it, under a remark, with the rings and keys that are bought
+    /// for it; its number points to its rim.
     pub fn add_turned(&mut self, all: &TurnedPieces, remark: String) {
         let part = &all.part;
         let named = |piece: &TurnedPiece| self.link_named(&piece.link).unwrap_or(0);
         let links: Vec<usize> = all.pieces.iter().map(named).collect();
+        self.mount(all);
         let rim = all.axis.map(|[x, y]| [x - 0.5 * part.diameter(), y]);
         let place = rim.and_then(|rim| self.place_on(&self.links.first()?.name, rim));
         let bought = |name: &String| Part::bought(name.clone(), links.clone());
@@ -209,6 +210,26 @@ impl Machine {
         let rings: Vec<String> = rings.map(Circlip::name).collect();
         for name in rings.iter().chain(&all.keys) {
             self.part(bought(name));
+        }
+    }
+
+    /// Gives links the bodies of a turned part; a part that makes no solid has none.
+    fn mount(&mut self, all: &TurnedPieces) {
+        if all.part.solid().is_err() {
+            return;
+        }
+        let made = all.standard.is_none();
+        let shape = self.shape(Shape {
+            name: format!("turned/{}", all.part.name),
+            part: made.then(|| all.part.name.clone()).unwrap_or_default(),
+            form: Form::Turned(all.part.clone()),
+        });
+        for piece in &all.pieces {
+            let link = self.link_named(&piece.link);
+            if let Some(link) = link.and_then(|link| self.links.get_mut(link)) {
+                let (at, turn) = (piece.at, piece.turn);
+                link.mounted.push(Mounted { shape, at, turn });
+            }
         }
     }
 }
