@@ -165,7 +165,8 @@ fn gears(feeder: &Feeder, machine: &mut Machine) {
 fn fits(feeder: &Feeder, machine: &mut Machine) {
     let (body, plates) = (feeder.design().gears.body(), &feeder.design().plates);
     let seat = |name, hole: &str| Fit::new(name, body.bore, [hole, &body.shaft_fit]);
-    machine.fit(seat("gears and crank on their shafts", &body.bore_fit));
+    machine.fit(seat("gears on their shafts", &body.bore_fit));
+    machine.fit(Fit::new("crank on shaft A", body.bore, Feeder::CRANK_FIT));
     machine.fit(seat("shafts A and G in the frame", &plates.bearing_fit));
 }
 

@@ -9,6 +9,9 @@ impl Feeder {
     /// Tolerance classes, ISO 286, of the holes into which the pins of the cams are pressed and of the pins, ISO 8734.
     pub const CAM_PIN_FIT: [&str; 2] = ["H7", "m6"];
 
+    /// Tolerance classes, ISO 286, of the crank's hole and of the seat of its shaft, on which it is pressed.
+    pub const CRANK_FIT: [&str; 2] = ["H7", "r6"];
+
     /// All parts that are turned, for plates of the links, and the dowels.
     #[must_use]
     pub fn turned(&self, plates: &[Plate]) -> Vec<TurnedPieces> {
@@ -122,6 +125,7 @@ impl Feeder {
         let crank = crank.ring(middle, false, free);
         let crank = keyed(crank, [f64::NEG_INFINITY, hub(middle)[1]]);
         let crank = keyed(held(crank.ring(hub(middle)[1], true, gap)), [0.0, free]);
+        let crank = crank.seat([0.0, free], Self::CRANK_FIT[1]);
         let hubs = match self.has_cams() {
             true => vec![entry, middle, exit],
             false => vec![middle],
@@ -143,23 +147,27 @@ impl Feeder {
             .fold(f64::NEG_INFINITY, |top, &bottom| top.max(hub(bottom)[1]));
         let own = keyed(own, [f64::NEG_INFINITY, last]).ring(front, true, before);
         let mut of_crank = crank.part(["shaft-a", "Shaft A"], material);
-        of_crank.notes = vec!["The crank is bonded to its seat, flush with the end.".into()];
+        of_crank.notes =
+            vec!["The crank is pressed on its seat and key, flush with the end.".into()];
         let on_shaft = |part: TurnedPart, bar: &Bar, link: &str| TurnedPieces {
             pieces: vec![TurnedPiece::upright(link, [0.0, 0.0, bar.bottom()])],
             ..TurnedPieces::of(part, fit.clone())
         };
         let key = |width: f64| body.keyway.and_then(|keyway| keyway.key(width));
-        let keys = |widths: &[f64]| widths.iter().filter_map(|&width| key(width)).collect();
+        let square = body
+            .keyway
+            .and_then(|keyway| keyway.square_key(plates.thickness));
         [
             TurnedPieces {
                 role: "of the crank".into(),
-                keys: keys(&[body.width, plates.thickness]),
+                // In the thin crank a key with round ends would bear over less than half its length.
+                keys: [key(body.width), square].into_iter().flatten().collect(),
                 axis: Some([0.0; 2]),
                 ..on_shaft(of_crank, &crank, Part::Crank.name())
             },
             TurnedPieces {
                 role: "of the intermittent gear".into(),
-                keys: keys(&vec![body.width; hubs.len()]),
+                keys: hubs.iter().filter_map(|_| key(body.width)).collect(),
                 axis: Some([-distance, 0.0]),
                 ..on_shaft(
                     own.part(["shaft-g", "Shaft G"], material),

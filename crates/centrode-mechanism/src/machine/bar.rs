@@ -17,6 +17,8 @@ pub(crate) struct Bar {
     /// Heights of the loaded walls of grooves, and whether the groove lies above it.
     grooves: Vec<(f64, bool)>,
     keyway: Option<Keyway>,
+    /// Stretches of a class of their own.
+    seats: Vec<([f64; 2], String)>,
 }
 
 impl Bar {
@@ -29,6 +31,7 @@ impl Bar {
             keyed: Vec::new(),
             grooves: Vec::new(),
             keyway: None,
+            seats: Vec::new(),
         }
     }
 
@@ -68,6 +71,12 @@ impl Bar {
         self
     }
 
+    /// A stretch between two heights in a tolerance class of its own.
+    pub(crate) fn seat(mut self, span: [f64; 2], class: &str) -> Self {
+        self.seats.push((span, class.into()));
+        self
+    }
+
     /// Height of its lower end, mm.
     pub(crate) fn bottom(&self) -> f64 {
         self.span[0]
@@ -89,7 +98,8 @@ impl Bar {
             })
             .collect();
         let mut ends: Vec<f64> = self.span.to_vec();
-        ends.extend(grooves.iter().chain(&self.keyed).flatten());
+        let seats: Vec<[f64; 2]> = self.seats.iter().map(|(span, _)| *span).collect();
+        ends.extend(grooves.iter().chain(&self.keyed).chain(&seats).flatten());
         let [low, high] = self.span;
         ends.retain(|z| (low..=high).contains(z));
         ends.sort_by(f64::total_cmp);
@@ -97,9 +107,11 @@ impl Bar {
         let step = |pair: &[f64]| {
             let middle = 0.5 * (pair[0] + pair[1]);
             let within = |spans: &[[f64; 2]]| spans.iter().any(|s| s[0] < middle && middle < s[1]);
+            let seat = self.seats.iter().find(|(span, _)| within(&[*span]));
+            let class = seat.map_or(&self.class, |(_, class)| class);
             let plain = TurnedStep {
                 is_keyed: within(&self.keyed),
-                ..TurnedStep::plain(self.diameter, pair[1] - pair[0], &self.class)
+                ..TurnedStep::plain(self.diameter, pair[1] - pair[0], class)
             };
             match ring.filter(|_| within(&grooves)) {
                 Some(ring) => TurnedStep {

@@ -82,13 +82,14 @@ impl ThreeArm {
         let spec = pusher.fork_spec();
         let (fork, cam) = (pusher.fork_span(), pusher.cam_span());
         let wide = |name: &str| span(arm, name).unwrap_or([0.0, 1.0]);
-        let [bottom, top] = wide("housing");
-        let bar = Bar::new(spec.pivot_bore, RUNNING[1], [bottom, top]);
+        // The cam behind the fork reaches beyond the pivot.
+        let [_, cover] = wide("housing");
+        let bar = Bar::new(spec.pivot_bore, RUNNING[1], [fork[0], cover]);
         let mut pivot = bar.part(["pin-fork", "Pin of the fork"], STEEL);
-        pivot.notes = vec!["As long as the housing is thick, between its covers.".into()];
+        pivot.notes = vec!["From the rear face of the fork to the front cover.".into()];
         let at = pusher.pivot();
         let pivot = TurnedPieces {
-            pieces: self.on_chains("arm", [at.x, at.y, bottom]),
+            pieces: self.on_chains("arm", [at.x, at.y, bar.bottom()]),
             ..TurnedPieces::of(pivot, Fit::new("", spec.pivot_bore, RUNNING))
         };
         // From the roller, which is behind it, through the fork.
@@ -115,7 +116,7 @@ impl ThreeArm {
             title: "Pin of the push rod".into(),
             steps: vec![
                 TurnedStep::plain(thin, over - under, PRESSED[1]),
-                TurnedStep::plain(spec.slot_width, fork[1] - fork[0], SLIDING[1]),
+                TurnedStep::plain(spec.slot_width, under - fork[0], SLIDING[1]),
             ],
             keyway: None,
             chamfer: 0.0,
