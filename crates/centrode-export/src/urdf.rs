@@ -187,7 +187,7 @@ fn joint(joint: &crate::model::Joint) -> Joint {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::{Convex, Joint, Mimic};
+    use crate::model::{Convex, Joint, Mimic, Seen};
     use centrode_geometry::{Outline, Point, Solid, Tolerance};
 
     fn sample() -> Model {

@@ -74,6 +74,23 @@ fn lengths_are_metres_and_text_is_escaped() {
 }
 
 #[test]
+fn further_meshes_of_a_link_stand_in_their_places_and_are_named_once() {
+    let mut model = sample();
+    let pin = Seen {
+        file: "pin.stl".into(),
+        at: [0.0, 5.0, -3.0],
+        turn: [0.0, std::f64::consts::PI, 0.0],
+    };
+    for link in &mut model.links[1..] {
+        link.meshes.push(pin.clone());
+    }
+    let text = String::from_utf8(write(&model).expect("written")).expect("text");
+    assert_eq!(text.matches(r#"<mesh name="pin.stl" "#).count(), 1);
+    let geom = r#"<geom class="visual" mesh="pin.stl" pos="0.0 0.005 -0.003" quat=""#;
+    assert_eq!(text.matches(geom).count(), 2, "{text}");
+}
+
+#[test]
 fn what_is_no_tree_of_bodies_is_refused() {
     let mut lost = sample();
     lost.joints[0].child = "lost".into();

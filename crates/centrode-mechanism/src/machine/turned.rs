@@ -53,7 +53,7 @@ pub struct TurnedPieces {
     pub part: TurnedPart,
     /// Its fit where it runs or sits.
     pub fit: Fit,
-    /// What it is for, in words; may be empty.
+    /// Purpose, in words; may be empty.
     pub role: String,
     /// Designation by which it is bought; none where it is made from its sheet.
     pub standard: Option<String>,
