@@ -260,7 +260,9 @@ def test_shafts_and_pins_sit_in_their_bores(name, shipped):
     assembly = Assembly(shipped(name, "csv,step") / "assembly.step")
     pieces = [(product, moved(shape, place)) for _, product, place, shape in assembly.pieces]
     turned = [(product, shape) for product, shape in pieces if is_turned(product)]
-    others = [(product, shape, box(shape), list(cylinders(shape))) for product, shape in pieces if not is_turned(product)]
+    others = [
+        (product, shape, box(shape), list(cylinders(shape))) for product, shape in pieces if not is_turned(product)
+    ]
     assert turned
     for product, shape in turned:
         own = list(cylinders(shape))

@@ -218,10 +218,13 @@ impl Machine {
         if all.part.solid().is_err() {
             return;
         }
-        let made = all.standard.is_none();
         let shape = self.shape(Shape {
             name: format!("turned/{}", all.part.name),
-            part: made.then(|| all.part.name.clone()).unwrap_or_default(),
+            // What is bought has no files.
+            part: match all.standard {
+                Some(_) => String::new(),
+                None => all.part.name.clone(),
+            },
             form: Form::Turned(all.part.clone()),
         });
         for piece in &all.pieces {
