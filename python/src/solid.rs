@@ -144,7 +144,7 @@ fn link<'py>(
             }
         }
         Some((_, Form::Mesh(made, _))) => triangles = Some(mesh(made.clone())),
-        Some((_, Form::Body(_))) | None => {}
+        Some((_, Form::Turned(_) | Form::Body(_))) | None => {}
     }
     let carrying = joint.map(|joint| joined(py, machine, joint)).transpose()?;
     let made = record!(py, "centrode._link" "Link", () => []

@@ -19,7 +19,7 @@ EVERYWHERE = {
     "number of a figure of the paper": (r"Figures? \d(?:, \d and \d+)?",),
     "standard or version": (
         r"\bISO \d+(?:-\d)?",
-        r"DIN \d+-\d",
+        r"DIN \d+(?:-\d)?",
         r"(?:Python|CadQuery|build123d|FreeCAD|MuJoCo) \d+(?:\.\d+)?\b",
     ),
     "status or version": (r"\bstatus (?:at |is )?\d", r"makes it 1\.", r"3\.11 or newer"),
@@ -66,7 +66,9 @@ EXEMPT = {
             r"to 4/3",
             r"Of 30 driven",
             r"backlash of 0\.1 mm",
+            r"where 100 N/mm² are usual",
         ),
+        FORMULA: (r"2 T / \(d t l\)",),
         LIMIT: (r"2000 random six-bars", r"at 240 inputs", r"within 2 % of the contact"),
         SIMULATED: (r"effector is off the closed form by[^(]*\([^)]*\)",),
         PEERS: (r"^\| .*(?:ns|evaluations|ms) \|.*",),

@@ -183,6 +183,8 @@ FEEDER = [
     Said("the backlash of 0.1 mm alone is {} rad", lambda: 0.1 / 2 / (105 * 30 / 70 * cos(radians(20)))),
     Said("holds the crank within {} rad", lambda: locked()[0]),
     Said("within {<} rad in its first and last degrees", lambda: locked()[1]),
+    Said("{} N/mm² in the published design", lambda: values("feeder-2022")["crank_key_pressure_max"]),
+    Said("with round ends it would be {} N/mm²", lambda: 8 / 3 * values("feeder-2022")["crank_key_pressure_max"]),
     Said("Of 30 driven pitches {} teeth", lambda: values("feeder-2022")["gear_teeth"]),
 ]
 

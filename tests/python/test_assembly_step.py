@@ -2,6 +2,7 @@
 
 import csv
 import math
+import re
 from collections import Counter
 from itertools import combinations
 
@@ -10,10 +11,14 @@ import numpy as np
 import pytest
 from conftest import ROOT
 from OCP.Bnd import Bnd_Box
+from OCP.BRepAdaptor import BRepAdaptor_Surface
+from OCP.BRepAlgoAPI import BRepAlgoAPI_Common
 from OCP.BRepBndLib import BRepBndLib
 from OCP.BRepCheck import BRepCheck_Analyzer
 from OCP.BRepGProp import BRepGProp
 from OCP.collections import Sequence_TDF_Label
+from OCP.GeomAbs import GeomAbs_Cylinder
+from OCP.gp import gp_Trsf
 from OCP.GProp import GProp_GProps
 from OCP.IFSelect import IFSelect_RetDone
 from OCP.Quantity import Quantity_Color
@@ -22,12 +27,22 @@ from OCP.TCollection import TCollection_ExtendedString
 from OCP.TDataStd import TDataStd_Name
 from OCP.TDF import TDF_Label
 from OCP.TDocStd import TDocStd_Document
-from OCP.TopAbs import TopAbs_SOLID
+from OCP.TopAbs import TopAbs_FACE, TopAbs_SOLID
 from OCP.TopExp import TopExp_Explorer
-from OCP.XCAFDoc import XCAFDoc_ColorSurf, XCAFDoc_ColorTool, XCAFDoc_DocumentTool, XCAFDoc_ShapeTool
+from OCP.TopLoc import TopLoc_Location
+from OCP.TopoDS import TopoDS
+from OCP.XCAFDoc import (
+    XCAFDoc_ColorSurf,
+    XCAFDoc_ColorTool,
+    XCAFDoc_DocumentTool,
+    XCAFDoc_Material,
+    XCAFDoc_ShapeTool,
+)
 
 # Gears in place, loops, cams on forks, a shaft with a groove.
-DESIGNS = ("elliptic-pair-2018", "jansen-leg", "feeder-2022", "three-arm-2021", "spiral-shaft-2018")
+DESIGNS = ("elliptic-pair-2018", "jansen-leg", "feeder-2022", "three-arm-2021", "spiral-shaft-2018", "moving-box-2018")
+# Machines with shafts or pins.
+TURNED = ("jansen-leg", "press", "feeder-2022", "three-arm-2021", "spiral-shaft-2018")
 
 
 def listed(sequence):
@@ -40,6 +55,64 @@ def called(label):
     return name.Get().ToExtString()
 
 
+def materials(file):
+    """Material of each product that has one, by name, as the file has it."""
+    entities = dict(re.findall(r"^#(\d+)=(.+);$", file.read_text(), re.MULTILINE))
+
+    def referred(number):
+        return re.findall(r"#(\d+)", entities[number])
+
+    found = {}
+    for number, entity in entities.items():
+        if entity.startswith("PROPERTY_DEFINITION_REPRESENTATION("):
+            definition, told = referred(number)
+            if "'material name'" in entities[definition]:
+                (product,) = referred(referred(referred(definition)[0])[0])[:1]
+                (item, _) = referred(told)
+                found[re.match(r"PRODUCT\('(.*?)'", entities[product])[1]] = re.search(r"\('(.*?)'", entities[item])[1]
+    return found
+
+
+def parts(folder):
+    """Rows of the parts list."""
+    with (folder / "parts.csv").open(newline="") as lines:
+        return list(csv.DictReader(lines))
+
+
+def is_turned(product):
+    return re.fullmatch(r"pin(-.*)?|shaft-(?!body).*", product)
+
+
+def every(shape, kind):
+    found = TopExp_Explorer(shape, kind)
+    while found.More():
+        yield found.Current()
+        found.Next()
+
+
+def moved(shape, place):
+    transformation = gp_Trsf()
+    transformation.SetValues(*place.flatten())
+    return shape.Moved(TopLoc_Location(transformation))
+
+
+def cylinders(shape):
+    """A point, the direction and the radius of every cylinder of a shape."""
+    for face in every(shape, TopAbs_FACE):
+        surface = BRepAdaptor_Surface(TopoDS.Face(face))
+        if surface.GetType() == GeomAbs_Cylinder:
+            cylinder = surface.Cylinder()
+            at, way = cylinder.Axis().Location(), cylinder.Axis().Direction()
+            yield np.array([at.X(), at.Y(), at.Z()]), np.array([way.X(), way.Y(), way.Z()]), cylinder.Radius()
+
+
+def box(shape):
+    bounds = Bnd_Box()
+    BRepBndLib.AddOptimal_s(shape, bounds, False, False)
+    low, high = bounds.CornerMin(), bounds.CornerMax()
+    return np.array([[low.X(), low.Y(), low.Z()], [high.X(), high.Y(), high.Z()]])
+
+
 class Assembly:
     """The pieces of a file: name, product, place."""
 
@@ -48,6 +121,7 @@ class Assembly:
         reader = STEPCAFControl_Reader()
         reader.SetNameMode(True)
         reader.SetColorMode(True)
+        reader.SetMatMode(True)
         assert reader.ReadFile(str(file)) == IFSelect_RetDone
         assert reader.Transfer(self.document)
         self.tool = XCAFDoc_DocumentTool.ShapeTool_s(self.document.Main())
@@ -58,12 +132,23 @@ class Assembly:
         pieces = Sequence_TDF_Label()
         assert XCAFDoc_ShapeTool.GetComponents_s(self.root, pieces)
         self.pieces = []
+        self.materials = materials(file)
         for piece in listed(pieces):
             product = TDF_Label()
             assert XCAFDoc_ShapeTool.GetReferredShape_s(piece, product)
             place = XCAFDoc_ShapeTool.GetLocation_s(piece).Transformation()
             matrix = np.array([[place.Value(i, j) for j in range(1, 5)] for i in range(1, 4)])
             self.pieces.append((called(piece), called(product), matrix, XCAFDoc_ShapeTool.GetShape_s(product)))
+
+    def made_of(self):
+        """Names of the materials that the reader has found, one a product."""
+        tool = XCAFDoc_DocumentTool.MaterialTool_s(self.document.Main())
+        labels = Sequence_TDF_Label()
+        tool.GetMaterialLabels(labels)
+        for label in listed(labels):
+            material = XCAFDoc_Material()
+            assert label.FindAttribute(XCAFDoc_Material.GetID_s(), material)
+            yield material.GetName().ToCString()
 
     def painted(self):
         """Colours of the products' bodies."""
@@ -93,8 +178,8 @@ def test_every_piece_is_a_sound_solid_that_stands_where_its_link_does(name, ship
     assert called(assembly.root) == (machine.title or machine.name)
     frames = machine.frames(0.0)
     assert assembly.pieces
-    for link, _, place, _ in assembly.pieces:
-        if name != "three-arm-2021":
+    for link, product, place, _ in assembly.pieces:
+        if name != "three-arm-2021" and not is_turned(product):
             # The arrangement shows this machine as an arm picks, all others where the cycle begins.
             np.testing.assert_allclose(place, np.reshape(frames[link], (4, 4))[:3], atol=1e-12)
     checked = {product: shape for _, product, _, shape in assembly.pieces}
@@ -122,12 +207,9 @@ def test_bodies_are_written_once_and_colored(shipped):
 @pytest.mark.parametrize(("name", "density"), [("jansen-leg", 1200), ("feeder-2022", 7850)])
 def test_pieces_weigh_what_the_parts_list_says(name, density, shipped):
     folder = shipped(name, "csv,step")
-    with (folder / "parts.csv").open(newline="") as lines:
-        rows = [row for row in csv.DictReader(lines) if row["files"] and row.get("mass_kg")]
+    rows = [row for row in parts(folder) if row["files"] and row["mass_kg"]]
     assembly = Assembly(folder / "assembly.step")
     weighed = {product: volume(shape) * density * 1e-9 for _, product, _, shape in assembly.pieces}
-    # Shafts and pins are in the parts list and not among the bodies of the machine.
-    rows = [row for row in rows if not row["files"].startswith(("pin", "shaft-"))]
     assert len(rows) > 3
     for row in rows:
         # All pieces of a part that is on one link are one product: two plates of a frame.
@@ -139,6 +221,8 @@ def test_gears_and_plates_of_the_feeder_stand_clear_of_each_other(shipped):
     assembly = Assembly(shipped("feeder-2022", "step") / "assembly.step")
     heights = {}
     for _, product, place, shape in assembly.pieces:
+        if is_turned(product):
+            continue
         assert np.allclose(place[2], [0, 0, 1, 0])
         solids = TopExp_Explorer(shape, TopAbs_SOLID)
         while solids.More():
@@ -154,3 +238,48 @@ def test_gears_and_plates_of_the_feeder_stand_clear_of_each_other(shipped):
     for (one, (low, high)), (other, (bottom, top)) in combinations(spans, 2):
         if {one, other} not in together:
             assert high < bottom or top < low, (one, other)
+
+
+@pytest.mark.parametrize("name", [*DESIGNS, "composed-feeder", "composed-three-arm", "press"])
+def test_everything_that_is_made_and_the_dowels_are_solids_of_their_material(name, shipped):
+    folder = shipped(name, "csv,step")
+    assembly = Assembly(folder / "assembly.step")
+    drawn = [row for row in parts(folder) if row["files"] or row["part"].startswith("Pin ISO 8734")]
+    solids = [solid for *_, shape in assembly.pieces for solid in every(shape, TopAbs_SOLID)]
+    assert len(solids) == sum(int(row["quantity"]) for row in drawn)
+    of_file = {row["files"]: row["material"] for row in drawn if row["files"]}
+    named = {product: material for product, material in assembly.materials.items() if product in of_file}
+    assert named == {product: of_file[product] for product in named}
+    assert set(filter(is_turned, of_file)) <= set(named)
+    assert sorted(assembly.made_of()) == sorted(assembly.materials.values())
+    assert len(list(assembly.painted())) >= len(assembly.materials)
+
+
+@pytest.mark.parametrize("name", TURNED)
+def test_shafts_and_pins_sit_in_their_bores(name, shipped):
+    assembly = Assembly(shipped(name, "csv,step") / "assembly.step")
+    pieces = [(product, moved(shape, place)) for _, product, place, shape in assembly.pieces]
+    turned = [(product, shape) for product, shape in pieces if is_turned(product)]
+    others = [
+        (product, shape, box(shape), list(cylinders(shape))) for product, shape in pieces if not is_turned(product)
+    ]
+    assert turned
+    for product, shape in turned:
+        own = list(cylinders(shape))
+        at, way, _ = own[0]
+        widest = max(radius for *_, radius in own)
+        low, high = box(shape)
+        seats = 0
+        for other, body, (under, over), bores in others:
+            if (low > over).any() or (under > high).any():
+                continue
+            # Bores round the axis of the part: none but on it.
+            for point, direction, radius in bores:
+                off = np.linalg.norm(np.cross(point - at, way))
+                if np.linalg.norm(np.cross(direction, way)) < 1e-9 and off < 0.5 * widest and radius < 1.2 * widest:
+                    assert off < 1e-6, (product, other)
+                    seats += any(math.isclose(radius, step, abs_tol=1e-6) for *_, step in own)
+            common = BRepAlgoAPI_Common(shape, body)
+            assert common.IsDone()
+            assert volume(common.Shape()) < 1e-6 * volume(shape), (product, other)
+        assert seats, product

@@ -194,7 +194,24 @@ def cylinders(shape):
 
 @pytest.mark.parametrize("name", [name for name in DESIGNS if family(name) in FLAT])
 def test_a_plate_made_from_its_sheet_alone_is_its_solid(name, exported):
-    folder = exported(name)
+    assert plates_made_from_their_sheets(exported(name))
+
+
+def test_a_plate_with_concave_arcs_made_from_its_sheet_alone_is_its_solid(tmp_path, run):
+    design = tmp_path / "waisted.toml"
+    waist = "[bodies.shaft]\noutline = [[-14, -12], [14, -12, -0.3], [14, 12], [-14, 12, -0.2]]\n"
+    press = (ROOT / "tests" / "designs" / "press.toml").read_text()
+    design.write_text(press.replace("[bodies.shaft]\n", waist))
+    run("export", design, "--to", tmp_path, "--format", "dxf,sheet,step,csv")
+    sides = [side for _, _, side, _ in contours(words(tmp_path, "shaft"))["outside"]]
+    # Of a chord c and a bulge b the radius is c (1 + b^2) / (4 b).
+    radii = [f"{24 * (1 + b * b) / (4 * b):.3f}".rstrip("0") for b in (0.3, 0.2)]
+    assert sorted(sides) == sorted(["line", "line", *(f"{radius}, concave" for radius in radii)])
+    assert plates_made_from_their_sheets(tmp_path)
+
+
+def plates_made_from_their_sheets(folder):
+    """Makes each plate from its sheet and compares it with its solid; how many."""
     made = 0
     for row in parts(folder):
         part = row["files"]
@@ -251,7 +268,7 @@ def test_a_plate_made_from_its_sheet_alone_is_its_solid(name, exported):
             continue
         # Corners are written to a micrometre.
         assert abs(properties.Mass() - area * thickness) < 1e-3 * length * thickness, part
-    assert made
+    return made
 
 
 def inked(page):

@@ -36,6 +36,8 @@ pub enum Unit {
     Newton,
     /// Torque, N·mm.
     NewtonMillimetre,
+    /// Pressure, N/mm².
+    NewtonPerSquareMillimetre,
     /// Speed of a shaft, r/min.
     TurnsPerMinute,
     /// Rate of work, 1/min.
@@ -61,6 +63,7 @@ impl Unit {
             Self::MetrePerSecondSquared => "m/s²",
             Self::Newton => "N",
             Self::NewtonMillimetre => "N·mm",
+            Self::NewtonPerSquareMillimetre => "N/mm²",
             Self::TurnsPerMinute => "r/min",
             Self::PerMinute => "1/min",
             Self::Second => "s",
@@ -95,7 +98,7 @@ impl Unit {
             Self::RadianPerSecond | Self::RadianPerSecondSquared => 6,
             Self::MetrePerSecondSquared => 6,
             Self::MillimetrePerSecond | Self::Newton => 2,
-            Self::NewtonMillimetre | Self::TurnsPerMinute => 2,
+            Self::NewtonMillimetre | Self::NewtonPerSquareMillimetre | Self::TurnsPerMinute => 2,
             Self::Second | Self::Millimetre | Self::Pitch | Self::Angle | Self::PerMinute => 4,
             Self::Radian => 0,
         };

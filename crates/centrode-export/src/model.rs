@@ -41,10 +41,33 @@ pub struct Link {
     pub name: String,
     /// Mass and inertia in the link's frame; `None` for a link without a body.
     pub mass: Option<MassProperties>,
-    /// File name of its mesh in mm, beside the model file.
-    pub mesh: Option<String>,
+    /// Meshes it is seen as.
+    pub meshes: Vec<Seen>,
     /// Convex bodies it touches other links with; together they need not be the whole link.
     pub collision: Vec<Convex>,
+}
+
+/// A mesh that a link is seen as.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Seen {
+    /// Name of its file in mm, beside the model file.
+    pub file: String,
+    /// Its origin in the link's frame, mm.
+    pub at: [f64; 3],
+    /// Its turn there as roll, pitch and yaw, rad.
+    pub turn: [f64; 3],
+}
+
+impl Seen {
+    /// A mesh in the frame of its link.
+    #[must_use]
+    pub fn upright(file: String) -> Self {
+        Self {
+            file,
+            at: [0.0; 3],
+            turn: [0.0; 3],
+        }
+    }
 }
 
 /// A convex body.

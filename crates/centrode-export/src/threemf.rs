@@ -49,12 +49,13 @@ const RELATIONS: &str = concat!(
 /// [`PackageError`] if the package would be larger than the format holds.
 pub fn write(mesh: &Mesh, name: &str, title: &str) -> Result<Vec<u8>, PackageError> {
     let items = vec![(String::new(), Isometry3::identity())];
-    let (name, color) = (name.to_owned(), None);
+    let (name, color, material) = (name.to_owned(), None, String::new());
     write_assembly(
         &[Object {
             name,
             mesh,
             color,
+            material,
             items,
         }],
         title,
@@ -70,6 +71,8 @@ pub struct Object<'a> {
     pub mesh: &'a Mesh,
     /// Red, green and blue.
     pub color: Option<[u8; 3]>,
+    /// Material, told where it has a colour; may be empty.
+    pub material: String,
     /// Name and place of each piece; a name may be empty.
     pub items: Vec<(String, Isometry3<f64>)>,
 }
@@ -106,9 +109,16 @@ fn model(objects: &[Object<'_>], title: &str) -> String {
     );
     // Colours have a number of their own after those of the objects.
     let colors = objects.len() + 1;
-    let colored = objects.iter().filter_map(|object| object.color);
-    let bases = colored.map(|[r, g, b]| {
-        format!("<base name=\"#{r:02X}{g:02X}{b:02X}\" displaycolor=\"#{r:02X}{g:02X}{b:02X}\"/>\n")
+    let bases = objects.iter().filter_map(|object| {
+        let [r, g, b] = object.color?;
+        let color = format!("#{r:02X}{g:02X}{b:02X}");
+        let name = match &*object.material {
+            "" => color.clone(),
+            material => escaped(material),
+        };
+        Some(format!(
+            "<base name=\"{name}\" displaycolor=\"{color}\"/>\n"
+        ))
     });
     let bases: String = bases.collect();
     if !bases.is_empty() {

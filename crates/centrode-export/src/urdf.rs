@@ -115,10 +115,14 @@ fn link(link: &Link) -> urdf_rs::Link {
         name: link.name.clone(),
         inertial,
         visual: link
-            .mesh
+            .meshes
             .iter()
-            .map(|mesh| Visual {
-                geometry: geometry(mesh.clone()),
+            .map(|seen| Visual {
+                origin: Pose {
+                    xyz: metres(seen.at),
+                    rpy: Vec3(seen.turn),
+                },
+                geometry: geometry(seen.file.clone()),
                 ..Visual::default()
             })
             .collect(),
@@ -183,7 +187,7 @@ fn joint(joint: &crate::model::Joint) -> Joint {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::{Convex, Joint, Mimic};
+    use crate::model::{Convex, Joint, Mimic, Seen};
     use centrode_geometry::{Outline, Point, Solid, Tolerance};
 
     fn sample() -> Model {
@@ -207,7 +211,7 @@ mod tests {
         let body = |name: &str| Link {
             name: name.into(),
             mass: Some(disc.mass_properties(7850.0)),
-            mesh: Some(format!("{name}.stl")),
+            meshes: vec![Seen::upright(format!("{name}.stl"))],
             collision: vec![Convex {
                 name: format!("{name}_hub"),
                 mesh: disc
@@ -222,7 +226,7 @@ mod tests {
                 Link {
                     name: "base".into(),
                     mass: None,
-                    mesh: None,
+                    meshes: Vec::new(),
                     collision: Vec::new(),
                 },
                 body("driver"),

@@ -10,6 +10,11 @@ pub(crate) fn told(value: f64) -> String {
     }
 }
 
+/// Millimetres to a thousandth, without zeros at the end.
+pub(crate) fn thousandths(mm: f64) -> String {
+    told((1e3 * mm).round() / 1e3)
+}
+
 #[cfg(test)]
 mod tests {
     use super::told;

@@ -1,7 +1,7 @@
 use crate::figure::{FigureGroup, row};
 use crate::unit::Unit::{
-    Angle, Count, Millimetre, MillimetrePerSecond, NewtonMillimetre, Number, PerMinute,
-    RadianPerSecond, RadianPerSecondSquared, Second, TurnsPerMinute,
+    Angle, Count, Millimetre, MillimetrePerSecond, NewtonMillimetre, NewtonPerSquareMillimetre,
+    Number, PerMinute, RadianPerSecond, RadianPerSecondSquared, Second, TurnsPerMinute,
 };
 
 /// Figures of a feeder, in the order in which they are shown.
@@ -59,6 +59,7 @@ pub(crate) const FIGURES: &[FigureGroup] = &[
             row("crank turns for the feed", &["feed_crank_angle"], Angle),
             row("the same over the return", &["crank_quick_return"], Number),
             row("torque of the crank, at most", &["crank_torque_moving_max", "crank_torque_still_max"], NewtonMillimetre),
+            row("pressure on the crank's key", &["crank_key_pressure_max", "crank_key_pressure_still_max"], NewtonPerSquareMillimetre),
             row("jump of the crank's speed", &["crank_speed_jump"], RadianPerSecond),
             row("crank's acceleration", &["crank_acceleration_max"], RadianPerSecondSquared),
             row("teeth left on the driver", &["gear_teeth"], Count),

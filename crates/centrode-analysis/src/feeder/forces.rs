@@ -2,6 +2,7 @@ use std::cell::Cell;
 
 use centrode_geometry::{Extreme, SolidError, Vector, greatest_each};
 use centrode_mechanism::feeder::{Feeder, FeederError, Part};
+use centrode_mechanism::gear::design::Keyway;
 
 use crate::forces::{Balance, Forces, ForcesError};
 use crate::{Report, Table, Unit};
@@ -141,6 +142,16 @@ pub(super) fn forces(feeder: &Feeder, report: &mut Report) {
     let values = &mut report.values;
     values.insert("crank_torque_still_max", still[0].value);
     values.insert("crank_torque_moving_max", moving[0].value);
+    let (body, width) = (
+        feeder.design().gears.body(),
+        feeder.design().plates.thickness,
+    );
+    if let (Some(keyway), Some(length)) = (body.keyway, Keyway::key_length(width)) {
+        // A key with square ends bears over its whole length.
+        let pressure = |torque: f64| keyway.pressure(torque, body.bore, length);
+        values.insert("crank_key_pressure_max", pressure(moving[0].value));
+        values.insert("crank_key_pressure_still_max", pressure(still[0].value));
+    }
     let of = |Extreme { value, .. }: &Extreme| *value;
     let greatest = still.iter().zip(&moving).map(|(a, b)| vec![of(a), of(b)]);
     let rows = FeederForces::CONNECTIONS.iter().zip(greatest.skip(1));

@@ -2,7 +2,6 @@
 
 mod curves;
 mod parts;
-mod pins;
 
 use centrode_geometry::{MassProperties, Point, Solid};
 use centrode_mechanism::composed::Composed;
@@ -10,7 +9,7 @@ use centrode_mechanism::machine::{Form, LinePath, Machine};
 use nalgebra::{Isometry2, Matrix3, Point3};
 
 use crate::drawing::{Color, Drawing, LineType, Shape};
-use crate::{Bundle, ExportError, Format, Options, Package};
+use crate::{Bundle, ExportError, Format, Options, Package, turned};
 pub use curves::curves;
 
 const PATH: &str = "PATH";
@@ -28,7 +27,7 @@ const POINTS: u32 = 360;
 pub fn machine(composed: &Composed) -> Result<Machine, ExportError> {
     let made = composed.machine();
     let mut made = made.map_err(ExportError::no_solid(&composed.design().name))?;
-    pins::list(composed, &mut made);
+    turned::list(&composed.pins_in_plates(), &mut made);
     Ok(made)
 }
 

@@ -4,11 +4,11 @@ use centrode_geometry::Outline;
 use centrode_mechanism::composed::{Composed, ComposedGear, PinHole};
 use centrode_mechanism::machine::Machine;
 
-use super::{pins, plates};
+use super::plates;
 use crate::gear_pair::{self, Label};
 use crate::plate::{Hole, Plate};
 use crate::sheet::capital;
-use crate::{ExportError, Package, cam};
+use crate::{ExportError, Package, cam, turned};
 
 /// Offers plates, gears and cams; copies have the files of their originals.
 pub(super) fn add(
@@ -30,9 +30,7 @@ pub(super) fn add(
             plate.add(package, drawing)?;
         }
     }
-    for pins in pins::all(composed, machine) {
-        pins.part.add(package, drawing, pins.bodies.len())?;
-    }
+    turned::add(&composed.pins_in_plates(), package, drawing)?;
     for gear in composed.gears().iter().filter(|gear| !is_copy(&gear.name)) {
         let label = Label {
             name: &gear.name,

@@ -2,14 +2,12 @@ use std::f64::consts::TAU;
 
 use centrode_geometry::Point;
 use centrode_mechanism::feeder::{Feeder, GearBody, Part, Plate};
-use centrode_mechanism::gear::design::BodySpec;
 use centrode_mechanism::machine::{
     self, Axis, Blank, Datum, Dimension, Fit, Form, Line, LineRole, Machine,
 };
 
-use super::shafts;
-use crate::gear_pair;
 use crate::sheet::number;
+use crate::turned;
 
 /// Corners of a path.
 const POINTS: u32 = 360;
@@ -32,7 +30,12 @@ pub(super) fn tell(feeder: &Feeder, plates: &[Plate], machine: &mut Machine) {
     }
     pins(feeder, machine);
     gears(feeder, machine);
-    shafts::list(feeder, plates, machine);
+    let shafts = feeder.turned(plates);
+    turned::list(&shafts, machine);
+    let of_cams = shafts
+        .into_iter()
+        .filter(|pieces| !pieces.fit.name.is_empty());
+    of_cams.for_each(|pieces| machine.fit(pieces.fit));
     fits(feeder, machine);
     let frame = machine.place_on(Part::Frame.name(), [0.0; 2]);
     let told = &mut machine.arrangement;
@@ -158,22 +161,13 @@ fn gears(feeder: &Feeder, machine: &mut Machine) {
     }
 }
 
-/// Fits of the shafts of the gears, and the keys on them.
+/// Fits of the shafts of the gears.
 fn fits(feeder: &Feeder, machine: &mut Machine) {
     let (body, plates) = (feeder.design().gears.body(), &feeder.design().plates);
     let seat = |name, hole: &str| Fit::new(name, body.bore, [hole, &body.shaft_fit]);
-    machine.fit(seat("gears and crank on their shafts", &body.bore_fit));
+    machine.fit(seat("gears on their shafts", &body.bore_fit));
+    machine.fit(Fit::new("crank on shaft A", body.bore, Feeder::CRANK_FIT));
     machine.fit(seat("shafts A and G in the frame", &plates.bearing_fit));
-    let crank = machine.link_named(Part::Crank.name()).unwrap_or(0);
-    let own = machine.link_named(GearBody::NAMES[0]).unwrap_or(0);
-    let cams = if feeder.has_cams() { 2 } else { 0 };
-    let on_gears = [vec![own; 1 + cams], vec![crank]].concat();
-    gear_pair::list_keys(machine, &body, on_gears);
-    let on_crank = BodySpec {
-        width: plates.thickness,
-        ..body
-    };
-    gear_pair::list_keys(machine, &on_crank, vec![crank]);
 }
 
 fn data(feeder: &Feeder) -> Vec<Datum> {

@@ -13,11 +13,6 @@ use crate::sheet::{Table, broken, capital, number};
 
 const CAM: &str = "CAM";
 
-/// Tolerance class of the holes into which the pins are pressed.
-pub(super) const PIN_HOLES: &str = "H7";
-/// Tolerance class of the pins, ISO 8734.
-pub(super) const PINS: &str = "m6";
-
 /// Driver, driven gear and, where there is an entry angle, the cams beside the driver; with arcs within the tolerance.
 pub(super) fn parts(feeder: &Feeder, gears: &IntermittentPair, tolerance: Tolerance) -> Vec<Plate> {
     let pair = gears.pair();
@@ -36,7 +31,7 @@ pub(super) fn parts(feeder: &Feeder, gears: &IntermittentPair, tolerance: Tolera
         .noted("Keyed along x: gears and cams stand right on the shaft.");
         part.holes.extend(body.pins.into_iter().map(|outline| Hole {
             label: "pin".into(),
-            fit: PIN_HOLES.into(),
+            fit: Feeder::CAM_PIN_FIT[0].into(),
             off: 0.02,
             ..Hole::from(outline)
         }));

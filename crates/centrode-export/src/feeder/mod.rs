@@ -7,10 +7,9 @@ mod gears;
 mod links;
 mod pins;
 mod plates;
-mod shafts;
 
 use crate::package::title_or_name;
-use crate::{Bundle, ExportError, Format, Options, Package};
+use crate::{Bundle, ExportError, Format, Options, Package, turned};
 use centrode_mechanism::feeder::{Feeder, FeederError, Part, Plate};
 use centrode_mechanism::gear::IntermittentPair;
 use centrode_mechanism::machine::Machine;
@@ -68,11 +67,7 @@ pub fn files(
     for part in &plates {
         plates::made(feeder, part).add(&mut package, &design.drawing)?;
     }
-    for piece in shafts::all(feeder, &plates) {
-        piece
-            .part
-            .add(&mut package, &design.drawing, piece.links.len())?;
-    }
+    turned::add(&feeder.turned(&plates), &mut package, &design.drawing)?;
     package.drawing("assembly", |_| Ok(assembly(feeder, &plates)))?;
     add_gears(&mut package, feeder)?;
     package.machine(|| links::machine(feeder, &plates))?;

@@ -92,7 +92,7 @@ pub(crate) fn list(
 }
 
 /// Lists the keys of a body, one for each of the links, where a standard one fits its keyway.
-pub(crate) fn list_keys(machine: &mut Machine, body: &BodySpec, links: Vec<usize>) {
+fn list_keys(machine: &mut Machine, body: &BodySpec, links: Vec<usize>) {
     if let Some(name) = body.keyway.and_then(|keyway| keyway.key(body.width)) {
         machine.part(Part::bought(name, links));
     }

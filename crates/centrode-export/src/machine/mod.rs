@@ -83,7 +83,7 @@ pub(crate) fn add_whole(machine: &Machine, package: &mut Package<'_>) -> Result<
     if package.wants(&[Format::ThreeMf]) {
         let whole = whole::Whole::new(machine, package.tolerance());
         let whole = whole.map_err(ExportError::no_solid("link"))?;
-        let objects = whole.objects(machine);
+        let objects = whole.objects();
         if !objects.is_empty() {
             let bytes = threemf::write_assembly(&objects, machine.heading())?;
             package.file(&format!("{ARRANGEMENT}.3mf"), bytes)?;

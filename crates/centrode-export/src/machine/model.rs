@@ -1,10 +1,10 @@
 use centrode_geometry::{Mesh, SolidError, Tolerance};
-use centrode_mechanism::machine::{Form, JointKind, Machine, Shape};
+use centrode_mechanism::machine::{Form, JointKind, Link, Machine, Shape};
 
 use super::motion::Line;
 use super::{bodies, motion};
 use crate::mjcf::Closure;
-use crate::model::{self, Convex, Joint, Link, MOST_FACES, Mimic, Model, shown_tolerance};
+use crate::model::{self, Convex, Joint, MOST_FACES, Mimic, Model, shown_tolerance};
 
 /// A machine as simulators want it.
 pub(crate) struct Simulated {
@@ -38,10 +38,10 @@ pub(crate) fn simulated(
         .iter()
         .map(|surface| bodies::all(surface, tolerance))
         .collect();
-    let link = |link: &centrode_mechanism::machine::Link| Link {
+    let link = |link: &Link| model::Link {
         name: link.name.clone(),
         mass: link.mass,
-        mesh: link.shape.map(|shape| seen[shape].file.clone()),
+        meshes: meshes(link, &seen),
         collision: link
             .surfaces
             .iter()
@@ -75,6 +75,18 @@ pub(crate) fn simulated(
     })
 }
 
+/// The meshes that a link is seen as.
+fn meshes(link: &Link, seen: &[Seen]) -> Vec<model::Seen> {
+    let file = |shape: usize| seen[shape].file.clone();
+    let own = link.shape.map(|shape| model::Seen::upright(file(shape)));
+    let mounted = link.mounted.iter().map(|body| model::Seen {
+        file: file(body.shape),
+        at: body.at,
+        turn: body.turn,
+    });
+    own.into_iter().chain(mounted).collect()
+}
+
 /// A shape's mesh to be seen, with the name of its file.
 pub(super) fn shown(shape: &Shape, tolerance: Tolerance) -> Result<(String, Mesh), SolidError> {
     show(shape, tolerance).map(|seen| (seen.file, seen.mesh))
@@ -106,16 +118,26 @@ pub(super) fn meshed(form: &Form, tolerance: Tolerance) -> Result<(Mesh, f64), S
             let meshes: Vec<Mesh> = meshes.collect::<Result<_, _>>()?;
             Ok((Mesh::joined(&meshes), coarse.mm()))
         }
-        Form::Body(body) => {
-            let mut made = None;
-            let coarse = shown_tolerance(tolerance, |t| match body.mesh(t) {
-                Ok(mesh) => made.insert(mesh).faces.len(),
-                Err(_) => 0,
-            });
-            let mesh = made.take().map_or_else(|| body.mesh(coarse), Ok)?;
-            Ok((mesh, coarse.mm()))
+        Form::Turned(part) => {
+            let body = part.solid()?;
+            coarsened(tolerance, |tolerance| body.mesh(tolerance))
         }
+        Form::Body(body) => coarsened(tolerance, |tolerance| body.mesh(tolerance)),
     }
+}
+
+/// The finest mesh that simulators take of those made by a function.
+fn coarsened(
+    tolerance: Tolerance,
+    mesh: impl Fn(Tolerance) -> Result<Mesh, SolidError>,
+) -> Result<(Mesh, f64), SolidError> {
+    let mut made = None;
+    let coarse = shown_tolerance(tolerance, |t| match mesh(t) {
+        Ok(mesh) => made.insert(mesh).faces.len(),
+        Err(_) => 0,
+    });
+    let mesh = made.take().map_or_else(|| mesh(coarse), Ok)?;
+    Ok((mesh, coarse.mm()))
 }
 
 fn joint(machine: &Machine, lines: &[Line], index: usize, driving: Option<usize>) -> Joint {

@@ -75,7 +75,7 @@ fn reach(machine: &Machine, link: usize) -> f64 {
             most = solids.iter().map(|s| far(s.outline())).fold(most, f64::max);
         }
         // Shafts and surroundings turn by nothing that gears and arms do not reach beyond.
-        Some(Form::Mesh(..) | Form::Body(_)) | None => {}
+        Some(Form::Mesh(..) | Form::Turned(_) | Form::Body(_)) | None => {}
     }
     let points = machine.points.iter().filter(|point| point.link == link);
     most = points.map(|point| norm(&point.at)).fold(most, f64::max);

@@ -1,4 +1,5 @@
 use centrode_mechanism::machine::Machine;
+use nalgebra::Isometry3;
 use serde::Serialize;
 
 use centrode_geometry::{Tolerance, checkpoint};
@@ -10,8 +11,9 @@ use crate::{ExportError, stl};
 #[derive(Serialize)]
 struct Head<'a> {
     shapes: Vec<StlFile>,
+    /// Bodies of the links.
     links: Vec<Placed<'a>>,
-    /// Inputs at which the links' places are given, rad.
+    /// Inputs at which their places are given, rad.
     input: &'a [f64],
 }
 
@@ -27,10 +29,10 @@ struct Placed<'a> {
     shape: usize,
 }
 
-/// The machine in space: each mesh as the STL file that goes with the simulator models, and the place of each link that
-/// shows one, at every input given.
+/// The machine in space: each mesh as the STL file that goes with the simulator models, and the place of each body of a link,
+/// at every input given.
 ///
-/// The bytes are: length of the head (u32), head (JSON, filled with blanks to a multiple of four bytes); of each link in turn
+/// The bytes are: length of the head (u32), head (JSON, filled with blanks to a multiple of four bytes); of each body in turn
 /// x, y, z (mm) and the quaternion x, y, z, w at every input (f32); the STL files in the order of the head. All little-endian.
 ///
 /// # Errors
@@ -53,13 +55,17 @@ pub fn spatial(
         });
         files.push(stl);
     }
-    let seen: Vec<(usize, Placed<'_>)> = machine
-        .links
-        .iter()
-        .enumerate()
-        .filter_map(|(index, link)| {
-            let (name, shape) = (&*link.name, link.shape?);
-            Some((index, Placed { name, shape }))
+    let links = machine.links.iter().enumerate();
+    let seen: Vec<(usize, Isometry3<f64>, Placed<'_>)> = links
+        .flat_map(|(index, link)| {
+            let bodies = link.bodies();
+            bodies.map(move |(shape, place)| {
+                let name = match Some(shape) == link.shape {
+                    true => &link.name,
+                    false => machine.shapes[shape].short_name(),
+                };
+                (index, place, Placed { name, shape })
+            })
         })
         .collect();
     let mut places: Vec<Vec<f32>> = vec![Vec::with_capacity(7 * input.len()); seen.len()];
@@ -67,13 +73,13 @@ pub fn spatial(
     for &now in input {
         checkpoint();
         let all = machine.places(now, &wanted);
-        for ((link, _), places) in seen.iter().zip(&mut places) {
-            let place = all[*link].unwrap_or_default();
+        for ((link, body, _), places) in seen.iter().zip(&mut places) {
+            let place = all[*link].unwrap_or_default() * body;
             places.extend(place.translation.vector.iter().map(|&x| x as f32));
             places.extend(place.rotation.coords.iter().map(|&x| x as f32));
         }
     }
-    let links = seen.into_iter().map(|(_, placed)| placed).collect();
+    let links = seen.into_iter().map(|(.., placed)| placed).collect();
     let mut head = serde_json::to_vec(&Head {
         shapes,
         links,

@@ -1,5 +1,5 @@
-use centrode_geometry::{Mesh, SolidError, Tolerance};
-use centrode_mechanism::machine::{Form, Machine, Shape};
+use centrode_geometry::{Mesh, Shell, SolidError, Tolerance};
+use centrode_mechanism::machine::{Form, Machine, Part, Shape};
 
 use nalgebra::Isometry3;
 
@@ -18,43 +18,52 @@ const COLORS: [[u8; 3]; 8] = [
     [0xb0, 0x7a, 0xa1],
 ];
 
-/// The bodies of a machine as meshes, each once, with what they are called.
-pub(super) struct Whole {
-    bodies: Vec<(usize, String, Mesh)>,
+/// Colour of shafts and pins.
+const TURNED: [u8; 3] = [0x5a, 0x60, 0x68];
+
+/// Places of a body in the machine: those of its pieces, each with the name of its link.
+type Places = Vec<(String, Isometry3<f64>)>;
+
+/// A shape of the machine as it stands there.
+struct Placed<'a> {
+    shape: &'a Shape,
+    color: [u8; 3],
+    material: String,
+    items: Places,
 }
 
-impl Whole {
+/// The bodies of a machine as meshes, each once, with what they are called.
+pub(super) struct Whole<'a> {
+    bodies: Vec<(Placed<'a>, Vec<Mesh>)>,
+}
+
+impl<'a> Whole<'a> {
     /// Meshes of every body that is made or bought, within a tolerance.
-    pub(super) fn new(machine: &Machine, tolerance: Tolerance) -> Result<Self, SolidError> {
-        let mut bodies = Vec::new();
-        for (index, shape) in machine.shapes.iter().enumerate() {
-            if links(machine, index).next().is_none() {
-                continue;
-            }
-            let name = name(shape);
-            let meshes = meshes(&shape.form, tolerance)?;
-            let alone = meshes.len() == 1;
-            for (number, mesh) in meshes.into_iter().enumerate() {
-                let name = match alone {
-                    true => name.to_owned(),
-                    false => format!("{name} {}", number + 1),
-                };
-                bodies.push((index, name, mesh));
-            }
-        }
+    pub(super) fn new(machine: &'a Machine, tolerance: Tolerance) -> Result<Self, SolidError> {
+        let bodies = placed(machine).into_iter().map(|placed| {
+            let meshes = meshes(&placed.shape.form, tolerance)?;
+            Ok((placed, meshes))
+        });
+        let bodies = bodies.collect::<Result<_, SolidError>>()?;
         Ok(Self { bodies })
     }
 
     /// Bodies in their places as the general arrangement shows the machine.
-    pub(super) fn objects(&self, machine: &Machine) -> Vec<Object<'_>> {
-        let items = items(machine);
+    pub(super) fn objects(&self) -> Vec<Object<'_>> {
         let bodies = self.bodies.iter();
         bodies
-            .map(|(shape, name, mesh)| Object {
-                name: name.clone(),
-                mesh,
-                color: Some(COLORS[shape % COLORS.len()]),
-                items: items[*shape].clone(),
+            .flat_map(|(placed, meshes)| {
+                let (name, alone) = (placed.shape.short_name(), meshes.len() == 1);
+                meshes.iter().enumerate().map(move |(number, mesh)| Object {
+                    name: match alone {
+                        true => name.to_owned(),
+                        false => format!("{name} {}", number + 1),
+                    },
+                    mesh,
+                    color: Some(placed.color),
+                    material: placed.material.clone(),
+                    items: placed.items.clone(),
+                })
             })
             .collect()
     }
@@ -62,52 +71,78 @@ impl Whole {
 
 /// Exact bodies in their places as the general arrangement shows the machine; none of those known as meshes alone.
 pub(super) fn components(machine: &Machine) -> Vec<Component<'_>> {
-    let mut components = Vec::new();
-    let shapes = machine.shapes.iter().zip(items(machine));
-    for (index, (shape, items)) in shapes.enumerate() {
-        let bodies = match &shape.form {
-            _ if items.is_empty() => continue,
+    let shapes = placed(machine).into_iter();
+    let components = shapes.filter_map(|placed| {
+        let shell = |shell: Shell| vec![Exact::Shell(shell)];
+        let bodies = match &placed.shape.form {
             Form::Solids(solids) => solids.iter().map(Exact::Solid).collect(),
-            Form::Body(body) => body.shell().map(Exact::Shell).into_iter().collect(),
-            Form::Mesh(..) => Vec::new(),
+            Form::Turned(part) => shell(part.solid().ok()?.shell()),
+            Form::Body(body) => shell(body.shell()?),
+            Form::Mesh(..) => return None,
         };
-        if !bodies.is_empty() {
-            components.push(Component {
-                name: name(shape).to_owned(),
-                bodies,
-                color: COLORS[index % COLORS.len()],
-                items,
-            });
-        }
-    }
-    components
+        Some(Component {
+            name: placed.shape.short_name().into(),
+            bodies,
+            color: placed.color,
+            material: placed.material,
+            items: placed.items,
+        })
+    });
+    components.collect()
 }
 
-/// Name and place of each link that has a shape, by shapes.
-fn items(machine: &Machine) -> Vec<Vec<(String, Isometry3<f64>)>> {
+/// The shapes of links that belong to the machine, not to its surroundings.
+fn placed(machine: &Machine) -> Vec<Placed<'_>> {
     let wanted = vec![true; machine.links.len()];
     let places = machine.places(machine.arrangement.input, &wanted);
-    let of = |shape: usize| {
-        let placed = links(machine, shape).filter_map(|link| {
-            let place = places[link]?;
-            Some((machine.links[link].name.clone(), place))
-        });
-        placed.collect()
+    let mut items = vec![Places::new(); machine.shapes.len()];
+    for (index, (link, place)) in machine.links.iter().zip(places).enumerate() {
+        let own = machine.parts.iter().any(|part| part.links.contains(&index));
+        if let Some(place) = place.filter(|_| own) {
+            for (shape, at) in link.bodies() {
+                items[shape].push((link.name.clone(), place * at));
+            }
+        }
+    }
+    let mut colors = COLORS.into_iter().cycle();
+    let shapes = machine.shapes.iter().enumerate().zip(items);
+    let placed = shapes.map(|((index, shape), items)| Placed {
+        shape,
+        color: match shape.form {
+            Form::Turned(_) => TURNED,
+            _ => colors.next().unwrap_or_default(),
+        },
+        material: material(machine, index),
+        items,
+    });
+    placed.filter(|placed| !placed.items.is_empty()).collect()
+}
+
+/// Material of a shape: that of the part of its name, or the one of all that is made on its links; empty where they have several.
+fn material(machine: &Machine, index: usize) -> String {
+    let shape = &machine.shapes[index];
+    if let Form::Turned(part) = &shape.form {
+        return part.material.clone();
+    }
+    let named = |part: &&Part| {
+        let file = part.file.as_str();
+        !file.is_empty() && (file == shape.part || file == shape.short_name())
     };
-    (0..machine.shapes.len()).map(of).collect()
-}
-
-/// Links with a shape that belong to the machine, not to its surroundings.
-fn links(machine: &Machine, shape: usize) -> impl Iterator<Item = usize> {
-    let own = |link: &usize| machine.parts.iter().any(|part| part.links.contains(link));
-    let links = machine.links.iter().enumerate();
-    let seen = links.filter(move |(_, link)| link.shape == Some(shape));
-    seen.map(|(index, _)| index).filter(own)
-}
-
-/// Name of a shape without its folder.
-fn name(shape: &Shape) -> &str {
-    shape.name.rsplit('/').next().unwrap_or_default()
+    if let Some(part) = machine.parts.iter().find(named) {
+        return part.material.clone();
+    }
+    let on = |link: &usize| machine.links[*link].shape == Some(index);
+    let parts = machine
+        .parts
+        .iter()
+        .filter(|part| part.links.iter().any(on));
+    let mut materials: Vec<&str> = parts.map(|part| &*part.material).collect();
+    materials.retain(|material| !material.is_empty());
+    materials.dedup();
+    match materials[..] {
+        [only] => only.into(),
+        _ => String::new(),
+    }
 }
 
 /// Closed meshes of a body: several solids that touch would be none together.
@@ -115,6 +150,7 @@ fn meshes(form: &Form, tolerance: Tolerance) -> Result<Vec<Mesh>, SolidError> {
     match form {
         Form::Solids(solids) => solids.iter().map(|solid| solid.mesh(tolerance)).collect(),
         Form::Mesh(mesh, _) => Ok(vec![mesh.clone()]),
+        Form::Turned(part) => Ok(vec![part.solid()?.mesh(tolerance)?]),
         Form::Body(body) => Ok(vec![body.mesh(tolerance)?]),
     }
 }

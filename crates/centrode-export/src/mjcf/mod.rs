@@ -137,8 +137,13 @@ fn is_tree(model: &Model) -> Result<(), MjcfError> {
 }
 
 fn assets<'a>(xml: &mut String, link: &'a Link, written: &mut BTreeSet<&'a str>) {
-    if let Some(file) = &link.mesh {
-        let (name, file) = (quoted(&link.name), quoted(file));
+    for (index, seen) in link.meshes.iter().enumerate() {
+        // Links may have bodies of one file.
+        let name = asset(link, index);
+        if index > 0 && !written.insert(name) {
+            continue;
+        }
+        let (name, file) = (quoted(name), quoted(&seen.file));
         let scale = numbers([METRE; 3]);
         line(
             xml,
@@ -160,16 +165,45 @@ fn assets<'a>(xml: &mut String, link: &'a Link, written: &mut BTreeSet<&'a str>)
     }
 }
 
+/// Name of a mesh that a link is seen as: the first that of the link, others that of their file.
+fn asset(link: &Link, index: usize) -> &str {
+    match index {
+        0 => &link.name,
+        _ => &link.meshes[index].file,
+    }
+}
+
 fn geoms(xml: &mut String, link: &Link, depth: usize) {
-    let mesh = link.mesh.as_ref().map(|_| ("visual", &link.name));
-    let bodies = link.collision.iter().map(|body| ("collision", &body.name));
-    for (class, mesh) in mesh.into_iter().chain(bodies) {
-        let mesh = quoted(mesh);
+    for (index, seen) in link.meshes.iter().enumerate() {
+        let (name, mut place) = (quoted(asset(link, index)), String::new());
+        if seen.at != [0.0; 3] {
+            place = format!(" pos={}", numbers(seen.at.map(|x| x * METRE)));
+        }
+        place += &quaternion(seen.turn);
         line(
             xml,
             depth,
-            format_args!(r#"<geom class="{class}" mesh={mesh}/>"#),
+            format_args!(r#"<geom class="visual" mesh={name}{place}/>"#),
         );
+    }
+    for body in &link.collision {
+        let mesh = quoted(&body.name);
+        line(
+            xml,
+            depth,
+            format_args!(r#"<geom class="collision" mesh={mesh}/>"#),
+        );
+    }
+}
+
+/// Attribute of a turn by roll, pitch and yaw; nothing for none.
+fn quaternion(turn: [f64; 3]) -> String {
+    match turn {
+        [0.0, 0.0, 0.0] => String::new(),
+        [x, y, z] => {
+            let turn = UnitQuaternion::from_euler_angles(x, y, z).into_inner();
+            format!(" quat={}", numbers([turn.w, turn.i, turn.j, turn.k]))
+        }
     }
 }
 
@@ -181,13 +215,7 @@ fn children(xml: &mut String, model: &Model, of: &Link, depth: usize) -> Result<
         };
         let place = numbers(joint.origin.map(|x| x * METRE));
         let name = quoted(&link.name);
-        let turn = match joint.turn {
-            [0.0, 0.0, 0.0] => String::new(),
-            [x, y, z] => {
-                let turn = UnitQuaternion::from_euler_angles(x, y, z).into_inner();
-                format!(" quat={}", numbers([turn.w, turn.i, turn.j, turn.k]))
-            }
-        };
+        let turn = quaternion(joint.turn);
         line(
             xml,
             depth,

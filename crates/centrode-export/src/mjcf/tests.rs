@@ -1,5 +1,5 @@
 use super::*;
-use crate::model::Mimic;
+use crate::model::{Mimic, Seen};
 use centrode_geometry::{Mesh, Point};
 use nalgebra::{Matrix3, Point3};
 
@@ -12,7 +12,7 @@ fn sample() -> Model {
             center: Point3::new(1.0, 2.0, 5.0),
             inertia: Matrix3::new(10.0, 1.0, 0.0, 1.0, 12.0, 0.0, 0.0, 0.0, 20.0),
         }),
-        mesh: Some(format!("{name}.stl")),
+        meshes: vec![Seen::upright(format!("{name}.stl"))],
         collision: vec![Convex {
             name: format!("{name}_tooth_0"),
             mesh: Mesh::prism(&corners.map(|[x, y]| Point::new(x, y)), -4.0, 0.0),
@@ -35,7 +35,7 @@ fn sample() -> Model {
             Link {
                 name: "base".into(),
                 mass: None,
-                mesh: None,
+                meshes: Vec::new(),
                 collision: Vec::new(),
             },
             body("driver"),
@@ -71,6 +71,23 @@ fn lengths_are_metres_and_text_is_escaped() {
         assert!(text.contains(part), "{part} is not in\n{text}");
     }
     assert!(text.contains(r#"pos="0.001 0.002 0.005" mass="0.25""#));
+}
+
+#[test]
+fn further_meshes_of_a_link_stand_in_their_places_and_are_named_once() {
+    let mut model = sample();
+    let pin = Seen {
+        file: "pin.stl".into(),
+        at: [0.0, 5.0, -3.0],
+        turn: [0.0, std::f64::consts::PI, 0.0],
+    };
+    for link in &mut model.links[1..] {
+        link.meshes.push(pin.clone());
+    }
+    let text = String::from_utf8(write(&model).expect("written")).expect("text");
+    assert_eq!(text.matches(r#"<mesh name="pin.stl" "#).count(), 1);
+    let geom = r#"<geom class="visual" mesh="pin.stl" pos="0.0 0.005 -0.003" quat=""#;
+    assert_eq!(text.matches(geom).count(), 2, "{text}");
 }
 
 #[test]

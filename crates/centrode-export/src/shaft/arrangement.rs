@@ -1,18 +1,16 @@
 use std::f64::consts::TAU;
 
 use centrode_mechanism::gear::Member;
-use centrode_mechanism::machine::{
-    Axis, Blank, Datum, Dimension, Fit, Machine as Linked, Part, Supply,
-};
+use centrode_mechanism::machine::{Axis, Blank, Datum, Dimension, Machine as Linked, Part, Supply};
 use centrode_mechanism::shaft::ShaftSolid;
 
 use super::figures;
-use super::links::GEARS;
+use super::links::{BOX, GEARS};
 use super::machine::Machine;
 use super::sheets::data;
 use crate::ExportError;
-use crate::gear_pair;
-use crate::sheet::{fit, number};
+use crate::sheet::number;
+use crate::{gear_pair, turned};
 
 /// Lists shaft, slider, box and gears with their masses, and tells the arrangement: the groove unrolled, the slider in it.
 pub(super) fn tell(parts: &Machine<'_>, machine: &mut Linked) -> Result<(), ExportError> {
@@ -73,7 +71,7 @@ fn list(parts: &Machine<'_>, machine: &mut Linked) -> Result<(), ExportError> {
     let (slider, body) = (shaft.slider(), shaft.body());
     let weight = |machine: &Linked, link: usize| machine.links[link].mass.map(|mass| mass.mass);
     let [turned, carriage, slid] =
-        ["shaft", "box", "slider"].map(|name| machine.link_named(name).unwrap_or(0));
+        ["shaft", BOX, "slider"].map(|name| machine.link_named(name).unwrap_or(0));
     let solid = ShaftSolid::new(shaft.groove(), body)?;
     let ([low, _], [near, far]) = (solid.ends(), solid.whole());
     machine.part(Part {
@@ -100,10 +98,9 @@ fn list(parts: &Machine<'_>, machine: &mut Linked) -> Result<(), ExportError> {
         place: machine.place_on_edge("slider", &slider.outline(shaft.groove().width())),
         ..Part::default()
     });
-    let classes = [&*slider.hole_fit, &slider.pin_fit];
-    let pin = Fit::new("slider on its pin", slider.pin_diameter, classes);
-    super::pin(shaft).list(machine, &[carriage], fit::shaft(&pin), None);
-    machine.fit(pin);
+    let pin = shaft.pin(BOX);
+    turned::list(std::slice::from_ref(&pin), machine);
+    machine.fit(pin.fit);
     machine.part(Part {
         name: "Box with its rail".into(),
         supply: Supply::Given,

@@ -23,6 +23,9 @@ const CUBE: f64 = 100.0;
 /// The gears, the one that drives first.
 pub(super) const MEMBERS: [Member; 2] = [Member::Driver, Member::Driven];
 
+/// Name of the link that the slider moves.
+pub(super) const BOX: &str = "box";
+
 /// Prefix of the gears' files in a moving box's bundle.
 pub(super) const GEARS: &str = "gears-";
 
@@ -46,7 +49,7 @@ pub(super) fn machine(parts: &Machine<'_>) -> Result<machine::Machine, ExportErr
     let carried = carried(shaft.load().mass - block.mass);
     for (name, mass, shape) in [
         ("shaft", shaft.mass_properties()?, Some(seen)),
-        ("box", carried, None),
+        (BOX, carried, None),
         ("slider", block, Some(cut)),
     ] {
         if let Some(link) = machine.link_named(name) {
@@ -87,7 +90,7 @@ pub(super) fn drawn(parts: &Machine<'_>) -> Result<machine::Machine, ExportError
         gravity: [0.0, 0.0, -1e3 * GRAVITY],
         ..machine::Machine::default()
     };
-    let links = ["base", "frame", "shaft", "box", "slider"];
+    let links = ["base", "frame", "shaft", BOX, "slider"];
     let [base, frame, turned, carriage, slid] = links.map(|name| {
         machine.link(Link {
             name: name.into(),

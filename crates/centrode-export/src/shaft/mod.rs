@@ -10,9 +10,7 @@ mod machine;
 mod sheets;
 mod tables;
 
-use crate::sheet::number;
-use crate::turned::{Bar, Turned};
-use crate::{Bundle, ExportError, Format, Options, Package, gear_pair};
+use crate::{Bundle, ExportError, Format, Options, Package, gear_pair, turned};
 use centrode_geometry::Solid;
 use centrode_mechanism::machine::Machine as Linked;
 use centrode_mechanism::shaft::{MovingBox, ShaftError, SpiralShaft};
@@ -100,23 +98,6 @@ fn slider_solid(shaft: &SpiralShaft) -> Result<Solid, ExportError> {
     solid.map_err(ExportError::no_solid("slider"))
 }
 
-/// Diameters of its own that the slider's pin is long in the box.
-const IN_BOX: f64 = 2.0;
-
-/// The slider's pin, from the slider's foot into the box.
-fn pin(shaft: &SpiralShaft) -> Turned {
-    let slider = shaft.slider();
-    let length = slider.reach + IN_BOX * slider.pin_diameter;
-    let bar = Bar::new(slider.pin_diameter, &slider.pin_fit, [0.0, length]);
-    let material = (&*slider.material, slider.density);
-    let mut pin = bar.part(["pin", "Pin of the slider"], material);
-    pin.notes = vec![format!(
-        "{} mm of it in the slider.",
-        number(slider.reach, 3)
-    )];
-    pin
-}
-
 fn all(
     kind: &'static str,
     machine: &Machine<'_>,
@@ -135,7 +116,7 @@ fn all(
     package.within("", [&design.name, &design.title], |package| {
         package.sheets("shaft", || shaft_sheets(shaft, options))?;
         package.sheets("slider", || slider_sheets(shaft, options))?;
-        pin(shaft).add(package, shaft.drawing(), 1)
+        turned::add(&[shaft.pin(links::BOX)], package, shaft.drawing())
     })?;
     package.shell("shaft", || Ok(shaft.shell()?))?;
     let title = package.titled("shaft");

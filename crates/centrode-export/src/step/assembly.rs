@@ -24,6 +24,8 @@ pub struct Component<'a> {
     pub bodies: Vec<Exact<'a>>,
     /// Red, green and blue.
     pub color: [u8; 3],
+    /// Material; may be empty.
+    pub material: String,
     /// Name and place of each piece.
     pub items: Vec<(String, Isometry3<f64>)>,
 }
@@ -63,6 +65,9 @@ pub fn write_assembly(
             List(&content)
         ));
         represent(&mut data, product, shape);
+        if !component.material.is_empty() {
+            made_of(&mut data, product, &component.material, context);
+        }
         for (name, place) in &component.items {
             let seat = frame(&mut data, place);
             seats.push(seat);
@@ -105,6 +110,23 @@ fn represent(data: &mut Data, product: Id, shape: Id) {
     let property = data.add(format_args!("PRODUCT_DEFINITION_SHAPE('','',{product})"));
     data.add(format_args!(
         "SHAPE_DEFINITION_REPRESENTATION({property},{shape})"
+    ));
+}
+
+/// Names the material of a product, as the recommended practices of CAx-IF have it.
+fn made_of(data: &mut Data, product: Id, material: &str, context: Id) {
+    let material = Text(material).to_string();
+    let named = data.add(format_args!(
+        "DESCRIPTIVE_REPRESENTATION_ITEM({material},{material})"
+    ));
+    let told = data.add(format_args!(
+        "REPRESENTATION('material name',({named}),{context})"
+    ));
+    let property = data.add(format_args!(
+        "PROPERTY_DEFINITION('material property','material name',{product})"
+    ));
+    data.add(format_args!(
+        "PROPERTY_DEFINITION_REPRESENTATION({property},{told})"
     ));
 }
 

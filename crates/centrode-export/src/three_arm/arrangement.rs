@@ -3,10 +3,10 @@ use centrode_mechanism::gear::Member;
 use centrode_mechanism::machine::{self, Axis, Blank, Callout, Datum, Dimension};
 use centrode_mechanism::three_arm::ThreeArm;
 
+use super::Part;
 use super::machine::Machine;
-use super::{Part, shafts};
-use crate::gear_pair;
 use crate::sheet::number;
+use crate::{gear_pair, turned};
 
 /// Lists the parts and tells the arrangement: the mechanism as its first arm picks.
 pub(super) fn tell(parts: &Machine<'_>, machine: &mut machine::Machine) {
@@ -19,7 +19,7 @@ pub(super) fn tell(parts: &Machine<'_>, machine: &mut machine::Machine) {
     for fit in parts.fits() {
         machine.fit(fit);
     }
-    shafts::list(parts, machine);
+    turned::list(&parts.turned(), machine);
     let carrier = machine.place_on("carrier", [0.0; 2]);
     let told = &mut machine.arrangement;
     told.seen_through.extend(carrier.map(|place| place.figure));

@@ -109,6 +109,7 @@ impl Builder<'_> {
             mass,
             shape,
             surfaces,
+            ..machine::Link::default()
         })
     }
 

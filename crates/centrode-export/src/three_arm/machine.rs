@@ -1,7 +1,8 @@
 use centrode_geometry::{Outline, Point};
 use centrode_mechanism::arm::{ArmBody, ArmPart};
 use centrode_mechanism::gear::{GearPair, Member};
-use centrode_mechanism::machine::Fit;
+use centrode_mechanism::machine::{Fit, TurnedPieces};
+use centrode_mechanism::three_arm::making::{PRESSED, RUNNING, SLIDING, STEEL};
 use centrode_mechanism::three_arm::{GearboxBody, Pusher, ThreeArm};
 
 use super::Part;
@@ -10,21 +11,13 @@ use crate::{ExportError, cam};
 
 /// Material of carrier and housings, with its density in kg/m^3.
 const LIGHT: (&str, f64) = ("aluminium alloy", 2700.0);
-/// Material of what carries load, with its density in kg/m^3.
-pub(super) const STEEL: (&str, f64) = ("steel", 7850.0);
 
 /// Tolerance class, ISO 286, of the holes in which the shafts of the gears turn, which are made to fit the gears.
 const BEARING: &str = "F7";
-/// Classes of what turns on a pin, hole and shaft.
-pub(super) const RUNNING: [&str; 2] = ["H7", "f7"];
-/// Of pins that are pressed in, ISO 8734.
-pub(super) const PRESSED: [&str; 2] = ["H7", "m6"];
-/// Of the roller on its pressed pin.
+/// Classes of the roller on its pressed pin.
 const ROLLING: [&str; 2] = ["E9", "m6"];
 /// Of openings that only leave room.
 const PASSING: [&str; 2] = ["H11", "h11"];
-/// Of what slides in a slot or a square bore.
-pub(super) const SLIDING: [&str; 2] = ["H9", "e9"];
 
 /// A mechanism with every part resolved.
 #[derive(Clone, Debug)]
@@ -62,6 +55,11 @@ impl<'a> Machine<'a> {
             Part::Planet => Some((&self.pairs[1], Member::Driver)),
             _ => None,
         }
+    }
+
+    /// Shafts and pins.
+    pub(super) fn turned(&self) -> Vec<TurnedPieces> {
+        self.mechanism.turned(&self.pusher, &self.arm)
     }
 
     /// Contour, holes and thickness of a part of the arm, by its name there.

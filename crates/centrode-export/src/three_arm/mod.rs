@@ -10,7 +10,6 @@ mod links;
 mod machine;
 mod part;
 mod pushed;
-mod shafts;
 mod surroundings;
 
 use centrode_mechanism::arm::ArmError;
@@ -20,7 +19,7 @@ use centrode_mechanism::machine::Machine as Linked;
 use centrode_mechanism::three_arm::{PusherError, ThreeArm};
 
 use crate::gear_pair::{self, Label};
-use crate::{Bundle, ExportError, Format, Options, Package, cam};
+use crate::{Bundle, ExportError, Format, Options, Package, cam, turned};
 pub use curves::{arm_curves, curves};
 use machine::Machine;
 pub use part::Part;
@@ -82,10 +81,7 @@ pub fn files(
             plate.add(&mut package, &design.drawing)?;
         }
     }
-    for piece in shafts::all(&machine) {
-        let quantity = piece.quantity(mechanism.arms());
-        piece.part.add(&mut package, &design.drawing, quantity)?;
-    }
+    turned::add(&machine.turned(), &mut package, &design.drawing)?;
     let cam = machine.pusher.cam();
     package.points(Part::Cam.name(), "cam", || cam::columns(cam, cam::ROWS))?;
     package.drawing(Part::Assembly.name(), |_| {

@@ -185,6 +185,10 @@ fn meshes_are_closed_and_as_large_as_their_solids() {
                 let mesh = |solid: &Solid| solid.mesh(tolerance).expect("apart");
                 solids.iter().map(mesh).collect()
             }
+            Form::Turned(part) => {
+                let body = part.solid().expect("a body");
+                vec![body.mesh(tolerance).expect("a mesh")]
+            }
             Form::Body(_) => panic!("no such body in an arm"),
         };
         for mesh in meshes {

@@ -1,7 +1,7 @@
 use centrode_geometry::{Point, Tolerance, Vector};
 use centrode_mechanism::design::{DrawingSpec, SheetSize};
 
-use super::{Turned, across, centre, cutting_plane};
+use super::{Drawn, across, centre, centre_mark, cutting_plane};
 use crate::SheetOptions;
 use crate::drawing::Shape;
 use crate::sheet::geometrical::{Frame, NoteLine};
@@ -23,7 +23,7 @@ const SLENDER: f64 = 3.0;
 /// Distance of dimension lines, mm, beyond the height of their letters.
 const ROW: f64 = 4.5;
 
-impl Turned {
+impl Drawn<'_> {
     /// The drawing sheets: the part from the side, a section across its keyway.
     pub(super) fn sheets(
         &self,
@@ -236,13 +236,5 @@ impl Turned {
             draft.note(*tip, elbow, lines);
             height += row + 2.0;
         }
-    }
-}
-
-/// Symbol of a centre hole that stays on the part, ISO 6411.
-pub(crate) fn centre_mark(draft: &mut Draft, end: Point, way: f64) {
-    for side in [-1.0, 1.0] {
-        let leg = Vector::new(way * 3.5, side * 2.0);
-        draft.line(Pen::Outline, end, end + leg);
     }
 }

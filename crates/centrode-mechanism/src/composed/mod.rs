@@ -34,6 +34,7 @@ mod mesh;
 mod obstacle;
 mod pair_figure;
 mod pieces;
+mod pins;
 mod plates;
 mod points;
 mod resolve;

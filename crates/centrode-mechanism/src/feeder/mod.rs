@@ -13,6 +13,7 @@ mod mount;
 mod parts;
 mod plates;
 mod search;
+mod shafts;
 
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;

@@ -249,6 +249,8 @@ impl Feeder {
             Some(JointHole::Bearing) => round(gears.bore, &spec.bearing_fit),
             Some(JointHole::Keyed(keyway_angle)) => BodySpec {
                 keyway_angle,
+                bore_fit: Self::CRANK_FIT[0].into(),
+                shaft_fit: Self::CRANK_FIT[1].into(),
                 ..gears
             },
         };

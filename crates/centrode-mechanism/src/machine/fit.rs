@@ -39,10 +39,19 @@ const DEVIATIONS: [(&str, Row); 9] = [
     ("p", [6.0, 12.0, 15.0, 18.0, 22.0, 26.0, 32.0, 37.0, 43.0, 50.0, 56.0, 62.0, 68.0]),
 ];
 
+/// Upper ends of ranges of nominal sizes, mm, and the lower deviation of shafts r in them, µm: above 50 mm the ranges are finer.
+#[rustfmt::skip]
+const R: [(f64, f64); 22] = [
+    (3.0, 10.0), (6.0, 15.0), (10.0, 19.0), (18.0, 23.0), (30.0, 28.0), (50.0, 34.0),
+    (65.0, 41.0), (80.0, 43.0), (100.0, 51.0), (120.0, 54.0), (140.0, 63.0), (160.0, 65.0),
+    (180.0, 68.0), (200.0, 77.0), (225.0, 80.0), (250.0, 84.0), (280.0, 94.0), (315.0, 98.0),
+    (355.0, 108.0), (400.0, 114.0), (450.0, 126.0), (500.0, 132.0),
+];
+
 /// Lower and upper deviation of a size in a tolerance class, mm.
 ///
 /// Holes have capital letters: D to H and JS in grades 5 to 13, N and P in grade 9, as keyways have them. Shafts have small
-/// ones: d to h and js in grades 5 to 13, k in grades 5 to 7, m to p in grades 5 to 9. `None` for other classes, and for sizes
+/// ones: d to h and js in grades 5 to 13, k in grades 5 to 7, m to r in grades 5 to 9. `None` for other classes, and for sizes
 /// that are not between 0 and 500 mm.
 ///
 /// Source: ISO 286-1:2010, tables of standard tolerance grades and fundamental deviations.
@@ -68,6 +77,7 @@ pub fn limits_of_size(size: f64, class: &str) -> Option<[f64; 2]> {
         "P" if number == 9 => -width - from?,
         "k" if number <= 7 => from?,
         "m" | "n" | "p" if number <= 9 => from?,
+        "r" if number <= 9 => R.iter().find(|(end, _)| size <= *end)?.1,
         _ => return None,
     };
     Some([lower / 1000.0, (lower + width) / 1000.0])
@@ -208,6 +218,43 @@ mod tests {
         ] {
             assert_eq!(found(size, class), None, "{size} {class}");
         }
+    }
+
+    #[test]
+    fn shafts_r_press_in_holes_h7_up_to_the_largest_size() {
+        // Limits of class r6, µm, as ISO 286-2:2010 tables them, at the ends of its ranges and just beyond.
+        for (size, low, high) in [
+            (1.0, 10.0, 16.0),
+            (3.0, 10.0, 16.0),
+            (3.1, 15.0, 23.0),
+            (10.0, 19.0, 28.0),
+            (16.0, 23.0, 34.0),
+            (30.0, 28.0, 41.0),
+            (50.0, 34.0, 50.0),
+            (50.5, 41.0, 60.0),
+            (65.5, 43.0, 62.0),
+            (100.0, 51.0, 73.0),
+            (120.0, 54.0, 76.0),
+            (140.0, 63.0, 88.0),
+            (160.0, 65.0, 90.0),
+            (180.0, 68.0, 93.0),
+            (200.0, 77.0, 106.0),
+            (225.0, 80.0, 109.0),
+            (250.0, 84.0, 113.0),
+            (280.0, 94.0, 126.0),
+            (315.0, 98.0, 130.0),
+            (355.0, 108.0, 144.0),
+            (400.0, 114.0, 150.0),
+            (450.0, 126.0, 166.0),
+            (500.0, 132.0, 172.0),
+        ] {
+            let found = limits_of_size(size, "r6").expect("a class");
+            let off = (found[0] - 1e-3 * low).abs() + (found[1] - 1e-3 * high).abs();
+            assert!(off < 1e-12, "{size}: {found:?}");
+            let seat = Fit::new("seat", size, ["H7", "r6"]);
+            assert!(seat.play().expect("classes")[1] <= 0.0, "{size}");
+        }
+        assert_eq!(limits_of_size(16.0, "r10"), None);
     }
 
     #[test]

@@ -4,6 +4,7 @@
 //! and nothing else. Loops are closed when it is made: the joints' laws already hold them, and the closures stay known.
 
 mod arrangement;
+mod bar;
 mod blank;
 mod contact;
 mod figure;
@@ -17,17 +18,20 @@ mod plain;
 mod pose;
 mod sound;
 mod standard;
+mod turned;
 
 use std::fmt;
 use std::sync::Arc;
 
 use centrode_geometry::{MassProperties, Mesh, Outline, Shell, Solid, SolidError, Tolerance};
+use nalgebra::{Isometry3, UnitQuaternion};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::transmission::Transmission;
 
 pub use arrangement::{Arrangement, Axis, Callout, Datum, Dimension, Place};
+pub(crate) use bar::Bar;
 pub use blank::Blank;
 pub use contact::{Closure, Contact, ContactLine, GearMesh, Guide, GuideForce, PitchCurves};
 pub use figure::{Figure, Line, LinePath, LineRole, Mark, Seat, Sketch};
@@ -38,7 +42,8 @@ pub use law::{Constant, Linear, Piecewise};
 pub use load::{Axes, Load, STANDARD_GRAVITY};
 pub use part::{Part, Supply};
 pub use sound::{MachineError, loose_link};
-pub use standard::{Circlip, dowel};
+pub use standard::{Circlip, Dowel};
+pub use turned::{TurnedPart, TurnedPiece, TurnedPieces, TurnedStep};
 
 /// Rigid links, and how each of them moves with the one input.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, Serialize)]
@@ -115,8 +120,23 @@ pub struct Link {
     pub mass: Option<MassProperties>,
     /// Index of the shape it is seen as.
     pub shape: Option<usize>,
+    /// Further bodies that it is seen with: its shafts and pins.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub mounted: Vec<Mounted>,
     /// Indices of the surfaces it touches other links with.
     pub surfaces: Vec<usize>,
+}
+
+/// A body mounted on a link.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Mounted {
+    /// Index of its shape.
+    pub shape: usize,
+    /// Its origin in the link's frame, mm.
+    pub at: [f64; 3],
+    /// Its turn there as roll, pitch and yaw: about the link's x, then y, then z axis, rad.
+    pub turn: [f64; 3],
 }
 
 /// A point of a link.
@@ -182,6 +202,33 @@ pub enum Quantity {
     ),
 }
 
+impl Shape {
+    /// Name without its folder.
+    #[must_use]
+    pub fn short_name(&self) -> &str {
+        self.name.rsplit('/').next().unwrap_or_default()
+    }
+}
+
+impl Link {
+    /// Every body it is seen with, by the index of its shape, and the body's place in the link's frame.
+    pub fn bodies(&self) -> impl Iterator<Item = (usize, Isometry3<f64>)> {
+        let own = self.shape.map(|shape| (shape, Isometry3::identity()));
+        let mounted = self.mounted.iter();
+        own.into_iter()
+            .chain(mounted.map(|body| (body.shape, body.place())))
+    }
+}
+
+impl Mounted {
+    /// Its place in the link's frame.
+    #[must_use]
+    pub fn place(&self) -> Isometry3<f64> {
+        let [x, y, z] = self.turn;
+        Isometry3::from_parts(self.at.into(), UnitQuaternion::from_euler_angles(x, y, z))
+    }
+}
+
 impl Quantity {
     /// A joint's coordinate.
     #[must_use]
@@ -220,6 +267,8 @@ pub enum Form {
     Solids(Vec<Solid>),
     /// A triangle mesh and how far it may lie off the body, mm; zero for a body of plane faces.
     Mesh(Mesh, f64),
+    /// A shaft or pin.
+    Turned(TurnedPart),
     /// A body of another kind.
     Body(Arc<dyn Body>),
 }

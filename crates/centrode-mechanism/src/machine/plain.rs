@@ -12,7 +12,7 @@ use serde::de::{DeserializeOwned, Error as _};
 use serde::ser::Error as _;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-use super::{Form, Piecewise};
+use super::{Form, Piecewise, TurnedPart};
 use crate::transmission::Transmission;
 
 /// One segment of a closed contour; the parameter of a curve runs from -1 to 1.
@@ -137,6 +137,11 @@ pub(super) enum FormFile {
         /// Each of them.
         solids: Vec<Extrusion>,
     },
+    /// A shaft or pin.
+    Turned {
+        /// The part, from z = 0 upwards.
+        part: TurnedPart,
+    },
     /// A closed triangle mesh.
     Mesh {
         /// Corners, mm.
@@ -159,6 +164,7 @@ impl Serialize for Form {
                 faces: mesh.faces.clone(),
                 off: *off,
             },
+            Self::Turned(part) => FormFile::Turned { part: part.clone() },
             Self::Body(_) => return Err(S::Error::custom("this body must be meshed first")),
         };
         file.serialize(serializer)
@@ -172,6 +178,10 @@ impl<'de> Deserialize<'de> for Form {
                 let solids = solids.into_iter().map(solid).collect::<Result<_, _>>();
                 Ok(Self::Solids(solids.map_err(D::Error::custom)?))
             }
+            FormFile::Turned { part } => match part.solid() {
+                Ok(_) => Ok(Self::Turned(part)),
+                Err(error) => Err(D::Error::custom(error)),
+            },
             FormFile::Mesh {
                 vertices,
                 faces,

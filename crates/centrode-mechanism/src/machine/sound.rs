@@ -81,7 +81,7 @@ impl Machine {
                 return Err(MachineError::Number { what, value });
             }
         }
-        self.forces_are_sound()?;
+        self.bears_soundly()?;
         for part in &self.parts {
             if let Some(value) = part.mass.filter(|mass| !(*mass >= 0.0 && mass.is_finite())) {
                 let what = format!("the mass of the part {:?}", part.name);
@@ -96,8 +96,8 @@ impl Machine {
         self.is_tree()
     }
 
-    /// Checks the numbers that forces alone read.
-    fn forces_are_sound(&self) -> Result<(), MachineError> {
+    /// Checks the numbers of what joints and links bear.
+    fn bears_soundly(&self) -> Result<(), MachineError> {
         let finite = |value: &f64| value.is_finite();
         let positive = |value: &f64| *value >= 0.0 && value.is_finite();
         let acute = |angle: &f64| angle.abs() < std::f64::consts::FRAC_PI_2;
@@ -108,6 +108,10 @@ impl Machine {
             if let Load::Mass { mass, .. } = load {
                 all.push(("a mass carried", std::slice::from_ref(mass), &positive));
             }
+        }
+        for body in self.links.iter().flat_map(|link| &link.mounted) {
+            all.push(("the place of a body", &body.at, &finite));
+            all.push(("the turn of a body", &body.turn, &finite));
         }
         for mesh in &self.meshes {
             let angle = mesh.pressure_angle.as_slice();
@@ -150,7 +154,7 @@ impl Machine {
         let mut all = Vec::new();
         for link in &self.links {
             let from = || format!("link {:?}", link.name);
-            all.extend(link.shape.map(|shape| (from(), "shape", shape)));
+            all.extend(link.bodies().map(|(shape, _)| (from(), "shape", shape)));
             all.extend(link.surfaces.iter().map(|&s| (from(), "surface", s)));
         }
         for (index, joint) in self.joints.iter().enumerate() {

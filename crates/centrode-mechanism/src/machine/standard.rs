@@ -1,5 +1,8 @@
 //! Parts that are bought by the number of a standard.
 
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
 /// Diameters of parallel pins of hardened steel, mm; ISO 8734:1997.
 const DOWELS: [f64; 14] = [
     1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0, 12.0, 16.0, 20.0, 25.0,
@@ -10,19 +13,36 @@ const LENGTHS: [f64; 30] = [
     32.0, 35.0, 40.0, 45.0, 50.0, 55.0, 60.0, 65.0, 70.0, 75.0, 80.0, 85.0, 90.0, 100.0,
 ];
 
-/// Designation of the longest parallel pin of hardened steel, tolerance class m6, of a diameter that is no longer than a room,
-/// mm; `None` where there is no such pin.
-#[must_use]
-pub fn dowel(diameter: f64, room: f64) -> Option<String> {
-    let known = DOWELS.contains(&diameter);
-    let mut fitting = LENGTHS.into_iter().rev();
-    // A length of whole layers differs from it by rounding.
-    let length = fitting.find(|&length| length <= room * (1.0 + 1e-9))?;
-    known.then(|| format!("Pin ISO 8734 - {diameter} x {length} - A"))
+/// Parallel pin of hardened steel, tolerance class m6, ISO 8734.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Dowel {
+    /// Diameter, mm.
+    pub diameter: f64,
+    /// Length, mm.
+    pub length: f64,
+}
+
+impl Dowel {
+    /// The longest pin of a diameter that is no longer than a room, mm; `None` where there is no such pin.
+    #[must_use]
+    pub fn of(diameter: f64, room: f64) -> Option<Self> {
+        let known = DOWELS.contains(&diameter);
+        let mut fitting = LENGTHS.into_iter().rev();
+        // A length of whole layers differs from it by rounding.
+        let length = fitting.find(|&length| length <= room * (1.0 + 1e-9))?;
+        known.then_some(Self { diameter, length })
+    }
+
+    /// Designation: "Pin ISO 8734 - 8 x 32 - A".
+    #[must_use]
+    pub fn name(self) -> String {
+        format!("Pin ISO 8734 - {} x {} - A", self.diameter, self.length)
+    }
 }
 
 /// Retaining ring of a shaft, in a groove.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
+#[serde(deny_unknown_fields)]
 pub struct Circlip {
     /// Diameter of the shaft, mm.
     pub shaft: f64,
@@ -113,7 +133,8 @@ mod tests {
 
     #[test]
     fn designations_are_those_of_the_standards() {
-        let name = |diameter, room| dowel(diameter, room).unwrap_or_default();
+        let pin = |diameter, room| Dowel::of(diameter, room).map(Dowel::name);
+        let name = |diameter, room| pin(diameter, room).unwrap_or_default();
         assert_eq!(name(8.0, 32.0), "Pin ISO 8734 - 8 x 32 - A");
         assert_eq!(name(8.0, 31.9), "Pin ISO 8734 - 8 x 30 - A");
         assert_eq!(name(7.5, 32.0), "");

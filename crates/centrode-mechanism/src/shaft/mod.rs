@@ -13,6 +13,7 @@ mod force;
 mod groove;
 mod law;
 mod moving_box;
+mod pin;
 mod published;
 mod reversal;
 mod schedule;

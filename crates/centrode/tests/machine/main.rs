@@ -12,7 +12,7 @@ use centrode::export::machine::{picture, plain, read, schema, write};
 use centrode::export::page::Picture;
 use centrode::export::{Bundle, Format, Options, Package};
 use centrode::geometry::Tolerance;
-use centrode::mechanism::machine::{JointKind, Load, Machine};
+use centrode::mechanism::machine::{Form, JointKind, Load, Machine, Mounted};
 use nalgebra::{Matrix3, Vector3};
 
 /// Name and machine of every shipped design that gives one.
@@ -62,8 +62,11 @@ fn assert_alike(one: &Picture, other: &Picture, (name, off): (&str, f64)) {
 }
 
 fn files(machine: &Machine, options: &Options) -> Bundle {
-    let formats = [Format::Csv, Format::Urdf, Format::Mjcf];
-    let mut package = Package::new("a machine", ["", ""], &formats, options);
+    in_formats(machine, &[Format::Csv, Format::Urdf, Format::Mjcf], options)
+}
+
+fn in_formats(machine: &Machine, formats: &[Format], options: &Options) -> Bundle {
+    let mut package = Package::new("a machine", ["", ""], formats, options);
     package.machine(|| Ok(machine.clone())).expect("written");
     package.finish().expect("whole")
 }
@@ -219,6 +222,59 @@ fn a_machine_read_back_from_its_plain_file_stands_and_exports_as_the_first() {
         }
         assert_eq!(first.files().count(), second.files().count(), "{name}");
     }
+}
+
+#[test]
+fn shafts_and_pins_are_assembled_alike_in_the_machine_read_back_from_its_plain_file() {
+    let tolerance = Tolerance::new(2e-2).expect("positive");
+    let (options, formats) = (Options::new(tolerance), [Format::Step, Format::ThreeMf]);
+    let mut mounted = 0;
+    for (name, machine) in machines() {
+        if machine.links.iter().all(|link| link.mounted.is_empty()) {
+            continue;
+        }
+        // Places by laws in pieces have other last digits than those by exact laws.
+        let machine = plain(&machine, tolerance).expect("meshed");
+        let again = read(&write(&machine).expect("plain")).expect("readable");
+        assert_eq!(machine.links, again.links, "{name}");
+        mounted += machine
+            .links
+            .iter()
+            .map(|link| link.mounted.len())
+            .sum::<usize>();
+        let [one, other] = [&machine, &again].map(|m| in_formats(m, &formats, &options));
+        assert_eq!(one.files().count(), 2, "{name}");
+        for ((file, one), (_, other)) in one.files().zip(other.files()) {
+            assert!(one == other, "{name}: {file} differs");
+        }
+    }
+    assert!(mounted > 100, "{mounted}");
+}
+
+#[test]
+fn shafts_and_pins_without_a_shape_a_place_or_a_body_are_refused() {
+    let mut machines = machines().into_iter();
+    let has_pins = |machine: &Machine| machine.links.iter().any(|l| !l.mounted.is_empty());
+    let found = machines.find(|(_, machine)| has_pins(machine));
+    let (_, machine) = found.expect("a machine with pins");
+    let refused = |change: &dyn Fn(&mut Mounted)| {
+        let mut machine = machine.clone();
+        let mut mounted = machine.links.iter_mut().flat_map(|link| &mut link.mounted);
+        change(mounted.next().expect("a pin"));
+        machine.validate().expect_err("refused").to_string()
+    };
+    assert!(refused(&|body| body.shape = 999).contains("names shape 999"));
+    assert!(refused(&|body| body.at[1] = f64::NAN).contains("the place of a body"));
+    assert!(refused(&|body| body.turn[2] = f64::INFINITY).contains("the turn of a body"));
+    let mut bare = machine;
+    for shape in &mut bare.shapes {
+        if let Form::Turned(part) = &mut shape.form {
+            part.steps.clear();
+        }
+    }
+    let file = write(&bare).expect("plain");
+    let error = read(&file).expect_err("no body").to_string();
+    assert!(error.contains("not the plain file of a machine"), "{error}");
 }
 
 #[test]

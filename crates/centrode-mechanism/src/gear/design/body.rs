@@ -84,10 +84,39 @@ impl Keyway {
     /// keyway, or as short as the hub.
     #[must_use]
     pub fn key(self, face: f64) -> Option<String> {
+        self.standard('A', face)
+    }
+
+    /// Designation of the longest standard key with square ends, form B, likewise: in a thin hub it bears over its whole length,
+    /// where one of form A with its round ends bears over its length less its width.
+    #[must_use]
+    pub fn square_key(self, face: f64) -> Option<String> {
+        self.standard('B', face)
+    }
+
+    fn standard(self, form: char, face: f64) -> Option<String> {
         let (width, height, _) = KEYS.into_iter().find(|(b, ..)| *b == self.width)?;
-        let mut fitting = LENGTHS.into_iter().rev();
-        let length = fitting.find(|&length| f64::from(length) <= face)?;
-        Some(format!("Key DIN 6885-1 A {width} x {height} x {length}"))
+        let length = Self::key_length(face)?;
+        Some(format!(
+            "Key DIN 6885-1 {form} {width} x {height} x {length}"
+        ))
+    }
+
+    /// Length of the longest standard key for a hub of a face width, mm; `None` where all are longer.
+    #[must_use]
+    pub fn key_length(face: f64) -> Option<f64> {
+        let mut fitting = LENGTHS.into_iter().rev().map(f64::from);
+        fitting.find(|&length| length <= face)
+    }
+
+    /// Pressure between a hub and the key in this keyway of it, N/mm², for a torque (N mm) on a shaft of a diameter and a key that
+    /// bears over a length (mm): 2 T / (d t l), with t the depth of the keyway less the room above the key.
+    ///
+    /// Source: DIN 6892, method C.
+    #[must_use]
+    pub fn pressure(self, torque: f64, diameter: f64, length: f64) -> f64 {
+        let room = self.sizes().2;
+        2.0 * torque / (diameter * (self.depth - room) * length)
     }
 
     /// The keyway of a hub on a shaft of a diameter (mm), as ISO/R 773 and DIN 6885-1 ask for parallel keys; `None` below 6 mm,
@@ -139,11 +168,16 @@ impl Keyway {
         self.mate()
     }
 
+    /// Width and height of its key, and the room above the key, mm.
+    fn sizes(self) -> (f64, f64, f64) {
+        let standard = KEYS.into_iter().find(|(b, ..)| *b == self.width);
+        standard.unwrap_or((self.width, self.width, 0.06 * self.width))
+    }
+
     /// The keyway on the other side of the key: what both leave of its height is room above it.
     fn mate(self) -> Self {
         let Self { width, depth } = self;
-        let standard = KEYS.into_iter().find(|(b, ..)| *b == width);
-        let (_, height, room) = standard.unwrap_or((width, width, 0.06 * width));
+        let (_, height, room) = self.sizes();
         Self {
             width,
             depth: (height - depth + room).max(room),
@@ -236,8 +270,24 @@ mod tests {
             Some("Key DIN 6885-1 A 12 x 8 x 400")
         );
         assert_eq!((key(5.0, 5.9), key(5.5, 15.0)), (None, None));
+        let square = Keyway {
+            width: 5.0,
+            depth: 2.3,
+        }
+        .square_key(8.0);
+        assert_eq!(square.as_deref(), Some("Key DIN 6885-1 B 5 x 5 x 8"));
         let room = |width: f64| Keyway { width, depth: 2.0 }.depth_tolerance();
         assert_eq!([6.0, 8.0, 5.5].map(room), [Some(0.1), Some(0.2), None]);
+    }
+
+    #[test]
+    fn the_pressure_on_a_key_turns_the_shaft() {
+        // 2 mm of a key of 5 x 5 mm stand in the hub: forces of 100 N/mm² on 2 x 8 mm at 8 mm from the axis.
+        let hub = Keyway {
+            width: 5.0,
+            depth: 2.3,
+        };
+        assert!((hub.pressure(12_800.0, 16.0, 8.0) - 100.0).abs() < 1e-9);
     }
 
     #[test]

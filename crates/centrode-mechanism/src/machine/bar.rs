@@ -1,7 +1,5 @@
-use centrode_mechanism::gear::design::Keyway;
-use centrode_mechanism::machine::{Circlip, preferred_size};
-
-use super::{Step, Turned};
+use super::{Circlip, TurnedPart, TurnedStep, preferred_size};
+use crate::gear::design::Keyway;
 
 /// Share of a diameter that a chamfer at an end takes at most.
 const CHAMFER: f64 = 1.0 / 16.0;
@@ -19,6 +17,8 @@ pub(crate) struct Bar {
     /// Heights of the loaded walls of grooves, and whether the groove lies above it.
     grooves: Vec<(f64, bool)>,
     keyway: Option<Keyway>,
+    /// Stretches of a class of their own.
+    seats: Vec<([f64; 2], String)>,
 }
 
 impl Bar {
@@ -31,6 +31,7 @@ impl Bar {
             keyed: Vec::new(),
             grooves: Vec::new(),
             keyway: None,
+            seats: Vec::new(),
         }
     }
 
@@ -70,8 +71,19 @@ impl Bar {
         self
     }
 
+    /// A stretch between two heights in a tolerance class of its own.
+    pub(crate) fn seat(mut self, span: [f64; 2], class: &str) -> Self {
+        self.seats.push((span, class.into()));
+        self
+    }
+
+    /// Height of its lower end, mm.
+    pub(crate) fn bottom(&self) -> f64 {
+        self.span[0]
+    }
+
     /// Cylinders one after another from the lower end.
-    fn steps(&self) -> Vec<Step> {
+    fn steps(&self) -> Vec<TurnedStep> {
         let ring = Circlip::of_shaft(self.diameter);
         let grooves: Vec<[f64; 2]> = self
             .grooves
@@ -86,7 +98,8 @@ impl Bar {
             })
             .collect();
         let mut ends: Vec<f64> = self.span.to_vec();
-        ends.extend(grooves.iter().chain(&self.keyed).flatten());
+        let seats: Vec<[f64; 2]> = self.seats.iter().map(|(span, _)| *span).collect();
+        ends.extend(grooves.iter().chain(&self.keyed).chain(&seats).flatten());
         let [low, high] = self.span;
         ends.retain(|z| (low..=high).contains(z));
         ends.sort_by(f64::total_cmp);
@@ -94,12 +107,14 @@ impl Bar {
         let step = |pair: &[f64]| {
             let middle = 0.5 * (pair[0] + pair[1]);
             let within = |spans: &[[f64; 2]]| spans.iter().any(|s| s[0] < middle && middle < s[1]);
-            let plain = Step {
+            let seat = self.seats.iter().find(|(span, _)| within(&[*span]));
+            let class = seat.map_or(&self.class, |(_, class)| class);
+            let plain = TurnedStep {
                 is_keyed: within(&self.keyed),
-                ..Step::plain(self.diameter, pair[1] - pair[0], &self.class)
+                ..TurnedStep::plain(self.diameter, pair[1] - pair[0], class)
             };
             match ring.filter(|_| within(&grooves)) {
-                Some(ring) => Step {
+                Some(ring) => TurnedStep {
                     diameter: ring.groove,
                     class: ring.class().into(),
                     ring: Some(ring),
@@ -116,12 +131,12 @@ impl Bar {
         &self,
         [name, title]: [&str; 2],
         (material, density): (&str, f64),
-    ) -> Turned {
+    ) -> TurnedPart {
         let steps = self.steps();
         let lands = [steps.first(), steps.last()].into_iter().flatten();
         let shortest = lands.map(|step| step.length).fold(f64::INFINITY, f64::min);
         let chamfer = (CHAMFER * self.diameter).min(0.5 * shortest);
-        Turned {
+        TurnedPart {
             name: name.into(),
             title: title.into(),
             steps,
@@ -132,25 +147,4 @@ impl Bar {
             notes: Vec::new(),
         }
     }
-}
-
-/// Centre hole of a turned part, of form A: the widest that takes no more than a third of the end's diameter.
-pub(crate) fn centre(diameter: f64) -> Option<String> {
-    // Diameters of the pilot hole and of the countersink, mm; ISO 866.
-    const SIZES: [(f64, f64); 11] = [
-        (1.0, 2.12),
-        (1.25, 2.65),
-        (1.6, 3.35),
-        (2.0, 4.25),
-        (2.5, 5.3),
-        (3.15, 6.7),
-        (4.0, 8.5),
-        (5.0, 10.6),
-        (6.3, 13.2),
-        (8.0, 17.0),
-        (10.0, 21.2),
-    ];
-    let mut fitting = SIZES.iter().rev();
-    let (pilot, wide) = fitting.find(|(_, wide)| 3.0 * wide <= diameter)?;
-    Some(format!("ISO 6411-A{pilot}/{wide}"))
 }

@@ -1,0 +1,99 @@
+//! Pins of a composed machine, turned to the heights of the plates on them.
+
+use centrode_geometry::Point;
+
+use super::Composed;
+use crate::digits::thousandths;
+use crate::machine::{Bar, Fit, TurnedPiece, TurnedPieces};
+
+/// Shares of the period at which plates on one pin have their holes on one axis.
+const SHARES: [f64; 4] = [0.0, 0.137, 0.411, 0.732];
+/// Distance, as a share of the pin's diameter, within which axes are one.
+const ONE: f64 = 1e-6;
+
+/// Holes on one axis.
+struct Axis {
+    places: Vec<Point>,
+    /// The bodies with a hole there, and its place in their axes.
+    holes: Vec<(usize, Point)>,
+    /// From the lowest face to the highest, mm.
+    span: [f64; 2],
+}
+
+impl Axis {
+    fn length(&self) -> f64 {
+        self.span[1] - self.span[0]
+    }
+}
+
+impl Composed {
+    /// The pins in the plates, those of one length together, the shortest first; each belongs to the body nearest to the frame.
+    #[must_use]
+    pub fn pins_in_plates(&self) -> Vec<TurnedPieces> {
+        let spec = &self.design.plates;
+        let fit = Fit::new("", spec.pin_diameter, [&spec.hole_fit, &spec.pin_fit]);
+        let mut found: Vec<(f64, TurnedPieces)> = Vec::new();
+        let mut axes = self.axes();
+        axes.sort_by(|a, b| a.length().total_cmp(&b.length()));
+        // A single plate turns on a pin of what is around the machine.
+        for axis in axes.into_iter().filter(|axis| axis.holes.len() > 1) {
+            let bar = Bar::new(spec.pin_diameter, &spec.pin_fit, [0.0, axis.length()]);
+            let bar = bar.held([spec.gap; 2]);
+            let bottom = axis.span[0] + bar.bottom();
+            let own = axis.holes.iter().min_by_key(|(body, _)| *body);
+            let piece = own.map(|&(body, at)| {
+                TurnedPiece::upright(&self.bodies[body].name, [at.x, at.y, bottom])
+            });
+            let known = found.last_mut();
+            match known.filter(|(long, _)| axis.length() - *long < ONE * spec.pin_diameter) {
+                Some((_, pins)) => pins.pieces.extend(piece),
+                None => {
+                    let title = format!("Pin through {} mm", thousandths(axis.length()));
+                    let part = bar.part(["pin", &title], (&spec.material, spec.density));
+                    let pins = TurnedPieces {
+                        pieces: piece.into_iter().collect(),
+                        ..TurnedPieces::of(part, fit.clone())
+                    };
+                    found.push((axis.length(), pins));
+                }
+            }
+        }
+        let alone = found.len() == 1;
+        let mut found: Vec<TurnedPieces> = found.into_iter().map(|(_, pins)| pins).collect();
+        for (index, pins) in found.iter_mut().enumerate().filter(|_| !alone) {
+            pins.part.name = format!("pin-{}", index + 1);
+        }
+        found
+    }
+
+    fn axes(&self) -> Vec<Axis> {
+        let near = ONE * self.design.plates.pin_diameter;
+        let mut axes: Vec<Axis> = Vec::new();
+        for body in 0..self.bodies.len() {
+            let Ok(Some(plate)) = self.plate(body) else {
+                continue;
+            };
+            for hole in self.pin_holes(body).into_iter().flatten() {
+                let place = |share: f64| self.place(body, hole.at, share * self.period());
+                let places: Vec<Point> = SHARES.into_iter().map(place).collect();
+                let is_one = |axis: &&mut Axis| {
+                    let mut both = axis.places.iter().zip(&places);
+                    both.all(|(a, b)| (a - b).norm() < near)
+                };
+                let [bottom, top] = [plate.bottom(), plate.top()];
+                match axes.iter_mut().find(is_one) {
+                    Some(axis) => {
+                        axis.span = [axis.span[0].min(bottom), axis.span[1].max(top)];
+                        axis.holes.push((body, hole.at));
+                    }
+                    None => axes.push(Axis {
+                        places,
+                        holes: vec![(body, hole.at)],
+                        span: [bottom, top],
+                    }),
+                }
+            }
+        }
+        axes
+    }
+}

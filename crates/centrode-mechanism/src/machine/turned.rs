@@ -1,0 +1,299 @@
+use centrode_geometry::{SolidError, Turned, TurnedSection, TurnedSlot};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::{Blank, Circlip, Fit, Form, Machine, Mounted, Part, Shape};
+use crate::gear::design::Keyway;
+
+/// A shaft or pin: a part turned from round bar about its axis z, its lower end at z = 0, with a keyway where it has one.
+#[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct TurnedPart {
+    /// Name that its files begin with.
+    pub name: String,
+    /// Title of its drawing.
+    pub title: String,
+    /// Cylinders one after another, z upwards.
+    pub steps: Vec<TurnedStep>,
+    /// Keyway of the steps that have one, along x.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub keyway: Option<Keyway>,
+    /// Chamfer of 45° at both ends, mm; 0 for none.
+    pub chamfer: f64,
+    /// Material.
+    pub material: String,
+    /// Density, kg/m^3.
+    pub density: f64,
+    /// Further notes of its sheet.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub notes: Vec<String>,
+}
+
+/// A cylinder of a turned part.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct TurnedStep {
+    /// Diameter, mm.
+    pub diameter: f64,
+    /// Length, mm.
+    pub length: f64,
+    /// Tolerance class of its diameter, ISO 286; empty where general tolerances hold.
+    pub class: String,
+    /// Whether the keyway goes through it.
+    pub is_keyed: bool,
+    /// Ring whose groove it is.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub ring: Option<Circlip>,
+}
+
+/// A turned part and its pieces in a machine.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TurnedPieces {
+    /// The part.
+    pub part: TurnedPart,
+    /// Its fit where it runs or sits.
+    pub fit: Fit,
+    /// Purpose, in words; may be empty.
+    pub role: String,
+    /// Designation by which it is bought; none where it is made from its sheet.
+    pub standard: Option<String>,
+    /// Designations of the keys on each piece.
+    pub keys: Vec<String>,
+    /// Where its pieces are.
+    pub pieces: Vec<TurnedPiece>,
+    /// Its axis in the figure of the first link, mm, where it is seen there.
+    pub axis: Option<[f64; 2]>,
+}
+
+/// Place of a piece of a turned part.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TurnedPiece {
+    /// Name of the link that it belongs to.
+    pub link: String,
+    /// Its lower end in the link's frame, mm.
+    pub at: [f64; 3],
+    /// Its turn there as roll, pitch and yaw: about the link's x, then y, then z axis, rad.
+    pub turn: [f64; 3],
+}
+
+impl TurnedStep {
+    /// A plain cylinder of a diameter and length (mm), in a tolerance class.
+    #[must_use]
+    pub fn plain(diameter: f64, length: f64, class: &str) -> Self {
+        Self {
+            diameter,
+            length,
+            class: class.into(),
+            ..Self::default()
+        }
+    }
+}
+
+impl TurnedPart {
+    /// Length over all, mm.
+    #[must_use]
+    pub fn length(&self) -> f64 {
+        self.steps.iter().map(|step| step.length).sum()
+    }
+
+    /// Greatest diameter, mm.
+    #[must_use]
+    pub fn diameter(&self) -> f64 {
+        let diameters = self.steps.iter().map(|step| step.diameter);
+        diameters.fold(0.0, f64::max)
+    }
+
+    /// Exact body, from z = 0.
+    ///
+    /// # Errors
+    /// [`SolidError::Turned`] where a step has no extent, or does not hold its keyway or chamfer.
+    pub fn solid(&self) -> Result<Turned, SolidError> {
+        let c = self.chamfer;
+        let last = self.steps.len().saturating_sub(1);
+        let mut sections = Vec::new();
+        for (index, step) in self.steps.iter().enumerate() {
+            let radius = 0.5 * step.diameter;
+            let [first, final_one] = [index == 0, index == last];
+            let slotted = step.is_keyed;
+            let cone = |radii: [f64; 2]| TurnedSection {
+                length: c,
+                radii,
+                slotted,
+            };
+            let cut = [first, final_one].into_iter().filter(|end| *end).count();
+            let straight = TurnedSection {
+                slotted,
+                ..TurnedSection::cylinder(step.length - cut as f64 * c, radius)
+            };
+            sections.extend(first.then(|| cone([radius - c, radius])));
+            sections.push(straight);
+            sections.extend(final_one.then(|| cone([radius, radius - c])));
+        }
+        if c == 0.0 {
+            sections.retain(|section| section.length > 0.0);
+        }
+        let slot = self.keyway.map(|key| TurnedSlot {
+            width: key.width,
+            foot: 0.5 * self.diameter() - key.depth,
+        });
+        Turned::new(0.0, sections, slot)
+    }
+
+    /// Mass of one, kg; none where it makes no solid.
+    #[must_use]
+    pub fn mass(&self) -> Option<f64> {
+        let body = self.solid().ok()?;
+        Some(body.volume() * self.density * 1e-9)
+    }
+}
+
+impl TurnedPieces {
+    /// A part with its fit, without pieces yet.
+    #[must_use]
+    pub fn of(part: TurnedPart, fit: Fit) -> Self {
+        Self {
+            part,
+            fit,
+            role: String::new(),
+            standard: None,
+            keys: Vec::new(),
+            pieces: Vec::new(),
+            axis: None,
+        }
+    }
+}
+
+impl TurnedPiece {
+    /// A piece upright on a link, its lower end at a place, mm.
+    #[must_use]
+    pub fn upright(link: &str, at: [f64; 3]) -> Self {
+        Self {
+            link: link.into(),
+            at,
+            turn: [0.0; 3],
+        }
+    }
+}
+
+impl Machine {
+    /// Mounts the pieces of a turned part on their links and lists it, under a remark, with the rings and keys that are bought
+    /// for it; its number points to its rim.
+    pub fn add_turned(&mut self, all: &TurnedPieces, remark: String) {
+        let part = &all.part;
+        let named = |piece: &TurnedPiece| self.link_named(&piece.link).unwrap_or(0);
+        let links: Vec<usize> = all.pieces.iter().map(named).collect();
+        self.mount(all);
+        let rim = all.axis.map(|[x, y]| [x - 0.5 * part.diameter(), y]);
+        let place = rim.and_then(|rim| self.place_on(&self.links.first()?.name, rim));
+        let bought = |name: &String| Part::bought(name.clone(), links.clone());
+        self.part(match &all.standard {
+            Some(name) => Part {
+                remark,
+                ..bought(name)
+            },
+            None => Part {
+                name: part.title.clone(),
+                links: links.clone(),
+                material: part.material.clone(),
+                blank: Some(Blank::Round {
+                    diameter: part.diameter(),
+                    length: part.length(),
+                }),
+                mass: part.mass(),
+                file: part.name.clone(),
+                remark,
+                place,
+                ..Part::default()
+            },
+        });
+        let rings = part.steps.iter().filter_map(|step| step.ring);
+        let rings: Vec<String> = rings.map(Circlip::name).collect();
+        for name in rings.iter().chain(&all.keys) {
+            self.part(bought(name));
+        }
+    }
+
+    /// Gives links the bodies of a turned part; a part that makes no solid has none.
+    fn mount(&mut self, all: &TurnedPieces) {
+        if all.part.solid().is_err() {
+            return;
+        }
+        let shape = self.shape(Shape {
+            name: format!("turned/{}", all.part.name),
+            // What is bought has no files.
+            part: match all.standard {
+                Some(_) => String::new(),
+                None => all.part.name.clone(),
+            },
+            form: Form::Turned(all.part.clone()),
+        });
+        for piece in &all.pieces {
+            let link = self.link_named(&piece.link);
+            if let Some(link) = link.and_then(|link| self.links.get_mut(link)) {
+                let (at, turn) = (piece.at, piece.turn);
+                link.mounted.push(Mounted { shape, at, turn });
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Bar;
+    use super::*;
+
+    const HUB: Keyway = Keyway {
+        width: 5.0,
+        depth: 2.3,
+    };
+
+    fn lengths(part: &TurnedPart) -> Vec<(f64, f64, bool)> {
+        let step = |step: &TurnedStep| {
+            (
+                step.diameter,
+                (1e6 * step.length).round() / 1e6,
+                step.is_keyed,
+            )
+        };
+        part.steps.iter().map(step).collect()
+    }
+
+    #[test]
+    fn a_pin_is_held_by_rings_where_there_is_room_for_them() {
+        let pin = |room: [f64; 2]| {
+            let bar = Bar::new(10.0, "f7", [0.0, 18.0]).held(room);
+            bar.part(["pin", "Pin"], ("steel", 7850.0))
+        };
+        // DIN 471 for 10 mm: groove 9.6 mm in diameter and 1.1 mm wide, a land of 0.6 mm beyond.
+        let both = pin([2.0, 2.0]);
+        let land = (10.0, 0.6, false);
+        let groove = (9.6, 1.1, false);
+        let plain = (10.0, 18.0, false);
+        assert_eq!(lengths(&both), [land, groove, plain, groove, land]);
+        assert_eq!(both.chamfer, 0.3);
+        assert_eq!(lengths(&pin([1.0, 2.0])), [plain, groove, land]);
+        assert_eq!(lengths(&pin([0.0, 0.0])), [plain]);
+    }
+
+    #[test]
+    fn a_keyway_of_a_shaft_goes_through_the_grooves_in_it() {
+        let bar = Bar::new(16.0, "h6", [0.0, 60.0]).ring(0.0, false, 9.0);
+        let bar = bar.ring(15.0, true, 2.0).keyed(Some(HUB), [-9.0, 20.0]);
+        let shaft = bar.part(["shaft", "Shaft"], ("steel", 7850.0));
+        let steps = [
+            (16.0, 1.2, true),
+            (15.2, 1.1, true),
+            (16.0, 15.0, true),
+            (15.2, 1.1, true),
+            (16.0, 3.9, true),
+            (16.0, 40.0, false),
+        ];
+        assert_eq!(lengths(&shaft), steps);
+        // DIN 6885-1: 3 mm deep in a shaft of 12 to 17 mm.
+        assert!((shaft.keyway.expect("a keyway").depth - 3.0).abs() < 1e-12);
+        let body = shaft.solid().expect("a body");
+        assert!(body.shell().is_closed());
+        let round = std::f64::consts::PI * 64.0 * 62.3;
+        assert!(body.volume() < round && body.volume() > 0.95 * round);
+    }
+}

@@ -1,0 +1,10 @@
+//! Materials and tolerance classes of parts of which the design says nothing.
+
+/// Material of what carries load, with its density in kg/m^3.
+pub const STEEL: (&str, f64) = ("steel", 7850.0);
+/// Tolerance classes, ISO 286, of what turns on a pin, hole and shaft.
+pub const RUNNING: [&str; 2] = ["H7", "f7"];
+/// Of pins that are pressed in, ISO 8734.
+pub const PRESSED: [&str; 2] = ["H7", "m6"];
+/// Of what slides in a slot or a square bore.
+pub const SLIDING: [&str; 2] = ["H9", "e9"];

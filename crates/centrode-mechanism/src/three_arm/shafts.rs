@@ -1,0 +1,152 @@
+//! Shafts and pins of a three-arm mechanism, turned to the heights of what is on them.
+
+use std::f64::consts::PI;
+
+use super::making::{PRESSED, RUNNING, SLIDING, STEEL};
+use super::{Pusher, ThreeArm};
+use crate::arm::ArmBody;
+use crate::gear::design::BodySpec;
+use crate::machine::{Bar, Dowel, Fit, TurnedPart, TurnedPiece, TurnedPieces, TurnedStep};
+
+/// Diameters of its own that the carrier's shaft goes on behind the gearbox.
+const DRIVEN_END: f64 = 3.0;
+
+impl ThreeArm {
+    /// All parts that are turned, and the dowels; no shafts of gears without a bore, and none without a gearbox.
+    #[must_use]
+    pub fn turned(&self, pusher: &Pusher, arm: &ArmBody) -> Vec<TurnedPieces> {
+        let mut all = self.shafts(arm);
+        all.extend(self.pins(pusher, arm));
+        all
+    }
+
+    /// A piece on a link of every chain, at a place in it.
+    fn on_chains(&self, link: &str, at: [f64; 3]) -> Vec<TurnedPiece> {
+        let piece = |k| TurnedPiece::upright(&format!("{link}_{k}"), at);
+        (0..self.arms()).map(piece).collect()
+    }
+
+    /// Shafts through both plates of the carrier; those of the planets go on through the arms.
+    fn shafts(&self, arm: &ArmBody) -> Vec<TurnedPieces> {
+        let Some(gearbox) = self.gearbox() else {
+            return Vec::new();
+        };
+        let (design, [rear, front]) = (self.design(), gearbox.spans);
+        let (play, free) = (design.gearbox.play, f64::INFINITY);
+        let beyond = self.arm_level() + span(arm, "cover-front").map_or(0.0, |[_, top]| top);
+        let shaft = |body: &BodySpec, links: Vec<TurnedPiece>, names, (span, room)| {
+            let bar = Bar::new(body.bore, &body.shaft_fit, span).held(room);
+            let bar = bar.keyed(body.keyway, [0.0, body.width]);
+            let part = bar.part(names, (&body.material, body.density));
+            let fit = Fit::new("", body.bore, [&body.bore_fit, &body.shaft_fit]);
+            let key = body.keyway.and_then(|keyway| keyway.key(body.width));
+            // Keyways of shaft and gear are on one line.
+            let seat = |piece: TurnedPiece| TurnedPiece {
+                at: [0.0, 0.0, bar.bottom()],
+                turn: [0.0, 0.0, body.keyway_angle],
+                ..piece
+            };
+            TurnedPieces {
+                keys: key.into_iter().collect(),
+                pieces: links.into_iter().map(seat).collect(),
+                ..TurnedPieces::of(part, fit)
+            }
+        };
+        let behind = rear[0] - DRIVEN_END * design.sun.bore;
+        let mut carrier = shaft(
+            &design.sun,
+            vec![TurnedPiece::upright("sun", [0.0; 3])],
+            ["shaft-carrier", "Shaft of the carrier"],
+            ([behind, front[1]], [0.0, play]),
+        );
+        carrier.part.notes =
+            vec!["Free end for its bearing and the drive, to be cut to length.".into()];
+        let between = shaft(
+            &design.intermediate,
+            self.on_chains("intermediate", [0.0; 3]),
+            ["shaft-intermediate", "Shaft of an intermediate gear"],
+            ([rear[0], front[1]], [free, play]),
+        );
+        let planet = shaft(
+            &design.planet,
+            self.on_chains("planet", [0.0; 3]),
+            ["shaft-planet", "Shaft of a planet gear"],
+            ([rear[0], beyond], [free, free]),
+        );
+        let all = [carrier, between, planet].into_iter();
+        all.filter(|shaft| shaft.fit.size > 0.0).collect()
+    }
+
+    /// Pins of fork, roller and push rod.
+    fn pins(&self, pusher: &Pusher, arm: &ArmBody) -> Vec<TurnedPieces> {
+        let spec = pusher.fork_spec();
+        let (fork, cam) = (pusher.fork_span(), pusher.cam_span());
+        let wide = |name: &str| span(arm, name).unwrap_or([0.0, 1.0]);
+        // The cam behind the fork reaches beyond the pivot.
+        let [_, cover] = wide("housing");
+        let bar = Bar::new(spec.pivot_bore, RUNNING[1], [fork[0], cover]);
+        let mut pivot = bar.part(["pin-fork", "Pin of the fork"], STEEL);
+        pivot.notes = vec!["From the rear face of the fork to the front cover.".into()];
+        let at = pusher.pivot();
+        let pivot = TurnedPieces {
+            pieces: self.on_chains("arm", [at.x, at.y, bar.bottom()]),
+            ..TurnedPieces::of(pivot, Fit::new("", spec.pivot_bore, RUNNING))
+        };
+        // From the roller, which is behind it, through the fork.
+        let (low, high) = (fork[0].min(cam[0]), fork[1].max(cam[1]));
+        let standard = Dowel::of(spec.roller_bore, high - low);
+        let long = standard.map_or(high - low, |pin| pin.length);
+        let bar = Bar::new(spec.roller_bore, PRESSED[1], [high - long, high]);
+        let roller = TurnedPieces {
+            pieces: self.on_chains("fork", [spec.arm_length, 0.0, high - long]),
+            role: standard
+                .map_or("", |_| "of the roller, pressed into the fork")
+                .into(),
+            standard: standard.map(Dowel::name),
+            ..TurnedPieces::of(
+                bar.part(["pin-roller", "Pin of the roller"], STEEL),
+                Fit::new("", spec.roller_bore, PRESSED),
+            )
+        };
+        let thin = 0.5 * spec.slot_width;
+        let [under, over] = wide("push-rod");
+        let (material, density) = STEEL;
+        let rod = TurnedPart {
+            name: "pin-rod".into(),
+            title: "Pin of the push rod".into(),
+            steps: vec![
+                TurnedStep::plain(thin, over - under, PRESSED[1]),
+                TurnedStep::plain(spec.slot_width, under - fork[0], SLIDING[1]),
+            ],
+            keyway: None,
+            chamfer: 0.0,
+            material: material.into(),
+            density,
+            notes: vec![
+                "Thin end pressed into the rod; the wide one runs in the fork's slot.".into(),
+            ],
+        };
+        let at = [
+            0.5 * pusher.stroke(),
+            -self.design().arm.pusher_offset,
+            over,
+        ];
+        let mut pieces = self.on_chains("push_rod", at);
+        for piece in &mut pieces {
+            // The fork is behind the rod.
+            piece.turn = [PI, 0.0, 0.0];
+        }
+        let rod = TurnedPieces {
+            pieces,
+            ..TurnedPieces::of(rod, Fit::new("", thin, PRESSED))
+        };
+        let all = [pivot, roller, rod].into_iter();
+        all.filter(|pin| pin.fit.size > 0.0).collect()
+    }
+}
+
+/// Extent of a part of the arm along the planet's axis, mm.
+fn span(arm: &ArmBody, name: &str) -> Option<[f64; 2]> {
+    let part = arm.parts().iter().find(|part| part.name == name)?;
+    Some(part.span)
+}
