@@ -179,7 +179,7 @@ def run(path, design, workers):
     ranges = [(min(r[i][0] for _, r in found), max(r[i][1] for _, r in found)) for i in range(3)]
     turns, width = round(PAIR.cycle / tau), 2 * proof["half_width"]
     cycle = "one turn" if turns == 1 else f"{turns} turns"
-    print(f"proved: the gears hold each other at every angle of {cycle} of the driver, and keep apart in their play")
+    print(f"proved: the gears of {proof['pair']!r} hold each other at every angle of {cycle} of the driver, and keep apart in their play")
     for name, (least, greatest) in zip(("error pushed on", "error pushed back", "play"), ranges, strict=True):
         print(f"{name}: {least:.4e} to {greatest:.4e} rad")
     print(f"each error at every angle within {width:.1e} rad; {count} stretches, {sum(n for n, _ in found)} boxes")
