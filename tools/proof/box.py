@@ -109,6 +109,9 @@ class Box:
         """Claim 1: whether no two pieces meet in the play."""
         near = self.near()
         pairs = [(int(a.first), int(b.first)) for a, b in near]
+        # Those that touch first: a parabola between them parts many others.
+        hinted = {tuple(hint["pieces"]) for hint in self.stretch["meetings"]}
+        near.sort(key=lambda pair: (int(pair[0].first), int(pair[1].first)) in hinted)
         parted, orders, tried = [], {}, set()
         while near:
             a, b = near.pop()
@@ -171,17 +174,13 @@ class Box:
 
 def is_parted(parted, a, b):
     """Whether one of the parabolas keeps two parts apart."""
-    for r, q in parted:
-        if r.holds(a) and q.holds(b):
-            return True
-    return False
+    return any(r.holds(a) and q.holds(b) for r, q in parted)
 
 
-def settle(box, shown, width=None, depth=None):
-    """Number of parts of a box over which a claim is shown, none where it is not; longer ones than a width are cut."""
-    depth = DEEP if depth is None else depth
+def settle(box, shown, depth=DEEP):
+    """Number of parts of a box over which a claim is shown, none where it is not."""
     try:
-        if (width is None or box.half < width) and shown(box):
+        if shown(box):
             return 1
     except UndecidedError:
         pass
@@ -189,7 +188,7 @@ def settle(box, shown, width=None, depth=None):
         return 0
     parts = 0
     for half in box.halves():
-        found = settle(half, shown, width, depth - 1)
+        found = settle(half, shown, depth - 1)
         if not found:
             return 0
         parts += found

@@ -42,6 +42,9 @@ const TAIL: f64 = 1e-11;
 /// Greatest gap, in modules, of features that get a parabola of their own.
 const NEAR: f64 = 0.05;
 
+/// Gap, in modules, of features that are worth a stretch of their own: beyond it circles around small parts tell them apart.
+const CLOSE: f64 = 2e-3;
+
 /// Length of a stretch, rad, that is not cut for a better hint.
 const SETTLED: f64 = 1e-5;
 
@@ -214,13 +217,15 @@ impl Prover<'_> {
                 known.push(*feature);
                 let track = Track::new(&self.meshing, *feature, (from, to), (sample.phi, *meeting));
                 let Some(track) = track else { continue };
-                if let Some(phi) = track.leaves(&self.meshing, (from, to)) {
+                let is_close = 0.5 * track.play(&holder) * self.meshing.pair.center_distance()
+                    < CLOSE * self.meshing.module;
+                if is_close && let Some(phi) = track.leaves(&self.meshing, (from, to)) {
                     return Found::Cut(phi);
                 }
                 let hint = self.meeting_of(&track, side);
-                // What is near all along must not go without a hint.
+                // What all but touches all along must not go without a hint.
                 let is_wanting = || hint.as_ref().is_none_or(|hint| hint.bends.is_empty());
-                if !is_short && track.is_on_parts() && is_wanting() {
+                if is_close && !is_short && track.is_on_parts() && is_wanting() {
                     return Found::Cut(middle);
                 }
                 out.extend(hint);

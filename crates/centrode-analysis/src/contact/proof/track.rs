@@ -141,6 +141,13 @@ impl Track {
             .all(|m| m.is_some_and(|m| m.is_on_parts()))
     }
 
+    /// Least turn between its meeting and another's along the stretch, rad.
+    pub(super) fn play(&self, other: &Self) -> f64 {
+        let both = self.meetings.iter().zip(&other.meetings);
+        both.filter_map(|(a, b)| Some((a.as_ref()?.angle - b.as_ref()?.angle).abs()))
+            .fold(f64::INFINITY, f64::min)
+    }
+
     /// Parameters along the stretch, as far as it goes.
     pub(super) fn places(&self) -> impl Iterator<Item = (f64, f64)> {
         self.meetings.iter().flatten().map(|m| m.at)
