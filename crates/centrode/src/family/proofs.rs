@@ -88,7 +88,7 @@ impl dyn Mechanism {
     /// The certificate of the pair named, or of its only one.
     ///
     /// # Errors
-    /// [`NotProved`], as [`Self::proofs`]; where there are several pairs and none is named, their names.
+    /// [`NotProved`], as for all its proofs; where there are several pairs and none is named, their names.
     pub fn proof(&self, pair: Option<&str>) -> Result<Proof, NotProved> {
         let pairs = self.pairs()?;
         if pair.is_none() && pairs.len() > 1 {
