@@ -1,10 +1,11 @@
 use std::error::Error;
 
+use centrode::family::NotProved;
 use centrode_analysis::forces::ForcesError;
 use centrode_analysis::interference::LinkClearanceError;
 use centrode_analysis::optimise::feeder::NotWidened;
 use centrode_analysis::optimise::{EasingError, NotSearched, SearchError};
-use centrode_analysis::{ArmClearanceError, FeederForcesError, NoSoundTeeth, ProofError};
+use centrode_analysis::{ArmClearanceError, FeederForcesError, NoSoundTeeth};
 use centrode_export::{BundleError, ExportError};
 use centrode_geometry::{BadTolerance, SolidError, Tolerance};
 use centrode_mechanism::arm::ArmError;
@@ -68,7 +69,7 @@ macro_rules! raised {
 
 raised! {
     SpecError { error => DesignError(error.key), }
-    ProofError { _ => GearPairError(""), }
+    NotProved { NotProved::Teeth(error) => GearPairError(error.key()), NotProved::Pair { .. } => GearPairError(""), _ => MechanismError(""), }
     BadTolerance { _ => DesignError("tolerance"), }
     PitchError { error => PitchError(format!("pitch.{}", error.key())), }
     PusherError { error => MechanismError(error.key()), }

@@ -1,8 +1,6 @@
-use std::path::PathBuf;
 use std::sync::Arc;
 
-use centrode_analysis::{Contact, prove, remedies};
-use centrode_export::ExportError;
+use centrode_analysis::{Contact, remedies};
 use centrode_export::gear_pair::Subject;
 use centrode_mechanism::gear as mechanism;
 use centrode_mechanism::gear::Member;
@@ -19,7 +17,6 @@ use crate::count::{Count, optional};
 use crate::design::Class;
 use crate::drawing::DrawingSpec;
 use crate::error::Answer;
-use crate::files::_write;
 use crate::gear::Gear;
 use crate::made::Made;
 use crate::mechanism::Mechanism;
@@ -345,22 +342,6 @@ impl GearPair {
             Ok(record::remedy(py, remedy, &pair)?)
         });
         Ok(PyTuple::new(py, made.collect::<Answer<Vec<_>>>()?)?)
-    }
-
-    /// Writes a certificate of the contact at every driver angle, as `centrode prove` does; gives the path.
-    ///
-    /// The certificate claims, `tools/proof_checker.py` proves or refuses it. Where the gears do not hold each other all
-    /// along the cycle there is none, and the error says where.
-    ///
-    /// >>> import centrode as ct, json, pathlib, tempfile
-    /// >>> pair = ct.GearPair(ct.pitch.circle(module=2, tooth_count=20))
-    /// >>> with tempfile.TemporaryDirectory() as directory:
-    /// ...     json.loads(pair.prove(pathlib.Path(directory, "pair.proof")).read_text())["half_width"]
-    /// 4e-10
-    fn prove(&self, py: Python<'_>, path: PathBuf) -> Answer<PathBuf> {
-        let pair = Arc::clone(&self.0);
-        let file = wait(py, move || prove(&pair).map(|proof| proof.file()))??;
-        _write(py, path, file.map_err(ExportError::from)?)
     }
 
     /// The drawing sheets of both gears in place: centre distance, data, motion; as `Gear.sheet`.

@@ -102,7 +102,7 @@ def is_refused(proof, stretch):
         proof_checker.PAIR = proof_checker.Pair(proof)
         here = next((i for i, s in enumerate(stretches) if s is stretch), 0)
         for number in sorted(range(len(stretches)), key=lambda i: abs(i - here)):
-            proof_checker.check([number])
+            proof_checker.check(number)
     except (proof_checker.RejectedError, KeyError, TypeError, ValueError, IndexError, ArithmeticError):
         return True
     return False

@@ -2,13 +2,19 @@
 
 import copy
 import json
+import math
+import re
 import subprocess
 import sys
 
+import centrode as ct
 import jsonschema
 import pytest
+import shapely
 from conftest import ROOT
+from shapely import affinity
 
+DESIGNS = ROOT / "tests" / "designs"
 CHECKER = ROOT / "tools" / "proof_checker.py"
 
 DESIGN = """
@@ -115,11 +121,92 @@ def test_the_prover_keeps_off_the_design(design, run):
     assert "is the design" in done.stderr
 
 
-def test_a_family_without_teeth_has_no_proof(run, tmp_path):
-    done = run("prove", ROOT / "tests" / "designs" / "press.toml", "-o", tmp_path / "x.proof", check=False)
+@pytest.mark.parametrize("name", ["spiral-shaft-2018", "jansen-leg", "feeder-2022"])
+def test_a_machine_without_gears_that_mesh_all_along_has_no_proof(name, run, tmp_path):
+    done = run("prove", DESIGNS / f"{name}.toml", "-o", tmp_path / "x.proof", check=False)
     assert done.returncode == 2
-    assert "gear-pair" in done.stderr
+    assert "no pair of its gears meshes all along the cycle" in done.stderr
     assert not (tmp_path / "x.proof").exists()
+
+
+def test_each_pair_of_a_machine_gets_a_file(run, tmp_path):
+    design = DESIGNS / "two-stage.toml"
+    done = run("prove", design, "-o", tmp_path / "train.proof")
+    files = [tmp_path / f"train-{name}.proof" for name in ("first", "second")]
+    assert done.stdout.split() == [str(file) for file in files]
+    proofs = [json.loads(file.read_text()) for file in files]
+    assert [proof["pair"] for proof in proofs] == ["first", "second"]
+    assert {proof["design"] for proof in proofs} == {design.read_text()}
+    assert proofs[0]["driver"] != proofs[1]["driver"]
+
+
+def test_the_proof_of_a_pair_of_a_machine_is_accepted(run, tmp_path):
+    design, file = DESIGNS / "index-table.toml", tmp_path / "step.proof"
+    run("prove", design, "--pair", "step", "-o", file)
+    status, answer = checked(file, design)
+    assert status == 0, answer
+    assert answer.startswith("proved: the gears of 'step' hold each other")
+
+
+def test_a_pair_that_is_not_there_is_told(run, tmp_path):
+    done = run("prove", DESIGNS / "two-stage.toml", "--pair", "third", "-o", tmp_path / "x.proof", check=False)
+    assert done.returncode == 2
+    assert done.stderr == 'error: there is no pair "third"; there are first, second\n'
+    assert not list(tmp_path.iterdir())
+
+
+def test_python_proves_a_pair_of_a_machine(run, tmp_path):
+    machine = ct.load(DESIGNS / "two-stage.toml")
+    with pytest.raises(ct.MechanismError, match="several pairs: name one of first, second"):
+        machine.prove(tmp_path / "x.proof")
+    path = machine.prove(tmp_path / "x.proof", pair="second")
+    run("prove", DESIGNS / "two-stage.toml", "--pair", "second", "-o", tmp_path / "y.proof")
+    mine, other = (json.loads(p.read_text()) for p in (path, tmp_path / "y.proof"))
+    assert mine.pop("design") == machine.to_toml()
+    del other["design"]
+    assert mine == other
+    with pytest.raises(ct.MechanismError, match='no pair "third"'):
+        machine.prove(tmp_path / "x.proof", pair="third")
+
+
+def free(pair, phi, turns):
+    """Ranges of turns off the law's driven angle in which the outlines do not overlap, by polygons."""
+    driver, driven = (shapely.Polygon(gear.outline(1e-4)) for gear in (pair.driver, pair.driven))
+    shapely.prepare(driver)
+    law, out, was = pair.driven_angle(phi), [], False
+    for turn in turns:
+        angle = phi + law + turn
+        cos, sin = math.cos(angle), math.sin(angle)
+        axis = pair.center_distance * math.cos(phi), pair.center_distance * math.sin(phi)
+        is_free = not driver.intersects(affinity.affine_transform(driven, [cos, -sin, sin, cos, *axis]))
+        if is_free and not was:
+            out.append([turn, turn])
+        elif is_free:
+            out[-1][1] = turn
+        was = is_free
+    return out
+
+
+def test_teeth_that_meet_in_the_play_are_told_before_a_file_is_written(run, tmp_path):
+    design = DESIGNS / "transplanter-pair-2021.toml"
+    done = run("prove", design, "-o", tmp_path / "x.proof", check=False)
+    assert done.returncode == 2
+    assert not (tmp_path / "x.proof").exists()
+    told = re.search(
+        r"angle (\S+) rad tooth 22 of the driver meets tooth 21 of the driven gear at \((\S+), (\S+)\) mm in the play, "
+        r"(\S+) rad from where the driven gear stands pushed on",
+        done.stderr,
+    )
+    phi, x, y, turn = map(float, told.groups())
+    pair, turns = ct.load(design), [k * 5e-5 for k in range(-50, 20)]
+    # Before it there is one play; after it something stands in its midst, so far from where the gear stood.
+    assert len(free(pair, phi - 1e-4, turns)) == 1
+    low, high = free(pair, phi + 5e-4, turns)
+    assert low[0] + turn == pytest.approx(high[0], abs=1.5e-4)
+    # It stands at the corners of tips, where the outlines turn by more than 40 degrees.
+    outline = pair.driver.outline(1e-4)
+    nearest = min(range(len(outline)), key=lambda i: math.dist(outline[i], (x, y)))
+    assert math.dist(outline[nearest], (x, y)) < 1e-3
 
 
 def touching(proof):

@@ -7,9 +7,10 @@ from proof.law import OVERLAP
 from proof.meeting import AROUND, Meeting
 
 #: Greatest number of halvings: of a box, of a piece of a contour.
-DEEP, FINEST = 18, 12
+DEEP, FINEST = 18, 14
 #: Halvings of a piece before a parabola is tried that is at hand, and one that is not.
 FAR = 7, 10
+AT_HAND = 2.0 ** -FAR[0]
 
 
 class Box:
@@ -86,7 +87,15 @@ class Box:
     def apart(self, a, b, offset=0.0, half=None):
         """Whether the discs of two nodes are apart at every angle of the box and every turn in the play."""
         half = self.play / 2 if half is None else half
-        room = self.between.distance(b.centre * self.turn(offset), a.centre) - a.radius - b.radius
+        places = self.turned.get(offset)
+        if places is None:
+            # A float near e^(i offset): what it lacks is left to the rounding of the motion.
+            places = self.turned[offset] = {None: floats.near(acb(0, offset).exp())[0]}
+        found = places.get(b)
+        if found is None:
+            found = places[b] = self.between.reach(b.centre * places[None])
+        # Other discs meet this one, too: its place is kept.
+        room = abs(found[0] - a.centre) - found[1] - a.radius - b.radius
         swing = b.size * half
         if room > swing:
             return True
@@ -96,40 +105,41 @@ class Box:
         half /= 2
         return self.apart(a, b, offset + half, half) and self.apart(a, b, offset - half, half)
 
-    def turn(self, offset):
-        """Float near e^(i offset), with what it lacks left to the rounding of the motion."""
-        if offset not in self.turned:
-            self.turned[offset] = floats.near(acb(0, offset).exp())[0]
-        return self.turned[offset]
-
     def is_free(self):
         """Claim 1: whether no two pieces meet in the play."""
         near = self.near()
         pairs = [(int(a.first), int(b.first)) for a, b in near]
+        # Those that touch first: a parabola between them parts many others.
+        hinted = {tuple(hint["pieces"]) for hint in self.stretch["meetings"]}
+        near.sort(key=lambda pair: (int(pair[0].first), int(pair[1].first)) in hinted)
         parted, orders, tried = [], {}, set()
         while near:
             a, b = near.pop()
-            if is_parted(parted, a, b) or self.apart(a, b):
+            if self.apart(a, b) or is_parted(parted, a, b):
                 continue
             length = max(a.last - a.first, b.last - b.first)
-            pieces = int(a.first), int(b.first)
-            if pieces not in orders:
-                orders[pieces] = self.order(*pieces)
             # No more parabolas than it takes, and those at hand first: they cost much.
-            for away, *use in orders[pieces]:
-                if length > 2.0 ** -FAR[away > AROUND]:
-                    break
-                if tuple(use) not in tried:
-                    tried.add(tuple(use))
-                    parted += self.parted(*use, pairs)
-                    if is_parted(parted[-1:], a, b):
-                        break
-            if is_parted(parted[-1:], a, b):
+            if length <= AT_HAND and self.tries(a, b, length, pairs, parted, orders, tried):
                 continue
             if length <= 2.0**-FINEST:
                 return False
             near += self.split(a, b)
         return True
+
+    def tries(self, a, b, length, pairs, parted, orders, tried):
+        """Whether a parabola keeps two parts apart, of those not tried yet; all that part anything are noted."""
+        pieces = int(a.first), int(b.first)
+        if pieces not in orders:
+            orders[pieces] = self.order(*pieces)
+        for away, *use in orders[pieces]:
+            if length > 2.0 ** -FAR[away > AROUND]:
+                break
+            if tuple(use) not in tried:
+                tried.add(tuple(use))
+                parted += self.parted(*use, pairs)
+                if is_parted(parted[-1:], a, b):
+                    return True
+        return False
 
     def order(self, a, b):
         """Parabolas that may part two pieces, by how many pieces away they are, how many bends come first, number."""
@@ -167,11 +177,10 @@ def is_parted(parted, a, b):
     return any(r.holds(a) and q.holds(b) for r, q in parted)
 
 
-def settle(box, shown, width=None, depth=None):
-    """Number of parts of a box over which a claim is shown, none where it is not; longer ones than a width are cut."""
-    depth = DEEP if depth is None else depth
+def settle(box, shown, depth=DEEP):
+    """Number of parts of a box over which a claim is shown, none where it is not."""
     try:
-        if (width is None or box.half < width) and shown(box):
+        if shown(box):
             return 1
     except UndecidedError:
         pass
@@ -179,7 +188,7 @@ def settle(box, shown, width=None, depth=None):
         return 0
     parts = 0
     for half in box.halves():
-        found = settle(half, shown, width, depth - 1)
+        found = settle(half, shown, depth - 1)
         if not found:
             return 0
         parts += found

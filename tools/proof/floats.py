@@ -89,10 +89,10 @@ class Motion:
         re, im, rest = abs(self.b.real), abs(self.b.imag), self.swing * (across + up)
         return above(re * across, im * up, rest), above(im * across, re * up, rest)
 
-    def distance(self, x, point):
-        """Float below the distance of a fixed point from all places of another."""
+    def reach(self, x):
+        """Middle of all places of a point and how far they reach from it."""
         (a1, a2), (b1, b2) = self.along_a, self.along_b
-        return abs(self.a + self.b * x - point) - abs(a1 + b1 * x) - abs(a2 + b2 * x) - self.rest
+        return self.a + self.b * x, abs(a1 + b1 * x) + abs(a2 + b2 * x) + self.rest
 
     def turn(self, x, across=0.0, up=None):
         """Middle of all directions of a vector over the box, and how far they reach; of vectors near it, too."""

@@ -24,7 +24,7 @@ from proof.contour import Range
 from proof.walk import Walk
 
 #: Pieces beyond those that touch whose neighbours a parabola has to part.
-AROUND = 2
+AROUND = 4
 #: Half of the rectangle's side along the contour, mm, and where the piece slows down to its end.
 SIDES = arb(1e-6), arb(1e-7)
 

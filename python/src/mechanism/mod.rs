@@ -7,6 +7,7 @@ use std::sync::{Arc, OnceLock};
 
 use centrode::family;
 use centrode_analysis::optimise::Settings;
+use centrode_export::ExportError;
 use centrode_mechanism::machine::Machine;
 use pyo3::prelude::{
     Bound, PyAny, PyAnyMethods, PyDictMethods, PyResult, PyTypeMethods, Python, pyclass, pymethods,
@@ -125,6 +126,29 @@ impl Mechanism {
     fn check<'py>(&self, py: Python<'py>) -> Answer<Bound<'py, PyAny>> {
         let report = self.ask(py, |machine| machine.check())?;
         Ok(record::report(py, &report)?)
+    }
+
+    /// Writes a certificate of a gear pair's contact at every driver angle, as `centrode prove` does; gives the path.
+    ///
+    /// The certificate claims, `tools/proof_checker.py` proves or refuses it. Where the gears do not hold each other all
+    /// along the cycle there is none, and the error says where.
+    ///
+    /// Args:
+    ///     path: File to write.
+    ///     pair: Name of a pair of the machine; left out, its only one.
+    ///
+    /// Raises:
+    ///     MechanismError: There is no such pair, there are several, or the pair has no certificate.
+    ///
+    /// >>> import centrode as ct, json, pathlib, tempfile
+    /// >>> pair = ct.GearPair(ct.pitch.circle(module=2, tooth_count=20))
+    /// >>> with tempfile.TemporaryDirectory() as directory:
+    /// ...     json.loads(pair.prove(pathlib.Path(directory, "pair.proof")).read_text())["half_width"]
+    /// 4e-10
+    #[pyo3(signature = (path, *, pair=None))]
+    fn prove(&self, py: Python<'_>, path: PathBuf, pair: Option<String>) -> Answer<PathBuf> {
+        let proof = self.ask(py, move |machine| machine.proof(pair.as_deref()))??;
+        files::_write(py, path, proof.file().map_err(ExportError::from)?)
     }
 
     /// The goals: figure, range, margin and progress of each; none in a family without goals.

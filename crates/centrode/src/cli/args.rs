@@ -51,7 +51,7 @@ pub(crate) enum Command {
     Studio(Studio),
     /// Write a design's figures, curves and moving picture as one HTML file
     Report(Report),
-    /// Write a certificate of a gear pair's contact at every driver angle, for a checker to prove
+    /// Write a certificate of gears' contact at every driver angle, for a checker to prove
     Prove(Prove),
     /// Print the JSON schema of the design file, or of a file that is exported
     Schema(Schema),
@@ -343,11 +343,14 @@ pub(crate) struct Report {
 
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Example: centrode prove pair.toml -o pair.proof\n\nThe certificate claims; python tools/proof_checker.py pair.proof proves or refuses it, from contours and law alone.\n\nExit status: 0 written; 2 no mechanism, no certificate of this mesh, or the file cannot be written."
+    after_help = "Examples: centrode prove pair.toml -o pair.proof\n          centrode prove machine.toml --pair drive -o drive.proof\n\nA machine with several pairs gets one file a pair, each with the pair's name in its own. A certificate claims; python tools/proof_checker.py pair.proof proves or refuses it, from contours and law alone.\n\nExit status: 0 written; 2 no mechanism, no certificate of this mesh, or the file cannot be written."
 )]
 pub(crate) struct Prove {
-    /// Design file of family gear-pair, or - for standard input
+    /// Design file, or - for standard input
     pub(crate) design: PathBuf,
+    /// Pair of a machine; left out, all of its pairs
+    #[arg(long, value_name = "NAME")]
+    pub(crate) pair: Option<String>,
     /// Certificate, a JSON file
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output: PathBuf,

@@ -1,4 +1,5 @@
 use std::io::Write;
+use std::path::{Path, PathBuf};
 
 use crate::cli::Status;
 use crate::cli::args::Prove;
@@ -6,8 +7,9 @@ use crate::cli::failure::Failure;
 use crate::cli::input::Source;
 use crate::cli::output;
 use crate::cli::progress::Progress;
+use crate::family::NotProved;
 
-/// Writes the certificate of a pair's contact.
+/// Writes the certificates of a machine's gear pairs.
 pub(crate) fn run(command: &Prove, out: &mut impl Write) -> Result<Status, Failure> {
     let source = Source::open(&command.design)?;
     source.keep_from(&command.output)?;
@@ -16,18 +18,42 @@ pub(crate) fn run(command: &Prove, out: &mut impl Write) -> Result<Status, Failu
     progress.step("resolving the design");
     let mechanism = design.mechanism().map_err(|error| source.blame(error))?;
     progress.step("following the contact");
-    let proof = mechanism.proof();
+    let proofs = mechanism.proofs(command.pair.as_deref());
     drop(progress);
-    let Some(proof) = proof else {
-        let family = mechanism.design().family().word;
-        return Err(Failure::Usage(format!(
-            "there is no certificate for family {family:?}, only for \"gear-pair\""
-        )));
-    };
-    let mut proof = proof.map_err(|error| Failure::Files(Box::new(error)))?;
-    // The file as it stands, so that a checker can tell that it is this design's.
-    proof.design = source.text()?;
-    let bytes = proof.file().map_err(std::io::Error::from)?;
-    output::write_one(&command.output, bytes, out)?;
-    Ok(Status::Good)
+    let proofs = proofs.map_err(|error| match error {
+        NotProved::NoPairs { .. } | NotProved::Unknown { .. } => Failure::Usage(error.to_string()),
+        error => Failure::Files(Box::new(error)),
+    })?;
+    let is_alone = proofs.len() == 1;
+    let mut failed = None;
+    for (name, proof) in proofs {
+        let mut proof = match proof {
+            Ok(proof) => proof,
+            Err(error) => {
+                failed = failed.or(Some(error));
+                continue;
+            }
+        };
+        // The file as it stands, so that a checker can tell that it is this design's.
+        proof.design = source.text()?;
+        let bytes = proof.file().map_err(std::io::Error::from)?;
+        let path = match is_alone {
+            true => command.output.clone(),
+            false => of_pair(&command.output, &name),
+        };
+        output::write_one(&path, bytes, out)?;
+    }
+    match failed {
+        Some(error) => Err(Failure::Files(Box::new(error))),
+        None => Ok(Status::Good),
+    }
+}
+
+/// File beside another, with the name of a pair in its own.
+fn of_pair(path: &Path, pair: &str) -> PathBuf {
+    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+    let end = path
+        .extension()
+        .map(|end| format!(".{}", end.to_string_lossy()));
+    path.with_file_name(format!("{stem}-{pair}{}", end.unwrap_or_default()))
 }

@@ -1,3 +1,5 @@
+use std::sync::Arc;
+
 use centrode_analysis::optimise::composed::ComposedProblem;
 use centrode_analysis::optimise::{DesignProblem, NotSearched};
 use centrode_analysis::{Report, Table, Unit, check_composed, composed_figures};
@@ -7,6 +9,7 @@ use centrode_export::{composed, machine};
 use centrode_geometry::Tolerance;
 use centrode_mechanism::composed::{Composed, ComposedDesign, DyadKind, Over};
 use centrode_mechanism::design::{Design, MechanismError};
+use centrode_mechanism::gear::{GearPair, GearPairError};
 use centrode_mechanism::machine::Machine;
 use centrode_mechanism::reverse::{GearDrive, GearDriveError, GearDriveSpec};
 
@@ -35,6 +38,13 @@ impl Mechanism for Composed {
 
     fn check(&self) -> Report {
         check_composed(self)
+    }
+
+    fn pairs(&self) -> Result<Vec<(String, Arc<GearPair>)>, GearPairError> {
+        let pairs = Self::pairs(self).into_iter();
+        Ok(pairs
+            .map(|pair| (pair.name().to_owned(), Arc::clone(pair)))
+            .collect())
     }
 
     fn gear_drive(&self, spec: &GearDriveSpec) -> Option<Result<GearDrive, GearDriveError>> {

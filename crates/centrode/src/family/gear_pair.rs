@@ -1,13 +1,13 @@
-use centrode_analysis::{
-    Contact, PairRemedy, Proof, ProofError, Report, check, check_contact, prove, remedies,
-};
+use std::sync::Arc;
+
+use centrode_analysis::{Contact, PairRemedy, Report, check, check_contact, remedies};
 use centrode_export::page::{Curve, Picture};
 use centrode_export::{Bundle, ExportError, Format, Options};
 use centrode_export::{gear_pair, machine};
 use centrode_geometry::Tolerance;
 use centrode_mechanism::design::{Design, MechanismError};
-use centrode_mechanism::gear::GearPair;
 use centrode_mechanism::gear::design::{Addendum, GearPairDesign};
+use centrode_mechanism::gear::{GearPair, GearPairError};
 use centrode_mechanism::machine::Machine;
 
 use super::contact::contact_curves;
@@ -74,8 +74,8 @@ impl Mechanism for GearPair {
             .collect()
     }
 
-    fn proof(&self) -> Option<Result<Proof, ProofError>> {
-        Some(prove(self))
+    fn pairs(&self) -> Result<Vec<(String, Arc<GearPair>)>, GearPairError> {
+        Ok(vec![(self.name().to_owned(), Arc::new(self.clone()))])
     }
 
     fn limits(&self, report: &Report) -> Vec<Limit> {

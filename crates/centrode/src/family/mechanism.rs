@@ -2,10 +2,11 @@ use std::any::Any;
 use std::fmt::Debug;
 use std::sync::Arc;
 
-use centrode_analysis::{Proof, ProofError, Report, Table};
+use centrode_analysis::{Report, Table};
 use centrode_export::page::{Curve, Picture};
 use centrode_export::{Bundle, ExportError, Format, Options};
 use centrode_mechanism::design::Design;
+use centrode_mechanism::gear::{GearPair, GearPairError};
 use centrode_mechanism::machine::Machine;
 use centrode_mechanism::reverse::{GearDrive, GearDriveError, GearDriveSpec};
 
@@ -45,9 +46,12 @@ pub trait Mechanism: Any + Debug + Send + Sync {
         Vec::new()
     }
 
-    /// Certificate of its contact at every driver angle; `None` in a family that has none.
-    fn proof(&self) -> Option<Result<Proof, ProofError>> {
-        None
+    /// Pairs of gears that mesh all along the cycle, each once with its name; empty in a family without.
+    ///
+    /// # Errors
+    /// [`GearPairError`] where no teeth can be cut.
+    fn pairs(&self) -> Result<Vec<(String, Arc<GearPair>)>, GearPairError> {
+        Ok(Vec::new())
     }
 
     /// Machine with its crank driven by gears, so that its output does what its goals ask for; `None` in a family without.

@@ -9,6 +9,7 @@ mod limit;
 mod mechanism;
 mod moving_box;
 mod open;
+mod proofs;
 mod registry;
 mod spiral_shaft;
 #[cfg(test)]
@@ -19,6 +20,7 @@ mod widening;
 pub use limit::Limit;
 pub use mechanism::{Depth, FINEST, Mechanism};
 pub use open::OpenDesign;
+pub use proofs::NotProved;
 pub use registry::{Families, Family, PartName, Resolved};
 pub use widening::{Widening, WideningError};
 

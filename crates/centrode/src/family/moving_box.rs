@@ -1,8 +1,11 @@
+use std::sync::Arc;
+
 use centrode_analysis::{Report, check_moving_box};
 use centrode_export::page::{Curve, Picture};
 use centrode_export::shaft;
 use centrode_export::{Bundle, ExportError, Format, Options};
 use centrode_mechanism::design::{Design, MechanismError};
+use centrode_mechanism::gear::{GearPair, GearPairError};
 use centrode_mechanism::machine::Machine;
 use centrode_mechanism::shaft::{MovingBox, MovingBoxDesign, Scheme};
 
@@ -24,6 +27,14 @@ impl Mechanism for MovingBox {
 
     fn check(&self) -> Report {
         check_moving_box(self)
+    }
+
+    fn pairs(&self) -> Result<Vec<(String, Arc<GearPair>)>, GearPairError> {
+        let design = self
+            .drive()
+            .and_then(|drive| self.design().gear_pair(drive));
+        let pair = |design| Ok(("gears".to_owned(), Arc::new(GearPair::resolve(&design)?)));
+        design.into_iter().map(pair).collect()
     }
 
     fn curves(&self) -> Vec<Curve> {

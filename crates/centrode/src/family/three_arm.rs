@@ -1,3 +1,5 @@
+use std::sync::Arc;
+
 use centrode_analysis::optimise::three_arm::ThreeArmProblem;
 use centrode_analysis::optimise::{DesignProblem, NotSearched};
 use centrode_analysis::{
@@ -9,7 +11,7 @@ use centrode_export::{Bundle, ExportError, Format, Options};
 use centrode_export::{machine, three_arm};
 use centrode_geometry::Tolerance;
 use centrode_mechanism::design::{Design, MechanismError};
-use centrode_mechanism::gear::{GearPair, Member};
+use centrode_mechanism::gear::{GearPair, GearPairError, Member};
 use centrode_mechanism::machine::Machine;
 use centrode_mechanism::three_arm::ThreeArm;
 use centrode_mechanism::three_arm::design::ThreeArmDesign;
@@ -55,6 +57,14 @@ impl Mechanism for ThreeArm {
         let teeth = TrainTeeth::of(self);
         let found = check_three_arm_teeth(self, &teeth);
         (found, checked_curves(self, teeth.ok().flatten().as_ref()))
+    }
+
+    /// Sun and intermediate gear stand for every mesh: a planet is the sun's part again.
+    fn pairs(&self) -> Result<Vec<(String, Arc<GearPair>)>, GearPairError> {
+        if self.design().gear_tooth_count().is_none() {
+            return Ok(Vec::new());
+        }
+        Ok(vec![("gears".to_owned(), Arc::new(self.pair()?))])
     }
 
     fn limits(&self, report: &Report) -> Vec<Limit> {

@@ -1,6 +1,6 @@
 //! The certificate as it is written.
 
-use centrode_geometry::Segment;
+use centrode_geometry::{Point, Segment};
 use centrode_mechanism::design::DesignError;
 use centrode_mechanism::gear::{Gear, GearPair, Member};
 use centrode_mechanism::machine::Piecewise;
@@ -19,6 +19,8 @@ pub struct Proof {
     pub version: u32,
     /// The design the pair was made from, as a design file.
     pub design: String,
+    /// Name of the pair in it.
+    pub pair: String,
     /// Centre distance, mm.
     pub center_distance: f64,
     /// Module, mm.
@@ -112,6 +114,24 @@ pub enum ProofError {
     Unresolved {
         /// Driver angle, rad.
         phi: f64,
+    },
+    /// A seat jumps: teeth meet in the play.
+    #[error(
+        "at the driver angle {phi:.6} rad tooth {} of the driver meets tooth {} of the driven gear at ({:.4}, {:.4}) mm in the play, \
+        {turn:.3e} rad from where the driven gear stands pushed {side}, so it is not held at every angle: take a pitch curve of \
+        gentler curvature, or more teeth of a smaller module", .teeth.0, .teeth.1, .point.x, .point.y
+    )]
+    Step {
+        /// Driver angle, rad.
+        phi: f64,
+        /// Which way the driven gear is pushed, on or back.
+        side: &'static str,
+        /// From the seat to where the teeth meet, rad.
+        turn: f64,
+        /// Tooth of the driver, tooth of the driven gear.
+        teeth: (u32, u32),
+        /// Where they meet, mm, in the driver's axes.
+        point: Point,
     },
     /// A contour has a piece that is no polynomial.
     #[error("piece {piece} of the {}'s contour is an arc, the proof knows polynomials alone", .member.name())]

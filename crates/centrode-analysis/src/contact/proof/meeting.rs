@@ -16,6 +16,9 @@ const SETTLED: f64 = 1e-9;
 /// same angle need no stretch between.
 const OVERHANG: f64 = 1e-6;
 
+/// That of a corner, whose seat has a bend there.
+const CORNER_OVERHANG: f64 = 1e-8;
+
 /// Parameter beyond an end up to which a part is continued.
 const CONTINUED: f64 = 0.3;
 
@@ -40,7 +43,13 @@ pub(in crate::contact) struct Meeting {
 impl Meeting {
     /// Whether it lies on both parts, or so little beyond that the seat is the same but for rounding.
     pub(super) fn is_on_parts(&self) -> bool {
-        self.at.0.abs().max(self.at.1.abs()) <= 1.0 + OVERHANG
+        let at = [self.at.0.abs(), self.at.1.abs()];
+        let overhang = if at.contains(&1.0) {
+            CORNER_OVERHANG
+        } else {
+            OVERHANG
+        };
+        at[0].max(at[1]) <= 1.0 + overhang
     }
 }
 

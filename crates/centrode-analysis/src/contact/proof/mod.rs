@@ -8,6 +8,8 @@
 
 mod file;
 mod meeting;
+mod parabola;
+mod step;
 mod symmetry;
 mod track;
 
@@ -40,14 +42,11 @@ const TAIL: f64 = 1e-11;
 /// Greatest gap, in modules, of features that get a parabola of their own.
 const NEAR: f64 = 0.05;
 
-/// Curvatures, by the module, by which a parabola keeps from a flank beside a corner, at first and where that does not do.
-const APART: [f64; 2] = [0.25, 0.05];
+/// Gap, in modules, of features that are worth a stretch of their own: beyond it circles around small parts tell them apart.
+const CLOSE: f64 = 2e-3;
 
-/// Shares of the difference of two curvatures by which a parabola keeps from either, at first and where that does not do.
-const MARGINS: [f64; 2] = [0.25, 0.05];
-
-/// Parameter from which on the piece beyond the end counts, too.
-const JOINT: f64 = 0.8;
+/// Length of a stretch, rad, that is not cut for a better hint.
+const SETTLED: f64 = 1e-5;
 
 /// Makes the certificate of a pair's contact, for a checker to prove.
 ///
@@ -69,11 +68,13 @@ pub fn prove(pair: &GearPair) -> Result<Proof, ProofError> {
         out: Vec::new(),
     };
     prover.cover_sector(sectors)?;
+    prover.seats_go_on()?;
     let stretches = prover.out;
     Ok(Proof {
         format: "centrode-proof".to_owned(),
         version: 2,
         design: pair.design().to_toml()?,
+        pair: pair.name().to_owned(),
         center_distance: pair.center_distance(),
         module: pair.module(),
         cycle: pair.cycle(),
@@ -105,17 +106,22 @@ impl Prover<'_> {
         let at =
             |i: u32| rolling.angle(rolling.parameter(length * f64::from(i) / f64::from(count)));
         let start = at(0);
-        let mut cuts: Vec<f64> = (1..count).map(|i| at(i) - start).collect();
-        // No stretch lies on two pieces of the law.
-        for turn in 0..pair.mean_ratio().0 {
-            cuts.extend(
+        let law_ends: Vec<f64> = (0..pair.mean_ratio().0)
+            .flat_map(|turn| {
                 self.law
                     .ends()
                     .iter()
-                    .map(|end| end + TAU * f64::from(turn)),
-            );
-        }
+                    .map(move |end| end + TAU * f64::from(turn))
+            })
+            .collect();
         let end = pair.cycle() / f64::from(sectors);
+        // No stretch lies on two pieces of the law.
+        let is_at_end = |cut: f64| law_ends.iter().any(|end| (cut - end).abs() < SHORTEST);
+        let mut cuts: Vec<f64> = (1..count)
+            .map(|i| at(i) - start)
+            .filter(|&cut| !is_at_end(cut))
+            .chain(law_ends.iter().copied())
+            .collect();
         cuts.retain(|c| *c > SHORTEST && *c < end - SHORTEST);
         cuts.sort_by(f64::total_cmp);
         cuts.dedup_by(|b, a| *b - *a < SHORTEST);
@@ -196,6 +202,10 @@ impl Prover<'_> {
         let Some(first) = self.meeting_of(holder, side) else {
             return Found::Cut(middle);
         };
+        let is_short = to - from < SETTLED;
+        if first.bends.is_empty() && !is_short {
+            return Found::Cut(middle);
+        }
         let mut out = vec![first];
         let mut known = vec![holder.feature];
         let mut followed = Vec::new();
@@ -207,10 +217,18 @@ impl Prover<'_> {
                 known.push(*feature);
                 let track = Track::new(&self.meshing, *feature, (from, to), (sample.phi, *meeting));
                 let Some(track) = track else { continue };
-                if let Some(phi) = track.leaves(&self.meshing, (from, to)) {
+                let is_close = 0.5 * track.play(&holder) * self.meshing.pair.center_distance()
+                    < CLOSE * self.meshing.module;
+                if is_close && let Some(phi) = track.leaves(&self.meshing, (from, to)) {
                     return Found::Cut(phi);
                 }
-                out.extend(self.meeting_of(&track, side));
+                let hint = self.meeting_of(&track, side);
+                // What all but touches all along must not go without a hint.
+                let is_wanting = || hint.as_ref().is_none_or(|hint| hint.bends.is_empty());
+                if is_close && !is_short && track.is_on_parts() && is_wanting() {
+                    return Found::Cut(middle);
+                }
+                out.extend(hint);
                 followed.push(track);
             }
         }
@@ -225,47 +243,8 @@ impl Prover<'_> {
                 out.extend(track.and_then(|track| self.meeting_of(&track, side)));
             }
         }
+        out.retain(|hint| !hint.bends.is_empty());
         Found::Held { seat, tracks: out }
-    }
-
-    /// Pieces beyond the joints that a place of driver and driven gear is near, with the joint's parameter on each.
-    fn beyond(&self, parts: (usize, usize), at: (f64, f64)) -> (Option<End>, Option<End>) {
-        let (driver, driven) = (&self.meshing.driver.parts, &self.meshing.driven.parts);
-        (
-            beyond(driver.len(), parts.0, at.0),
-            beyond(driven.len(), parts.1, at.1),
-        )
-    }
-
-    /// Pieces beyond joints near a meeting, and those that end at its corner: continued, they meet a little beyond their ends.
-    fn past_joints(&self, track: &Track) -> Vec<(Feature, Meeting)> {
-        let Some(meeting) = track.middle() else {
-            return Vec::new();
-        };
-        let (parts, at) = (track.feature.parts, meeting.at);
-        let next = self.beyond(parts, at);
-        let here = ((parts.0, at.0), (parts.1, at.1));
-        let pairs = [
-            track.feature.corner.map(|_| here),
-            next.0.map(|first| (first, here.1)),
-            next.1.map(|second| (here.0, second)),
-            next.0.zip(next.1),
-        ];
-        pairs
-            .into_iter()
-            .flatten()
-            .map(|((i, u), (j, v))| {
-                let feature = Feature {
-                    parts: (i, j),
-                    corner: None,
-                };
-                let meeting = Meeting {
-                    at: (u, v),
-                    angle: meeting.angle,
-                };
-                (feature, meeting)
-            })
-            .collect()
     }
 
     /// A followed feature as it stands in the certificate, if its series are exact.
@@ -273,64 +252,12 @@ impl Prover<'_> {
         let u = track.series(|_, m| m.at.0)?;
         let v = track.series(|_, m| m.at.1)?;
         let Feature { parts, corner } = track.feature;
-        let (driver, driven) = (
-            self.meshing.driver.parts[parts.0].segment,
-            self.meshing.driven.parts[parts.1].segment,
-        );
-        let at = track.middle()?.at;
-        let bend = |jet: &centrode_geometry::SegmentJet| {
-            jet.first.perp(&jet.second) / jet.first.norm().powi(3)
-        };
-        let (p, q) = (driver.at(at.0), driven.at(at.1));
-        // As flat as both contours allow: it parts them the farther from where they meet.
-        let (above, below) = (bend(&p), -bend(&q));
-        let apart = APART.map(|apart| apart / self.meshing.module);
-        let curvatures = match corner {
-            None => {
-                let [far, close] = MARGINS.map(|margin| margin * (above - below));
-                let flat = 0.0_f64.max(below + far).min(above - far);
-                let mut all = vec![flat, below + close, above - close];
-                // Beside a sharp bend of the one contour the share is large for the other.
-                all.extend(
-                    (close > apart[1])
-                        .then(|| [below + apart[1], above - apart[1]])
-                        .into_iter()
-                        .flatten(),
-                );
-                // Past a joint nearby it is the curvature of the next piece that counts.
-                let next = self.beyond(parts, at);
-                let next = [
-                    next.0
-                        .map(|(i, end)| bend(&self.meshing.driver.parts[i].segment.at(end))),
-                    next.1
-                        .map(|(i, end)| -bend(&self.meshing.driven.parts[i].segment.at(end))),
-                ];
-                let limits = [
-                    (Some(above), next[1]),
-                    (next[0], Some(below)),
-                    (next[0], next[1]),
-                ];
-                all.extend(
-                    limits
-                        .into_iter()
-                        .filter_map(|(above, below)| Some(0.5 * (above? + below?))),
-                );
-                all
-            }
-            Some((member, _)) => {
-                let beside = |apart: f64| match member {
-                    Member::Driver => 0.0_f64.max(below + apart),
-                    Member::Driven => 0.0_f64.min(above - apart),
-                };
-                apart.map(beside).to_vec()
-            }
-        };
         Some(ProofMeeting {
             side: side as usize,
             pieces: [parts.0, parts.1],
             corner: corner.map(|(member, _)| usize::from(member == Member::Driven)),
             parameters: [u, v],
-            bends: curvatures.into_iter().map(|c| 0.5 * c).collect(),
+            bends: self.bends(track)?,
         })
     }
 
@@ -368,19 +295,6 @@ impl Prover<'_> {
         }
         Ok(out)
     }
-}
-
-/// A piece, and the parameter of one of its ends.
-type End = (usize, f64);
-
-/// Piece beyond the joint near a place of a piece, and the joint's parameter on it.
-fn beyond(count: usize, piece: usize, at: f64) -> Option<End> {
-    let next = if at > 0.0 {
-        piece + 1
-    } else {
-        piece + count - 1
-    };
-    (at.abs() > JOINT).then_some((next % count, -at.signum()))
 }
 
 /// Outcome of a search along a stretch on one side.

@@ -12,8 +12,8 @@ pub(super) const PLACES: usize = CHEBYSHEV_TERMS + 2;
 /// flanks miss each other by.
 const BEYOND: f64 = 0.25 * super::HALF_WIDTH;
 
-/// Coefficients below which a series ends.
-const DROPPED: f64 = 1e-15;
+/// Decimals that a checker needs: far fewer than a half width, and than parameters move a parabola.
+const DECIMALS: f64 = 1e13;
 
 /// Driver angle, rad, by which two cuts lie apart.
 const APART: f64 = 1e-7;
@@ -101,7 +101,8 @@ impl Track {
         }
         let series = chebyshev_series(&values);
         let tail = series[CHEBYSHEV_TERMS - 2].abs() + series[CHEBYSHEV_TERMS - 1].abs();
-        let last = series.iter().rposition(|c| c.abs() > DROPPED);
+        let series = series.map(rounded);
+        let last = series.iter().rposition(|&c| c != 0.0);
         (tail <= TAIL).then(|| series[..=last.unwrap_or(0)].to_vec())
     }
 
@@ -109,31 +110,58 @@ impl Track {
     pub(super) fn leaves(&self, meshing: &Meshing<'_>, ends: (f64, f64)) -> Option<f64> {
         let mut found = None;
         for k in 1..PLACES {
-            let (Some(first), Some(next)) = (self.meetings[k - 1], self.meetings[k]) else {
-                continue;
+            // From where it is known towards where it may be lost.
+            let ((from, first), (to, next)) = match (self.meetings[k - 1], self.meetings[k]) {
+                (Some(first), next) => ((k - 1, first), (k, next)),
+                (None, Some(first)) => ((k, first), (k - 1, None)),
+                (None, None) => continue,
             };
             let beyond: [fn(&Meeting) -> bool; 2] =
                 [|m| m.at.0.abs() > 1.0, |m| m.at.1.abs() > 1.0];
             for is_beyond in beyond {
                 let was = is_beyond(&first);
-                if is_beyond(&next) == was {
+                if next.map_or(was, |next| is_beyond(&next) == was) {
                     continue;
                 }
                 let here = |phi: f64, near: Meeting| {
                     let here = meshing.meeting(&self.feature, phi, near)?;
                     (is_beyond(&here) == was).then_some(here)
                 };
-                let last = last(here, (self.phi[k - 1], self.phi[k]), first);
+                let last = last(here, (self.phi[from], self.phi[to]), first);
                 found = nearer_middle(found, last, ends);
             }
         }
         found
     }
 
+    /// Whether it lies on its parts all along the stretch.
+    pub(super) fn is_on_parts(&self) -> bool {
+        self.meetings
+            .iter()
+            .all(|m| m.is_some_and(|m| m.is_on_parts()))
+    }
+
+    /// Least turn between its meeting and another's along the stretch, rad.
+    pub(super) fn play(&self, other: &Self) -> f64 {
+        let both = self.meetings.iter().zip(&other.meetings);
+        both.filter_map(|(a, b)| Some((a.as_ref()?.angle - b.as_ref()?.angle).abs()))
+            .fold(f64::INFINITY, f64::min)
+    }
+
+    /// Parameters along the stretch, as far as it goes.
+    pub(super) fn places(&self) -> impl Iterator<Item = (f64, f64)> {
+        self.meetings.iter().flatten().map(|m| m.at)
+    }
+
     /// The meeting in the middle of the stretch, if it goes so far.
     pub(super) fn middle(&self) -> Option<Meeting> {
         self.meetings[PLACES / 2]
     }
+}
+
+/// A number to as many decimals as a checker needs.
+pub(super) fn rounded(value: f64) -> f64 {
+    (value * DECIMALS).round() / DECIMALS
 }
 
 /// Last driver angle, on the way from one to another, at which a meeting is as it was at the first.
