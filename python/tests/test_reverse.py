@@ -1,5 +1,6 @@
 """A machine made from a path: bars by closed forms, the machine held against the path itself."""
 
+import json
 import pickle
 import subprocess
 import sys
@@ -9,6 +10,7 @@ import time
 import centrode as ct
 import numpy as np
 import pytest
+import tomllib
 
 DRAWN = np.array(
     [
@@ -334,9 +336,19 @@ def test_what_is_no_band_is_refused(keywords, word):
 
 
 def test_a_machine_of_an_eased_path_follows_it_through_tooth_contact_alone(tmp_path):
-    """The tip of the machine in MuJoCo, its gears driven by their teeth, is off the path by no more than their play."""
-    machine = ct.reverse(DRAWN, (260, 160), bend_deg=40, band=5).machine()
+    """In MuJoCo, driven by its teeth alone, the planet is off its law by no more than the play of both meshes."""
+    made = ct.reverse(DRAWN, (260, 160), bend_deg=40, band=5)
+    machine = made.machine()
     machine.export(tmp_path, formats=["mjcf"])
-    command = [sys.executable, str(tmp_path / "play_mujoco.py"), "--check", "--contact", "--speed", "2"]
-    played = subprocess.run(command, capture_output=True, text=True, check=False)
-    assert played.returncode == 0, played.stdout + played.stderr
+    how = ["--check", "--contact", "--speed", "2", "--load", "0.02"]
+    command = [sys.executable, str(tmp_path / "play_mujoco.py"), *how]
+    played = subprocess.run(command, capture_output=True, text=True, check=True)
+    found = json.loads(played.stdout.splitlines()[-1])
+    # Half the play of the first mesh, as the second hands it on, and half of the second, each by the least pitch radius.
+    pair = tomllib.loads(machine.to_toml())["pairs"]["first-stage"]
+    distance, backlash = pair["pitch"]["center_distance"], pair["teeth"]["backlash"]
+    ratio = made.ratios[1]
+    half = 0.5 * backlash / (distance / (1 + ratio) * np.cos(np.radians(20)))
+    assert 0 < found["joints"]["idler_joint"]["off_max"] < half
+    assert 0 < found["joints"]["planet_joint"]["off_max"] < half * (1 + ratio)
+    assert found["penetration_max_mm"] < 0.01

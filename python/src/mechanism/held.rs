@@ -7,10 +7,9 @@ use centrode::sheet_data;
 use centrode_export::machine::tabulated;
 use centrode_export::{Bundle, ExportError, Format, Options};
 use centrode_mechanism::machine::{FrameJet, Machine};
-use pyo3::prelude::{Bound, PyAny, PyClassInitializer, PyDictMethods, PyResult, Python};
+use pyo3::prelude::{Bound, PyAny, PyClassInitializer, PyDictMethods, PyResult, Python, pyclass};
 use pyo3::types::PyDict;
 
-use super::Mechanism;
 use crate::array::{Course, Values};
 use crate::design::named;
 use crate::error::{Answer, Raised, finite, tolerance as within};
@@ -18,6 +17,30 @@ use crate::files;
 use crate::forces::{self, Names};
 use crate::solid;
 use crate::wait::wait;
+
+/// A machine of whatever family: what `load` gives is one of its subclasses.
+///
+/// Two are equal if their designs are.
+///
+/// >>> import centrode as ct
+/// >>> machine = ct.Mechanism.from_toml(ct.template("feeder"))
+/// >>> type(machine).__name__, machine.name
+/// ('Feeder', 'feeder')
+/// >>> machine.check().ok
+/// True
+#[pyclass(frozen, eq, subclass, module = "centrode")]
+#[derive(Debug)]
+pub(crate) struct Mechanism(
+    pub(super) Arc<dyn family::Mechanism>,
+    /// Its links and its table of motion, made when they are first asked for.
+    pub(super) OnceLock<Arc<Machine>>,
+);
+
+impl PartialEq for Mechanism {
+    fn eq(&self, other: &Self) -> bool {
+        self.0.design() == other.0.design()
+    }
+}
 
 impl Mechanism {
     /// The machine as what a new object of a subclass begins with.

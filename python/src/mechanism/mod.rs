@@ -3,14 +3,12 @@
 mod held;
 
 use std::path::PathBuf;
-use std::sync::{Arc, OnceLock};
+use std::sync::Arc;
 
-use centrode::family;
 use centrode_analysis::optimise::Settings;
 use centrode_export::ExportError;
-use centrode_mechanism::machine::Machine;
 use pyo3::prelude::{
-    Bound, PyAny, PyAnyMethods, PyDictMethods, PyResult, PyTypeMethods, Python, pyclass, pymethods,
+    Bound, PyAny, PyAnyMethods, PyDictMethods, PyResult, PyTypeMethods, Python, pymethods,
 };
 use pyo3::types::{PyDict, PyTuple, PyType};
 
@@ -25,29 +23,7 @@ use crate::search;
 use crate::solid;
 use crate::word::Word;
 
-/// A machine of whatever family: what `load` gives is one of its subclasses.
-///
-/// Two are equal if their designs are.
-///
-/// >>> import centrode as ct
-/// >>> machine = ct.Mechanism.from_toml(ct.template("feeder"))
-/// >>> type(machine).__name__, machine.name
-/// ('Feeder', 'feeder')
-/// >>> machine.check().ok
-/// True
-#[pyclass(frozen, eq, subclass, module = "centrode")]
-#[derive(Debug)]
-pub(crate) struct Mechanism(
-    Arc<dyn family::Mechanism>,
-    /// Its links and its table of motion, made when they are first asked for.
-    OnceLock<Arc<Machine>>,
-);
-
-impl PartialEq for Mechanism {
-    fn eq(&self, other: &Self) -> bool {
-        self.0.design() == other.0.design()
-    }
-}
+pub(crate) use held::Mechanism;
 
 #[pymethods]
 impl Mechanism {
