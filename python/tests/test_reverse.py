@@ -344,7 +344,7 @@ def test_a_machine_of_an_eased_path_follows_it_through_tooth_contact_alone(tmp_p
     command = [sys.executable, str(tmp_path / "play_mujoco.py"), *how]
     played = subprocess.run(command, capture_output=True, text=True, check=True)
     found = json.loads(played.stdout.splitlines()[-1])
-    # Half the play of the first mesh, as the second hands it on, and half of the second, each by the least pitch radius.
+    # Half the play of the first mesh, as the second hands it on, and half of the second, by the least pitch radius.
     pair = tomllib.loads(machine.to_toml())["pairs"]["first-stage"]
     distance, backlash = pair["pitch"]["center_distance"], pair["teeth"]["backlash"]
     ratio = made.ratios[1]
