@@ -83,7 +83,10 @@ fn the_seats_of_a_certificate_are_those_of_the_samples() {
 
 #[test]
 fn a_certificate_follows_the_contact_over_the_ends_of_trimmed_flanks() {
-    let proof = prove(&design("transplanter-pair-2021")).expect("a certificate");
+    let pair = design("quintic-pair");
+    let mut sides = pair.driver().teeth().iter().flat_map(|t| [t.leading, t.trailing]);
+    assert!(sides.any(|side| side.tip_shortening > 0.0));
+    let proof = prove(&pair).expect("a certificate");
     let ends = proof.stretches.windows(2);
     assert!(ends.into_iter().all(|two| two[0].to == two[1].from));
 }
@@ -98,5 +101,5 @@ fn gears_that_cannot_be_followed_have_no_certificate_and_it_says_where() {
     "#;
     let design = GearPairDesign::from_toml(text).expect("a design");
     let found = prove(&GearPair::resolve(&design).expect("a pair"));
-    assert!(matches!(found, Err(ProofError::Unresolved { phi }) if (0.32..0.33).contains(&phi)));
+    assert!(matches!(found, Err(ProofError::Unresolved { phi }) if (0.64..0.66).contains(&phi)));
 }
