@@ -56,7 +56,7 @@ pub(super) enum Given {
 /// (125.612, 186.594, True)
 #[pyfunction]
 #[pyo3(
-    signature = (path, axis=None, *, split="powers", bend_deg=60.0, arms=Count::Fits(1), band=None, open=False, module=None),
+    signature = (path, axis=None, *, split="powers", bend_deg=60.0, arms=Count::Fits(1), band=None, open=false, module=None),
     text_signature = "(path, axis=None, *, split='powers', bend_deg=60.0, arms=1, band=None, open=False, module=None)"
 )]
 #[expect(clippy::too_many_arguments, reason = "keywords")]

@@ -222,8 +222,9 @@ impl Easing {
             match Self::new(&closed, &bands, axis, bend) {
                 Ok(mut easing) => {
                     easing.given = count;
-                    let module = easing.module(&easing.start).unwrap_or(0.0);
-                    if best.as_ref().is_none_or(|(most, _)| module > *most) {
+                    if let Some(module) = easing.module(&easing.start)
+                        && best.as_ref().is_none_or(|(most, _)| module > *most)
+                    {
                         best = Some((module, easing));
                     }
                 }
@@ -353,7 +354,9 @@ impl Easing {
     fn module(&self, variables: &[f64]) -> Option<f64> {
         let path = WantedPath::smoothly_through(&self.eased(variables)).ok()?;
         let chain = TwoBar::new(&path, self.axis_at(variables), None).ok()?;
-        Some(self.borne(&chain))
+        // A free return must not cross the working part.
+        let is_whole = self.given == self.points.len();
+        (is_whole || path.check_simple().is_ok()).then(|| self.borne(&chain))
     }
 
     /// Module up to which full teeth are surely sound, cut by the usual rack.
