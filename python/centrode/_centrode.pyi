@@ -1117,6 +1117,7 @@ def reverse(
     bend_deg: _Real = 60.0,
     arms: _Count = 1,
     band: _Real | ArrayLike | None = None,
+    open: bool = False,
     module: _Real | None = None,
 ) -> Reversed: ...
 

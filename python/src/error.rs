@@ -84,7 +84,8 @@ raised! {
     PathError { _ => DesignError("path"), }
     EasingError {
         EasingError::Path(_) => DesignError("path"),
-        EasingError::Axis(_) | EasingError::NoAxis { .. } => MechanismError("axis"),
+        EasingError::Axis(_) | EasingError::NoAxis { .. } | EasingError::NoReturn { .. } => MechanismError("axis"),
+        EasingError::TooFew { .. } => DesignError("path"),
         EasingError::Module { .. } => DesignError("module"),
         _ => DesignError("band"),
     }

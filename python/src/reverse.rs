@@ -135,14 +135,14 @@ impl Reversed {
         self.split.kind().name()
     }
 
-    /// Points of the path that was eased, mm, an array (N, 2), where `band` was given: a closed spline of degree five runs through
-    /// them.
+    /// Points of the path that was eased, mm, an array (N, 2), where `band` was given or `open`, with those of the free return: a
+    /// closed spline of degree five runs through them.
     #[getter]
     fn eased(&self) -> Option<Rows<2>> {
         Some(Rows::of(&self.eased_path()?.points))
     }
 
-    /// Module up to which full teeth are surely sound on the eased path, mm, where `band` was given.
+    /// Module up to which full teeth are surely sound on the eased path, mm, where `band` was given or `open`.
     #[getter]
     fn full_module(&self) -> Option<f64> {
         Some(self.eased_path()?.module)
@@ -280,9 +280,10 @@ impl Reversed {
             } => {
                 let keywords = keywords.with("path", Rows::of(points))?;
                 let keywords = keywords.with("axis", *axis)?;
-                let asked = eased.as_ref().map(|eased| eased.bands.clone());
-                let keywords = keywords.with("band", asked)?;
-                let module = eased.as_ref().and_then(|eased| eased.wanted);
+                let asked = eased.as_ref().map(|eased| &eased.asked);
+                let keywords = keywords.with("band", asked.map(|asked| asked.bands.clone()))?;
+                let keywords = keywords.with("open", asked.is_some_and(|asked| asked.is_open))?;
+                let module = asked.and_then(|asked| asked.module);
                 ("reverse", keywords.with("module", module)?)
             }
             Given::Poses { rows, .. } => ("reverse_poses", keywords.with("poses", rows.clone())?),

@@ -321,6 +321,18 @@ def test_each_point_may_have_its_own_band_and_the_same_answer_comes_from_a_copy(
     assert copy.full_module == made.full_module
 
 
+def test_a_free_return_keeps_the_stroke():
+    stroke = DRAWN[:6]
+    made = ct.reverse(stroke, bend_deg=40, open=True)
+    assert np.array_equal(made.eased[:6], stroke)
+    assert len(made.eased) >= 10
+    assert made.full_module > 1
+    tip = made.machine().point("arm.tip", np.linspace(0, 2 * np.pi, 4001))
+    assert np.hypot(*(tip[:, None] - stroke[None]).transpose(2, 0, 1)).min(axis=0).max() < 0.5
+    with pytest.raises(ct.DesignError, match="3 points or more, not 2"):
+        ct.reverse(stroke[:2], open=True)
+
+
 @pytest.mark.parametrize(
     ("keywords", "word"),
     [

@@ -9,11 +9,19 @@ use crate::array::{Rows, Values};
 use crate::error::{Answer, Raised};
 use crate::wait::wait;
 
+/// What of a path is free.
+#[derive(Debug)]
+pub(super) struct Asked {
+    pub(super) bands: Vec<f64>,
+    pub(super) module: Option<f64>,
+    /// Whether the return from the last point to the first is free.
+    pub(super) is_open: bool,
+}
+
 /// A path eased within bands.
 #[derive(Debug)]
 pub(super) struct Eased {
-    pub(super) bands: Vec<f64>,
-    pub(super) wanted: Option<f64>,
+    pub(super) asked: Asked,
     pub(super) points: Vec<Point>,
     /// Module up to which full teeth are surely sound, mm.
     pub(super) module: f64,
@@ -23,9 +31,18 @@ pub(super) struct Eased {
 pub(super) fn asked(
     band: Option<Values>,
     module: Option<f64>,
-) -> Answer<Option<(Vec<f64>, Option<f64>)>> {
+    is_open: bool,
+) -> Answer<Option<Asked>> {
+    let asked = |bands: Vec<f64>| {
+        Ok(Some(Asked {
+            bands,
+            module,
+            is_open,
+        }))
+    };
     match (band, module) {
-        (Some(band), module) => Ok(Some((band.into_flat(), module))),
+        (Some(band), _) => asked(band.into_flat()),
+        (None, _) if is_open => asked(vec![0.0]),
         (None, None) => Ok(None),
         (None, Some(_)) => {
             let sentence = "it eases a path: say by how much with band";
@@ -38,16 +55,19 @@ impl Eased {
     /// Eases a path; its chain, and what was found.
     pub(super) fn search(
         points: &[Point],
-        (bands, wanted): (Vec<f64>, Option<f64>),
+        asked: Asked,
         axis: Option<(f64, f64)>,
         bend_deg: f64,
     ) -> Answer<(TwoBar, Self)> {
         let axis = axis.map(|(x, y)| Point::new(x, y));
-        let easing = Easing::new(points, &bands, axis, bend_deg.to_radians());
-        let found = easing?.search(wanted, &mut |_| ControlFlow::Continue(()))?;
+        let bend = bend_deg.to_radians();
+        let easing = match asked.is_open {
+            true => Easing::with_free_return(points, &asked.bands, axis, bend),
+            false => Easing::new(points, &asked.bands, axis, bend),
+        };
+        let found = easing?.search(asked.module, &mut |_| ControlFlow::Continue(()))?;
         let eased = Self {
-            bands,
-            wanted,
+            asked,
             module: found.module.1,
             points: found.points,
         };

@@ -41,6 +41,7 @@ pub(super) enum Given {
 ///     arms: Number of arms.
 ///     band: Distance within which the path may pass its points, mm, one for all or an array (N,): it is eased there until its
 ///         gears bear full teeth as large as can be. Without an axis the search begins with the one of the bluntest gears.
+///     open: Whether the points are the working part alone: the return from the last to the first is sought, too.
 ///     module: Module of full teeth, mm, for which it is eased, and no more.
 ///
 /// Raises:
@@ -55,8 +56,8 @@ pub(super) enum Given {
 /// (125.612, 186.594, True)
 #[pyfunction]
 #[pyo3(
-    signature = (path, axis=None, *, split="powers", bend_deg=60.0, arms=Count::Fits(1), band=None, module=None),
-    text_signature = "(path, axis=None, *, split='powers', bend_deg=60.0, arms=1, band=None, module=None)"
+    signature = (path, axis=None, *, split="powers", bend_deg=60.0, arms=Count::Fits(1), band=None, open=false, module=None),
+    text_signature = "(path, axis=None, *, split='powers', bend_deg=60.0, arms=1, band=None, open=False, module=None)"
 )]
 #[expect(clippy::too_many_arguments, reason = "keywords")]
 pub(crate) fn reverse(
@@ -67,15 +68,16 @@ pub(crate) fn reverse(
     bend_deg: f64,
     arms: Count,
     band: Option<Values>,
+    open: bool,
     module: Option<f64>,
 ) -> Answer<Reversed> {
     let kind: SplitKind = Word::of("split", split)?;
     let arms = arms.within("arms", 1, 12)?;
     let points = path.points("path")?;
-    let easing = eased::asked(band, module)?;
+    let easing = eased::asked(band, module, open)?;
     wait(py, move || {
-        if let Some((bands, module)) = easing {
-            let (chain, eased) = Eased::search(&points, (bands, module), axis, bend_deg)?;
+        if let Some(asked) = easing {
+            let (chain, eased) = Eased::search(&points, asked, axis, bend_deg)?;
             let given = Given::Path {
                 points,
                 axis,

@@ -1,7 +1,7 @@
 use std::f64::consts::TAU;
 use std::ops::ControlFlow;
 
-use centrode_geometry::{Point, Vector};
+use centrode_geometry::{Bounds, Point, Vector};
 use centrode_mechanism::gear::Limits;
 use centrode_mechanism::gear::design::GearPairDesign;
 use centrode_mechanism::gear::pitch::{Circle, PitchSpec};
@@ -17,6 +17,15 @@ const HARMONICS: usize = 12;
 const GREATEST: f64 = 2.0;
 /// Room of the axis about the one that the search starts from, as a share of the path's size.
 const ROOM: f64 = 0.2;
+/// Returns tried from the end of an open path to its start: lengths of their tangents at both, as multiples of the distance
+/// between them.
+const RETURNS: [f64; 6] = [0.5, 1.0, 1.5, 2.0, 3.0, 4.0];
+/// Fewest and most points of a free return.
+const RETURN_POINTS: [usize; 2] = [4, 12];
+/// Band of a free return's points, as a share of the path's size.
+const FREE: f64 = 0.35;
+/// Fewest points of an open path.
+const FEWEST_OPEN: usize = 3;
 /// Evaluations of each of both searches.
 const EVALUATIONS: u64 = 6000;
 /// Violation of a point of which there is no machine.
@@ -38,14 +47,16 @@ pub struct Easing {
     /// Module wanted, mm: then the moves are sought that reach it and are the least shares of their bands.
     wanted: Option<f64>,
     start: Vec<f64>,
+    /// Number of points that were given; the others are a free return.
+    given: usize,
 }
 
 /// A path eased within its bands, and its machine.
 #[derive(Clone, Debug)]
 pub struct EasedPath {
-    /// Points of the path.
+    /// Points of the path; after those given stand those of a free return.
     pub points: Vec<Point>,
-    /// Distance of each from where it was wanted, mm.
+    /// Distance of each point given from where it was wanted, mm.
     pub moved: Vec<f64>,
     /// Carrier and arm.
     pub chain: TwoBar,
@@ -78,6 +89,24 @@ pub enum EasingError {
         bands: usize,
         /// Points.
         points: usize,
+    },
+    /// Too few points of a working part.
+    #[error("the working part of a path has {least} points or more, not {count}")]
+    TooFew {
+        /// Points given.
+        count: usize,
+        /// Fewest.
+        least: usize,
+    },
+    /// No return closes the working part.
+    #[error(
+        "no machine of this kind has a tip that runs along the points: of {returns} returns tried from the last to the first, with {axis}, none is possible"
+    )]
+    NoReturn {
+        /// Returns tried.
+        returns: usize,
+        /// With which axes.
+        axis: &'static str,
     },
     /// A module that is none.
     #[error("the module wanted is greater than zero, in mm, not {module}")]
@@ -150,9 +179,68 @@ impl Easing {
             bend,
             wanted: None,
             start: Vec::new(),
+            given: points.len(),
         };
         easing.start = vec![0.0; easing.bounds().len()];
         Ok(easing)
+    }
+
+    /// The search for a path whose working part alone is given, mm, each point within its band: the return from its last point to
+    /// its first is free. Of several returns that leave and meet it along its own direction the search starts from the one whose
+    /// gears are the bluntest.
+    ///
+    /// # Errors
+    /// [`EasingError`], as of [`new`](Self::new), and where no return makes a machine.
+    pub fn with_free_return(
+        points: &[Point],
+        bands: &[f64],
+        axis: Option<Point>,
+        bend: f64,
+    ) -> Result<Self, EasingError> {
+        let (count, least) = (points.len(), FEWEST_OPEN);
+        if count < least {
+            return Err(EasingError::TooFew { count, least });
+        }
+        let bands = match bands {
+            [one] => vec![*one; count],
+            more if more.len() == count => more.to_vec(),
+            more => {
+                let bands = more.len();
+                return Err(EasingError::Bands {
+                    bands,
+                    points: count,
+                });
+            }
+        };
+        let mut best: Option<(f64, Self)> = None;
+        let mut fault = None;
+        for share in RETURNS {
+            let closed: Vec<Point> = points.iter().copied().chain(back(points, share)).collect();
+            let size = closed.iter().copied().collect::<Bounds>().diagonal();
+            let mut bands = bands.clone();
+            bands.resize(closed.len(), FREE * size);
+            match Self::new(&closed, &bands, axis, bend) {
+                Ok(mut easing) => {
+                    easing.given = count;
+                    if let Some(module) = easing.module(&easing.start)
+                        && best.as_ref().is_none_or(|(most, _)| module > *most)
+                    {
+                        best = Some((module, easing));
+                    }
+                }
+                Err(EasingError::Axis(_) | EasingError::NoAxis { .. }) => {}
+                Err(error) => fault = Some(error),
+            }
+        }
+        best.map(|(_, easing)| easing).ok_or_else(|| {
+            fault.unwrap_or(EasingError::NoReturn {
+                returns: RETURNS.len(),
+                axis: match axis {
+                    Some(_) => "the axis asked for",
+                    None => "axes on and about each path",
+                },
+            })
+        })
     }
 
     /// Searches for the bluntest gears, or, where a module is wanted, mm, for the least shares of the bands with which it is
@@ -202,11 +290,13 @@ impl Easing {
             }
         }
         let points = found.eased(&found.start);
-        let moved = points.iter().zip(&self.points);
+        let moved = points.iter().zip(&self.points[..self.given]);
         let axis = found.axis_at(&found.start);
         let eased = TwoBar::new(&WantedPath::smoothly_through(&points)?, axis, None)?;
+        // A free return was not wanted as it was tried first.
+        let is_whole = self.given == self.points.len();
         let before = WantedPath::through(&self.points)?;
-        let before = TwoBar::new(&before, axis, None).ok();
+        let before = TwoBar::new(&before, axis, None).ok().filter(|_| is_whole);
         Ok(EasedPath {
             moved: moved.map(|(p, q)| (p - q).norm()).collect(),
             module: (before.map(|chain| self.borne(&chain)), self.borne(&eased)),
@@ -264,7 +354,9 @@ impl Easing {
     fn module(&self, variables: &[f64]) -> Option<f64> {
         let path = WantedPath::smoothly_through(&self.eased(variables)).ok()?;
         let chain = TwoBar::new(&path, self.axis_at(variables), None).ok()?;
-        Some(self.borne(&chain))
+        // A free return must not cross the working part.
+        let is_whole = self.given == self.points.len();
+        (is_whole || path.check_simple().is_ok()).then(|| self.borne(&chain))
     }
 
     /// Module up to which full teeth are surely sound, cut by the usual rack.
@@ -319,6 +411,29 @@ impl Problem for Easing {
             }
         }
     }
+}
+
+/// Points between the last and the first of some along a cubic that leaves and meets them along their own direction; the tangents
+/// are so many times as long as the distance.
+fn back(points: &[Point], share: f64) -> Vec<Point> {
+    let count = points.len();
+    let (from, to) = (points[count - 1], points[0]);
+    let (out, home) = (from - points[count - 2], points[1] - to);
+    let far = (to - from).norm();
+    let [out, home] = [out, home].map(|v| v.normalize() * (share * far));
+    let at = |x: f64| {
+        let (y, xx) = (1.0 - x, x * x);
+        let place = from.coords * (y * y * (1.0 + 2.0 * x)) + to.coords * (xx * (3.0 - 2.0 * x));
+        Point::from(place + out * (x * y * y) - home * (xx * y))
+    };
+    let steps = points.windows(2).map(|pair| (pair[1] - pair[0]).norm());
+    let step = steps.sum::<f64>() / (count - 1) as f64;
+    let chords = (0..64).map(|k| (at(f64::from(k + 1) / 64.0) - at(f64::from(k) / 64.0)).norm());
+    let [least, most] = RETURN_POINTS;
+    let inner = ((chords.sum::<f64>() / step) as usize).clamp(least, most);
+    (1..=inner)
+        .map(|k| at(k as f64 / (inner + 1) as f64))
+        .collect()
 }
 
 /// The axis of a grid about a path whose gears are the bluntest.

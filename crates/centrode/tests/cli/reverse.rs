@@ -360,3 +360,36 @@ fn bands_and_modules_that_are_none_are_refused() {
         );
     }
 }
+
+#[test]
+fn the_return_of_a_stroke_may_be_free() {
+    let stroke: String = DRAWN
+        .lines()
+        .take(7)
+        .map(|line| format!("{line}\n"))
+        .collect();
+    let run = fed(
+        &["reverse", "-", "--open", "--bend", "40"],
+        stroke.as_bytes(),
+    );
+    let told = text(&run.stdout);
+    assert_eq!(run.status.code(), Some(0), "{}", text(&run.stderr));
+    assert!(told.contains("free return             through "), "{told}");
+    assert!(!told.contains("path eased"), "{told}");
+    let line = told
+        .lines()
+        .find(|line| line.starts_with("full teeth"))
+        .expect("a line");
+    let module = line
+        .split("module ")
+        .nth(1)
+        .and_then(|x| x.split(' ').next());
+    let module: f64 = module.and_then(|x| x.parse().ok()).expect("a number");
+    assert!(module > 1.0, "{told}");
+    let run = fed(&["reverse", "-", "--open"], b"0,0\n1,1\n");
+    assert!(
+        text(&run.stderr).contains("3 points or more, not 2"),
+        "{}",
+        text(&run.stderr)
+    );
+}

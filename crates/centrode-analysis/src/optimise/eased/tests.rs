@@ -95,3 +95,27 @@ fn what_is_no_band_is_told() {
     let none = none.search(Some(0.0), &mut |_| ControlFlow::Continue(()));
     assert!(none.is_err());
 }
+
+/// Of the drawn path the stroke from the lower left corner upwards; the way back is free.
+#[test]
+fn a_free_return_is_found_and_the_stroke_is_kept() {
+    let stroke: Vec<Point> = DRAWN[..6].iter().map(|&p| p.into()).collect();
+    let bend = 40.0_f64.to_radians();
+    let easing = Easing::with_free_return(&stroke, &[0.0], None, bend).expect("a return");
+    let found = search(&easing, None);
+    assert_eq!(found.points[..6], stroke[..]);
+    assert_eq!(found.moved, [0.0; 6]);
+    assert!(found.points.len() > 9 && found.module.0.is_none());
+    // The whole drawn path bears 0.11 mm with the axis that suits it.
+    assert!(found.module.1 > 1.0, "{:?}", found.module);
+    let path = found.chain.path();
+    for (i, point) in stroke.iter().enumerate() {
+        assert!((path.at(i as f64).point - point).norm() < 1e-9);
+    }
+    let few = Easing::with_free_return(&stroke[..2], &[0.0], None, bend).expect_err("too few");
+    let told = "the working part of a path has 3 points or more, not 2";
+    assert_eq!(few.to_string(), told);
+    let nowhere = Some(Point::new(150.0, 150.0));
+    let none = Easing::with_free_return(&stroke, &[0.0], nowhere, bend).expect_err("no machine");
+    assert!(none.to_string().contains("6 returns tried"), "{none}");
+}

@@ -34,6 +34,9 @@ pub(crate) struct Reverse {
         conflicts_with = "poses"
     )]
     pub(crate) band: Option<f64>,
+    /// The points are the working part alone: the return from the last to the first is free, and sought for blunt gears
+    #[arg(long, conflicts_with = "poses")]
+    pub(crate) open: bool,
     /// Ease the path no more than full teeth of this module need
     #[arg(
         long,

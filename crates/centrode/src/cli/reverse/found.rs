@@ -41,8 +41,6 @@ impl Found {
                 WantedPoints::from_csv(source.bytes()).map_err(|error| source.refused(&error))?
             }
         };
-        let path = WantedPath::through(&wanted.points).map_err(|error| source.refused(&error))?;
-        check_crossing(command, source, &path)?;
         let of_drawing = drawn.map(|drawn| {
             let off = Unit::Millimetre.tell(drawn.deviation.value);
             let points = drawn.points.len();
@@ -57,11 +55,15 @@ impl Found {
             }
             (Some(tolerances), None) => tolerances.clone(),
             (None, Some(band)) => vec![band],
+            (None, None) if command.open => vec![0.0],
             (None, None) => {
                 if command.module.is_some() {
                     let words = "--module eases a path: say by how much with --band, or by a column headed tolerance in the file";
                     return Err(Failure::Usage(words.into()));
                 }
+                let path =
+                    WantedPath::through(&wanted.points).map_err(|error| source.refused(&error))?;
+                check_crossing(command, source, &path)?;
                 progress.step("trying axes");
                 return Self::as_given(command, &path, told);
             }
@@ -69,7 +71,10 @@ impl Found {
         progress.step("easing the path");
         let axis = command.axis.map(Point::from);
         let bend = command.bend.to_radians();
-        let easing = Easing::new(&wanted.points, &bands, axis, bend);
+        let easing = match command.open {
+            true => Easing::with_free_return(&wanted.points, &bands, axis, bend),
+            false => Easing::new(&wanted.points, &bands, axis, bend),
+        };
         let module = command.module;
         let eased =
             easing.and_then(|easing| easing.search(module, &mut |_| ControlFlow::Continue(())));
@@ -163,7 +168,7 @@ fn refused(command: &Reverse, source: &Source, error: EasingError) -> Failure {
 }
 
 /// Lines on how far a path was eased, and what full teeth it bears.
-fn words(eased: &EasedPath, module: Option<f64>) -> [(String, String); 2] {
+fn words(eased: &EasedPath, module: Option<f64>) -> Vec<(String, String)> {
     let mm = |x: f64| Unit::Millimetre.tell(x);
     let moved = eased.moved.iter().enumerate();
     let (most, far) = moved.fold((0, 0.0), |most, (i, &moved)| match moved > most.1 {
@@ -181,21 +186,24 @@ fn words(eased: &EasedPath, module: Option<f64>) -> [(String, String); 2] {
         }
         _ => String::new(),
     };
-    [
-        (
-            "path eased".to_owned(),
-            format!(
-                "by {} at most, at point {}, in {} evaluations",
-                mm(far),
-                most + 1,
-                eased.evaluations
-            ),
-        ),
-        (
-            "full teeth".to_owned(),
-            format!("surely sound up to module {}{before}{wanted}", mm(borne)),
-        ),
-    ]
+    let free = eased.points.len() - eased.moved.len();
+    let searched = format!("in {} evaluations", eased.evaluations);
+    let mut told = Vec::new();
+    if free > 0 {
+        let words = format!("through {free} points, {searched}");
+        told.push(("free return".to_owned(), words));
+    }
+    if free == 0 || far > 0.0 {
+        let words = format!("by {} at most, at point {}", mm(far), most + 1);
+        let words = match free {
+            0 => format!("{words}, {searched}"),
+            _ => words,
+        };
+        told.push(("path eased".to_owned(), words));
+    }
+    let words = format!("surely sound up to module {}{before}{wanted}", mm(borne));
+    told.push(("full teeth".to_owned(), words));
+    told
 }
 
 /// Lines on the clamp and on how far each pose is missed.
