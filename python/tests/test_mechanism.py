@@ -56,6 +56,7 @@ def test_every_figure_of_a_report_has_its_unit_and_no_other(path):
         "m/s²",
         "N",
         "N·mm",
+        "N/mm²",
         "r/min",
         "1/min",
         "s",
