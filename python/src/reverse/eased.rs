@@ -9,7 +9,7 @@ use crate::array::{Rows, Values};
 use crate::error::{Answer, Raised};
 use crate::wait::wait;
 
-/// What of a path is free.
+/// Room that a path has.
 #[derive(Debug)]
 pub(super) struct Asked {
     pub(super) bands: Vec<f64>,

@@ -3,8 +3,6 @@ use std::ops::ControlFlow;
 
 use centrode_geometry::{Bounds, Point, Vector};
 use centrode_mechanism::gear::Limits;
-use centrode_mechanism::gear::design::GearPairDesign;
-use centrode_mechanism::gear::pitch::{Circle, PitchSpec};
 use centrode_mechanism::reverse::{AxisFault, AxisMap, AxisRange, PathError, TwoBar, WantedPath};
 
 use super::{Ended, Evaluation, Method, Problem, Settings, minimise};
@@ -361,8 +359,7 @@ impl Easing {
 
     /// Module up to which full teeth are surely sound, cut by the usual rack.
     fn borne(&self, chain: &TwoBar) -> f64 {
-        let pair = GearPairDesign::new(PitchSpec::Circle(Circle::default()));
-        Limits::largest_full_module_of(&pair, chain.curvatures(self.bend))
+        Limits::largest_full_module(chain.curvatures(self.bend))
     }
 }
 

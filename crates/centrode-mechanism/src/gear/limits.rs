@@ -4,6 +4,7 @@ use super::{
     design::GearPairDesign,
     flank::{Flank, Side},
     pair::{GearPair, parameters},
+    pitch::{Circle, PitchSpec},
     rolling::{Member, Rolling},
     tool::{Tool, ToolKind},
 };
@@ -200,11 +201,12 @@ impl Limits {
         largest_module(&parameters(design, 1.0).tool, 1.0, curvatures)
     }
 
-    /// Largest module of full teeth, mm, that are sound wherever they fall, on pitch curves whose curvatures are at most those
-    /// given (convex, concave, 1/mm): the tool's rounding cuts into flanks of concave gears, too.
+    /// Largest module of full teeth, mm, that are sound wherever they fall, cut by the usual rack on pitch curves whose curvatures
+    /// are at most those given (convex, concave, 1/mm): the rack's rounding cuts into flanks of concave gears, too.
     #[must_use]
-    pub fn largest_full_module_of(design: &GearPairDesign, curvatures: [f64; 2]) -> f64 {
-        let tool = parameters(design, 1.0).tool;
+    pub fn largest_full_module(curvatures: [f64; 2]) -> f64 {
+        let design = GearPairDesign::new(PitchSpec::Circle(Circle::default()));
+        let tool = parameters(&design, 1.0).tool;
         largest_module(&tool, 1.0, curvatures).min(fillet_module(&tool, 1.0, curvatures[1]))
     }
 }

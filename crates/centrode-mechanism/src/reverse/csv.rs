@@ -25,9 +25,8 @@ impl WantedPoints {
     pub fn from_csv(bytes: &[u8]) -> Result<Self, PathError> {
         let table = Table::read(bytes)?;
         let points = table.rows()?.into_iter().map(|row: [f64; 2]| row.into());
-        let headings = table.headings.iter();
         let is_tolerance = |word: &&str| TOLERANCE.contains(&word.to_lowercase().as_str());
-        let column = headings.clone().position(|word| is_tolerance(&word));
+        let column = table.headings.iter().position(is_tolerance);
         let tolerances = column.map(|column| table.column(column)).transpose()?;
         Ok(Self {
             points: points.collect(),
