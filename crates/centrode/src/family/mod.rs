@@ -20,7 +20,7 @@ mod widening;
 pub use limit::Limit;
 pub use mechanism::{Depth, FINEST, Mechanism};
 pub use open::OpenDesign;
-pub use proofs::NotProved;
+pub use proofs::{NotProved, Proved};
 pub use registry::{Families, Family, PartName, Resolved};
 pub use widening::{Widening, WideningError};
 

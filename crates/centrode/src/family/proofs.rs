@@ -42,19 +42,19 @@ pub enum NotProved {
         name: String,
         /// Why.
         #[source]
-        error: ProofError,
+        error: Box<ProofError>,
     },
 }
+
+/// Certificate of a pair, or why it has none.
+pub type Proved = Result<Proof, NotProved>;
 
 impl dyn Mechanism {
     /// Certificates of the contact of its gear pairs at every driver angle: of that named, or of all; each by the pair's name.
     ///
     /// # Errors
     /// [`NotProved`] where there is no such pair, or no teeth can be cut; in the list, of a pair that has no certificate.
-    pub fn proofs(
-        &self,
-        pair: Option<&str>,
-    ) -> Result<Vec<(String, Result<Proof, NotProved>)>, NotProved> {
+    pub fn proofs(&self, pair: Option<&str>) -> Result<Vec<(String, Proved)>, NotProved> {
         let mut pairs = self.pairs()?;
         if pairs.is_empty() {
             let family = self.design().family().word;
@@ -78,7 +78,7 @@ impl dyn Mechanism {
                 })
                 .map_err(|error| NotProved::Pair {
                     name: name.clone(),
-                    error,
+                    error: Box::new(error),
                 });
             (name, proof)
         });
@@ -89,7 +89,7 @@ impl dyn Mechanism {
     ///
     /// # Errors
     /// [`NotProved`], as for all its proofs; where there are several pairs and none is named, their names.
-    pub fn proof(&self, pair: Option<&str>) -> Result<Proof, NotProved> {
+    pub fn proof(&self, pair: Option<&str>) -> Proved {
         let pairs = self.pairs()?;
         if pair.is_none() && pairs.len() > 1 {
             let known = pairs.into_iter().map(|(name, _)| name).collect();
