@@ -1,5 +1,6 @@
 use std::sync::OnceLock;
 
+use centrode_analysis::optimise::EasingError;
 use centrode_geometry::Point;
 use centrode_mechanism::reverse::{
     AxisMap, AxisRange, KeyPose, KeyPoses, SplitKind, TwoBar, WantedPath,
@@ -8,7 +9,6 @@ use pyo3::prelude::{Python, pyfunction};
 
 use super::Reversed;
 use super::eased::{self, Eased};
-use super::tables::no_axis;
 use crate::array::{Rows, Values};
 use crate::count::Count;
 use crate::error::Answer;
@@ -91,7 +91,8 @@ pub(crate) fn reverse(
             Some((x, y)) => TwoBar::new(&path, Point::new(x, y), None)?,
             None => {
                 let map = AxisMap::new(&path, AxisRange::about(&path));
-                let chain = map.mildest(&path).ok_or_else(|| no_axis(&map))?;
+                let tried = map.found().len();
+                let chain = map.mildest(&path).ok_or(EasingError::NoAxis { tried })?;
                 axes = OnceLock::from(map);
                 chain
             }

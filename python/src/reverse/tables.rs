@@ -3,7 +3,6 @@ use numpy::{IntoPyArray, PyArrayMethods};
 use pyo3::prelude::{Bound, PyAny, PyResult, Python};
 use pyo3::types::PyTuple;
 
-use crate::error::Raised;
 use crate::record::record;
 
 /// Possible axes of a carrier; least radii for a bend, rad.
@@ -68,12 +67,4 @@ pub(super) fn split_figures<'py>(
         tip_error: tip_error,
         refusal: made.as_ref().err(),
     )
-}
-
-pub(super) fn no_axis(map: &AxisMap) -> Raised {
-    let sentence = format!(
-        "no machine of this kind has a tip that runs along the path: of {} axes tried on and about it none is possible",
-        map.found().len()
-    );
-    Raised::no_mechanism("axis", sentence)
 }

@@ -138,20 +138,10 @@ impl Easing {
         bend: f64,
     ) -> Result<Self, EasingError> {
         let path = WantedPath::through(points)?;
+        let mut bands = each(bands, points.len())?;
         let is_closed = points.len() > 1 && points.first() == points.last();
         let points = &points[..points.len() - usize::from(is_closed)];
-        let bands = match bands {
-            [one] => vec![*one; points.len()],
-            more if more.len() == points.len() + usize::from(is_closed) => {
-                more[..points.len()].to_vec()
-            }
-            more => {
-                return Err(EasingError::Bands {
-                    bands: more.len(),
-                    points: points.len(),
-                });
-            }
-        };
+        bands.truncate(points.len());
         let is_band = |band: &f64| *band >= 0.0 && band.is_finite();
         if let Some(i) = bands.iter().position(|band| !is_band(band)) {
             let (number, band) = (i + 1, bands[i]);
@@ -160,8 +150,10 @@ impl Easing {
         let axis = match axis {
             Some(axis) => (TwoBar::new(&path, axis, None)?.axis(), 0.0),
             None => {
-                let bounds = path.bounds();
-                (bluntest(&path, bend)?, ROOM * bounds.diagonal())
+                let map = AxisMap::new(&path, AxisRange::about(&path));
+                let tried = map.found().len();
+                let axis = map.bluntest(bend).ok_or(EasingError::NoAxis { tried })?;
+                (axis, ROOM * path.bounds().diagonal())
             }
         };
         let step = path.period() / points.len() as f64;
@@ -199,17 +191,7 @@ impl Easing {
         if count < least {
             return Err(EasingError::TooFew { count, least });
         }
-        let bands = match bands {
-            [one] => vec![*one; count],
-            more if more.len() == count => more.to_vec(),
-            more => {
-                let bands = more.len();
-                return Err(EasingError::Bands {
-                    bands,
-                    points: count,
-                });
-            }
-        };
+        let bands = each(bands, count)?;
         let mut best: Option<(f64, Self)> = None;
         let mut fault = None;
         for share in RETURNS {
@@ -433,22 +415,16 @@ fn back(points: &[Point], share: f64) -> Vec<Point> {
         .collect()
 }
 
-/// The axis of a grid about a path whose gears are the bluntest.
-fn bluntest(path: &WantedPath, bend: f64) -> Result<Point, EasingError> {
-    let range = AxisRange::about(path);
-    let map = AxisMap::new(path, range);
-    let columns = map.range().count[0] as usize;
-    let possible = map.found().iter().enumerate();
-    let possible = possible.filter_map(|(n, found)| Some((n, found.as_ref().ok()?)));
-    let best = possible.max_by(|a, b| {
-        let [a, b] = [a, b].map(|(_, axis)| axis.least_radius(bend));
-        a.total_cmp(&b)
-    });
-    let (n, _) = best.ok_or(EasingError::NoAxis {
-        tried: map.found().len(),
-    })?;
-    let (i, j) = ((n % columns) as u32, (n / columns) as u32);
-    Ok(map.range().axis(i, j))
+/// A band for each point, of one for each or one for all.
+fn each(bands: &[f64], points: usize) -> Result<Vec<f64>, EasingError> {
+    match bands {
+        [one] => Ok(vec![*one; points]),
+        more if more.len() == points => Ok(more.to_vec()),
+        more => Err(EasingError::Bands {
+            bands: more.len(),
+            points,
+        }),
+    }
 }
 
 #[cfg(test)]

@@ -144,20 +144,27 @@ impl AxisMap {
         self.found.iter().filter(|found| found.is_ok()).count()
     }
 
+    /// The axis of the grid whose gears are the bluntest: that of the greatest [`least_radius`](PossibleAxis::least_radius); none
+    /// where none is possible.
+    #[must_use]
+    pub fn bluntest(&self, bend: f64) -> Option<Point> {
+        self.least(|axis| -axis.least_radius(bend))
+    }
+
+    /// The possible axis of the grid with the least value of a measure.
+    fn least(&self, measure: impl Fn(&PossibleAxis) -> f64) -> Option<Point> {
+        let possible = self.found.iter().enumerate();
+        let possible = possible.filter_map(|(n, found)| Some((n, measure(found.as_ref().ok()?))));
+        let (n, _) = possible.min_by(|a, b| a.1.total_cmp(&b.1))?;
+        let columns = self.range.count[0] as usize;
+        Some(self.range.axis((n % columns) as u32, (n / columns) as u32))
+    }
+
     /// The mildest axis: that of the smallest greatest |ln| of the ratio, refined from the best of the grid by ever finer
     /// grids about it within its bounds; none where no axis of the grid is possible.
     #[must_use]
     pub fn mildest(&self, path: &WantedPath) -> Option<TwoBar> {
-        let possible = self.found.iter().enumerate();
-        let possible = possible.filter_map(|(n, found)| Some((n, found.as_ref().ok()?)));
-        let milder = |a: &(usize, &PossibleAxis), b: &(usize, &PossibleAxis)| {
-            a.1.unevenness().total_cmp(&b.1.unevenness())
-        };
-        let (best, _) = possible.min_by(milder)?;
-        let columns = self.range.count[0] as usize;
-        let axis = self
-            .range
-            .axis((best % columns) as u32, (best / columns) as u32);
+        let axis = self.least(PossibleAxis::unevenness)?;
         let mut best = TwoBar::new(path, axis, None).ok()?;
         let mut step = self.range.step();
         for _ in 0..HALVINGS {

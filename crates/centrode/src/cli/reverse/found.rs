@@ -245,9 +245,7 @@ fn none_possible(map: &AxisMap) -> Failure {
         .iter()
         .map(|(name, count)| format!("{name} {count}"))
         .collect();
-    let all = map.found().len();
-    Failure::Usage(format!(
-        "no machine of this kind has a tip that runs along the path: of {all} axes tried on and about it none is possible ({})",
-        words.join(", ")
-    ))
+    let tried = map.found().len();
+    let none = EasingError::NoAxis { tried };
+    Failure::Usage(format!("{none} ({})", words.join(", ")))
 }
