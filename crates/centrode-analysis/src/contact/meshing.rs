@@ -315,6 +315,12 @@ impl<'a> Meshing<'a> {
         })
     }
 
+    /// Teeth of driver and driven gear that hold a seat.
+    pub(super) fn teeth(&self, seat: &Seat) -> Option<(u32, u32)> {
+        let (i, j) = seat.hits.first()?.parts;
+        Some((self.driver.parts[i].owner, self.driven.parts[j].owner))
+    }
+
     /// Whether the gears penetrate each other by more than a shallow amount.
     fn lie_deep(&self, phi: f64, angle: f64) -> bool {
         let pose = Pose::new(phi, angle, self.pair.center_distance());
