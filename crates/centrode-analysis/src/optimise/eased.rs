@@ -1,11 +1,15 @@
 use std::f64::consts::TAU;
 use std::ops::ControlFlow;
 
-use centrode_geometry::{Bounds, Point, Vector};
+use centrode_geometry::{Bounds, Point, Vector, checkpoint};
 use centrode_mechanism::gear::Limits;
-use centrode_mechanism::reverse::{AxisFault, AxisMap, AxisRange, PathError, TwoBar, WantedPath};
+use centrode_mechanism::gear::design::SpecError;
+use centrode_mechanism::reverse::{
+    Aim, AxisFault, AxisMap, AxisRange, PathError, TwoBar, WantedPath, Wishes,
+};
 
 use super::{Ended, Evaluation, Method, Problem, Settings, minimise};
+use crate::Goal;
 
 /// Most points that are moved each on its own; of more, the moves are a sum of harmonics.
 const SINGLE: usize = 24;
@@ -39,14 +43,45 @@ pub struct Easing {
     points: Vec<Point>,
     normals: Vec<Vector>,
     bands: Vec<f64>,
-    /// Axis, and how far it may move.
-    axis: (Point, f64),
+    /// Axis, and the box within which it may move, if it may.
+    axis: (Point, Option<Bounds>),
     bend: f64,
+    aim: Aim,
+    wishes: Wishes,
     /// Module wanted, mm: then the moves are sought that reach it and are the least shares of their bands.
     wanted: Option<f64>,
     start: Vec<f64>,
     /// Number of points that were given; the others are a free return.
     given: usize,
+}
+
+/// What is free about a path, and what is wanted of its machine.
+#[derive(Clone, Debug)]
+pub struct EasingSpec {
+    /// Distance within which the path may pass each point, mm, or one for all.
+    pub bands: Vec<f64>,
+    /// Axis of the carrier, mm, if it is given.
+    pub axis: Option<Point>,
+    /// Angle from the carrier's first leg to its second, rad.
+    pub bend: f64,
+    /// What is made the most of.
+    pub aim: Aim,
+    /// What else is wanted.
+    pub wishes: Wishes,
+}
+
+impl EasingSpec {
+    /// Points within their bands, mm, of a machine with a bend, rad, its axis free, for the largest teeth.
+    #[must_use]
+    pub fn new(bands: &[f64], bend: f64) -> Self {
+        Self {
+            bands: bands.to_vec(),
+            axis: None,
+            bend,
+            aim: Aim::Module,
+            wishes: Wishes::default(),
+        }
+    }
 }
 
 /// A path eased within its bands, and its machine.
@@ -61,6 +96,10 @@ pub struct EasedPath {
     /// Module up to which full teeth are surely sound, mm: on the pitch curves of the wanted path, where the axis found makes a
     /// machine for it, and on those of the eased one.
     pub module: (Option<f64>, f64),
+    /// What else was wanted, and how far it is reached.
+    pub goals: Vec<Goal>,
+    /// Direction of the clamp less that of the arm, rad, where directions were wanted.
+    pub clamp: Option<f64>,
     /// Evaluations of the search.
     pub evaluations: u64,
 }
@@ -106,6 +145,9 @@ pub enum EasingError {
         /// With which axes.
         axis: &'static str,
     },
+    /// A wish that breaks a rule.
+    #[error("{0}")]
+    Wish(#[from] SpecError),
     /// A module that is none.
     #[error("the module wanted is greater than zero, in mm, not {module}")]
     Module {
@@ -126,19 +168,20 @@ pub enum EasingError {
 }
 
 impl Easing {
-    /// The search for a path through points each within its band, mm. `bend` is the angle from the carrier's first leg to its
-    /// second, rad. Without an axis the search starts from the one of a grid about the path whose gears are the bluntest.
+    /// The search for a path through points each within its band, mm. Without an axis the search starts from the one of a grid
+    /// about the path that comes nearest to the wishes, and of several that reach them is the best by its aim.
     ///
     /// # Errors
-    /// [`EasingError`]: the points make no path, a band is none, or no axis makes a machine for the wanted path.
-    pub fn new(
-        points: &[Point],
-        bands: &[f64],
-        axis: Option<Point>,
-        bend: f64,
-    ) -> Result<Self, EasingError> {
+    /// [`EasingError`]: the points make no path, a band is none, a wish breaks a rule, or no axis makes a machine for the wanted
+    /// path.
+    pub fn new(points: &[Point], spec: &EasingSpec) -> Result<Self, EasingError> {
+        Self::of(points, points.len(), spec)
+    }
+
+    /// The search for a path through points, of which the first `given` were given.
+    fn of(points: &[Point], given: usize, spec: &EasingSpec) -> Result<Self, EasingError> {
         let path = WantedPath::through(points)?;
-        let mut bands = each(bands, points.len())?;
+        let mut bands = each(&spec.bands, points.len())?;
         let is_closed = points.len() > 1 && points.first() == points.last();
         let points = &points[..points.len() - usize::from(is_closed)];
         bands.truncate(points.len());
@@ -147,13 +190,20 @@ impl Easing {
             let (number, band) = (i + 1, bands[i]);
             return Err(EasingError::Band { number, band });
         }
-        let axis = match axis {
-            Some(axis) => (TwoBar::new(&path, axis, None)?.axis(), 0.0),
+        spec.wishes.validate(given.min(points.len()))?;
+        let axis = match spec.axis {
+            Some(axis) => (TwoBar::new(&path, axis, None)?.axis(), None),
             None => {
                 let map = AxisMap::new(&path, AxisRange::about(&path));
                 let tried = map.found().len();
-                let axis = map.bluntest(bend).ok_or(EasingError::NoAxis { tried })?;
-                (axis, ROOM * path.bounds().diagonal())
+                let axis = best_axis(&path, &map, points.len(), spec);
+                let axis = axis.ok_or(EasingError::NoAxis { tried })?;
+                // A far axis makes an ever milder machine, and an ever larger one: no farther than the map goes.
+                let room = ROOM * path.bounds().diagonal();
+                let AxisRange { x, y, .. } = *map.range();
+                let low = Point::new(x[0].max(axis.x - room), y[0].max(axis.y - room));
+                let high = Point::new(x[1].min(axis.x + room), y[1].min(axis.y + room));
+                (axis, Some([low, high].into_iter().collect()))
             }
         };
         let step = path.period() / points.len() as f64;
@@ -166,12 +216,17 @@ impl Easing {
             points: points.to_vec(),
             bands,
             axis,
-            bend,
+            bend: spec.bend,
+            aim: spec.aim,
+            wishes: spec.wishes.clone(),
             wanted: None,
             start: Vec::new(),
-            given: points.len(),
+            given: given.min(points.len()),
         };
-        easing.start = vec![0.0; easing.bounds().len()];
+        easing.start = vec![0.0; easing.moves()];
+        if easing.axis.1.is_some() {
+            easing.start.extend([easing.axis.0.x, easing.axis.0.y]);
+        }
         Ok(easing)
     }
 
@@ -181,31 +236,31 @@ impl Easing {
     ///
     /// # Errors
     /// [`EasingError`], as of [`new`](Self::new), and where no return makes a machine.
-    pub fn with_free_return(
-        points: &[Point],
-        bands: &[f64],
-        axis: Option<Point>,
-        bend: f64,
-    ) -> Result<Self, EasingError> {
+    pub fn with_free_return(points: &[Point], spec: &EasingSpec) -> Result<Self, EasingError> {
         let (count, least) = (points.len(), FEWEST_OPEN);
         if count < least {
             return Err(EasingError::TooFew { count, least });
         }
-        let bands = each(bands, count)?;
-        let mut best: Option<(f64, Self)> = None;
+        let bands = each(&spec.bands, count)?;
+        let mut best: Option<(Evaluation, Self)> = None;
         let mut fault = None;
         for share in RETURNS {
             let closed: Vec<Point> = points.iter().copied().chain(back(points, share)).collect();
             let size = closed.iter().copied().collect::<Bounds>().diagonal();
             let mut bands = bands.clone();
             bands.resize(closed.len(), FREE * size);
-            match Self::new(&closed, &bands, axis, bend) {
-                Ok(mut easing) => {
-                    easing.given = count;
-                    if let Some(module) = easing.module(&easing.start)
-                        && best.as_ref().is_none_or(|(most, _)| module > *most)
+            let spec = EasingSpec {
+                bands,
+                ..spec.clone()
+            };
+            match Self::of(&closed, count, &spec) {
+                Ok(easing) => {
+                    let start = easing.evaluate(&easing.start);
+                    let is_better = |best: &Evaluation| start.order(best).is_lt();
+                    if start.violation() < NONE
+                        && best.as_ref().is_none_or(|(best, _)| is_better(best))
                     {
-                        best = Some((module, easing));
+                        best = Some((start, easing));
                     }
                 }
                 Err(EasingError::Axis(_) | EasingError::NoAxis { .. }) => {}
@@ -215,7 +270,7 @@ impl Easing {
         best.map(|(_, easing)| easing).ok_or_else(|| {
             fault.unwrap_or(EasingError::NoReturn {
                 returns: RETURNS.len(),
-                axis: match axis {
+                axis: match spec.axis {
                     Some(_) => "the axis asked for",
                     None => "axes on and about each path",
                 },
@@ -245,6 +300,9 @@ impl Easing {
             ..Settings::default()
         };
         let mut best = |problem: &Self, target: Option<f64>| {
+            if problem.start.is_empty() {
+                return None;
+            }
             let start = evaluations;
             let searched = minimise(problem, settings(target), &mut |progress| {
                 observe(start + progress.evaluations)
@@ -252,14 +310,20 @@ impl Easing {
             let (search, ended) = searched.ok()?;
             evaluations += search.evaluations();
             let best = search.best();
-            (best.evaluation.feasible()).then_some((best.point, ended))
+            // Wishes out of reach are come as near to as can be.
+            (best.evaluation.violation() < NONE).then_some((best.point, ended))
         };
+        if wanted.is_some() {
+            found.aim = Aim::Module;
+        }
         if let Some((point, _)) = best(&found, wanted.map(|module| -module)) {
             found.start = point;
         }
+        found.aim = self.aim;
         let is_reached = |easing: &Self| {
-            let module = easing.module(&easing.start);
-            wanted.is_some_and(|wanted| module.is_some_and(|module| module >= wanted))
+            let chain = easing.chain(&easing.start);
+            let reaches = |wanted| chain.is_some_and(|chain| easing.borne(&chain) >= wanted);
+            wanted.is_some_and(reaches) && easing.evaluate(&easing.start).feasible()
         };
         if is_reached(&found) {
             found.wanted = wanted;
@@ -277,7 +341,10 @@ impl Easing {
         let is_whole = self.given == self.points.len();
         let before = WantedPath::through(&self.points)?;
         let before = TwoBar::new(&before, axis, None).ok().filter(|_| is_whole);
+        let (goals, clamp) = wished::goals(&self.wishes, &eased, self.bend, points.len());
         Ok(EasedPath {
+            goals,
+            clamp,
             moved: moved.map(|(p, q)| (p - q).norm()).collect(),
             module: (before.map(|chain| self.borne(&chain)), self.borne(&eased)),
             chain: eased,
@@ -288,6 +355,9 @@ impl Easing {
 
     /// Variables that move points.
     fn moves(&self) -> usize {
+        if self.bands.iter().all(|band| *band == 0.0) {
+            return 0;
+        }
         match self.points.len() {
             few @ ..=SINGLE => few,
             _ => 1 + 2 * HARMONICS,
@@ -297,6 +367,9 @@ impl Easing {
     /// Share of its band by which each point moves outwards.
     fn shares(&self, variables: &[f64]) -> Vec<f64> {
         let count = self.points.len();
+        if self.moves() == 0 {
+            return vec![0.0; count];
+        }
         if count <= SINGLE {
             return variables[..count].to_vec();
         }
@@ -324,19 +397,18 @@ impl Easing {
     }
 
     fn axis_at(&self, variables: &[f64]) -> Point {
-        let (axis, room) = self.axis;
         match &variables[self.moves()..] {
-            [x, y] => axis + Vector::new(*x, *y) * room,
-            _ => axis,
+            [x, y] => Point::new(*x, *y),
+            _ => self.axis.0,
         }
     }
 
-    fn module(&self, variables: &[f64]) -> Option<f64> {
+    fn chain(&self, variables: &[f64]) -> Option<TwoBar> {
         let path = WantedPath::smoothly_through(&self.eased(variables)).ok()?;
         let chain = TwoBar::new(&path, self.axis_at(variables), None).ok()?;
         // A free return must not cross the working part.
         let is_whole = self.given == self.points.len();
-        (is_whole || path.check_simple().is_ok()).then(|| self.borne(&chain))
+        (is_whole || path.check_simple().is_ok()).then_some(chain)
     }
 
     /// Module up to which full teeth are surely sound, cut by the usual rack.
@@ -349,14 +421,15 @@ impl Problem for Easing {
     fn bounds(&self) -> Vec<(f64, f64)> {
         let (count, moves) = (self.points.len(), self.moves());
         let mut bounds = match count {
+            _ if moves == 0 => Vec::new(),
             ..=SINGLE => vec![(-1.0, 1.0); moves],
             _ => {
                 let wave = |k: usize| GREATEST / (1.0 + k.div_ceil(2) as f64);
                 (0..moves).map(|k| (-wave(k), wave(k))).collect()
             }
         };
-        if self.axis.1 > 0.0 {
-            bounds.extend([(-1.0, 1.0); 2]);
+        if let Some(room) = self.axis.1 {
+            bounds.extend([(room.min.x, room.max.x), (room.min.y, room.max.y)]);
         }
         bounds
     }
@@ -366,30 +439,68 @@ impl Problem for Easing {
     }
 
     fn evaluate(&self, point: &[f64]) -> Evaluation {
-        let Some(module) = self.module(point) else {
+        let Some(chain) = self.chain(point) else {
             return Evaluation {
                 objective: 0.0,
                 constraints: vec![NONE],
             };
         };
-        match self.wanted {
-            None => Evaluation {
-                objective: -module,
-                constraints: Vec::new(),
-            },
-            Some(wanted) => {
+        let (goals, _) = wished::goals(&self.wishes, &chain, self.bend, self.points.len());
+        let mut constraints = wished::violations(&goals);
+        let moved = self.moves() > 0;
+        if let Some(wanted) = self.wanted {
+            constraints.push(wanted / self.borne(&chain) - 1.0);
+        }
+        let objective = match self.wanted {
+            Some(_) if moved => {
                 let shares = self.shares(point);
-                let moved = shares
-                    .iter()
-                    .zip(&self.bands)
-                    .filter(|(_, band)| **band > 0.0);
-                Evaluation {
-                    objective: moved.fold(0.0, |most, (share, _)| share.abs().max(most)),
-                    constraints: vec![wanted / module - 1.0],
-                }
+                let shares = shares.iter().zip(&self.bands);
+                let moved = shares.filter(|(_, band)| **band > 0.0);
+                moved.fold(0.0, |most, (share, _)| share.abs().max(most))
             }
+            _ => aimed(&chain, self.bend, self.aim),
+        };
+        Evaluation {
+            objective,
+            constraints,
         }
     }
+}
+
+/// Value of an aim, the less the better.
+fn aimed(chain: &TwoBar, bend: f64, aim: Aim) -> f64 {
+    match aim {
+        Aim::Module => -Limits::largest_full_module(chain.curvatures(bend)),
+        Aim::Mild => chain.unevenness(),
+        Aim::Small => chain.carrier() + chain.arm(),
+    }
+}
+
+/// The possible axis of a map that comes nearest to the wishes, and of several that reach them the best by the aim.
+fn best_axis(path: &WantedPath, map: &AxisMap, points: usize, spec: &EasingSpec) -> Option<Point> {
+    let is_free = spec.wishes.is_free();
+    if is_free && spec.aim == Aim::Module {
+        return map.bluntest(spec.bend);
+    }
+    let columns = map.range().count[0] as usize;
+    let possible = map
+        .found()
+        .iter()
+        .enumerate()
+        .filter(|(_, found)| found.is_ok());
+    let evaluated = possible.filter_map(|(n, _)| {
+        checkpoint();
+        let axis = map.range().axis((n % columns) as u32, (n / columns) as u32);
+        let chain = TwoBar::new(path, axis, None).ok()?;
+        let (goals, _) = wished::goals(&spec.wishes, &chain, spec.bend, points);
+        let evaluation = Evaluation {
+            objective: aimed(&chain, spec.bend, spec.aim),
+            constraints: wished::violations(&goals),
+        };
+        Some((axis, evaluation))
+    });
+    let best = evaluated.min_by(|a, b| a.1.order(&b.1))?;
+    Some(best.0)
 }
 
 /// Points between the last and the first of some along a cubic that leaves and meets them along their own direction; the tangents
@@ -426,6 +537,8 @@ fn each(bands: &[f64], points: usize) -> Result<Vec<f64>, EasingError> {
         }),
     }
 }
+
+mod wished;
 
 #[cfg(test)]
 mod tests;

@@ -1,17 +1,18 @@
+use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
 use centrode_geometry::{Extreme, Point, Vector, greatest};
 use thiserror::Error;
 
 use super::{
-    ComposedBodySpec, ComposedCopiesSpec, ComposedDesign, ComposedGearSpec, ComposedLawSpec,
-    ComposedMeshSpec, GearRole,
+    ComposedBodySpec, ComposedCircleSpec, ComposedCopiesSpec, ComposedCornerSpec, ComposedDesign,
+    ComposedGearSpec, ComposedLawSpec, ComposedMeshSpec, ComposedObstacleSpec, GearRole,
 };
 use crate::gear::design::{Addendum, BodySpec, GearPairDesign};
 use crate::gear::pitch::{PitchSpec, Transmission};
 use crate::gear::{CurvatureRange, GearPair, GearPairError, Member, Rolling};
 use crate::machine::preferred_size;
-use crate::reverse::{Split, SplitKind, TwoBar, leg};
+use crate::reverse::{KeepOut, Split, SplitKind, TwoBar, leg};
 
 /// Names of the pairs of a machine: of one that occurs twice, and of two.
 const STAGE: &str = "stage";
@@ -114,6 +115,20 @@ impl ReversedMachine {
         fewest_steps(of_steps, |made| made.tip_error.value <= enough)
     }
 
+    /// The machine with obstacles in the places that it shall keep out of, for its check to measure.
+    #[must_use]
+    pub fn with_obstacles(mut self, keep_out: &BTreeMap<String, KeepOut>) -> Self {
+        let obstacle = |(name, shape): (&String, &KeepOut)| (name.clone(), obstacle(shape));
+        self.design.obstacles = keep_out.iter().map(obstacle).collect();
+        self
+    }
+
+    /// Width of the plates of a machine of a carrier's length and a bend, rad, mm.
+    #[must_use]
+    pub fn plate_width(carrier: f64, bend: f64) -> f64 {
+        preferred_size(PLATE[1] * leg(carrier, bend))
+    }
+
     fn of_steps(
         chain: &TwoBar,
         split: &Split,
@@ -172,6 +187,21 @@ fn curvature_ranges(rolling: &Rolling) -> [CurvatureRange; 2] {
 
 fn least_convex_radius(range: CurvatureRange) -> f64 {
     1.0 / range.greatest.1.max(0.0)
+}
+
+/// An obstacle of a shape to keep out of.
+fn obstacle(shape: &KeepOut) -> ComposedObstacleSpec {
+    let corner = |at: &[f64; 2]| ComposedCornerSpec {
+        at: *at,
+        bulge: 0.0,
+    };
+    let circle = shape.center.zip(shape.radius);
+    ComposedObstacleSpec {
+        outline: shape.corners.iter().map(corner).collect(),
+        circle: circle.map(|(center, radius)| ComposedCircleSpec { center, radius }),
+        below: shape.below,
+        ..ComposedObstacleSpec::default()
+    }
 }
 
 /// Turn of the arm's axes against those of the planet's gear, rad.
