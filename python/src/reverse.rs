@@ -56,7 +56,7 @@ pub(crate) struct Reversed {
 impl Reversed {
     fn eased_path(&self) -> Option<&Eased> {
         match &self.given {
-            Given::Path { eased, .. } => eased.as_ref(),
+            Given::Path { eased, .. } => eased.as_deref(),
             Given::Poses { .. } => None,
         }
     }

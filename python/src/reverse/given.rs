@@ -23,7 +23,7 @@ pub(super) enum Given {
     Path {
         points: Vec<Point>,
         axis: Option<(f64, f64)>,
-        eased: Option<Eased>,
+        eased: Option<Box<Eased>>,
     },
     Poses {
         rows: Rows<3>,
@@ -92,7 +92,7 @@ pub(crate) fn reverse(
             let given = Given::Path {
                 points,
                 axis,
-                eased: Some(eased),
+                eased: Some(Box::new(eased)),
             };
             return Reversed::new(given, chain, OnceLock::new(), (kind, bend_deg, arms));
         }

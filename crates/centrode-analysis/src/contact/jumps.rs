@@ -105,6 +105,7 @@ fn seat(meshing: &mut Meshing<'_>, phi: f64, is_reverse: bool) -> Option<(f64, (
     let candidates = meshing.candidates(&Pose::at_law(meshing.pair, phi));
     let [on, back] = meshing.seats(&candidates, phi, law);
     let seat: Seat = if is_reverse { back? } else { on? };
-    let teeth = meshing.teeth(&seat)?;
+    let (i, j) = seat.hits.first()?.parts;
+    let teeth = (meshing.driver.parts[i].owner, meshing.driven.parts[j].owner);
     Some((seat.angle - law, teeth))
 }

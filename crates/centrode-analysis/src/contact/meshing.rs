@@ -315,12 +315,6 @@ impl<'a> Meshing<'a> {
         })
     }
 
-    /// Teeth of driver and driven gear that hold a seat.
-    pub(super) fn teeth(&self, seat: &Seat) -> Option<(u32, u32)> {
-        let (i, j) = seat.hits.first()?.parts;
-        Some((self.driver.parts[i].owner, self.driven.parts[j].owner))
-    }
-
     /// Whether the gears penetrate each other by more than a shallow amount.
     fn lie_deep(&self, phi: f64, angle: f64) -> bool {
         let pose = Pose::new(phi, angle, self.pair.center_distance());
@@ -380,7 +374,7 @@ pub(super) struct Seat {
     touches: Vec<(Point, Vector)>,
     /// Driven angle from which the contacts were found, rad.
     start: f64,
-    hits: Vec<Hit>,
+    pub(super) hits: Vec<Hit>,
 }
 
 impl Seat {

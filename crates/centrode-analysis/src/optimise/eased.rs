@@ -1,15 +1,20 @@
+mod aimed;
+mod error;
+mod free_return;
+mod wished;
+
 use std::f64::consts::TAU;
 use std::ops::ControlFlow;
 
-use centrode_geometry::{Bounds, Point, Vector, checkpoint};
+use centrode_geometry::{Bounds, Point, Vector};
 use centrode_mechanism::gear::Limits;
-use centrode_mechanism::gear::design::SpecError;
-use centrode_mechanism::reverse::{
-    Aim, AxisFault, AxisMap, AxisRange, PathError, TwoBar, WantedPath, Wishes,
-};
+use centrode_mechanism::reverse::{Aim, AxisMap, AxisRange, TwoBar, WantedPath, Wishes};
 
 use super::{Ended, Evaluation, Method, Problem, Settings, minimise};
 use crate::Goal;
+
+use aimed::{aimed, best_axis};
+pub use error::EasingError;
 
 /// Most points that are moved each on its own; of more, the moves are a sum of harmonics.
 const SINGLE: usize = 24;
@@ -19,15 +24,6 @@ const HARMONICS: usize = 12;
 const GREATEST: f64 = 2.0;
 /// Room of the axis about the one that the search starts from, as a share of the path's size.
 const ROOM: f64 = 0.2;
-/// Returns tried from the end of an open path to its start: lengths of their tangents at both, as multiples of the distance
-/// between them.
-const RETURNS: [f64; 6] = [0.5, 1.0, 1.5, 2.0, 3.0, 4.0];
-/// Fewest and most points of a free return.
-const RETURN_POINTS: [usize; 2] = [4, 12];
-/// Band of a free return's points, as a share of the path's size.
-const FREE: f64 = 0.35;
-/// Fewest points of an open path.
-const FEWEST_OPEN: usize = 3;
 /// Evaluations of each of both searches.
 const EVALUATIONS: u64 = 6000;
 /// Violation of a point of which there is no machine.
@@ -104,69 +100,6 @@ pub struct EasedPath {
     pub evaluations: u64,
 }
 
-/// Reason why a path is not eased.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum EasingError {
-    /// The points make no path.
-    #[error(transparent)]
-    Path(#[from] PathError),
-    /// A band that is none.
-    #[error("the band of point {number} is zero or more, in mm, not {band}")]
-    Band {
-        /// Number of the point, from one.
-        number: usize,
-        /// Band given, mm.
-        band: f64,
-    },
-    /// Another number of bands than of points.
-    #[error("there are {bands} bands for {points} points: give one for each, or one for all")]
-    Bands {
-        /// Bands given.
-        bands: usize,
-        /// Points.
-        points: usize,
-    },
-    /// Too few points of a working part.
-    #[error("the working part of a path has {least} points or more, not {count}")]
-    TooFew {
-        /// Points given.
-        count: usize,
-        /// Fewest.
-        least: usize,
-    },
-    /// No return closes the working part.
-    #[error(
-        "no machine of this kind has a tip that runs along the points: of {returns} returns tried from the last to the first, with {axis}, none is possible"
-    )]
-    NoReturn {
-        /// Returns tried.
-        returns: usize,
-        /// With which axes.
-        axis: &'static str,
-    },
-    /// A wish that breaks a rule.
-    #[error("{0}")]
-    Wish(#[from] SpecError),
-    /// A module that is none.
-    #[error("the module wanted is greater than zero, in mm, not {module}")]
-    Module {
-        /// Module given, mm.
-        module: f64,
-    },
-    /// The axis given makes no machine for the wanted path.
-    #[error(transparent)]
-    Axis(#[from] AxisFault),
-    /// No axis tried makes a machine for the wanted path.
-    #[error(
-        "no machine of this kind has a tip that runs along the path: of {tried} axes tried on and about it none is possible"
-    )]
-    NoAxis {
-        /// Axes tried.
-        tried: usize,
-    },
-}
-
 impl Easing {
     /// The search for a path through points each within its band, mm. Without an axis the search starts from the one of a grid
     /// about the path that comes nearest to the wishes, and of several that reach them is the best by its aim.
@@ -228,54 +161,6 @@ impl Easing {
             easing.start.extend([easing.axis.0.x, easing.axis.0.y]);
         }
         Ok(easing)
-    }
-
-    /// The search for a path whose working part alone is given, mm, each point within its band: the return from its last point to
-    /// its first is free. Of several returns that leave and meet it along its own direction the search starts from the one whose
-    /// gears are the bluntest.
-    ///
-    /// # Errors
-    /// [`EasingError`], as of [`new`](Self::new), and where no return makes a machine.
-    pub fn with_free_return(points: &[Point], spec: &EasingSpec) -> Result<Self, EasingError> {
-        let (count, least) = (points.len(), FEWEST_OPEN);
-        if count < least {
-            return Err(EasingError::TooFew { count, least });
-        }
-        let bands = each(&spec.bands, count)?;
-        let mut best: Option<(Evaluation, Self)> = None;
-        let mut fault = None;
-        for share in RETURNS {
-            let closed: Vec<Point> = points.iter().copied().chain(back(points, share)).collect();
-            let size = closed.iter().copied().collect::<Bounds>().diagonal();
-            let mut bands = bands.clone();
-            bands.resize(closed.len(), FREE * size);
-            let spec = EasingSpec {
-                bands,
-                ..spec.clone()
-            };
-            match Self::of(&closed, count, &spec) {
-                Ok(easing) => {
-                    let start = easing.evaluate(&easing.start);
-                    let is_better = |best: &Evaluation| start.order(best).is_lt();
-                    if start.violation() < NONE
-                        && best.as_ref().is_none_or(|(best, _)| is_better(best))
-                    {
-                        best = Some((start, easing));
-                    }
-                }
-                Err(EasingError::Axis(_) | EasingError::NoAxis { .. }) => {}
-                Err(error) => fault = Some(error),
-            }
-        }
-        best.map(|(_, easing)| easing).ok_or_else(|| {
-            fault.unwrap_or(EasingError::NoReturn {
-                returns: RETURNS.len(),
-                axis: match spec.axis {
-                    Some(_) => "the axis asked for",
-                    None => "axes on and about each path",
-                },
-            })
-        })
     }
 
     /// Searches for the bluntest gears, or, where a module is wanted, mm, for the least shares of the bands with which it is
@@ -467,65 +352,6 @@ impl Problem for Easing {
     }
 }
 
-/// Value of an aim, the less the better.
-fn aimed(chain: &TwoBar, bend: f64, aim: Aim) -> f64 {
-    match aim {
-        Aim::Module => -Limits::largest_full_module(chain.curvatures(bend)),
-        Aim::Mild => chain.unevenness(),
-        Aim::Small => chain.carrier() + chain.arm(),
-    }
-}
-
-/// The possible axis of a map that comes nearest to the wishes, and of several that reach them the best by the aim.
-fn best_axis(path: &WantedPath, map: &AxisMap, points: usize, spec: &EasingSpec) -> Option<Point> {
-    let is_free = spec.wishes.is_free();
-    if is_free && spec.aim == Aim::Module {
-        return map.bluntest(spec.bend);
-    }
-    let columns = map.range().count[0] as usize;
-    let possible = map
-        .found()
-        .iter()
-        .enumerate()
-        .filter(|(_, found)| found.is_ok());
-    let evaluated = possible.filter_map(|(n, _)| {
-        checkpoint();
-        let axis = map.range().axis((n % columns) as u32, (n / columns) as u32);
-        let chain = TwoBar::new(path, axis, None).ok()?;
-        let (goals, _) = wished::goals(&spec.wishes, &chain, spec.bend, points);
-        let evaluation = Evaluation {
-            objective: aimed(&chain, spec.bend, spec.aim),
-            constraints: wished::violations(&goals),
-        };
-        Some((axis, evaluation))
-    });
-    let best = evaluated.min_by(|a, b| a.1.order(&b.1))?;
-    Some(best.0)
-}
-
-/// Points between the last and the first of some along a cubic that leaves and meets them along their own direction; the tangents
-/// are so many times as long as the distance.
-fn back(points: &[Point], share: f64) -> Vec<Point> {
-    let count = points.len();
-    let (from, to) = (points[count - 1], points[0]);
-    let (out, home) = (from - points[count - 2], points[1] - to);
-    let far = (to - from).norm();
-    let [out, home] = [out, home].map(|v| v.normalize() * (share * far));
-    let at = |x: f64| {
-        let (y, xx) = (1.0 - x, x * x);
-        let place = from.coords * (y * y * (1.0 + 2.0 * x)) + to.coords * (xx * (3.0 - 2.0 * x));
-        Point::from(place + out * (x * y * y) - home * (xx * y))
-    };
-    let steps = points.windows(2).map(|pair| (pair[1] - pair[0]).norm());
-    let step = steps.sum::<f64>() / (count - 1) as f64;
-    let chords = (0..64).map(|k| (at(f64::from(k + 1) / 64.0) - at(f64::from(k) / 64.0)).norm());
-    let [least, most] = RETURN_POINTS;
-    let inner = ((chords.sum::<f64>() / step) as usize).clamp(least, most);
-    (1..=inner)
-        .map(|k| at(k as f64 / (inner + 1) as f64))
-        .collect()
-}
-
 /// A band for each point, of one for each or one for all.
 fn each(bands: &[f64], points: usize) -> Result<Vec<f64>, EasingError> {
     match bands {
@@ -537,8 +363,6 @@ fn each(bands: &[f64], points: usize) -> Result<Vec<f64>, EasingError> {
         }),
     }
 }
-
-mod wished;
 
 #[cfg(test)]
 mod tests;

@@ -5,8 +5,8 @@ use centrode_geometry::{Extreme, Point, Vector, greatest};
 use thiserror::Error;
 
 use super::{
-    ComposedBodySpec, ComposedCircleSpec, ComposedCopiesSpec, ComposedCornerSpec, ComposedDesign,
-    ComposedGearSpec, ComposedLawSpec, ComposedMeshSpec, ComposedObstacleSpec, GearRole,
+    ComposedBodySpec, ComposedCopiesSpec, ComposedDesign, ComposedGearSpec, ComposedLawSpec,
+    ComposedMeshSpec, GearRole,
 };
 use crate::gear::design::{Addendum, BodySpec, GearPairDesign};
 use crate::gear::pitch::{PitchSpec, Transmission};
@@ -118,7 +118,7 @@ impl ReversedMachine {
     /// The machine with obstacles in the places that it shall keep out of, for its check to measure.
     #[must_use]
     pub fn with_obstacles(mut self, keep_out: &BTreeMap<String, KeepOut>) -> Self {
-        let obstacle = |(name, shape): (&String, &KeepOut)| (name.clone(), obstacle(shape));
+        let obstacle = |(name, shape): (&String, &KeepOut)| (name.clone(), shape.into());
         self.design.obstacles = keep_out.iter().map(obstacle).collect();
         self
     }
@@ -187,21 +187,6 @@ fn curvature_ranges(rolling: &Rolling) -> [CurvatureRange; 2] {
 
 fn least_convex_radius(range: CurvatureRange) -> f64 {
     1.0 / range.greatest.1.max(0.0)
-}
-
-/// An obstacle of a shape to keep out of.
-fn obstacle(shape: &KeepOut) -> ComposedObstacleSpec {
-    let corner = |at: &[f64; 2]| ComposedCornerSpec {
-        at: *at,
-        bulge: 0.0,
-    };
-    let circle = shape.center.zip(shape.radius);
-    ComposedObstacleSpec {
-        outline: shape.corners.iter().map(corner).collect(),
-        circle: circle.map(|(center, radius)| ComposedCircleSpec { center, radius }),
-        below: shape.below,
-        ..ComposedObstacleSpec::default()
-    }
 }
 
 /// Turn of the arm's axes against those of the planet's gear, rad.
