@@ -12,7 +12,7 @@ const ROUNDING: f64 = 1e-12;
 const SAME: f64 = 1e-10;
 
 /// Distance from an edge's contact, pitches, at which the contact that ends there is looked at.
-const BESIDE: f64 = 1e-10;
+const BESIDE: f64 = 2.5e-10;
 
 /// Figures of a contact that change steadily along the cycle, where they are greatest and least.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -14,6 +14,9 @@ use super::{
 /// Depth, in modules, up to which a penetration is accepted without a second test.
 pub(super) const SHALLOW: f64 = 1e-3;
 
+/// Greatest curvature, by the module, beyond which a part is a sharp bend at an end: that of a flank that ends near a cusp.
+const SHARP: f64 = 50.0;
+
 /// Point at which the gears face each other, and the features there.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Place {
@@ -108,10 +111,13 @@ impl Meshing<'_> {
                 && self.driver.curvature(i).1 + self.driven.curvature(j).1 > 0.0
             {
                 let known = self.memory.iter().find(|m| (m.0, m.1) == (i, j));
+                let bend = self.driver.curvature(i).1.max(self.driven.curvature(j).1);
+                let is_sharp = bend * module > SHARP;
                 // Where the sample before is far off, what is known from it may lead nowhere.
                 let touch = known
                     .and_then(|m| touch::parts(a, b, pose, m.2))
-                    .or_else(|| touch::parts(a, b, pose, stretch.facing(&self.stretches[j])));
+                    .or_else(|| touch::parts(a, b, pose, stretch.facing(&self.stretches[j])))
+                    .or_else(|| is_sharp.then(|| touch::sharp_parts(a, b, pose)).flatten());
                 keep(touch, kind, (i, j), None);
             }
             let near_corner = |corner: &Corner, other: &Part<'_>, mate: &Stretch, point: Vector| {

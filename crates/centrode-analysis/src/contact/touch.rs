@@ -120,6 +120,13 @@ pub(super) fn parts(a: &Part<'_>, b: &Part<'_>, pose: &Pose, at: (f64, f64)) -> 
         .find_map(|&start| newton(a, b, pose, start, JOINT))
 }
 
+/// Points at which two smooth parts face each other of which one bends sharply at an end, where a search from there loses its way.
+pub(super) fn sharp_parts(a: &Part<'_>, b: &Part<'_>, pose: &Pose) -> Option<Touch> {
+    [(0.0, 0.0), (-0.5, 0.5), (0.5, -0.5)]
+        .iter()
+        .find_map(|&start| newton(a, b, pose, start, JOINT))
+}
+
 /// Points at which two smooth parts, continued a little beyond their ends, face each other.
 pub(super) fn continued(a: &Part<'_>, b: &Part<'_>, pose: &Pose, at: (f64, f64)) -> Option<Touch> {
     newton(a, b, pose, at, CONTINUED)
