@@ -127,7 +127,7 @@ export class Form {
   rows(table) {
     const pair = pointsOf(table);
     if (!pair) return table.fields.map((field) => this.row(field));
-    const points = new Points(this, table.key, pair);
+    const points = new Points(this, table.key, pair, table.points);
     this.points.set(table.key, points);
     return table.fields.flatMap((field) => {
       if (field === pair[0]) return [points.place];

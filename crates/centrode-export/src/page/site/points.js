@@ -13,9 +13,9 @@ const FEWEST = 3;
 const short = (value) => Number(value.toFixed(3));
 
 /** The two lists of points of a table; null where it has none. */
-export function pointsOf({ key, fields }) {
+export function pointsOf({ key, fields, points }) {
   const named = (name) => fields.find((field) => field.key === `${key}.${name}`);
-  if (named("kind")?.value !== "bspline") return null;
+  if (!points && named("kind")?.value !== "bspline") return null;
   const pairs = PAIRS.map((names) => names.map(named));
   const lists = pairs.find((pair) => pair.every((field) => Array.isArray(field?.value) && field.value.length > 1));
   return lists && lists[0].value.length === lists[1].value.length ? lists : null;
@@ -52,8 +52,17 @@ function between([a, b], [c, d], polar) {
   return [short(((r + s) / 2) * Math.cos(angle)), short(((r + s) / 2) * Math.sin(angle))];
 }
 
+/** A point halfway on to the next of a smooth closed curve. */
+function onward(points, i) {
+  const at = (k) => points[(i + k + points.length) % points.length];
+  return [0, 1].map((k) => short((9 * (at(0)[k] + at(1)[k]) - at(-1)[k] - at(2)[k]) / 16));
+}
+
 export class Points {
-  constructor(form, key, pair) {
+  /** `smooth` points are those that a closed curve passes, `fewest` of which make one. */
+  constructor(form, key, pair, { smooth = false, fewest = FEWEST } = {}) {
+    this.smooth = smooth;
+    this.fewest = fewest;
     this.form = form;
     this.key = key;
     this.pair = pair;
@@ -98,7 +107,7 @@ export class Points {
     const count = this.pair[0].value.length;
     return element("tr", {}, element("th", { scope: "row" }, String(i + 1)), ...inputs, this.form.fixed ? null : element("td", { class: "act" },
       button("add", "+", `Add a point after point ${i + 1}`, () => this.add(i)),
-      button("delete", "×", `Delete point ${i + 1}`, () => this.remove(i), count <= FEWEST)));
+      button("delete", "×", `Delete point ${i + 1}`, () => this.remove(i), count <= this.fewest)));
   }
 
   /** The points as they are now, given or typed. */
@@ -121,13 +130,13 @@ export class Points {
   /** Adds a point after another: a given one, or one halfway to the next. */
   add(i, wish = this.id(0, i + 1), given = null) {
     const { points } = this;
-    const next = given ?? between(points[i], points[(i + 1) % points.length], this.polar);
+    const next = given ?? (this.smooth ? onward(points, i) : between(points[i], points[(i + 1) % points.length], this.polar));
     this.give(points.toSpliced(i + 1, 0, next), wish);
   }
 
   remove(i, wish = `delete-${this.key}-${Math.min(i, this.points.length - 2)}`) {
     const { points } = this;
-    if (points.length > FEWEST) this.give(points.toSpliced(i, 1), wish);
+    if (points.length > this.fewest) this.give(points.toSpliced(i, 1), wish);
   }
 
   keyed(event) {
@@ -189,7 +198,7 @@ export class Points {
     const sound = async () => {
       const { rows, error } = rowsIn(area.value);
       const short = rows?.find((cells) => cells.length !== 2);
-      const fault = error ?? (short ? `line ${short.line}: a point has two numbers` : null) ?? (rows.length < FEWEST ? `a curve has at least ${FEWEST} points` : null);
+      const fault = error ?? (short ? `line ${short.line}: a point has two numbers` : null) ?? (rows.length < this.fewest ? `a curve has at least ${this.fewest} points` : null);
       points = fault ? null : rows.map((cells) => [...cells]);
       remark.replaceChildren(...(fault ? [element("span", { class: "error" }, fault)] : []));
       return points !== null;

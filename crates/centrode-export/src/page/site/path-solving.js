@@ -1,0 +1,62 @@
+// The machine of a path on its way: the latest wish is solved, and what takes longer once the hand rests.
+
+import { asked } from "./path-form.js";
+import * as server from "./server.js";
+import { work } from "./work.js";
+
+export class Solving {
+  /** `show(answer)` takes an answer, `complain(error)` an error; `rested()` is told when nothing is left to do. */
+  constructor({ show, complain, rested }) {
+    Object.assign(this, { show, complain, rested });
+    this.pending = null;
+    this.running = null;
+    /** What ends the solve under way. */
+    this.stop = null;
+    /** What ends the figures that take longer. */
+    this.resting = null;
+  }
+
+  /** Asks for a wish; `final` ends a drag. */
+  ask(wish, final) {
+    this.pending = { wish, final: final || Boolean(this.pending?.final) };
+    this.resting?.abort();
+    // The last wish of a drag does not wait for one before it.
+    if (final) this.stop?.abort();
+    this.running ??= this.run().finally(() => {
+      this.running = null;
+    });
+  }
+
+  /** Waits until every wish so far is answered. */
+  async settled() {
+    while (this.running) await this.running;
+  }
+
+  async run() {
+    while (this.pending) {
+      const { wish, final } = this.pending;
+      this.pending = null;
+      const answer = await this.answer(wish, "stop", {});
+      if (answer) this.show(answer);
+      if (final && answer && !this.pending && !answer.fault) {
+        const whole = await this.answer(wish, "resting", { rest: true });
+        if (whole && !this.pending) this.show(whole);
+      }
+    }
+    this.rested();
+  }
+
+  /** An answer of the program; none where it was stopped or failed. */
+  async answer(wish, mark, options) {
+    const stop = new AbortController();
+    this[mark] = stop;
+    try {
+      return await work((signal) => server.solvePath({ ...asked(wish), ...options }, signal), stop);
+    } catch (error) {
+      if (!stop.signal.aborted) this.complain(error);
+      return null;
+    } finally {
+      this[mark] = null;
+    }
+  }
+}

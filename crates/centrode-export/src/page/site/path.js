@@ -1,0 +1,158 @@
+// The page on which a machine is made from a path.
+
+import { Charts } from "./charts.js";
+import * as dialogs from "./dialogs.js";
+import { byId, element } from "./elements.js";
+import { Form } from "./form.js";
+import { Handles } from "./handles.js";
+import { History } from "./history.js";
+import * as layout from "./layout.js";
+import { Field } from "./path-field.js";
+import * as file from "./path-file.js";
+import { EXAMPLE, changed, handles as marks, pointsOf, tables } from "./path-form.js";
+import * as maker from "./path-make.js";
+import { Solving } from "./path-solving.js";
+import * as server from "./server.js";
+import { Stage } from "./stage.js";
+import * as theme from "./theme.js";
+import { Transport } from "./transport.js";
+import { work } from "./work.js";
+
+/** The drawing, with the field of possible axes below it. */
+class PathStage extends Stage {
+  clear() {
+    super.clear();
+    this.field?.paint(this);
+  }
+
+  /** Whether a link is drawn: the path always is, and comes first. */
+  isShown(link) {
+    return link === this.scene.links[0] || byId("show-gears").checked;
+  }
+
+  link(link, pose) {
+    if (this.isShown(link)) super.link(link, pose);
+  }
+
+  lines(link, pose) {
+    if (this.isShown(link)) super.lines(link, pose);
+  }
+}
+
+const stage = new PathStage((poses) => handles?.place(poses));
+const transport = new Transport(stage);
+const charts = new Charts((input) => transport.go(input), () => "path", () => transport.speed);
+transport.charts = charts;
+const form = new Form({ edit, hold: () => {}, respond: () => {}, fixed: false });
+const handles = new Handles(stage, { edit, began: () => {}, points: (table) => form.points.get(table) });
+const field = new Field(stage, complain);
+stage.field = field;
+const solving = new Solving({ show, complain, rested: () => byId("verdict").setAttribute("aria-busy", "false") });
+
+let wish = EXAMPLE;
+const history = new History(JSON.stringify(wish));
+
+/** Takes new values; `final` ends a drag. */
+function edit(edits, final) {
+  const { next, key, wrong } = changed(wish, edits);
+  if (wrong) {
+    fill({ key, message: wrong, rule: "" });
+    return;
+  }
+  take(next, final);
+}
+
+/** Takes another wish. */
+function take(next, final, fresh = true) {
+  wish = next;
+  if (final && fresh) history.push(JSON.stringify(wish));
+  fill(null);
+  buttons();
+  byId("verdict").setAttribute("aria-busy", "true");
+  solving.ask(wish, final);
+  field.ask(wish, final);
+}
+
+/** Shows the wish in the form, with what is wrong with it. */
+function fill(error) {
+  form.show({ tables: tables(wish), error, verdict: error ? undefined : { findings: [] } });
+}
+
+/** Shows what the program answers. */
+function show({ picture, curves, figures, fault }) {
+  stage.show(picture);
+  handles.show(marks(wish));
+  transport.draw();
+  charts.place.classList.toggle("stale", Boolean(fault));
+  if (!fault) {
+    charts.show(curves);
+    transport.show(curves);
+  }
+  byId("possible").replaceChildren(
+    element("div", { class: `title ${fault ? "error" : "good"}` }, element("h2", {}, fault ? `✕ ${heading(fault)}` : "✓ This axis is possible")),
+    ...(fault ? [element("p", {}, fault.message)] : []));
+  const rows = figures.map(({ name, words }) => element("tr", {}, element("th", { scope: "row" }, name), element("td", { "data-key": name }, words)));
+  byId("figures").replaceChildren(...(rows.length ? [element("table", { class: "figures" }, element("tbody", {}, ...rows))] : []));
+  byId("make").disabled = Boolean(fault);
+}
+
+const heading = ({ of }) => ({ path: "No path", axis: "This axis is not possible", split: "No gears" })[of];
+
+function complain(error) {
+  dialogs.notice("server", error.message, [], "error");
+}
+
+function buttons() {
+  byId("undo").disabled = !history.canUndo;
+  byId("redo").disabled = !history.canRedo;
+}
+
+function step(way) {
+  take(JSON.parse(history[way]()), true, false);
+}
+
+/** Takes the best axis of the map. */
+async function best(bluntest) {
+  const stop = new AbortController();
+  try {
+    const found = await work((signal) => server.bestAxis({ points: pointsOf(wish), bend_deg: wish.bend, bluntest }, signal), stop);
+    if (found.refused) dialogs.notice("axis", found.refused, [], "warning");
+    else take({ ...wish, axis: found }, true);
+  } catch (error) {
+    if (!stop.signal.aborted) complain(error);
+  }
+}
+
+function listen() {
+  layout.start({ goals: "Machine", design: "Path" });
+  theme.start(() => {
+    stage.draw();
+    charts.recolor();
+  });
+  byId("undo").addEventListener("click", () => step("undo"));
+  byId("redo").addEventListener("click", () => step("redo"));
+  byId("mildest").addEventListener("click", () => best(false));
+  byId("bluntest").addEventListener("click", () => best(true));
+  byId("show-gears").addEventListener("change", () => stage.draw());
+  byId("make").addEventListener("click", async () => {
+    await solving.settled();
+    await maker.make(wish, complain);
+  });
+  file.listen({
+    points: () => pointsOf(wish),
+    take: (points) => take({ ...wish, x: points.map(([x]) => x), y: points.map(([, y]) => y) }, true),
+    tell: (words, severity) => dialogs.notice("path", words, [], severity),
+  });
+  addEventListener("keydown", (event) => {
+    if (!(event.ctrlKey || event.metaKey) || byId("dialog").open) return;
+    const key = event.key.toLowerCase();
+    // Undo within a field being typed into is the browser's.
+    const typing = event.target.matches?.("input[type=text]") && event.target.value !== event.target.dataset.value;
+    if ((key !== "z" && key !== "y") || typing) return;
+    event.preventDefault();
+    step(key === "y" || event.shiftKey ? "redo" : "undo");
+  });
+}
+
+listen();
+take(wish, true);
