@@ -84,17 +84,17 @@ function show({ picture, curves, figures, fault }) {
   handles.show(marks(wish));
   transport.draw();
   charts.place.classList.toggle("stale", Boolean(fault));
-  if (!fault) {
-    charts.show(curves);
-    transport.show(curves);
-  }
+  if (!fault) charts.show(curves);
+  transport.show(curves);
   byId("possible").replaceChildren(
     element("div", { class: `title ${fault ? "error" : "good"}` }, element("h2", {}, fault ? `✕ ${heading(fault)}` : "✓ This axis is possible")),
-    ...(fault ? [element("p", {}, fault.message)] : []));
+    ...(fault ? [element("p", {}, capital(fault.message))] : []));
   const rows = figures.map(({ name, words }) => element("tr", {}, element("th", { scope: "row" }, name), element("td", { "data-key": name }, words)));
   byId("figures").replaceChildren(...(rows.length ? [element("table", { class: "figures" }, element("tbody", {}, ...rows))] : []));
   byId("make").disabled = Boolean(fault);
 }
+
+const capital = (words) => words.charAt(0).toUpperCase() + words.slice(1);
 
 const heading = ({ of }) => ({ path: "No path", axis: "This axis is not possible", split: "No gears" })[of];
 
