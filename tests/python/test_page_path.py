@@ -1,4 +1,4 @@
-"""The page on which a machine is made from a path, in a real browser: points, axis, field of possible axes, and the design."""
+"""The page on which a machine is made from a path, in a real browser: points, axis, possible axes, poses, design."""
 
 import json
 import math
@@ -107,7 +107,8 @@ def test_gears_roll_as_drawn_and_the_tip_runs_along_the_path(running):
     assert status == 200
     picture = answer["picture"]
     shapes, motion = picture["shapes"], picture["motion"]
-    links = {link["name"]: (link["shape"], poses) for link, poses in zip(picture["links"], motion["poses"], strict=True)}
+    placed = zip(picture["links"], motion["poses"], strict=True)
+    links = {link["name"]: (link["shape"], poses) for link, poses in placed}
 
     def corners(name):
         flat = shapes[links[name][0]][0]["vertices"]
@@ -161,6 +162,12 @@ def test_a_dragged_point_moves_the_path_and_all_that_follows(page, running):
     solved(page)
     assert rows(page) == EXAMPLE
     assert figures(page) == before
+    page.keyboard.press("Control+Shift+z")
+    solved(page)
+    # Left and come back to, the path is there still.
+    page.reload()
+    solved(page)
+    assert rows(page) == points
 
 
 def test_the_axis_is_dragged_moved_by_keys_and_typed(page):
@@ -182,6 +189,9 @@ def test_the_axis_is_dragged_moved_by_keys_and_typed(page):
     page.keyboard.press("ArrowRight")
     solved(page)
     assert float(field(page, "axis.x").input_value()) > dragged
+    typed(page, "gears.arms", "2.5")
+    expect(page.locator('[id="remark-gears.arms"]')).to_contain_text("2.5 is no whole number")
+    typed(page, "gears.arms", "2")
     typed(page, "axis.x", "250+10")
     typed(page, "axis.y", "16 cm")
     solved(page)
@@ -212,7 +222,8 @@ def test_the_field_tells_of_every_place(page):
     readout = page.locator("#field-readout")
     x, y = middle(page, "axis of the carrier")
     page.mouse.move(x + 9, y)
-    expect(readout).to_contain_text(re.compile(r"Axis at 27\d\.\d, 1[56]\d\.\d: ratio 0\.\d+ to \d\.\d+, least radius \d"))
+    words = re.compile(r"Axis at 27\d\.\d, 1[56]\d\.\d: ratio 0\.\d+ to \d\.\d+, least radius \d")
+    expect(readout).to_contain_text(words)
     x, y = middle(page, "point 12 of the path")
     page.mouse.move(x + 60, y)
     expect(readout).to_contain_text("not possible, the distance along the path has several greatest and least places")
@@ -320,7 +331,7 @@ def test_files_of_a_path_are_opened_or_refused_and_written(page, running):
     open_file("decimal.csv", semicolons)
     counted(page, 8)
     with page.expect_download() as found:
-        page.get_by_role("button", name="Path as CSV").click()
+        page.get_by_role("button", name="Points as CSV").click()
     found.value.save_as(folder / "saved.csv")
     assert (folder / "saved.csv").read_text() == "x,y\n" + "".join(f"{x + 0.25},{y}\n" for x, y in EXAMPLE if x > 0)
 
@@ -373,6 +384,65 @@ def test_where_no_teeth_will_do_the_path_can_be_eased_and_that_cancelled(page, r
     assert set(running.folder.iterdir()) == before
 
 
+def test_key_poses_are_dragged_by_place_and_direction_and_a_machine_found(page, running):
+    field(page, "wanted.given").select_option("poses")
+    counted(page, 4)
+    expect(page.locator("#possible h2")).to_contain_text("Not sought yet")
+    expect(page.locator("#field")).to_be_hidden()
+    expect(page.locator("#make")).to_be_disabled()
+    drag(page, handle(page, "direction of pose 2"), 0, -12)
+    direction = float(field(page, "poses.direction_deg-1").input_value())
+    assert 22 < direction < 45
+    handle(page, "direction of pose 2").focus()
+    page.keyboard.press("ArrowDown")
+    expect(field(page, "poses.direction_deg-1")).not_to_have_value(str(direction))
+    handle(page, "pose 1 of the path").focus()
+    page.keyboard.press("Insert")
+    counted(page, 5)
+    page.keyboard.press("Delete")
+    counted(page, 4)
+    page.locator("#undo").click()
+    page.locator("#undo").click()
+    page.locator("#undo").click()
+    page.locator("#undo").click()
+    expect(field(page, "poses.direction_deg-1")).to_have_value("20.89")
+    page.get_by_role("button", name="Find the machine").click()
+    expect(page.locator("#possible h2")).to_contain_text("A machine takes these poses", timeout=30_000)
+    folder = running.folder
+    poses = folder / "poses.csv"
+    with page.expect_download() as found:
+        page.get_by_role("button", name="Points as CSV").click()
+    found.value.save_as(poses)
+    done = centrode("reverse", poses, "--poses", "--bend", "40", "--arms", "3", "-o", folder / "posed.toml").stdout
+    own = figures(page)
+    for name in ("clamp", "carrier", "arm", "ratio", "pose 4", "pair second-stage"):
+        assert re.search(rf"^{name} +{re.escape(own[name])}$", done, re.M), name
+    page.get_by_role("button", name="Make the machine").click()
+    expect(page.locator("#dialog")).to_contain_text("Teeth of second-stage", timeout=30_000)
+    page.get_by_label("File", exact=True).fill("from-poses.toml")
+    page.get_by_label("File", exact=True).press("Enter")
+    expect(page.locator("#file")).to_have_text("from-poses.toml")
+    assert (folder / "from-poses.toml").read_text() == (folder / "posed.toml").read_text()
+
+
+def test_poses_of_a_file_may_have_no_machine(page, running):
+    field(page, "wanted.given").select_option("poses")
+    notice = page.locator('#notices [data-key="path"]')
+    for text, words in [
+        ("0,0\n1,1\n", "line 1: a pose has three numbers"),
+        ("0,0,north\n1,1,5\n", "line 1: north is no number"),
+    ]:
+        (running.folder / "bad.csv").write_text(text)
+        page.locator("#path-file").set_input_files(running.folder / "bad.csv")
+        expect(notice).to_contain_text(words)
+    (running.folder / "two.csv").write_text("x,y,direction_deg\n0,0,0\n100,0,10\n")
+    page.locator("#path-file").set_input_files(running.folder / "two.csv")
+    counted(page, 2)
+    page.get_by_role("button", name="Find the machine").click()
+    expect(page.locator("#possible")).to_contain_text("2 key poses are given; a machine is found for 3 to 7")
+    expect(page.locator("#make")).to_be_disabled()
+
+
 @pytest.mark.parametrize(
     ("change", "words"),
     [
@@ -397,25 +467,31 @@ def test_a_wish_that_cannot_be_met_is_told(running, change, words):
 
 
 def test_strangers_and_nonsense_are_refused(running):
-    for path in ("solve", "map", "axis", "open", "machine"):
+    for path in ("solve", "poses", "map", "axis", "open", "machine"):
         for headers in ({"Host": "example.org"}, {"Origin": "http://example.org"}, {"Origin": None}):
             assert running.ask("POST", f"path/{path}", WISH, headers)[0] == 403
         assert running.ask("POST", f"path/{path}", {"points": [["NaN", 0]]})[0] == 422
         assert running.ask("POST", f"path/{path}", b"", {"Content-Length": str(5 << 20)})[0] == 413
     assert running.ask("GET", f"/{'0' * 32}/path", absolute=True)[0] == 403
-    assert running.json("POST", "path/map", WISH | {"count": 100_000})[1]["refused"] == "a map has 2 to 200 axes a side, not 100000"
+    refused = running.json("POST", "path/map", WISH | {"count": 100_000})[1]["refused"]
+    assert refused == "a map has 2 to 200 axes a side, not 100000"
 
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])
-@pytest.mark.parametrize("width", [1440, 1024, 390])
-def test_the_page_is_for_everybody(browser, running, width, scheme):
-    with shown(browser, f"{running.url}path", ready=solved, color_scheme=scheme, size=(width, 900)) as page:
-        for tab in {1440: [None], 1024: ["Machine"], 390: ["Path", "Curves", "Machine"]}[width]:
-            if tab:
-                page.get_by_role("tab", name=tab, exact=True).click()
-            found = Axe().run(page).response["violations"]
-            assert not [(rule["id"], [node["target"] for node in rule["nodes"]]) for rule in found]
-            assert page.evaluate("document.documentElement.scrollWidth") <= width
+def test_the_page_is_for_everybody(browser, running, scheme):
+    with shown(browser, f"{running.url}path", ready=solved, color_scheme=scheme) as page:
+        for width, tabs in {1440: [None], 1024: ["Machine"], 390: ["Path", "Curves", "Machine"]}.items():
+            page.set_viewport_size({"width": width, "height": 900})
+            for tab in tabs:
+                if tab:
+                    page.get_by_role("tab", name=tab, exact=True).click()
+                found = Axe().run(page).response["violations"]
+                assert not [(rule["id"], [node["target"] for node in rule["nodes"]]) for rule in found]
+                assert page.evaluate("document.documentElement.scrollWidth") <= width
+        page.get_by_role("tab", name="Path", exact=True).click()
+        field(page, "wanted.given").select_option("poses")
+        counted(page, 4)
+        assert not Axe().run(page).response["violations"]
 
 
 def test_a_finger_drags_a_point(browser, running):

@@ -131,7 +131,7 @@ export class Form {
     this.points.set(table.key, points);
     return table.fields.flatMap((field) => {
       if (field === pair[0]) return [points.place];
-      return field === pair[1] ? [] : [this.row(field)];
+      return pair.includes(field) ? [] : [this.row(field)];
     });
   }
 

@@ -228,7 +228,8 @@ export class Handles {
     const bounds = this.stage.box.getBoundingClientRect();
     const place = [event.clientX - bounds.left, event.clientY - bounds.top];
     const plane = this.within(own[0], this.pointed(event));
-    const i = points.smooth ? this.spanAt(own, place) : this.sectorAt(own, place, plane);
+    // Where a third number belongs to a point, a place alone makes none.
+    const i = points.smooth ? this.spanAt(own, place) : points.pair.length === 2 ? this.sectorAt(own, place, plane) : null;
     if (i === null) return;
     event.stopPropagation();
     const values = this.numbers(own[i], plane);
@@ -261,7 +262,8 @@ export class Handles {
 
   /** The handle before a place of the box on the curve through all of them, whose corners are spread evenly from handle to handle. */
   spanAt(own, place) {
-    const { vertices } = this.stage.scene.picture.shapes[own[0].link][0];
+    const { shapes, links } = this.stage.scene.picture;
+    const [{ vertices }] = shapes[links[own[0].link].shape];
     const corners = Array.from({ length: vertices.length / 3 }, (_, i) => this.stage.toBox(vertices[3 * i], vertices[3 * i + 1]));
     const offs = corners.map((corner, i) => off(place, corner, corners[(i + 1) % corners.length]));
     const nearest = offs.indexOf(Math.min(...offs));

@@ -53,6 +53,8 @@ export class Field {
     this.stale = false;
     this.stop = null;
     this.key = "";
+    /** Whether there is a path to try axes for. */
+    this.shown = true;
     for (const id of ["show-field", "field-by"]) byId(id).addEventListener("change", () => this.redraw());
     stage.box.addEventListener("pointermove", (event) => {
       const bounds = stage.box.getBoundingClientRect();
@@ -64,7 +66,7 @@ export class Field {
 
   /** Maps the axes about a path; while the hand moves, the last map is out of date. */
   async ask(wish, final) {
-    const key = JSON.stringify([wish.x, wish.y, wish.bend]);
+    const key = JSON.stringify([wish.path, wish.bend]);
     if (key === this.key) return;
     this.stop?.abort();
     this.mark(true);
@@ -165,7 +167,7 @@ export class Field {
 
   /** Draws the field where it lies in the plane. */
   paint(painter) {
-    if (!this.image || !byId("show-field").checked) return;
+    if (!this.shown || !this.image || !byId("show-field").checked) return;
     const { map: { x, y, count }, image } = this;
     const half = [x, y].map(([from, to], k) => (to - from) / (count[k] - 1) / 2);
     const [left, top] = painter.toBox(x[0] - half[0], y[1] + half[1]);

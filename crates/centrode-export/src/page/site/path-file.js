@@ -1,13 +1,24 @@
 // Files of a path: points of a CSV file or of a drawing, and the points as CSV.
 
 import { byId, element } from "./elements.js";
+import { rowsIn } from "./points.js";
 import * as server from "./server.js";
 
 /** Largest file that is opened, bytes. */
 const LARGEST = 1 << 20;
 
-/** Listens to both buttons: `take(points)` gets those of a file, `points()` are those shown, `tell(words, severity)` takes a message. */
-export function listen({ take, points, tell }) {
+/** Key poses of a text. */
+function poses(text) {
+  const { rows, error } = rowsIn(text);
+  const wrong = error ?? rows.filter((row) => row.length !== 3).map(({ line }) => `line ${line}: a pose has three numbers`)[0];
+  return wrong ? { refused: wrong } : { points: rows, note: `${rows.length} poses` };
+}
+
+/**
+ * Listens to both buttons: `take(points)` gets those of a file, `points()` are those shown, poses where it is not `isPath()`;
+ * `tell(words, severity)` takes a message.
+ */
+export function listen({ isPath, take, points, tell }) {
   const input = byId("path-file");
   byId("open-path").addEventListener("click", () => input.click());
   input.addEventListener("change", async () => {
@@ -15,7 +26,8 @@ export function listen({ take, points, tell }) {
     if (!file) return;
     try {
       if (file.size > LARGEST) throw new Error(`the file has ${file.size} bytes; the limit is ${LARGEST}`);
-      const found = await server.readPath(await file.text());
+      const text = await file.text();
+      const found = isPath() ? await server.readPath(text) : poses(text);
       if (found.refused) throw new Error(found.refused);
       take(found.points);
       tell(`${file.name}: ${found.note}.`, "note");
@@ -27,9 +39,11 @@ export function listen({ take, points, tell }) {
     }
   });
   byId("save-path").addEventListener("click", () => {
-    const text = ["x,y", ...points().map((point) => point.join(","))].join("\n");
+    const list = points();
+    const head = ["x", "y", "direction_deg"].slice(0, list[0].length);
+    const text = [head, ...list].map((row) => row.join(",")).join("\n");
     const address = URL.createObjectURL(new Blob([`${text}\n`], { type: "text/csv" }));
-    element("a", { href: address, download: "path.csv" }).click();
+    element("a", { href: address, download: isPath() ? "path.csv" : "poses.csv" }).click();
     setTimeout(() => URL.revokeObjectURL(address), 1000);
   });
 }

@@ -1,19 +1,34 @@
 // Path, axis and gears that are wished for: as the form shows them, and as the program is asked.
 
-/** The drawn path of the documentation, with an axis inside it. */
+/** The drawn path of the documentation, with an axis beside it, and its key poses. */
 export const EXAMPLE = {
-  x: [0, 60, 150, 230, 262, 235, 170, 100, 40, -5, -30, -38, -30],
-  y: [0, 70, 150, 215, 262, 300, 330, 330, 300, 250, 190, 130, 60],
+  given: "path",
+  path: {
+    x: [0, 60, 150, 230, 262, 235, 170, 100, 40, -5, -30, -38, -30],
+    y: [0, 70, 150, 215, 262, 300, 330, 330, 300, 250, 190, 130, 60],
+  },
+  poses: {
+    x: [249.08, 167.32, 104.4, 175.51],
+    y: [50.03, 64.88, 34.05, 14.69],
+    direction_deg: [31.93, 20.89, 42.55, 53.59],
+  },
   axis: [260, 160],
   bend: 40,
   arms: 3,
   split: "powers",
 };
 
-/** Fewer points make no closed curve. */
-const FEWEST = 4;
+/** Fewer points make no closed curve, and fewer poses no machine. */
+const FEWEST = { path: 4, poses: 3 };
+/** Length of the clamp as it is drawn, as a share of the size of all poses. */
+const CLAMP = 0.2;
 /** More rows and handles would take the page too long. */
 const MOST = 200;
+
+const GIVEN = [
+  { word: "path", doc: "A closed path: the tip passes its points in order." },
+  { word: "poses", doc: "Three to seven key poses: places of the tip and the way the clamp points there; the path between them is free." },
+];
 
 const SPLITS = [
   { word: "powers", doc: "Two different pairs, each with half of the logarithm of the ratio." },
@@ -23,6 +38,7 @@ const SPLITS = [
 
 /** Fields by their keys: where their value stands, and what is known of them. */
 const FIELDS = {
+  "wanted.given": { kind: "choice", unit: "", choices: GIVEN, doc: "A closed path, or a few key poses with the path between them free." },
   "axis.x": { unit: "mm", doc: "Axis about which the carrier turns. Drag it in the picture, too." },
   "axis.y": { unit: "mm", doc: "Axis about which the carrier turns. Drag it in the picture, too." },
   "gears.bend_deg": { unit: "°", least: -170, greatest: 170, doc: "Angle from the carrier's first leg, to the intermediate gear, to its second. A greater bend gives greater gears." },
@@ -30,24 +46,46 @@ const FIELDS = {
   "gears.split": { kind: "choice", unit: "", choices: SPLITS, doc: "How two stages of gears share the motion." },
 };
 
-const numbers = (key, value, doc) => ({ key, kind: "numbers", value, unit: "mm", doc, written: true });
+const numbers = (key, value, doc, unit = "mm") => ({ key, kind: "numbers", value, unit, doc, written: true });
 
 function field(key, value) {
   return { key, kind: "number", value, written: true, choices: [], ...FIELDS[key] };
 }
 
+/** A coordinate with no more digits than one reads. */
+const short = (value) => Number(value.toFixed(3));
+
+/** A point halfway on to the next of a smooth closed curve. */
+function onward(points, i) {
+  const at = (k) => points[(i + k + points.length) % points.length];
+  return [0, 1].map((k) => short((9 * (at(0)[k] + at(1)[k]) - at(-1)[k] - at(2)[k]) / 16));
+}
+
+/** A pose halfway to the next. */
+const between = (poses, i) => poses[i].map((one, k) => short((one + poses[(i + 1) % poses.length][k]) / 2));
+
 /** Tables of the form. */
-export function tables({ x, y, axis, bend, arms, split }) {
-  return [
-    { key: "axis", doc: "Axis of the carrier", fields: [field("axis.x", axis[0]), field("axis.y", axis[1])] },
-    { key: "gears", doc: "Gears and arms", fields: [field("gears.bend_deg", bend), field("gears.arms", arms), field("gears.split", split)] },
-    {
-      key: "path",
-      doc: "Points that the tip passes, in order; a closed smooth curve runs through them",
-      points: { smooth: true, fewest: FEWEST },
-      fields: [numbers("path.x", x, "Points that the tip passes, in order."), numbers("path.y", y, "Points that the tip passes, in order.")],
-    },
-  ];
+export function tables({ given, path, poses, axis, bend, arms, split }) {
+  const points = "Points that the tip passes, in order.";
+  const wanted = given === "path"
+    ? [
+      { key: "axis", doc: "Axis of the carrier", fields: [field("axis.x", axis[0]), field("axis.y", axis[1])] },
+      {
+        key: "path",
+        doc: "Points that the tip passes, in order; a closed smooth curve runs through them",
+        points: { columns: ["x", "y"], smooth: true, fewest: FEWEST.path, halfway: onward },
+        fields: [numbers("path.x", path.x, points), numbers("path.y", path.y, points)],
+      },
+    ]
+    : [{
+      key: "poses",
+      doc: "Places of the tip in order, and the way the clamp points there",
+      points: { columns: ["x", "y", "direction_deg"], fewest: FEWEST.poses, halfway: between, noun: "pose" },
+      fields: [numbers("poses.x", poses.x, "Place of the tip."), numbers("poses.y", poses.y, "Place of the tip."),
+        numbers("poses.direction_deg", poses.direction_deg, "Direction of the clamp.", "°")],
+    }];
+  const gears = { key: "gears", doc: "Gears and arms", fields: [field("gears.bend_deg", bend), field("gears.arms", arms), field("gears.split", split)] };
+  return [{ key: "wanted", doc: "What is given", fields: [field("wanted.given", given)] }, ...wanted.toSpliced(wanted.length - 1, 0, gears)];
 }
 
 /** Reason why a value is none of a key. */
@@ -62,30 +100,70 @@ function fault(key, value) {
 
 /** The wish with other values, or the first key at fault and the reason. */
 export function changed(wish, edits) {
-  const next = { ...wish, x: [...wish.x], y: [...wish.y], axis: [...wish.axis] };
+  const next = structuredClone(wish);
   for (const { key, value } of edits) {
-    const [, list, place] = /^path\.([xy])(?:\[(\d+)\])?$/.exec(key) ?? [];
+    const [, table, list, place] = /^(path|poses)\.([a-z_]+)(?:\[(\d+)\])?$/.exec(key) ?? [];
     const values = Array.isArray(value) ? value : [value];
     const wrong = values.map((one) => fault(key, one)).find(Boolean) ?? (values.length > MOST ? `${values.length} points; the page shows up to ${MOST}` : null);
     if (wrong) return { key, wrong };
-    if (list && place === undefined) next[list] = values;
-    else if (list) next[list][Number(place)] = value;
+    if (list && place === undefined) next[table][list] = values;
+    else if (list) next[table][list][Number(place)] = value;
     else if (key === "axis.x") next.axis[0] = value;
     else if (key === "axis.y") next.axis[1] = value;
-    else next[{ "gears.bend_deg": "bend", "gears.arms": "arms", "gears.split": "split" }[key]] = value;
+    else next[{ "wanted.given": "given", "gears.bend_deg": "bend", "gears.arms": "arms", "gears.split": "split" }[key]] = value;
   }
   return { next };
 }
 
 /** Points of a wish. */
-export const pointsOf = ({ x, y }) => x.map((one, i) => [one, y[i]]);
+export const pointsOf = ({ path: { x, y } }) => x.map((one, i) => [one, y[i]]);
+
+/** Poses of a wish. */
+export const posesOf = ({ poses: { x, y, direction_deg } }) => x.map((one, i) => [one, y[i], direction_deg[i]]);
 
 /** A wish as the program is asked. */
-export const asked = (wish) => ({ points: pointsOf(wish), axis: wish.axis, bend_deg: wish.bend, arms: wish.arms, split: wish.split });
+export function asked(wish) {
+  const choices = { bend_deg: wish.bend, arms: wish.arms, split: wish.split };
+  return wish.given === "path" ? { points: pointsOf(wish), axis: wish.axis, ...choices } : { poses: posesOf(wish), ...choices };
+}
+
+/** Greatest distance across a path, or poses. */
+export const sizeOf = ({ x, y }) => Math.hypot(Math.max(...x) - Math.min(...x), Math.max(...y) - Math.min(...y));
+
+const HANDLE = { link: 0, plane: "cartesian", scale: 1, origin: [0, 0], chained: true };
 
 /** Points of the picture that can be dragged. */
-export function handles({ x, y, axis }) {
-  const handle = { link: 0, plane: "cartesian", scale: 1, origin: [0, 0], chained: true };
-  const points = x.map((one, i) => ({ ...handle, name: `point ${i + 1} of the path`, keys: [`path.x[${i}]`, `path.y[${i}]`], values: [one, y[i]] }));
-  return [...points, { ...handle, name: "axis of the carrier", kind: "axis", chained: false, keys: ["axis.x", "axis.y"], values: axis }];
+export function handles(wish) {
+  const { given, axis } = wish;
+  const { x, y, direction_deg } = wish[given];
+  const noun = given === "path" ? "point" : "pose";
+  const points = x.map((one, i) => ({ ...HANDLE, name: `${noun} ${i + 1} of the path`, keys: [`${given}.x[${i}]`, `${given}.y[${i}]`], values: [one, y[i]] }));
+  if (given === "path") return [...points, { ...HANDLE, name: "axis of the carrier", kind: "axis", chained: false, keys: ["axis.x", "axis.y"], values: axis }];
+  const length = CLAMP * sizeOf(wish.poses);
+  return [...points, ...direction_deg.map((angle, i) => ({
+    ...HANDLE, name: `direction of pose ${i + 1}`, plane: "polar", origin: [x[i], y[i]], chained: false, keys: ["", `poses.direction_deg[${i}]`], values: [length, angle],
+  }))];
+}
+
+/** Lines that show the clamp in every pose. */
+export function clamps({ poses: { x, y, direction_deg }, poses }) {
+  const length = CLAMP * sizeOf(poses);
+  return direction_deg.map((angle, i) => {
+    const [c, s] = [Math.cos((angle * Math.PI) / 180), Math.sin((angle * Math.PI) / 180)];
+    return { role: "clamp", closed: false, vertices: [x[i], y[i], 0, x[i] + length * c, y[i] + length * s, 0] };
+  });
+}
+
+/** The poses as a picture: the order of their places, and the clamp in each. */
+export function posed(wish) {
+  const { x, y } = wish.poses;
+  const room = 2 * CLAMP * sizeOf(wish.poses);
+  return {
+    shapes: [[{ role: "beside", closed: true, vertices: x.flatMap((one, i) => [one, y[i], 0]) }], clamps(wish)],
+    links: [{ name: "path", shape: 0 }, { name: "poses", shape: 1 }],
+    motion: { input_name: "carrier", input: [0, 2 * Math.PI], poses: [[0, 0, 0], [0, 0, 0]] },
+    handles: [],
+    marks: [],
+    extent: [Math.min(...x) - room, Math.min(...y) - room, Math.max(...x) + room, Math.max(...y) + room],
+  };
 }

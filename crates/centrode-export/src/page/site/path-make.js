@@ -4,7 +4,7 @@ import * as dialogs from "./dialogs.js";
 import { element } from "./elements.js";
 import * as files from "./new-file.js";
 import { worked } from "./numbers.js";
-import { asked } from "./path-form.js";
+import { asked, sizeOf } from "./path-form.js";
 import * as server from "./server.js";
 import { work } from "./work.js";
 
@@ -13,8 +13,6 @@ const BAND = 0.015;
 
 /** A handsome number near a size. */
 const round = (size) => Number(size.toPrecision(1));
-
-const size = ({ x, y }) => Math.hypot(Math.max(...x) - Math.min(...x), Math.max(...y) - Math.min(...y));
 
 /** Makes the machine of a wish; where no teeth will do, says so and offers to ease the path. */
 export async function make(wish, complain) {
@@ -27,8 +25,8 @@ export async function make(wish, complain) {
         await name(answer);
         return;
       }
-      band = await remedy(wish, answer.refused, band);
-      if (band === null) return;
+      band = wish.given === "path" ? await remedy(wish, answer.refused, band) : await refuse(answer.refused);
+      if (!band) return;
     }
   } catch (error) {
     if (!stop.signal.aborted) complain(error);
@@ -43,9 +41,14 @@ async function name({ text, told }) {
   await files.make({ text }, "The machine of the path, with sound teeth.", files.free("reversed", taken), folder, [table]);
 }
 
+/** Says why poses give no machine. */
+async function refuse(reason) {
+  await dialogs.ask("No machine", [element("p", {}, reason), element("p", {}, "What helps: a greater bend, another split, or other poses.")], [["close", "Close", "main"]]);
+}
+
 /** Says why there is no machine; resolves to a band within which the path is to be eased, or to null. */
 async function remedy(wish, reason, before) {
-  const box = element("input", { type: "text", inputmode: "decimal", class: "number", id: "band", value: String(2 * before || round(BAND * size(wish))), "aria-describedby": "band-remark" });
+  const box = element("input", { type: "text", inputmode: "decimal", class: "number", id: "band", value: String(2 * before || round(BAND * sizeOf(wish.path))), "aria-describedby": "band-remark" });
   const remark = element("p", { class: "remark", id: "band-remark", role: "alert" });
   const sound = async () => {
     const band = worked(box.value, "mm");

@@ -9,7 +9,7 @@ import { History } from "./history.js";
 import * as layout from "./layout.js";
 import { Field } from "./path-field.js";
 import * as file from "./path-file.js";
-import { EXAMPLE, changed, handles as marks, pointsOf, tables } from "./path-form.js";
+import { EXAMPLE, asked, changed, clamps, handles as marks, pointsOf, posed, posesOf, tables } from "./path-form.js";
 import * as maker from "./path-make.js";
 import { Solving } from "./path-solving.js";
 import * as server from "./server.js";
@@ -25,9 +25,9 @@ class PathStage extends Stage {
     this.field?.paint(this);
   }
 
-  /** Whether a link is drawn: the path always is, and comes first. */
-  isShown(link) {
-    return link === this.scene.links[0] || byId("show-gears").checked;
+  /** Whether a link is drawn: path and poses always are. */
+  isShown({ name }) {
+    return ["path", "poses"].includes(name) || byId("show-gears").checked;
   }
 
   link(link, pose) {
@@ -47,9 +47,13 @@ const form = new Form({ edit, hold: () => {}, respond: () => {}, fixed: false })
 const handles = new Handles(stage, { edit, began: () => {}, points: (table) => form.points.get(table) });
 const field = new Field(stage, complain);
 stage.field = field;
-const solving = new Solving({ show, complain, rested: () => byId("verdict").setAttribute("aria-busy", "false") });
+const solving = new Solving({ show: (answer) => wish.given === "path" && show(answer), complain, rested: () => byId("verdict").setAttribute("aria-busy", "false") });
 
-let wish = EXAMPLE;
+/** What is drawn is kept while the window is open: a design made of it leads away from this page, and back. */
+const KEPT = "centrode-path";
+let wish = kept() ?? EXAMPLE;
+/** What ends the search for the machine of poses. */
+let finding = null;
 const history = new History(JSON.stringify(wish));
 
 /** Takes new values; `final` ends a drag. */
@@ -66,11 +70,53 @@ function edit(edits, final) {
 function take(next, final, fresh = true) {
   wish = next;
   if (final && fresh) history.push(JSON.stringify(wish));
+  if (final) keep();
   fill(null);
   buttons();
+  const isPath = wish.given === "path";
+  field.shown = isPath;
+  for (const id of ["field", "field-readout"]) byId(id).hidden = !isPath;
+  byId("show-field").parentElement.hidden = !isPath;
+  finding?.abort();
+  if (isPath) {
+    byId("verdict").setAttribute("aria-busy", "true");
+    solving.ask(wish, final);
+    field.ask(wish, final);
+  } else {
+    unfound();
+  }
+}
+
+/** Shows poses for which no machine has been sought yet. */
+function unfound() {
+  byId("verdict").setAttribute("aria-busy", "false");
+  show({ picture: posed(wish), curves: [], figures: [], fault: { of: "poses", message: "The machine that takes these poses is sought when you say so: it takes some seconds." } });
+}
+
+/** Seeks the machine of the poses. */
+async function find() {
+  const stop = new AbortController();
+  finding = stop;
   byId("verdict").setAttribute("aria-busy", "true");
-  solving.ask(wish, final);
-  field.ask(wish, final);
+  try {
+    const answer = await work((signal) => server.findPoses(asked(wish), signal), stop);
+    if (finding !== stop) return;
+    if (answer.refused) {
+      show({ picture: posed(wish), curves: [], figures: [], fault: { of: "none", message: answer.refused } });
+    } else {
+      const { shapes, links, motion } = answer.picture;
+      links.push({ name: "poses", shape: shapes.push(clamps(wish)) - 1 });
+      motion.poses.push([0, 0, 0]);
+      show(answer);
+    }
+  } catch (error) {
+    if (!stop.signal.aborted) complain(error);
+  } finally {
+    if (finding === stop) {
+      finding = null;
+      byId("verdict").setAttribute("aria-busy", "false");
+    }
+  }
 }
 
 /** Shows the wish in the form, with what is wrong with it. */
@@ -87,16 +133,34 @@ function show({ picture, curves, figures, fault }) {
   if (!fault) charts.show(curves);
   transport.show(curves);
   byId("possible").replaceChildren(
-    element("div", { class: `title ${fault ? "error" : "good"}` }, element("h2", {}, fault ? `✕ ${heading(fault)}` : "✓ This axis is possible")),
+    element("div", { class: `title ${!fault ? "good" : fault.of === "poses" ? "" : "error"}` }, element("h2", {}, fault ? heading(fault) : `✓ ${wish.given === "path" ? "This axis is possible" : "A machine takes these poses"}`)),
     ...(fault ? [element("p", {}, capital(fault.message))] : []));
   const rows = figures.map(({ name, words }) => element("tr", {}, element("th", { scope: "row" }, name), element("td", { "data-key": name }, words)));
   byId("figures").replaceChildren(...(rows.length ? [element("table", { class: "figures" }, element("tbody", {}, ...rows))] : []));
   byId("make").disabled = Boolean(fault);
+  byId("finding").hidden = wish.given === "path" || !fault;
 }
 
 const capital = (words) => words.charAt(0).toUpperCase() + words.slice(1);
 
-const heading = ({ of }) => ({ path: "No path", axis: "This axis is not possible", split: "No gears" })[of];
+const heading = ({ of }) => ({ path: "✕ No path", axis: "✕ This axis is not possible", split: "✕ No gears", poses: "○ Not sought yet", none: "✕ No machine found" })[of];
+
+// A window may have no storage.
+function kept() {
+  try {
+    return JSON.parse(sessionStorage.getItem(KEPT));
+  } catch {
+    return null;
+  }
+}
+
+function keep() {
+  try {
+    sessionStorage.setItem(KEPT, JSON.stringify(wish));
+  } catch {
+    // It holds until the page is left.
+  }
+}
 
 function complain(error) {
   dialogs.notice("server", error.message, [], "error");
@@ -133,14 +197,20 @@ function listen() {
   byId("redo").addEventListener("click", () => step("redo"));
   byId("mildest").addEventListener("click", () => best(false));
   byId("bluntest").addEventListener("click", () => best(true));
+  byId("find-machine").addEventListener("click", find);
   byId("show-gears").addEventListener("change", () => stage.draw());
   byId("make").addEventListener("click", async () => {
     await solving.settled();
     await maker.make(wish, complain);
   });
   file.listen({
-    points: () => pointsOf(wish),
-    take: (points) => take({ ...wish, x: points.map(([x]) => x), y: points.map(([, y]) => y) }, true),
+    isPath: () => wish.given === "path",
+    points: () => (wish.given === "path" ? pointsOf : posesOf)(wish),
+    take: (points) => {
+      const column = (k) => points.map((row) => row[k]);
+      if (wish.given === "path") take({ ...wish, path: { x: column(0), y: column(1) } }, true);
+      else take({ ...wish, poses: { x: column(0), y: column(1), direction_deg: column(2) } }, true);
+    },
     tell: (words, severity) => dialogs.notice("path", words, [], severity),
   });
   addEventListener("keydown", (event) => {

@@ -1,7 +1,7 @@
 use serde::Serialize;
 
 use super::drawing::{self, Drawing, mark};
-use super::wish::Wish;
+use super::wish::{Choices, Poses, Wish};
 use crate::analysis::Unit;
 use crate::cli::reverse::range;
 use crate::export::page::{Curve, Mark, Picture};
@@ -53,21 +53,39 @@ impl Answer {
                 return Self::without(picture, "axis", fault.to_string());
             }
         };
-        Self::of_chain(ask, &chain).unwrap_or_else(|reason| {
+        Self::of_chain(&ask.choices, &chain, ask.rest).unwrap_or_else(|reason| {
             let mut answer = Self::without(drawing::path(&wanted, Vec::new()), "split", reason);
             answer.figures = figures(&chain, None);
             answer
         })
     }
 
-    fn of_chain(ask: &Wish, chain: &TwoBar) -> Result<Self, String> {
-        ask.check_arms()?;
-        let split =
-            Split::new(chain, ask.kind()?, ask.bend()).map_err(|error| error.to_string())?;
-        let drawn = Drawing::new(chain, &split, ask.arms).map_err(|error| error.to_string())?;
-        let mut figures = figures(chain, Some(split.bend()));
-        if ask.rest {
-            figures.extend(rested(chain, &split, ask.arms)?);
+    /// The machine that takes key poses.
+    pub(super) fn by_poses(ask: &Poses) -> Result<Self, String> {
+        let found = ask.found().map_err(|error| error.to_string())?;
+        let mut answer = Self::of_chain(&ask.choices, &found.chain, true)?;
+        let clamp = Unit::Angle.tell(found.clamp);
+        answer
+            .figures
+            .push(figure("clamp", format!("{clamp} from the arm")));
+        for (i, [off, turned]) in found.misses.iter().enumerate() {
+            let (off, turned) = (Unit::Millimetre.tell(*off), Unit::Angle.tell(*turned));
+            let words = format!("missed by {off} and {turned}");
+            answer
+                .figures
+                .push(figure(&format!("pose {}", i + 1), words));
+        }
+        Ok(answer)
+    }
+
+    fn of_chain(choices: &Choices, chain: &TwoBar, rest: bool) -> Result<Self, String> {
+        choices.check_arms()?;
+        let (bend, arms) = (choices.bend(), choices.arms);
+        let split = Split::new(chain, choices.kind()?, bend).map_err(|error| error.to_string())?;
+        let drawn = Drawing::new(chain, &split, arms).map_err(|error| error.to_string())?;
+        let mut figures = figures(chain, Some(bend));
+        if rest {
+            figures.extend(rested(chain, &split, arms)?);
         }
         Ok(Self {
             picture: drawn.picture(),

@@ -1,7 +1,8 @@
-use serde::{Deserialize, Serialize};
 use std::ops::ControlFlow;
 
-use super::wish::Wish;
+use serde::{Deserialize, Serialize};
+
+use super::wish::{Poses, Wish};
 use crate::analysis::optimise::Easing;
 use crate::analysis::{NoSoundTeeth, SoundTeeth, Unit, with_sound_teeth};
 use crate::geometry::Point;
@@ -9,13 +10,17 @@ use crate::mechanism::design::Design as _;
 use crate::mechanism::gear::design::Addendum;
 use crate::mechanism::reverse::{ReversedMachine, Split, TwoBar};
 
-/// Request of a machine.
+/// Request of a machine: by a path, or by key poses.
 #[derive(Debug, Deserialize)]
-pub(super) struct Ask {
-    #[serde(flatten)]
-    wish: Wish,
-    /// Distance within which the path may pass its points, mm.
-    band: Option<f64>,
+#[serde(untagged)]
+pub(super) enum Ask {
+    Poses(Poses),
+    Path {
+        #[serde(flatten)]
+        wish: Wish,
+        /// Distance within which the path may pass its points, mm.
+        band: Option<f64>,
+    },
 }
 
 /// A design with sound teeth.
@@ -29,39 +34,50 @@ pub(super) struct Machine {
 
 /// Makes the design that `centrode reverse -o` writes.
 pub(super) fn machine(ask: &Ask) -> Result<Machine, String> {
-    let wish = &ask.wish;
-    let wanted = wish.path().map_err(|error| error.to_string())?;
-    let kind = wish.kind()?;
     let mut told = Vec::new();
-    let chain = match ask.band {
-        None => {
-            wanted.check_simple().map_err(|error| error.to_string())?;
-            TwoBar::new(&wanted, wish.axis(), None).map_err(|fault| fault.to_string())?
+    let (chain, choices) = match ask {
+        Ask::Poses(poses) => {
+            let found = poses.found().map_err(|error| error.to_string())?;
+            (found.chain, &poses.choices)
         }
-        Some(band) => {
-            let points: Vec<Point> = wish.points.iter().copied().map(Point::from).collect();
-            let easing = Easing::new(&points, &[band], Some(wish.axis()), wish.bend());
-            let eased = easing
-                .and_then(|easing| easing.search(None, &mut |_| ControlFlow::Continue(())))
-                .map_err(|error| error.to_string())?;
-            let path = eased.chain.path();
-            path.check_simple().map_err(|error| error.to_string())?;
-            let most = eased.moved.iter().copied().fold(0.0, f64::max);
-            told.push((
-                "Path eased".to_owned(),
-                format!("by {} at most", Unit::Millimetre.tell(most)),
-            ));
-            eased.chain
-        }
+        Ask::Path { wish, band: None } => (as_given(wish)?, &wish.choices),
+        Ask::Path {
+            wish,
+            band: Some(band),
+        } => (eased(wish, *band, &mut told)?, &wish.choices),
     };
-    let split = Split::new(&chain, kind, wish.bend()).map_err(|error| error.to_string())?;
-    let made = ReversedMachine::new(&chain, &split, wish.arms, None);
+    choices.check_arms()?;
+    let split = Split::new(&chain, choices.kind()?, choices.bend());
+    let split = split.map_err(|error| error.to_string())?;
+    let made = ReversedMachine::new(&chain, &split, choices.arms, None);
     let made = made.map_err(|error| error.to_string())?;
     let toothed = with_sound_teeth(&made.design, |_| true);
     let (design, teeth) = toothed.map_err(|error| without_teeth(&error))?;
     told.extend(teeth.iter().map(line));
     let text = design.to_toml().map_err(|error| error.to_string())?;
     Ok(Machine { text, told })
+}
+
+/// The chain of a path as it is wished for.
+fn as_given(wish: &Wish) -> Result<TwoBar, String> {
+    let wanted = wish.path().map_err(|error| error.to_string())?;
+    wanted.check_simple().map_err(|error| error.to_string())?;
+    TwoBar::new(&wanted, wish.axis(), None).map_err(|fault| fault.to_string())
+}
+
+/// The chain of the path within a band whose gears are the bluntest.
+fn eased(wish: &Wish, band: f64, told: &mut Vec<(String, String)>) -> Result<TwoBar, String> {
+    let points: Vec<Point> = wish.points.iter().copied().map(Point::from).collect();
+    let easing = Easing::new(&points, &[band], Some(wish.axis()), wish.choices.bend());
+    let eased = easing
+        .and_then(|easing| easing.search(None, &mut |_| ControlFlow::Continue(())))
+        .map_err(|error| error.to_string())?;
+    let simple = eased.chain.path().check_simple();
+    simple.map_err(|error| error.to_string())?;
+    let most = eased.moved.iter().copied().fold(0.0, f64::max);
+    let words = format!("by {} at most", Unit::Millimetre.tell(most));
+    told.push(("Path eased".to_owned(), words));
+    Ok(eased.chain)
 }
 
 fn line(teeth: &SoundTeeth) -> (String, String) {

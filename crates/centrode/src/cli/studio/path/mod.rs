@@ -21,6 +21,7 @@ pub(crate) fn routes<S: Clone + Send + Sync + 'static>() -> Router<S> {
     Router::new()
         .route("/path", get(async || Html(page::PATH)))
         .route("/path/solve", post(solve))
+        .route("/path/poses", post(poses))
         .route("/path/map", post(map))
         .route("/path/axis", post(axis))
         .route("/path/open", post(open))
@@ -30,6 +31,11 @@ pub(crate) fn routes<S: Clone + Send + Sync + 'static>() -> Router<S> {
 /// Machine of a path and an axis, or why there is none.
 async fn solve(Json(ask): Json<wish::Wish>) -> Result<Response, Refused> {
     answered(move || answer::Answer::new(&ask)).await
+}
+
+/// Machine that takes key poses.
+async fn poses(Json(ask): Json<wish::Poses>) -> Result<Response, Refused> {
+    answered(move || told(answer::Answer::by_poses(&ask))).await
 }
 
 /// Possible axes about a path.

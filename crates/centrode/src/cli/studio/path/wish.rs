@@ -1,7 +1,9 @@
 use serde::Deserialize;
 
 use crate::geometry::Point;
-use crate::mechanism::reverse::{MachineError, PathError, SplitKind, WantedPath};
+use crate::mechanism::reverse::{
+    KeyPose, KeyPoses, MachineError, PathError, PoseError, SplitKind, WantedPath,
+};
 
 /// Most arms of a machine.
 const MOST_ARMS: u32 = 12;
@@ -13,13 +15,29 @@ pub(super) struct Wish {
     pub(super) points: Vec<[f64; 2]>,
     /// Axis of the carrier, mm.
     pub(super) axis: [f64; 2],
-    pub(super) bend_deg: f64,
-    pub(super) arms: u32,
-    /// Word of the split.
-    pub(super) split: String,
+    #[serde(flatten)]
+    pub(super) choices: Choices,
     /// Whether the hand rests: what takes longer is told, too.
     #[serde(default)]
     pub(super) rest: bool,
+}
+
+/// Key poses and choices of the page.
+#[derive(Clone, Debug, Deserialize)]
+pub(super) struct Poses {
+    /// Places of the tip, mm, and directions of the clamp, degrees.
+    poses: Vec<[f64; 3]>,
+    #[serde(flatten)]
+    pub(super) choices: Choices,
+}
+
+/// Choices of the gears.
+#[derive(Clone, Debug, Deserialize)]
+pub(super) struct Choices {
+    bend_deg: f64,
+    pub(super) arms: u32,
+    /// Word of the split.
+    split: String,
 }
 
 impl Wish {
@@ -30,7 +48,22 @@ impl Wish {
     pub(super) fn axis(&self) -> Point {
         self.axis.into()
     }
+}
 
+impl Poses {
+    /// The mildest chain that takes the poses in order.
+    pub(super) fn found(&self) -> Result<KeyPoses, PoseError> {
+        let pose = |[x, y, direction]: &[f64; 3]| KeyPose {
+            point: Point::new(*x, *y),
+            direction: direction.to_radians(),
+        };
+        let poses: Vec<KeyPose> = self.poses.iter().map(pose).collect();
+        KeyPoses::new(&poses)
+    }
+}
+
+impl Choices {
+    /// Angle from the carrier's first leg to its second, rad.
     pub(super) fn bend(&self) -> f64 {
         self.bend_deg.to_radians()
     }
