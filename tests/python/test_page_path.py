@@ -16,8 +16,6 @@ X = [0, 60, 150, 230, 262, 235, 170, 100, 40, -5, -30, -38, -30]
 Y = [0, 70, 150, 215, 262, 300, 330, 330, 300, 250, 190, 130, 60]
 EXAMPLE = list(zip(X, Y, strict=True))
 WISH = {"points": EXAMPLE, "axis": [260, 160], "bend_deg": 40, "arms": 3, "split": "powers"}
-# Gears that bear full teeth soon.
-BLUNT = ["345.5876", "355.1393"]
 
 
 def solved(page):
@@ -338,11 +336,10 @@ def test_files_of_a_path_are_opened_or_refused_and_written(page, running):
 
 def test_a_made_machine_is_the_design_of_the_command_line(page, running):
     typed(page, "gears.arms", "1")
-    typed(page, "axis.x", BLUNT[0])
-    typed(page, "axis.y", BLUNT[1])
+    typed(page, "gears.band", "5")
     solved(page)
     page.get_by_role("button", name="Make the machine").click()
-    expect(page.locator("#dialog")).to_contain_text("Teeth of first-stage", timeout=30_000)
+    expect(page.locator("#dialog")).to_contain_text("teeth of first-stage", timeout=30_000)
     expect(page.locator("#dialog")).to_contain_text("full teeth, module")
     name = page.get_by_label("File", exact=True)
     expect(name).to_have_value("reversed.toml")
@@ -350,8 +347,8 @@ def test_a_made_machine_is_the_design_of_the_command_line(page, running):
     expect(page.locator("#file")).to_have_text("reversed.toml")
     settled(page)
     folder = running.folder
-    axis = ",".join(BLUNT)
-    told(folder, EXAMPLE, "--axis", axis, "--bend", "40", "-o", folder / "by-command.toml")
+    given = ["--axis", "260,160", "--bend", "40", "--band", "5"]
+    told(folder, EXAMPLE, *given, "-o", folder / "by-command.toml")
     assert (folder / "reversed.toml").read_text() == (folder / "by-command.toml").read_text()
     report = json.loads(centrode("check", folder / "by-command.toml", "--json", check=False).stdout)
     shown = page_figures(page)
@@ -359,24 +356,36 @@ def test_a_made_machine_is_the_design_of_the_command_line(page, running):
     assert {key: float(shown[key]) for key in report["values"]} == report["values"]
 
 
-def test_where_no_teeth_will_do_the_path_can_be_eased_and_that_cancelled(page, running):
+def test_a_machine_of_the_path_as_it_is_drawn_is_that_of_the_command_line(running):
+    axis = [345.5876, 355.1393]
+    status, made = running.json("POST", "path/machine", WISH | {"axis": axis, "band": None})
+    assert status == 200
+    design = running.folder / "as-drawn.toml"
+    told(running.folder, EXAMPLE, "--axis", "345.5876,355.1393", "--bend", "40", "--arms", "3", "-o", design)
+    assert made["text"] == design.read_text()
+
+
+def test_the_search_for_teeth_is_cancelled_and_where_none_will_do_the_path_eased(page, running):
     before = set(running.folder.iterdir())
+    make, dialog = page.get_by_role("button", name="Make the machine"), page.locator("#dialog")
+    # Here it takes long.
+    make.click()
+    page.get_by_role("button", name="Cancel").click()
+    expect(page.locator("#working")).to_be_hidden()
     typed(page, "axis.x", "180")
     typed(page, "axis.y", "60")
     typed(page, "gears.arms", "1")
     solved(page)
-    page.get_by_role("button", name="Make the machine").click()
-    dialog = page.locator("#dialog")
+    make.click()
     expect(dialog).to_contain_text("full ones are undercut above a module of 0.0334 mm", timeout=30_000)
     page.get_by_label("Pass within").fill("none")
     page.get_by_label("Pass within").press("Enter")
     expect(dialog).to_contain_text("the band is a number above zero")
-    page.get_by_label("Pass within").fill("5")
-    with page.expect_request("**/path/machine") as asked:
-        page.get_by_label("Pass within").press("Enter")
-    assert asked.value.post_data_json["band"] == 5
-    page.get_by_role("button", name="Cancel").click()
-    expect(page.locator("#working")).to_be_hidden()
+    page.get_by_label("Pass within").fill("15")
+    page.get_by_label("Pass within").press("Enter")
+    expect(dialog).to_contain_text(re.compile(r"path eased\s*by 1[45]\."), timeout=30_000)
+    expect(dialog).to_contain_text("teeth, module")
+    page.keyboard.press("Escape")
     expect(dialog).to_be_hidden()
     # The page goes on, and nothing was made.
     typed(page, "axis.x", "260")
@@ -407,7 +416,7 @@ def test_key_poses_are_dragged_by_place_and_direction_and_a_machine_found(page, 
     page.locator("#undo").click()
     expect(field(page, "poses.direction_deg-1")).to_have_value("20.89")
     page.get_by_role("button", name="Find the machine").click()
-    expect(page.locator("#possible h2")).to_contain_text("A machine takes these poses", timeout=30_000)
+    expect(page.locator("#possible h2")).to_contain_text("A machine is found", timeout=30_000)
     folder = running.folder
     poses = folder / "poses.csv"
     with page.expect_download() as found:
@@ -418,11 +427,29 @@ def test_key_poses_are_dragged_by_place_and_direction_and_a_machine_found(page, 
     for name in ("clamp", "carrier", "arm", "ratio", "pose 4", "pair second-stage"):
         assert re.search(rf"^{name} +{re.escape(own[name])}$", done, re.M), name
     page.get_by_role("button", name="Make the machine").click()
-    expect(page.locator("#dialog")).to_contain_text("Teeth of second-stage", timeout=30_000)
+    expect(page.locator("#dialog")).to_contain_text("teeth of second-stage", timeout=30_000)
     page.get_by_label("File", exact=True).fill("from-poses.toml")
     page.get_by_label("File", exact=True).press("Enter")
     expect(page.locator("#file")).to_have_text("from-poses.toml")
     assert (folder / "from-poses.toml").read_text() == (folder / "posed.toml").read_text()
+
+
+def test_the_return_of_a_stroke_is_found(page, running):
+    field(page, "wanted.given").select_option("stroke")
+    counted(page, 5)
+    expect(page.locator("#field")).to_be_hidden()
+    page.get_by_role("button", name="Find the machine").click()
+    expect(page.locator("#possible h2")).to_contain_text("A machine is found", timeout=30_000)
+    stroke = rows(page)
+    assert stroke == EXAMPLE[:5]
+    lines, _ = told(running.folder, stroke, "--open", "--bend", "40", "--arms", "3")
+    own = figures(page)
+    for name in ("carrier", "arm", "ratio", "free return", "pair first-stage"):
+        assert own[name] == lines[name]
+    # What was found is that of other points no longer.
+    page.get_by_role("button", name="Delete point 3", exact=True).click()
+    counted(page, 4)
+    expect(page.locator("#possible h2")).to_contain_text("Not sought yet")
 
 
 def test_poses_of_a_file_may_have_no_machine(page, running):
@@ -467,7 +494,7 @@ def test_a_wish_that_cannot_be_met_is_told(running, change, words):
 
 
 def test_strangers_and_nonsense_are_refused(running):
-    for path in ("solve", "poses", "map", "axis", "open", "machine"):
+    for path in ("solve", "find", "map", "axis", "open", "machine"):
         for headers in ({"Host": "example.org"}, {"Origin": "http://example.org"}, {"Origin": None}):
             assert running.ask("POST", f"path/{path}", WISH, headers)[0] == 403
         assert running.ask("POST", f"path/{path}", {"points": [["NaN", 0]]})[0] == 422

@@ -87,7 +87,9 @@ export class Handles {
         this.layer.insertBefore(mark, next);
       }
       const point = pointOf(handle);
-      mark.querySelector(".number").textContent = point ? String(point[1] + 1) : "";
+      const number = mark.querySelector(".number");
+      const count = point ? String(point[1] + 1) : "";
+      if (number.textContent !== count) number.textContent = count;
       this.tell(handle, mark);
       next = mark;
     }
@@ -101,7 +103,10 @@ export class Handles {
   /** Writes the coordinates of a point beside it. */
   tell(handle, mark) {
     const told = words(handle);
-    mark.setAttribute("aria-label", `${handle.name}: ${told}`);
+    const label = `${handle.name}: ${told}`;
+    // Most points stay where they are, and writing would have the browser lay them out again.
+    if (mark.getAttribute("aria-label") === label) return;
+    mark.setAttribute("aria-label", label);
     const point = pointOf(handle);
     mark.querySelector(".where").textContent = point ? `${point[1] + 1}: ${told}` : told;
   }
@@ -228,8 +233,8 @@ export class Handles {
     const bounds = this.stage.box.getBoundingClientRect();
     const place = [event.clientX - bounds.left, event.clientY - bounds.top];
     const plane = this.within(own[0], this.pointed(event));
-    // Where a third number belongs to a point, a place alone makes none.
-    const i = points.smooth ? this.spanAt(own, place) : points.pair.length === 2 ? this.sectorAt(own, place, plane) : null;
+    // Between the places of poses, or of a stroke, no curve is known.
+    const i = points.smooth ? this.spanAt(own, place) : points.halfway ? null : this.sectorAt(own, place, plane);
     if (i === null) return;
     event.stopPropagation();
     const values = this.numbers(own[i], plane);

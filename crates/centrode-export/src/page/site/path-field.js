@@ -1,7 +1,7 @@
 // The map of possible axes: a coloured field below the machine, its legend, and what it says of a place.
 
 import { byId, element } from "./elements.js";
-import { pointsOf } from "./path-form.js";
+import { rowsOf } from "./path-form.js";
 import * as server from "./server.js";
 import { work } from "./work.js";
 
@@ -77,7 +77,7 @@ export class Field {
     byId("field").setAttribute("aria-busy", "true");
     try {
       for (const count of COUNTS) {
-        const map = await work((signal) => server.mapAxes({ points: pointsOf(wish), bend_deg: wish.bend, count }, signal), stop);
+        const map = await work((signal) => server.mapAxes({ points: rowsOf(wish), bend_deg: wish.bend, count }, signal), stop);
         if (this.stop !== stop) return;
         if (map.refused) {
           this.show(null);

@@ -14,11 +14,8 @@ function poses(text) {
   return wrong ? { refused: wrong } : { points: rows, note: `${rows.length} poses` };
 }
 
-/**
- * Listens to both buttons: `take(points)` gets those of a file, `points()` are those shown, poses where it is not `isPath()`;
- * `tell(words, severity)` takes a message.
- */
-export function listen({ isPath, take, points, tell }) {
+/** Listens to both buttons: `take(rows)` gets those of a file, `rows()` are those shown, `given()` says what they are, `tell(words, severity)` takes a message. */
+export function listen({ given, take, rows, tell }) {
   const input = byId("path-file");
   byId("open-path").addEventListener("click", () => input.click());
   input.addEventListener("change", async () => {
@@ -27,7 +24,7 @@ export function listen({ isPath, take, points, tell }) {
     try {
       if (file.size > LARGEST) throw new Error(`the file has ${file.size} bytes; the limit is ${LARGEST}`);
       const text = await file.text();
-      const found = isPath() ? await server.readPath(text) : poses(text);
+      const found = given() === "poses" ? poses(text) : await server.readPath(text);
       if (found.refused) throw new Error(found.refused);
       take(found.points);
       tell(`${file.name}: ${found.note}.`, "note");
@@ -39,11 +36,11 @@ export function listen({ isPath, take, points, tell }) {
     }
   });
   byId("save-path").addEventListener("click", () => {
-    const list = points();
+    const list = rows();
     const head = ["x", "y", "direction_deg"].slice(0, list[0].length);
     const text = [head, ...list].map((row) => row.join(",")).join("\n");
     const address = URL.createObjectURL(new Blob([`${text}\n`], { type: "text/csv" }));
-    element("a", { href: address, download: isPath() ? "path.csv" : "poses.csv" }).click();
+    element("a", { href: address, download: `${given()}.csv` }).click();
     setTimeout(() => URL.revokeObjectURL(address), 1000);
   });
 }

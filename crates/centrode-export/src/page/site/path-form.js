@@ -1,6 +1,6 @@
 // Path, axis and gears that are wished for: as the form shows them, and as the program is asked.
 
-/** The drawn path of the documentation, with an axis beside it, and its key poses. */
+/** The drawn path of the documentation, with an axis beside it, its working part, and key poses. */
 export const EXAMPLE = {
   given: "path",
   path: {
@@ -12,14 +12,16 @@ export const EXAMPLE = {
     y: [50.03, 64.88, 34.05, 14.69],
     direction_deg: [31.93, 20.89, 42.55, 53.59],
   },
+  stroke: { x: [0, 60, 150, 230, 262], y: [0, 70, 150, 215, 262] },
   axis: [260, 160],
   bend: 40,
   arms: 3,
   split: "powers",
+  band: 0,
 };
 
 /** Fewer points make no closed curve, and fewer poses no machine. */
-const FEWEST = { path: 4, poses: 3 };
+const FEWEST = { path: 4, stroke: 3, poses: 3 };
 /** Length of the clamp as it is drawn, as a share of the size of all poses. */
 const CLAMP = 0.2;
 /** More rows and handles would take the page too long. */
@@ -27,6 +29,7 @@ const MOST = 200;
 
 const GIVEN = [
   { word: "path", doc: "A closed path: the tip passes its points in order." },
+  { word: "stroke", doc: "The working part of a path: the return from its last point to its first is sought." },
   { word: "poses", doc: "Three to seven key poses: places of the tip and the way the clamp points there; the path between them is free." },
 ];
 
@@ -38,11 +41,12 @@ const SPLITS = [
 
 /** Fields by their keys: where their value stands, and what is known of them. */
 const FIELDS = {
-  "wanted.given": { kind: "choice", unit: "", choices: GIVEN, doc: "A closed path, or a few key poses with the path between them free." },
+  "wanted.given": { kind: "choice", unit: "", choices: GIVEN, doc: "A closed path, its working part with the return free, or a few key poses with the path between them free." },
   "axis.x": { unit: "mm", doc: "Axis about which the carrier turns. Drag it in the picture, too." },
   "axis.y": { unit: "mm", doc: "Axis about which the carrier turns. Drag it in the picture, too." },
   "gears.bend_deg": { unit: "°", least: -170, greatest: 170, doc: "Angle from the carrier's first leg, to the intermediate gear, to its second. A greater bend gives greater gears." },
   "gears.arms": { kind: "integer", unit: "", least: 1, greatest: 12, doc: "Number of arms." },
+  "gears.band": { unit: "mm", least: 0, greatest: 1e6, doc: "Distance within which the path may pass its points: it is eased there, for larger teeth, when the machine is made. Zero: through its points." },
   "gears.split": { kind: "choice", unit: "", choices: SPLITS, doc: "How two stages of gears share the motion." },
 };
 
@@ -64,28 +68,31 @@ function onward(points, i) {
 /** A pose halfway to the next. */
 const between = (poses, i) => poses[i].map((one, k) => short((one + poses[(i + 1) % poses.length][k]) / 2));
 
+/** The table of what is given. */
+function given(wish) {
+  const kind = wish.given;
+  const doc = kind === "poses" ? "Place of the tip." : "Points that the tip passes, in order.";
+  const columns = ["x", "y"].map((name) => numbers(`${kind}.${name}`, wish[kind][name], doc));
+  const options = { columns: ["x", "y"], fewest: FEWEST[kind], halfway: between };
+  if (kind === "path") Object.assign(options, { smooth: true, halfway: onward });
+  if (kind === "poses") {
+    Object.assign(options, { columns: ["x", "y", "direction_deg"], noun: "pose" });
+    columns.push(numbers("poses.direction_deg", wish.poses.direction_deg, "Direction of the clamp.", "°"));
+  }
+  return { key: kind, doc: GIVEN.find(({ word }) => word === kind).doc, points: options, fields: columns };
+}
+
 /** Tables of the form. */
-export function tables({ given, path, poses, axis, bend, arms, split }) {
-  const points = "Points that the tip passes, in order.";
-  const wanted = given === "path"
-    ? [
-      { key: "axis", doc: "Axis of the carrier", fields: [field("axis.x", axis[0]), field("axis.y", axis[1])] },
-      {
-        key: "path",
-        doc: "Points that the tip passes, in order; a closed smooth curve runs through them",
-        points: { columns: ["x", "y"], smooth: true, fewest: FEWEST.path, halfway: onward },
-        fields: [numbers("path.x", path.x, points), numbers("path.y", path.y, points)],
-      },
-    ]
-    : [{
-      key: "poses",
-      doc: "Places of the tip in order, and the way the clamp points there",
-      points: { columns: ["x", "y", "direction_deg"], fewest: FEWEST.poses, halfway: between, noun: "pose" },
-      fields: [numbers("poses.x", poses.x, "Place of the tip."), numbers("poses.y", poses.y, "Place of the tip."),
-        numbers("poses.direction_deg", poses.direction_deg, "Direction of the clamp.", "°")],
-    }];
-  const gears = { key: "gears", doc: "Gears and arms", fields: [field("gears.bend_deg", bend), field("gears.arms", arms), field("gears.split", split)] };
-  return [{ key: "wanted", doc: "What is given", fields: [field("wanted.given", given)] }, ...wanted.toSpliced(wanted.length - 1, 0, gears)];
+export function tables(wish) {
+  const { axis, bend, arms, split, band } = wish;
+  const gears = [field("gears.bend_deg", bend), field("gears.arms", arms), field("gears.split", split)];
+  if (wish.given !== "poses") gears.push(field("gears.band", band));
+  return [
+    { key: "wanted", doc: "What is given", fields: [field("wanted.given", wish.given)] },
+    ...(wish.given === "path" ? [{ key: "axis", doc: "Axis of the carrier", fields: [field("axis.x", axis[0]), field("axis.y", axis[1])] }] : []),
+    { key: "gears", doc: "Gears and arms", fields: gears },
+    given(wish),
+  ];
 }
 
 /** Reason why a value is none of a key. */
@@ -102,7 +109,7 @@ function fault(key, value) {
 export function changed(wish, edits) {
   const next = structuredClone(wish);
   for (const { key, value } of edits) {
-    const [, table, list, place] = /^(path|poses)\.([a-z_]+)(?:\[(\d+)\])?$/.exec(key) ?? [];
+    const [, table, list, place] = /^(path|stroke|poses)\.([a-z_]+)(?:\[(\d+)\])?$/.exec(key) ?? [];
     const values = Array.isArray(value) ? value : [value];
     const wrong = values.map((one) => fault(key, one)).find(Boolean) ?? (values.length > MOST ? `${values.length} points; the page shows up to ${MOST}` : null);
     if (wrong) return { key, wrong };
@@ -110,21 +117,29 @@ export function changed(wish, edits) {
     else if (list) next[table][list][Number(place)] = value;
     else if (key === "axis.x") next.axis[0] = value;
     else if (key === "axis.y") next.axis[1] = value;
-    else next[{ "wanted.given": "given", "gears.bend_deg": "bend", "gears.arms": "arms", "gears.split": "split" }[key]] = value;
+    else next[{ "wanted.given": "given", "gears.bend_deg": "bend", "gears.arms": "arms", "gears.split": "split", "gears.band": "band" }[key]] = value;
   }
   return { next };
 }
 
-/** Points of a wish. */
-export const pointsOf = ({ path: { x, y } }) => x.map((one, i) => [one, y[i]]);
+/** Rows of what is given: points, or poses. */
+export function rowsOf(wish) {
+  const { x, y, direction_deg } = wish[wish.given];
+  return x.map((one, i) => (direction_deg ? [one, y[i], direction_deg[i]] : [one, y[i]]));
+}
 
-/** Poses of a wish. */
-export const posesOf = ({ poses: { x, y, direction_deg } }) => x.map((one, i) => [one, y[i], direction_deg[i]]);
+/** The wish with other rows of what is given. */
+export function withRows(wish, rows) {
+  const names = ["x", "y", "direction_deg"].slice(0, wish.given === "poses" ? 3 : 2);
+  return { ...wish, [wish.given]: Object.fromEntries(names.map((name, k) => [name, rows.map((row) => row[k])])) };
+}
 
 /** A wish as the program is asked. */
 export function asked(wish) {
   const choices = { bend_deg: wish.bend, arms: wish.arms, split: wish.split };
-  return wish.given === "path" ? { points: pointsOf(wish), axis: wish.axis, ...choices } : { poses: posesOf(wish), ...choices };
+  const rows = rowsOf(wish);
+  if (wish.given === "path") return { points: rows, axis: wish.axis, ...choices };
+  return wish.given === "poses" ? { poses: rows, ...choices } : { stroke: rows, band: wish.band, ...choices };
 }
 
 /** Greatest distance across a path, or poses. */
@@ -136,31 +151,34 @@ const HANDLE = { link: 0, plane: "cartesian", scale: 1, origin: [0, 0], chained:
 export function handles(wish) {
   const { given, axis } = wish;
   const { x, y, direction_deg } = wish[given];
-  const noun = given === "path" ? "point" : "pose";
+  const noun = direction_deg ? "pose" : "point";
   const points = x.map((one, i) => ({ ...HANDLE, name: `${noun} ${i + 1} of the path`, keys: [`${given}.x[${i}]`, `${given}.y[${i}]`], values: [one, y[i]] }));
   if (given === "path") return [...points, { ...HANDLE, name: "axis of the carrier", kind: "axis", chained: false, keys: ["axis.x", "axis.y"], values: axis }];
+  if (given === "stroke") return points;
   const length = CLAMP * sizeOf(wish.poses);
   return [...points, ...direction_deg.map((angle, i) => ({
     ...HANDLE, name: `direction of pose ${i + 1}`, plane: "polar", origin: [x[i], y[i]], chained: false, keys: ["", `poses.direction_deg[${i}]`], values: [length, angle],
   }))];
 }
 
-/** Lines that show the clamp in every pose. */
-export function clamps({ poses: { x, y, direction_deg }, poses }) {
-  const length = CLAMP * sizeOf(poses);
+/** Lines that show what is wanted: the clamp in every pose; of a stroke, its points joined. */
+export function wantedLines(wish) {
+  const { x, y, direction_deg } = wish[wish.given];
+  if (!direction_deg) return [{ role: "beside", closed: false, vertices: x.flatMap((one, i) => [one, y[i], 0]) }];
+  const length = CLAMP * sizeOf(wish.poses);
   return direction_deg.map((angle, i) => {
     const [c, s] = [Math.cos((angle * Math.PI) / 180), Math.sin((angle * Math.PI) / 180)];
     return { role: "clamp", closed: false, vertices: [x[i], y[i], 0, x[i] + length * c, y[i] + length * s, 0] };
   });
 }
 
-/** The poses as a picture: the order of their places, and the clamp in each. */
-export function posed(wish) {
-  const { x, y } = wish.poses;
-  const room = 2 * CLAMP * sizeOf(wish.poses);
+/** What is wanted as a picture: the order of the places, and the lines. */
+export function wantedPicture(wish) {
+  const { x, y } = wish[wish.given];
+  const room = 2 * CLAMP * sizeOf({ x, y });
   return {
-    shapes: [[{ role: "beside", closed: true, vertices: x.flatMap((one, i) => [one, y[i], 0]) }], clamps(wish)],
-    links: [{ name: "path", shape: 0 }, { name: "poses", shape: 1 }],
+    shapes: [[{ role: "beside", closed: wish.given === "poses", vertices: x.flatMap((one, i) => [one, y[i], 0]) }], wantedLines(wish)],
+    links: [{ name: "path", shape: 0 }, { name: "wanted", shape: 1 }],
     motion: { input_name: "carrier", input: [0, 2 * Math.PI], poses: [[0, 0, 0], [0, 0, 0]] },
     handles: [],
     marks: [],

@@ -9,18 +9,18 @@ import * as server from "./server.js";
 import { work } from "./work.js";
 
 /** Band that is offered, as a share of the path's size. */
-const BAND = 0.015;
+const BAND = 0.03;
 
 /** A handsome number near a size. */
 const round = (size) => Number(size.toPrecision(1));
 
 /** Makes the machine of a wish; where no teeth will do, says so and offers to ease the path. */
 export async function make(wish, complain) {
-  let band = null;
+  let band = wish.given === "path" && wish.band > 0 ? wish.band : null;
   const stop = new AbortController();
   try {
     for (;;) {
-      const answer = await work((signal) => server.makePath({ ...asked(wish), band }, signal), stop);
+      const answer = await work((signal) => server.makePath(wish.given === "path" ? { ...asked(wish), band } : asked(wish), signal), stop);
       if (!answer.refused) {
         await name(answer);
         return;
@@ -41,9 +41,9 @@ async function name({ text, told }) {
   await files.make({ text }, "The machine of the path, with sound teeth.", files.free("reversed", taken), folder, [table]);
 }
 
-/** Says why poses give no machine. */
+/** Says why what is sought gives no machine. */
 async function refuse(reason) {
-  await dialogs.ask("No machine", [element("p", {}, reason), element("p", {}, "What helps: a greater bend, another split, or other poses.")], [["close", "Close", "main"]]);
+  await dialogs.ask("No machine", [element("p", {}, reason), element("p", {}, "What helps: a greater bend, another split, or other places.")], [["close", "Close", "main"]]);
 }
 
 /** Says why there is no machine; resolves to a band within which the path is to be eased, or to null. */
@@ -63,7 +63,7 @@ async function remedy(wish, reason, before) {
     element("ul", { class: "remedies" },
       element("li", {}, "another axis: where the field is bright, coloured by the least radius,"),
       element("li", {}, "a greater bend, or another split,"),
-      element("li", {}, "a path without sharp places: let it pass beside its points, and have it eased. That takes up to a minute.")),
+      element("li", {}, "a path without sharp places: let it pass beside its points, and have it eased.")),
     element("p", { class: "option" }, element("label", { for: "band" }, "Pass within"), box, element("span", { class: "unit" }, "mm")),
     remark,
   ], [["", "Cancel"], ["ease", "Ease the path and make", "main"]], sound);

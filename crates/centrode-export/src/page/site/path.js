@@ -9,7 +9,7 @@ import { History } from "./history.js";
 import * as layout from "./layout.js";
 import { Field } from "./path-field.js";
 import * as file from "./path-file.js";
-import { EXAMPLE, asked, changed, clamps, handles as marks, pointsOf, posed, posesOf, tables } from "./path-form.js";
+import { EXAMPLE, asked, changed, handles as marks, rowsOf, tables, wantedLines, wantedPicture, withRows } from "./path-form.js";
 import * as maker from "./path-make.js";
 import { Solving } from "./path-solving.js";
 import * as server from "./server.js";
@@ -25,9 +25,9 @@ class PathStage extends Stage {
     this.field?.paint(this);
   }
 
-  /** Whether a link is drawn: path and poses always are. */
+  /** Whether a link is drawn: the path and what is wanted of it always are. */
   isShown({ name }) {
-    return ["path", "poses"].includes(name) || byId("show-gears").checked;
+    return ["path", "wanted"].includes(name) || byId("show-gears").checked;
   }
 
   link(link, pose) {
@@ -52,7 +52,7 @@ const solving = new Solving({ show: (answer) => wish.given === "path" && show(an
 /** What is drawn is kept while the window is open: a design made of it leads away from this page, and back. */
 const KEPT = "centrode-path";
 let wish = kept() ?? EXAMPLE;
-/** What ends the search for the machine of poses. */
+/** What ends the search for the machine. */
 let finding = null;
 const history = new History(JSON.stringify(wish));
 
@@ -87,25 +87,26 @@ function take(next, final, fresh = true) {
   }
 }
 
-/** Shows poses for which no machine has been sought yet. */
+/** Shows what is given, for which no machine has been sought yet. */
 function unfound() {
   byId("verdict").setAttribute("aria-busy", "false");
-  show({ picture: posed(wish), curves: [], figures: [], fault: { of: "poses", message: "The machine that takes these poses is sought when you say so: it takes some seconds." } });
+  const words = wish.given === "poses" ? "takes these poses" : "runs along these points, with any return to the first,";
+  show({ picture: wantedPicture(wish), curves: [], figures: [], fault: { of: "sought", message: `The machine whose tip ${words} is sought when you say so: it takes some seconds.` } });
 }
 
-/** Seeks the machine of the poses. */
+/** Seeks the machine of poses or of a stroke. */
 async function find() {
   const stop = new AbortController();
   finding = stop;
   byId("verdict").setAttribute("aria-busy", "true");
   try {
-    const answer = await work((signal) => server.findPoses(asked(wish), signal), stop);
+    const answer = await work((signal) => server.findMachine(asked(wish), signal), stop);
     if (finding !== stop) return;
     if (answer.refused) {
-      show({ picture: posed(wish), curves: [], figures: [], fault: { of: "none", message: answer.refused } });
+      show({ picture: wantedPicture(wish), curves: [], figures: [], fault: { of: "none", message: answer.refused } });
     } else {
       const { shapes, links, motion } = answer.picture;
-      links.push({ name: "poses", shape: shapes.push(clamps(wish)) - 1 });
+      links.push({ name: "wanted", shape: shapes.push(wantedLines(wish)) - 1 });
       motion.poses.push([0, 0, 0]);
       show(answer);
     }
@@ -133,7 +134,7 @@ function show({ picture, curves, figures, fault }) {
   if (!fault) charts.show(curves);
   transport.show(curves);
   byId("possible").replaceChildren(
-    element("div", { class: `title ${!fault ? "good" : fault.of === "poses" ? "" : "error"}` }, element("h2", {}, fault ? heading(fault) : `✓ ${wish.given === "path" ? "This axis is possible" : "A machine takes these poses"}`)),
+    element("div", { class: `title ${!fault ? "good" : fault.of === "sought" ? "" : "error"}` }, element("h2", {}, fault ? heading(fault) : `✓ ${wish.given === "path" ? "This axis is possible" : "A machine is found"}`)),
     ...(fault ? [element("p", {}, capital(fault.message))] : []));
   const rows = figures.map(({ name, words }) => element("tr", {}, element("th", { scope: "row" }, name), element("td", { "data-key": name }, words)));
   byId("figures").replaceChildren(...(rows.length ? [element("table", { class: "figures" }, element("tbody", {}, ...rows))] : []));
@@ -143,7 +144,7 @@ function show({ picture, curves, figures, fault }) {
 
 const capital = (words) => words.charAt(0).toUpperCase() + words.slice(1);
 
-const heading = ({ of }) => ({ path: "✕ No path", axis: "✕ This axis is not possible", split: "✕ No gears", poses: "○ Not sought yet", none: "✕ No machine found" })[of];
+const heading = ({ of }) => ({ path: "✕ No path", axis: "✕ This axis is not possible", split: "✕ No gears", sought: "○ Not sought yet", none: "✕ No machine found" })[of];
 
 // A window may have no storage.
 function kept() {
@@ -179,7 +180,7 @@ function step(way) {
 async function best(bluntest) {
   const stop = new AbortController();
   try {
-    const found = await work((signal) => server.bestAxis({ points: pointsOf(wish), bend_deg: wish.bend, bluntest }, signal), stop);
+    const found = await work((signal) => server.bestAxis({ points: rowsOf(wish), bend_deg: wish.bend, bluntest }, signal), stop);
     if (found.refused) dialogs.notice("axis", found.refused, [], "warning");
     else take({ ...wish, axis: found }, true);
   } catch (error) {
@@ -204,13 +205,9 @@ function listen() {
     await maker.make(wish, complain);
   });
   file.listen({
-    isPath: () => wish.given === "path",
-    points: () => (wish.given === "path" ? pointsOf : posesOf)(wish),
-    take: (points) => {
-      const column = (k) => points.map((row) => row[k]);
-      if (wish.given === "path") take({ ...wish, path: { x: column(0), y: column(1) } }, true);
-      else take({ ...wish, poses: { x: column(0), y: column(1), direction_deg: column(2) } }, true);
-    },
+    given: () => wish.given,
+    rows: () => rowsOf(wish),
+    take: (rows) => take(withRows(wish, rows), true),
     tell: (words, severity) => dialogs.notice("path", words, [], severity),
   });
   addEventListener("keydown", (event) => {

@@ -56,7 +56,7 @@ export const picture = (kind, name) => json(ask(`pictures/${kind}/${encodeURICom
 export const open = (path) => json(ask("open", "POST", { path }));
 export const make = (from, path) => json(ask("new", "POST", { from, path }));
 export const solvePath = (wish, signal) => json(ask("path/solve", "POST", wish, signal));
-export const findPoses = (wish, signal) => json(ask("path/poses", "POST", wish, signal));
+export const findMachine = (wish, signal) => json(ask("path/find", "POST", wish, signal));
 export const mapAxes = (wish, signal) => json(ask("path/map", "POST", wish, signal));
 export const bestAxis = (wish, signal) => json(ask("path/axis", "POST", wish, signal));
 export const readPath = (text) => json(ask("path/open", "POST", { text }));

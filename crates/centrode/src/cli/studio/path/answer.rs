@@ -1,7 +1,8 @@
 use serde::Serialize;
 
 use super::drawing::{self, Drawing, mark};
-use super::wish::{Choices, Poses, Wish};
+use super::sought::Sought;
+use super::wish::{Choices, Wish};
 use crate::analysis::Unit;
 use crate::cli::reverse::range;
 use crate::export::page::{Curve, Mark, Picture};
@@ -60,21 +61,14 @@ impl Answer {
         })
     }
 
-    /// The machine that takes key poses.
-    pub(super) fn by_poses(ask: &Poses) -> Result<Self, String> {
-        let found = ask.found().map_err(|error| error.to_string())?;
-        let mut answer = Self::of_chain(&ask.choices, &found.chain, true)?;
-        let clamp = Unit::Angle.tell(found.clamp);
+    /// The machine that is sought.
+    pub(super) fn found(ask: &Sought) -> Result<Self, String> {
+        let found = ask.found()?;
+        let mut answer = Self::of_chain(ask.choices(), &found.chain, true)?;
+        let told = found.told.into_iter();
         answer
             .figures
-            .push(figure("clamp", format!("{clamp} from the arm")));
-        for (i, [off, turned]) in found.misses.iter().enumerate() {
-            let (off, turned) = (Unit::Millimetre.tell(*off), Unit::Angle.tell(*turned));
-            let words = format!("missed by {off} and {turned}");
-            answer
-                .figures
-                .push(figure(&format!("pose {}", i + 1), words));
-        }
+            .extend(told.map(|(name, words)| figure(&name, words)));
         Ok(answer)
     }
 

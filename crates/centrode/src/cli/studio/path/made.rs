@@ -1,20 +1,18 @@
-use std::ops::ControlFlow;
-
 use serde::{Deserialize, Serialize};
 
-use super::wish::{Poses, Wish};
+use super::sought::{Found, Sought, moved, points, searched};
+use super::wish::Wish;
 use crate::analysis::optimise::Easing;
 use crate::analysis::{NoSoundTeeth, SoundTeeth, Unit, with_sound_teeth};
-use crate::geometry::Point;
 use crate::mechanism::design::Design as _;
 use crate::mechanism::gear::design::Addendum;
 use crate::mechanism::reverse::{ReversedMachine, Split, TwoBar};
 
-/// Request of a machine: by a path, or by key poses.
+/// Request of a machine: of a wish, or of one whose machine is sought.
 #[derive(Debug, Deserialize)]
 #[serde(untagged)]
 pub(super) enum Ask {
-    Poses(Poses),
+    Sought(Sought),
     Path {
         #[serde(flatten)]
         wish: Wish,
@@ -34,18 +32,11 @@ pub(super) struct Machine {
 
 /// Makes the design that `centrode reverse -o` writes.
 pub(super) fn machine(ask: &Ask) -> Result<Machine, String> {
-    let mut told = Vec::new();
-    let (chain, choices) = match ask {
-        Ask::Poses(poses) => {
-            let found = poses.found().map_err(|error| error.to_string())?;
-            (found.chain, &poses.choices)
-        }
-        Ask::Path { wish, band: None } => (as_given(wish)?, &wish.choices),
-        Ask::Path {
-            wish,
-            band: Some(band),
-        } => (eased(wish, *band, &mut told)?, &wish.choices),
+    let (found, choices) = match ask {
+        Ask::Sought(sought) => (sought.found()?, sought.choices()),
+        Ask::Path { wish, band } => (found(wish, *band)?, &wish.choices),
     };
+    let Found { chain, mut told } = found;
     choices.check_arms()?;
     let split = Split::new(&chain, choices.kind()?, choices.bend());
     let split = split.map_err(|error| error.to_string())?;
@@ -58,26 +49,20 @@ pub(super) fn machine(ask: &Ask) -> Result<Machine, String> {
     Ok(Machine { text, told })
 }
 
-/// The chain of a path as it is wished for.
-fn as_given(wish: &Wish) -> Result<TwoBar, String> {
+/// The chain of a path as it is wished for, or within a band that whose gears are the bluntest.
+fn found(wish: &Wish, band: Option<f64>) -> Result<Found, String> {
+    if let Some(band) = band {
+        let (axis, bend) = (Some(wish.axis()), wish.choices.bend());
+        let eased = searched(Easing::new(&points(&wish.points), &[band], axis, bend))?;
+        let told = vec![moved(&eased)];
+        let chain = eased.chain;
+        return Ok(Found { chain, told });
+    }
     let wanted = wish.path().map_err(|error| error.to_string())?;
     wanted.check_simple().map_err(|error| error.to_string())?;
-    TwoBar::new(&wanted, wish.axis(), None).map_err(|fault| fault.to_string())
-}
-
-/// The chain of the path within a band whose gears are the bluntest.
-fn eased(wish: &Wish, band: f64, told: &mut Vec<(String, String)>) -> Result<TwoBar, String> {
-    let points: Vec<Point> = wish.points.iter().copied().map(Point::from).collect();
-    let easing = Easing::new(&points, &[band], Some(wish.axis()), wish.choices.bend());
-    let eased = easing
-        .and_then(|easing| easing.search(None, &mut |_| ControlFlow::Continue(())))
-        .map_err(|error| error.to_string())?;
-    let simple = eased.chain.path().check_simple();
-    simple.map_err(|error| error.to_string())?;
-    let most = eased.moved.iter().copied().fold(0.0, f64::max);
-    let words = format!("by {} at most", Unit::Millimetre.tell(most));
-    told.push(("Path eased".to_owned(), words));
-    Ok(eased.chain)
+    let chain = TwoBar::new(&wanted, wish.axis(), None).map_err(|fault| fault.to_string())?;
+    let told = Vec::new();
+    Ok(Found { chain, told })
 }
 
 fn line(teeth: &SoundTeeth) -> (String, String) {
@@ -87,7 +72,7 @@ fn line(teeth: &SoundTeeth) -> (String, String) {
     };
     let module = Unit::Millimetre.tell(teeth.module);
     (
-        format!("Teeth of {}", teeth.pair),
+        format!("teeth of {}", teeth.pair),
         format!("{} {kind} teeth, module {module}", teeth.tooth_count),
     )
 }

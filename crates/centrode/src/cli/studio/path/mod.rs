@@ -5,6 +5,7 @@ mod drawing;
 mod field;
 mod made;
 mod opened;
+mod sought;
 mod stages;
 mod wish;
 
@@ -21,7 +22,7 @@ pub(crate) fn routes<S: Clone + Send + Sync + 'static>() -> Router<S> {
     Router::new()
         .route("/path", get(async || Html(page::PATH)))
         .route("/path/solve", post(solve))
-        .route("/path/poses", post(poses))
+        .route("/path/find", post(find))
         .route("/path/map", post(map))
         .route("/path/axis", post(axis))
         .route("/path/open", post(open))
@@ -33,9 +34,9 @@ async fn solve(Json(ask): Json<wish::Wish>) -> Result<Response, Refused> {
     answered(move || answer::Answer::new(&ask)).await
 }
 
-/// Machine that takes key poses.
-async fn poses(Json(ask): Json<wish::Poses>) -> Result<Response, Refused> {
-    answered(move || told(answer::Answer::by_poses(&ask))).await
+/// Machine of key poses, or of the working part of a path.
+async fn find(Json(ask): Json<sought::Sought>) -> Result<Response, Refused> {
+    answered(move || told(answer::Answer::found(&ask))).await
 }
 
 /// Possible axes about a path.
@@ -65,7 +66,7 @@ async fn answered<T: Serialize + Send + 'static>(
     Ok(Json(computed(job).await?).into_response())
 }
 
-/// What is found, or the reason why nothing is. That is no failure: browsers would log it as one.
+/// Answer, or the reason why there is none. That is no failure: browsers would log it as one.
 #[derive(Serialize)]
 #[serde(untagged)]
 enum Told<T> {

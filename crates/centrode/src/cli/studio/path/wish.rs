@@ -1,9 +1,7 @@
 use serde::Deserialize;
 
 use crate::geometry::Point;
-use crate::mechanism::reverse::{
-    KeyPose, KeyPoses, MachineError, PathError, PoseError, SplitKind, WantedPath,
-};
+use crate::mechanism::reverse::{MachineError, PathError, SplitKind, WantedPath};
 
 /// Most arms of a machine.
 const MOST_ARMS: u32 = 12;
@@ -22,15 +20,6 @@ pub(super) struct Wish {
     pub(super) rest: bool,
 }
 
-/// Key poses and choices of the page.
-#[derive(Clone, Debug, Deserialize)]
-pub(super) struct Poses {
-    /// Places of the tip, mm, and directions of the clamp, degrees.
-    poses: Vec<[f64; 3]>,
-    #[serde(flatten)]
-    pub(super) choices: Choices,
-}
-
 /// Choices of the gears.
 #[derive(Clone, Debug, Deserialize)]
 pub(super) struct Choices {
@@ -47,18 +36,6 @@ impl Wish {
 
     pub(super) fn axis(&self) -> Point {
         self.axis.into()
-    }
-}
-
-impl Poses {
-    /// The mildest chain that takes the poses in order.
-    pub(super) fn found(&self) -> Result<KeyPoses, PoseError> {
-        let pose = |[x, y, direction]: &[f64; 3]| KeyPose {
-            point: Point::new(*x, *y),
-            direction: direction.to_radians(),
-        };
-        let poses: Vec<KeyPose> = self.poses.iter().map(pose).collect();
-        KeyPoses::new(&poses)
     }
 }
 
