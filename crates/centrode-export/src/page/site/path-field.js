@@ -56,10 +56,12 @@ export class Field {
     /** Whether there is a path to try axes for. */
     this.shown = true;
     for (const id of ["show-field", "field-by"]) byId(id).addEventListener("change", () => this.redraw());
-    stage.box.addEventListener("pointermove", (event) => {
-      const bounds = stage.box.getBoundingClientRect();
-      this.read(stage.toModel(event.clientX - bounds.left, event.clientY - bounds.top));
-    });
+    for (const kind of ["pointermove", "pointerdown"]) {
+      stage.box.addEventListener(kind, (event) => {
+        const bounds = stage.box.getBoundingClientRect();
+        this.read(stage.toModel(event.clientX - bounds.left, event.clientY - bounds.top));
+      });
+    }
     stage.box.addEventListener("pointerleave", () => this.read(null));
     this.read(null);
   }

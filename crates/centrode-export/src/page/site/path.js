@@ -133,13 +133,22 @@ function show({ picture, curves, figures, fault }) {
   charts.place.classList.toggle("stale", Boolean(fault));
   if (!fault) charts.show(curves);
   transport.show(curves);
-  byId("possible").replaceChildren(
-    element("div", { class: `title ${!fault ? "good" : fault.of === "sought" ? "" : "error"}` }, element("h2", {}, fault ? heading(fault) : `✓ ${wish.given === "path" ? "This axis is possible" : "A machine is found"}`)),
-    ...(fault ? [element("p", {}, capital(fault.message))] : []));
+  judge(fault);
   const rows = figures.map(({ name, words }) => element("tr", {}, element("th", { scope: "row" }, name), element("td", { "data-key": name }, words)));
   byId("figures").replaceChildren(...(rows.length ? [element("table", { class: "figures" }, element("tbody", {}, ...rows))] : []));
   byId("make").disabled = Boolean(fault);
   byId("finding").hidden = wish.given === "path" || !fault;
+}
+
+/** Says whether there is a machine; what has been said already is not said again. */
+function judge(fault) {
+  const place = byId("possible");
+  const head = fault ? heading(fault) : `✓ ${wish.given === "path" ? "This axis is possible" : "A machine is found"}`;
+  const words = fault ? capital(fault.message) : "";
+  if (place.dataset.said === head + words) return;
+  place.dataset.said = head + words;
+  const kind = fault ? fault.of === "sought" ? "" : "error" : "good";
+  place.replaceChildren(element("div", { class: `title ${kind}` }, element("h2", {}, head)), ...(words ? [element("p", {}, words)] : []));
 }
 
 const capital = (words) => words.charAt(0).toUpperCase() + words.slice(1);
