@@ -5,7 +5,7 @@ import * as server from "./server.js";
 import { work } from "./work.js";
 
 export class Solving {
-  /** `show(answer)` takes an answer, `complain(error)` an error; `rested()` is told when nothing is left to do. */
+  /** `show(answer, more)` takes an answer and whether more figures are to come, `complain(error)` an error; `rested()` is told when nothing is left to do. */
   constructor({ show, complain, rested }) {
     Object.assign(this, { show, complain, rested });
     this.pending = null;
@@ -27,20 +27,19 @@ export class Solving {
     });
   }
 
-  /** Waits until every wish so far is answered. */
-  async settled() {
-    while (this.running) await this.running;
-  }
-
   async run() {
     while (this.pending) {
       const { wish, final } = this.pending;
       this.pending = null;
       const answer = await this.answer(wish, "stop", {});
-      if (answer) this.show(answer);
-      if (final && answer && !this.pending && !answer.fault) {
-        const whole = await this.answer(wish, "resting", { rest: true });
-        if (whole && !this.pending) this.show(whole);
+      if (answer) this.show(answer, true);
+      // Of a path or an axis that is not possible no more is to be told; of a split, what the others would be.
+      if (!final || !answer || this.pending || ["path", "axis"].includes(answer.fault?.of)) continue;
+      for (const others of [false, true]) {
+        const whole = await this.answer(wish, "resting", { rest: true, others });
+        if (!whole || this.pending) break;
+        this.show(whole, !others);
+        this.rested();
       }
     }
     this.rested();

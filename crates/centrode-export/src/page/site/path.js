@@ -47,11 +47,13 @@ const form = new Form({ edit, hold: () => {}, respond: () => {}, fixed: false })
 const handles = new Handles(stage, { edit, began: () => {}, points: (table) => form.points.get(table) });
 const field = new Field(stage, complain);
 stage.field = field;
-const solving = new Solving({ show: (answer) => wish.given === "path" && show(answer), complain, rested: () => byId("verdict").setAttribute("aria-busy", "false") });
+const solving = new Solving({ show: (answer, more) => wish.given === "path" && show(answer, more), complain, rested: () => byId("verdict").setAttribute("aria-busy", "false") });
 
 /** What is drawn is kept while the window is open: a design made of it leads away from this page, and back. */
 const KEPT = "centrode-path";
 let wish = kept() ?? EXAMPLE;
+/** Figures that are shown. */
+let told = [];
 /** What ends the search for the machine. */
 let finding = null;
 const history = new History(JSON.stringify(wish));
@@ -125,8 +127,8 @@ function fill(error) {
   form.show({ tables: tables(wish), error, verdict: error ? undefined : { findings: [] } });
 }
 
-/** Shows what the program answers. */
-function show({ picture, curves, figures, fault }) {
+/** Shows what the program answers; where `more` figures are to come, those from before stay, faded. */
+function show({ picture, curves, figures, fault }, more = false) {
   stage.show(picture);
   handles.show(marks(wish));
   transport.draw();
@@ -134,7 +136,11 @@ function show({ picture, curves, figures, fault }) {
   if (!fault) charts.show(curves);
   transport.show(curves);
   judge(fault);
-  const rows = figures.map(({ name, words }) => element("tr", {}, element("th", { scope: "row" }, name), element("td", { "data-key": name }, words)));
+  const names = new Set(figures.map(({ name }) => name));
+  const stale = more && !fault ? told.filter(({ name }) => !names.has(name)) : [];
+  told = [...figures, ...stale.map((one) => ({ ...one, stale: true }))];
+  const rows = told.map(({ name, words, stale: faded }) =>
+    element("tr", { class: faded && "stale" }, element("th", { scope: "row" }, name), element("td", { "data-key": name }, words)));
   byId("figures").replaceChildren(...(rows.length ? [element("table", { class: "figures" }, element("tbody", {}, ...rows))] : []));
   byId("make").disabled = Boolean(fault);
   byId("finding").hidden = wish.given === "path" || !fault;
@@ -209,10 +215,7 @@ function listen() {
   byId("bluntest").addEventListener("click", () => best(true));
   byId("find-machine").addEventListener("click", find);
   byId("show-gears").addEventListener("change", () => stage.draw());
-  byId("make").addEventListener("click", async () => {
-    await solving.settled();
-    await maker.make(wish, complain);
-  });
+  byId("make").addEventListener("click", () => maker.make(wish, complain));
   file.listen({
     given: () => wish.given,
     rows: () => rowsOf(wish),

@@ -4,7 +4,7 @@ use super::drawing::{self, Drawing, mark};
 use super::sought::Sought;
 use super::wish::{Choices, Wish};
 use crate::analysis::Unit;
-use crate::cli::reverse::range;
+use crate::cli::reverse::{range, sharpest};
 use crate::export::page::{Curve, Mark, Picture};
 use crate::geometry::Point;
 use crate::mechanism::gear::Limits;
@@ -54,11 +54,16 @@ impl Answer {
                 return Self::without(picture, "axis", fault.to_string());
             }
         };
-        Self::of_chain(&ask.choices, &chain, ask.rest).unwrap_or_else(|reason| {
+        let answer = Self::of_chain(&ask.choices, &chain, ask.rest);
+        let mut answer = answer.unwrap_or_else(|reason| {
             let mut answer = Self::without(drawing::path(&wanted, Vec::new()), "split", reason);
             answer.figures = figures(&chain, None);
             answer
-        })
+        });
+        if ask.others {
+            answer.figures.extend(others(&ask.choices, &chain));
+        }
+        answer
     }
 
     /// The machine that is sought.
@@ -192,6 +197,21 @@ fn rested(chain: &TwoBar, split: &Split, arms: u32) -> Result<Vec<Figure>, Strin
         ));
     }
     Ok(found)
+}
+
+/// Figures of the splits that were not chosen.
+fn others(choices: &Choices, chain: &TwoBar) -> Vec<Figure> {
+    let kinds = SplitKind::NAMES.into_iter();
+    let kinds = kinds.filter(|(_, kind)| choices.kind() != Ok(*kind));
+    kinds
+        .map(|(name, kind)| {
+            let words = match Split::new(chain, kind, choices.bend()) {
+                Ok(split) => sharpest(chain, &split),
+                Err(error) => error.to_string(),
+            };
+            figure(&format!("split {name}"), words)
+        })
+        .collect()
 }
 
 fn figure(name: &str, words: String) -> Figure {

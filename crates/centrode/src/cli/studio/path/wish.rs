@@ -18,6 +18,9 @@ pub(super) struct Wish {
     /// Whether the hand rests: what takes longer is told, too.
     #[serde(default)]
     pub(super) rest: bool,
+    /// Whether the other splits are told, too.
+    #[serde(default)]
+    pub(super) others: bool,
 }
 
 /// Choices of the gears.
