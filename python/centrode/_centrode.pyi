@@ -1085,6 +1085,8 @@ class Reversed:
     @property
     def full_module(self) -> float | None: ...
     @property
+    def goals(self) -> tuple[Goal, ...]: ...
+    @property
     def tip_error(self) -> float: ...
     @property
     def clamp_deg(self) -> float | None: ...
@@ -1119,6 +1121,8 @@ def reverse(
     band: _Real | ArrayLike | None = None,
     open: bool = False,
     module: _Real | None = None,
+    aim: Literal["module", "mild", "small"] | None = None,
+    wishes: dict[str, Any] | None = None,
 ) -> Reversed: ...
 
 @final

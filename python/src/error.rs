@@ -87,6 +87,7 @@ raised! {
         EasingError::Axis(_) | EasingError::NoAxis { .. } | EasingError::NoReturn { .. } => MechanismError("axis"),
         EasingError::TooFew { .. } => DesignError("path"),
         EasingError::Module { .. } => DesignError("module"),
+        EasingError::Wish(error) => DesignError(format!("wishes.{}", error.key)),
         _ => DesignError("band"),
     }
     PoseError {

@@ -1,6 +1,7 @@
 mod eased;
 mod given;
 mod tables;
+mod wished;
 
 use std::ops::ControlFlow;
 use std::sync::{Arc, OnceLock};
@@ -10,7 +11,7 @@ use centrode_analysis::with_sound_teeth;
 use centrode_mechanism::design::Design as _;
 use centrode_mechanism::machine::Piecewise;
 use centrode_mechanism::reverse::{
-    AxisMap, AxisRange, KeyPoses, ReversedMachine, Split, SplitKind, TwoBar, WantedPath,
+    Aim, AxisMap, AxisRange, KeyPoses, ReversedMachine, Split, SplitKind, TwoBar, WantedPath,
 };
 use centrode_mechanism::transmission::Transmission as _;
 use pyo3::prelude::{Bound, Py, PyAny, PyResult, Python, pyclass, pymethods};
@@ -55,7 +56,7 @@ pub(crate) struct Reversed {
 impl Reversed {
     fn eased_path(&self) -> Option<&Eased> {
         match &self.given {
-            Given::Path { eased, .. } => eased.as_ref(),
+            Given::Path { eased, .. } => eased.as_deref(),
             Given::Poses { .. } => None,
         }
     }
@@ -67,7 +68,13 @@ impl Reversed {
         (kind, bend_deg, arms): (SplitKind, f64, u32),
     ) -> Answer<Self> {
         let split = Split::new(&chain, kind, bend_deg.to_radians())?;
-        let made = ReversedMachine::new(&chain, &split, arms, None)?;
+        let mut made = ReversedMachine::new(&chain, &split, arms, None)?;
+        if let Given::Path {
+            eased: Some(eased), ..
+        } = &given
+        {
+            made = made.with_obstacles(&eased.asked.wishes.keep_out);
+        }
         let law = chain
             .law()
             .map_err(centrode_mechanism::reverse::SplitError::from)?;
@@ -148,17 +155,23 @@ impl Reversed {
         Some(self.eased_path()?.module)
     }
 
+    /// What else was wanted, and how far it is reached: records of goals.
+    #[getter]
+    fn goals<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
+        record::goals(py, self.eased_path().map_or(&[], |eased| &eased.goals))
+    }
+
     /// Greatest distance of the tip from the path, mm, with the laws of the gears as the design holds them.
     #[getter]
     fn tip_error(&self) -> f64 {
         self.made.tip_error.value
     }
 
-    /// Direction of the clamp less that of the arm, degrees; None where a path was given.
+    /// Direction of the clamp less that of the arm, degrees; None where a path was given and no directions along it.
     #[getter]
     fn clamp_deg(&self) -> Option<f64> {
         match &self.given {
-            Given::Path { .. } => None,
+            Given::Path { eased, .. } => Some(eased.as_ref()?.clamp?.to_degrees()),
             Given::Poses { found, .. } => Some(found.clamp.to_degrees()),
         }
     }
@@ -284,7 +297,12 @@ impl Reversed {
                 let keywords = keywords.with("band", asked.map(|asked| asked.bands.clone()))?;
                 let keywords = keywords.with("open", asked.is_some_and(|asked| asked.is_open))?;
                 let module = asked.and_then(|asked| asked.module);
-                ("reverse", keywords.with("module", module)?)
+                let keywords = keywords.with("module", module)?;
+                let aim = asked.and_then(|asked| asked.aim.map(Aim::name));
+                let wishes = asked.filter(|asked| !asked.wishes.is_free());
+                let wishes = wishes.map(|asked| wished::keywords(py, &asked.wishes));
+                let keywords = keywords.with("aim", aim)?;
+                ("reverse", keywords.with("wishes", wishes.transpose()?)?)
             }
             Given::Poses { rows, .. } => ("reverse_poses", keywords.with("poses", rows.clone())?),
         };

@@ -7,7 +7,7 @@ use centrode_mechanism::design::{Projection, SheetSize};
 use centrode_mechanism::gear::design::{Addendum, Phase};
 use centrode_mechanism::gear::pitch::{Interpolation, Plane};
 use centrode_mechanism::linkage::Branch;
-use centrode_mechanism::reverse::SplitKind;
+use centrode_mechanism::reverse::{Aim, SplitKind};
 use centrode_mechanism::shaft::Scheme;
 use centrode_mechanism::three_arm::design::Direction;
 
@@ -114,6 +114,10 @@ impl Word for Version {
 impl Word for Curves {
     const WORDS: &'static [(&'static str, Self)] =
         &[("arcs", Self::Arcs), ("splines", Self::Splines)];
+}
+
+impl Word for Aim {
+    const WORDS: &'static [(&'static str, Self)] = &Self::NAMES;
 }
 
 impl Word for SplitKind {

@@ -10,6 +10,7 @@ import time
 import centrode as ct
 import numpy as np
 import pytest
+import shapely
 import tomllib
 
 DRAWN = np.array(
@@ -364,3 +365,80 @@ def test_a_machine_of_an_eased_path_follows_it_through_tooth_contact_alone(tmp_p
     assert 0 < found["joints"]["idler_joint"]["off_max"] < half
     assert 0 < found["joints"]["planet_joint"]["off_max"] < half * (1 + ratio)
     assert found["penetration_max_mm"] < 0.01
+
+
+WISHES = {
+    "carrier": {"at_most": 130},
+    "arm": {"at_least": 150, "at_most": 190},
+    "directions": [
+        {"point": 5, "direction_deg": 40, "tolerance_deg": 5},
+        {"point": 9, "direction_deg": 85, "tolerance_deg": 5},
+    ],
+    "keep_out": {"tray": {"corners": [[320, 330], [360, 330], [360, 420], [320, 420]], "clearance": 2}},
+}
+
+
+def test_what_else_is_wanted_is_reached_and_is_so_by_other_measures():
+    made = ct.reverse(DRAWN, bend_deg=40, band=5, wishes=WISHES)
+    assert made.carrier <= 130
+    assert 150 <= made.arm <= 190
+    assert all(goal.met for goal in made.goals), made.goals
+    goals = {goal.name: goal.value for goal in made.goals}
+    machine = made.machine()
+    phi = np.linspace(0, 2 * np.pi, 4001)
+    # Directions: those of the arm where its tip is nearest to the points as they were eased.
+    tip, arm = machine.point("arm.tip", phi), machine.body("arm", phi)[:, 2]
+    for point in (5, 9):
+        nearest = np.hypot(*(tip - made.eased[point - 1]).T).argmin()
+        wanted = next(w["direction_deg"] for w in WISHES["directions"] if w["point"] == point)
+        off = np.degrees(arm[nearest]) + made.clamp_deg - wanted
+        off = (off + 180) % 360 - 180
+        assert off == pytest.approx(np.degrees(goals[f"direction-{point}"]), abs=0.2)
+        assert abs(off) < 5.2
+    # The distance from the tray: of a plate with round ends, by shapely, and by the machine's own clearance.
+    tray = shapely.Polygon(WISHES["keep_out"]["tray"]["corners"])
+    design = tomllib.loads(machine.to_toml())
+    half = 0.5 * design["plates"]["width"]
+    knee = machine.body("arm", phi)[:, :2]
+    bars = [shapely.LineString([k, t]) for k, t in zip(knee, tip, strict=True)]
+    gap = min(bar.distance(tray) for bar in bars) - half
+    assert goals["keep-out-tray"] == pytest.approx(gap, abs=1e-3)
+    assert machine.clearance("arm", "tray")[0] == pytest.approx(gap, abs=0.01)
+    assert design["obstacles"]["tray"]["outline"] == WISHES["keep_out"]["tray"]["corners"]
+    copy = pickle.loads(pickle.dumps(made))
+    assert np.array_equal(copy.eased, made.eased)
+    assert copy.goals == made.goals
+
+
+def test_an_aim_is_the_better_for_being_sought():
+    module, mild, small = (ct.reverse(DRAWN, bend_deg=40, aim=aim) for aim in ("module", "mild", "small"))
+    uneven = [max(r.ratios[1], 1 / r.ratios[0]) for r in (module, mild, small)]
+    reach = [r.carrier + r.arm for r in (module, mild, small)]
+    assert min(uneven) == uneven[1]
+    assert min(reach) == reach[2]
+    assert module.full_module >= max(mild.full_module, small.full_module)
+
+
+def test_a_wish_out_of_reach_is_come_near_to_and_told():
+    made = ct.reverse(DRAWN, bend_deg=40, wishes={"carrier": {"at_most": 20}})
+    (goal,) = made.goals
+    assert not goal.met
+    assert goal.value == pytest.approx(made.carrier)
+    assert goal.margin < 0
+    # No axis of the map has a shorter one; the eased path is of degree five, that of the map a cubic.
+    assert made.carrier < np.nanmin(ct.reverse(DRAWN, bend_deg=40).axes.carrier) + 0.5
+
+
+@pytest.mark.parametrize(
+    ("wishes", "key"),
+    [
+        ({"arm": {"at_least": -1}}, "arm.at_least"),
+        ({"arms": {}}, "unknown field `arms`"),
+        ({"directions": [{"point": 99, "direction_deg": 1}]}, "directions"),
+        ({"keep_out": {"tray": {}}}, "keep_out.tray.corners"),
+        ({"clamp_deg": "up"}, "invalid type"),
+    ],
+)
+def test_a_wish_that_breaks_a_rule_is_named(wishes, key):
+    with pytest.raises(ct.DesignError, match=key):
+        ct.reverse(DRAWN, wishes=wishes)

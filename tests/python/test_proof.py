@@ -207,6 +207,10 @@ def test_teeth_that_meet_in_the_play_are_told_before_a_file_is_written(run, tmp_
     outline = pair.driver.outline(1e-4)
     nearest = min(range(len(outline)), key=lambda i: math.dist(outline[i], (x, y)))
     assert math.dist(outline[nearest], (x, y)) < 1e-3
+    # The quick check tells it, too.
+    (found,) = [finding for finding in pair.check().findings if finding.rule == "seat-jump"]
+    assert found.place.input == pytest.approx(phi, abs=1e-6)
+    assert found.measured == pytest.approx(turn, rel=1e-3)
 
 
 def touching(proof):

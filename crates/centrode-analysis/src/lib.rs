@@ -21,7 +21,9 @@ pub use composed::{
     NoSoundTeeth, SoundTeeth, check_composed, composed_clearance, composed_figures,
     with_sound_teeth,
 };
-pub use contact::{Contact, ContactExtremes, Proof, ProofError, ProofMeeting, ProofStretch, prove};
+pub use contact::{
+    Contact, ContactExtremes, Proof, ProofError, ProofMeeting, ProofStretch, SeatJump, prove,
+};
 pub use feeder::{
     Attainable, FeederForces, FeederForcesError, SixBarTolerances, SwingSpread, check_feeder,
     check_strokes,

@@ -1,8 +1,9 @@
 use std::ops::ControlFlow;
 
-use centrode_analysis::optimise::Easing;
+use centrode_analysis::Goal;
+use centrode_analysis::optimise::{Easing, EasingSpec};
 use centrode_geometry::Point;
-use centrode_mechanism::reverse::{DrawnPath, TwoBar};
+use centrode_mechanism::reverse::{Aim, DrawnPath, TwoBar, Wishes};
 use pyo3::prelude::{Python, pyfunction};
 
 use crate::array::{Rows, Values};
@@ -16,6 +17,8 @@ pub(super) struct Asked {
     pub(super) module: Option<f64>,
     /// Whether the return from the last point to the first is free.
     pub(super) is_open: bool,
+    pub(super) aim: Option<Aim>,
+    pub(super) wishes: Wishes,
 }
 
 /// A path eased within bands.
@@ -25,6 +28,9 @@ pub(super) struct Eased {
     pub(super) points: Vec<Point>,
     /// Module up to which full teeth are surely sound, mm.
     pub(super) module: f64,
+    pub(super) goals: Vec<Goal>,
+    /// Direction of the clamp less that of the arm, rad.
+    pub(super) clamp: Option<f64>,
 }
 
 /// Bands and module that were asked for.
@@ -32,17 +38,23 @@ pub(super) fn asked(
     band: Option<Values>,
     module: Option<f64>,
     is_open: bool,
+    aim: Option<Aim>,
+    wishes: Wishes,
 ) -> Answer<Option<Asked>> {
+    let is_wished = aim.is_some() || !wishes.is_free();
     let asked = |bands: Vec<f64>| {
         Ok(Some(Asked {
             bands,
             module,
             is_open,
+            aim,
+            wishes,
         }))
     };
     match (band, module) {
         (Some(band), _) => asked(band.into_flat()),
         (None, _) if is_open => asked(vec![0.0]),
+        (None, None) if is_wished => asked(vec![0.0]),
         (None, None) => Ok(None),
         (None, Some(_)) => {
             let sentence = "it eases a path: say by how much with band";
@@ -60,16 +72,23 @@ impl Eased {
         bend_deg: f64,
     ) -> Answer<(TwoBar, Self)> {
         let axis = axis.map(|(x, y)| Point::new(x, y));
-        let bend = bend_deg.to_radians();
+        let spec = EasingSpec {
+            axis,
+            aim: asked.aim.unwrap_or_default(),
+            wishes: asked.wishes.clone(),
+            ..EasingSpec::new(&asked.bands, bend_deg.to_radians())
+        };
         let easing = match asked.is_open {
-            true => Easing::with_free_return(points, &asked.bands, axis, bend),
-            false => Easing::new(points, &asked.bands, axis, bend),
+            true => Easing::with_free_return(points, &spec),
+            false => Easing::new(points, &spec),
         };
         let found = easing?.search(asked.module, &mut |_| ControlFlow::Continue(()))?;
         let eased = Self {
             asked,
             module: found.module.1,
             points: found.points,
+            goals: found.goals,
+            clamp: found.clamp,
         };
         Ok((found.chain, eased))
     }

@@ -5,10 +5,12 @@ use centrode_geometry::Point;
 use centrode_mechanism::reverse::{
     AxisMap, AxisRange, KeyPose, KeyPoses, SplitKind, TwoBar, WantedPath,
 };
-use pyo3::prelude::{Python, pyfunction};
+use pyo3::prelude::{Bound, Python, pyfunction};
+use pyo3::types::PyDict;
 
 use super::Reversed;
 use super::eased::{self, Eased};
+use super::wished;
 use crate::array::{Rows, Values};
 use crate::count::Count;
 use crate::error::Answer;
@@ -21,7 +23,7 @@ pub(super) enum Given {
     Path {
         points: Vec<Point>,
         axis: Option<(f64, f64)>,
-        eased: Option<Eased>,
+        eased: Option<Box<Eased>>,
     },
     Poses {
         rows: Rows<3>,
@@ -43,6 +45,11 @@ pub(super) enum Given {
 ///         gears bear full teeth as large as can be. Without an axis the search begins with the one of the bluntest gears.
 ///     open: Whether the points are the working part alone: the return from the last to the first is sought, too.
 ///     module: Module of full teeth, mm, for which it is eased, and no more.
+///     aim: What is made the most of where something is free: "module", the largest teeth, "mild", the ratio nearest to 1, or
+///         "small", the least reach of the tip; left out, the largest teeth where the path is eased or something is wished, else
+///         the mildest ratio.
+///     wishes: What else is wanted, with the keys of the table wishes of a design file of family path: carrier, arm,
+///         center_distance, ratio, directions, clamp_deg, turn, keep_out. `goals` tells how far they are reached.
 ///
 /// Raises:
 ///     DesignError: The points make no path, or a value breaks a rule of its own.
@@ -56,8 +63,8 @@ pub(super) enum Given {
 /// (125.612, 186.594, True)
 #[pyfunction]
 #[pyo3(
-    signature = (path, axis=None, *, split="powers", bend_deg=60.0, arms=Count::Fits(1), band=None, open=false, module=None),
-    text_signature = "(path, axis=None, *, split='powers', bend_deg=60.0, arms=1, band=None, open=False, module=None)"
+    signature = (path, axis=None, *, split="powers", bend_deg=60.0, arms=Count::Fits(1), band=None, open=false, module=None, aim=None, wishes=None),
+    text_signature = "(path, axis=None, *, split='powers', bend_deg=60.0, arms=1, band=None, open=False, module=None, aim=None, wishes=None)"
 )]
 #[expect(clippy::too_many_arguments, reason = "keywords")]
 pub(crate) fn reverse(
@@ -70,18 +77,22 @@ pub(crate) fn reverse(
     band: Option<Values>,
     open: bool,
     module: Option<f64>,
+    aim: Option<&str>,
+    wishes: Option<Bound<'_, PyDict>>,
 ) -> Answer<Reversed> {
+    let aim = aim.map(|aim| Word::of("aim", aim)).transpose()?;
+    let wishes = wishes.map(|wishes| wished::read(&wishes)).transpose()?;
     let kind: SplitKind = Word::of("split", split)?;
     let arms = arms.within("arms", 1, 12)?;
     let points = path.points("path")?;
-    let easing = eased::asked(band, module, open)?;
+    let easing = eased::asked(band, module, open, aim, wishes.unwrap_or_default())?;
     wait(py, move || {
         if let Some(asked) = easing {
             let (chain, eased) = Eased::search(&points, asked, axis, bend_deg)?;
             let given = Given::Path {
                 points,
                 axis,
-                eased: Some(eased),
+                eased: Some(Box::new(eased)),
             };
             return Reversed::new(given, chain, OnceLock::new(), (kind, bend_deg, arms));
         }

@@ -374,7 +374,7 @@ pub(super) struct Seat {
     touches: Vec<(Point, Vector)>,
     /// Driven angle from which the contacts were found, rad.
     start: f64,
-    hits: Vec<Hit>,
+    pub(super) hits: Vec<Hit>,
 }
 
 impl Seat {

@@ -9,6 +9,7 @@ mod edges;
 mod extremes;
 mod fillets;
 mod hit;
+mod jumps;
 mod meeting;
 mod meshing;
 mod places;
@@ -25,6 +26,7 @@ mod walk;
 use centrode_mechanism::gear::design::Addendum;
 use centrode_mechanism::gear::{GearPair, Member, Tooth, ToothSide};
 pub use extremes::ContactExtremes;
+pub use jumps::SeatJump;
 use meshing::Meshing;
 pub use proof::{Proof, ProofError, ProofMeeting, ProofStretch, prove};
 

@@ -1,8 +1,9 @@
 use centrode_mechanism::design::DesignSpec as _;
 use centrode_mechanism::gear::GearPair;
 use centrode_mechanism::gear::design::{Addendum, GearPairDesign};
+use centrode_mechanism::three_arm::{ThreeArm, design::ThreeArmDesign};
 
-use super::{Contact, ProofError, prove};
+use super::{Contact, ProofError, ProofStretch, prove};
 
 fn design(name: &str) -> GearPair {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/designs");
@@ -96,6 +97,39 @@ fn a_certificate_follows_the_contact_over_the_ends_of_trimmed_flanks() {
     };
     let at = found.as_ref().err().map(angle);
     assert!(at.is_some_and(|phi| (3.42..3.44).contains(&phi)), "{at:?}");
+}
+
+/// The place comes from turning one outline against the other as polygons.
+#[test]
+fn a_tooth_that_comes_into_the_play_makes_a_seat_jump() {
+    let pair = design("transplanter-pair-2021");
+    let jumps = Contact::of(&pair).seat_jumps(&pair);
+    let first = jumps.first().expect("a jump");
+    assert!((first.input - 3.43).abs() < 1e-4, "{first:?}");
+    assert!((first.turn - 1.1e-3).abs() < 1e-5, "{first:?}");
+    assert!(!first.is_reverse && first.teeth == (22, 21), "{first:?}");
+    // Just before it the driven gear stands where it stood, just after it where the tooth came.
+    let beside = [first.input - 1e-6, first.input + 1e-6];
+    let contact = Contact::at(&pair, &beside);
+    let off = |k: usize| contact.driven_angle[k] - contact.law[k];
+    assert!(((off(1) - off(0)).abs() - first.turn).abs() < 1e-5);
+    for sound in ["law-pair", "quintic-pair"] {
+        let pair = design(sound);
+        assert!(Contact::of(&pair).seat_jumps(&pair).is_empty(), "{sound}");
+    }
+}
+
+#[test]
+fn a_corner_beside_a_sharp_bend_has_its_foot_there() {
+    // Of the sun of this mechanism a flank bends by 4.8/mm where it meets its fillet.
+    let text = include_str!("../../../../tests/designs/three-arm-all-goals.toml");
+    let design = ThreeArmDesign::from_toml(text).expect("a design");
+    let arms = ThreeArm::resolve(&design).expect("a mechanism");
+    let proof = prove(&arms.pair().expect("gears")).expect("a certificate");
+    let along = |s: &&ProofStretch| s.from > 2.4133 && s.to < 2.4142;
+    let near = |s: &ProofStretch| s.meetings.iter().any(|m| m.pieces[0] == 150);
+    let mut all = proof.stretches.iter().filter(along).peekable();
+    assert!(all.peek().is_some() && all.all(near));
 }
 
 #[test]

@@ -209,12 +209,18 @@ fn foot(part: &Part<'_>, point: &Point) -> Option<(f64, SegmentJet)> {
     for _ in 0..12 {
         let jet = part.segment.at(u);
         let apart = jet.point - point;
-        let slope = jet.first.norm_squared() + apart.dot(&jet.second);
-        let step = -apart.dot(&jet.first) / slope;
-        if slope.is_nan() || slope <= 0.0 {
+        let square = jet.first.norm_squared();
+        let slope = square + apart.dot(&jet.second);
+        if slope.is_nan() {
             return None;
         }
-        if step.abs() < SETTLED {
+        // Beyond the centre of a sharp bend the distance is greatest, and Newton's step would go there: downhill instead.
+        let is_beyond = slope <= 0.0;
+        let step = -apart.dot(&jet.first) / if is_beyond { square } else { slope };
+        if is_beyond && (u + step).abs() > 1.0 {
+            return None;
+        }
+        if step.abs() < SETTLED && !is_beyond {
             let end = u + step;
             return (end.abs() <= 1.0 + ON_PART).then_some((end, jet));
         }

@@ -274,4 +274,33 @@ fn mesh(pair: &GearPair, contact: &Contact, report: &mut Report) {
             place: place(worst.1),
         });
     }
+    report.findings.extend(seat_jump(pair, contact));
+}
+
+/// The greatest jump of a seat, as a finding.
+fn seat_jump(pair: &GearPair, contact: &Contact) -> Option<Finding> {
+    let jumps = contact.seat_jumps(pair);
+    let greatest = jumps.first()?;
+    let (driver, driven) = greatest.teeth;
+    let pushed = if greatest.is_reverse { "back" } else { "on" };
+    let others = match jumps.len() - 1 {
+        0 => String::new(),
+        others => format!("; {others} more of such places"),
+    };
+    Some(Finding {
+        rule: "seat-jump",
+        remedy: remedy("seat-jump"),
+        severity: Severity::Warning,
+        message: format!(
+            "tooth {driver} of the driver meets tooth {driven} of the driven gear in the play: the driven gear pushed {pushed} jumps by {:.3e} rad, and may be caught on either side of that tooth{others}",
+            greatest.turn
+        ),
+        measured: Some(greatest.turn),
+        required: Some(0.0),
+        unit: Unit::Angle,
+        place: Place {
+            input: Some(greatest.input),
+            ..Place::default()
+        },
+    })
 }

@@ -19,7 +19,7 @@ pub(crate) fn remedy(rule: &str) -> Option<&'static str> {
         "pointed" | "thin-tip" => {
             "a smaller addendum or pressure angle, or a smaller profile shift"
         }
-        "no-flank" | "disengaged" | "contact-lost" => {
+        "no-flank" | "disengaged" | "contact-lost" | "seat-jump" => {
             "a pitch curve of gentler curvature, or more teeth of a smaller module"
         }
         "interference" => "more tip clearance or backlash, or a smaller module",

@@ -1,11 +1,20 @@
+mod aimed;
+mod error;
+mod free_return;
+mod wished;
+
 use std::f64::consts::TAU;
 use std::ops::ControlFlow;
 
 use centrode_geometry::{Bounds, Point, Vector};
 use centrode_mechanism::gear::Limits;
-use centrode_mechanism::reverse::{AxisFault, AxisMap, AxisRange, PathError, TwoBar, WantedPath};
+use centrode_mechanism::reverse::{Aim, AxisMap, AxisRange, TwoBar, WantedPath, Wishes};
 
 use super::{Ended, Evaluation, Method, Problem, Settings, minimise};
+use crate::Goal;
+
+use aimed::{aimed, best_axis};
+pub use error::EasingError;
 
 /// Most points that are moved each on its own; of more, the moves are a sum of harmonics.
 const SINGLE: usize = 24;
@@ -15,15 +24,6 @@ const HARMONICS: usize = 12;
 const GREATEST: f64 = 2.0;
 /// Room of the axis about the one that the search starts from, as a share of the path's size.
 const ROOM: f64 = 0.2;
-/// Returns tried from the end of an open path to its start: lengths of their tangents at both, as multiples of the distance
-/// between them.
-const RETURNS: [f64; 6] = [0.5, 1.0, 1.5, 2.0, 3.0, 4.0];
-/// Fewest and most points of a free return.
-const RETURN_POINTS: [usize; 2] = [4, 12];
-/// Band of a free return's points, as a share of the path's size.
-const FREE: f64 = 0.35;
-/// Fewest points of an open path.
-const FEWEST_OPEN: usize = 3;
 /// Evaluations of each of both searches.
 const EVALUATIONS: u64 = 6000;
 /// Violation of a point of which there is no machine.
@@ -39,14 +39,45 @@ pub struct Easing {
     points: Vec<Point>,
     normals: Vec<Vector>,
     bands: Vec<f64>,
-    /// Axis, and how far it may move.
-    axis: (Point, f64),
+    /// Axis, and the box within which it may move, if it may.
+    axis: (Point, Option<Bounds>),
     bend: f64,
+    aim: Aim,
+    wishes: Wishes,
     /// Module wanted, mm: then the moves are sought that reach it and are the least shares of their bands.
     wanted: Option<f64>,
     start: Vec<f64>,
     /// Number of points that were given; the others are a free return.
     given: usize,
+}
+
+/// What is free about a path, and what is wanted of its machine.
+#[derive(Clone, Debug)]
+pub struct EasingSpec {
+    /// Distance within which the path may pass each point, mm, or one for all.
+    pub bands: Vec<f64>,
+    /// Axis of the carrier, mm, if it is given.
+    pub axis: Option<Point>,
+    /// Angle from the carrier's first leg to its second, rad.
+    pub bend: f64,
+    /// What is made the most of.
+    pub aim: Aim,
+    /// What else is wanted.
+    pub wishes: Wishes,
+}
+
+impl EasingSpec {
+    /// Points within their bands, mm, of a machine with a bend, rad, its axis free, for the largest teeth.
+    #[must_use]
+    pub fn new(bands: &[f64], bend: f64) -> Self {
+        Self {
+            bands: bands.to_vec(),
+            axis: None,
+            bend,
+            aim: Aim::Module,
+            wishes: Wishes::default(),
+        }
+    }
 }
 
 /// A path eased within its bands, and its machine.
@@ -61,84 +92,29 @@ pub struct EasedPath {
     /// Module up to which full teeth are surely sound, mm: on the pitch curves of the wanted path, where the axis found makes a
     /// machine for it, and on those of the eased one.
     pub module: (Option<f64>, f64),
+    /// What else was wanted, and how far it is reached.
+    pub goals: Vec<Goal>,
+    /// Direction of the clamp less that of the arm, rad, where directions were wanted.
+    pub clamp: Option<f64>,
     /// Evaluations of the search.
     pub evaluations: u64,
 }
 
-/// Reason why a path is not eased.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum EasingError {
-    /// The points make no path.
-    #[error(transparent)]
-    Path(#[from] PathError),
-    /// A band that is none.
-    #[error("the band of point {number} is zero or more, in mm, not {band}")]
-    Band {
-        /// Number of the point, from one.
-        number: usize,
-        /// Band given, mm.
-        band: f64,
-    },
-    /// Another number of bands than of points.
-    #[error("there are {bands} bands for {points} points: give one for each, or one for all")]
-    Bands {
-        /// Bands given.
-        bands: usize,
-        /// Points.
-        points: usize,
-    },
-    /// Too few points of a working part.
-    #[error("the working part of a path has {least} points or more, not {count}")]
-    TooFew {
-        /// Points given.
-        count: usize,
-        /// Fewest.
-        least: usize,
-    },
-    /// No return closes the working part.
-    #[error(
-        "no machine of this kind has a tip that runs along the points: of {returns} returns tried from the last to the first, with {axis}, none is possible"
-    )]
-    NoReturn {
-        /// Returns tried.
-        returns: usize,
-        /// With which axes.
-        axis: &'static str,
-    },
-    /// A module that is none.
-    #[error("the module wanted is greater than zero, in mm, not {module}")]
-    Module {
-        /// Module given, mm.
-        module: f64,
-    },
-    /// The axis given makes no machine for the wanted path.
-    #[error(transparent)]
-    Axis(#[from] AxisFault),
-    /// No axis tried makes a machine for the wanted path.
-    #[error(
-        "no machine of this kind has a tip that runs along the path: of {tried} axes tried on and about it none is possible"
-    )]
-    NoAxis {
-        /// Axes tried.
-        tried: usize,
-    },
-}
-
 impl Easing {
-    /// The search for a path through points each within its band, mm. `bend` is the angle from the carrier's first leg to its
-    /// second, rad. Without an axis the search starts from the one of a grid about the path whose gears are the bluntest.
+    /// The search for a path through points each within its band, mm. Without an axis the search starts from the one of a grid
+    /// about the path that comes nearest to the wishes, and of several that reach them is the best by its aim.
     ///
     /// # Errors
-    /// [`EasingError`]: the points make no path, a band is none, or no axis makes a machine for the wanted path.
-    pub fn new(
-        points: &[Point],
-        bands: &[f64],
-        axis: Option<Point>,
-        bend: f64,
-    ) -> Result<Self, EasingError> {
+    /// [`EasingError`]: the points make no path, a band is none, a wish breaks a rule, or no axis makes a machine for the wanted
+    /// path.
+    pub fn new(points: &[Point], spec: &EasingSpec) -> Result<Self, EasingError> {
+        Self::of(points, points.len(), spec)
+    }
+
+    /// The search for a path through points, of which the first `given` were given.
+    fn of(points: &[Point], given: usize, spec: &EasingSpec) -> Result<Self, EasingError> {
         let path = WantedPath::through(points)?;
-        let mut bands = each(bands, points.len())?;
+        let mut bands = each(&spec.bands, points.len())?;
         let is_closed = points.len() > 1 && points.first() == points.last();
         let points = &points[..points.len() - usize::from(is_closed)];
         bands.truncate(points.len());
@@ -147,13 +123,20 @@ impl Easing {
             let (number, band) = (i + 1, bands[i]);
             return Err(EasingError::Band { number, band });
         }
-        let axis = match axis {
-            Some(axis) => (TwoBar::new(&path, axis, None)?.axis(), 0.0),
+        spec.wishes.validate(given.min(points.len()))?;
+        let axis = match spec.axis {
+            Some(axis) => (TwoBar::new(&path, axis, None)?.axis(), None),
             None => {
                 let map = AxisMap::new(&path, AxisRange::about(&path));
                 let tried = map.found().len();
-                let axis = map.bluntest(bend).ok_or(EasingError::NoAxis { tried })?;
-                (axis, ROOM * path.bounds().diagonal())
+                let axis = best_axis(&path, &map, points.len(), spec);
+                let axis = axis.ok_or(EasingError::NoAxis { tried })?;
+                // A far axis makes an ever milder machine, and an ever larger one: no farther than the map goes.
+                let room = ROOM * path.bounds().diagonal();
+                let AxisRange { x, y, .. } = *map.range();
+                let low = Point::new(x[0].max(axis.x - room), y[0].max(axis.y - room));
+                let high = Point::new(x[1].min(axis.x + room), y[1].min(axis.y + room));
+                (axis, Some([low, high].into_iter().collect()))
             }
         };
         let step = path.period() / points.len() as f64;
@@ -166,61 +149,18 @@ impl Easing {
             points: points.to_vec(),
             bands,
             axis,
-            bend,
+            bend: spec.bend,
+            aim: spec.aim,
+            wishes: spec.wishes.clone(),
             wanted: None,
             start: Vec::new(),
-            given: points.len(),
+            given: given.min(points.len()),
         };
-        easing.start = vec![0.0; easing.bounds().len()];
+        easing.start = vec![0.0; easing.moves()];
+        if easing.axis.1.is_some() {
+            easing.start.extend([easing.axis.0.x, easing.axis.0.y]);
+        }
         Ok(easing)
-    }
-
-    /// The search for a path whose working part alone is given, mm, each point within its band: the return from its last point to
-    /// its first is free. Of several returns that leave and meet it along its own direction the search starts from the one whose
-    /// gears are the bluntest.
-    ///
-    /// # Errors
-    /// [`EasingError`], as of [`new`](Self::new), and where no return makes a machine.
-    pub fn with_free_return(
-        points: &[Point],
-        bands: &[f64],
-        axis: Option<Point>,
-        bend: f64,
-    ) -> Result<Self, EasingError> {
-        let (count, least) = (points.len(), FEWEST_OPEN);
-        if count < least {
-            return Err(EasingError::TooFew { count, least });
-        }
-        let bands = each(bands, count)?;
-        let mut best: Option<(f64, Self)> = None;
-        let mut fault = None;
-        for share in RETURNS {
-            let closed: Vec<Point> = points.iter().copied().chain(back(points, share)).collect();
-            let size = closed.iter().copied().collect::<Bounds>().diagonal();
-            let mut bands = bands.clone();
-            bands.resize(closed.len(), FREE * size);
-            match Self::new(&closed, &bands, axis, bend) {
-                Ok(mut easing) => {
-                    easing.given = count;
-                    if let Some(module) = easing.module(&easing.start)
-                        && best.as_ref().is_none_or(|(most, _)| module > *most)
-                    {
-                        best = Some((module, easing));
-                    }
-                }
-                Err(EasingError::Axis(_) | EasingError::NoAxis { .. }) => {}
-                Err(error) => fault = Some(error),
-            }
-        }
-        best.map(|(_, easing)| easing).ok_or_else(|| {
-            fault.unwrap_or(EasingError::NoReturn {
-                returns: RETURNS.len(),
-                axis: match axis {
-                    Some(_) => "the axis asked for",
-                    None => "axes on and about each path",
-                },
-            })
-        })
     }
 
     /// Searches for the bluntest gears, or, where a module is wanted, mm, for the least shares of the bands with which it is
@@ -245,6 +185,9 @@ impl Easing {
             ..Settings::default()
         };
         let mut best = |problem: &Self, target: Option<f64>| {
+            if problem.start.is_empty() {
+                return None;
+            }
             let start = evaluations;
             let searched = minimise(problem, settings(target), &mut |progress| {
                 observe(start + progress.evaluations)
@@ -252,14 +195,20 @@ impl Easing {
             let (search, ended) = searched.ok()?;
             evaluations += search.evaluations();
             let best = search.best();
-            (best.evaluation.feasible()).then_some((best.point, ended))
+            // Wishes out of reach are come as near to as can be.
+            (best.evaluation.violation() < NONE).then_some((best.point, ended))
         };
+        if wanted.is_some() {
+            found.aim = Aim::Module;
+        }
         if let Some((point, _)) = best(&found, wanted.map(|module| -module)) {
             found.start = point;
         }
+        found.aim = self.aim;
         let is_reached = |easing: &Self| {
-            let module = easing.module(&easing.start);
-            wanted.is_some_and(|wanted| module.is_some_and(|module| module >= wanted))
+            let chain = easing.chain(&easing.start);
+            let reaches = |wanted| chain.is_some_and(|chain| easing.borne(&chain) >= wanted);
+            wanted.is_some_and(reaches) && easing.evaluate(&easing.start).feasible()
         };
         if is_reached(&found) {
             found.wanted = wanted;
@@ -277,7 +226,10 @@ impl Easing {
         let is_whole = self.given == self.points.len();
         let before = WantedPath::through(&self.points)?;
         let before = TwoBar::new(&before, axis, None).ok().filter(|_| is_whole);
+        let (goals, clamp) = wished::goals(&self.wishes, &eased, self.bend, points.len());
         Ok(EasedPath {
+            goals,
+            clamp,
             moved: moved.map(|(p, q)| (p - q).norm()).collect(),
             module: (before.map(|chain| self.borne(&chain)), self.borne(&eased)),
             chain: eased,
@@ -288,6 +240,9 @@ impl Easing {
 
     /// Variables that move points.
     fn moves(&self) -> usize {
+        if self.bands.iter().all(|band| *band == 0.0) {
+            return 0;
+        }
         match self.points.len() {
             few @ ..=SINGLE => few,
             _ => 1 + 2 * HARMONICS,
@@ -297,6 +252,9 @@ impl Easing {
     /// Share of its band by which each point moves outwards.
     fn shares(&self, variables: &[f64]) -> Vec<f64> {
         let count = self.points.len();
+        if self.moves() == 0 {
+            return vec![0.0; count];
+        }
         if count <= SINGLE {
             return variables[..count].to_vec();
         }
@@ -324,19 +282,18 @@ impl Easing {
     }
 
     fn axis_at(&self, variables: &[f64]) -> Point {
-        let (axis, room) = self.axis;
         match &variables[self.moves()..] {
-            [x, y] => axis + Vector::new(*x, *y) * room,
-            _ => axis,
+            [x, y] => Point::new(*x, *y),
+            _ => self.axis.0,
         }
     }
 
-    fn module(&self, variables: &[f64]) -> Option<f64> {
+    fn chain(&self, variables: &[f64]) -> Option<TwoBar> {
         let path = WantedPath::smoothly_through(&self.eased(variables)).ok()?;
         let chain = TwoBar::new(&path, self.axis_at(variables), None).ok()?;
         // A free return must not cross the working part.
         let is_whole = self.given == self.points.len();
-        (is_whole || path.check_simple().is_ok()).then(|| self.borne(&chain))
+        (is_whole || path.check_simple().is_ok()).then_some(chain)
     }
 
     /// Module up to which full teeth are surely sound, cut by the usual rack.
@@ -349,14 +306,15 @@ impl Problem for Easing {
     fn bounds(&self) -> Vec<(f64, f64)> {
         let (count, moves) = (self.points.len(), self.moves());
         let mut bounds = match count {
+            _ if moves == 0 => Vec::new(),
             ..=SINGLE => vec![(-1.0, 1.0); moves],
             _ => {
                 let wave = |k: usize| GREATEST / (1.0 + k.div_ceil(2) as f64);
                 (0..moves).map(|k| (-wave(k), wave(k))).collect()
             }
         };
-        if self.axis.1 > 0.0 {
-            bounds.extend([(-1.0, 1.0); 2]);
+        if let Some(room) = self.axis.1 {
+            bounds.extend([(room.min.x, room.max.x), (room.min.y, room.max.y)]);
         }
         bounds
     }
@@ -366,53 +324,32 @@ impl Problem for Easing {
     }
 
     fn evaluate(&self, point: &[f64]) -> Evaluation {
-        let Some(module) = self.module(point) else {
+        let Some(chain) = self.chain(point) else {
             return Evaluation {
                 objective: 0.0,
                 constraints: vec![NONE],
             };
         };
-        match self.wanted {
-            None => Evaluation {
-                objective: -module,
-                constraints: Vec::new(),
-            },
-            Some(wanted) => {
+        let (goals, _) = wished::goals(&self.wishes, &chain, self.bend, self.points.len());
+        let mut constraints = wished::violations(&goals);
+        let moved = self.moves() > 0;
+        if let Some(wanted) = self.wanted {
+            constraints.push(wanted / self.borne(&chain) - 1.0);
+        }
+        let objective = match self.wanted {
+            Some(_) if moved => {
                 let shares = self.shares(point);
-                let moved = shares
-                    .iter()
-                    .zip(&self.bands)
-                    .filter(|(_, band)| **band > 0.0);
-                Evaluation {
-                    objective: moved.fold(0.0, |most, (share, _)| share.abs().max(most)),
-                    constraints: vec![wanted / module - 1.0],
-                }
+                let shares = shares.iter().zip(&self.bands);
+                let moved = shares.filter(|(_, band)| **band > 0.0);
+                moved.fold(0.0, |most, (share, _)| share.abs().max(most))
             }
+            _ => aimed(&chain, self.bend, self.aim),
+        };
+        Evaluation {
+            objective,
+            constraints,
         }
     }
-}
-
-/// Points between the last and the first of some along a cubic that leaves and meets them along their own direction; the tangents
-/// are so many times as long as the distance.
-fn back(points: &[Point], share: f64) -> Vec<Point> {
-    let count = points.len();
-    let (from, to) = (points[count - 1], points[0]);
-    let (out, home) = (from - points[count - 2], points[1] - to);
-    let far = (to - from).norm();
-    let [out, home] = [out, home].map(|v| v.normalize() * (share * far));
-    let at = |x: f64| {
-        let (y, xx) = (1.0 - x, x * x);
-        let place = from.coords * (y * y * (1.0 + 2.0 * x)) + to.coords * (xx * (3.0 - 2.0 * x));
-        Point::from(place + out * (x * y * y) - home * (xx * y))
-    };
-    let steps = points.windows(2).map(|pair| (pair[1] - pair[0]).norm());
-    let step = steps.sum::<f64>() / (count - 1) as f64;
-    let chords = (0..64).map(|k| (at(f64::from(k + 1) / 64.0) - at(f64::from(k) / 64.0)).norm());
-    let [least, most] = RETURN_POINTS;
-    let inner = ((chords.sum::<f64>() / step) as usize).clamp(least, most);
-    (1..=inner)
-        .map(|k| at(k as f64 / (inner + 1) as f64))
-        .collect()
 }
 
 /// A band for each point, of one for each or one for all.

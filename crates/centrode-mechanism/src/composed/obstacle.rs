@@ -11,6 +11,7 @@ use super::{Composed, ComposedCircleSpec, ComposedCornerSpec, ComposedError, Mou
 use crate::gear::design::SpecError;
 use crate::gear::design::rule::{Rule, broken, finite};
 use crate::machine::{JointKind, Line, LineRole, Machine, Surface};
+use crate::reverse::KeepOut;
 
 /// Size of a half plane against that of the machine.
 const WIDE: f64 = 4.0;
@@ -54,6 +55,22 @@ pub struct ComposedObstacle {
     pub span: [f64; 2],
     /// Height of its face where it is a half plane, mm.
     below: Option<f64>,
+}
+
+impl From<&KeepOut> for ComposedObstacleSpec {
+    fn from(shape: &KeepOut) -> Self {
+        let corner = |at: &[f64; 2]| ComposedCornerSpec {
+            at: *at,
+            bulge: 0.0,
+        };
+        let circle = shape.center.zip(shape.radius);
+        Self {
+            outline: shape.corners.iter().map(corner).collect(),
+            circle: circle.map(|(center, radius)| ComposedCircleSpec { center, radius }),
+            below: shape.below,
+            ..Self::default()
+        }
+    }
 }
 
 impl ComposedObstacleSpec {

@@ -1,3 +1,4 @@
+use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
 use centrode_geometry::{Extreme, Point, Vector, greatest};
@@ -11,7 +12,7 @@ use crate::gear::design::{Addendum, BodySpec, GearPairDesign};
 use crate::gear::pitch::{PitchSpec, Transmission};
 use crate::gear::{CurvatureRange, GearPair, GearPairError, Member, Rolling};
 use crate::machine::preferred_size;
-use crate::reverse::{Split, SplitKind, TwoBar, leg};
+use crate::reverse::{KeepOut, Split, SplitKind, TwoBar, leg};
 
 /// Names of the pairs of a machine: of one that occurs twice, and of two.
 const STAGE: &str = "stage";
@@ -112,6 +113,20 @@ impl ReversedMachine {
         let enough = NEAR_ENOUGH * (chain.carrier() + chain.arm());
         let of_steps = |steps| Self::of_steps(chain, split, arms, steps);
         fewest_steps(of_steps, |made| made.tip_error.value <= enough)
+    }
+
+    /// The machine with obstacles in the places that it shall keep out of, for its check to measure.
+    #[must_use]
+    pub fn with_obstacles(mut self, keep_out: &BTreeMap<String, KeepOut>) -> Self {
+        let obstacle = |(name, shape): (&String, &KeepOut)| (name.clone(), shape.into());
+        self.design.obstacles = keep_out.iter().map(obstacle).collect();
+        self
+    }
+
+    /// Width of the plates of a machine of a carrier's length and a bend, rad, mm.
+    #[must_use]
+    pub fn plate_width(carrier: f64, bend: f64) -> f64 {
+        preferred_size(PLATE[1] * leg(carrier, bend))
     }
 
     fn of_steps(

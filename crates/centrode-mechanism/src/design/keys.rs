@@ -38,14 +38,14 @@ impl Keys {
         }
     }
 
-    /// Byte offset of a key, or of the nearest table around it that is there.
+    /// Byte offset of a key, or of the nearest list or table around it that is there.
     pub(super) fn offset(&self, path: &str) -> Option<usize> {
         let mut path = path;
         loop {
             if let Some(entry) = self.0.iter().find(|e| e.path == path) {
                 return Some(entry.key.start);
             }
-            path = &path[..path.rfind('.')?];
+            path = &path[..path.rfind(['.', '['])?];
         }
     }
 

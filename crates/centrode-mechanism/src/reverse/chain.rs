@@ -306,11 +306,17 @@ impl TwoBar {
         (-self.least_ratio.value.ln()).max(self.greatest_ratio.value.ln())
     }
 
+    /// Axis of the arm where the carrier stands in a direction, rad, mm.
+    #[must_use]
+    pub fn knee(&self, carrier: f64) -> Point {
+        self.axis() + Vector::new(carrier.cos(), carrier.sin()) * self.carrier
+    }
+
     /// Point of the tip at angles of the carrier and of the arm against it, mm.
     #[must_use]
     pub fn tip(&self, carrier: f64, elbow: f64) -> Point {
-        let bar = |length: f64, angle: f64| Vector::new(angle.cos(), angle.sin()) * length;
-        self.axis() + bar(self.carrier, carrier) + bar(self.arm, carrier + elbow)
+        let arm = carrier + elbow;
+        self.knee(carrier) + Vector::new(arm.cos(), arm.sin()) * self.arm
     }
 
     /// Parameter of the path by the direction of the carrier, rad.

@@ -2,11 +2,13 @@
 
 use centrode_geometry::Point;
 
-use super::PathError;
 use super::path::text;
+use super::{PathError, WantedDirection};
 
-/// Heading of the column of tolerances.
-const TOLERANCE: [&str; 2] = ["tolerance", "tolerance_mm"];
+/// Headings of the columns of tolerances, of directions and of how far these may be off.
+const TOLERANCE: &[&str] = &["tolerance", "tolerance_mm"];
+const DIRECTION: &[&str] = &["direction_deg"];
+const DIRECTION_TOLERANCE: &[&str] = &["direction_tolerance_deg"];
 
 /// Points that a path is wanted to pass.
 #[derive(Clone, Debug, PartialEq)]
@@ -15,22 +17,32 @@ pub struct WantedPoints {
     pub points: Vec<Point>,
     /// Distance within which the path may pass each point, mm; none where the file has no such column.
     pub tolerances: Option<Vec<f64>>,
+    /// Directions of the clamp wanted at some of them.
+    pub directions: Vec<WantedDirection>,
 }
 
 impl WantedPoints {
-    /// Reads points as [`WantedPath::from_csv`](super::WantedPath::from_csv) does, and the column headed `tolerance`, if there is one.
+    /// Reads points as [`WantedPath::from_csv`](super::WantedPath::from_csv) does, and the columns headed `tolerance`,
+    /// `direction_deg` and `direction_tolerance_deg`, if there are such. Where a direction is left empty it is free.
     ///
     /// # Errors
     /// [`PathError`] with the line; a tolerance is zero or more.
     pub fn from_csv(bytes: &[u8]) -> Result<Self, PathError> {
         let table = Table::read(bytes)?;
         let points = table.rows()?.into_iter().map(|row: [f64; 2]| row.into());
-        let is_tolerance = |word: &&str| TOLERANCE.contains(&word.to_lowercase().as_str());
-        let column = table.headings.iter().position(is_tolerance);
-        let tolerances = column.map(|column| table.column(column)).transpose()?;
+        let column = |names: &[&str]| {
+            let is_one = |word: &&str| names.contains(&word.to_lowercase().as_str());
+            table.headings.iter().position(is_one)
+        };
+        let tolerances = column(TOLERANCE);
+        let tolerances = tolerances.map(|column| table.column(column)).transpose()?;
+        let directions = column(DIRECTION);
+        let off = column(DIRECTION_TOLERANCE);
+        let directions = directions.map(|column| table.directions(column, off));
         Ok(Self {
             points: points.collect(),
             tolerances,
+            directions: directions.transpose()?.unwrap_or_default(),
         })
     }
 }
@@ -79,17 +91,29 @@ impl<'a> Table<'a> {
     /// Tolerances of every line.
     fn column(&self, column: usize) -> Result<Vec<f64>, PathError> {
         let lines = self.lines.iter();
-        let tolerance = |line: &Line<'_>| {
-            let value = line.number_at(column)?;
-            match value >= 0.0 && value.is_finite() {
-                true => Ok(value),
-                false => Err(PathError::Tolerance {
-                    line: line.number,
-                    value,
-                }),
-            }
+        lines.map(|line| line.tolerance(column)).collect()
+    }
+
+    /// Directions at those lines that have one.
+    fn directions(
+        &self,
+        column: usize,
+        off: Option<usize>,
+    ) -> Result<Vec<WantedDirection>, PathError> {
+        let lines = self.lines.iter().enumerate();
+        let given = lines.filter(|(_, line)| line.words.get(column).is_some_and(|w| !w.is_empty()));
+        let direction = |(i, line): (usize, &Line<'_>)| {
+            let tolerance = match off {
+                Some(off) => line.tolerance(off)?.to_radians(),
+                None => WantedDirection::usual_tolerance(),
+            };
+            Ok(WantedDirection {
+                point: i + 1,
+                direction: line.number_at(column)?.to_radians(),
+                tolerance,
+            })
         };
-        lines.map(tolerance).collect()
+        given.map(direction).collect()
     }
 }
 
@@ -114,6 +138,18 @@ impl<'a> Line<'a> {
             line: self.number,
             found: word.chars().take(40).collect(),
         })
+    }
+
+    /// A number that is zero or more.
+    fn tolerance(&self, column: usize) -> Result<f64, PathError> {
+        let value = self.number_at(column)?;
+        match value >= 0.0 && value.is_finite() {
+            true => Ok(value),
+            false => Err(PathError::Tolerance {
+                line: self.number,
+                value,
+            }),
+        }
     }
 
     fn row<const N: usize>(&self) -> Result<[f64; N], PathError> {

@@ -9,6 +9,7 @@
 mod chain;
 mod csv;
 mod curvature;
+mod design;
 mod distance;
 mod drawn;
 mod error;
@@ -19,12 +20,14 @@ mod poses;
 mod sharpness;
 mod split;
 mod timing;
+mod wishes;
 
 pub use crate::composed::{
     GearDrive, GearDriveError, GearDriveSpec, MachineError, ReversedMachine,
 };
 pub use chain::{ChainJet, TwoBar};
 pub use csv::WantedPoints;
+pub use design::{Aim, PathDesign, PathSpec};
 pub use drawn::{DrawingError, DrawnPath};
 pub use error::{AxisFault, PathError};
 pub use map::{AxisMap, AxisRange, PossibleAxis};
@@ -33,6 +36,7 @@ pub use poses::{Harmonics, KeyPose, KeyPoses, PoseError};
 pub(crate) use sharpness::leg;
 pub use split::{Split, SplitError, SplitKind};
 pub use timing::{Section, Timing, TimingError, Wanted};
+pub use wishes::{KeepOut, WantedDirection, WantedRange, WantedTurn, Wishes};
 
 #[cfg(test)]
 mod tests;

@@ -309,7 +309,7 @@ pub(crate) struct Response {
 
 #[derive(Debug, Args)]
 pub(crate) struct Schema {
-    /// Family of mechanism, or a file that is exported; left out, the design file of all families
+    /// Family of mechanism, a path for `reverse`, or a file that is exported; left out, the design file of all families
     #[arg(value_parser = PossibleValuesParser::new(FAMILIES.words().into_iter().chain(crate::cli::schema::FILES)))]
     pub(crate) family: Option<String>,
 }

@@ -1,12 +1,16 @@
+mod asked;
 mod found;
 mod posed;
 
 use std::io::Write;
+use std::path::Path;
 
 use crate::analysis::{SoundTeeth, Unit, with_sound_teeth};
-use crate::mechanism::design::Design as _;
+use crate::mechanism::design::{Design as _, DesignSpec as _};
 use crate::mechanism::gear::design::Addendum;
-use crate::mechanism::reverse::{AxisMap, ReversedMachine, Split, SplitKind, TwoBar, WantedPath};
+use crate::mechanism::reverse::{
+    AxisMap, PathDesign, ReversedMachine, Split, SplitKind, TwoBar, WantedPath,
+};
 use crate::mechanism::three_arm::design::Direction;
 
 use crate::cli::Status;
@@ -16,6 +20,7 @@ use crate::cli::input::Source;
 use crate::cli::output;
 use crate::cli::progress::Progress;
 
+use asked::Asked;
 use found::{Found, told};
 
 /// Width of the names of figures.
@@ -23,29 +28,45 @@ const NAME: usize = 24;
 
 /// Makes a machine from a path, prints what was chosen and writes its design.
 pub(crate) fn run(command: &Reverse, out: &mut impl Write) -> Result<Status, Failure> {
+    if command.template {
+        out.write_all(PathDesign::TEMPLATE.as_bytes())?;
+        return Ok(Status::Good);
+    }
     if command.three_arm {
         return posed::run(command, out);
     }
-    let source = Source::open_up_to(&command.path, WantedPath::LARGEST)?;
-    if let Some(output) = &command.output {
-        source.keep(output, "the path")?;
-    }
-    let mut kinds = SplitKind::NAMES.iter();
-    let kind = kinds.find(|(name, _)| *name == command.split);
-    let kind = kind.map(|(_, kind)| *kind).unwrap_or_default();
     let progress = Progress::new(4);
-    let found = match command.poses {
-        true => Found::by_poses(&source, &progress)?,
-        false => Found::by_path(command, &source, &progress)?,
+    let (asked, found) = match command.poses {
+        true => {
+            let source = source(command)?;
+            let found = Found::by_poses(&source, &progress)?;
+            (Asked::of_poses(source, command)?, found)
+        }
+        false => {
+            let asked = Asked::read(command)?;
+            let found = Found::by_path(command, &asked, &progress)?;
+            (asked, found)
+        }
     };
-    let chain = &found.chain;
+    if let Some(output) = &command.output {
+        asked.source.keep(output, "the path")?;
+    }
+    let design = &asked.design;
+    let (chain, kind, bend) = (&found.chain, design.split, design.bend);
+    let bend_deg = asked.bend_deg(command);
     progress.step("splitting the motion");
-    let bend = command.bend.to_radians();
     let split = Split::new(chain, kind, bend)
-        .map_err(|error| Failure::Usage(format!("--bend {}: {error}", command.bend)))?;
+        .map_err(|error| Failure::Usage(format!("--bend {bend_deg}: {error}")))?;
     progress.step("rolling the pitch curves");
-    let made = ReversedMachine::new(chain, &split, command.arms, command.steps);
+    let made = ReversedMachine::new(chain, &split, design.arms, design.steps);
     let made = made.map_err(|error| Failure::Files(Box::new(error)))?;
+    let mut made = made.with_obstacles(&design.wishes.keep_out);
+    if design.name != PathDesign::default().name {
+        made.design.name.clone_from(&design.name);
+    }
+    if !design.title.is_empty() {
+        made.design.title.clone_from(&design.title);
+    }
     progress.step("looking for sound teeth");
     let toothed = command
         .output
@@ -55,7 +76,7 @@ pub(crate) fn run(command: &Reverse, out: &mut impl Write) -> Result<Status, Fai
     for (name, words) in &found.told {
         line(out, name, words)?;
     }
-    chosen(command, &found, &split, out)?;
+    chosen((design.arms, bend_deg), &found, &split, out)?;
     gears(&made, out)?;
     if let Some(map) = &found.map {
         possible(map, out)?;
@@ -83,8 +104,14 @@ pub(crate) fn range(ratios: [f64; 2]) -> String {
     format!("{:.4} to {:.4}", ratios[0], ratios[1])
 }
 
+/// Source of the path or the poses.
+fn source(command: &Reverse) -> Result<Source, Failure> {
+    let path = command.path.as_deref().unwrap_or(Path::new("-"));
+    Source::open_up_to(path, WantedPath::LARGEST)
+}
+
 fn chosen(
-    command: &Reverse,
+    (arms, bend): (u32, f64),
     found: &Found,
     split: &Split,
     out: &mut impl Write,
@@ -116,11 +143,9 @@ fn chosen(
     )?;
     line(out, "tip passes the shaft at", &mm(chain.shaft_distance()))?;
     let words = format!(
-        "{}, bend {} deg, {} {}",
+        "{}, bend {bend} deg, {arms} {}",
         split.kind().name(),
-        command.bend,
-        command.arms,
-        if command.arms == 1 { "arm" } else { "arms" }
+        if arms == 1 { "arm" } else { "arms" }
     );
     line(out, "split", &words)
 }

@@ -2,13 +2,22 @@ use std::io::Write;
 
 use crate::FAMILIES;
 use crate::mechanism::composed::FIGURE_FORMS;
+use crate::mechanism::design::DesignFamily;
+use crate::mechanism::reverse::PathDesign;
 
 use crate::cli::Status;
 use crate::cli::args::Schema;
 use crate::cli::failure::Failure;
 
 /// Words beside the families that have a schema: the figures of a composed machine, and files that are exported.
-pub(crate) const FILES: [&str; 5] = ["figures", "machine-model", "motion", "proof", "report"];
+pub(crate) const FILES: [&str; 6] = [
+    "figures",
+    "machine-model",
+    "motion",
+    "path",
+    "proof",
+    "report",
+];
 
 /// Grammar of the figures of a composed machine: form, meaning, unit.
 fn figures() -> serde_json::Value {
@@ -23,6 +32,7 @@ pub(crate) fn run(command: &Schema, out: &mut impl Write) -> Result<Status, Fail
         Some("figures") => figures(),
         Some("machine-model") => crate::export::machine::schema(),
         Some("motion") => crate::export::machine::motion_schema(),
+        Some("path") => DesignFamily::of::<PathDesign>().json_schema(),
         Some("report") => crate::analysis::ReportFile::schema(),
         Some("proof") => crate::analysis::Proof::schema(),
         Some(word) => match FAMILIES.named(word) {

@@ -393,3 +393,109 @@ fn the_return_of_a_stroke_may_be_free() {
         text(&run.stderr)
     );
 }
+
+/// A design of the drawn path with wishes.
+fn wished(wishes: &str) -> String {
+    let points = DRAWN.lines().skip(1).map(|line| format!("[{line}], "));
+    let points: String = points.collect();
+    format!("family = \"path\"\nbend_deg = 40\n[path]\npoints = [{points}]\n[wishes]\n{wishes}\n")
+}
+
+#[test]
+fn wishes_are_told_with_their_figures_and_what_is_out_of_reach_with_the_miss() {
+    let design =
+        wished("carrier = { at_most = 120 }\nturn = { from = 1, to = 5, between_deg = [20, 150] }");
+    let run = fed(&["reverse", "-"], design.as_bytes());
+    let told = text(&run.stdout);
+    assert_eq!(run.status.code(), Some(0), "{told}{}", text(&run.stderr));
+    assert!(told.contains("mm, wanted at most 120.0000 mm\n"), "{told}");
+    assert!(
+        told.contains("goal 2                  turn of the carrier from point 1 to point 5"),
+        "{told}"
+    );
+    // What the command line says goes before what the file does.
+    let run = fed(
+        &["reverse", "-", "--axis", "260,160", "--arms", "2"],
+        design.as_bytes(),
+    );
+    let told = text(&run.stdout);
+    assert_eq!(run.status.code(), Some(1), "{told}{}", text(&run.stderr));
+    assert!(
+        told.contains("2 arms") && told.contains("260.0000, 160.0000 mm, as asked"),
+        "{told}"
+    );
+    let figure = |name: &str, before: &str| -> f64 {
+        let line = told.lines().find(|line| line.starts_with(name));
+        let after = line.and_then(|line| line.split(before).nth(1));
+        let word = after.and_then(|words| words.split(' ').next());
+        word.and_then(|x| x.parse().ok()).expect("a number")
+    };
+    let missed = figure("goal 1", "missed by ");
+    assert!(missed > 5.0, "{told}");
+    assert!(
+        (figure("goal 1", "carrier ") - 120.0 - missed).abs() < 2e-4,
+        "{told}"
+    );
+}
+
+#[test]
+fn a_wish_that_breaks_a_rule_is_shown_at_its_line() {
+    for (wishes, word) in [
+        (
+            "carrier = { at_least = 5, at_most = 3 }",
+            "wishes.carrier.at_most",
+        ),
+        (
+            "directions = [{ point = 14, direction_deg = 3 }]",
+            "1 to 13",
+        ),
+        ("keep_out.tray.radius = 3", "wishes.keep_out.tray.center"),
+        (
+            "keep_out.tray = { corners = [[0, 0], [1, 1]] }",
+            "three or more",
+        ),
+        ("carier = { at_most = 3 }", "carier"),
+    ] {
+        let run = fed(&["reverse", "-"], wished(wishes).as_bytes());
+        let told = text(&run.stderr);
+        assert_eq!(run.status.code(), Some(2), "{told}");
+        assert!(
+            told.contains(word) && told.contains("input:6:"),
+            "{wishes}: {told}"
+        );
+    }
+}
+
+#[test]
+fn the_template_of_a_path_is_a_good_design() {
+    let template = centrode(&["reverse", "--template"]);
+    let run = fed(&["reverse", "-"], &template.stdout);
+    let told = text(&run.stdout);
+    assert_eq!(run.status.code(), Some(0), "{told}{}", text(&run.stderr));
+    assert!(told.contains("distance of the arm from tray"), "{told}");
+}
+
+#[test]
+fn directions_stand_in_a_column_of_their_own_and_points_in_a_file_beside_the_design() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let rows = DRAWN.lines().enumerate();
+    let rows = rows.map(|(i, line)| match i {
+        0 => "x,y,direction_deg\n".to_owned(),
+        5 => format!("{line},40\n"),
+        9 => format!("{line},86\n"),
+        _ => format!("{line},\n"),
+    });
+    fs::write(folder.path().join("path.csv"), rows.collect::<String>()).expect("written");
+    let design = "family = \"path\"\nbend_deg = 40\naxis = [260, 160]\n[path]\nfile = \"path.csv\"\nband = 5\n";
+    let path = folder.path().join("path.toml");
+    fs::write(&path, design).expect("written");
+    let run = centrode(&["reverse", path.to_str().expect("a name")]);
+    let told = text(&run.stdout);
+    assert_eq!(run.status.code(), Some(0), "{told}{}", text(&run.stderr));
+    for (goal, point) in [(1, 5), (2, 9)] {
+        let words =
+            format!("goal {goal}                  clamp off its direction at point {point}");
+        assert!(told.contains(&words), "{told}");
+    }
+    assert!(told.contains("wanted -2.0000 deg to 2.0000 deg"), "{told}");
+}

@@ -19,7 +19,11 @@ const DRAWN: [[f64; 2]; 13] = [
 fn easing(band: f64, axis: [f64; 2]) -> Easing {
     let points: Vec<Point> = DRAWN.iter().map(|&p| p.into()).collect();
     let bend = 40.0_f64.to_radians();
-    Easing::new(&points, &[band], Some(axis.into()), bend).expect("a machine")
+    let spec = EasingSpec {
+        axis: Some(axis.into()),
+        ..EasingSpec::new(&[band], bend)
+    };
+    Easing::new(&points, &spec).expect("a machine")
 }
 
 fn search(easing: &Easing, wanted: Option<f64>) -> EasedPath {
@@ -73,7 +77,7 @@ fn many_points_move_along_harmonics() {
             Point::new(t.cos() * (300.0 + 100.0 * t.cos()), 200.0 * t.sin())
         })
         .collect();
-    let easing = Easing::new(&points, &[3.0], None, 1.0).expect("a machine");
+    let easing = Easing::new(&points, &EasingSpec::new(&[3.0], 1.0)).expect("a machine");
     let found = search(&easing, None);
     assert!(found.module.0.is_none_or(|before| found.module.1 > before));
     assert!(found.moved.iter().all(|&moved| moved < 3.0));
@@ -83,7 +87,8 @@ fn many_points_move_along_harmonics() {
 #[test]
 fn what_is_no_band_is_told() {
     let points: Vec<Point> = DRAWN.iter().map(|&p| p.into()).collect();
-    let fault = |bands: &[f64]| Easing::new(&points, bands, None, 1.0).expect_err("no bands");
+    let fault =
+        |bands: &[f64]| Easing::new(&points, &EasingSpec::new(bands, 1.0)).expect_err("no bands");
     let told = "the band of point 1 is zero or more, in mm, not -1";
     assert_eq!(fault(&[-1.0]).to_string(), told);
     let told = "there are 2 bands for 13 points: give one for each, or one for all";
@@ -101,7 +106,8 @@ fn what_is_no_band_is_told() {
 fn a_free_return_is_found_and_the_stroke_is_kept() {
     let stroke: Vec<Point> = DRAWN[..6].iter().map(|&p| p.into()).collect();
     let bend = 40.0_f64.to_radians();
-    let easing = Easing::with_free_return(&stroke, &[0.0], None, bend).expect("a return");
+    let easing =
+        Easing::with_free_return(&stroke, &EasingSpec::new(&[0.0], bend)).expect("a return");
     let found = search(&easing, None);
     assert_eq!(found.points[..6], stroke[..]);
     assert_eq!(found.moved, [0.0; 6]);
@@ -112,10 +118,14 @@ fn a_free_return_is_found_and_the_stroke_is_kept() {
     for (i, point) in stroke.iter().enumerate() {
         assert!((path.at(i as f64).point - point).norm() < 1e-9);
     }
-    let few = Easing::with_free_return(&stroke[..2], &[0.0], None, bend).expect_err("too few");
+    let few = Easing::with_free_return(&stroke[..2], &EasingSpec::new(&[0.0], bend))
+        .expect_err("too few");
     let told = "the working part of a path has 3 points or more, not 2";
     assert_eq!(few.to_string(), told);
-    let nowhere = Some(Point::new(150.0, 150.0));
-    let none = Easing::with_free_return(&stroke, &[0.0], nowhere, bend).expect_err("no machine");
+    let nowhere = EasingSpec {
+        axis: Some(Point::new(150.0, 150.0)),
+        ..EasingSpec::new(&[0.0], bend)
+    };
+    let none = Easing::with_free_return(&stroke, &nowhere).expect_err("no machine");
     assert!(none.to_string().contains("6 returns tried"), "{none}");
 }

@@ -10,6 +10,8 @@ use std::f64::consts::{PI, TAU};
 use std::fmt;
 use std::sync::Arc;
 
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 pub(super) use self::powers::SHARE;
@@ -23,7 +25,8 @@ const GREATEST_BEND: f64 = 170.0 / 180.0 * PI;
 const EXACT: f64 = 1e-12;
 
 /// Way in which the total law is split into two stages.
-#[derive(Clone, Copy, Debug, Default, Eq, Hash, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, Deserialize, Eq, Hash, JsonSchema, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum SplitKind {
     /// Two different pairs, each of which takes half of the logarithm of the ratio; the intermediate carries two gears.
     #[default]

@@ -5,23 +5,26 @@ use std::path::PathBuf;
 use clap::Args;
 use clap::builder::PossibleValuesParser;
 
-use crate::mechanism::reverse::SplitKind;
+use crate::mechanism::reverse::{Aim, SplitKind};
 
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Example: centrode reverse path.csv --axis 260,160 --bend 40 --arms 3 -o arms.toml\n\nThe path is closed: a point a line, x and y in mm, in the order in which the tip passes them. With --poses: centrode reverse poses.csv --poses -o arms.toml\n\nExit status: 0 good; 2 no machine, a bad path, or the file cannot be written."
+    after_help = "Example: centrode reverse path.csv --axis 260,160 --bend 40 --arms 3 -o arms.toml\n\nThe path is closed: a point a line, x and y in mm, in the order in which the tip passes them. A design file of family path holds it with what else is wanted: bounds on the bars, directions, shapes to keep out of (centrode reverse --template prints one). With --poses: centrode reverse poses.csv --poses -o arms.toml\n\nExit status: 0 good; 1 something wanted is out of reach; 2 no machine, a bad path, or the file cannot be written."
 )]
 pub(crate) struct Reverse {
-    /// File of the path, CSV (x, y in mm) or SVG (its one path), or - for standard input
-    pub(crate) path: PathBuf,
-    /// Greatest distance of the machine's path from a drawn one, of an SVG file, mm
-    #[arg(
-        long,
-        default_value_t = 0.01,
-        allow_negative_numbers = true,
-        value_name = "MM"
-    )]
-    pub(crate) within: f64,
+    /// File of the path: CSV (x, y in mm), SVG (its one path) or a design file of family path; or - for standard input
+    #[arg(required_unless_present = "template")]
+    pub(crate) path: Option<PathBuf>,
+    /// Print a commented design file of family path, to start from
+    #[arg(long, exclusive = true)]
+    pub(crate) template: bool,
+    /// Greatest distance of the machine's path from a drawn one, of an SVG file, mm; left out, 0.01
+    #[arg(long, allow_negative_numbers = true, value_name = "MM")]
+    pub(crate) within: Option<f64>,
+    /// Where something is free, make the most of it: the largest teeth, the ratio nearest to 1, or the least reach of the tip; left
+    /// out, the largest teeth where the path is eased or more is wanted of the machine, else the mildest ratio
+    #[arg(long, conflicts_with = "poses", value_parser = PossibleValuesParser::new(Aim::NAMES.map(|(name, _)| name)))]
+    pub(crate) aim: Option<String>,
     /// Axis of the carrier, mm; left out, the mildest: that of the least change of the gears' ratio
     #[arg(long, value_parser = place, allow_hyphen_values = true, value_name = "X,Y")]
     pub(crate) axis: Option<[f64; 2]>,
@@ -56,20 +59,15 @@ pub(crate) struct Reverse {
     /// Folder for the files of the three-arm mechanism, as `centrode export` writes them
     #[arg(long, requires_all = ["three_arm", "output"], value_name = "DIR")]
     pub(crate) to: Option<PathBuf>,
-    /// How two stages of gears share the motion
-    #[arg(long, value_parser = PossibleValuesParser::new(SplitKind::NAMES.map(|(name, _)| name)), default_value = "powers")]
-    pub(crate) split: String,
-    /// Angle from the carrier's first leg, to the intermediate gear, to its second, degrees
-    #[arg(
-        long,
-        default_value_t = 60.0,
-        allow_negative_numbers = true,
-        value_name = "DEG"
-    )]
-    pub(crate) bend: f64,
-    /// Number of arms
-    #[arg(long, default_value_t = 1, allow_negative_numbers = true, value_parser = clap::value_parser!(u32).range(1..=12))]
-    pub(crate) arms: u32,
+    /// How two stages of gears share the motion; left out, powers
+    #[arg(long, value_parser = PossibleValuesParser::new(SplitKind::NAMES.map(|(name, _)| name)))]
+    pub(crate) split: Option<String>,
+    /// Angle from the carrier's first leg, to the intermediate gear, to its second, degrees; left out, 60
+    #[arg(long, allow_negative_numbers = true, value_name = "DEG")]
+    pub(crate) bend: Option<f64>,
+    /// Number of arms; left out, 1
+    #[arg(long, allow_negative_numbers = true, value_parser = clap::value_parser!(u32).range(1..=12))]
+    pub(crate) arms: Option<u32>,
     /// Steps of the tables in which the laws of the gears are written; left out, as few as bring the tip within 1e-7 of its
     /// greatest distance from the axis
     #[arg(long, allow_negative_numbers = true, value_name = "N")]

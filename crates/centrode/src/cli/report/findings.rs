@@ -142,7 +142,7 @@ fn causes(rule: &str) -> &'static [&'static str] {
             "tool.pressure_angle_deg",
             "tool.profile_shift_coefficient",
         ],
-        "no-flank" | "disengaged" | "contact-lost" => {
+        "no-flank" | "disengaged" | "contact-lost" | "seat-jump" => {
             &["pitch.module", "tooth_count", "pitch.tooth_count"]
         }
         "interference" => &["tool.dedendum_coefficient", "teeth.backlash"],

@@ -1,16 +1,16 @@
 use std::ops::ControlFlow;
 
-use crate::analysis::Unit;
-use crate::analysis::optimise::{EasedPath, Easing, EasingError};
+use crate::analysis::optimise::{EasedPath, Easing, EasingError, EasingSpec};
+use crate::analysis::{Goal, Unit};
 use crate::geometry::Point;
-use crate::mechanism::reverse::{
-    AxisMap, AxisRange, DrawnPath, KeyPose, KeyPoses, TwoBar, WantedPath, WantedPoints,
-};
+use crate::mechanism::reverse::{Aim, AxisMap, AxisRange, KeyPose, KeyPoses, TwoBar, WantedPath};
 
 use crate::cli::args::Reverse;
 use crate::cli::failure::Failure;
 use crate::cli::input::Source;
 use crate::cli::progress::Progress;
+
+use super::asked::Asked;
 
 /// Carrier and arm that were found.
 pub(super) struct Found {
@@ -28,80 +28,69 @@ pub(super) struct Found {
 impl Found {
     pub(super) fn by_path(
         command: &Reverse,
-        source: &Source,
+        asked: &Asked,
         progress: &Progress,
     ) -> Result<Self, Failure> {
-        let drawn = drawn(source, command.within)?;
-        let wanted = match &drawn {
-            Some(drawn) => WantedPoints {
-                points: drawn.points.clone(),
-                tolerances: None,
-            },
-            None => {
-                WantedPoints::from_csv(source.bytes()).map_err(|error| source.refused(&error))?
-            }
-        };
-        let of_drawing = drawn.map(|drawn| {
-            let off = Unit::Millimetre.tell(drawn.deviation.value);
-            let points = drawn.points.len();
-            let words = format!("through {points} points, within {off} of the drawing");
-            ("path".to_owned(), words)
-        });
-        let mut told: Vec<(String, String)> = of_drawing.into_iter().collect();
-        let bands = match (&wanted.tolerances, command.band) {
-            (Some(_), Some(_)) => {
-                let words = "the file has a tolerance for each point: leave out --band";
-                return Err(Failure::Usage(words.into()));
-            }
-            (Some(tolerances), None) => tolerances.clone(),
-            (None, Some(band)) => vec![band],
-            (None, None) if command.open => vec![0.0],
-            (None, None) => {
-                if command.module.is_some() {
-                    let words = "--module eases a path: say by how much with --band, or by a column headed tolerance in the file";
-                    return Err(Failure::Usage(words.into()));
-                }
-                let path =
-                    WantedPath::through(&wanted.points).map_err(|error| source.refused(&error))?;
-                check_crossing(command, source, &path)?;
-                progress.step("trying axes");
-                return Self::as_given(command, &path, told);
-            }
+        let drawing = asked.drawing.iter();
+        let mut told: Vec<(String, String)> = drawing
+            .map(|words| ("path".to_owned(), words.clone()))
+            .collect();
+        let Some(bands) = asked.bands() else {
+            let path = WantedPath::through(&asked.points);
+            let path = path.map_err(|error| asked.source.refused(&error))?;
+            check_crossing(asked, &path)?;
+            progress.step("trying axes");
+            return Self::as_given(asked, &path, told);
         };
         progress.step("easing the path");
-        let axis = command.axis.map(Point::from);
-        let bend = command.bend.to_radians();
-        let easing = match command.open {
-            true => Easing::with_free_return(&wanted.points, &bands, axis, bend),
-            false => Easing::new(&wanted.points, &bands, axis, bend),
+        let design = &asked.design;
+        let axis = design.axis.map(Point::from);
+        let spec = EasingSpec {
+            axis,
+            aim: design.aim.unwrap_or_default(),
+            wishes: design.wishes.clone(),
+            ..EasingSpec::new(&bands, design.bend)
         };
-        let module = command.module;
+        let easing = match design.path.open {
+            true => Easing::with_free_return(&asked.points, &spec),
+            false => Easing::new(&asked.points, &spec),
+        };
+        let module = design.path.module;
         let eased =
             easing.and_then(|easing| easing.search(module, &mut |_| ControlFlow::Continue(())));
-        let eased = eased.map_err(|error| refused(command, source, error))?;
-        check_crossing(command, source, eased.chain.path())?;
+        let eased = eased.map_err(|error| refused(command, asked, error))?;
+        check_crossing(asked, eased.chain.path())?;
         let reached = eased.module.1;
-        told.extend(words(&eased, command.module));
+        let is_module = module.is_none_or(|module| reached >= module);
+        let is_all = eased.goals.iter().all(|goal| goal.met() != Some(false));
+        told.extend(words(&eased, module, bands.iter().any(|band| *band > 0.0)));
+        if let Some(clamp) = eased.clamp {
+            told.push(clamp_words(clamp));
+        }
+        told.extend(eased.goals.iter().map(goal_words));
         Ok(Self {
-            why: match axis {
-                Some(_) => "as asked".into(),
-                None => "with the bluntest gears found".into(),
-            },
+            why: match (axis, design.aim.unwrap_or_default()) {
+                (Some(_), _) => "as asked",
+                (None, Aim::Module) => "with the bluntest gears found",
+                (None, Aim::Mild) => "the mildest found",
+                (None, Aim::Small) => "with the least reach found",
+            }
+            .into(),
             chain: eased.chain,
             map: None,
             told,
-            is_reached: command.module.is_none_or(|module| reached >= module),
+            is_reached: is_module && is_all,
         })
     }
 
     /// The machine of a path as it is wanted.
     fn as_given(
-        command: &Reverse,
+        asked: &Asked,
         path: &WantedPath,
         told: Vec<(String, String)>,
     ) -> Result<Self, Failure> {
         let map = AxisMap::new(path, AxisRange::about(path));
-        let (chain, why) = match command.axis {
+        let (chain, why) = match asked.design.axis {
             Some([x, y]) => {
                 let chain = TwoBar::new(path, Point::new(x, y), None);
                 let chain =
@@ -140,20 +129,20 @@ impl Found {
 }
 
 /// Checks that a path does not cross itself, unless that is allowed.
-fn check_crossing(command: &Reverse, source: &Source, path: &WantedPath) -> Result<(), Failure> {
-    if command.crossing {
+fn check_crossing(asked: &Asked, path: &WantedPath) -> Result<(), Failure> {
+    if asked.design.path.crossing {
         return Ok(());
     }
     path.check_simple().map_err(|error| {
-        let name = source.name();
+        let name = asked.source.name();
         Failure::Usage(format!(
             "{name}: {error} With --crossing such a path is taken."
         ))
     })
 }
 
-fn refused(command: &Reverse, source: &Source, error: EasingError) -> Failure {
-    match (error, command.axis) {
+fn refused(command: &Reverse, asked: &Asked, error: EasingError) -> Failure {
+    match (error, asked.design.axis) {
         (EasingError::Axis(fault), Some([x, y])) => {
             Failure::Usage(format!("--axis {x},{y}: {fault}"))
         }
@@ -163,12 +152,30 @@ fn refused(command: &Reverse, source: &Source, error: EasingError) -> Failure {
                 "--module is greater than zero, in mm, not {module}"
             ))
         }
-        (error, _) => source.refused(&error),
+        (error, _) => asked.source.refused(&error),
     }
 }
 
+/// Line on a goal: its figure, what was wanted, and by how much it is missed.
+fn goal_words(goal: &Goal) -> (String, String) {
+    let tell = |x: f64| goal.unit.tell(x);
+    let value = goal.value.map_or_else(String::new, tell);
+    let wanted = match goal.wanted {
+        [Some(least), Some(most)] => format!("{} to {}", tell(least), tell(most)),
+        [Some(least), None] => format!("at least {}", tell(least)),
+        [None, Some(most)] => format!("at most {}", tell(most)),
+        [None, None] => String::new(),
+    };
+    let missed = match goal.margin {
+        Some(margin) if margin < 0.0 => format!(", missed by {}", tell(-margin)),
+        _ => String::new(),
+    };
+    let words = format!("{} {value}, wanted {wanted}{missed}", goal.title);
+    (format!("goal {}", goal.number), words)
+}
+
 /// Lines on how far a path was eased, and what full teeth it bears.
-fn words(eased: &EasedPath, module: Option<f64>) -> Vec<(String, String)> {
+fn words(eased: &EasedPath, module: Option<f64>, is_moved: bool) -> Vec<(String, String)> {
     let mm = |x: f64| Unit::Millimetre.tell(x);
     let moved = eased.moved.iter().enumerate();
     let (most, far) = moved.fold((0, 0.0), |most, (i, &moved)| match moved > most.1 {
@@ -193,7 +200,7 @@ fn words(eased: &EasedPath, module: Option<f64>) -> Vec<(String, String)> {
         let words = format!("through {free} points, {searched}");
         told.push(("free return".to_owned(), words));
     }
-    if free == 0 || far > 0.0 {
+    if is_moved && (free == 0 || far > 0.0) {
         let words = format!("by {} at most, at point {}", mm(far), most + 1);
         let words = match free {
             0 => format!("{words}, {searched}"),
@@ -206,30 +213,21 @@ fn words(eased: &EasedPath, module: Option<f64>) -> Vec<(String, String)> {
     told
 }
 
+/// Line on the clamp.
+fn clamp_words(clamp: f64) -> (String, String) {
+    let words = format!("{} from the arm", Unit::Angle.tell(clamp));
+    ("clamp".to_owned(), words)
+}
+
 /// Lines on the clamp and on how far each pose is missed.
 pub(super) fn told(clamp: f64, misses: &[[f64; 2]]) -> Vec<(String, String)> {
-    let clamp = (
-        "clamp".to_owned(),
-        format!("{} from the arm", Unit::Angle.tell(clamp)),
-    );
     let pose = |(index, [off, turned]): (usize, &[f64; 2])| {
         let (off, turned) = (Unit::Millimetre.tell(*off), Unit::Angle.tell(*turned));
         let name = format!("pose {}", index + 1);
         (name, format!("missed by {off} and {turned}"))
     };
     let poses = misses.iter().enumerate().map(pose);
-    std::iter::once(clamp).chain(poses).collect()
-}
-
-/// Points along the path of an SVG file; none where the file is another.
-fn drawn(source: &Source, within: f64) -> Result<Option<DrawnPath>, Failure> {
-    let bytes = source.bytes();
-    let text = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
-    if !text.trim_ascii_start().starts_with(b"<") {
-        return Ok(None);
-    }
-    let drawn = DrawnPath::from_svg(bytes, within);
-    drawn.map(Some).map_err(|error| source.refused(&error))
+    std::iter::once(clamp_words(clamp)).chain(poses).collect()
 }
 
 fn none_possible(map: &AxisMap) -> Failure {

@@ -6,19 +6,18 @@ use clap::Parser as _;
 use crate::analysis::optimise::three_arm::PosedProblem;
 use crate::analysis::{Goal, Unit};
 use crate::mechanism::design::Design as _;
-use crate::mechanism::reverse::{KeyPose, KeyPoses, WantedPath};
+use crate::mechanism::reverse::{KeyPose, KeyPoses};
 
 use super::{line, told};
 use crate::cli::Status;
 use crate::cli::args::{Arguments, Command, Reverse};
 use crate::cli::failure::Failure;
-use crate::cli::input::Source;
 use crate::cli::progress::Progress;
 use crate::cli::{export, output};
 
 /// Makes a three-arm mechanism from key poses, prints what was found, and writes its design and, where asked, its files.
 pub(crate) fn run(command: &Reverse, out: &mut impl Write) -> Result<Status, Failure> {
-    let source = Source::open_up_to(&command.path, WantedPath::LARGEST)?;
+    let source = super::source(command)?;
     if let Some(output) = &command.output {
         source.keep(output, "the poses")?;
     }
@@ -28,8 +27,10 @@ pub(crate) fn run(command: &Reverse, out: &mut impl Write) -> Result<Status, Fai
     let chains =
         KeyPoses::mildest(&wanted, PosedProblem::CHAINS).map_err(|error| source.refused(&error))?;
     progress.step("looking for goals and sound teeth");
-    let posed = PosedProblem::search(&chains, command.arms, &mut |_, _| ControlFlow::Continue(()))
-        .map_err(|error| source.refused(&error))?;
+    let posed = PosedProblem::search(&chains, command.arms.unwrap_or(1), &mut |_, _| {
+        ControlFlow::Continue(())
+    })
+    .map_err(|error| source.refused(&error))?;
     drop(progress);
     let mm = |x: f64| Unit::Millimetre.tell(x);
     let (found, design) = (&posed.poses, &posed.design);

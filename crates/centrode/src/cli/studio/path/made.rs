@@ -2,7 +2,7 @@ use serde::{Deserialize, Serialize};
 
 use super::sought::{Found, Sought, moved, points, searched};
 use super::wish::Wish;
-use crate::analysis::optimise::Easing;
+use crate::analysis::optimise::{Easing, EasingSpec};
 use crate::analysis::{NoSoundTeeth, SoundTeeth, Unit, with_sound_teeth};
 use crate::mechanism::design::Design as _;
 use crate::mechanism::gear::design::Addendum;
@@ -52,8 +52,11 @@ pub(super) fn machine(ask: &Ask) -> Result<Machine, String> {
 /// The chain of a path as it is wished for, or within a band that whose gears are the bluntest.
 fn found(wish: &Wish, band: Option<f64>) -> Result<Found, String> {
     if let Some(band) = band {
-        let (axis, bend) = (Some(wish.axis()), wish.choices.bend());
-        let eased = searched(Easing::new(&points(&wish.points), &[band], axis, bend))?;
+        let spec = EasingSpec {
+            axis: Some(wish.axis()),
+            ..EasingSpec::new(&[band], wish.choices.bend())
+        };
+        let eased = searched(Easing::new(&points(&wish.points), &spec))?;
         let told = vec![moved(&eased)];
         let chain = eased.chain;
         return Ok(Found { chain, told });

@@ -4,7 +4,7 @@ use serde::Deserialize;
 
 use super::wish::Choices;
 use crate::analysis::Unit;
-use crate::analysis::optimise::{EasedPath, Easing, EasingError};
+use crate::analysis::optimise::{EasedPath, Easing, EasingError, EasingSpec};
 use crate::geometry::Point;
 use crate::mechanism::reverse::{KeyPose, KeyPoses, TwoBar};
 
@@ -53,7 +53,8 @@ impl Sought {
                 choices,
             } => {
                 let points = points(stroke);
-                let easing = Easing::with_free_return(&points, &[*band], None, choices.bend());
+                let spec = EasingSpec::new(&[*band], choices.bend());
+                let easing = Easing::with_free_return(&points, &spec);
                 let eased = searched(easing)?;
                 let free = eased.points.len() - points.len();
                 let words = format!(

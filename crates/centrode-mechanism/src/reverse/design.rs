@@ -1,0 +1,194 @@
+//! A path and what is wanted of its machine, as a design file.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::{SplitKind, Wishes};
+use crate::degrees;
+use crate::design::DesignSpec;
+use crate::gear::design::SpecError;
+use crate::gear::design::rule::{
+    Rule, broken, count_in_range, file_name, finite, not_negative, positive, single_line,
+};
+
+/// A path wanted of a tip, and what else is wanted of the machine.
+#[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct PathDesign {
+    /// Short name of the machine, used for file names: letters, digits, `-` and `_`.
+    #[serde(default = "default_name")]
+    pub name: String,
+    /// One line for drawings and reports.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub title: String,
+    /// Axis of the carrier, mm; left out, it is sought.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub axis: Option<[f64; 2]>,
+    /// Angle from the carrier's first leg, to the intermediate gear, to its second, rad (degrees in the file).
+    #[serde(default = "default_bend", rename = "bend_deg", with = "degrees")]
+    #[schemars(with = "f64")]
+    pub bend: f64,
+    /// How two stages of gears share the motion.
+    #[serde(default)]
+    pub split: SplitKind,
+    /// Number of arms.
+    #[serde(default = "one")]
+    pub arms: u32,
+    /// Steps of the tables in which the laws are written; left out, as few as do.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub steps: Option<u32>,
+    /// What is sought where something is free; left out, the largest teeth where the path is eased or something is wished, else the
+    /// mildest ratio.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub aim: Option<Aim>,
+    /// The path.
+    pub path: PathSpec,
+    /// What else is wanted.
+    #[serde(default, skip_serializing_if = "Wishes::is_free")]
+    pub wishes: Wishes,
+}
+
+/// Path wanted of a tip.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct PathSpec {
+    /// Points in the order in which the tip passes them, mm.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub points: Vec<[f64; 2]>,
+    /// CSV or SVG file that holds them instead, beside the design file.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub file: Option<String>,
+    /// Distance within which the path may pass each point, mm: it is eased there.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub band: Option<f64>,
+    /// Such a distance for each point, mm.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub tolerance: Vec<f64>,
+    /// Whether the points are the working part alone, and the return is sought.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub open: bool,
+    /// Whether the path may cross itself.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub crossing: bool,
+    /// Module of full teeth up to which it is eased, and no more, mm.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub module: Option<f64>,
+}
+
+/// What a search for a machine makes the most of.
+#[derive(Clone, Copy, Debug, Default, Deserialize, Eq, Hash, JsonSchema, PartialEq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Aim {
+    /// The largest module with which full teeth are surely sound.
+    #[default]
+    Module,
+    /// The ratio nearest to 1.
+    Mild,
+    /// The least distance that the tip goes from the carrier's axis.
+    Small,
+}
+
+impl Aim {
+    /// Every aim by its word.
+    pub const NAMES: [(&'static str, Self); 3] = [
+        ("module", Self::Module),
+        ("mild", Self::Mild),
+        ("small", Self::Small),
+    ];
+
+    /// The word for it.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Module => "module",
+            Self::Mild => "mild",
+            Self::Small => "small",
+        }
+    }
+}
+
+fn default_name() -> String {
+    "reversed".into()
+}
+
+fn default_bend() -> f64 {
+    60.0_f64.to_radians()
+}
+
+fn one() -> u32 {
+    1
+}
+
+impl DesignSpec for PathDesign {
+    const FAMILY: &'static str = "path";
+    const ABOUT: &'static str = "A path wanted of a tip, and what is wanted of the machine that centrode reverse makes of it.";
+    const TEMPLATE: &'static str = include_str!("../../design/path.toml");
+    const TABLES: &'static [&'static str] = &["path", "wishes"];
+
+    fn words(&self) -> [&str; 2] {
+        [&self.name, &self.title]
+    }
+
+    fn rules(&self) -> Result<(), SpecError> {
+        file_name("name", &self.name)?;
+        single_line("title", &self.title)?;
+        for x in self.axis.iter().flatten() {
+            finite("axis", *x)?;
+        }
+        finite("bend_deg", self.bend)?;
+        count_in_range("arms", self.arms, 1, 12)?;
+        let count = self.path.validate().map_err(|e| e.inside("path"))?;
+        let wishes = self.wishes.validate(count);
+        wishes.map_err(|e| e.inside("wishes"))
+    }
+}
+
+impl Default for PathDesign {
+    fn default() -> Self {
+        Self {
+            name: default_name(),
+            title: String::new(),
+            axis: None,
+            bend: default_bend(),
+            split: SplitKind::default(),
+            arms: one(),
+            steps: None,
+            aim: None,
+            path: PathSpec::default(),
+            wishes: Wishes::default(),
+        }
+    }
+}
+
+impl PathSpec {
+    /// Checks the rules; gives how many points there may be.
+    fn validate(&self) -> Result<usize, SpecError> {
+        match (&self.file, self.points.is_empty()) {
+            (Some(_), false) => return broken("file", Rule::Excludes("points")),
+            (None, true) => return broken("points", Rule::NeedsOneOf("points and file")),
+            _ => {}
+        }
+        for x in self.points.iter().flatten() {
+            finite("points", *x)?;
+        }
+        if self.band.is_some() && !self.tolerance.is_empty() {
+            return broken("band", Rule::Excludes("tolerance"));
+        }
+        not_negative("band", self.band.unwrap_or(0.0))?;
+        for band in &self.tolerance {
+            not_negative("tolerance", *band)?;
+        }
+        if let Some(module) = self.module {
+            positive("module", module)?;
+            if self.band.is_none() && self.tolerance.is_empty() && !self.open && self.file.is_none()
+            {
+                return broken("band", Rule::Needed("with module, which eases the path"));
+            }
+        }
+        // How many a file has is seen when it is read.
+        Ok(match self.file {
+            Some(_) => usize::MAX,
+            None => self.points.len(),
+        })
+    }
+}

@@ -1,0 +1,32 @@
+//! Wishes about a machine as Python gives them.
+
+use centrode_mechanism::reverse::Wishes;
+use pyo3::prelude::{Bound, PyAny, PyAnyMethods, PyResult, Python};
+use pyo3::types::{IntoPyDict, PyDict};
+
+use crate::error::{Answer, Raised};
+
+/// Wishes of a dict with the keys of the design file; arrays are read as lists.
+pub(super) fn read(wishes: &Bound<'_, PyDict>) -> Answer<Wishes> {
+    let py = wishes.py();
+    let as_list = py
+        .import("operator")?
+        .call_method1("methodcaller", ("tolist",))?;
+    let keywords = [("default", as_list)].into_py_dict(py)?;
+    let text = py
+        .import("json")?
+        .call_method("dumps", (wishes,), Some(&keywords))?;
+    let text: String = text.extract()?;
+    serde_json::from_str(&text).map_err(|error| {
+        let told = error.to_string();
+        // Its place in the text is none of the caller's.
+        let told = told.split(" at line ").next().unwrap_or_default();
+        Raised::sentence("wishes", told.to_owned())
+    })
+}
+
+/// The dict of wishes.
+pub(super) fn keywords<'py>(py: Python<'py>, wishes: &Wishes) -> PyResult<Bound<'py, PyAny>> {
+    let text = serde_json::to_string(wishes).unwrap_or_default();
+    py.import("json")?.call_method1("loads", (text,))
+}
