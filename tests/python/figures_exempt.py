@@ -164,6 +164,7 @@ EXEMPT = {
             r"within 0\.1 mm",
             r"band of its own: 0 where",
             r"Of more than 24 points",
+            r"up to 200 points",
         ),
         RUST: (r"near 1e-9 rad for q = 400", r"of a module of 0\.11 mm"),
         TIME: (r"^## What it costs\n(?:.*\n)*",),

@@ -45,6 +45,9 @@ pub const INDEX: &str = include_str!("site/index.html");
 /// The page to start from: designs to open.
 pub const START: &str = include_str!("site/start.html");
 
+/// The page on which a machine is made from a path.
+pub const PATH: &str = include_str!("site/path.html");
+
 macro_rules! assets {
     ($media_type:literal: $($name:literal),+ $(,)?) => {
         [$(Asset { name: $name, media_type: $media_type, text: include_str!(concat!("site/", $name)) }),+]
@@ -104,8 +107,21 @@ const SCRIPTS: [Asset; 40] = assets!(
     "work.js",
 );
 
-/// The scripts of the start page alone, which no report needs.
-const START_SCRIPTS: [Asset; 1] = assets!("text/javascript; charset=utf-8": "start.js");
+/// The scripts of the start page and of the page of a path, which no report needs.
+const START_SCRIPTS: [Asset; 8] = assets!(
+    "text/javascript; charset=utf-8":
+    "new-file.js",
+    "path.js",
+    "path-field.js",
+    "path-file.js",
+    "path-form.js",
+    "path-make.js",
+    "path-solving.js",
+    "start.js",
+);
+
+/// The style of the page of a path.
+const PATH_STYLES: [Asset; 1] = assets!("text/css; charset=utf-8": "path.css");
 
 /// The file of the page with a name.
 #[must_use]
@@ -114,6 +130,7 @@ pub fn asset(name: &str) -> Option<&'static Asset> {
         .iter()
         .chain(&SCRIPTS)
         .chain(&START_SCRIPTS)
+        .chain(&PATH_STYLES)
         .find(|asset| asset.name == name)
 }
 

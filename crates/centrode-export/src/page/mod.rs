@@ -8,7 +8,7 @@ mod html;
 mod path;
 mod scene;
 
-pub use html::{Asset, INDEX, Packed, START, asset, packed, report};
+pub use html::{Asset, INDEX, PATH, Packed, START, asset, packed, report};
 pub use path::Path;
 pub(crate) use path::short;
 

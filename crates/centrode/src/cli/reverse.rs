@@ -205,7 +205,7 @@ fn others(chain: &TwoBar, kind: SplitKind, bend: f64, out: &mut impl Write) -> s
 }
 
 /// The sharpest pitch curve of a split that was not chosen.
-fn sharpest(chain: &TwoBar, split: &Split) -> String {
+pub(crate) fn sharpest(chain: &TwoBar, split: &Split) -> String {
     match ReversedMachine::new(chain, split, 1, None) {
         Ok(made) => {
             let radii = made.least_radii.iter().flatten();

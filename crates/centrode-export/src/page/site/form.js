@@ -127,11 +127,11 @@ export class Form {
   rows(table) {
     const pair = pointsOf(table);
     if (!pair) return table.fields.map((field) => this.row(field));
-    const points = new Points(this, table.key, pair);
+    const points = new Points(this, table.key, pair, table.points);
     this.points.set(table.key, points);
     return table.fields.flatMap((field) => {
       if (field === pair[0]) return [points.place];
-      return field === pair[1] ? [] : [this.row(field)];
+      return pair.includes(field) ? [] : [this.row(field)];
     });
   }
 

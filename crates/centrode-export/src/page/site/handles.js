@@ -82,11 +82,14 @@ export class Handles {
       let mark = this.marks.get(handle.name);
       if (!mark) {
         mark = this.mark(handle.name);
+        if (handle.kind) mark.classList.add(handle.kind);
         this.marks.set(handle.name, mark);
         this.layer.insertBefore(mark, next);
       }
       const point = pointOf(handle);
-      mark.querySelector(".number").textContent = point ? String(point[1] + 1) : "";
+      const number = mark.querySelector(".number");
+      const count = point ? String(point[1] + 1) : "";
+      if (number.textContent !== count) number.textContent = count;
       this.tell(handle, mark);
       next = mark;
     }
@@ -100,7 +103,10 @@ export class Handles {
   /** Writes the coordinates of a point beside it. */
   tell(handle, mark) {
     const told = words(handle);
-    mark.setAttribute("aria-label", `${handle.name}: ${told}`);
+    const label = `${handle.name}: ${told}`;
+    // Most points stay where they are, and writing would have the browser lay them out again.
+    if (mark.getAttribute("aria-label") === label) return;
+    mark.setAttribute("aria-label", label);
     const point = pointOf(handle);
     mark.querySelector(".where").textContent = point ? `${point[1] + 1}: ${told}` : told;
   }
@@ -226,6 +232,27 @@ export class Handles {
     if (!points || event.target.closest("button, label, .handle")) return;
     const bounds = this.stage.box.getBoundingClientRect();
     const place = [event.clientX - bounds.left, event.clientY - bounds.top];
+    const plane = this.within(own[0], this.pointed(event));
+    // Between the places of poses, or of a stroke, no curve is known.
+    const i = points.smooth ? this.spanAt(own, place) : points.halfway ? null : this.sectorAt(own, place, plane);
+    if (i === null) return;
+    event.stopPropagation();
+    const values = this.numbers(own[i], plane);
+    // The numbers are those of the nearest turn, which may be the one before.
+    if (own[i].plane === "polar" && this.turn(own[i], plane) > 180) values[1] += 360;
+    this.began();
+    this.wish = own[i].name.replace(/\d+/, String(i + 2));
+    points.add(i, null, values);
+  }
+
+  /** Turn from a handle on to a place of its plane, going round, degrees. */
+  turn({ plane: kind, values: [a, b] }, plane) {
+    const from = kind === "polar" ? b : Math.atan2(b, a) / DEG;
+    return ((Math.atan2(plane[1], plane[0]) / DEG - from) % 360 + 360) % 360;
+  }
+
+  /** The handle before a place of the box, going round; null for a place that is on no line. */
+  sectorAt(own, place, plane) {
     const { link } = own[0];
     const [ox, oy, angle] = this.poses[link];
     const [c, s] = [Math.cos(angle), Math.sin(angle)];
@@ -234,19 +261,18 @@ export class Handles {
       return this.stage.toBox(ox + c * x - s * y, oy + s * x + c * y);
     });
     const onLine = corners.some((corner, i) => off(place, corner, corners[(i + 1) % corners.length]) < NEAR);
-    if (!onLine && !this.stage.isAtPitch(link, this.poses[link], place, NEAR)) return;
-    event.stopPropagation();
-    // The point before it, going round.
-    const plane = this.within(own[0], this.pointed(event));
-    const turn = (from) => ((Math.atan2(plane[1], plane[0]) / DEG - from) % 360 + 360) % 360;
-    const angles = own.map(({ plane: kind, values: [a, b] }) => (kind === "polar" ? b : Math.atan2(b, a) / DEG));
-    const i = angles.reduce((best, from, k) => (turn(from) < turn(angles[best]) ? k : best), 0);
-    const values = this.numbers(own[i], plane);
-    // The numbers are those of the nearest turn, which may be the one before.
-    if (own[i].plane === "polar" && turn(angles[i]) > 180) values[1] += 360;
-    this.began();
-    this.wish = own[i].name.replace(/\d+/, String(i + 2));
-    points.add(i, null, values);
+    if (!onLine && !this.stage.isAtPitch(link, this.poses[link], place, NEAR)) return null;
+    return own.reduce((best, handle, k) => (this.turn(handle, plane) < this.turn(own[best], plane) ? k : best), 0);
+  }
+
+  /** The handle before a place of the box on the curve through all of them, whose corners are spread evenly from handle to handle. */
+  spanAt(own, place) {
+    const { shapes, links } = this.stage.scene.picture;
+    const [{ vertices }] = shapes[links[own[0].link].shape];
+    const corners = Array.from({ length: vertices.length / 3 }, (_, i) => this.stage.toBox(vertices[3 * i], vertices[3 * i + 1]));
+    const offs = corners.map((corner, i) => off(place, corner, corners[(i + 1) % corners.length]));
+    const nearest = offs.indexOf(Math.min(...offs));
+    return offs[nearest] < NEAR ? Math.floor(((nearest + 0.5) * own.length) / corners.length) : null;
   }
 
   /** Adds a point after this one, or deletes it; the focus follows. */

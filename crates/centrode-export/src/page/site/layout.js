@@ -22,20 +22,20 @@ function kept() {
   return BORDERS.map(([, , width], i) => (widths[i] >= LEAST ? widths[i] : width));
 }
 
-/** Starts tabs and borders. */
-export function start() {
-  tabs();
+/** Starts tabs and borders; tabs may have other names, by their words. */
+export function start(names = {}) {
+  tabs(names);
   borders();
 }
 
-function tabs() {
+function tabs(names) {
   const list = byId("tabs");
   const buttons = TABS.map(([name, pane, word]) => element("button", { type: "button", role: "tab", id: `tab-${word}`, "aria-controls": pane, onclick: () => {
     choose(word);
     // A pane begins below the picture, however far the one before it was scrolled.
     const main = document.querySelector("main");
     if (main.getBoundingClientRect().top < 0) main.scrollIntoView();
-  } }, name));
+  } }, names[word] ?? name));
   const choose = (word) => {
     document.body.dataset.tab = word;
     TABS.forEach(([, , own], i) => {

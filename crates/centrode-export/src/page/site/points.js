@@ -9,12 +9,15 @@ const PAIRS = [["radius", "angle_deg"], ["x", "y"]];
 /** Fewer points make no curve. */
 const FEWEST = 3;
 
+const capital = (word) => word.charAt(0).toUpperCase() + word.slice(1);
+
 /** A coordinate with no more digits than one reads. */
 const short = (value) => Number(value.toFixed(3));
 
-/** The two lists of points of a table; null where it has none. */
-export function pointsOf({ key, fields }) {
+/** The lists of points of a table, two or as many as it has columns; null where it has none. */
+export function pointsOf({ key, fields, points }) {
   const named = (name) => fields.find((field) => field.key === `${key}.${name}`);
+  if (points) return points.columns.map(named);
   if (named("kind")?.value !== "bspline") return null;
   const pairs = PAIRS.map((names) => names.map(named));
   const lists = pairs.find((pair) => pair.every((field) => Array.isArray(field?.value) && field.value.length > 1));
@@ -53,7 +56,9 @@ function between([a, b], [c, d], polar) {
 }
 
 export class Points {
-  constructor(form, key, pair) {
+  /** Of `noun`s at least `fewest` are needed; a new one lies `halfway(points, i)` to the next. Through `smooth` ones a closed curve passes. */
+  constructor(form, key, pair, { smooth = false, fewest = FEWEST, noun = "point", halfway } = {}) {
+    Object.assign(this, { smooth, fewest, noun, halfway });
     this.form = form;
     this.key = key;
     this.pair = pair;
@@ -73,9 +78,14 @@ export class Points {
     body.addEventListener("paste", (event) => this.paste(event));
     body.addEventListener("keydown", (event) => this.keyed(event));
     this.place = element("div", { class: "points" },
-      element("table", { "aria-label": "Points" }, element("thead", {}, element("tr", {}, element("th", { scope: "col" }, "No."), ...this.controls.map(({ row }) => row),
+      element("table", { "aria-label": `${capital(this.noun)}s` }, element("thead", {}, element("tr", {}, element("th", { scope: "col" }, "No."), ...this.controls.map(({ row }) => row),
         form.fixed ? null : element("td", {}))), body),
       ...this.controls.map(({ remark }) => remark), buttons);
+  }
+
+  /** How many numbers each has, in words. */
+  get many() {
+    return this.pair.length === 2 ? "two" : "three";
   }
 
   /** Id of an input of the table. */
@@ -97,8 +107,8 @@ export class Points {
     const button = (name, sign, title, act, disabled) => element("button", { type: "button", id: `${name}-${this.key}-${i}`, "aria-label": title, title, onclick: act, disabled }, sign);
     const count = this.pair[0].value.length;
     return element("tr", {}, element("th", { scope: "row" }, String(i + 1)), ...inputs, this.form.fixed ? null : element("td", { class: "act" },
-      button("add", "+", `Add a point after point ${i + 1}`, () => this.add(i)),
-      button("delete", "×", `Delete point ${i + 1}`, () => this.remove(i), count <= FEWEST)));
+      button("add", "+", `Add a ${this.noun} after ${this.noun} ${i + 1}`, () => this.add(i)),
+      button("delete", "×", `Delete ${this.noun} ${i + 1}`, () => this.remove(i), count <= this.fewest)));
   }
 
   /** The points as they are now, given or typed. */
@@ -121,13 +131,13 @@ export class Points {
   /** Adds a point after another: a given one, or one halfway to the next. */
   add(i, wish = this.id(0, i + 1), given = null) {
     const { points } = this;
-    const next = given ?? between(points[i], points[(i + 1) % points.length], this.polar);
+    const next = given ?? this.halfway?.(points, i) ?? between(points[i], points[(i + 1) % points.length], this.polar);
     this.give(points.toSpliced(i + 1, 0, next), wish);
   }
 
   remove(i, wish = `delete-${this.key}-${Math.min(i, this.points.length - 2)}`) {
     const { points } = this;
-    if (points.length > FEWEST) this.give(points.toSpliced(i, 1), wish);
+    if (points.length > this.fewest) this.give(points.toSpliced(i, 1), wish);
   }
 
   keyed(event) {
@@ -168,10 +178,10 @@ export class Points {
 
   /** Reason why rows do not fit into the table from a cell on. */
   fault(rows, row, column) {
-    const wide = rows.find((cells) => column + cells.length > 2);
+    const wide = rows.find((cells) => column + cells.length > this.pair.length);
     if (wide) return `line ${wide.line}: more numbers than columns`;
-    const bare = rows.find((cells, k) => row + k >= this.points.length && cells.length < 2);
-    return bare ? `line ${bare.line}: a new point needs two numbers` : null;
+    const bare = rows.find((cells, k) => row + k >= this.points.length && cells.length < this.pair.length);
+    return bare ? `line ${bare.line}: a new ${this.noun} needs ${this.many} numbers` : null;
   }
 
   complain(message) {
@@ -182,19 +192,19 @@ export class Points {
   /** All points as a text, to be copied into a spreadsheet, or pasted from one. */
   async text() {
     const names = this.pair.map(({ key, unit }) => `${words(key)}${unit && ` ${unit}`}`).join(", ");
-    const area = element("textarea", { "aria-label": `Points, one a line: ${names}`, spellcheck: "false", rows: 16, cols: 40 });
+    const area = element("textarea", { "aria-label": `${capital(this.noun)}s, one a line: ${names}`, spellcheck: "false", rows: 16, cols: 40 });
     area.value = this.points.map((point) => point.join("\t")).join("\n");
     const remark = element("p", { class: "remark", role: "status" });
     let points = null;
     const sound = async () => {
       const { rows, error } = rowsIn(area.value);
-      const short = rows?.find((cells) => cells.length !== 2);
-      const fault = error ?? (short ? `line ${short.line}: a point has two numbers` : null) ?? (rows.length < FEWEST ? `a curve has at least ${FEWEST} points` : null);
+      const short = rows?.find((cells) => cells.length !== this.pair.length);
+      const fault = error ?? (short ? `line ${short.line}: a ${this.noun} has ${this.many} numbers` : null) ?? (rows.length < this.fewest ? `a curve has at least ${this.fewest} points` : null);
       points = fault ? null : rows.map((cells) => [...cells]);
       remark.replaceChildren(...(fault ? [element("span", { class: "error" }, fault)] : []));
       return points !== null;
     };
-    const answer = ask("Points", [element("p", { class: "quiet" }, `One a line: ${names}.`), area, remark], [["", "Cancel"], ["apply", "Apply", "main"]], sound);
+    const answer = ask(`${capital(this.noun)}s`, [element("p", { class: "quiet" }, `One a line: ${names}.`), area, remark], [["", "Cancel"], ["apply", "Apply", "main"]], sound);
     area.focus();
     area.select();
     if (await answer === "apply") this.give(points, `text-${this.key}`);

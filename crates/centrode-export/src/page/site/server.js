@@ -55,6 +55,12 @@ export const offer = () => json(ask("start", "GET"));
 export const picture = (kind, name) => json(ask(`pictures/${kind}/${encodeURIComponent(name)}`, "GET"));
 export const open = (path) => json(ask("open", "POST", { path }));
 export const make = (from, path) => json(ask("new", "POST", { from, path }));
+export const solvePath = (wish, signal) => json(ask("path/solve", "POST", wish, signal));
+export const findMachine = (wish, signal) => json(ask("path/find", "POST", wish, signal));
+export const mapAxes = (wish, signal) => json(ask("path/map", "POST", wish, signal));
+export const bestAxis = (wish, signal) => json(ask("path/axis", "POST", wish, signal));
+export const readPath = (text) => json(ask("path/open", "POST", { text }));
+export const makePath = (wish, signal) => json(ask("path/machine", "POST", wish, signal));
 export const design = () => json(ask("design", "GET"));
 export const save = (text, base, over) => json(ask("save", "POST", { text, base, over }));
 // It arrives although the page is left; browsers send no more than 64 KiB that way.

@@ -3,6 +3,7 @@
 import * as dialogs from "./dialogs.js";
 import { byId, element } from "./elements.js";
 import * as link from "./link.js";
+import { free, make, recent, remember } from "./new-file.js";
 import { Painter, Scene } from "./painter.js";
 import * as server from "./server.js";
 import * as theme from "./theme.js";
@@ -11,8 +12,6 @@ import * as theme from "./theme.js";
 const SPEED = (2 * Math.PI * 6) / 60000;
 /** Pictures asked for at once: they take the computer's time. */
 const AT_ONCE = 2;
-/** Cookie of the files opened of late. */
-const RECENT = "centrode-recent=";
 /** Room around a picture, pixels. */
 const ROOM = [16, 16];
 
@@ -116,51 +115,6 @@ function complain(error, key = "server") {
 
 const capital = (words) => words.charAt(0).toUpperCase() + words.slice(1);
 
-/** A name that no file of the folder has. */
-function free(name, taken) {
-  for (let count = 1; ; count += 1) {
-    const file = `${name}${count > 1 ? `-${count}` : ""}.toml`;
-    if (!taken.includes(file)) return file;
-  }
-}
-
-/** Asks where a new design file is to be, makes it, and leads to its page. */
-async function make(from, title, file, folder) {
-  const path = element("input", { type: "text", id: "new-path", spellcheck: "false", autocomplete: "off", value: file, "aria-describedby": "new-remark" });
-  const remark = element("p", { class: "remark", id: "new-remark", role: "alert" });
-  let page = null;
-  const sound = async () => {
-    try {
-      const answer = await server.make(from, path.value.trim());
-      page = answer.page;
-      if (page) return true;
-      remark.replaceChildren(element("span", { class: "error" }, answer.refused));
-    } catch (error) {
-      remark.replaceChildren(element("span", { class: "error" }, error.message));
-    }
-    path.select();
-    return false;
-  };
-  const answer = ask();
-  // The name without its ending is what is likely to be changed.
-  path.focus();
-  path.setSelectionRange(0, path.value.length - ".toml".length);
-  await answer;
-  if (page) {
-    remember(path.value.trim());
-    location.assign(page);
-  }
-
-  function ask() {
-    return dialogs.ask("New design file", [
-      element("p", {}, title),
-      element("p", { class: "option" }, element("label", { for: "new-path" }, "File"), path),
-      element("p", { class: "quiet" }, `In ${folder}, or any path.`),
-      remark,
-    ], [["", "Cancel"], ["make", "Make and open", "main"]], sound);
-  }
-}
-
 /** Opens a file; where it cannot be, the reason stands below the path. */
 async function open(path) {
   const remark = byId("open-remark");
@@ -172,7 +126,7 @@ async function open(path) {
     }
     const { page, refused } = await server.open(path);
     if (page) {
-      remember(path);
+      remember(path, byId("folder").textContent);
       location.assign(page);
       return;
     }
@@ -190,25 +144,6 @@ async function unfold(text) {
   const title = link.named(text);
   const name = title.toLowerCase().replace(/[^a-z0-9]+/g, "-").replace(/^-|-$/g, "").slice(0, 40) || "design";
   await make({ text }, title, free(name, taken), folder);
-}
-
-/** Paths opened from here of late, the last first: a cookie has them, since the program stands at another address each time. */
-const recent = () => {
-  const found = document.cookie.split("; ").find((own) => own.startsWith(RECENT));
-  try {
-    return found ? JSON.parse(decodeURIComponent(found.slice(RECENT.length))) : [];
-  } catch {
-    return [];
-  }
-};
-
-/** Remembers a path, from the root of the disk. */
-function remember(path) {
-  const whole = /^(\/|[A-Za-z]:[\\/])/.test(path) ? path : `${byId("folder").textContent}/${path}`;
-  let list = [whole, ...recent().filter((own) => own !== whole)].slice(0, 8);
-  // A cookie has 4096 bytes at most.
-  while (encodeURIComponent(JSON.stringify(list)).length > 3500) list = list.slice(0, -1);
-  document.cookie = `${RECENT}${encodeURIComponent(JSON.stringify(list))}; max-age=31536000; path=/; SameSite=Strict`;
 }
 
 /** A card of the gallery. */

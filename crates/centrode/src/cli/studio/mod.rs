@@ -4,6 +4,7 @@ mod document;
 mod guard;
 mod listener;
 mod meshes;
+mod path;
 mod response;
 mod routes;
 mod search;

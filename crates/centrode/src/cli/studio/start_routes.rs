@@ -28,7 +28,8 @@ pub(crate) fn start_page(state: Arc<StartPage>) -> Router {
         .route("/open", post(open))
         .route("/new", post(make))
         .route("/designs/{number}/", any(design))
-        .route("/designs/{number}/{*rest}", any(design));
+        .route("/designs/{number}/{*rest}", any(design))
+        .merge(super::path::routes());
     limited(page).with_state(state)
 }
 

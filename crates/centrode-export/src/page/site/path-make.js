@@ -1,0 +1,71 @@
+// From the page of a path to a design: teeth are sought, a file is asked for, and its page is opened.
+
+import * as dialogs from "./dialogs.js";
+import { element } from "./elements.js";
+import * as files from "./new-file.js";
+import { worked } from "./numbers.js";
+import { asked, sizeOf } from "./path-form.js";
+import * as server from "./server.js";
+import { work } from "./work.js";
+
+/** Band that is offered, as a share of the path's size. */
+const BAND = 0.03;
+
+/** A handsome number near a size. */
+const round = (size) => Number(size.toPrecision(1));
+
+/** Makes the machine of a wish; where no teeth will do, says so and offers to ease the path. */
+export async function make(wish, complain) {
+  let band = wish.given === "path" && wish.band > 0 ? wish.band : null;
+  const stop = new AbortController();
+  try {
+    for (;;) {
+      const answer = await work((signal) => server.makePath(wish.given === "path" ? { ...asked(wish), band } : asked(wish), signal), stop);
+      if (!answer.refused) {
+        await name(answer);
+        return;
+      }
+      band = wish.given === "path" ? await remedy(wish, answer.refused, band) : await refuse(answer.refused);
+      if (!band) return;
+    }
+  } catch (error) {
+    if (!stop.signal.aborted) complain(error);
+  }
+}
+
+/** Asks where the design is to be. */
+async function name({ text, told }) {
+  const { taken, folder } = await server.offer();
+  const rows = told.map(([head, words]) => element("tr", {}, element("th", { scope: "row" }, head), element("td", {}, words)));
+  const table = element("table", { class: "told" }, element("tbody", {}, ...rows));
+  await files.make({ text }, "The machine of the path, with sound teeth.", files.free("reversed", taken), folder, [table]);
+}
+
+/** Says why what is sought gives no machine. */
+async function refuse(reason) {
+  await dialogs.ask("No machine", [element("p", {}, reason), element("p", {}, "What helps: a greater bend, another split, or other places.")], [["close", "Close", "main"]]);
+}
+
+/** Says why there is no machine; resolves to a band within which the path is to be eased, or to null. */
+async function remedy(wish, reason, before) {
+  const box = element("input", { type: "text", inputmode: "decimal", class: "number", id: "band", value: String(2 * before || round(BAND * sizeOf(wish.path))), "aria-describedby": "band-remark" });
+  const remark = element("p", { class: "remark", id: "band-remark", role: "alert" });
+  const sound = async () => {
+    const band = worked(box.value, "mm");
+    if (typeof band === "number" && band > 0) return true;
+    remark.replaceChildren(element("span", { class: "error" }, "the band is a number above zero, in mm"));
+    box.focus();
+    return false;
+  };
+  const answer = await dialogs.ask("No machine", [
+    element("p", {}, reason),
+    element("p", {}, "What helps:"),
+    element("ul", { class: "remedies" },
+      element("li", {}, "another axis: where the field is bright, coloured by the least radius,"),
+      element("li", {}, "a greater bend, or another split,"),
+      element("li", {}, "a path without sharp places: let it pass beside its points, and have it eased.")),
+    element("p", { class: "option" }, element("label", { for: "band" }, "Pass within"), box, element("span", { class: "unit" }, "mm")),
+    remark,
+  ], [["", "Cancel"], ["ease", "Ease the path and make", "main"]], sound);
+  return answer === "ease" ? worked(box.value, "mm") : null;
+}

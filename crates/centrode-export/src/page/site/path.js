@@ -1,0 +1,237 @@
+// The page on which a machine is made from a path.
+
+import { Charts } from "./charts.js";
+import * as dialogs from "./dialogs.js";
+import { byId, element } from "./elements.js";
+import { Form } from "./form.js";
+import { Handles } from "./handles.js";
+import { History } from "./history.js";
+import * as layout from "./layout.js";
+import { Field } from "./path-field.js";
+import * as file from "./path-file.js";
+import { EXAMPLE, asked, changed, handles as marks, rowsOf, tables, wantedLines, wantedPicture, withRows } from "./path-form.js";
+import * as maker from "./path-make.js";
+import { Solving } from "./path-solving.js";
+import * as server from "./server.js";
+import { Stage } from "./stage.js";
+import * as theme from "./theme.js";
+import { Transport } from "./transport.js";
+import { work } from "./work.js";
+
+/** The drawing, with the field of possible axes below it. */
+class PathStage extends Stage {
+  clear() {
+    super.clear();
+    this.field?.paint(this);
+  }
+
+  /** Whether a link is drawn: the path and what is wanted of it always are. */
+  isShown({ name }) {
+    return ["path", "wanted"].includes(name) || byId("show-gears").checked;
+  }
+
+  link(link, pose) {
+    if (this.isShown(link)) super.link(link, pose);
+  }
+
+  lines(link, pose) {
+    if (this.isShown(link)) super.lines(link, pose);
+  }
+}
+
+const stage = new PathStage((poses) => handles?.place(poses));
+const transport = new Transport(stage);
+const charts = new Charts((input) => transport.go(input), () => "path", () => transport.speed);
+transport.charts = charts;
+const form = new Form({ edit, hold: () => {}, respond: () => {}, fixed: false });
+const handles = new Handles(stage, { edit, began: () => {}, points: (table) => form.points.get(table) });
+const field = new Field(stage, complain);
+stage.field = field;
+const solving = new Solving({ show: (answer, more) => wish.given === "path" && show(answer, more), complain, rested: () => byId("verdict").setAttribute("aria-busy", "false") });
+
+/** What is drawn is kept while the window is open: a design made of it leads away from this page, and back. */
+const KEPT = "centrode-path";
+let wish = kept() ?? EXAMPLE;
+/** Figures that are shown. */
+let told = [];
+/** What ends the search for the machine. */
+let finding = null;
+const history = new History(JSON.stringify(wish));
+
+/** Takes new values; `final` ends a drag. */
+function edit(edits, final) {
+  const { next, key, wrong } = changed(wish, edits);
+  if (wrong) {
+    fill({ key, message: wrong, rule: "" });
+    return;
+  }
+  take(next, final);
+}
+
+/** Takes another wish. */
+function take(next, final, fresh = true) {
+  wish = next;
+  if (final && fresh) history.push(JSON.stringify(wish));
+  if (final) keep();
+  fill(null);
+  buttons();
+  const isPath = wish.given === "path";
+  field.shown = isPath;
+  for (const id of ["field", "field-readout"]) byId(id).hidden = !isPath;
+  byId("show-field").parentElement.hidden = !isPath;
+  finding?.abort();
+  if (isPath) {
+    byId("verdict").setAttribute("aria-busy", "true");
+    solving.ask(wish, final);
+    field.ask(wish, final);
+  } else {
+    unfound();
+  }
+}
+
+/** Shows what is given, for which no machine has been sought yet. */
+function unfound() {
+  byId("verdict").setAttribute("aria-busy", "false");
+  const words = wish.given === "poses" ? "takes these poses" : "runs along these points, with any return to the first,";
+  show({ picture: wantedPicture(wish), curves: [], figures: [], fault: { of: "sought", message: `The machine whose tip ${words} is sought when you say so: it takes some seconds.` } });
+}
+
+/** Seeks the machine of poses or of a stroke. */
+async function find() {
+  const stop = new AbortController();
+  finding = stop;
+  byId("verdict").setAttribute("aria-busy", "true");
+  try {
+    const answer = await work((signal) => server.findMachine(asked(wish), signal), stop);
+    if (finding !== stop) return;
+    if (answer.refused) {
+      show({ picture: wantedPicture(wish), curves: [], figures: [], fault: { of: "none", message: answer.refused } });
+    } else {
+      const { shapes, links, motion } = answer.picture;
+      links.push({ name: "wanted", shape: shapes.push(wantedLines(wish)) - 1 });
+      motion.poses.push([0, 0, 0]);
+      show(answer);
+    }
+  } catch (error) {
+    if (!stop.signal.aborted) complain(error);
+  } finally {
+    if (finding === stop) {
+      finding = null;
+      byId("verdict").setAttribute("aria-busy", "false");
+    }
+  }
+}
+
+/** Shows the wish in the form, with what is wrong with it. */
+function fill(error) {
+  form.show({ tables: tables(wish), error, verdict: error ? undefined : { findings: [] } });
+}
+
+/** Shows what the program answers; where `more` figures are to come, those from before stay, faded. */
+function show({ picture, curves, figures, fault }, more = false) {
+  stage.show(picture);
+  handles.show(marks(wish));
+  transport.draw();
+  charts.place.classList.toggle("stale", Boolean(fault));
+  if (!fault) charts.show(curves);
+  transport.show(curves);
+  judge(fault);
+  const names = new Set(figures.map(({ name }) => name));
+  const stale = more && !fault ? told.filter(({ name }) => !names.has(name)) : [];
+  told = [...figures, ...stale.map((one) => ({ ...one, stale: true }))];
+  const rows = told.map(({ name, words, stale: faded }) =>
+    element("tr", { class: faded && "stale" }, element("th", { scope: "row" }, name), element("td", { "data-key": name }, words)));
+  byId("figures").replaceChildren(...(rows.length ? [element("table", { class: "figures" }, element("tbody", {}, ...rows))] : []));
+  byId("make").disabled = Boolean(fault);
+  byId("finding").hidden = wish.given === "path" || !fault;
+}
+
+/** Says whether there is a machine; what has been said already is not said again. */
+function judge(fault) {
+  const place = byId("possible");
+  const head = fault ? heading(fault) : `✓ ${wish.given === "path" ? "This axis is possible" : "A machine is found"}`;
+  const words = fault ? capital(fault.message) : "";
+  if (place.dataset.said === head + words) return;
+  place.dataset.said = head + words;
+  const kind = fault ? fault.of === "sought" ? "" : "error" : "good";
+  place.replaceChildren(element("div", { class: `title ${kind}` }, element("h2", {}, head)), ...(words ? [element("p", {}, words)] : []));
+}
+
+const capital = (words) => words.charAt(0).toUpperCase() + words.slice(1);
+
+const heading = ({ of }) => ({ path: "✕ No path", axis: "✕ This axis is not possible", split: "✕ No gears", sought: "○ Not sought yet", none: "✕ No machine found" })[of];
+
+// A window may have no storage.
+function kept() {
+  try {
+    return JSON.parse(sessionStorage.getItem(KEPT));
+  } catch {
+    return null;
+  }
+}
+
+function keep() {
+  try {
+    sessionStorage.setItem(KEPT, JSON.stringify(wish));
+  } catch {
+    // It holds until the page is left.
+  }
+}
+
+function complain(error) {
+  dialogs.notice("server", error.message, [], "error");
+}
+
+function buttons() {
+  byId("undo").disabled = !history.canUndo;
+  byId("redo").disabled = !history.canRedo;
+}
+
+function step(way) {
+  take(JSON.parse(history[way]()), true, false);
+}
+
+/** Takes the best axis of the map. */
+async function best(bluntest) {
+  const stop = new AbortController();
+  try {
+    const found = await work((signal) => server.bestAxis({ points: rowsOf(wish), bend_deg: wish.bend, bluntest }, signal), stop);
+    if (found.refused) dialogs.notice("axis", found.refused, [], "warning");
+    else take({ ...wish, axis: found }, true);
+  } catch (error) {
+    if (!stop.signal.aborted) complain(error);
+  }
+}
+
+function listen() {
+  layout.start({ goals: "Machine", design: "Path" });
+  theme.start(() => {
+    stage.draw();
+    charts.recolor();
+  });
+  byId("undo").addEventListener("click", () => step("undo"));
+  byId("redo").addEventListener("click", () => step("redo"));
+  byId("mildest").addEventListener("click", () => best(false));
+  byId("bluntest").addEventListener("click", () => best(true));
+  byId("find-machine").addEventListener("click", find);
+  byId("show-gears").addEventListener("change", () => stage.draw());
+  byId("make").addEventListener("click", () => maker.make(wish, complain));
+  file.listen({
+    given: () => wish.given,
+    rows: () => rowsOf(wish),
+    take: (rows) => take(withRows(wish, rows), true),
+    tell: (words, severity) => dialogs.notice("path", words, [], severity),
+  });
+  addEventListener("keydown", (event) => {
+    if (!(event.ctrlKey || event.metaKey) || byId("dialog").open) return;
+    const key = event.key.toLowerCase();
+    // Undo within a field being typed into is the browser's.
+    const typing = event.target.matches?.("input[type=text]") && event.target.value !== event.target.dataset.value;
+    if ((key !== "z" && key !== "y") || typing) return;
+    event.preventDefault();
+    step(key === "y" || event.shiftKey ? "redo" : "undo");
+  });
+}
+
+listen();
+take(wish, true);

@@ -1,0 +1,544 @@
+"""The page on which a machine is made from a path, in a real browser: points, axis, possible axes, poses, design."""
+
+import json
+import math
+import re
+
+import pytest
+from axe_playwright_python.sync_playwright import Axe
+from conftest import centrode
+from page import drag, field, settled, shown
+from page import figures as page_figures
+from playwright.sync_api import expect
+from studio import studio
+
+X = [0, 60, 150, 230, 262, 235, 170, 100, 40, -5, -30, -38, -30]
+Y = [0, 70, 150, 215, 262, 300, 330, 330, 300, 250, 190, 130, 60]
+EXAMPLE = list(zip(X, Y, strict=True))
+WISH = {"points": EXAMPLE, "axis": [260, 160], "bend_deg": 40, "arms": 3, "split": "powers"}
+
+
+def solved(page):
+    """Waits until the wish that is shown has been answered, with the figures that take longer."""
+    expect(page.locator("#verdict[aria-busy=false]")).to_be_attached()
+
+
+def mapped(page):
+    expect(page.locator("#field[aria-busy=false]:not(.stale)")).to_be_attached()
+
+
+@pytest.fixture(scope="module")
+def running(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("path")
+    with studio(None, cwd=folder) as running:
+        running.folder = folder
+        yield running
+
+
+@pytest.fixture
+def page(browser, running):
+    granted = ["clipboard-read", "clipboard-write"]
+    with shown(browser, f"{running.url}path", ready=solved, permissions=granted) as page:
+        yield page
+
+
+def figures(page):
+    cells = page.locator("#figures tr:not(.stale) td[data-key]")
+    return dict(cells.evaluate_all("all => all.map(cell => [cell.dataset.key, cell.textContent])"))
+
+
+def told(folder, points, *options, name="wished.csv", check=True):
+    """Lines of the command line for a path, by their names, and what it complains of."""
+    path = folder / name
+    path.write_text("".join(f"{x!r},{y!r}\n" for x, y in points))
+    done = centrode("reverse", path, *options, check=check)
+    lines = re.findall(r"^(.{23}\S?) *(\S.*)$", done.stdout, re.M)
+    return {name.strip(): words for name, words in lines}, done.stderr
+
+
+def rows(page):
+    cells = page.locator(".points tbody input").evaluate_all("all => all.map(input => Number(input.value))")
+    return list(zip(cells[::2], cells[1::2], strict=True))
+
+
+def handle(page, name):
+    return page.get_by_role("button", name=name)
+
+
+def counted(page, count):
+    expect(page.locator(".points tbody tr")).to_have_count(count)
+    solved(page)
+
+
+def typed(page, key, text):
+    field(page, key).fill(text)
+    field(page, key).press("Enter")
+
+
+def middle(page, name):
+    box = handle(page, name).locator("circle").last.bounding_box()
+    return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+
+
+def test_the_start_page_leads_here_and_back(browser, running):
+    def ready(page):
+        expect(page.get_by_role("link", name="Draw a path")).to_be_visible()
+
+    with shown(browser, running.url, ready=ready) as page:
+        page.get_by_role("link", name="Draw a path").click()
+        solved(page)
+        page.get_by_role("link", name="Start").click()
+        ready(page)
+
+
+def test_figures_are_those_of_the_command_line(page, running):
+    lines, _ = told(running.folder, EXAMPLE, "--axis", "260,160", "--bend", "40", "--arms", "3")
+    # The other splits come last.
+    expect(page.locator('#figures tr:not(.stale) td[data-key="split one-pair"]')).to_be_visible()
+    own = figures(page)
+    assert own["axis of the carrier"] == lines["axis of the carrier"].removesuffix(", as asked")
+    same = [name for name in own if name in lines and name != "axis of the carrier"]
+    assert len(same) == 10
+    assert {name: own[name] for name in same} == {name: lines[name] for name in same}
+
+
+def test_gears_roll_as_drawn_and_the_tip_runs_along_the_path(running):
+    status, answer = running.json("POST", "path/solve", WISH)
+    assert status == 200
+    picture = answer["picture"]
+    shapes, motion = picture["shapes"], picture["motion"]
+    placed = zip(picture["links"], motion["poses"], strict=True)
+    links = {link["name"]: (link["shape"], poses) for link, poses in placed}
+
+    def corners(name):
+        flat = shapes[links[name][0]][0]["vertices"]
+        return [complex(x, y) for x, y in zip(flat[::3], flat[1::3], strict=True)]
+
+    def pose(name, moment):
+        poses = links[name][1]
+        x, y, angle = poses[:3] if len(poses) == 3 else poses[3 * moment : 3 * moment + 3]
+        return complex(x, y), complex(math.cos(angle), math.sin(angle))
+
+    def reach(name, moment, towards):
+        """How far a pitch curve reaches from its axis towards a place."""
+        at, turned = pose(name, moment)
+        way = (towards - at) / abs(towards - at)
+        outline = [corner * turned / way for corner in corners(name)]
+        around = zip(outline, [*outline[1:], outline[0]], strict=True)
+        for a, b in around:
+            if a.real > 0 and b.real > 0 and a.imag * b.imag <= 0 and a.imag != b.imag:
+                return (a.real * b.imag - b.real * a.imag) / (b.imag - a.imag)
+        raise AssertionError(name)
+
+    path = corners("path")
+    for moment in range(0, len(motion["input"]), 7):
+        for arm in (1, 2, 3):
+            for one, other in [("sun", f"idler gear {arm}"), (f"planet {arm}", f"idler second gear {arm}")]:
+                here, there = pose(one, moment)[0], pose(other, moment)[0]
+                apart = reach(one, moment, there) + reach(other, moment, here) - abs(there - here)
+                assert abs(apart) < 0.05
+            at, turned = pose(f"arm {arm}", moment)
+            tip = at + corners(f"arm {arm}")[-1] * turned
+            off = min(abs(tip - place) for place in path)
+            assert off < 2
+    # The sharpest place of the chart is that of the figure.
+    charts = {(curve["chart"], curve["name"]): curve["value"] for curve in answer["curves"]}
+    sharpest = max(max(value) for (chart, _), value in charts.items() if chart.startswith("Curvature"))
+    words = next(figure["words"] for figure in answer["figures"] if figure["name"] == "least convex radius")
+    assert 1 / sharpest == pytest.approx(float(words.split()[0]), rel=0.03)
+    assert min(charts["Ratio", ""]) == pytest.approx(0.5155, abs=2e-4)
+
+
+def test_a_dragged_point_moves_the_path_and_all_that_follows(page, running):
+    before = figures(page)
+    drag(page, handle(page, "point 8 of the path"), 12, -9)
+    solved(page)
+    points = rows(page)
+    assert points[:7] + points[8:] == EXAMPLE[:7] + EXAMPLE[8:]
+    assert points[7] != EXAMPLE[7]
+    lines, _ = told(running.folder, points, "--axis", "260,160", "--bend", "40")
+    assert figures(page)["ratio"] == lines["ratio"] != before["ratio"]
+    page.keyboard.press("Control+z")
+    solved(page)
+    assert rows(page) == EXAMPLE
+    assert figures(page)["ratio"] == before["ratio"]
+    page.keyboard.press("Control+Shift+z")
+    solved(page)
+    # Left and come back to, the path is there still.
+    page.reload()
+    solved(page)
+    assert rows(page) == points
+
+
+def test_the_axis_is_dragged_moved_by_keys_and_typed(page):
+    solved(page)
+    x, y = middle(page, "axis of the carrier")
+    ratio = page.locator('#figures td[data-key="ratio"]')
+    start = ratio.text_content()
+    page.mouse.move(x, y)
+    page.mouse.down()
+    page.mouse.move(x + 15, y + 5, steps=3)
+    # It follows while the hand is at it.
+    expect(ratio).not_to_have_text(start)
+    page.mouse.up()
+    solved(page)
+    dragged = float(field(page, "axis.x").input_value())
+    assert dragged > 265
+    assert figures(page)["axis of the carrier"].startswith(f"{dragged:.4f}, ")
+    handle(page, "axis of the carrier").focus()
+    page.keyboard.press("ArrowRight")
+    solved(page)
+    assert float(field(page, "axis.x").input_value()) > dragged
+    typed(page, "gears.arms", "2.5")
+    expect(page.locator('[id="remark-gears.arms"]')).to_contain_text("2.5 is no whole number")
+    typed(page, "gears.arms", "2")
+    typed(page, "axis.x", "250+10")
+    typed(page, "axis.y", "16 cm")
+    solved(page)
+    assert figures(page)["axis of the carrier"] == "260.0000, 160.0000 mm"
+
+
+def test_an_axis_that_is_not_possible_says_why_and_where(page, running):
+    typed(page, "axis.x", "60")
+    solved(page)
+    _, complaint = told(running.folder, EXAMPLE, "--axis", "60,160", check=False)
+    message = page.locator("#possible p").text_content()
+    assert message[1:] in complaint
+    assert re.search(r"at \(257\.5853, 277\.8302\)", message)
+    expect(page.locator("#possible h2")).to_contain_text("not possible")
+    expect(page.locator("#make")).to_be_disabled()
+    page.get_by_role("button", name="Mildest axis").click()
+    expect(page.locator("#possible h2")).to_contain_text("is possible")
+    solved(page)
+    lines, _ = told(running.folder, EXAMPLE, "--bend", "40")
+    assert figures(page)["ratio"] == lines["ratio"]
+
+
+def test_the_field_tells_of_every_place(page):
+    mapped(page)
+    counts = [int(number) for number in re.findall(r"\d+", page.locator("#field-count").text_content())]
+    assert counts[0] == counts[2] + counts[3]
+    assert counts[1] == 100 * 100
+    readout = page.locator("#field-readout")
+    x, y = middle(page, "axis of the carrier")
+    page.mouse.move(x + 9, y)
+    words = re.compile(r"Axis at 27\d\.\d, 1[56]\d\.\d: ratio 0\.\d+ to \d\.\d+, least radius \d")
+    expect(readout).to_contain_text(words)
+    x, y = middle(page, "point 12 of the path")
+    page.mouse.move(x + 60, y)
+    expect(readout).to_contain_text("not possible, the distance along the path has several greatest and least places")
+    expect(page.locator('#field-faults li[data-fault="extremes"]')).to_be_visible()
+    painted = "document.querySelector('#stage canvas').toDataURL()"
+    by_ratio = page.evaluate(painted)
+    page.get_by_label("Colour by").select_option("radius")
+    expect(page.locator("#field-low")).to_contain_text("mm")
+    by_radius = page.evaluate(painted)
+    page.get_by_label("Possible axes").uncheck()
+    assert len({by_ratio, by_radius, page.evaluate(painted)}) == 3
+    # The map is that of the path as it is now.
+    typed(page, "path.x-7", "110")
+    mapped(page)
+    expect(page.locator("#field-count")).not_to_contain_text(f"{counts[0]} of")
+
+
+def test_points_are_added_and_deleted(page):
+    (x, y), (u, v) = middle(page, "point 11 of the path"), middle(page, "point 12 of the path")
+    # Between them the curve lies a little to the left.
+    page.mouse.dblclick((x + u) / 2 - 2, (y + v) / 2)
+    counted(page, 14)
+    made = rows(page)[11]
+    assert rows(page)[:11] + rows(page)[12:] == EXAMPLE
+    assert abs(complex(*made) - (complex(*EXAMPLE[10]) + complex(*EXAMPLE[11])) / 2) < 8
+    expect(handle(page, "point 12 of the path")).to_be_focused()
+    page.keyboard.press("Delete")
+    counted(page, 13)
+    handle(page, "point 3 of the path").focus()
+    page.keyboard.press("Insert")
+    counted(page, 14)
+    # On the curve, not on the chord, and hence the machine is much the same.
+    assert rows(page)[3] == (193.625, 184.563)
+    page.get_by_role("button", name="As text").click()
+    text = page.get_by_role("textbox", name="Points, one a line")
+    text.fill("0 0\n10 0\n10 10")
+    page.locator("#dialog").get_by_role("button", name="Apply").click()
+    expect(page.locator("#dialog [role=status]")).to_contain_text("at least 4 points")
+    text.fill("0 0\n100 0\n100 60\n0 60")
+    page.locator("#dialog").get_by_role("button", name="Apply").click()
+    counted(page, 4)
+    expect(page.get_by_role("button", name="Delete point 1", exact=True)).to_be_disabled()
+
+
+def test_cells_of_a_spreadsheet_are_pasted_and_bad_ones_change_nothing(page):
+    def paste(text, cell="path.x"):
+        page.evaluate("text => navigator.clipboard.writeText(text)", text)
+        field(page, cell).focus()
+        page.keyboard.press("Control+v")
+
+    remark = page.locator('[id="remark-path.x"]')
+    paste("1\tNaN\n2\t3\n")
+    expect(remark).to_contain_text("NaN is no number")
+    assert rows(page) == EXAMPLE
+    typed(page, "path.y-2", "nan")
+    expect(page.locator('[id="remark-path.y"]')).to_contain_text("nan is no number")
+    typed(page, "path.y-2", "150")
+    paste("x\ty\n" + "".join(f"{x},5\t{y}\n" for x, y in EXAMPLE) + "-20\t30\n")
+    counted(page, 14)
+    assert rows(page) == [*((x + math.copysign(0.5, x), y) for x, y in EXAMPLE), (-20, 30)]
+    # Over a point that is there already.
+    typed(page, "path.x-13", "-30.5")
+    typed(page, "path.y-13", "60")
+    expect(page.locator("#possible p")).to_contain_text("Points 13 and 14 of the path are both (-30.5, 60) mm")
+
+
+def test_a_path_that_crosses_itself_is_told_with_the_place(page, running):
+    typed(page, "path.x-3", "-100")
+    solved(page)
+    points = [*EXAMPLE[:3], (-100, 215), *EXAMPLE[4:]]
+    _, complaint = told(running.folder, points, check=False)
+    message = page.locator("#possible p").text_content()
+    assert "crosses itself at (-30.1345, 189.4689) mm" in message
+    assert message[1:] in complaint
+    page.locator("#undo").click()
+    solved(page)
+    expect(page.locator("#possible h2")).to_contain_text("is possible")
+
+
+def test_files_of_a_path_are_opened_or_refused_and_written(page, running):
+    folder = running.folder
+    notice = page.locator('#notices [data-key="path"]')
+
+    def open_file(name, text):
+        (folder / name).write_text(text)
+        page.locator("#path-file").set_input_files(folder / name)
+
+    open_file("open.csv", "".join(f"{i},{i * i / 40}\n" for i in range(9)))
+    expect(page.locator("#possible p")).to_contain_text("The path is open: its last point is 8.1584 mm from the first")
+    open_file("words.csv", "0,0\n1,about\n")
+    expect(notice).to_contain_text("words.csv: line 2")
+    open_file("many.csv", "".join(f"{math.cos(i / 50)},{math.sin(i / 50)}\n" for i in range(314)))
+    expect(notice).to_contain_text("the path has 314 points; the page shows up to 200")
+    open_file("huge.csv", "0,0\n" * 300_000)
+    expect(notice).to_contain_text("bytes; the limit is 1048576")
+    counted(page, 9)
+    curve = '<path d="M 20 50 C 20 0 180 0 180 50 C 180 100 20 100 20 50 Z"/>'
+    open_file(
+        "drawn.svg",
+        f'<svg xmlns="http://www.w3.org/2000/svg" width="200mm" height="100mm" viewBox="0 0 200 100">{curve}</svg>',
+    )
+    counted(page, 64)
+    expect(notice).to_contain_text("64 points, within 1.4e-3 mm of the drawing")
+    semicolons = "x;y\n" + "".join(f"{x},25;{y}\n" for x, y in EXAMPLE if x > 0)
+    open_file("decimal.csv", semicolons)
+    counted(page, 8)
+    with page.expect_download() as found:
+        page.get_by_role("button", name="Points as CSV").click()
+    found.value.save_as(folder / "saved.csv")
+    assert (folder / "saved.csv").read_text() == "x,y\n" + "".join(f"{x + 0.25},{y}\n" for x, y in EXAMPLE if x > 0)
+
+
+def test_a_made_machine_is_the_design_of_the_command_line(page, running):
+    typed(page, "gears.arms", "1")
+    typed(page, "gears.band", "5")
+    solved(page)
+    page.get_by_role("button", name="Make the machine").click()
+    expect(page.locator("#dialog")).to_contain_text("teeth of first-stage", timeout=30_000)
+    expect(page.locator("#dialog")).to_contain_text("full teeth, module")
+    name = page.get_by_label("File", exact=True)
+    expect(name).to_have_value("reversed.toml")
+    name.press("Enter")
+    expect(page.locator("#file")).to_have_text("reversed.toml")
+    settled(page)
+    folder = running.folder
+    given = ["--axis", "260,160", "--bend", "40", "--band", "5"]
+    told(folder, EXAMPLE, *given, "-o", folder / "by-command.toml")
+    assert (folder / "reversed.toml").read_text() == (folder / "by-command.toml").read_text()
+    report = json.loads(centrode("check", folder / "by-command.toml", "--json", check=False).stdout)
+    shown = page_figures(page)
+    assert len(report["values"]) > 5
+    assert {key: float(shown[key]) for key in report["values"]} == report["values"]
+
+
+def test_a_machine_of_the_path_as_it_is_drawn_is_that_of_the_command_line(running):
+    axis = [345.5876, 355.1393]
+    status, made = running.json("POST", "path/machine", WISH | {"axis": axis, "band": None})
+    assert status == 200
+    design = running.folder / "as-drawn.toml"
+    told(running.folder, EXAMPLE, "--axis", "345.5876,355.1393", "--bend", "40", "--arms", "3", "-o", design)
+    assert made["text"] == design.read_text()
+
+
+def test_the_search_for_teeth_is_cancelled_and_where_none_will_do_the_path_eased(page, running):
+    before = set(running.folder.iterdir())
+    make, dialog = page.get_by_role("button", name="Make the machine"), page.locator("#dialog")
+    # Here it takes long.
+    make.click()
+    page.get_by_role("button", name="Cancel").click()
+    expect(page.locator("#working")).to_be_hidden()
+    typed(page, "axis.x", "180")
+    typed(page, "axis.y", "60")
+    typed(page, "gears.arms", "1")
+    solved(page)
+    make.click()
+    expect(dialog).to_contain_text("full ones are undercut above a module of 0.0334 mm", timeout=30_000)
+    page.get_by_label("Pass within").fill("none")
+    page.get_by_label("Pass within").press("Enter")
+    expect(dialog).to_contain_text("the band is a number above zero")
+    page.get_by_label("Pass within").fill("15")
+    page.get_by_label("Pass within").press("Enter")
+    expect(dialog).to_contain_text(re.compile(r"path eased\s*by 1[45]\."), timeout=30_000)
+    expect(dialog).to_contain_text("teeth, module")
+    page.keyboard.press("Escape")
+    expect(dialog).to_be_hidden()
+    # The page goes on, and nothing was made.
+    typed(page, "axis.x", "260")
+    solved(page)
+    assert set(running.folder.iterdir()) == before
+
+
+def test_key_poses_are_dragged_by_place_and_direction_and_a_machine_found(page, running):
+    field(page, "wanted.given").select_option("poses")
+    counted(page, 4)
+    expect(page.locator("#possible h2")).to_contain_text("Not sought yet")
+    expect(page.locator("#field")).to_be_hidden()
+    expect(page.locator("#make")).to_be_disabled()
+    drag(page, handle(page, "direction of pose 2"), 0, -12)
+    direction = float(field(page, "poses.direction_deg-1").input_value())
+    assert 22 < direction < 45
+    handle(page, "direction of pose 2").focus()
+    page.keyboard.press("ArrowDown")
+    expect(field(page, "poses.direction_deg-1")).not_to_have_value(str(direction))
+    handle(page, "pose 1 of the path").focus()
+    page.keyboard.press("Insert")
+    counted(page, 5)
+    page.keyboard.press("Delete")
+    counted(page, 4)
+    page.locator("#undo").click()
+    page.locator("#undo").click()
+    page.locator("#undo").click()
+    page.locator("#undo").click()
+    expect(field(page, "poses.direction_deg-1")).to_have_value("20.89")
+    page.get_by_role("button", name="Find the machine").click()
+    expect(page.locator("#possible h2")).to_contain_text("A machine is found", timeout=30_000)
+    folder = running.folder
+    poses = folder / "poses.csv"
+    with page.expect_download() as found:
+        page.get_by_role("button", name="Points as CSV").click()
+    found.value.save_as(poses)
+    done = centrode("reverse", poses, "--poses", "--bend", "40", "--arms", "3", "-o", folder / "posed.toml").stdout
+    own = figures(page)
+    for name in ("clamp", "carrier", "arm", "ratio", "pose 4", "pair second-stage"):
+        assert re.search(rf"^{name} +{re.escape(own[name])}$", done, re.M), name
+    page.get_by_role("button", name="Make the machine").click()
+    expect(page.locator("#dialog")).to_contain_text("teeth of second-stage", timeout=30_000)
+    page.get_by_label("File", exact=True).fill("from-poses.toml")
+    page.get_by_label("File", exact=True).press("Enter")
+    expect(page.locator("#file")).to_have_text("from-poses.toml")
+    assert (folder / "from-poses.toml").read_text() == (folder / "posed.toml").read_text()
+
+
+def test_the_return_of_a_stroke_is_found(page):
+    field(page, "wanted.given").select_option("stroke")
+    counted(page, 5)
+    expect(page.locator("#field")).to_be_hidden()
+    with page.expect_response("**/path/find", timeout=30_000) as found:
+        page.get_by_role("button", name="Find the machine").click()
+    expect(page.locator("#possible h2")).to_contain_text("A machine is found")
+    assert "free return" in figures(page)
+    stroke = rows(page)
+    assert stroke == EXAMPLE[:5]
+    flat = found.value.json()["picture"]["shapes"][0][0]["vertices"]
+    path = [complex(x, y) for x, y in zip(flat[::3], flat[1::3], strict=True)]
+    around = [*path[1:], path[0]]
+    for point in stroke:
+        # Off the chords of the path as it is drawn.
+        at = complex(*point)
+        offs = [
+            abs(at - a - (b - a) * min(max(((at - a) / (b - a)).real, 0), 1)) for a, b in zip(path, around, strict=True)
+        ]
+        assert min(offs) < 0.05
+    # What was found is that of other points no longer.
+    page.get_by_role("button", name="Delete point 3", exact=True).click()
+    counted(page, 4)
+    expect(page.locator("#possible h2")).to_contain_text("Not sought yet")
+
+
+def test_poses_of_a_file_may_have_no_machine(page, running):
+    field(page, "wanted.given").select_option("poses")
+    notice = page.locator('#notices [data-key="path"]')
+    for text, words in [
+        ("0,0\n1,1\n", "line 1: a pose has three numbers"),
+        ("0,0,north\n1,1,5\n", "line 1: north is no number"),
+    ]:
+        (running.folder / "bad.csv").write_text(text)
+        page.locator("#path-file").set_input_files(running.folder / "bad.csv")
+        expect(notice).to_contain_text(words)
+    (running.folder / "two.csv").write_text("x,y,direction_deg\n0,0,0\n100,0,10\n")
+    page.locator("#path-file").set_input_files(running.folder / "two.csv")
+    counted(page, 2)
+    page.get_by_role("button", name="Find the machine").click()
+    expect(page.locator("#possible")).to_contain_text("2 key poses are given; a machine is found for 3 to 7")
+    expect(page.locator("#make")).to_be_disabled()
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ({"points": EXAMPLE[:3]}, "the path has 3 points; a closed curve takes at least 4"),
+        ({"points": [[0, 0], [0, 0], [10, 0], [10, 10]]}, "points 1 and 2 of the path are both (0, 0) mm"),
+        ({"points": [[1e10, 0], [0, 0], [10, 0], [10, 10]]}, "coordinates may be up to"),
+        ({"bend_deg": 175}, "the bend must be at most 170"),
+        ({"arms": 4000000000}, "a machine has 1 to 12 arms, not 4000000000"),
+        ({"split": "thirds"}, 'there is no split "thirds"'),
+        ({"split": "one-pair"}, "the planet must lag by 0.611111 turns, 11/18"),
+        ({"axis": [1e12, 0]}, "must be two finite numbers within"),
+    ],
+    ids=["few", "twice", "far", "bend", "arms", "split", "resonance", "axis"],
+)
+def test_a_wish_that_cannot_be_met_is_told(running, change, words):
+    status, answer = running.json("POST", "path/solve", WISH | change)
+    assert status == 200
+    assert words in answer["fault"]["message"]
+    status, answer = running.json("POST", "path/machine", WISH | change | {"band": None})
+    assert status == 200
+    assert words in answer["refused"]
+
+
+def test_strangers_and_nonsense_are_refused(running):
+    for path in ("solve", "find", "map", "axis", "open", "machine"):
+        for headers in ({"Host": "example.org"}, {"Origin": "http://example.org"}, {"Origin": None}):
+            assert running.ask("POST", f"path/{path}", WISH, headers)[0] == 403
+        assert running.ask("POST", f"path/{path}", {"points": [["NaN", 0]]})[0] == 422
+        assert running.ask("POST", f"path/{path}", b"", {"Content-Length": str(5 << 20)})[0] == 413
+    assert running.ask("GET", f"/{'0' * 32}/path", absolute=True)[0] == 403
+    refused = running.json("POST", "path/map", WISH | {"count": 100_000})[1]["refused"]
+    assert refused == "a map has 2 to 200 axes a side, not 100000"
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_the_page_is_for_everybody(browser, running, scheme):
+    with shown(browser, f"{running.url}path", ready=solved, color_scheme=scheme) as page:
+        for width, tabs in {1440: [None], 1024: ["Machine"], 390: ["Path", "Curves", "Machine"]}.items():
+            page.set_viewport_size({"width": width, "height": 900})
+            for tab in tabs:
+                if tab:
+                    page.get_by_role("tab", name=tab, exact=True).click()
+                found = Axe().run(page).response["violations"]
+                assert not [(rule["id"], [node["target"] for node in rule["nodes"]]) for rule in found]
+                assert page.evaluate("document.documentElement.scrollWidth") <= width
+        page.get_by_role("tab", name="Path", exact=True).click()
+        field(page, "wanted.given").select_option("poses")
+        counted(page, 4)
+        assert not Axe().run(page).response["violations"]
+
+
+def test_a_finger_drags_a_point(browser, running):
+    with shown(browser, f"{running.url}path", ready=solved, size=(390, 844), has_touch=True, is_mobile=True) as page:
+        x, y = middle(page, "point 10 of the path")
+        touch = page.context.new_cdp_session(page)
+        for kind, places in [("Start", [(x, y)]), ("Move", [(x - 6, y)]), ("Move", [(x - 12, y)]), ("End", [])]:
+            points = [{"x": u, "y": v} for u, v in places]
+            touch.send("Input.dispatchTouchEvent", {"type": f"touch{kind}", "touchPoints": points})
+        solved(page)
+        page.get_by_role("tab", name="Path", exact=True).click()
+        assert rows(page)[9][0] < -10
+        assert rows(page)[:9] == EXAMPLE[:9]
