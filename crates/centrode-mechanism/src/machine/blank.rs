@@ -27,7 +27,7 @@ pub enum Blank {
 
 /// How far off a contour the points lie by which its sides are chosen, mm; their lengths are those of the contour.
 const FINE: f64 = 1e-3;
-/// What a size may exceed a tenth of a millimetre by without costing another, mm: more than rounding ever is.
+/// Excess of a size over a tenth of a millimetre that costs no further tenth, mm: more than rounding ever is.
 const HAIR: f64 = 1e-6;
 
 impl Blank {
