@@ -44,7 +44,7 @@ from ._drawn import drawn_path
 from ._error import CamError, DesignError, Error, ExportError, GearPairError, LinkageError, MechanismError, PitchError
 from ._forces import Forces
 from ._goal import Goal
-from ._link import Joint, Link
+from ._link import Joint, Link, Mounted
 from ._optimised import Optimised
 from ._over_pins import OverPins
 from ._part import Part
@@ -88,6 +88,7 @@ __all__ = [
     "Machine",
     "Mechanism",
     "MechanismError",
+    "Mounted",
     "MovingBox",
     "Opening",
     "Optimised",

@@ -30,6 +30,22 @@ class Joint:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
+class Mounted:
+    """A shaft, pin, ring or key mounted on a link."""
+
+    __module__ = "centrode"
+
+    name: str
+    """Name of its body; that of its files where it is made."""
+    frame: NDArray[float64]
+    """Its frame in that of the link, a (4, 4) matrix, mm."""
+    solids: tuple[Solid, ...]
+    """Straight extrusions of its body, in its own frame; empty for a turned part."""
+    step: bytes | None
+    """STEP file of a turned part, in its own frame; None for an extrusion."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
 class Link:
     """A rigid body of a machine, with the joint that carries it."""
 
@@ -45,3 +61,5 @@ class Link:
     """Straight extrusions of its body, in its frame; empty where there are none."""
     mesh: tuple[NDArray[float64], NDArray[uint32]] | None
     """Vertices and triangles of a body of plane faces that is no extrusion, as of `Gear.mesh`; None for others."""
+    mounted: tuple[Mounted, ...]
+    """Its shafts and pins with their rings and keys."""

@@ -35,7 +35,7 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
     from ._centrode import Mechanism
-    from ._link import Link
+    from ._link import Link, Mounted
     from ._solid import Edge, Opening, Solid
 
 try:
@@ -69,7 +69,24 @@ def part(of: Solid | bytes) -> Any:
 
 
 def link(machine: Mechanism, of: Link) -> tuple[Any, bool]:
-    """Make a link's body: a shape, and whether it is one solid; else it is a compound of none or several."""
+    """Make a link's body with what is mounted on it.
+
+    A shape, and whether it is one solid; else it is a compound of none or several.
+    """
+    shape, is_solid = _body(machine, of)
+    if not of.mounted:
+        return shape, is_solid
+    own = [shape] if is_solid or of.mesh is not None or of.solids else []
+    return compound([*own, *map(mounted, of.mounted)]), False
+
+
+def mounted(of: Mounted) -> Any:
+    """Make the body of a shaft, pin, ring or key where it is on its link."""
+    made = compound([extrusion(one) for one in of.solids]) if of.step is None else step(of.step)
+    return made.Moved(location(of.frame))
+
+
+def _body(machine: Mechanism, of: Link) -> tuple[Any, bool]:
     if of.mesh is not None:
         return polyhedra(*of.mesh), False
     if of.part and not of.solids:

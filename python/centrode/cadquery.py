@@ -83,7 +83,7 @@ def pose(assembly: _cq.Assembly, of: Mechanism, phi: float) -> None:
 
 def _link(cq: Any, machine: Mechanism, link: Link) -> Any:
     """A link's body: one solid, a compound of several, or nothing."""
-    if link.mesh is None and not link.part and not link.solids:
+    if link.mesh is None and not link.part and not link.solids and not link.mounted:
         return None
     shape, is_solid = _kernel().link(machine, link)
     return (cq.Solid if is_solid else cq.Compound)(shape)

@@ -1,12 +1,12 @@
 //! Exact edges of straight extrusions, and links with their bodies, handed over as records.
 
 use centrode::family::FINEST;
-use centrode_export::step::{StepError, contours, poles};
+use centrode_export::step::{StepError, contours, poles, write_shell};
 use centrode_export::{Bundle, ExportError};
 use centrode_geometry::{Opening, Segment, Solid, Tolerance};
-use centrode_mechanism::machine::{Form, Joint, JointKind, Machine};
+use centrode_mechanism::machine::{Form, Joint, JointKind, Machine, Mounted, Shape};
 use pyo3::prelude::{Bound, PyAny, PyDictMethods, PyResult, Python};
-use pyo3::types::{PyDict, PyTuple};
+use pyo3::types::{PyBytes, PyDict, PyTuple};
 
 use crate::array::{Rows, mesh};
 use crate::error::{Answer, Raised};
@@ -147,12 +147,64 @@ fn link<'py>(
         Some((_, Form::Turned(_) | Form::Body(_))) | None => {}
     }
     let carrying = joint.map(|joint| joined(py, machine, joint)).transpose()?;
+    let mut upon = Vec::new();
+    for body in shortest.iter().flat_map(|_| &link.mounted) {
+        let shape = machine.shapes.get(body.shape);
+        upon.extend(
+            shape
+                .zip(shortest)
+                .map(|(shape, shortest)| mounted(py, body, shape, shortest))
+                .transpose()?,
+        );
+    }
     let made = record!(py, "centrode._link" "Link", () => []
         name: &link.name,
         joint: carrying,
         part: shape.map_or("", |shape| &shape.part),
         solids: PyTuple::new(py, solids)?,
         mesh: triangles,
+        mounted: PyTuple::new(py, upon)?,
+    );
+    Ok(made?)
+}
+
+/// A shaft or pin as its STEP file, a ring or key as its extrusion, with its place.
+fn mounted<'py>(
+    py: Python<'py>,
+    body: &Mounted,
+    shape: &Shape,
+    shortest: Tolerance,
+) -> Answer<Bound<'py, PyAny>> {
+    let name = shape.short_name();
+    let mut solids = Vec::new();
+    let mut step = None;
+    match &shape.form {
+        Form::Solids(all) => {
+            for solid in all {
+                solids.push(Sides::of(name, solid.clone(), shortest)?.record(py)?);
+            }
+        }
+        Form::Turned(part) => {
+            let solid = part.solid().map_err(|source| ExportError::Solid {
+                part: name.to_owned(),
+                source,
+            })?;
+            let written = write_shell(&solid.shell(), name, name);
+            let written = written.map_err(|source| ExportError::Step {
+                part: name.to_owned(),
+                source,
+            })?;
+            step = Some(PyBytes::new(py, &written));
+        }
+        Form::Mesh(..) | Form::Body(_) => {}
+    }
+    let frame = body.place().to_homogeneous();
+    let rows = [0, 1, 2, 3].map(|i| [0, 1, 2, 3].map(|j| frame[(i, j)]));
+    let made = record!(py, "centrode._link" "Mounted", () => []
+        name: name,
+        frame: Rows(rows.into()),
+        solids: PyTuple::new(py, solids)?,
+        step: step,
     );
     Ok(made?)
 }

@@ -86,6 +86,7 @@ def objects():
         *housing.contours[0][:2],
         *arms.links()[1:3],
         arms.links()[1].joint,
+        feeder.links()[1].mounted[0],
         ct.mujoco.load(pair, tolerance=0.1)[1],
         pair.contact(1),
         ct.Rack(pressure_angle=0.4),

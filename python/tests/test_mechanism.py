@@ -69,3 +69,31 @@ def test_a_contact_is_asked_for_at_inputs_that_are_numbers():
     for wrong in (math.nan, math.inf):
         with pytest.raises(ValueError, match="every input"):
             pair.contact(inputs=[0.0, wrong])
+
+
+def test_links_have_the_shafts_pins_rings_and_keys_mounted_on_them():
+    (design,) = (file for file in SHIPPED if file.stem == "feeder-2022")
+    feeder = ct.load(design)
+    links = {link.name: link for link in feeder.links()}
+    words = [body.name for body in links["crank"].mounted]
+    counts = {word: words.count(word) for word in words}
+    assert counts == {
+        "pin-b": 1,
+        "shaft-a": 1,
+        "circlip-din-471-10x1": 2,
+        "circlip-din-471-16x1": 4,
+        "key-din-6885-1-a-5x5x14": 1,
+        "key-din-6885-1-b-5x5x8": 1,
+    }
+    for body in links["crank"].mounted:
+        # A turned part as STEP, an extrusion by its edges.
+        assert (body.step is None) == bool(body.solids)
+        assert body.step is None or b"MANIFOLD_SOLID_BREP" in body.step
+        turn = body.frame[:3, :3]
+        np.testing.assert_allclose(turn @ turn.T, np.eye(3), atol=1e-12)
+        assert np.linalg.det(turn) == pytest.approx(1.0)
+    (pin,) = (body for body in links["crank"].mounted if body.name == "pin-b")
+    # B is 77 mm from the shaft.
+    assert np.hypot(*pin.frame[:2, 3]) == pytest.approx(77.0)
+    assert all(link.mounted == () for link in feeder.links(bodies=False))
+    assert ct.GearPair(ct.pitch.circle(module=2, tooth_count=20)).links()[1].mounted == ()

@@ -217,3 +217,28 @@ def test_an_arm_that_is_not_there_is_refused(arm):
     arms = ct.ThreeArm.from_toml(ct.template("three-arm"))
     with pytest.raises(IndexError, match=f"arm {arm} of 3, counted from 0"):
         arms.tip(0.1, arm=arm)
+
+
+def test_bearings_are_chosen_where_the_plates_hold_them_and_missed_where_they_do_not():
+    text = (ROOT / "tests" / "designs" / "three-arm-all-goals.toml").read_text()
+
+    def with_wall(wall):
+        return ct.ThreeArm.from_toml(text.replace("bearings = true", f"bearings = true\nwall = {wall}"))
+
+    def bearings(arms):
+        return {part.name: part.quantity for part in arms.parts() if "bearing" in part.name}
+
+    # Two in each of the seven shafts; ISO 15: 61800 is 5 mm wide, 6000 8 mm, 6200 9 mm.
+    assert bearings(with_wall(6)) == {"Deep groove ball bearing ISO 15 - 61800 - 10 x 19 x 5": 14}
+    assert bearings(with_wall(8)) == {"Deep groove ball bearing ISO 15 - 6000 - 10 x 26 x 8": 14}
+    assert bearings(with_wall(9)) == {"Deep groove ball bearing ISO 15 - 6200 - 10 x 30 x 9": 14}
+    assert not any(finding.rule == "no-bearing" for finding in with_wall(6).check().findings)
+    thin = with_wall(4)
+    assert bearings(thin) == {}
+    found = [finding for finding in thin.check().findings if finding.rule == "no-bearing"]
+    assert [finding.place.part for finding in found] == ["sun", "intermediate", "planet"]
+    assert all((finding.measured, finding.required) == (4, 5) and finding.remedy for finding in found)
+    odd = ct.ThreeArm.from_toml(text.replace("bore = 10", "bore = 11"))
+    messages = [finding.message for finding in odd.check().findings if finding.rule == "no-bearing"]
+    assert len(messages) == 3
+    assert all("has a bore of 11 mm" in message for message in messages)

@@ -66,7 +66,6 @@ EXEMPT = {
             r"to 4/3",
             r"Of 30 driven",
             r"backlash of 0\.1 mm",
-            r"where 100 N/mm² are usual",
         ),
         FORMULA: (r"2 T / \(d t l\)",),
         LIMIT: (r"2000 random six-bars", r"at 240 inputs", r"within 2 % of the contact"),

@@ -5,6 +5,7 @@ import math
 import re
 from collections import Counter
 from itertools import combinations
+from xml.etree import ElementTree
 
 import centrode as ct
 import numpy as np
@@ -15,6 +16,7 @@ from OCP.BRepAdaptor import BRepAdaptor_Surface
 from OCP.BRepAlgoAPI import BRepAlgoAPI_Common
 from OCP.BRepBndLib import BRepBndLib
 from OCP.BRepCheck import BRepCheck_Analyzer
+from OCP.BRepExtrema import BRepExtrema_DistShapeShape
 from OCP.BRepGProp import BRepGProp
 from OCP.collections import Sequence_TDF_Label
 from OCP.GeomAbs import GeomAbs_Cylinder
@@ -42,7 +44,15 @@ from OCP.XCAFDoc import (
 # Gears in place, loops, cams on forks, a shaft with a groove.
 DESIGNS = ("elliptic-pair-2018", "jansen-leg", "feeder-2022", "three-arm-2021", "spiral-shaft-2018", "moving-box-2018")
 # Machines with shafts or pins.
-TURNED = ("jansen-leg", "press", "feeder-2022", "three-arm-2021", "spiral-shaft-2018")
+TURNED = (
+    "jansen-leg",
+    "press",
+    "feeder-2022",
+    "three-arm-2021",
+    "spiral-shaft-2018",
+    "composed-feeder",
+    "three-arm-all-goals",
+)
 
 
 def listed(sequence):
@@ -81,6 +91,11 @@ def parts(folder):
 
 def is_turned(product):
     return re.fullmatch(r"pin(-.*)?|shaft-(?!body).*", product)
+
+
+def is_mounted(product):
+    """Whether it is a shaft or pin, or a ring, key or bearing on one."""
+    return is_turned(product) or re.match(r"(circlip|key)-din-|deep-groove-", product)
 
 
 def every(shape, kind):
@@ -179,7 +194,7 @@ def test_every_piece_is_a_sound_solid_that_stands_where_its_link_does(name, ship
     frames = machine.frames(0.0)
     assert assembly.pieces
     for link, product, place, _ in assembly.pieces:
-        if name != "three-arm-2021" and not is_turned(product):
+        if name != "three-arm-2021" and not is_mounted(product):
             # The arrangement shows this machine as an arm picks, all others where the cycle begins.
             np.testing.assert_allclose(place, np.reshape(frames[link], (4, 4))[:3], atol=1e-12)
     checked = {product: shape for _, product, _, shape in assembly.pieces}
@@ -221,7 +236,7 @@ def test_gears_and_plates_of_the_feeder_stand_clear_of_each_other(shipped):
     assembly = Assembly(shipped("feeder-2022", "step") / "assembly.step")
     heights = {}
     for _, product, place, shape in assembly.pieces:
-        if is_turned(product):
+        if is_mounted(product):
             continue
         assert np.allclose(place[2], [0, 0, 1, 0])
         solids = TopExp_Explorer(shape, TopAbs_SOLID)
@@ -241,10 +256,15 @@ def test_gears_and_plates_of_the_feeder_stand_clear_of_each_other(shipped):
 
 
 @pytest.mark.parametrize("name", [*DESIGNS, "composed-feeder", "composed-three-arm", "press"])
-def test_everything_that_is_made_and_the_dowels_are_solids_of_their_material(name, shipped):
+def test_everything_that_is_made_and_bought_is_a_solid_of_its_material(name, shipped):
     folder = shipped(name, "csv,step")
     assembly = Assembly(folder / "assembly.step")
-    drawn = [row for row in parts(folder) if row["files"] or row["part"].startswith("Pin ISO 8734")]
+    listed = parts(folder)
+    # Of a shaft that is given no place is known, nor of its key.
+    given = {link for row in listed if row["supply"] == "given" for link in row["links"].split()}
+    drawn = [
+        row for row in listed if row["files"] or (row["supply"] == "bought" and not given & {*row["links"].split()})
+    ]
     solids = [solid for *_, shape in assembly.pieces for solid in every(shape, TopAbs_SOLID)]
     assert len(solids) == sum(int(row["quantity"]) for row in drawn)
     of_file = {row["files"]: row["material"] for row in drawn if row["files"]}
@@ -252,6 +272,10 @@ def test_everything_that_is_made_and_the_dowels_are_solids_of_their_material(nam
     assert named == {product: of_file[product] for product in named}
     assert set(filter(is_turned, of_file)) <= set(named)
     assert sorted(assembly.made_of()) == sorted(assembly.materials.values())
+    bought = {material for product, material in assembly.materials.items() if re.match("(circlip|key)-", product)}
+    assert bought <= {"spring steel", "steel"}
+    rings = [row for row in drawn if row["part"].startswith("Circlip")]
+    assert ("spring steel" in bought) == bool(rings)
     assert len(list(assembly.painted())) >= len(assembly.materials)
 
 
@@ -283,3 +307,68 @@ def test_shafts_and_pins_sit_in_their_bores(name, shipped):
             assert common.IsDone()
             assert volume(common.Shape()) < 1e-6 * volume(shape), (product, other)
         assert seats, product
+
+
+@pytest.mark.parametrize("name", TURNED)
+def test_rings_keys_and_bearings_lie_on_their_shafts_clear_of_everything(name, shipped):
+    folder = shipped(name, "csv,step")
+    assembly = Assembly(folder / "assembly.step")
+    pieces = [(link, product, moved(shape, place)) for link, product, place, shape in assembly.pieces]
+    boxed = [(link, product, shape, box(shape)) for link, product, shape in pieces]
+    bought = [piece for piece in boxed if is_mounted(piece[1]) and not is_turned(piece[1])]
+    listed = [row for row in parts(folder) if re.match("Circlip|Key|Deep groove", row["part"])]
+    assert len(bought) == sum(int(row["quantity"]) for row in listed)
+    for link, product, shape, (low, high) in bought:
+        size, held = volume(shape), 0
+        for carrier, other, body, (under, over) in boxed:
+            if body is shape or (low > over + 1e-3).any() or (under > high + 1e-3).any():
+                continue
+            common = BRepAlgoAPI_Common(shape, body)
+            assert common.IsDone()
+            assert volume(common.Shape()) < 1e-6 * size, (product, other)
+            if carrier == link and is_turned(other):
+                apart = BRepExtrema_DistShapeShape(shape, body)
+                held += apart.IsDone() and apart.Value() < 1e-6
+        # On the bottom of the groove, or the floor of the keyway.
+        assert held == 1, (link, product)
+        diameter = re.match(r"circlip-din-471-(\d+)x", product)
+        key = re.match(r"key-din-6885-1-(.)-(\d+)x(\d+)x(\d+)", product)
+        bearing = re.match(r"deep-groove-ball-bearing-iso-15-.+-(\d+)x(\d+)x(\d+)", product)
+        sides = sorted(high - low)
+        if diameter:
+            assert sides[1] > float(diameter[1]), product
+        elif bearing:
+            inner, outer, width = map(float, bearing.groups())
+            assert math.isclose(size, math.pi / 4 * (outer**2 - inner**2) * width, rel_tol=1e-9), product
+        else:
+            form, *sizes = key.groups()
+            width, height, length = map(float, sizes)
+            rounded = {"a": width * (length - width) + math.pi * width**2 / 4, "b": width * length}[form]
+            assert math.isclose(size, height * rounded, rel_tol=1e-9), product
+
+
+def test_links_weigh_what_is_mounted_on_them(shipped):
+    """Mass and centre of a link of the simulator model are those the kernel integrates over its pieces."""
+    folder = shipped("feeder-2022", "csv,step,urdf")
+    assembly = Assembly(folder / "assembly.step")
+    weights = {}
+    for link, _, place, shape in assembly.pieces:
+        properties = GProp_GProps()
+        BRepGProp.VolumeProperties_s(moved(shape, place), properties)
+        at = properties.CentreOfMass()
+        weights.setdefault(link, []).append((properties.Mass() * 7850e-9, np.array([at.X(), at.Y(), at.Z()])))
+    frames = ct.load(ROOT / "tests" / "designs" / "feeder-2022.toml").frames(0.0)
+    robot = ElementTree.parse(folder / "machine.urdf").getroot()
+    compared = 0
+    for element in robot.iter("link"):
+        inertial = element.find("inertial")
+        if inertial is None or element.get("name") not in weights:
+            continue
+        masses, centers = zip(*weights[element.get("name")], strict=True)
+        assert math.isclose(float(inertial.find("mass").get("value")), sum(masses), rel_tol=1e-6), element.get("name")
+        center = np.average(centers, axis=0, weights=masses)
+        own = np.array([float(x) for x in inertial.find("origin").get("xyz").split()]) * 1e3
+        frame = np.reshape(frames[element.get("name")], (4, 4))
+        np.testing.assert_allclose((frame @ [*own, 1.0])[:3], center, atol=1e-5)
+        compared += len(masses) > 1
+    assert compared >= 4

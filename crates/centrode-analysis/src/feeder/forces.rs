@@ -3,9 +3,10 @@ use std::cell::Cell;
 use centrode_geometry::{Extreme, SolidError, Vector, greatest_each};
 use centrode_mechanism::feeder::{Feeder, FeederError, Part};
 use centrode_mechanism::gear::design::Keyway;
+use centrode_mechanism::machine::{Key, allowed_pressure};
 
 use crate::forces::{Balance, Forces, ForcesError};
-use crate::{Report, Table, Unit};
+use crate::{Finding, Place, Report, Severity, Table, Unit};
 
 /// Figures of a state: the torque and the force in every joint.
 const FIGURES: usize = 1 + FeederForces::CONNECTIONS.len();
@@ -30,7 +31,7 @@ pub enum FeederForcesError {
     Balance(#[from] ForcesError),
 }
 
-/// A feeder with the masses of its plates and of its gears, where these can be cut: the torque its crank needs and the forces in its joints.
+/// A feeder with the masses of its plates, shafts and pins and of its gears, where these can be cut: the torque its crank needs and the forces in its joints.
 ///
 /// The y axis points up. The links' inertia at the design's speed is counted or left out; a jump of speed, which has no
 /// finite force, and friction are not.
@@ -59,11 +60,14 @@ impl FeederForces {
     /// [`FeederForcesError`].
     pub fn new(feeder: &Feeder, carried: f64) -> Result<Self, FeederForcesError> {
         let mut machine = feeder.links(carried);
+        let mut plates = Vec::new();
         for part in Part::ALL
             .into_iter()
             .filter(|part| part.carrier().is_some())
         {
-            let bodies = feeder.bodies(&feeder.plate(part)?);
+            let plate = feeder.plate(part)?;
+            let bodies = feeder.bodies(&plate);
+            plates.push(plate);
             let (_, mass) = bodies.map_err(|source| FeederForcesError::Solid {
                 part: part.name(),
                 source,
@@ -75,6 +79,11 @@ impl FeederForces {
             part: "gears",
             source,
         })?;
+        // What stands in the frame weighs on none of the links.
+        plates.extend(feeder.plate(Part::Frame));
+        for pieces in feeder.turned(&plates) {
+            machine.add_turned(&pieces, String::new());
+        }
         let balance = Balance::new(machine)?;
         Ok(Self { balance })
     }
@@ -152,6 +161,7 @@ pub(super) fn forces(feeder: &Feeder, report: &mut Report) {
         values.insert("crank_key_pressure_max", pressure(moving[0].value));
         values.insert("crank_key_pressure_still_max", pressure(still[0].value));
     }
+    keys(feeder, [&still[0], &moving[0]], report);
     let of = |Extreme { value, .. }: &Extreme| *value;
     let greatest = still.iter().zip(&moving).map(|(a, b)| vec![of(a), of(b)]);
     let rows = FeederForces::CONNECTIONS.iter().zip(greatest.skip(1));
@@ -162,4 +172,53 @@ pub(super) fn forces(feeder: &Feeder, report: &mut Report) {
         columns: vec!["held still".into(), "moving".into()],
         rows: rows.map(|(name, row)| ((*name).into(), row)).collect(),
     });
+}
+
+/// Keys of the crank's shaft that are pressed harder than the weakest material beside them allows, at the greatest torque of the
+/// crank, held still or moving.
+fn keys(feeder: &Feeder, torques: [&Extreme; 2], report: &mut Report) {
+    let (body, plates) = (feeder.design().gears.body(), &feeder.design().plates);
+    let Some(keyway) = body.keyway else {
+        return;
+    };
+    let Extreme { input, value } = match torques[0].value > torques[1].value {
+        true => *torques[0],
+        false => *torques[1],
+    };
+    let shaft = &*body.material;
+    for (part, key, hub) in [
+        (
+            "crank",
+            Key::square(keyway, plates.thickness),
+            &*plates.material,
+        ),
+        ("gear-driven", Key::round(keyway, body.width), shaft),
+    ] {
+        let allowed = [shaft, hub].map(allowed_pressure);
+        let ([Some(one), Some(other)], Some(key)) = (allowed, key) else {
+            continue;
+        };
+        let allowed = one.min(other);
+        let pressure = keyway.pressure(value, body.bore, key.bearing_length());
+        if pressure <= allowed {
+            continue;
+        }
+        report.findings.push(Finding {
+            rule: "key-pressure",
+            severity: Severity::Error,
+            message: format!(
+                "{} in the {part} is pressed by {pressure:.1} N/mm² at {value:.0} N·mm: its hub and shaft bear {allowed:.1} N/mm²",
+                key.name()
+            ),
+            measured: Some(pressure),
+            required: Some(allowed),
+            unit: Unit::NewtonPerSquareMillimetre,
+            remedy: Some("a thicker hub, or a wider bore with its key"),
+            place: Place {
+                part: Some(part.into()),
+                input: Some(input),
+                ..Place::default()
+            },
+        });
+    }
 }

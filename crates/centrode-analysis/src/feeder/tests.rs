@@ -162,3 +162,41 @@ fn no_torque_or_joint_force_is_above_the_greatest_stated() {
         }
     }
 }
+
+/// The force on the sides of the key is the torque over half the shaft: a heavier load presses it beyond what steel bears.
+#[test]
+fn a_key_that_is_pressed_too_hard_is_found() {
+    let light = feeder([77.0, 147.0, 127.0, 105.0], [106.83, 67.05]);
+    assert!(!rules(&check_strokes(&light)).contains(&"key-pressure"));
+    let report = |carried: f64, material: &str| {
+        let mut design = light.design().clone();
+        design.drive.carried_mass = carried;
+        design.plates.material = material.into();
+        check_strokes(&Feeder::resolve(&design).expect("resolves"))
+    };
+    let found = |report: &Report| -> Vec<Finding> {
+        let all = report.findings.iter();
+        all.filter(|f| f.rule == "key-pressure").cloned().collect()
+    };
+    let loaded = report(60.0, "steel");
+    let values = &loaded.values;
+    let torque = values["crank_torque_moving_max"].max(values["crank_torque_still_max"]);
+    let all = found(&loaded);
+    assert_eq!(all.len(), 2, "{torque}");
+    // On a shaft of 16 mm: 2 mm of the crank's key, 8 mm long, and of the gear's, 14 mm less its round ends.
+    for (part, bears) in [("crank", 8.0), ("gear-driven", 9.0)] {
+        let here = all.iter().find(|f| f.place.part.as_deref() == Some(part));
+        let finding = here.expect(part);
+        let pressure = torque / 8.0 / (2.0 * bears);
+        assert!((finding.measured.expect("a pressure") - pressure).abs() < 1e-6 * pressure);
+        assert!((finding.required.expect("a pressure") - 0.9 * 235.0).abs() < 1e-9);
+        assert!(finding.remedy.is_some() && finding.place.input.is_some());
+    }
+    // The shaft is the weaker side of a crank of better steel; of other materials the design tells no strength.
+    assert_eq!(found(&report(60.0, "S355")).len(), 2);
+    let parts: Vec<_> = found(&report(60.0, "aluminium alloy"))
+        .into_iter()
+        .filter_map(|f| f.place.part)
+        .collect();
+    assert_eq!(parts, ["gear-driven"]);
+}

@@ -1,6 +1,7 @@
 //! Check of a three-arm mechanism.
 
 mod arm_clearance;
+mod bearings;
 mod figures;
 mod gear_train;
 mod goals;
@@ -13,6 +14,7 @@ use centrode_geometry::Tolerance;
 use centrode_mechanism::gear::{FlankCount, GearPairError, Member};
 use centrode_mechanism::three_arm::{PickingRule, PlantingRule, ThreeArm};
 
+use self::bearings::check_bearings;
 use self::figures::FIGURES;
 use self::gear_train::check_gear_train;
 use self::goals::all_goals;
@@ -43,6 +45,7 @@ pub fn check_three_arm_teeth(
     let mut report = check_arms(mechanism);
     check_teeth(mechanism, teeth, &mut report);
     check_pusher(mechanism, &mut report);
+    check_bearings(mechanism, &mut report);
     report.worst_first();
     report
 }

@@ -108,6 +108,16 @@ fn gears(feeder: &Feeder, machine: &mut Machine) {
     let rim = |pitches: u32| [0.0, 0.5 * spec.module * f64::from(pitches) + spec.module];
     let bored = |pitches: u32| format!("{pitches} pitches, bore Ø{}", number(spec.bore, PLACES));
     let [own, mate, entry, exit] = GearBody::NAMES.map(|name| machine.link_named(name));
+    // Arcs are laid a micrometre to either side of the teeth: a gear's blank is that of the teeth themselves.
+    let cut = own.and_then(|_| feeder.gears().ok());
+    let toothed = |file: &str| {
+        let pair = cut.as_ref()?;
+        let contour = match file == GearBody::NAMES[0] {
+            true => pair.driver(),
+            false => pair.driven(),
+        };
+        Blank::round(contour, spec.width)
+    };
     let mut add =
         |name: &str, links: Vec<usize>, file: &str, remark: String, seen: Option<(&str, u32)>| {
             let weighed = links.first().map(|&link| &machine.links[link]);
@@ -116,7 +126,7 @@ fn gears(feeder: &Feeder, machine: &mut Machine) {
                 _ => None,
             });
             let blank = body.and_then(|body| match seen {
-                Some(_) => Blank::round(body.outline(), spec.width),
+                Some(_) => toothed(file),
                 None => Blank::plate(body.outline(), spec.width),
             });
             machine.part(machine::Part {

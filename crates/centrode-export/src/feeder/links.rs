@@ -38,7 +38,6 @@ pub(super) fn machine(feeder: &Feeder, plates: &[Plate]) -> Result<Machine, Expo
     let mut machine = drawn(feeder, plates, None);
     let mounted = feeder.mount_gears(&mut machine);
     mounted.map_err(ExportError::no_solid("gears"))?;
-    arrangement::tell(feeder, plates, &mut machine);
     for plate in plates {
         let name = plate.part.name();
         let bodies = feeder.bodies(plate);
@@ -52,6 +51,8 @@ pub(super) fn machine(feeder: &Feeder, plates: &[Plate]) -> Result<Machine, Expo
         link.mass = Some(mass);
         link.shape = Some(shape);
     }
+    // Shafts and pins add to the masses of the plates.
+    arrangement::tell(feeder, plates, &mut machine);
     Ok(machine)
 }
 

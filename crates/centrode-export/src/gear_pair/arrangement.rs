@@ -3,6 +3,7 @@ use centrode_mechanism::gear::{Gear, GearPair, Member};
 use centrode_mechanism::machine::{Blank, Callout, Datum, Fit, Machine, Part, Supply};
 
 use crate::sheet::{fit, number, range};
+use crate::turned;
 
 /// Findings of an analysis of the contact, for the tables of sheets: least and greatest number of pairs of teeth in contact,
 /// least and greatest play along the common normal, mm.
@@ -98,16 +99,23 @@ fn list_keys(machine: &mut Machine, body: &BodySpec, links: Vec<usize>) {
     }
 }
 
-/// Lists the shafts in the bores of gears, one for each of the links: they belong to the machine around the gears.
+/// Lists the shafts in the bores of gears, one for each of the links: they belong to the machine around the gears, whose bearings
+/// settle their lengths.
 fn list_shafts(machine: &mut Machine, gear: &Gear, name: &str, links: Vec<usize>) {
     if gear.body().bore > 0.0 && !links.is_empty() {
         let body = gear.body();
         let fit = Fit::new(name, body.bore, [&body.bore_fit, &body.shaft_fit]);
+        let keyway = body.keyway.map(|hub| {
+            let own = hub.of_shaft();
+            let rest = fit::shaft_depth(body.bore, own);
+            let width = fit::keyway(own.width, turned::KEYWAY);
+            format!(", keyway {width} wide, {rest} of the diameter left")
+        });
         machine.part(Part {
             name: name.into(),
             links: links.clone(),
             supply: Supply::Given,
-            remark: fit::shaft(&fit),
+            remark: fit::shaft(&fit) + &keyway.unwrap_or_default(),
             ..Part::default()
         });
         machine.fit(fit);

@@ -41,12 +41,17 @@ pub fn parts_list(machine: &Machine) -> Table {
         all if all == machine.parts.len() => Some(format!("Together {together}.")),
         _ => Some(format!("Parts with a mass: together {together}.")),
     };
+    // Of a shaft in a gear the design knows the end that is in it.
+    let mut given = machine.parts.iter().map(|part| part.supply);
+    let given = given.any(|supply| supply == Supply::Given);
+    let given =
+        given.then(|| "Given parts are the customer's: the remark says what they must fit.".into());
     Table {
         title: "Parts".into(),
         headings: headings.map(|(heading, _)| heading.into()).into(),
         columns: headings.map(|(_, anchor)| anchor).into(),
         rows: machine.parts.iter().enumerate().map(row).collect(),
-        notes: note.into_iter().collect(),
+        notes: note.into_iter().chain(given).collect(),
     }
     .filled()
 }

@@ -1,6 +1,7 @@
-use centrode_geometry::{Mesh, Shell, SolidError, Tolerance};
-use centrode_mechanism::machine::{Form, Machine, Part, Shape};
+use std::collections::BTreeSet;
 
+use centrode_geometry::{Mesh, Shell, SolidError, Tolerance};
+use centrode_mechanism::machine::{Form, Machine, Part, Shape, Supply};
 use nalgebra::Isometry3;
 
 use crate::step::{Component, Exact};
@@ -18,8 +19,8 @@ const COLORS: [[u8; 3]; 8] = [
     [0xb0, 0x7a, 0xa1],
 ];
 
-/// Colour of shafts and pins.
-const TURNED: [u8; 3] = [0x5a, 0x60, 0x68];
+/// Colour of shafts and pins, with their rings and keys.
+const MOUNTED: [u8; 3] = [0x5a, 0x60, 0x68];
 
 /// Places of a body in the machine: those of its pieces, each with the name of its link.
 type Places = Vec<(String, Isometry3<f64>)>;
@@ -104,13 +105,15 @@ fn placed(machine: &Machine) -> Vec<Placed<'_>> {
             }
         }
     }
+    let mounted = machine.links.iter().flat_map(|link| &link.mounted);
+    let mounted: BTreeSet<usize> = mounted.map(|body| body.shape).collect();
     let mut colors = COLORS.into_iter().cycle();
     let shapes = machine.shapes.iter().enumerate().zip(items);
     let placed = shapes.map(|((index, shape), items)| Placed {
         shape,
-        color: match shape.form {
-            Form::Turned(_) => TURNED,
-            _ => colors.next().unwrap_or_default(),
+        color: match mounted.contains(&index) {
+            true => MOUNTED,
+            false => colors.next().unwrap_or_default(),
         },
         material: material(machine, index),
         items,
@@ -126,7 +129,10 @@ fn material(machine: &Machine, index: usize) -> String {
     }
     let named = |part: &&Part| {
         let file = part.file.as_str();
-        !file.is_empty() && (file == shape.part || file == shape.short_name())
+        match part.supply {
+            Supply::Bought => part.word() == shape.short_name(),
+            _ => !file.is_empty() && (file == shape.part || file == shape.short_name()),
+        }
     };
     if let Some(part) = machine.parts.iter().find(named) {
         return part.material.clone();
@@ -135,7 +141,7 @@ fn material(machine: &Machine, index: usize) -> String {
     let parts = machine
         .parts
         .iter()
-        .filter(|part| part.links.iter().any(on));
+        .filter(|part| part.supply != Supply::Bought && part.links.iter().any(on));
     let mut materials: Vec<&str> = parts.map(|part| &*part.material).collect();
     materials.retain(|material| !material.is_empty());
     materials.dedup();

@@ -99,14 +99,15 @@ fn list(parts: &Machine<'_>, machine: &mut Linked) -> Result<(), ExportError> {
         ..Part::default()
     });
     let pin = shaft.pin(BOX);
+    let of_pin = pin.part.mass().unwrap_or_default();
     turned::list(std::slice::from_ref(&pin), machine);
     machine.fit(pin.fit);
     machine.part(Part {
         name: "Box with its rail".into(),
         supply: Supply::Given,
         links: vec![carriage],
-        mass: weight(machine, carriage),
-        remark: "all that is moved but the slider".into(),
+        mass: weight(machine, carriage).map(|mass| mass - of_pin),
+        remark: "all that is moved but the slider and its pin".into(),
         place: machine.place_on("box", figures::corner(shaft).coords.into()),
         ..Part::default()
     });

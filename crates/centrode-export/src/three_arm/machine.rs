@@ -2,7 +2,7 @@ use centrode_geometry::{Outline, Point};
 use centrode_mechanism::arm::{ArmBody, ArmPart};
 use centrode_mechanism::gear::{GearPair, Member};
 use centrode_mechanism::machine::{Fit, TurnedPieces};
-use centrode_mechanism::three_arm::making::{PRESSED, RUNNING, SLIDING, STEEL};
+use centrode_mechanism::three_arm::making::{self, PRESSED, RINGS, RUNNING, SLIDING, STEEL};
 use centrode_mechanism::three_arm::{GearboxBody, Pusher, ThreeArm};
 
 use super::Part;
@@ -142,12 +142,21 @@ impl<'a> Machine<'a> {
             let body = pair.gear(member).body();
             Some(Fit::new(name, body.bore, [&body.bore_fit, &body.shaft_fit]))
         });
-        let all = [
-            Fit::new(
+        let in_carrier = match self.mechanism.bearing(body.bore) {
+            Some(bearing) => {
+                let [plate, shaft] = making::BEARING;
+                vec![
+                    Fit::new("bearings in the carrier", bearing.outer, [plate, RINGS]),
+                    Fit::new("bearings on the shafts", bearing.bore, [RINGS, shaft]),
+                ]
+            }
+            None => vec![Fit::new(
                 "shafts in the carrier",
                 body.bore,
                 [BEARING, &body.shaft_fit],
-            ),
+            )],
+        };
+        let all = [
             Fit::new("pivot of the fork", spec.pivot_bore, RUNNING),
             Fit::new("roller's pin in the fork", spec.roller_bore, PRESSED),
             Fit::new("roller on its pin", spec.roller_bore, ROLLING),
@@ -155,7 +164,7 @@ impl<'a> Machine<'a> {
             Fit::new("pin in the push rod", 0.5 * spec.slot_width, PRESSED),
             Fit::of_width("push rod in the housing", rod, SLIDING),
         ];
-        let all = all.into_iter().chain(seats);
+        let all = in_carrier.into_iter().chain(all).chain(seats);
         all.filter(|fit| fit.size > 0.0).collect()
     }
 
@@ -163,7 +172,7 @@ impl<'a> Machine<'a> {
     pub(super) fn plate_of(&self, part: Part) -> Option<Plate> {
         let mut plate = self.bare_plate(part)?;
         let classes: &[[&str; 2]] = match part {
-            Part::Carrier => &[[BEARING, ""]],
+            Part::Carrier => return Some(self.carrier(plate)),
             Part::Fork => &[RUNNING, PRESSED, SLIDING],
             Part::Roller => &[ROLLING],
             Part::PushRod => &[PRESSED],
@@ -177,6 +186,26 @@ impl<'a> Machine<'a> {
             hole.fit = (*class).into();
         }
         Some(plate)
+    }
+
+    /// The carrier's plate with the classes of its holes, each as its shaft has a bearing there or none.
+    fn carrier(&self, mut plate: Plate) -> Plate {
+        for hole in &mut plate.holes {
+            let wide = hole.outline.bounds();
+            let wide = wide.max.x - wide.min.x;
+            let bodies = [Part::Sun, Part::Intermediate, Part::Planet].into_iter();
+            let bores = bodies.filter_map(|part| {
+                let (pair, member) = self.gear(part)?;
+                Some(pair.gear(member).body().bore)
+            });
+            let mut bearings = bores.filter_map(|bore| self.mechanism.bearing(bore));
+            let class = match bearings.any(|bearing| (bearing.outer - wide).abs() < 1e-6) {
+                true => making::BEARING[0],
+                false => BEARING,
+            };
+            hole.fit = class.into();
+        }
+        plate
     }
 
     fn bare_plate(&self, part: Part) -> Option<Plate> {

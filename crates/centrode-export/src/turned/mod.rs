@@ -15,16 +15,31 @@ use crate::sheet::fit;
 use crate::{ExportError, Package};
 pub(crate) use across::{across, cutting_plane};
 pub(crate) use centre::{centre, centre_mark};
+pub(crate) use sheet::KEYWAY;
 
 /// Lists turned parts in a machine, their size with its limits as the remark.
 pub(crate) fn list(all: &[TurnedPieces], machine: &mut Machine) {
     for pieces in all {
-        let size = fit::shaft(&pieces.fit);
-        let remark = match &*pieces.role {
-            "" => size,
-            role => format!("{size}, {role}"),
-        };
-        machine.add_turned(pieces, remark);
+        machine.add_turned(pieces, remark(pieces));
+    }
+}
+
+/// Tells the sizes of turned parts that a machine lists.
+pub(crate) fn size(all: &[TurnedPieces], machine: &mut Machine) {
+    for pieces in all {
+        let listed = machine.parts.iter_mut();
+        for part in listed.filter(|part| part.file == pieces.part.name) {
+            part.remark = remark(pieces);
+        }
+    }
+}
+
+/// Size of a turned part with its limits, and its role.
+fn remark(pieces: &TurnedPieces) -> String {
+    let size = fit::shaft(&pieces.fit);
+    match &*pieces.role {
+        "" => size,
+        role => format!("{size}, {role}"),
     }
 }
 

@@ -4,7 +4,9 @@ mod ring;
 
 use std::f64::consts::PI;
 
-use crate::{Mesh, Shell, ShellBuilder, SolidError, Tolerance, gauss_legendre};
+use nalgebra::{Matrix3, Vector3};
+
+use crate::{Mesh, Shell, ShellBuilder, SolidError, Tolerance, VolumeMoments, gauss_legendre};
 pub use boundary::TurnedEnd;
 
 /// Share of a length by which a cone may be off 45°: rounding.
@@ -157,6 +159,31 @@ impl Turned {
             .sum()
     }
 
+    /// Volume with its first and second moments about the origin, exact to rounding.
+    #[must_use]
+    pub fn moments(&self) -> VolumeMoments {
+        let mut sum = VolumeMoments::default();
+        for (section, bottom) in self.sections.iter().zip(self.levels()) {
+            let [low, high] = section.radii;
+            let slot = self.slot.filter(|_| section.slotted);
+            gauss_legendre(0.0, 1.0, |x, weight| {
+                let (radius, z) = (low + (high - low) * x, bottom + section.length * x);
+                let disc = PI * radius * radius;
+                let quarter = 0.25 * disc * radius * radius;
+                let cut = slot.map_or([0.0; 4], |slot| slot.moments(radius));
+                let [area, first, xx, yy] = [disc, 0.0, quarter, quarter];
+                let [area, first] = [area - cut[0], first - cut[1]];
+                let [xx, yy] = [xx - cut[2], yy - cut[3]];
+                let high = weight * section.length;
+                sum.volume += area * high;
+                sum.first += Vector3::new(first, 0.0, area * z) * high;
+                let [xz, zz] = [first * z, area * z * z];
+                sum.second += Matrix3::new(xx, 0.0, xz, 0.0, yy, 0.0, xz, 0.0, zz) * high;
+            });
+        }
+        sum
+    }
+
     /// Its boundary on exact surfaces; edges where the slot cuts a cone are polynomials within 1e-9 of their radius.
     #[must_use]
     pub fn shell(&self) -> Shell {
@@ -181,6 +208,20 @@ impl TurnedSlot {
         let edge = (radius * radius - half * half).max(0.0).sqrt();
         let above = half * edge + radius * radius * (half / radius).min(1.0).asin();
         above - self.width * self.foot
+    }
+
+    /// Area that the slot takes of a disc, and the moments `∫ x dA`, `∫ x² dA`, `∫ y² dA` of it.
+    fn moments(self, radius: f64) -> [f64; 4] {
+        let (half, foot) = (0.5 * self.width, self.foot);
+        let [mut first, mut xx, mut yy] = [0.0; 3];
+        gauss_legendre(0.0, half, |y, weight| {
+            let edge = (radius * radius - y * y).max(0.0).sqrt();
+            // Both halves of the slot.
+            first += weight * (edge.powi(2) - foot.powi(2));
+            xx += weight * (edge.powi(3) - foot.powi(3)) * 2.0 / 3.0;
+            yy += weight * (edge - foot) * 2.0 * y * y;
+        });
+        [self.area(radius), first, xx, yy]
     }
 }
 

@@ -92,3 +92,37 @@ fn sections_that_are_none_are_told() {
     assert_eq!(section(cut), 1);
     assert!(Turned::new(f64::NAN, vec![cylinder(1.0, 8.0)], None).is_err());
 }
+
+#[test]
+fn moments_are_those_of_the_tetrahedra_of_a_fine_mesh() {
+    for shaft in shafts() {
+        let mesh = shaft.mesh(Tolerance::new(1e-4).expect("positive"));
+        let mesh = mesh.expect("a mesh");
+        let mut sum = VolumeMoments::default();
+        for face in &mesh.faces {
+            let corners = face.map(|i| Vector3::from(mesh.vertices[i as usize]));
+            let all: Vector3<f64> = corners.iter().sum();
+            let volume = corners[0].dot(&corners[1].cross(&corners[2])) / 6.0;
+            sum.volume += volume;
+            sum.first += all * (volume / 4.0);
+            let own: Matrix3<f64> = corners.iter().map(|p| p * p.transpose()).sum();
+            sum.second += (own + all * all.transpose()) * (volume / 20.0);
+        }
+        let exact = shaft.moments();
+        assert!((exact.volume - shaft.volume()).abs() < 1e-12 * exact.volume);
+        let near = |a: f64, b: f64, size: f64| (a - b).abs() < 1e-4 * size;
+        assert!(near(sum.volume, exact.volume, exact.volume));
+        assert!((sum.first - exact.first).norm() < 1e-4 * exact.first.norm());
+        assert!((sum.second - exact.second).norm() < 1e-4 * exact.second.norm());
+        let slotted = shaft.sections().iter().any(|section| section.slotted);
+        assert_eq!(exact.first.x < -1.0, slotted, "the slot is at x > 0");
+        // Of the smaller moments, too.
+        for [i, j] in [[0, 0], [1, 1]] {
+            assert!(near(
+                sum.second[(i, j)],
+                exact.second[(i, j)],
+                exact.second[(i, j)]
+            ));
+        }
+    }
+}

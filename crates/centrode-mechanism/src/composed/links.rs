@@ -11,7 +11,7 @@ use crate::machine::{
 };
 
 impl Composed {
-    /// The machine as links and joints, each body a plate drawn round its points.
+    /// The machine as links and joints, each body a plate drawn round its points, with the pins in the plates.
     ///
     /// # Errors
     /// [`SolidError`] where a plate is no solid.
@@ -77,6 +77,9 @@ impl Composed {
         self.draw(&mut machine, &pieces);
         self.list(&mut machine, &pieces);
         self.tell_fits(&mut machine);
+        for pins in self.pins_in_plates() {
+            machine.add_turned(&pins, String::new());
+        }
         machine.arrangement.drawing = self.design.drawing.clone();
         Ok(machine)
     }

@@ -42,7 +42,12 @@ impl Composed {
             let bottom = axis.span[0] + bar.bottom();
             let own = axis.holes.iter().min_by_key(|(body, _)| *body);
             let piece = own.map(|&(body, at)| {
-                TurnedPiece::upright(&self.bodies[body].name, [at.x, at.y, bottom])
+                let name = &self.bodies[body].name;
+                let spec = self.design.bodies.get(name);
+                TurnedPiece {
+                    is_counted: spec.is_some_and(|body| body.given_mass().mass.is_some()),
+                    ..TurnedPiece::upright(name, [at.x, at.y, bottom])
+                }
             });
             let known = found.last_mut();
             match known.filter(|(long, _)| axis.length() - *long < ONE * spec.pin_diameter) {

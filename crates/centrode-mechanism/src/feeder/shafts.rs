@@ -3,7 +3,7 @@
 use centrode_geometry::Point;
 
 use super::{Feeder, GearBody, Part, Plate};
-use crate::machine::{Bar, Dowel, Fit, TurnedPart, TurnedPiece, TurnedPieces};
+use crate::machine::{Bar, Dowel, Fit, Key, SeatedKey, TurnedPart, TurnedPiece, TurnedPieces};
 
 impl Feeder {
     /// Tolerance classes, ISO 286, of the holes into which the pins of the cams are pressed and of the pins, ISO 8734.
@@ -153,21 +153,33 @@ impl Feeder {
             pieces: vec![TurnedPiece::upright(link, [0.0, 0.0, bar.bottom()])],
             ..TurnedPieces::of(part, fit.clone())
         };
-        let key = |width: f64| body.keyway.and_then(|keyway| keyway.key(width));
-        let square = body
-            .keyway
-            .and_then(|keyway| keyway.square_key(plates.thickness));
+        // In the middle of its hub.
+        let seated = |key: Key, [low, high]: [f64; 2], bar: &Bar| SeatedKey {
+            key,
+            at: 0.5 * (low + high - key.length) - bar.bottom(),
+        };
+        let key = |bottom: f64, bar: &Bar| {
+            let key = Key::round(body.keyway?, body.width)?;
+            Some(seated(key, hub(bottom), bar))
+        };
+        let square = || {
+            let key = Key::square(body.keyway?, plates.thickness)?;
+            Some(seated(key, [0.0, plates.thickness], &crank))
+        };
         [
             TurnedPieces {
                 role: "of the crank".into(),
                 // In the thin crank a key with round ends would bear over less than half its length.
-                keys: [key(body.width), square].into_iter().flatten().collect(),
+                keys: [key(middle, &crank), square()]
+                    .into_iter()
+                    .flatten()
+                    .collect(),
                 axis: Some([0.0; 2]),
                 ..on_shaft(of_crank, &crank, Part::Crank.name())
             },
             TurnedPieces {
                 role: "of the intermittent gear".into(),
-                keys: hubs.iter().filter_map(|_| key(body.width)).collect(),
+                keys: hubs.iter().filter_map(|&low| key(low, &own)).collect(),
                 axis: Some([-distance, 0.0]),
                 ..on_shaft(
                     own.part(["shaft-g", "Shaft G"], material),

@@ -1,6 +1,7 @@
 use std::fmt;
 
-use centrode_geometry::{Outline, Tolerance, Vector, convex_hull};
+use centrode_geometry::{Outline, Point, Tolerance, Vector, convex_hull, greatest};
+use nalgebra::Isometry2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -24,61 +25,79 @@ pub enum Blank {
     },
 }
 
-/// Accuracy of the sizes, mm.
+/// How far off a contour the points lie by which its sides are chosen, mm; their lengths are those of the contour.
 const FINE: f64 = 1e-3;
+/// Excess of a size over a tenth of a millimetre that costs no further tenth, mm: more than rounding ever is.
+const HAIR: f64 = 1e-6;
 
 impl Blank {
     /// The least rectangle of plate around a contour, or round bar where it is a circle; `None` for a contour of no extent.
     ///
-    /// One side of the least rectangle lies along a side of the convex hull: every one is tried. Within 0.002 mm.
+    /// One side of the least rectangle lies along a side of the convex hull: every one is tried, on a polygon within 0.001 mm.
+    /// The sides told are those of the contour.
     #[must_use]
     pub fn plate(outline: &Outline, thickness: f64) -> Option<Self> {
         let points = outline.flatten(Tolerance::new(FINE).ok()?);
         let middle = outline.bounds().center();
         let radii = points.iter().map(|p| (p - middle).norm());
-        let [least, greatest] = radii.fold([f64::INFINITY, 0.0], |[low, high], r| {
+        let [least, most] = radii.fold([f64::INFINITY, 0.0], |[low, high], r| {
             [f64::min(low, r), f64::max(high, r)]
         });
-        if greatest - least < 2.0 * FINE {
+        if most - least < 2.0 * FINE {
             return Some(Self::Round {
-                diameter: 2.0 * greatest,
+                diameter: 2.0 * farthest(outline, middle)?,
                 length: thickness,
             });
         }
         let hull: Vec<_> = convex_hull(&points).iter().map(|&i| points[i]).collect();
         let next = hull.iter().cycle().skip(1);
-        let sides = hull.iter().zip(next).filter_map(|(a, b)| {
+        let ways = hull.iter().zip(next).filter_map(|(a, b)| {
             let along = (b - a).try_normalize(0.0)?;
             let across = Vector::new(-along.y, along.x);
-            Some([along, across].map(|way| {
+            let [long, wide] = [along, across].map(|way| {
                 let places = hull.iter().map(|p| p.coords.dot(&way));
                 let ends = places.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| {
                     [low.min(x), high.max(x)]
                 });
                 ends[1] - ends[0]
-            }))
+            });
+            Some((long * wide, along))
         });
-        let area = |[a, b]: &[f64; 2]| a * b;
-        let [a, b] = sides.min_by(|a, b| area(a).total_cmp(&area(b)))?;
-        let sides = [a.max(b), a.min(b)];
+        let (_, along) = ways.min_by(|(a, _), (b, _)| a.total_cmp(b))?;
+        let upright = Isometry2::new(Vector::zeros(), -along.y.atan2(along.x));
+        let bounds = outline.transformed(&upright).bounds();
+        let [a, b] = (bounds.max - bounds.min).into();
+        let sides = [f64::max(a, b), f64::min(a, b)];
         Some(Self::Plate { sides, thickness })
     }
 
     /// Round bar about the origin of a contour, as a turned part has it.
     #[must_use]
     pub fn round(outline: &Outline, length: f64) -> Option<Self> {
-        let points = outline.flatten(Tolerance::new(FINE).ok()?);
-        let radius = points.iter().map(|p| p.coords.norm()).fold(0.0, f64::max);
-        let diameter = 2.0 * radius;
+        let diameter = 2.0 * farthest(outline, Point::origin())?;
         Some(Self::Round { diameter, length })
     }
+}
+
+/// Distance of the farthest point of a contour from a place, mm.
+fn farthest(outline: &Outline, from: Point) -> Option<f64> {
+    let segments = outline.segments();
+    let mut most = vec![0.0_f64; segments.len()];
+    for sample in outline.samples(Tolerance::new(FINE).ok()?) {
+        let far = (sample.point - from).norm();
+        most[sample.segment] = most[sample.segment].max(far);
+    }
+    let near = most.iter().copied().fold(0.0, f64::max) - 2.0 * FINE;
+    let candidates = segments.iter().zip(most).filter(|(_, far)| *far >= near);
+    let exact = candidates
+        .map(|(segment, _)| greatest(|u| (segment.at(u).point - from).norm(), &[-1.0, 1.0]).value);
+    exact.reduce(f64::max)
 }
 
 impl fmt::Display for Blank {
     /// "plate 8: 210.6 x 30", "round Ø66 x 10": sizes rounded up to tenths of a millimetre.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        // Rounding of a whole tenth does not cost another.
-        let up = |mm: f64| (10.0 * mm - 0.01).ceil() / 10.0;
+        let up = |mm: f64| (10.0 * (mm - HAIR)).ceil() / 10.0;
         match self {
             Self::Plate {
                 sides: [long, short],
@@ -97,8 +116,6 @@ impl fmt::Display for Blank {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use centrode_geometry::Point;
-    use nalgebra::Isometry2;
 
     #[test]
     fn the_least_rectangle_lies_askew_where_the_part_does() {
@@ -110,7 +127,7 @@ mod tests {
             let Blank::Plate { sides, .. } = blank else {
                 panic!("{blank}");
             };
-            assert!((sides[0] - 177.0).abs() < 2e-3 && (sides[1] - 30.0).abs() < 2e-3);
+            assert!((sides[0] - 177.0).abs() < 1e-9 && (sides[1] - 30.0).abs() < 1e-9);
             assert_eq!(blank.to_string(), "plate 8: 177 x 30");
         }
     }
@@ -127,5 +144,29 @@ mod tests {
         let disc = Outline::circle(Point::new(4.0, 3.0), 4.0);
         let blank = Blank::plate(&disc, 7.03514).expect("a blank");
         assert_eq!(blank.to_string(), "round Ø8 x 7.1");
+    }
+
+    #[test]
+    fn a_micrometre_over_a_tenth_costs_another() {
+        for (over, told) in [(0.0, "96"), (9e-7, "96"), (1e-5, "96.1"), (1e-3, "96.1")] {
+            let [diameter, length] = [96.0 + over, 8.0];
+            let blank = Blank::Round { diameter, length };
+            assert_eq!(blank.to_string(), format!("round Ø{told} x 8"));
+            let blank = Blank::Plate {
+                sides: [diameter, 30.0],
+                thickness: 8.0,
+            };
+            assert_eq!(blank.to_string(), format!("plate 8: {told} x 30"));
+        }
+    }
+
+    #[test]
+    fn a_round_blank_is_as_wide_as_the_arc_between_its_points() {
+        // An arc of 4 mm off the origin, whose farthest point is no corner.
+        let disc = Outline::circle(Point::new(0.3, 0.4), 4.0);
+        let Some(Blank::Round { diameter, .. }) = Blank::round(&disc, 1.0) else {
+            panic!("no blank");
+        };
+        assert!((diameter - 9.0).abs() < 1e-12, "{diameter}");
     }
 }

@@ -50,7 +50,7 @@ const R: [(f64, f64); 22] = [
 
 /// Lower and upper deviation of a size in a tolerance class, mm.
 ///
-/// Holes have capital letters: D to H and JS in grades 5 to 13, N and P in grade 9, as keyways have them. Shafts have small
+/// Holes have capital letters: D to H and JS in grades 5 to 13, N in grades 6 to 8, as bearings press in, N and P in grade 9, as keyways have them. Shafts have small
 /// ones: d to h and js in grades 5 to 13, k in grades 5 to 7, m to r in grades 5 to 9. `None` for other classes, and for sizes
 /// that are not between 0 and 500 mm.
 ///
@@ -72,6 +72,11 @@ pub fn limits_of_size(size: f64, class: &str) -> Option<[f64; 2]> {
         "D" | "E" | "F" | "G" | "H" => from?,
         "d" | "e" | "f" | "g" | "h" => -from? - width,
         "JS" | "js" => -0.5 * width,
+        // Shaft n mirrored, nearer to the line by what the grade is wider than the one before.
+        "N" if (6..=8).contains(&number) => {
+            let before = of(&GRADES, &(number - 1).to_string())?;
+            -from? + if range == 0 { 0.0 } else { width - before } - width
+        }
         // Holes up to 3 mm have 4 µm at this grade, larger ones none.
         "N" if number == 9 => -width - if range == 0 { 4.0 } else { 0.0 },
         "P" if number == 9 => -width - from?,
@@ -193,6 +198,12 @@ mod tests {
             (40.0, "E9", [50.0, 112.0]),
             (12.0, "N9", [-43.0, 0.0]),
             (2.0, "N9", [-29.0, -4.0]),
+            (2.0, "N7", [-14.0, -4.0]),
+            (8.0, "N7", [-19.0, -4.0]),
+            (19.0, "N7", [-28.0, -7.0]),
+            (40.0, "N7", [-33.0, -8.0]),
+            (60.0, "N6", [-33.0, -14.0]),
+            (16.0, "N8", [-30.0, -3.0]),
             (8.0, "P9", [-51.0, -15.0]),
             (40.0, "f7", [-50.0, -25.0]),
             (25.0, "g6", [-20.0, -7.0]),

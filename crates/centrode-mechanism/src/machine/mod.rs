@@ -13,6 +13,7 @@ mod jet;
 mod joint;
 mod law;
 mod load;
+mod mount;
 mod part;
 mod plain;
 mod pose;
@@ -42,8 +43,8 @@ pub use law::{Constant, Linear, Piecewise};
 pub use load::{Axes, Load, STANDARD_GRAVITY};
 pub use part::{Part, Supply};
 pub use sound::{MachineError, loose_link};
-pub use standard::{Circlip, Dowel};
-pub use turned::{TurnedPart, TurnedPiece, TurnedPieces, TurnedStep};
+pub use standard::{Bearing, CapScrew, Circlip, Dowel, Key, allowed_pressure};
+pub use turned::{SeatedKey, TurnedPart, TurnedPiece, TurnedPieces, TurnedStep};
 
 /// Rigid links, and how each of them moves with the one input.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, Serialize)]

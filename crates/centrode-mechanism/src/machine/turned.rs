@@ -1,8 +1,8 @@
-use centrode_geometry::{SolidError, Turned, TurnedSection, TurnedSlot};
+use centrode_geometry::{MassProperties, SolidError, Turned, TurnedSection, TurnedSlot};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Blank, Circlip, Fit, Form, Machine, Mounted, Part, Shape};
+use super::{Bearing, Circlip, Fit, Key};
 use crate::gear::design::Keyway;
 
 /// A shaft or pin: a part turned from round bar about its axis z, its lower end at z = 0, with a keyway where it has one.
@@ -57,12 +57,23 @@ pub struct TurnedPieces {
     pub role: String,
     /// Designation by which it is bought; none where it is made from its sheet.
     pub standard: Option<String>,
-    /// Designations of the keys on each piece.
-    pub keys: Vec<String>,
+    /// Keys on each piece.
+    pub keys: Vec<SeatedKey>,
+    /// Bearings on each piece, with the height of their lower face above the part's lower end, mm.
+    pub bearings: Vec<(Bearing, f64)>,
     /// Where its pieces are.
     pub pieces: Vec<TurnedPiece>,
     /// Its axis in the figure of the first link, mm, where it is seen there.
     pub axis: Option<[f64; 2]>,
+}
+
+/// A key in the keyway of a turned part.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SeatedKey {
+    /// The key.
+    pub key: Key,
+    /// Its lower end above that of the part, mm.
+    pub at: f64,
 }
 
 /// Place of a piece of a turned part.
@@ -74,6 +85,8 @@ pub struct TurnedPiece {
     pub at: [f64; 3],
     /// Its turn there as roll, pitch and yaw: about the link's x, then y, then z axis, rad.
     pub turn: [f64; 3],
+    /// Whether the mass of the link is given with it: it adds none.
+    pub is_counted: bool,
 }
 
 impl TurnedStep {
@@ -101,6 +114,19 @@ impl TurnedPart {
     pub fn diameter(&self) -> f64 {
         let diameters = self.steps.iter().map(|step| step.diameter);
         diameters.fold(0.0, f64::max)
+    }
+
+    /// Its keyway as the body has it.
+    fn slot(&self) -> Option<TurnedSlot> {
+        self.keyway.map(|key| TurnedSlot {
+            width: key.width,
+            foot: 0.5 * self.diameter() - key.depth,
+        })
+    }
+
+    /// Distance of the keyway's floor from the axis, mm; zero without one.
+    pub(super) fn key_foot(&self) -> f64 {
+        self.slot().map_or(0.0, |slot| slot.foot)
     }
 
     /// Exact body, from z = 0.
@@ -132,18 +158,20 @@ impl TurnedPart {
         if c == 0.0 {
             sections.retain(|section| section.length > 0.0);
         }
-        let slot = self.keyway.map(|key| TurnedSlot {
-            width: key.width,
-            foot: 0.5 * self.diameter() - key.depth,
-        });
-        Turned::new(0.0, sections, slot)
+        Turned::new(0.0, sections, self.slot())
     }
 
     /// Mass of one, kg; none where it makes no solid.
     #[must_use]
     pub fn mass(&self) -> Option<f64> {
+        Some(self.mass_properties()?.mass)
+    }
+
+    /// Mass of one with its center and inertia; none where it makes no solid.
+    #[must_use]
+    pub fn mass_properties(&self) -> Option<MassProperties> {
         let body = self.solid().ok()?;
-        Some(body.volume() * self.density * 1e-9)
+        Some(body.moments().mass_properties(self.density))
     }
 }
 
@@ -157,6 +185,7 @@ impl TurnedPieces {
             role: String::new(),
             standard: None,
             keys: Vec::new(),
+            bearings: Vec::new(),
             pieces: Vec::new(),
             axis: None,
         }
@@ -171,68 +200,7 @@ impl TurnedPiece {
             link: link.into(),
             at,
             turn: [0.0; 3],
-        }
-    }
-}
-
-impl Machine {
-    /// Mounts the pieces of a turned part on their links and lists it, under a remark, with the rings and keys that are bought
-    /// for it; its number points to its rim.
-    pub fn add_turned(&mut self, all: &TurnedPieces, remark: String) {
-        let part = &all.part;
-        let named = |piece: &TurnedPiece| self.link_named(&piece.link).unwrap_or(0);
-        let links: Vec<usize> = all.pieces.iter().map(named).collect();
-        self.mount(all);
-        let rim = all.axis.map(|[x, y]| [x - 0.5 * part.diameter(), y]);
-        let place = rim.and_then(|rim| self.place_on(&self.links.first()?.name, rim));
-        let bought = |name: &String| Part::bought(name.clone(), links.clone());
-        self.part(match &all.standard {
-            Some(name) => Part {
-                remark,
-                ..bought(name)
-            },
-            None => Part {
-                name: part.title.clone(),
-                links: links.clone(),
-                material: part.material.clone(),
-                blank: Some(Blank::Round {
-                    diameter: part.diameter(),
-                    length: part.length(),
-                }),
-                mass: part.mass(),
-                file: part.name.clone(),
-                remark,
-                place,
-                ..Part::default()
-            },
-        });
-        let rings = part.steps.iter().filter_map(|step| step.ring);
-        let rings: Vec<String> = rings.map(Circlip::name).collect();
-        for name in rings.iter().chain(&all.keys) {
-            self.part(bought(name));
-        }
-    }
-
-    /// Gives links the bodies of a turned part; a part that makes no solid has none.
-    fn mount(&mut self, all: &TurnedPieces) {
-        if all.part.solid().is_err() {
-            return;
-        }
-        let shape = self.shape(Shape {
-            name: format!("turned/{}", all.part.name),
-            // What is bought has no files.
-            part: match all.standard {
-                Some(_) => String::new(),
-                None => all.part.name.clone(),
-            },
-            form: Form::Turned(all.part.clone()),
-        });
-        for piece in &all.pieces {
-            let link = self.link_named(&piece.link);
-            if let Some(link) = link.and_then(|link| self.links.get_mut(link)) {
-                let (at, turn) = (piece.at, piece.turn);
-                link.mounted.push(Mounted { shape, at, turn });
-            }
+            is_counted: false,
         }
     }
 }

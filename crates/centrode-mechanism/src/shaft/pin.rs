@@ -27,6 +27,8 @@ impl SpiralShaft {
                 link: link.into(),
                 at: [self.groove().radius() - slider.reach, 0.0, 0.0],
                 turn: [0.0, FRAC_PI_2, 0.0],
+                // The mass moved is given.
+                is_counted: true,
             }],
             ..TurnedPieces::of(part, fit)
         }

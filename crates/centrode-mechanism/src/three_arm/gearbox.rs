@@ -3,13 +3,14 @@ use nalgebra::Rotation2;
 
 use super::{Link, ThreeArm};
 use crate::gear::Member;
+use crate::machine::Bearing;
 
 /// Body of the carrier: a plate on either side of the gears, with a hole at every axis.
 #[derive(Clone, Debug)]
 pub struct GearboxBody {
     /// Contour, counter-clockwise, in the carrier's frame.
     pub outline: Outline,
-    /// Holes for sun, intermediate gears and planets, as wide as their bores.
+    /// Holes for sun, intermediate gears and planets, as wide as their bores or the bearings on their shafts.
     pub holes: Vec<Outline>,
     /// Spans of the plates along the sun's axis, mm, from the rear faces of the gears: the rear one, then
     /// the front one.
@@ -52,10 +53,21 @@ impl ThreeArm {
             holes: holes
                 .into_iter()
                 .filter(|(_, bore)| *bore > 0.0)
-                .map(|(center, bore)| Outline::circle(center, 0.5 * bore))
+                .map(|(center, bore)| {
+                    let bearing = self.bearing(bore);
+                    Outline::circle(center, 0.5 * bearing.map_or(bore, |bearing| bearing.outer))
+                })
                 .collect(),
             spans: [[-play - wall, -play], [front, front + wall]],
         })
+    }
+
+    /// Bearing in the carrier's plates on a shaft of a diameter, mm; none where the design asks for none, or where none is as narrow as
+    /// the plates are thick.
+    #[must_use]
+    pub fn bearing(&self, bore: f64) -> Option<Bearing> {
+        let gearbox = &self.design().gearbox;
+        Bearing::of(bore, gearbox.wall).filter(|_| gearbox.bearings)
     }
 
     /// Distance of the middle of the arms' housings from the rear faces of the gears, mm: behind them are the

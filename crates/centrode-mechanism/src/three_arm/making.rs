@@ -8,3 +8,8 @@ pub const RUNNING: [&str; 2] = ["H7", "f7"];
 pub const PRESSED: [&str; 2] = ["H7", "m6"];
 /// Of what slides in a slot or a square bore.
 pub const SLIDING: [&str; 2] = ["H9", "e9"];
+/// Of ball bearings: their outer ring pressed in a plate that holds it along the shaft, their inner ring, round which the load goes,
+/// on the shaft.
+pub const BEARING: [&str; 2] = ["N7", "k6"];
+/// Tolerances of the rings of bearings themselves: class normal.
+pub const RINGS: &str = "ISO 492";

@@ -2,11 +2,13 @@
 
 use std::f64::consts::PI;
 
-use super::making::{PRESSED, RUNNING, SLIDING, STEEL};
+use super::making::{BEARING, PRESSED, RUNNING, SLIDING, STEEL};
 use super::{Pusher, ThreeArm};
 use crate::arm::ArmBody;
 use crate::gear::design::BodySpec;
-use crate::machine::{Bar, Dowel, Fit, TurnedPart, TurnedPiece, TurnedPieces, TurnedStep};
+use crate::machine::{
+    Bar, Bearing, Dowel, Fit, Key, SeatedKey, TurnedPart, TurnedPiece, TurnedPieces, TurnedStep,
+};
 
 /// Diameters of its own that the carrier's shaft goes on behind the gearbox.
 const DRIVEN_END: f64 = 3.0;
@@ -36,10 +38,23 @@ impl ThreeArm {
         let beyond = self.arm_level() + span(arm, "cover-front").map_or(0.0, |[_, top]| top);
         let shaft = |body: &BodySpec, links: Vec<TurnedPiece>, names, (span, room)| {
             let bar = Bar::new(body.bore, &body.shaft_fit, span).held(room);
-            let bar = bar.keyed(body.keyway, [0.0, body.width]);
+            let mut bar = bar.keyed(body.keyway, [0.0, body.width]);
+            // At the outer faces of the plates, against the rings.
+            let bearings = self.bearing(body.bore).map(|bearing| {
+                let wide = bearing.width;
+                [(bearing, rear[0]), (bearing, front[1] - wide)]
+            });
+            for (bearing, low) in bearings.into_iter().flatten() {
+                bar = bar.seat([low, low + bearing.width], BEARING[1]);
+            }
+            let above = |(bearing, low): (Bearing, f64)| (bearing, low - bar.bottom());
             let part = bar.part(names, (&body.material, body.density));
             let fit = Fit::new("", body.bore, [&body.bore_fit, &body.shaft_fit]);
-            let key = body.keyway.and_then(|keyway| keyway.key(body.width));
+            let key = body.keyway.and_then(|hub| Key::round(hub, body.width));
+            let key = key.map(|key| SeatedKey {
+                key,
+                at: 0.5 * (body.width - key.length) - bar.bottom(),
+            });
             // Keyways of shaft and gear are on one line.
             let seat = |piece: TurnedPiece| TurnedPiece {
                 at: [0.0, 0.0, bar.bottom()],
@@ -48,6 +63,7 @@ impl ThreeArm {
             };
             TurnedPieces {
                 keys: key.into_iter().collect(),
+                bearings: bearings.into_iter().flatten().map(above).collect(),
                 pieces: links.into_iter().map(seat).collect(),
                 ..TurnedPieces::of(part, fit)
             }

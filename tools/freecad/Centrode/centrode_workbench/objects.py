@@ -27,7 +27,9 @@ def update(design):
     document, group = design.Document, design.getParentGroup()
     document.recompute([design])
     machine = design.Proxy.machine(design)
-    bodies = {link.name: link for link in machine.links() if link.mesh is not None or link.solids or link.part}
+    bodies = {
+        link.name: link for link in machine.links() if link.mesh is not None or link.solids or link.part or link.mounted
+    }
     there = {child.Link: child for child in group.Group if hasattr(child, "Link")}
     for name in there.keys() - bodies.keys():
         document.removeObject(there[name].Name)

@@ -8,7 +8,21 @@ import Part
 
 
 def body(machine, link):
-    """Make the shape of a link in its own frame; None for a link without a body."""
+    """Make the shape of a link with what is mounted on it, in its own frame; None for a link without a body."""
+    own = _own(machine, link)
+    if not link.mounted:
+        return own
+    return Part.Compound([*([] if own is None else [own]), *map(mounted, link.mounted)])
+
+
+def mounted(of):
+    """Make the shape of a shaft, pin, ring or key where it is on its link."""
+    made = step(of.step) if of.step is not None else Part.Compound([solid(one) for one in of.solids])
+    made.Placement = placement(of.frame)
+    return made
+
+
+def _own(machine, link):
     if link.mesh is not None:
         return _polyhedron(*link.mesh)
     if link.solids:
@@ -18,6 +32,11 @@ def body(machine, link):
         return None
     # No extrusion, as a grooved shaft: its STEP file is as exact.
     (contents,) = machine.files(formats=["step"], parts=[link.part]).values()
+    return step(contents)
+
+
+def step(contents):
+    """Read the shape of a STEP file."""
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder, "part.step")
         path.write_bytes(contents)

@@ -183,7 +183,8 @@ fn loads_on_a_copied_arm_are_those_of_one_written_out_by_hand() {
 
 const TWO_ARM: &str = include_str!("../../../../../tests/designs/two-arm.toml");
 
-/// A slider-crank beside the middle of the frame, with a load on its ram.
+/// A slider-crank beside the middle of the frame, with a load on its ram. Layers are written, so that the pins of copies are as long
+/// as its own.
 const BESIDE: &str = r#"family = "machine"
 [input]
 speed_rpm = 90
@@ -193,8 +194,12 @@ O = [80, 20]
 on = "frame.O"
 law = { ratio = 1 }
 points = { A = [30, 0] }
+layer = 0
+[bodies.rod]
+layer = 1
 [bodies.ram]
 points = { tool = [12, 5] }
+layer = 2
 [dyads.push]
 type = "RRP"
 from = "crank.A"

@@ -168,6 +168,11 @@ impl Keyway {
         self.mate()
     }
 
+    /// Height of the key in it, mm: that of the standard for its width, or as high as wide.
+    pub(crate) fn key_height(self) -> f64 {
+        self.sizes().1
+    }
+
     /// Width and height of its key, and the room above the key, mm.
     fn sizes(self) -> (f64, f64, f64) {
         let standard = KEYS.into_iter().find(|(b, ..)| *b == self.width);

@@ -80,6 +80,9 @@ pub struct GearboxSpec {
     pub wall: f64,
     /// Clearance between the gears' faces and the plates, mm.
     pub play: f64,
+    /// Whether the shafts turn in ball bearings in the plates, where bearings of their bores are as narrow as these are thick.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub bearings: bool,
 }
 
 impl Default for GearboxSpec {
@@ -88,6 +91,7 @@ impl Default for GearboxSpec {
             housing_offset: 10.0,
             wall: 6.0,
             play: 2.0,
+            bearings: false,
         }
     }
 }

@@ -1,7 +1,16 @@
 //! Parts that are bought by the number of a standard.
 
+mod bearing;
+mod key;
+mod screw;
+
+use centrode_geometry::{Arc, Outline, Point, Segment, Solid};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+
+pub use bearing::Bearing;
+pub use key::{Key, allowed_pressure};
+pub use screw::CapScrew;
 
 /// Diameters of parallel pins of hardened steel, mm; ISO 8734:1997.
 const DOWELS: [f64; 14] = [
@@ -54,39 +63,41 @@ pub struct Circlip {
     pub width: f64,
     /// Least length of the shaft beyond the groove, mm.
     pub land: f64,
+    /// Radial width of the ring opposite its gap, mm.
+    pub radial: f64,
 }
 
-/// Shaft, thickness, groove, width, land, mm; DIN 471, normal rings.
+/// Shaft, thickness, groove, width, land, radial width of the ring, mm; DIN 471, normal rings.
 #[rustfmt::skip]
-const CIRCLIPS: [[f64; 5]; 28] = [
-    [3.0, 0.4, 2.8, 0.5, 0.3],
-    [4.0, 0.4, 3.8, 0.5, 0.3],
-    [5.0, 0.6, 4.8, 0.7, 0.3],
-    [6.0, 0.7, 5.7, 0.8, 0.5],
-    [7.0, 0.8, 6.7, 0.9, 0.5],
-    [8.0, 0.8, 7.6, 0.9, 0.6],
-    [9.0, 1.0, 8.6, 1.1, 0.6],
-    [10.0, 1.0, 9.6, 1.1, 0.6],
-    [11.0, 1.0, 10.5, 1.1, 0.8],
-    [12.0, 1.0, 11.5, 1.1, 0.8],
-    [13.0, 1.0, 12.4, 1.1, 0.9],
-    [14.0, 1.0, 13.4, 1.1, 0.9],
-    [15.0, 1.0, 14.3, 1.1, 1.1],
-    [16.0, 1.0, 15.2, 1.1, 1.2],
-    [17.0, 1.0, 16.2, 1.1, 1.2],
-    [18.0, 1.2, 17.0, 1.3, 1.5],
-    [19.0, 1.2, 18.0, 1.3, 1.5],
-    [20.0, 1.2, 19.0, 1.3, 1.5],
-    [22.0, 1.2, 21.0, 1.3, 1.5],
-    [24.0, 1.2, 22.9, 1.3, 1.7],
-    [25.0, 1.2, 23.9, 1.3, 1.7],
-    [26.0, 1.2, 24.9, 1.3, 1.7],
-    [28.0, 1.5, 26.6, 1.6, 2.1],
-    [30.0, 1.5, 28.6, 1.6, 2.1],
-    [32.0, 1.5, 30.3, 1.6, 2.6],
-    [35.0, 1.5, 33.0, 1.6, 3.0],
-    [40.0, 1.75, 37.5, 1.85, 3.8],
-    [50.0, 2.0, 47.0, 2.15, 4.5],
+const CIRCLIPS: [[f64; 6]; 28] = [
+    [3.0, 0.4, 2.8, 0.5, 0.3, 0.8],
+    [4.0, 0.4, 3.8, 0.5, 0.3, 0.9],
+    [5.0, 0.6, 4.8, 0.7, 0.3, 1.1],
+    [6.0, 0.7, 5.7, 0.8, 0.5, 1.3],
+    [7.0, 0.8, 6.7, 0.9, 0.5, 1.4],
+    [8.0, 0.8, 7.6, 0.9, 0.6, 1.5],
+    [9.0, 1.0, 8.6, 1.1, 0.6, 1.7],
+    [10.0, 1.0, 9.6, 1.1, 0.6, 1.8],
+    [11.0, 1.0, 10.5, 1.1, 0.8, 1.8],
+    [12.0, 1.0, 11.5, 1.1, 0.8, 1.8],
+    [13.0, 1.0, 12.4, 1.1, 0.9, 2.0],
+    [14.0, 1.0, 13.4, 1.1, 0.9, 2.1],
+    [15.0, 1.0, 14.3, 1.1, 1.1, 2.2],
+    [16.0, 1.0, 15.2, 1.1, 1.2, 2.2],
+    [17.0, 1.0, 16.2, 1.1, 1.2, 2.3],
+    [18.0, 1.2, 17.0, 1.3, 1.5, 2.4],
+    [19.0, 1.2, 18.0, 1.3, 1.5, 2.5],
+    [20.0, 1.2, 19.0, 1.3, 1.5, 2.6],
+    [22.0, 1.2, 21.0, 1.3, 1.5, 2.8],
+    [24.0, 1.2, 22.9, 1.3, 1.7, 3.0],
+    [25.0, 1.2, 23.9, 1.3, 1.7, 3.0],
+    [26.0, 1.2, 24.9, 1.3, 1.7, 3.1],
+    [28.0, 1.5, 26.6, 1.6, 2.1, 3.2],
+    [30.0, 1.5, 28.6, 1.6, 2.1, 3.5],
+    [32.0, 1.5, 30.3, 1.6, 2.6, 3.6],
+    [35.0, 1.5, 33.0, 1.6, 3.0, 3.9],
+    [40.0, 1.75, 37.5, 1.85, 3.8, 4.4],
+    [50.0, 2.0, 47.0, 2.15, 4.5, 5.1],
 ];
 
 impl Circlip {
@@ -94,13 +105,14 @@ impl Circlip {
     #[must_use]
     pub fn of_shaft(diameter: f64) -> Option<Self> {
         let row = CIRCLIPS.into_iter().find(|row| row[0] == diameter)?;
-        let [shaft, thickness, groove, width, land] = row;
+        let [shaft, thickness, groove, width, land, radial] = row;
         Some(Self {
             shaft,
             thickness,
             groove,
             width,
             land,
+            radial,
         })
     }
 
@@ -125,6 +137,30 @@ impl Circlip {
     pub fn room(self) -> f64 {
         self.width + self.land
     }
+
+    /// Its body on the bottom of its groove, from z = 0 upwards: of even width, its gap as wide and along x, its ears left out.
+    #[must_use]
+    pub fn solid(self) -> Option<Solid> {
+        let (inner, half) = (0.5 * self.groove, 0.5 * self.radial);
+        let outer = inner + self.radial;
+        let at = |radius: f64, y: f64| Point::new((radius * radius - y * y).sqrt(), y);
+        let arc = |start: Point, end: Point, turn: f64| {
+            let bulge = (0.25 * turn).tan();
+            Segment::Arc(Arc { start, end, bulge })
+        };
+        // Each circle in two arcs, less than half of it each.
+        let turn = |radius: f64| std::f64::consts::PI - (half / radius).asin();
+        let opposite = |radius: f64| Point::new(-radius, 0.0);
+        let outline = Outline::new(vec![
+            arc(at(outer, half), opposite(outer), turn(outer)),
+            arc(opposite(outer), at(outer, -half), turn(outer)),
+            Segment::Line(at(outer, -half), at(inner, -half)),
+            arc(at(inner, -half), opposite(inner), -turn(inner)),
+            arc(opposite(inner), at(inner, half), -turn(inner)),
+            Segment::Line(at(inner, half), at(outer, half)),
+        ]);
+        Solid::new(outline.ok()?, Vec::new(), 0.0, self.thickness).ok()
+    }
 }
 
 #[cfg(test)]
@@ -147,12 +183,22 @@ mod tests {
 
     #[test]
     fn a_ring_lies_in_its_groove_and_the_groove_in_the_shaft() {
-        for [shaft, thickness, groove, width, land] in CIRCLIPS {
+        for [shaft, thickness, groove, width, land, radial] in CIRCLIPS {
             assert!(groove < shaft && groove > 0.9 * shaft, "{shaft}");
             assert!(thickness < width && width < thickness + 0.2, "{shaft}");
             // DIN 471 asks for a land of three times the groove's depth, rounded.
             let depth = 0.5 * (shaft - groove);
             assert!((land - 3.0 * depth).abs() < 0.16, "{shaft}");
+            assert!(radial > depth && radial < 0.28 * shaft, "{shaft}");
+            let ring = Circlip::of_shaft(shaft).expect("a ring");
+            let body = ring.solid().expect("a body");
+            let (inner, half) = (0.5 * groove, 0.5 * radial);
+            let outer = inner + radial;
+            // The ring less its gap, a strip between two circles.
+            let sector = |r: f64| r * r * (half / r).asin() + half * (r * r - half * half).sqrt();
+            let ring = std::f64::consts::PI * (outer * outer - inner * inner);
+            let area = ring - (sector(outer) - sector(inner));
+            assert!((body.volume() - thickness * area).abs() < 1e-9, "{shaft}");
         }
     }
 }

@@ -1,0 +1,47 @@
+use centrode_mechanism::machine::Bearing;
+use centrode_mechanism::three_arm::ThreeArm;
+
+use crate::{Finding, Place, Report, Severity, Unit};
+
+/// Tells of shafts for which bearings are asked and none is as narrow as the carrier's plates are thick.
+pub(super) fn check_bearings(mechanism: &ThreeArm, report: &mut Report) {
+    let design = mechanism.design();
+    let wall = design.gearbox.wall;
+    if !design.gearbox.bearings {
+        return;
+    }
+    for (part, body) in [
+        ("sun", &design.sun),
+        ("intermediate", &design.intermediate),
+        ("planet", &design.planet),
+    ] {
+        let bore = body.bore;
+        if bore == 0.0 || mechanism.bearing(bore).is_some() {
+            continue;
+        }
+        let narrowest = Bearing::narrowest(bore).map(|bearing| bearing.width);
+        let why = match narrowest {
+            Some(width) => format!(
+                "the narrowest is {width} mm wide, the plates of the carrier are {wall} mm thick"
+            ),
+            None => format!("no bearing of series 618, 60 and 62 has a bore of {bore} mm"),
+        };
+        report.findings.push(Finding {
+            rule: "no-bearing",
+            severity: Severity::Warning,
+            message: format!(
+                "the shaft of {bore} mm of the {part} turns in the bare plates: {why}"
+            ),
+            measured: Some(wall),
+            required: narrowest,
+            unit: Unit::Millimetre,
+            remedy: Some(
+                "thicker plates (wall), or a bore of 5 to 10, 12, 15, 17, 20, 25, 30, 35 or 40 mm",
+            ),
+            place: Place {
+                part: Some(part.into()),
+                ..Place::default()
+            },
+        });
+    }
+}
