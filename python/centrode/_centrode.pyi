@@ -1118,6 +1118,7 @@ def reverse(
     split: Literal["powers", "mildest", "one-pair"] = "powers",
     bend_deg: _Real = 60.0,
     arms: _Count = 1,
+    control: bool = False,
     band: _Real | ArrayLike | None = None,
     open: bool = False,
     module: _Real | None = None,

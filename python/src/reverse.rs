@@ -155,7 +155,7 @@ impl Reversed {
         Some(self.eased_path()?.module)
     }
 
-    /// What else was wanted, and how far it is reached: records of goals.
+    /// Further wishes as goals, with how far they are reached.
     #[getter]
     fn goals<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
         record::goals(py, self.eased_path().map_or(&[], |eased| &eased.goals))

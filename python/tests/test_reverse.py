@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 import shapely
 import tomllib
+from scipy.interpolate import BSpline
 
 DRAWN = np.array(
     [
@@ -408,6 +409,27 @@ def test_what_else_is_wanted_is_reached_and_is_so_by_other_measures():
     copy = pickle.loads(pickle.dumps(made))
     assert np.array_equal(copy.eased, made.eased)
     assert copy.goals == made.goals
+
+
+def test_control_points_give_their_b_spline():
+    """The tip of the machine runs along SciPy's spline."""
+    made = ct.reverse(DRAWN, bend_deg=40, control=True)
+    count = len(DRAWN)
+    controls = DRAWN[np.arange(-1, count + 2) % count]
+    spline = BSpline(np.arange(-3, count + 4), controls, 3)
+    tip = machine_tip(made)
+    line = shapely.LineString(spline(np.linspace(0, count, 20001)))
+    assert max(line.distance(shapely.Point(p)) for p in tip) < 1e-3
+    with pytest.raises(ct.DesignError, match="not with open"):
+        ct.reverse(DRAWN, control=True, open=True)
+
+
+def machine_tip(made):
+    """Places of the tip by both bars alone."""
+    psi = np.linspace(0, 2 * np.pi, 501)
+    arm = psi - made.law(psi)
+    bars = [length * np.c_[np.cos(angle), np.sin(angle)] for length, angle in ((made.carrier, psi), (made.arm, arm))]
+    return np.array(made.axis) + bars[0] + bars[1]
 
 
 def test_an_aim_is_the_better_for_being_sought():

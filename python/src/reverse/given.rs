@@ -13,7 +13,7 @@ use super::eased::{self, Eased};
 use super::wished;
 use crate::array::{Rows, Values};
 use crate::count::Count;
-use crate::error::Answer;
+use crate::error::{Answer, Raised};
 use crate::wait::wait;
 use crate::word::Word;
 
@@ -41,6 +41,7 @@ pub(super) enum Given {
 ///         pair twice.
 ///     bend_deg: Angle from the carrier's first leg, to the intermediate gear, to its second, degrees.
 ///     arms: Number of arms.
+///     control: Whether the points are the control points of a closed cubic B-spline, which need not pass them.
 ///     band: Distance within which the path may pass its points, mm, one for all or an array (N,): it is eased there until its
 ///         gears bear full teeth as large as can be. Without an axis the search begins with the one of the bluntest gears.
 ///     open: Whether the points are the working part alone: the return from the last to the first is sought, too.
@@ -63,8 +64,8 @@ pub(super) enum Given {
 /// (125.612, 186.594, True)
 #[pyfunction]
 #[pyo3(
-    signature = (path, axis=None, *, split="powers", bend_deg=60.0, arms=Count::Fits(1), band=None, open=false, module=None, aim=None, wishes=None),
-    text_signature = "(path, axis=None, *, split='powers', bend_deg=60.0, arms=1, band=None, open=False, module=None, aim=None, wishes=None)"
+    signature = (path, axis=None, *, split="powers", bend_deg=60.0, arms=Count::Fits(1), control=false, band=None, open=false, module=None, aim=None, wishes=None),
+    text_signature = "(path, axis=None, *, split='powers', bend_deg=60.0, arms=1, control=False, band=None, open=False, module=None, aim=None, wishes=None)"
 )]
 #[expect(clippy::too_many_arguments, reason = "keywords")]
 pub(crate) fn reverse(
@@ -74,6 +75,7 @@ pub(crate) fn reverse(
     split: &str,
     bend_deg: f64,
     arms: Count,
+    control: bool,
     band: Option<Values>,
     open: bool,
     module: Option<f64>,
@@ -85,6 +87,16 @@ pub(crate) fn reverse(
     let kind: SplitKind = Word::of("split", split)?;
     let arms = arms.within("arms", 1, 12)?;
     let points = path.points("path")?;
+    let points = match (control, open) {
+        (true, true) => {
+            return Err(Raised::sentence(
+                "control",
+                "it goes with a whole path, not with open".into(),
+            ));
+        }
+        (true, false) => WantedPath::knots(&points),
+        (false, _) => points,
+    };
     let easing = eased::asked(band, module, open, aim, wishes.unwrap_or_default())?;
     wait(py, move || {
         if let Some(asked) = easing {

@@ -51,7 +51,7 @@ pub struct Easing {
     given: usize,
 }
 
-/// What is free about a path, and what is wanted of its machine.
+/// Room that a path has, and wishes about its machine.
 #[derive(Clone, Debug)]
 pub struct EasingSpec {
     /// Distance within which the path may pass each point, mm, or one for all.
@@ -60,9 +60,9 @@ pub struct EasingSpec {
     pub axis: Option<Point>,
     /// Angle from the carrier's first leg to its second, rad.
     pub bend: f64,
-    /// What is made the most of.
+    /// Figure that is made the most of.
     pub aim: Aim,
-    /// What else is wanted.
+    /// Further wishes.
     pub wishes: Wishes,
 }
 
@@ -92,7 +92,7 @@ pub struct EasedPath {
     /// Module up to which full teeth are surely sound, mm: on the pitch curves of the wanted path, where the axis found makes a
     /// machine for it, and on those of the eased one.
     pub module: (Option<f64>, f64),
-    /// What else was wanted, and how far it is reached.
+    /// Further wishes, and how far they are reached.
     pub goals: Vec<Goal>,
     /// Direction of the clamp less that of the arm, rad, where directions were wanted.
     pub clamp: Option<f64>,

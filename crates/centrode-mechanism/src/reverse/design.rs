@@ -37,13 +37,13 @@ pub struct PathDesign {
     /// Steps of the tables in which the laws are written; left out, as few as do.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub steps: Option<u32>,
-    /// What is sought where something is free; left out, the largest teeth where the path is eased or something is wished, else the
+    /// Figure that is made the most of where something is free; left out, the largest teeth where the path is eased or something is wished, else the
     /// mildest ratio.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub aim: Option<Aim>,
     /// The path.
     pub path: PathSpec,
-    /// What else is wanted.
+    /// Further wishes.
     #[serde(default, skip_serializing_if = "Wishes::is_free")]
     pub wishes: Wishes,
 }
@@ -58,6 +58,9 @@ pub struct PathSpec {
     /// CSV or SVG file that holds them instead, beside the design file.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub file: Option<String>,
+    /// Whether they are the control points of a closed cubic B-spline, which need not pass them.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub control: bool,
     /// Distance within which the path may pass each point, mm: it is eased there.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub band: Option<f64>,
@@ -75,7 +78,7 @@ pub struct PathSpec {
     pub module: Option<f64>,
 }
 
-/// What a search for a machine makes the most of.
+/// Figure that a search for a machine makes the most of.
 #[derive(Clone, Copy, Debug, Default, Deserialize, Eq, Hash, JsonSchema, PartialEq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Aim {
@@ -170,6 +173,9 @@ impl PathSpec {
         }
         for x in self.points.iter().flatten() {
             finite("points", *x)?;
+        }
+        if self.control && self.open {
+            return broken("control", Rule::Excludes("open"));
         }
         if self.band.is_some() && !self.tolerance.is_empty() {
             return broken("band", Rule::Excludes("tolerance"));

@@ -74,6 +74,20 @@ impl WantedPath {
         Self::of_degree(points, 5)
     }
 
+    /// Points of the closed uniform cubic B-spline with some control points at its knots, `(c(i-1) + 4 c(i) + c(i+1))/6`: the
+    /// path [`through`](Self::through) them is that spline.
+    ///
+    /// The last control point may repeat the first.
+    #[must_use]
+    pub fn knots(controls: &[Point]) -> Vec<Point> {
+        let closed = controls.len() > 1 && controls.first() == controls.last();
+        let controls = &controls[..controls.len() - usize::from(closed)];
+        let count = controls.len();
+        let at = |i: usize| controls[i % count].coords;
+        let knot = |i: usize| Point::from((at(i + count - 1) + at(i) * 4.0 + at(i + 1)) / 6.0);
+        (0..count).map(knot).collect()
+    }
+
     fn of_degree(points: &[Point], degree: usize) -> Result<Self, PathError> {
         for (i, p) in points.iter().enumerate() {
             let (number, x, y) = (i + 1, p.x, p.y);

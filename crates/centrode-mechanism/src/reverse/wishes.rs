@@ -14,7 +14,7 @@ use crate::gear::design::rule::{
 /// Most directions that are wanted along a path.
 const MOST_DIRECTIONS: usize = 200;
 
-/// What is wanted of a machine besides the path of its tip.
+/// Wishes about a machine besides the path of its tip.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Wishes {

@@ -37,6 +37,9 @@ pub(crate) struct Reverse {
         conflicts_with = "poses"
     )]
     pub(crate) band: Option<f64>,
+    /// The points are the control points of a closed cubic B-spline, which need not pass them
+    #[arg(long, conflicts_with_all = ["poses", "open"])]
+    pub(crate) control: bool,
     /// The points are the working part alone: the return from the last to the first is free, and sought for blunt gears
     #[arg(long, conflicts_with = "poses")]
     pub(crate) open: bool,

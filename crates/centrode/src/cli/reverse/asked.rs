@@ -14,7 +14,7 @@ const WITHIN: f64 = 0.01;
 
 /// A path and what is wanted of its machine, on the command line and in files.
 pub(super) struct Asked {
-    /// What is wanted; its points are those below.
+    /// The wishes; their points are those below.
     pub(super) design: PathDesign,
     pub(super) points: Vec<Point>,
     /// File of the points.
@@ -48,10 +48,13 @@ impl Asked {
             },
         };
         asked.take(command)?;
+        if asked.design.path.control {
+            asked.points = WantedPath::knots(&asked.points);
+        }
         Ok(asked)
     }
 
-    /// What is asked of a machine that takes key poses.
+    /// Wishes about a machine that takes key poses.
     pub(super) fn of_poses(source: Source, command: &Reverse) -> Result<Self, Failure> {
         let mut asked = Self {
             design: PathDesign::default(),
@@ -117,6 +120,7 @@ impl Asked {
             design.path.band = Some(band);
         }
         design.path.open |= command.open;
+        design.path.control |= command.control;
         design.path.crossing |= command.crossing;
         design.path.module = command.module.or(design.path.module);
         let path = &design.path;
