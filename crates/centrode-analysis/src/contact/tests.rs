@@ -141,16 +141,16 @@ fn gears_that_cannot_be_followed_have_no_certificate_and_it_says_where() {
         teeth = { addendum = "fitted" }
     "#;
     let design = GearPairDesign::from_toml(text).expect("a design");
-    let found = prove(&GearPair::resolve(&design).expect("a pair"));
-    let at = match &found {
-        Err(
-            ProofError::Unresolved { phi }
-            | ProofError::Apart { phi }
-            | ProofError::Step { phi, .. },
-        ) => *phi,
-        _ => f64::NAN,
+    let pair = GearPair::resolve(&design).expect("a pair");
+    let Err(ProofError::NoRoom { phi, overlap }) = prove(&pair) else {
+        panic!("no room");
     };
-    assert!((0.64..0.66).contains(&at), "{:?}", found.err());
+    // There the pair has no play, and lacks it by so much.
+    let contact = Contact::at(&pair, &[phi]);
+    assert!(
+        (contact.backlash[0] + overlap).abs() < 1e-9 && overlap > 1e-6,
+        "{phi} {overlap}"
+    );
 }
 
 /// Flanks of this driver end beside a cusp, where they bend by 25,000/mm.

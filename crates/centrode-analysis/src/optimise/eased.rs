@@ -26,6 +26,10 @@ const GREATEST: f64 = 2.0;
 const ROOM: f64 = 0.2;
 /// Evaluations of each of both searches.
 const EVALUATIONS: u64 = 6000;
+/// Searches, each within half of the bands of the one before, where none finds a better path.
+const HALVINGS: u32 = 6;
+/// Least module of full teeth, as a share of the centre distance, that other wishes leave: gears of less have hardly any teeth.
+const LEAST_MODULE: f64 = 1.0 / 600.0;
 /// Violation of a point of which there is no machine.
 const NONE: f64 = 1e3;
 
@@ -47,6 +51,8 @@ pub struct Easing {
     /// Module wanted, mm: then the moves are sought that reach it and are the least shares of their bands.
     wanted: Option<f64>,
     start: Vec<f64>,
+    /// Share of the bands within which points are moved.
+    reach: f64,
     /// Number of points that were given; the others are a free return.
     given: usize,
 }
@@ -154,6 +160,7 @@ impl Easing {
             wishes: spec.wishes.clone(),
             wanted: None,
             start: Vec::new(),
+            reach: 1.0,
             given: given.min(points.len()),
         };
         easing.start = vec![0.0; easing.moves()];
@@ -201,8 +208,20 @@ impl Easing {
         if wanted.is_some() {
             found.aim = Aim::Module;
         }
-        if let Some((point, _)) = best(&found, wanted.map(|module| -module)) {
-            found.start = point;
+        let start = found.evaluate(&found.start);
+        for _ in 0..HALVINGS {
+            let Some((point, ended)) = best(&found, wanted.map(|module| -module)) else {
+                break;
+            };
+            let is_better = found.evaluate(&point).order(&start).is_lt();
+            if is_better {
+                found.start = point;
+            }
+            // Bands as wide as the path leave hardly any machine to be found.
+            if is_better || ended == Ended::Stopped || found.moves() == 0 {
+                break;
+            }
+            found.reach *= 0.5;
         }
         found.aim = self.aim;
         let is_reached = |easing: &Self| {
@@ -256,7 +275,7 @@ impl Easing {
             return vec![0.0; count];
         }
         if count <= SINGLE {
-            return variables[..count].to_vec();
+            return variables[..count].iter().map(|x| x * self.reach).collect();
         }
         let (mean, waves) = variables[..self.moves()].split_at(1);
         let share = |i: usize| {
@@ -266,7 +285,7 @@ impl Easing {
                 wave[0] * cos + wave[1] * sin
             });
             let sum = mean[0] + waves.sum::<f64>();
-            sum / (1.0 + sum * sum).sqrt()
+            self.reach * sum / (1.0 + sum * sum).sqrt()
         };
         (0..count).map(share).collect()
     }
@@ -332,6 +351,10 @@ impl Problem for Easing {
         };
         let (goals, _) = wished::goals(&self.wishes, &chain, self.bend, self.points.len());
         let mut constraints = wished::violations(&goals);
+        if !self.wishes.is_free() || self.aim != Aim::Module {
+            let least = LEAST_MODULE * wished::leg(&chain, self.bend);
+            constraints.push(least / self.borne(&chain) - 1.0);
+        }
         let moved = self.moves() > 0;
         if let Some(wanted) = self.wanted {
             constraints.push(wanted / self.borne(&chain) - 1.0);

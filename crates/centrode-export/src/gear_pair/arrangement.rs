@@ -3,7 +3,6 @@ use centrode_mechanism::gear::{Gear, GearPair, Member};
 use centrode_mechanism::machine::{Blank, Callout, Datum, Fit, Machine, Part, Supply};
 
 use crate::sheet::{fit, number, range};
-use crate::turned;
 
 /// Findings of an analysis of the contact, for the tables of sheets: least and greatest number of pairs of teeth in contact,
 /// least and greatest play along the common normal, mm.
@@ -105,17 +104,11 @@ fn list_shafts(machine: &mut Machine, gear: &Gear, name: &str, links: Vec<usize>
     if gear.body().bore > 0.0 && !links.is_empty() {
         let body = gear.body();
         let fit = Fit::new(name, body.bore, [&body.bore_fit, &body.shaft_fit]);
-        let keyway = body.keyway.map(|hub| {
-            let own = hub.of_shaft();
-            let rest = fit::shaft_depth(body.bore, own);
-            let width = fit::keyway(own.width, turned::KEYWAY);
-            format!(", keyway {width} wide, {rest} of the diameter left")
-        });
         machine.part(Part {
             name: name.into(),
             links: links.clone(),
             supply: Supply::Given,
-            remark: fit::shaft(&fit) + &keyway.unwrap_or_default(),
+            remark: fit::shaft(&fit),
             ..Part::default()
         });
         machine.fit(fit);

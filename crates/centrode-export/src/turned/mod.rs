@@ -15,7 +15,6 @@ use crate::sheet::fit;
 use crate::{ExportError, Package};
 pub(crate) use across::{across, cutting_plane};
 pub(crate) use centre::{centre, centre_mark};
-pub(crate) use sheet::KEYWAY;
 
 /// Lists turned parts in a machine, their size with its limits as the remark.
 pub(crate) fn list(all: &[TurnedPieces], machine: &mut Machine) {

@@ -13,7 +13,7 @@ use crate::sheet::{
 /// Letter of the section; datums have the first two.
 const SECTION: char = 'C';
 /// Tolerance class of a keyway in a shaft, ISO 286.
-pub(crate) const KEYWAY: &str = "N9";
+const KEYWAY: &str = "N9";
 /// Tolerance class of the width of a ring's groove, ISO 286.
 const GROOVE: &str = "H13";
 /// Places of lengths.

@@ -68,6 +68,22 @@ pub enum Over {
 }
 
 impl ComposedGoalSpec {
+    /// Goal of a least clearance of two bodies, or of a body and an obstacle, mm.
+    pub(super) fn clearance([one, other]: [&str; 2], least: f64) -> Self {
+        Self {
+            figure: format!("clearance({one}, {other})"),
+            title: format!("clearance of {one} from {other}"),
+            over: Some(Over::Least),
+            at: None,
+            within: Vec::new(),
+            course: None,
+            at_least: Some(least),
+            at_most: None,
+            between: None,
+            scale: None,
+        }
+    }
+
     /// Figure and where it counts, in words.
     #[must_use]
     pub fn words(&self) -> String {

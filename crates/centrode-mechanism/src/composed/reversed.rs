@@ -5,8 +5,8 @@ use centrode_geometry::{Extreme, Point, Vector, greatest};
 use thiserror::Error;
 
 use super::{
-    ComposedBodySpec, ComposedCopiesSpec, ComposedDesign, ComposedGearSpec, ComposedLawSpec,
-    ComposedMeshSpec, GearRole,
+    ComposedBodySpec, ComposedCopiesSpec, ComposedDesign, ComposedGearSpec, ComposedGoalSpec,
+    ComposedLawSpec, ComposedMeshSpec, GearRole,
 };
 use crate::gear::design::{Addendum, BodySpec, GearPairDesign};
 use crate::gear::pitch::{PitchSpec, Transmission};
@@ -115,11 +115,16 @@ impl ReversedMachine {
         fewest_steps(of_steps, |made| made.tip_error.value <= enough)
     }
 
-    /// The machine with obstacles in the places that it shall keep out of, for its check to measure.
+    /// The machine with obstacles in the places that it shall keep out of, and as goals the clearances of its bodies from them.
     #[must_use]
     pub fn with_obstacles(mut self, keep_out: &BTreeMap<String, KeepOut>) -> Self {
-        let obstacle = |(name, shape): (&String, &KeepOut)| (name.clone(), shape.into());
-        self.design.obstacles = keep_out.iter().map(obstacle).collect();
+        for (name, shape) in keep_out {
+            self.design.obstacles.insert(name.clone(), shape.into());
+            for body in KeepOut::BODIES {
+                let goal = ComposedGoalSpec::clearance([body, name], shape.clearance);
+                self.design.goals.insert(format!("{body}-{name}"), goal);
+            }
+        }
         self
     }
 

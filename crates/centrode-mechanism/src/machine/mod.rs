@@ -43,7 +43,7 @@ pub use law::{Constant, Linear, Piecewise};
 pub use load::{Axes, Load, STANDARD_GRAVITY};
 pub use part::{Part, Supply};
 pub use sound::{MachineError, loose_link};
-pub use standard::{Bearing, CapScrew, Circlip, Dowel, Key, allowed_pressure};
+pub use standard::{Bearing, Circlip, Dowel, Key, allowed_pressure};
 pub use turned::{SeatedKey, TurnedPart, TurnedPiece, TurnedPieces, TurnedStep};
 
 /// Rigid links, and how each of them moves with the one input.

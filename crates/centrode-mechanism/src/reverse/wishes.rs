@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use centrode_geometry::{Outline, Point};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -11,6 +12,8 @@ use crate::gear::design::rule::{
     Rule, broken, file_name, finite, in_range, not_negative, positive,
 };
 
+/// Greatest coordinate of a shape, mm.
+const FARTHEST: f64 = 1e6;
 /// Most directions that are wanted along a path.
 const MOST_DIRECTIONS: usize = 200;
 
@@ -186,13 +189,16 @@ impl Wishes {
             };
             return broken("directions", rule);
         }
-        let is_point =
-            |key: &str, number: usize| in_range(key, number as f64, [1.0, points as f64], "");
+        // How many points a file holds is not known before it is read.
+        let is_point = |key: &str, number: usize| match points {
+            usize::MAX => positive(key, number as f64),
+            points => in_range(key, number as f64, [1.0, points as f64], ""),
+        };
         for (i, wanted) in self.directions.iter().enumerate() {
             let key = |word: &str| format!("directions[{i}].{word}");
             is_point(&key("point"), wanted.point)?;
             finite(&key("direction_deg"), wanted.direction)?;
-            positive(&key("tolerance_deg"), wanted.tolerance)?;
+            positive(&key("tolerance_deg"), degrees::rounded(wanted.tolerance))?;
         }
         if let Some(turn) = self.turn {
             is_point("turn.from", turn.from)?;
@@ -214,12 +220,19 @@ impl Wishes {
         self.keep_out.iter().try_for_each(|(name, shape)| {
             let key = format!("keep_out.{name}");
             file_name(&key, name)?;
+            let is_body = |body: &&str| name.split('-').next() == Some(*body);
+            if name == "frame" || KeepOut::BODIES.iter().any(is_body) {
+                return broken(&key, Rule::Excludes("a body of that name"));
+            }
             shape.validate().map_err(|e| e.inside(&key))
         })
     }
 }
 
 impl KeepOut {
+    /// Bodies of the machine that keep out of it.
+    pub(crate) const BODIES: [&'static str; 4] = ["arm", "carrier", "idler", "planet"];
+
     fn validate(&self) -> Result<(), SpecError> {
         not_negative("clearance", self.clearance)?;
         let is_circle = self.center.is_some() || self.radius.is_some();
@@ -230,7 +243,8 @@ impl KeepOut {
             _ if is_circle => return broken("center", Rule::Excludes("another shape")),
             _ => return broken("below", Rule::Excludes("corners")),
         }
-        finite("below", self.below.unwrap_or(0.0))?;
+        let below = self.below.unwrap_or(0.0);
+        in_range("below", below, [-FARTHEST, FARTHEST], " mm")?;
         if is_circle {
             let Some(center) = self.center else {
                 return broken("center", Rule::Needed("with a radius"));
@@ -238,13 +252,21 @@ impl KeepOut {
             let Some(radius) = self.radius else {
                 return broken("radius", Rule::Needed("with a center"));
             };
-            center.iter().try_for_each(|x| finite("center", *x))?;
-            return positive("radius", radius);
+            for x in center {
+                in_range("center", x, [-FARTHEST, FARTHEST], " mm")?;
+            }
+            return in_range("radius", radius, [f64::MIN_POSITIVE, FARTHEST], " mm");
         }
         if !self.corners.is_empty() && self.corners.len() < 3 {
             return broken("corners", Rule::Needed("as three or more"));
         }
-        let all = self.corners.iter().flatten();
-        all.copied().try_for_each(|x| finite("corners", x))
+        for x in self.corners.iter().flatten() {
+            in_range("corners", *x, [-FARTHEST, FARTHEST], " mm")?;
+        }
+        let corners: Vec<Point> = self.corners.iter().map(|c| Point::from(*c)).collect();
+        if !corners.is_empty() && Outline::polygon(&corners).crossing().is_some() {
+            return broken("corners", Rule::Needed("in order: two of its sides cross"));
+        }
+        Ok(())
     }
 }

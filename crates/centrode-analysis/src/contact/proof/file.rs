@@ -107,6 +107,16 @@ pub enum ProofError {
         /// Driver angle, rad.
         phi: f64,
     },
+    /// The gears have no room for each other.
+    #[error(
+        "at the driver angle {phi:.6} rad the gears penetrate each other however the driven gear stands: pushed on it would stand         {overlap:.3e} rad beyond where it stands pushed back; take more backlash, a pitch curve of gentler curvature, or more         teeth of a smaller module"
+    )]
+    NoRoom {
+        /// Driver angle, rad.
+        phi: f64,
+        /// Missing room, rad of the driven gear.
+        overlap: f64,
+    },
     /// Holding features change too often to be told apart.
     #[error(
         "what holds the driven gear at the driver angle {phi:.9} rad cannot be told within {SHORTEST} rad"

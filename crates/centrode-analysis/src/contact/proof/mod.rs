@@ -30,6 +30,9 @@ use track::{Sample, Side, Track};
 /// Half of the width of every proven seat, rad.
 const HALF_WIDTH: f64 = 4e-10;
 
+/// Play below zero, rad, that the widths of both seats hide.
+const MOST_OVERLAP: f64 = 4.0 * HALF_WIDTH;
+
 /// Stretches a driver pitch to begin with.
 const STRETCHES: u32 = 4;
 
@@ -271,6 +274,12 @@ impl Prover<'_> {
             ..Sample::default()
         };
         let seats = self.meshing.seats(&candidates, phi, law);
+        if let [Some(on), Some(back)] = &seats {
+            let overlap = on.angle - back.angle;
+            if overlap > MOST_OVERLAP {
+                return Err(ProofError::NoRoom { phi, overlap });
+            }
+        }
         for (side, seat) in [Side::On, Side::Back].into_iter().zip(seats) {
             let seat = seat.ok_or(ProofError::Apart { phi })?;
             out.held[side as usize] = seat.features();

@@ -11,6 +11,9 @@ use crate::{Goal, Unit};
 const LOOKS: usize = 192;
 /// Size of a miss that leaves half the progress, as a share of the reach of the machine, and of ratios.
 const SCALE: f64 = 0.1;
+/// Names of goals that are distances from shapes, and what is spared of these, mm.
+const KEEP_OUT: &str = "keep-out-";
+const SPARE: f64 = 5e-3;
 /// That of a turn, rad.
 const TURN: f64 = 0.2;
 
@@ -22,7 +25,7 @@ pub(super) fn goals(
     bend: f64,
     points: usize,
 ) -> (Vec<Goal>, Option<f64>) {
-    let leg = 0.5 * chain.carrier() / (0.5 * bend).cos();
+    let leg = leg(chain, bend);
     let size = SCALE * (chain.carrier() + chain.arm());
     let [least, greatest] = chain.ratios().map(|ratio| ratio.value);
     let figures = [
@@ -143,7 +146,7 @@ pub(super) fn goals(
         let gap = Room::new(shape).clearance(chain, bend);
         let title = format!("distance of the arm from {name}");
         add(
-            format!("keep-out-{name}"),
+            format!("{KEEP_OUT}{name}"),
             title,
             gap,
             wanted,
@@ -157,12 +160,19 @@ pub(super) fn goals(
     )
 }
 
-/// Violations of goals, each by its own scale.
+/// Centre distance of the gears, mm.
+pub(super) fn leg(chain: &TwoBar, bend: f64) -> f64 {
+    0.5 * chain.carrier() / (0.5 * bend).cos()
+}
+
+/// Violations of goals, each by its own scale; of a distance a little is spared for what a check of the bodies loses.
 pub(super) fn violations(goals: &[Goal]) -> Vec<f64> {
-    goals
-        .iter()
-        .map(|goal| -goal.margin.unwrap_or(0.0) / goal.scale)
-        .collect()
+    let violation = |goal: &Goal| {
+        let is_distance = goal.name.starts_with(KEEP_OUT);
+        let spare = if is_distance { SPARE } else { 0.0 };
+        (spare - goal.margin.unwrap_or(0.0)) / goal.scale
+    };
+    goals.iter().map(violation).collect()
 }
 
 /// An angle within half a turn either way.

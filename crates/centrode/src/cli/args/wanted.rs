@@ -25,7 +25,7 @@ pub(crate) struct Reverse {
     /// out, the largest teeth where the path is eased or more is wanted of the machine, else the mildest ratio
     #[arg(long, conflicts_with = "poses", value_parser = PossibleValuesParser::new(Aim::NAMES.map(|(name, _)| name)))]
     pub(crate) aim: Option<String>,
-    /// Axis of the carrier, mm; left out, the mildest: that of the least change of the gears' ratio
+    /// Axis of the carrier, mm; left out, it is sought on and about the path: the mildest, or the best by --aim
     #[arg(long, value_parser = place, allow_hyphen_values = true, value_name = "X,Y")]
     pub(crate) axis: Option<[f64; 2]>,
     /// Let the path pass within so far of its points, and ease it there until its gears are as blunt as can be; a column headed
