@@ -144,8 +144,7 @@ EXEMPT = {
         PROOF: (
             r"some 1e-9 mm",
             r"\| [\d.]+ s(?= \|)",
-            r"is refused from 2\.4121 to 2\.4143 rad[^:]*: a corner comes nearer than 0\.001 mm",
-            r"^\| (?:`two-stage`|`three-arm-from-poses`|the press of).*",
+            r"^\| (?:`two-stage`|`three-arm-all-goals`|`three-arm-from-poses`|the press of).*",
             r"\| \d+ \| [\d.]+ s \|$",
             r"Of 1,000 defects",
         ),
@@ -164,10 +163,11 @@ EXEMPT = {
             r"band of its own: 0 where",
             r"Of more than 24 points",
             r"up to 200 points",
+            r"\(2 where it is left out\)",
         ),
         RUST: (r"near 1e-9 rad for q = 400", r"of a module of 0\.11 mm"),
         TIME: (r"^## What it costs\n(?:.*\n)*",),
-        INPUT: (r"at \(260, 160\)", r"1 for round gears", r"nearer it stays to 1"),
+        INPUT: (r"at \(260, 160\)", r"1 for round gears", r"nearer it stays to 1", r"ratio is nearest to 1"),
         FORMULA: (r"\(R \+ rho\)/2 and \(R - rho\)/2", r"\(carrier/2\)/cos\(bend/2\)", r"bend [-+] 180"),
     },
     "docs/strong-laws.md": {

@@ -124,7 +124,7 @@ PAGES = {
         *(Said(f"| `{name}`... s | {{}} MB | {{}} | {{}} |", lambda name=name: proof(name)[0]) for name in PROVED),
         Said("at most {<} rad in the shipped pairs", lambda: max(proof(name)[1] for name in PROVED)),
         Said("Of the {} laws", laws),
-        Said("five deep lobes ends at {} rad", lambda: lost("limit_five_lobe_deep")),
+        Said("five deep lobes penetrate each other at {} rad", lambda: lost("limit_five_lobe_deep")),
         Said("mixed harmonics at {} rad", lambda: lost("limit_mixed_harmonics")),
     ],
     "docs/strong-laws.md": [

@@ -202,8 +202,7 @@ impl Easing {
             let (search, ended) = searched.ok()?;
             evaluations += search.evaluations();
             let best = search.best();
-            // Wishes out of reach are come as near to as can be.
-            (best.evaluation.violation() < NONE).then_some((best.point, ended))
+            Some((best.point, ended))
         };
         if wanted.is_some() {
             found.aim = Aim::Module;
@@ -213,6 +212,7 @@ impl Easing {
             let Some((point, ended)) = best(&found, wanted.map(|module| -module)) else {
                 break;
             };
+            // Wishes out of reach are come as near to as can be.
             let is_better = found.evaluate(&point).order(&start).is_lt();
             if is_better {
                 found.start = point;
@@ -233,6 +233,7 @@ impl Easing {
             found.wanted = wanted;
             if let Some((point, ended)) = best(&found, None)
                 && ended != Ended::Stopped
+                && found.evaluate(&point).violation() < NONE
             {
                 found.start = point;
             }

@@ -109,7 +109,7 @@ pub enum ProofError {
     },
     /// The gears have no room for each other.
     #[error(
-        "at the driver angle {phi:.6} rad the gears penetrate each other however the driven gear stands: pushed on it would stand         {overlap:.3e} rad beyond where it stands pushed back; take more backlash, a pitch curve of gentler curvature, or more         teeth of a smaller module"
+        "at the driver angle {phi:.6} rad the gears penetrate each other however the driven gear stands: pushed on it would stand {overlap:.3e} rad beyond where it stands pushed back; take more backlash, a pitch curve of gentler curvature, or more teeth of a smaller module"
     )]
     NoRoom {
         /// Driver angle, rad.

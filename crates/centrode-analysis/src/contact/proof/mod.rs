@@ -30,8 +30,8 @@ use track::{Sample, Side, Track};
 /// Half of the width of every proven seat, rad.
 const HALF_WIDTH: f64 = 4e-10;
 
-/// Play below zero, rad, that the widths of both seats hide.
-const MOST_OVERLAP: f64 = 4.0 * HALF_WIDTH;
+/// Missing room, in modules at the centre distance, that is none of the seats' own rounding.
+const OVERLAP: f64 = 1e-4;
 
 /// Stretches a driver pitch to begin with.
 const STRETCHES: u32 = 4;
@@ -276,7 +276,7 @@ impl Prover<'_> {
         let seats = self.meshing.seats(&candidates, phi, law);
         if let [Some(on), Some(back)] = &seats {
             let overlap = on.angle - back.angle;
-            if overlap > MOST_OVERLAP {
+            if overlap * a > OVERLAP * self.meshing.module {
                 return Err(ProofError::NoRoom { phi, overlap });
             }
         }

@@ -49,6 +49,12 @@ fn within_a_band_gears_grow_blunter_and_no_point_leaves_it() {
 }
 
 #[test]
+fn a_band_as_wide_as_the_path_is_no_worse_than_a_narrow_one() {
+    let [narrow, wide] = [5.0, 200.0].map(|band| search(&easing(band, [260.0, 160.0]), None));
+    assert!(wide.module.1 > narrow.module.1, "{:?}", wide.module);
+}
+
+#[test]
 fn a_module_wanted_is_reached_with_less_than_the_whole_band() {
     let easing = easing(5.0, [260.0, 160.0]);
     let all = search(&easing, None);
