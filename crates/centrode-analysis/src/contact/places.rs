@@ -111,13 +111,15 @@ impl Meshing<'_> {
                 && self.driver.curvature(i).1 + self.driven.curvature(j).1 > 0.0
             {
                 let known = self.memory.iter().find(|m| (m.0, m.1) == (i, j));
-                let bend = self.driver.curvature(i).1.max(self.driven.curvature(j).1);
-                let is_sharp = bend * module > SHARP;
+                let is_sharp = || {
+                    let bends = [self.driver.curvature(i).1, self.driven.curvature(j).1];
+                    bends[0].max(bends[1]) * module > SHARP
+                };
                 // Where the sample before is far off, what is known from it may lead nowhere.
                 let touch = known
                     .and_then(|m| touch::parts(a, b, pose, m.2))
                     .or_else(|| touch::parts(a, b, pose, stretch.facing(&self.stretches[j])))
-                    .or_else(|| is_sharp.then(|| touch::sharp_parts(a, b, pose)).flatten());
+                    .or_else(|| is_sharp().then(|| touch::sharp_parts(a, b, pose)).flatten());
                 keep(touch, kind, (i, j), None);
             }
             let near_corner = |corner: &Corner, other: &Part<'_>, mate: &Stretch, point: Vector| {

@@ -353,7 +353,7 @@ impl Problem for Easing {
         let (goals, _) = wished::goals(&self.wishes, &chain, self.bend, self.points.len());
         let mut constraints = wished::violations(&goals);
         if !self.wishes.is_free() || self.aim != Aim::Module {
-            let least = LEAST_MODULE * wished::leg(&chain, self.bend);
+            let least = LEAST_MODULE * chain.center_distance(self.bend);
             constraints.push(least / self.borne(&chain) - 1.0);
         }
         let moved = self.moves() > 0;

@@ -215,7 +215,7 @@ fn pairs(
     split: &Split,
     [first, second]: [Vec<f64>; 2],
 ) -> Vec<(&'static str, GearPairDesign)> {
-    let leg = leg(chain.carrier(), split.bend());
+    let leg = chain.center_distance(split.bend());
     let pair = |table: Vec<f64>| table_pair(table, leg);
     match split.kind() {
         SplitKind::OnePair => vec![(STAGE, pair(first))],
@@ -265,7 +265,7 @@ fn design(
     pairs: Vec<(&'static str, GearPairDesign)>,
     arms: u32,
 ) -> ComposedDesign {
-    let leg = leg(chain.carrier(), split.bend());
+    let leg = chain.center_distance(split.bend());
     let named = |name: &str| name.to_owned();
     let (first, second) = match pairs.len() {
         1 => (STAGE, STAGE),

@@ -12,6 +12,12 @@ use super::split::SHARE;
 const MOST_PIECES: usize = 64;
 
 impl TwoBar {
+    /// Centre distance of the gears, mm: length of both legs of the carrier. `bend` is the angle from the first to the second, rad.
+    #[must_use]
+    pub fn center_distance(&self, bend: f64) -> f64 {
+        leg(self.carrier(), bend)
+    }
+
     /// Greatest curvature of the four pitch curves of the split by powers, as a multiple of one over the centre distance, and the
     /// path's parameter there: exact to the float limit.
     #[must_use]
@@ -23,7 +29,7 @@ impl TwoBar {
     /// module of full teeth. `bend` is the angle from the carrier's first leg to its second, rad.
     #[must_use]
     pub fn curvatures(&self, bend: f64) -> [f64; 2] {
-        let leg = leg(self.carrier(), bend);
+        let leg = self.center_distance(bend);
         let greatest = |sign: f64| {
             let most =
                 |curvatures: [f64; 4]| curvatures.iter().fold(0.0_f64, |s, c| s.max(sign * c));
@@ -36,7 +42,7 @@ impl TwoBar {
     /// from the carrier's first leg to its second, rad.
     #[must_use]
     pub fn least_radius(&self, bend: f64) -> f64 {
-        leg(self.carrier(), bend) / self.sharpness().value
+        self.center_distance(bend) / self.sharpness().value
     }
 
     /// The sharpness on as many pieces of the path as a map looks at.

@@ -7,7 +7,7 @@ use crate::composed::{free_backlash, free_body};
 use crate::degrees;
 use crate::gear::design::Addendum;
 use crate::gear::pitch::{PitchSpec, Transmission};
-use crate::reverse::{KeyPoses, leg};
+use crate::reverse::KeyPoses;
 
 /// Reason why key poses give no three-arm mechanism.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
@@ -50,7 +50,7 @@ impl ThreeArmDesign {
         })?;
         let chain = &poses.chain;
         let [carrier, arm] = poses.start;
-        let distance = leg(chain.carrier(), bend);
+        let distance = chain.center_distance(bend);
         let pitch = PitchSpec::Transmission(Transmission {
             center_distance: Some(distance),
             ..Transmission::expression(law.formula())

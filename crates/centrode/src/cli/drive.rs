@@ -10,7 +10,7 @@ use crate::cli::failure::Failure;
 use crate::cli::input::Source;
 use crate::cli::output;
 use crate::cli::progress::Progress;
-use crate::cli::reverse::{least_radii, line, range, teeth};
+use crate::cli::reverse::{least_radii, line, teeth, words::range};
 
 /// Finds the gears of a drive, prints what they do and writes the design.
 pub(crate) fn run(command: &Drive, out: &mut impl Write) -> Result<Status, Failure> {

@@ -1,6 +1,7 @@
-mod asked;
+pub(crate) mod asked;
 mod found;
 mod posed;
+pub(crate) mod words;
 
 use std::io::Write;
 use std::path::Path;
@@ -11,7 +12,6 @@ use crate::mechanism::gear::design::Addendum;
 use crate::mechanism::reverse::{
     AxisMap, PathDesign, ReversedMachine, Split, SplitKind, TwoBar, WantedPath,
 };
-use crate::mechanism::three_arm::design::Direction;
 
 use crate::cli::Status;
 use crate::cli::args::Reverse;
@@ -21,7 +21,7 @@ use crate::cli::output;
 use crate::cli::progress::Progress;
 
 use asked::Asked;
-use found::{Found, told};
+use found::Found;
 
 /// Width of the names of figures.
 const NAME: usize = 24;
@@ -61,9 +61,7 @@ pub(crate) fn run(command: &Reverse, out: &mut impl Write) -> Result<Status, Fai
     let made = ReversedMachine::new(chain, &split, design.arms, design.steps);
     let made = made.map_err(|error| Failure::Files(Box::new(error)))?;
     let mut made = made.with_obstacles(&design.wishes.keep_out);
-    if design.name != PathDesign::default().name {
-        made.design.name.clone_from(&design.name);
-    }
+    made.design.name.clone_from(&design.name);
     if !design.title.is_empty() {
         made.design.title.clone_from(&design.title);
     }
@@ -100,10 +98,6 @@ pub(crate) fn line(out: &mut impl Write, name: &str, words: &str) -> std::io::Re
     writeln!(out, "{name:NAME$}{words}")
 }
 
-pub(crate) fn range(ratios: [f64; 2]) -> String {
-    format!("{:.4} to {:.4}", ratios[0], ratios[1])
-}
-
 /// Source of the path or the poses.
 fn source(command: &Reverse) -> Result<Source, Failure> {
     let path = command.path.as_deref().unwrap_or(Path::new("-"));
@@ -117,31 +111,16 @@ fn chosen(
     out: &mut impl Write,
 ) -> std::io::Result<()> {
     let (chain, why) = (&found.chain, &found.why);
-    let mm = |x: f64| Unit::Millimetre.tell(x);
-    let factor = chain.unevenness().exp();
     let axis = chain.axis();
     let at = format!("{:.4}, {:.4} mm, {why}", axis.x, axis.y);
     line(out, "axis of the carrier", &at)?;
-    let sense = match chain.direction() {
-        Direction::CounterClockwise => "counter-clockwise",
-        Direction::Clockwise => "clockwise",
-    };
-    line(
-        out,
-        "carrier",
-        &format!("{}, turns {sense}", mm(chain.carrier())),
-    )?;
-    line(out, "arm", &mm(chain.arm()))?;
-    let ratios = range(chain.ratios().map(|ratio| ratio.value));
-    let words = format!("{ratios}, within a factor of {factor:.4} of 1");
-    line(out, "ratio", &words)?;
-    let radius = chain.least_radius(split.bend());
-    line(
-        out,
-        "least convex radius",
-        &format!("{} by powers", mm(radius)),
-    )?;
-    line(out, "tip passes the shaft at", &mm(chain.shaft_distance()))?;
+    for (name, words) in words::bars(chain) {
+        line(out, name, &words)?;
+    }
+    let (name, words) = words::least_radius(chain, split.bend());
+    line(out, name, &words)?;
+    let shaft = Unit::Millimetre.tell(chain.shaft_distance());
+    line(out, "tip passes the shaft at", &shaft)?;
     let words = format!(
         "{}, bend {bend} deg, {arms} {}",
         split.kind().name(),
@@ -154,27 +133,18 @@ fn gears(made: &ReversedMachine, out: &mut impl Write) -> std::io::Result<()> {
     for (name, radii) in made.design.pairs.keys().zip(&made.least_radii) {
         least_radii(out, name, *radii)?;
     }
-    let error = format!(
-        "{} at most, with laws of {} steps",
-        Unit::Millimetre.tell(made.tip_error.value),
-        made.steps
-    );
-    line(out, "tip off the path", &error)
+    let (name, words) = words::tip_error(made);
+    line(out, name, &words)
 }
 
 /// Prints the least convex radii of a pair's pitch curves.
 pub(crate) fn least_radii(
     out: &mut impl Write,
     pair: &str,
-    [driver, driven]: [f64; 2],
+    radii: [f64; 2],
 ) -> std::io::Result<()> {
-    let mm = |x: f64| Unit::Millimetre.tell(x);
-    let words = format!(
-        "least convex radius {} (driver), {} (driven)",
-        mm(driver),
-        mm(driven)
-    );
-    line(out, &format!("pair {pair}"), &words)
+    let (name, words) = words::least_radii(pair, radii);
+    line(out, &name, &words)
 }
 
 /// Prints how many of the axes tried are possible.

@@ -16,6 +16,14 @@ fn mild() -> String {
     (0..40).map(point).collect()
 }
 
+/// Number after some words in the line that begins with a name.
+fn figure(told: &str, name: &str, before: &str) -> f64 {
+    let line = told.lines().find(|line| line.starts_with(name));
+    let after = line.and_then(|line| line.split(before).nth(1));
+    let word = after.and_then(|words| words.split(' ').next());
+    word.and_then(|x| x.parse().ok()).expect("a number")
+}
+
 #[test]
 fn what_was_chosen_is_printed() {
     let run = fed(
@@ -264,18 +272,7 @@ fn a_path_is_eased_within_a_band_until_full_teeth_are_large() {
     let run = fed(&asked, DRAWN.as_bytes());
     let told = text(&run.stdout);
     assert_eq!(run.status.code(), Some(0), "{}", text(&run.stderr));
-    let figure = |name: &str, before: &str| -> f64 {
-        let line = told
-            .lines()
-            .find(|line| line.starts_with(name))
-            .expect("a line");
-        let after = line.split(before).nth(1).expect("a figure");
-        after
-            .split(' ')
-            .next()
-            .and_then(|x| x.parse().ok())
-            .expect("a number")
-    };
+    let figure = |name: &str, before: &str| figure(&told, name, before);
     assert!(figure("path eased", "by ") <= 5.0, "{told}");
     assert!(
         figure("full teeth", "module ") > 2.0 && figure("full teeth", "mm, ") < 0.2,
@@ -424,12 +421,7 @@ fn wishes_are_told_with_their_figures_and_what_is_out_of_reach_with_the_miss() {
         told.contains("2 arms") && told.contains("260.0000, 160.0000 mm, as asked"),
         "{told}"
     );
-    let figure = |name: &str, before: &str| -> f64 {
-        let line = told.lines().find(|line| line.starts_with(name));
-        let after = line.and_then(|line| line.split(before).nth(1));
-        let word = after.and_then(|words| words.split(' ').next());
-        word.and_then(|x| x.parse().ok()).expect("a number")
-    };
+    let figure = |name: &str, before: &str| figure(&told, name, before);
     let missed = figure("goal 1", "missed by ");
     assert!(missed > 5.0, "{told}");
     assert!(

@@ -25,7 +25,7 @@ pub(super) fn goals(
     bend: f64,
     points: usize,
 ) -> (Vec<Goal>, Option<f64>) {
-    let leg = leg(chain, bend);
+    let leg = chain.center_distance(bend);
     let size = SCALE * (chain.carrier() + chain.arm());
     let [least, greatest] = chain.ratios().map(|ratio| ratio.value);
     let figures = [
@@ -158,11 +158,6 @@ pub(super) fn goals(
         goals,
         (!wishes.directions.is_empty()).then_some(clamp).flatten(),
     )
-}
-
-/// Centre distance of the gears, mm.
-pub(super) fn leg(chain: &TwoBar, bend: f64) -> f64 {
-    0.5 * chain.carrier() / (0.5 * bend).cos()
 }
 
 /// Violations of goals, each by its own scale; of a distance a little is spared for what a check of the bodies loses.

@@ -3,14 +3,16 @@ use std::path::Path;
 use crate::analysis::Unit;
 use crate::geometry::Point;
 use crate::mechanism::design::{DesignFamily, DesignFile};
-use crate::mechanism::reverse::{Aim, DrawnPath, PathDesign, SplitKind, WantedPath, WantedPoints};
+use crate::mechanism::reverse::{
+    Aim, DrawnPath, PathDesign, PathError, SplitKind, WantedPath, WantedPoints,
+};
 
 use crate::cli::args::Reverse;
 use crate::cli::failure::Failure;
 use crate::cli::input::Source;
 
 /// Distance within which a path lies of a drawing where none is given, mm.
-const WITHIN: f64 = 0.01;
+pub(crate) const WITHIN: f64 = 0.01;
 
 /// A path and what is wanted of its machine, on the command line and in files.
 pub(super) struct Asked {
@@ -72,7 +74,8 @@ impl Asked {
         source: Source,
         command: &Reverse,
     ) -> Result<Self, Failure> {
-        if let Some(drawn) = drawn(&source, command.within.unwrap_or(WITHIN))? {
+        let drawn = drawn(source.bytes(), command.within.unwrap_or(WITHIN));
+        if let Some(drawn) = drawn.map_err(|error| source.refused(&error))? {
             let off = Unit::Millimetre.tell(drawn.deviation.value);
             let points = drawn.points.len();
             return Ok(Self {
@@ -172,12 +175,10 @@ fn path_design(source: &Source) -> Result<Option<(PathDesign, DesignFile)>, Fail
 }
 
 /// Points along the path of an SVG file; none where the file is another.
-fn drawn(source: &Source, within: f64) -> Result<Option<DrawnPath>, Failure> {
-    let bytes = source.bytes();
+pub(crate) fn drawn(bytes: &[u8], within: f64) -> Result<Option<DrawnPath>, PathError> {
     let text = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
-    if !text.trim_ascii_start().starts_with(b"<") {
-        return Ok(None);
-    }
-    let drawn = DrawnPath::from_svg(bytes, within);
-    drawn.map(Some).map_err(|error| source.refused(&error))
+    let is_drawing = text.trim_ascii_start().starts_with(b"<");
+    is_drawing
+        .then(|| DrawnPath::from_svg(bytes, within))
+        .transpose()
 }

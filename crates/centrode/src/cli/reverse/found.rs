@@ -11,6 +11,7 @@ use crate::cli::input::Source;
 use crate::cli::progress::Progress;
 
 use super::asked::Asked;
+use super::words;
 
 /// Carrier and arm that were found.
 pub(super) struct Found {
@@ -63,9 +64,13 @@ impl Found {
         let reached = eased.module.1;
         let is_module = module.is_none_or(|module| reached >= module);
         let is_all = eased.goals.iter().all(|goal| goal.met() != Some(false));
-        told.extend(words(&eased, module, bands.iter().any(|band| *band > 0.0)));
+        told.extend(eased_words(
+            &eased,
+            module,
+            bands.iter().any(|band| *band > 0.0),
+        ));
         if let Some(clamp) = eased.clamp {
-            told.push(clamp_words(clamp));
+            told.push(words::clamp(clamp));
         }
         told.extend(eased.goals.iter().map(goal_words));
         Ok(Self {
@@ -116,7 +121,7 @@ impl Found {
         let poses = KeyPose::from_csv(source.bytes()).map_err(|error| source.refused(&error))?;
         let found = KeyPoses::new(&poses).map_err(|error| source.refused(&error))?;
         Ok(Self {
-            told: told(found.clamp, &found.misses),
+            told: words::poses(found.clamp, &found.misses),
             chain: found.chain,
             why: format!(
                 "the mildest found from {} starts that meet the poses in order",
@@ -175,7 +180,7 @@ fn goal_words(goal: &Goal) -> (String, String) {
 }
 
 /// Lines on how far a path was eased, and what full teeth it bears.
-fn words(eased: &EasedPath, module: Option<f64>, is_moved: bool) -> Vec<(String, String)> {
+fn eased_words(eased: &EasedPath, module: Option<f64>, is_moved: bool) -> Vec<(String, String)> {
     let mm = |x: f64| Unit::Millimetre.tell(x);
     let moved = eased.moved.iter().enumerate();
     let (most, far) = moved.fold((0, 0.0), |most, (i, &moved)| match moved > most.1 {
@@ -211,23 +216,6 @@ fn words(eased: &EasedPath, module: Option<f64>, is_moved: bool) -> Vec<(String,
     let words = format!("surely sound up to module {}{before}{wanted}", mm(borne));
     told.push(("full teeth".to_owned(), words));
     told
-}
-
-/// Line on the clamp.
-fn clamp_words(clamp: f64) -> (String, String) {
-    let words = format!("{} from the arm", Unit::Angle.tell(clamp));
-    ("clamp".to_owned(), words)
-}
-
-/// Lines on the clamp and on how far each pose is missed.
-pub(super) fn told(clamp: f64, misses: &[[f64; 2]]) -> Vec<(String, String)> {
-    let pose = |(index, [off, turned]): (usize, &[f64; 2])| {
-        let (off, turned) = (Unit::Millimetre.tell(*off), Unit::Angle.tell(*turned));
-        let name = format!("pose {}", index + 1);
-        (name, format!("missed by {off} and {turned}"))
-    };
-    let poses = misses.iter().enumerate().map(pose);
-    std::iter::once(clamp_words(clamp)).chain(poses).collect()
 }
 
 fn none_possible(map: &AxisMap) -> Failure {

@@ -8,7 +8,7 @@ use crate::analysis::{Goal, Unit};
 use crate::mechanism::design::Design as _;
 use crate::mechanism::reverse::{KeyPose, KeyPoses};
 
-use super::{line, told};
+use super::{line, words};
 use crate::cli::Status;
 use crate::cli::args::{Arguments, Command, Reverse};
 use crate::cli::failure::Failure;
@@ -35,7 +35,7 @@ pub(crate) fn run(command: &Reverse, out: &mut impl Write) -> Result<Status, Fai
     let mm = |x: f64| Unit::Millimetre.tell(x);
     let (found, design) = (&posed.poses, &posed.design);
     let chain = &found.chain;
-    for (name, words) in told(found.clamp, &posed.misses) {
+    for (name, words) in words::poses(found.clamp, &posed.misses) {
         line(out, &name, &words)?;
     }
     let axis = chain.axis();

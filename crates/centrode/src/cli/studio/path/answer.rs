@@ -4,14 +4,13 @@ use super::drawing::{self, Drawing, mark};
 use super::sought::Sought;
 use super::wish::{Choices, Wish};
 use crate::analysis::Unit;
-use crate::cli::reverse::{range, sharpest};
+use crate::cli::reverse::{sharpest, words};
 use crate::export::page::{Curve, Mark, Picture};
 use crate::geometry::Point;
 use crate::mechanism::gear::Limits;
 use crate::mechanism::reverse::{
     AxisFault, PathError, ReversedMachine, Split, SplitKind, TwoBar, WantedPath,
 };
-use crate::mechanism::three_arm::design::Direction;
 
 /// Machine of a path and an axis, for the page.
 #[derive(Debug, Default, Serialize)]
@@ -137,37 +136,18 @@ fn places(fault: &AxisFault) -> Vec<Mark> {
 fn figures(chain: &TwoBar, bend: Option<f64>) -> Vec<Figure> {
     let mm = |x: f64| Unit::Millimetre.tell(x);
     let axis = chain.axis();
-    let sense = match chain.direction() {
-        Direction::CounterClockwise => "counter-clockwise",
-        Direction::Clockwise => "clockwise",
-    };
-    let factor = chain.unevenness().exp();
-    let ratios = range(chain.ratios().map(|ratio| ratio.value));
-    let mut found = vec![
-        figure(
-            "axis of the carrier",
-            format!("{:.4}, {:.4} mm", axis.x, axis.y),
-        ),
-        figure("carrier", format!("{}, turns {sense}", mm(chain.carrier()))),
-        figure("arm", mm(chain.arm())),
-        figure(
-            "ratio",
-            format!("{ratios}, within a factor of {factor:.4} of 1"),
-        ),
-        figure("tip passes the shaft at", mm(chain.shaft_distance())),
-    ];
+    let at = format!("{:.4}, {:.4} mm", axis.x, axis.y);
+    let mut found = vec![figure("axis of the carrier", at)];
+    found.extend(words::bars(chain).map(|(name, words)| figure(name, words)));
+    found.push(figure(
+        "tip passes the shaft at",
+        mm(chain.shaft_distance()),
+    ));
     if let Some(bend) = bend {
+        let (name, words) = words::least_radius(chain, bend);
         let module = Limits::largest_full_module(chain.curvatures(bend));
-        found.extend([
-            figure(
-                "least convex radius",
-                format!("{} by powers", mm(chain.least_radius(bend))),
-            ),
-            figure(
-                "full teeth",
-                format!("surely sound up to module {} by powers", mm(module)),
-            ),
-        ]);
+        let full = format!("surely sound up to module {} by powers", mm(module));
+        found.extend([figure(name, words), figure("full teeth", full)]);
     }
     found
 }
@@ -175,21 +155,11 @@ fn figures(chain: &TwoBar, bend: Option<f64>) -> Vec<Figure> {
 /// Figures that take longer: of the pitch curves as they are written.
 fn rested(chain: &TwoBar, split: &Split, arms: u32) -> Result<Vec<Figure>, String> {
     let made = ReversedMachine::new(chain, split, arms, None).map_err(|error| error.to_string())?;
-    let mm = |x: f64| Unit::Millimetre.tell(x);
     let pairs = made.design.pairs.keys().zip(&made.least_radii);
-    let mut found: Vec<Figure> = pairs
-        .map(|(name, [driver, driven])| {
-            let words = format!(
-                "least convex radius {} (driver), {} (driven)",
-                mm(*driver),
-                mm(*driven)
-            );
-            figure(&format!("pair {name}"), words)
-        })
-        .collect();
-    let error = mm(made.tip_error.value);
-    let words = format!("{error} at most, with laws of {} steps", made.steps);
-    found.push(figure("tip off the path", words));
+    let pairs = pairs.map(|(name, radii)| words::least_radii(name, *radii));
+    let mut found: Vec<Figure> = pairs.map(|(name, words)| figure(&name, words)).collect();
+    let (name, words) = words::tip_error(&made);
+    found.push(figure(name, words));
     if split.kind() == SplitKind::OnePair {
         found.push(figure(
             "one pair twice misses by",

@@ -1,6 +1,7 @@
 use std::f64::consts::{PI, TAU};
 
 use super::stages::{STEPS, Stage};
+use super::wish;
 use crate::export::page::{Curve, Link, Mark, Motion, Path, Picture};
 use crate::geometry::{Bounds, Point, Vector};
 use crate::mechanism::machine::LineRole;
@@ -28,7 +29,7 @@ pub(super) fn path(wanted: &WantedPath, marks: Vec<Mark>) -> Picture {
 
 /// A polygon through points that are no path, with places on it.
 pub(super) fn polygon(points: &[[f64; 2]], marks: Vec<Mark>) -> Picture {
-    let points: Vec<Point> = points.iter().copied().map(Point::from).collect();
+    let points = wish::points(points);
     let bounds: Bounds = points.iter().copied().collect();
     let [x, y] = [[bounds.min.x, bounds.max.x], [bounds.min.y, bounds.max.y]];
     still(&points, LineRole::Beside, [x, y], marks)
@@ -82,7 +83,7 @@ impl<'a> Drawing<'a> {
         split: &'a Split,
         arms: u32,
     ) -> Result<Self, TransmissionError> {
-        let leg = 0.5 * chain.carrier() / (0.5 * split.bend()).cos();
+        let leg = chain.center_distance(split.bend());
         Ok(Self {
             chain,
             split,

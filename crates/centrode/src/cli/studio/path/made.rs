@@ -1,7 +1,7 @@
 use serde::{Deserialize, Serialize};
 
-use super::sought::{Found, Sought, moved, points, searched};
-use super::wish::Wish;
+use super::sought::{Found, Sought, moved, searched};
+use super::wish::{Wish, points};
 use crate::analysis::optimise::{Easing, EasingSpec};
 use crate::analysis::{NoSoundTeeth, SoundTeeth, Unit, with_sound_teeth};
 use crate::mechanism::design::Design as _;

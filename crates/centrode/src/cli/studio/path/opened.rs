@@ -1,10 +1,9 @@
 use serde::Serialize;
 
 use crate::analysis::Unit;
-use crate::mechanism::reverse::{DrawnPath, WantedPoints};
+use crate::cli::reverse::asked::{WITHIN, drawn};
+use crate::mechanism::reverse::WantedPoints;
 
-/// Greatest distance of the page's path from a drawn one, mm.
-const WITHIN: f64 = 0.01;
 /// Most points that the page shows, each with a row and a handle.
 const MOST: usize = 200;
 
@@ -19,12 +18,8 @@ pub(super) struct Points {
 /// Reads the points of a CSV file, or lays points along the one path of an SVG file.
 pub(super) fn points(text: &str) -> Result<Points, String> {
     let bytes = text.as_bytes();
-    let is_drawing = text
-        .trim_start_matches('\u{feff}')
-        .trim_start()
-        .starts_with('<');
-    let (points, note) = if is_drawing {
-        let drawn = DrawnPath::from_svg(bytes, WITHIN).map_err(|error| error.to_string())?;
+    let drawn = drawn(bytes, WITHIN).map_err(|error| error.to_string())?;
+    let (points, note) = if let Some(drawn) = drawn {
         let off = Unit::Millimetre.tell(drawn.deviation.value);
         let count = drawn.points.len();
         let note = format!("{count} points, within {off} of the drawing");

@@ -2,9 +2,10 @@ use std::ops::ControlFlow;
 
 use serde::Deserialize;
 
-use super::wish::Choices;
+use super::wish::{Choices, points};
 use crate::analysis::Unit;
 use crate::analysis::optimise::{EasedPath, Easing, EasingError, EasingSpec};
+use crate::cli::reverse::words;
 use crate::geometry::Point;
 use crate::mechanism::reverse::{KeyPose, KeyPoses, TwoBar};
 
@@ -79,21 +80,9 @@ fn by_poses(poses: &[[f64; 3]]) -> Result<Found, String> {
     };
     let poses: Vec<KeyPose> = poses.iter().map(pose).collect();
     let found = KeyPoses::new(&poses).map_err(|error| error.to_string())?;
-    let clamp = Unit::Angle.tell(found.clamp);
-    let mut told = vec![("clamp".to_owned(), format!("{clamp} from the arm"))];
-    for (i, [off, turned]) in found.misses.iter().enumerate() {
-        let (off, turned) = (Unit::Millimetre.tell(*off), Unit::Angle.tell(*turned));
-        told.push((
-            format!("pose {}", i + 1),
-            format!("missed by {off} and {turned}"),
-        ));
-    }
+    let told = words::poses(found.clamp, &found.misses);
     let chain = found.chain;
     Ok(Found { chain, told })
-}
-
-pub(super) fn points(rows: &[[f64; 2]]) -> Vec<Point> {
-    rows.iter().copied().map(Point::from).collect()
 }
 
 /// Searches for the bluntest gears, and checks that the path found does not cross itself.

@@ -64,8 +64,11 @@ impl Choices {
     }
 }
 
+pub(super) fn points(rows: &[[f64; 2]]) -> Vec<Point> {
+    rows.iter().copied().map(Point::from).collect()
+}
+
 /// Path through the points of the page.
-pub(super) fn path(points: &[[f64; 2]]) -> Result<WantedPath, PathError> {
-    let points: Vec<Point> = points.iter().copied().map(Point::from).collect();
-    WantedPath::through(&points)
+pub(super) fn path(rows: &[[f64; 2]]) -> Result<WantedPath, PathError> {
+    WantedPath::through(&points(rows))
 }

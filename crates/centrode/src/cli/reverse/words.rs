@@ -1,0 +1,74 @@
+//! Words on a machine made from a path, for the command and the page.
+
+use crate::analysis::Unit;
+use crate::mechanism::reverse::{ReversedMachine, TwoBar};
+use crate::mechanism::three_arm::design::Direction;
+
+/// Name of a figure, and its words.
+pub(crate) type Told = (String, String);
+
+fn mm(x: f64) -> String {
+    Unit::Millimetre.tell(x)
+}
+
+pub(crate) fn range(ratios: [f64; 2]) -> String {
+    format!("{:.4} to {:.4}", ratios[0], ratios[1])
+}
+
+/// Lines on carrier, arm and ratio.
+pub(crate) fn bars(chain: &TwoBar) -> [(&'static str, String); 3] {
+    let sense = match chain.direction() {
+        Direction::CounterClockwise => "counter-clockwise",
+        Direction::Clockwise => "clockwise",
+    };
+    let ratios = range(chain.ratios().map(|ratio| ratio.value));
+    let factor = chain.unevenness().exp();
+    [
+        ("carrier", format!("{}, turns {sense}", mm(chain.carrier()))),
+        ("arm", mm(chain.arm())),
+        (
+            "ratio",
+            format!("{ratios}, within a factor of {factor:.4} of 1"),
+        ),
+    ]
+}
+
+/// Line on the sharpest convex place of the split by powers.
+pub(crate) fn least_radius(chain: &TwoBar, bend: f64) -> (&'static str, String) {
+    let radius = mm(chain.least_radius(bend));
+    ("least convex radius", format!("{radius} by powers"))
+}
+
+/// Line on the least convex radii of a pair's pitch curves.
+pub(crate) fn least_radii(pair: &str, [driver, driven]: [f64; 2]) -> Told {
+    let words = format!(
+        "least convex radius {} (driver), {} (driven)",
+        mm(driver),
+        mm(driven)
+    );
+    (format!("pair {pair}"), words)
+}
+
+/// Line on how far the tip is off the path.
+pub(crate) fn tip_error(made: &ReversedMachine) -> (&'static str, String) {
+    let error = mm(made.tip_error.value);
+    let words = format!("{error} at most, with laws of {} steps", made.steps);
+    ("tip off the path", words)
+}
+
+/// Line on the clamp.
+pub(crate) fn clamp(angle: f64) -> Told {
+    let words = format!("{} from the arm", Unit::Angle.tell(angle));
+    ("clamp".to_owned(), words)
+}
+
+/// Lines on the clamp and on how far each pose is missed.
+pub(crate) fn poses(angle: f64, misses: &[[f64; 2]]) -> Vec<Told> {
+    let pose = |(index, [off, turned]): (usize, &[f64; 2])| {
+        let (off, turned) = (mm(*off), Unit::Angle.tell(*turned));
+        let name = format!("pose {}", index + 1);
+        (name, format!("missed by {off} and {turned}"))
+    };
+    let poses = misses.iter().enumerate().map(pose);
+    std::iter::once(clamp(angle)).chain(poses).collect()
+}
