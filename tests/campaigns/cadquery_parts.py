@@ -70,7 +70,7 @@ def check(names):
 
 
 def volume(body):
-    """Volume of a shaft, pin, ring or key, mm3: of its extrusions by Green's theorem, of its STEP file as CadQuery reads it."""
+    """Volume of a shaft, pin, ring or key, mm3, by Green's theorem, or of its STEP file as CadQuery reads it."""
     import cadquery as cq
 
     if body.step is None:
